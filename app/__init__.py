@@ -1,0 +1,1 @@
+"""HTTP service, dashboard and command line."""

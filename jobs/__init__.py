@@ -1,0 +1,1 @@
+"""Use cases over typed requests; ports for queue and store."""

@@ -1,0 +1,1 @@
+"""Recordings, spectra, features and labelled peaks."""

@@ -1,0 +1,1 @@
+"""Physics of gear-rotor-bearing machines: specification in, arrays out. No web, no queue, no clock."""

@@ -1,0 +1,1 @@
+"""Specification to matrices, loads and contact elements."""

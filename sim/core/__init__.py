@@ -1,0 +1,1 @@
+"""Shared vocabulary of the physics: specification, parameters, degrees of freedom, errors, registry."""

@@ -1,0 +1,69 @@
+"""Errors of the simulation core.
+
+SidebandError
+ +- SpecError (ValueError)      the specification cannot describe a machine; carries field problems
+ +- UnknownName (KeyError)      a preset, term, site, bearing or channel that does not exist
+ +- Diverged (ArithmeticError)  the integration left the finite numbers; time, DOF, advice
+ +- Cancelled                   the caller asked to stop
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+
+
+@dataclass(frozen=True, kw_only=True)
+class Problem:
+    """One thing wrong with an input: where, what was given, what is allowed, in which unit."""
+
+    field: str
+    message: str
+    given: object = None
+    allowed: str = ""
+    unit: str = ""
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the problem as JSON-ready keys."""
+        return asdict(self)
+
+    def __str__(self) -> str:
+        given = "" if self.given is None else f" (given {self.given!r})"
+        allowed = f"; allowed: {self.allowed}" if self.allowed else ""
+        unit = f" {self.unit}" if self.unit and self.allowed else ""
+        return f"{self.field}: {self.message}{given}{allowed}{unit}"
+
+
+class SidebandError(Exception):
+    """Base of every error a caller of Sideband can act on."""
+
+
+class SpecError(SidebandError, ValueError):
+    """The specification is wrong; `problems` lists every field that must change."""
+
+    def __init__(self, problems: Sequence[Problem] | Problem) -> None:
+        self.problems: tuple[Problem, ...] = (problems,) if isinstance(problems, Problem) else tuple(problems)
+        super().__init__("; ".join(str(p) for p in self.problems))
+
+
+class UnknownName(SidebandError, KeyError):
+    """A name that does not exist; `known` lists the names that do."""
+
+    def __init__(self, kind: str, name: str, known: Sequence[str]) -> None:
+        self.kind, self.name, self.known = kind, name, tuple(known)
+        super().__init__(f"unknown {kind} {name!r}; known: {', '.join(self.known) or 'none'}")
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class Diverged(SidebandError, ArithmeticError):
+    """The motion left the finite numbers or the corrector could not converge."""
+
+    def __init__(self, *, time_s: float, dof: str, advice: str) -> None:
+        self.time_s, self.dof, self.advice = time_s, dof, advice
+        super().__init__(f"simulation diverged at t = {time_s:.6g} s in {dof}; {advice}")
+
+
+class Cancelled(SidebandError):
+    """The work was stopped at the caller's request."""

@@ -1,0 +1,49 @@
+"""Speed, loads and the extra physical effects of a machine."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from sim.core.spec.base import Finite, Name, SpecModel
+
+
+class OperatingSpec(SpecModel):
+    """Speed of one shaft; the others follow from the meshes."""
+
+    shaft: Name
+    speed_hz: Annotated[float, Field(ge=0.1, le=1000)]
+    kinematics: Literal["prescribed", "dynamic"] = "prescribed"
+    """Shaft angle phi(t): `prescribed` is the speed profile alone (the seed), `dynamic` adds the torsional motion."""
+
+
+class TorqueLoad(SpecModel):
+    """A constant torque from t = 0 on. The balancing torque at the other end is derived unless given."""
+
+    kind: Literal["torque"] = "torque"
+    shaft: Name
+    torque_nm: Annotated[float, Field(ge=-1e7, le=1e7)]
+
+
+class ForceLoad(SpecModel):
+    """A force on a body: constant plus one sine."""
+
+    kind: Literal["force"] = "force"
+    body: Name
+    axis: Literal["x", "y"]
+    constant_n: Annotated[float, Field(ge=-1e9, le=1e9)] = 0.0
+    amplitude_n: Annotated[float, Field(ge=0, le=1e9)] = 0.0
+    frequency_hz: Annotated[float, Field(ge=0, le=1e5)] = 0.0
+    phase_rad: Finite = 0.0
+
+
+LoadSpec = Annotated[TorqueLoad | ForceLoad, Field(discriminator="kind")]
+
+
+class TermSpec(SpecModel):
+    """A registered effect at a site with its parameters (units as the registry declares)."""
+
+    term: Name
+    site: Name
+    parameters: dict[Name, float] = Field(default_factory=dict, max_length=64)

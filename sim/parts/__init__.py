@@ -1,0 +1,1 @@
+"""Geometry to numbers: gears, bearings, shafts."""

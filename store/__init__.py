@@ -1,0 +1,1 @@
+"""The only code that touches disk, databases, object stores or the broker."""

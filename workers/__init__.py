@@ -1,0 +1,1 @@
+"""RQ entry points, warm-up and the embedded broker."""
