@@ -1,0 +1,129 @@
+"""Accepting a request: durable before the reply, shared by everyone who asks the same."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from jobs import transitions
+from jobs.errors import BrokerAway, IdempotencyConflict, QueueFull, StoreFull, UnknownJob
+from jobs.identity import digest, job_id
+from jobs.limits import Limits
+from jobs.ports import ArtefactStore, Clock, Engine, JobCatalogue, Queue, Ticket
+from jobs.record import JobRecord
+from jobs.request import SimulationRequest
+from jobs.resolve import Resolved, resolve
+from jobs.status import Status
+
+log = logging.getLogger(__name__)
+
+KIND = "simulation"
+RESERVED_BYTES = 64 * 2**20
+"""Space always left on the artefact store, so that the catalogue and the broker beside it can still write."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Desk:
+    """What accepting needs."""
+
+    catalogue: JobCatalogue
+    queue: Queue
+    artefacts: ArtefactStore
+    engine: Engine
+    limits: Limits
+    clock: Clock
+
+
+@dataclass(frozen=True, kw_only=True)
+class Acceptance:
+    """The job as it stands after the request. `created`: a new job; `replayed`: the idempotency key was seen before."""
+
+    record: JobRecord
+    created: bool
+    replayed: bool
+
+
+def accept(desk: Desk, request: SimulationRequest, *, submitter: str, scope: str, key: str | None) -> Acceptance:
+    """Accept a request for `submitter`. `scope` is whose idempotency keys these are.
+
+    The broker is asked first: when it is away and there is new work to do, nothing is accepted (BrokerAway).
+    When it leaves between that question and the hand-over, the job is in the catalogue's outbox and is handed
+    over later by `jobs.recover`.
+    """
+    body = digest(request.model_dump(mode="json"))
+    if key is not None:
+        earlier = _replayed(desk, scope, key, body)
+        if earlier is not None:
+            return earlier
+    resolved = resolve(request, desk.engine, desk.limits)
+    identifier = job_id(KIND, resolved.document, desk.engine.version)
+    if _needs_work(desk.catalogue, identifier):
+        _check_room(desk, resolved)
+    now = desk.clock()
+    record, created = desk.catalogue.put(
+        identifier,
+        resolved.document,
+        first=lambda: transitions.new(
+            job_id=identifier, kind=KIND, submitter=submitter, source=resolved.source, cost=resolved.cost, now=now
+        ),
+        again=lambda present: transitions.submit_again(present, submitter, now),
+    )
+    if key is not None:
+        desk.catalogue.remember(scope, key, body, identifier, now)
+    return Acceptance(record=hand_over(desk, record), created=created, replayed=False)
+
+
+def hand_over(desk: Desk, record: JobRecord) -> JobRecord:
+    """Give a waiting job to the broker; if the broker is away the job stays in the outbox."""
+    if record.status is not Status.ACCEPTED or record.enqueued_at is not None:
+        return record
+    try:
+        desk.queue.submit(ticket_of(record, desk.limits))
+    except BrokerAway as error:
+        log.warning("job %s stays in the outbox: %s", record.id, error)
+        return record
+    now = desk.clock()
+    return desk.catalogue.change(record.id, lambda r: transitions.enqueued(r, record.attempt, now))
+
+
+def ticket_of(record: JobRecord, limits: Limits) -> Ticket:
+    """The broker's ticket. The time allowed is the server's bound: an estimate must not kill a slow machine's job."""
+    return Ticket(job_id=record.id, attempt=record.attempt, timeout_s=int(limits.seconds * 2) + 60)
+
+
+def _replayed(desk: Desk, scope: str, key: str, body: str) -> Acceptance | None:
+    earlier = desk.catalogue.recall(scope, key)
+    if earlier is None:
+        return None
+    if earlier.body_sha256 != body:
+        raise IdempotencyConflict(key)
+    return Acceptance(record=desk.catalogue.get(earlier.job_id), created=False, replayed=True)
+
+
+def _needs_work(catalogue: JobCatalogue, identifier: str) -> bool:
+    try:
+        record = catalogue.get(identifier)
+    except UnknownJob:
+        return True
+    return record.gone is not None or record.status in (Status.FAILED, Status.DISMISSED)
+
+
+def _check_room(desk: Desk, resolved: Resolved) -> None:
+    desk.queue.ping()
+    waiting = desk.catalogue.waiting()
+    if waiting >= desk.limits.waiting_jobs:
+        raise QueueFull(waiting, desk.limits.waiting_jobs, retry_after_s=30)
+    needed = result_bytes(resolved.document) + RESERVED_BYTES
+    free = desk.artefacts.free_bytes()
+    if free < needed:
+        raise StoreFull(f"the result needs about {needed} bytes of space, {free} are free")
+
+
+def result_bytes(document: Mapping[str, object]) -> int:
+    """A lower estimate of what a result takes on disk: the signals of the channels named, twice for the spectra."""
+    channels = document.get("channels")
+    count = len(channels) if isinstance(channels, list) else 16
+    duration, rate = document["duration_s"], document["sampling_rate_hz"]
+    assert isinstance(duration, float | int) and isinstance(rate, float | int)
+    return int(16 * count * duration * rate)

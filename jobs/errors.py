@@ -1,0 +1,95 @@
+"""Errors of the job layer; `app` maps each class to one HTTP status.
+
+JobError
+ +- UnknownJob             no such job
+ +- JobGone                the job's result expired, or the job was deleted
+ +- ResultNotReady         the job has not finished successfully (yet)
+ +- IllegalTransition      the job is in a state that does not allow the step
+ |   +- StaleAttempt       a worker reports for an attempt that is no longer its own
+ +- IdempotencyConflict    the same key was used with another request
+ +- QueueFull              too much work is waiting; try later
+ +- BrokerAway             the queue's server cannot be reached
+ +- StoreAway              the catalogue or the artefact store cannot be reached
+ |   +- StoreFull          no space left
+ +- UnknownArtefact        the result has no such part
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from jobs.status import Status
+from sim.core.errors import SidebandError
+
+
+class JobError(SidebandError):
+    """Base of what a caller of the job layer can act on."""
+
+
+class UnknownJob(JobError):
+    """No job has this id."""
+
+    def __init__(self, job_id: str) -> None:
+        self.job_id = job_id
+        super().__init__(f"no job has the id {job_id!r}")
+
+
+class JobGone(JobError):
+    """The job's result is not kept any more; submitting the request again starts a new attempt."""
+
+    def __init__(self, job_id: str, why: str) -> None:
+        self.job_id, self.why = job_id, why
+        super().__init__(f"the result of job {job_id} is {why}; submit the request again for a new attempt")
+
+
+class ResultNotReady(JobError):
+    """The job has no result to show in its present state."""
+
+    def __init__(self, job_id: str, status: Status) -> None:
+        self.job_id, self.status = job_id, status
+        advice = "wait until it is successful" if status.active else "submit the request again for a new attempt"
+        super().__init__(f"job {job_id} is {status.value} and has no result; {advice}")
+
+
+class IllegalTransition(JobError):
+    """The job's state does not allow this step."""
+
+
+class StaleAttempt(IllegalTransition):
+    """A report came from an attempt that was given up or taken over."""
+
+
+class IdempotencyConflict(JobError):
+    """The same idempotency key came with another request."""
+
+    def __init__(self, key: str) -> None:
+        self.key = key
+        super().__init__(f"the idempotency key {key!r} was used before with another request")
+
+
+class QueueFull(JobError):
+    """Too many jobs are waiting."""
+
+    def __init__(self, waiting: int, allowed: int, retry_after_s: int) -> None:
+        self.waiting, self.allowed, self.retry_after_s = waiting, allowed, retry_after_s
+        super().__init__(f"{waiting} jobs are waiting, {allowed} may; try again in {retry_after_s} s")
+
+
+class BrokerAway(JobError):
+    """The queue's server does not answer."""
+
+
+class StoreAway(JobError):
+    """The catalogue or the artefact store does not answer."""
+
+
+class StoreFull(StoreAway):
+    """The disk of the catalogue or of the artefact store is full."""
+
+
+class UnknownArtefact(JobError):
+    """The result has no such part; `known` lists what it has."""
+
+    def __init__(self, kind: str, name: str, known: Sequence[str]) -> None:
+        self.kind, self.name, self.known = kind, name, tuple(known)
+        super().__init__(f"the result has no {kind} {name!r}; it has: {', '.join(self.known) or 'none'}")

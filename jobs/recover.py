@@ -1,0 +1,105 @@
+"""Keeping the promise that nothing accepted is lost: the catalogue is compared with the world and the world put right."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+
+from jobs import transitions
+from jobs.accept import Desk, hand_over, ticket_of
+from jobs.control import expire_results
+from jobs.errors import BrokerAway, IllegalTransition
+from jobs.ports import Clock, JobCatalogue, Transition
+from jobs.record import Failure, JobRecord
+
+log = logging.getLogger(__name__)
+
+BATCH = 500
+LOST = Failure(
+    code="worker-lost",
+    message="the worker process died while it ran the job",
+    advice="submit again; if it repeats, shorten the run: the process may have been killed for its memory",
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recovered:
+    """What one pass put right."""
+
+    handed_over: int
+    refilled: int
+    reclaimed: int
+    expired: int
+
+
+def tick(desk: Desk, *, max_losses: int) -> Recovered:
+    """One pass: lapsed leases, the outbox, a broker that forgot, results past their time.
+
+    Safe to run in several processes at once: every step is one catalogue transaction, and a job handed over
+    twice is taken once.
+    """
+    reclaimed = reclaim(desk.catalogue, desk.clock, max_losses=max_losses)
+    expired = expire_results(desk.catalogue, desk.artefacts, desk.clock)
+    try:
+        desk.queue.ping()
+        refilled = refill(desk)
+        handed = sum(
+            hand_over(desk, record).enqueued_at is not None for record in desk.catalogue.outbox(desk.clock(), BATCH)
+        )
+    except BrokerAway as error:
+        log.warning("the broker is away: %s", error)
+        refilled = handed = 0
+    return Recovered(handed_over=handed, refilled=refilled, reclaimed=reclaimed, expired=expired)
+
+
+def refill(desk: Desk) -> int:
+    """Put jobs that the broker should hold but does not back into the outbox."""
+    missing = [r for r in desk.catalogue.enqueued(BATCH) if not desk.queue.holds(ticket_of(r, desk.limits))]
+    for record in missing:
+        desk.catalogue.change(record.id, lambda r: transitions.refill(r, desk.clock()))
+    return len(missing)
+
+
+def reclaim(catalogue: JobCatalogue, clock: Clock, *, max_losses: int) -> int:
+    """Take back jobs whose worker has not been heard of within its lease."""
+    now = clock()
+
+    def lapsed(record: JobRecord) -> JobRecord:
+        return transitions.lapse(record, attempt=record.attempt, failure=LOST, max_losses=max_losses, now=now)
+
+    return sum(_changed(catalogue, record, lapsed) for record in catalogue.lapsed(now, BATCH))
+
+
+def give_up(catalogue: JobCatalogue, clock: Clock, record: JobRecord, failure: Failure, *, max_losses: int) -> bool:
+    """The attempt is dead: another one, or failed when it died too often. False when it was not dead after all."""
+    now = clock()
+    return _changed(
+        catalogue,
+        record,
+        lambda r: transitions.lose(
+            r, attempt=record.attempt, failure=failure, max_losses=max_losses, delay_s=0.0, now=now
+        ),
+    )
+
+
+def hand_back(catalogue: JobCatalogue, clock: Clock, record: JobRecord) -> bool:
+    """The worker shuts down before the attempt is done: it waits again, and this is not counted against it."""
+    now = clock()
+    return _changed(catalogue, record, lambda r: transitions.release(r, attempt=record.attempt, now=now))
+
+
+def release_worker(catalogue: JobCatalogue, clock: Clock, worker: str, *, lost: bool, max_losses: int) -> int:
+    """Take back the jobs of a worker that is known to be gone: shut down (`lost` False) or dead."""
+    return sum(
+        give_up(catalogue, clock, record, LOST, max_losses=max_losses) if lost else hand_back(catalogue, clock, record)
+        for record in catalogue.running_on(worker)
+    )
+
+
+def _changed(catalogue: JobCatalogue, record: JobRecord, transition: Transition) -> bool:
+    try:
+        after = catalogue.change(record.id, transition)
+    except IllegalTransition:
+        return False
+    log.warning("job %s: attempt %d ended without a result, now %s", record.id, record.attempt, after.status.value)
+    return True

@@ -1,0 +1,54 @@
+"""What a caller may ask for. Everything is typed, bounded and closed: an unknown key is an error."""
+
+from __future__ import annotations
+
+from typing import Annotated, Self
+
+from pydantic import ConfigDict, Field, model_validator
+
+from sim.core.spec import MachineSpec, SpecModel
+
+ChannelName = Annotated[str, Field(min_length=1, max_length=120, pattern=r"^[A-Za-z0-9_.-]+$")]
+OverrideKey = Annotated[str, Field(min_length=1, max_length=200)]
+OverrideValue = bool | float | str | None
+
+
+class SimulationRequest(SpecModel):
+    """A simulation: a preset or a whole machine, what to change in it, how long, how finely, which outputs."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {
+                    "preset": "paper-demo",
+                    "set": {"fit_clearance@bearing1.gap": 2e-5},
+                    "duration_s": 1.0,
+                    "sampling_rate_hz": 20000,
+                }
+            ]
+        }
+    )
+
+    preset: Annotated[str, Field(min_length=1, max_length=80)] | None = None
+    """Name of a preset machine (see `/v1/presets`). Give either this or `machine`."""
+    machine: MachineSpec | None = None
+    """A whole machine specification. Give either this or `preset`."""
+    set: Annotated[dict[OverrideKey, OverrideValue], Field(max_length=200, default_factory=dict)]
+    """Changes: `term@site.parameter` for a term, or a dotted path such as `operating.speed_hz` or
+    `bearings.bearing1.radial_clearance_m`. SI units."""
+    duration_s: Annotated[float, Field(gt=0, le=3600)] = 1.0
+    """Simulated time, s. A tighter bound may be set by the server."""
+    sampling_rate_hz: Annotated[float, Field(ge=100, le=5_000_000)] = 20_000.0
+    """Output rate, Hz; the signals are low-pass filtered before they are thinned to it."""
+    channels: Annotated[list[ChannelName], Field(min_length=1, max_length=512)] | None = None
+    """Names of the outputs; none: the engine's standard set."""
+    seed: Annotated[int, Field(ge=0, le=2**53 - 1)] = 0
+    """Seed of everything random in the machine. Bounded so that JSON numbers carry it exactly."""
+    discard_transient: bool = True
+    """Whether spectra, features and labels leave out the start-up transient. The signals always keep it."""
+
+    @model_validator(mode="after")
+    def _one_machine(self) -> Self:
+        if (self.preset is None) == (self.machine is None):
+            raise ValueError("give exactly one of `preset` and `machine`")
+        return self

@@ -1,0 +1,84 @@
+"""From a request to the one machine it means."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from jobs.limits import Limits, check_cost, check_request, check_sampling
+from jobs.overrides import apply_overrides
+from jobs.ports import Engine
+from jobs.record import Cost
+from jobs.request import SimulationRequest
+from sim.core.errors import Problem, SpecError, UnknownName
+from sim.core.spec import MachineSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class Resolved:
+    """A request with its machine built, checked and costed.
+
+    `document` is what identifies the job and what a worker reads back; `source` is the request as it was put,
+    without the machine.
+    """
+
+    document: Mapping[str, object]
+    source: Mapping[str, object]
+    cost: Cost
+
+
+def resolve(request: SimulationRequest, engine: Engine, limits: Limits) -> Resolved:
+    """Build the machine, check every reference and bound, estimate the cost; raises SpecError."""
+    check_request(request, limits)
+    machine = apply_overrides(machine_of(request, engine), request.set)
+    report = engine.report(machine)
+    check_sampling(request, report.bases_hz)
+    if request.channels is not None:
+        _check_channels(request.channels, report.channels)
+    cost = engine.cost(
+        machine,
+        duration_s=request.duration_s,
+        sampling_rate_hz=request.sampling_rate_hz,
+        channels=request.channels,
+    )
+    check_cost(request, cost, len(request.channels or report.channels), limits)
+    source = {"preset": request.preset, "machine": machine.name, "set": dict(request.set)}
+    settings = request.model_dump(mode="json", exclude={"preset", "machine", "set"})
+    return Resolved(
+        document={"machine": machine.model_dump(mode="json"), **settings}, source={**source, **settings}, cost=cost
+    )
+
+
+def machine_of(request: SimulationRequest, engine: Engine) -> MachineSpec:
+    """The machine before overrides."""
+    if request.machine is not None:
+        return request.machine
+    names = engine.preset_names()
+    if request.preset is None or request.preset not in names:
+        problem = Problem(
+            field="preset", message="is not a known preset", given=request.preset, allowed=", ".join(names)
+        )
+        raise SpecError(problem)
+    return engine.preset(request.preset)
+
+
+def restored(document: Mapping[str, object]) -> tuple[MachineSpec, SimulationRequest]:
+    """The machine and settings a worker reads back from the catalogue."""
+    request = SimulationRequest.model_validate(document)
+    if request.machine is None:
+        raise UnknownName("machine", "in the stored request", ())
+    return request.machine, request
+
+
+def _check_channels(wanted: list[str], known: tuple[str, ...]) -> None:
+    problems = [
+        Problem(field=f"channels.{i}", message="is not an output of this machine", given=name, allowed=", ".join(known))
+        for i, name in enumerate(wanted)
+        if name not in known
+    ]
+    if len(set(wanted)) != len(wanted):
+        problems.append(
+            Problem(field="channels", message="names a channel twice", given=wanted, allowed="each name once")
+        )
+    if problems:
+        raise SpecError(problems)

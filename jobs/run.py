@@ -1,0 +1,135 @@
+"""What a worker does with a ticket: take the job, simulate, analyse, store, report."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+
+from jobs import transitions
+from jobs.errors import StaleAttempt, StoreAway, StoreFull
+from jobs.ports import Analyser, ArtefactStore, Clock, Engine, JobCatalogue
+from jobs.record import Failure, JobRecord
+from jobs.reporter import Reporter
+from jobs.resolve import restored
+from jobs.results import write_result
+from sim.core.errors import Cancelled, Diverged, SpecError
+
+log = logging.getLogger(__name__)
+
+FULL_DELAY_S = 30.0
+"""Wait before a job is tried again after the disk was full."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bench:
+    """What a worker works with. `timeouts` are the exceptions by which the host ends a job that takes too long."""
+
+    catalogue: JobCatalogue
+    artefacts: ArtefactStore
+    engine: Engine
+    analyse: Analyser
+    clock: Clock
+    lease_s: float = 30.0
+    max_losses: int = 2
+    keep_s: float | None = 30 * 86400.0
+    timeouts: tuple[type[BaseException], ...] = ()
+
+
+def run(bench: Bench, job_id: str, attempt: int, worker: str) -> JobRecord | None:
+    """Carry out one attempt; returns how the job stands then, None when the ticket was stale.
+
+    No error of the job leaves this function: the worker goes on.
+    """
+    try:
+        now = bench.clock()
+        bench.catalogue.change(
+            job_id, lambda r: transitions.start(r, attempt=attempt, worker=worker, lease_s=bench.lease_s, now=now)
+        )
+    except StaleAttempt as error:
+        log.info("ticket ignored: %s", error)
+        return None
+    try:
+        return _work(bench, job_id, attempt)
+    except StaleAttempt as error:
+        log.warning("attempt given up: %s", error)
+        return None
+
+
+def _work(bench: Bench, job_id: str, attempt: int) -> JobRecord:
+    reporter = Reporter(bench.catalogue, bench.clock, job_id=job_id, attempt=attempt, lease_s=bench.lease_s)
+    now = bench.clock
+    try:
+        return _result(bench, reporter, job_id, attempt)
+    except StaleAttempt:
+        raise
+    except Cancelled:
+        reporter.raise_if_stale()
+        return bench.catalogue.change(job_id, lambda r: transitions.dismiss(r, attempt=attempt, now=now()))
+    except StoreFull as error:
+        bench.artefacts.delete_prefix(f"{job_id}/{attempt}/")
+        failure = Failure(code="store-full", message=str(error), advice="free space on the server, then submit again")
+        return bench.catalogue.change(
+            job_id,
+            lambda r: transitions.lose(
+                r, attempt=attempt, failure=failure, max_losses=bench.max_losses, delay_s=FULL_DELAY_S, now=now()
+            ),
+        )
+    except Exception as error:
+        failure = failure_of(error, bench.timeouts)
+        log.warning("job %s failed: %s", job_id, failure.message, exc_info=failure.code == "internal")
+        return bench.catalogue.change(
+            job_id, lambda r: transitions.fail(r, attempt=attempt, failure=failure, now=now())
+        )
+
+
+def _result(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> JobRecord:
+    machine, request = restored(bench.catalogue.request_of(job_id))
+    response = bench.engine.simulate(
+        machine,
+        duration_s=request.duration_s,
+        sampling_rate_hz=request.sampling_rate_hz,
+        channels=request.channels,
+        seed=request.seed,
+        progress=reporter.simulating,
+        cancelled=reporter.cancelled,
+    )
+    reporter.stage("analysing", 0.85)
+    documents = bench.analyse(response, discard_transient=request.discard_transient)
+    reporter.stage("storing", 0.95)
+    finished = bench.clock()
+    reference = write_result(
+        bench.artefacts,
+        f"{job_id}/{attempt}",
+        attempt=attempt,
+        response=response,
+        documents=documents,
+        expires_at=None if bench.keep_s is None else finished + bench.keep_s,
+    )
+    return bench.catalogue.change(
+        job_id, lambda r: transitions.succeed(r, attempt=attempt, result=reference, now=bench.clock())
+    )
+
+
+def failure_of(error: BaseException, timeouts: tuple[type[BaseException], ...]) -> Failure:
+    """How an error is told to the person who asked; no traceback, no paths."""
+    if isinstance(error, Diverged):
+        detail: dict[str, object] = {"time_s": error.time_s, "dof": error.dof}
+        return Failure(code="diverged", message=str(error), advice=error.advice, detail=detail)
+    if isinstance(error, SpecError):
+        return Failure(
+            code="invalid-machine",
+            message=str(error),
+            advice="change the fields named",
+            detail={"errors": [problem.to_dict() for problem in error.problems]},
+        )
+    if isinstance(error, MemoryError):
+        return Failure(code="out-of-memory", message="memory ran out", advice="shorten the run or ask fewer channels")
+    if isinstance(error, timeouts):
+        return Failure(code="timeout", message="the job took longer than allowed", advice="shorten the run")
+    if isinstance(error, StoreAway):
+        return Failure(code="store-away", message="the result could not be stored", advice="submit again later")
+    return Failure(
+        code="internal",
+        message=f"an unexpected error ({type(error).__name__}) ended the job; the server's log has the details",
+        advice="report it with the job's id",
+    )

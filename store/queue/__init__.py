@@ -1,0 +1,1 @@
+"""The broker: tickets on an RQ queue."""

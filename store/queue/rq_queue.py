@@ -1,0 +1,108 @@
+"""`jobs.ports.Queue` on RQ over Redis or Valkey.
+
+Tickets are JSON, never pickle. The broker's job id holds the attempt, so a message about an earlier attempt can
+never be mistaken for a later one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from redis import Redis
+from redis.backoff import ExponentialBackoff
+from redis.exceptions import ConnectionError as RedisConnectionError
+from redis.exceptions import RedisError
+from redis.retry import Retry
+from rq import Queue
+from rq.exceptions import NoSuchJobError
+from rq.job import Job, JobStatus
+from rq.serializers import JSONSerializer
+
+from jobs.errors import BrokerAway
+from jobs.ports import Ticket
+
+QUEUE_NAME = "sideband"
+ENTRY_POINT = "workers.entry.run_job"
+KEPT_S = 300
+"""How long the broker remembers a finished ticket: only its own bookkeeping needs it."""
+_HELD = (JobStatus.QUEUED, JobStatus.STARTED, JobStatus.DEFERRED, JobStatus.SCHEDULED)
+
+
+def connect(url: str, *, timeout_s: float = 2.0) -> Redis:
+    """A client that gives up after `timeout_s` instead of holding a request."""
+    return Redis.from_url(
+        url,
+        socket_connect_timeout=timeout_s,
+        socket_timeout=timeout_s,
+        retry=Retry(ExponentialBackoff(cap=0.2, base=0.05), 1),
+        health_check_interval=15,
+    )
+
+
+class RqQueue:
+    """Hands tickets to the workers."""
+
+    def __init__(self, connection: Redis, name: str = QUEUE_NAME) -> None:
+        self._connection = connection
+        self._queue = Queue(name, connection=connection, serializer=JSONSerializer)
+
+    @property
+    def connection(self) -> Redis:
+        """The broker's client."""
+        return self._connection
+
+    def ping(self) -> None:
+        """Raise BrokerAway unless the server answers and can write."""
+        with _translated():
+            self._connection.ping()
+
+    def submit(self, ticket: Ticket) -> None:
+        """Put the ticket at the end of the queue. A second copy does no harm: it is taken once."""
+        with _translated():
+            self._queue.enqueue_call(
+                ENTRY_POINT,
+                args=(ticket.job_id, ticket.attempt),
+                job_id=name_of(ticket),
+                timeout=ticket.timeout_s,
+                result_ttl=KEPT_S,
+                failure_ttl=KEPT_S,
+                description=f"{ticket.job_id} attempt {ticket.attempt}",
+            )
+
+    def holds(self, ticket: Ticket) -> bool:
+        """Whether the broker knows the ticket and has not finished with it."""
+        with _translated():
+            try:
+                job = Job.fetch(name_of(ticket), connection=self._connection, serializer=JSONSerializer)
+            except NoSuchJobError:
+                return False
+            status = job.get_status(refresh=False)
+            if status is JobStatus.QUEUED:
+                return self._connection.lpos(self._queue.key, job.id) is not None
+            return status in _HELD
+
+    def withdraw(self, ticket: Ticket) -> None:
+        """Take the ticket out, if it is there."""
+        with _translated():
+            self._queue.remove(name_of(ticket))
+
+    def length(self) -> int:
+        """Number of tickets waiting."""
+        with _translated():
+            return int(self._queue.count)
+
+
+def name_of(ticket: Ticket) -> str:
+    """The broker's id of a ticket."""
+    return f"{ticket.job_id}-{ticket.attempt}"
+
+
+@contextmanager
+def _translated() -> Iterator[None]:
+    try:
+        yield
+    except (RedisConnectionError, TimeoutError) as error:
+        raise BrokerAway(f"the broker does not answer ({type(error).__name__})") from error
+    except RedisError as error:
+        raise BrokerAway(f"the broker refused: {error}") from error

@@ -1,0 +1,40 @@
+"""All the stores of one process."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from redis import Redis
+
+from store.artefacts.folder import FolderStore
+from store.catalogue import engine, schema
+from store.catalogue.catalogue import SqlCatalogue
+from store.queue import rq_queue
+from store.settings import StoreSettings
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stores:
+    """The catalogue, the artefacts and the queue."""
+
+    catalogue: SqlCatalogue
+    artefacts: FolderStore
+    queue: rq_queue.RqQueue
+
+    def close(self) -> None:
+        """Give back connections."""
+        self.catalogue.engine.dispose()
+        self.queue.connection.close()
+
+
+def open_stores(settings: StoreSettings, *, connection: Redis | None = None) -> Stores:
+    """Connect and create the schema where it is missing. The broker is not asked: it may be away."""
+    settings.data_dir.mkdir(parents=True, exist_ok=True)
+    database = engine.connect(settings.catalogue_url)
+    with engine.translated():
+        schema.create_schema(database)
+    return Stores(
+        catalogue=SqlCatalogue(database),
+        artefacts=FolderStore(settings.artefact_folder),
+        queue=rq_queue.RqQueue(connection or rq_queue.connect(settings.redis_url)),
+    )
