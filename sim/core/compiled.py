@@ -1,0 +1,111 @@
+"""Compiled kernels: one signature for every effect, called by address so that a new set of terms needs no compilation.
+
+The on-disk cache is keyed by a hash of the sources of `sim/`: numba notices neither a change in an imported file
+nor in a helper when it reads its cache, so a stale cache must be impossible to find.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+
+def source_digest() -> str:
+    """Hash of every source file of the physics package, hex, 16 characters."""
+    root = Path(__file__).resolve().parents[1]
+    digest = hashlib.sha256()
+    for path in sorted(root.rglob("*.py")):
+        digest.update(path.relative_to(root).as_posix().encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _point_cache() -> None:
+    base = Path(os.environ.get("SIDEBAND_CACHE") or Path.home() / ".cache" / "sideband")
+    os.environ["NUMBA_CACHE_DIR"] = str(base / f"kernels-{source_digest()}")
+
+
+_point_cache()
+
+import numba  # noqa: E402  (the cache folder must be known before numba is imported)
+from llvmlite import ir  # noqa: E402
+from numba import types  # noqa: E402
+from numba.extending import intrinsic  # noqa: E402
+
+numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]  # numba may be imported already
+
+DOUBLES = types.CPointer(types.float64)
+PREPARE_SIGNATURE = types.void(DOUBLES, DOUBLES, DOUBLES, DOUBLES, DOUBLES)
+"""prepare(step, shafts, u, par, ctx)"""
+FORCE_SIGNATURE = types.void(types.int64, DOUBLES, DOUBLES, DOUBLES, DOUBLES, DOUBLES, DOUBLES)
+"""force(mode, u, ud, ctx, par, f, out)"""
+FAST = {"contract", "reassoc", "nsz", "arcp", "afn"}
+"""Floating-point freedoms of the kernels; not `nnan`/`ninf`: divergence must stay visible."""
+
+Python = Callable[..., None]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Kernel:
+    """Compiled address and plain Python twin of the two functions of an effect."""
+
+    prepare: Python
+    force: Python
+    prepare_address: int
+    force_address: int
+
+
+def kernel(prepare: Python, force: Python) -> Kernel:
+    """Compile an effect's `prepare` and `force`; the Python functions themselves are the plain twins."""
+    wrap: Any = numba.cfunc
+    prepare_c = wrap(PREPARE_SIGNATURE, cache=True, fastmath=FAST, error_model="numpy")(prepare)
+    force_c = wrap(FORCE_SIGNATURE, cache=True, fastmath=FAST, error_model="numpy")(force)
+    return Kernel(
+        prepare=prepare, force=force, prepare_address=prepare_c.address, force_address=force_c.address
+    )
+
+
+def jit(function: Callable[..., Any]) -> Any:
+    """Compile with the cache and error model of the product."""
+    return numba.njit(cache=True, fastmath=FAST, error_model="numpy")(function)
+
+
+def inline(function: Callable[..., Any]) -> Any:
+    """Compile a small helper for use inside kernels; `.py_func` is the plain twin."""
+    return numba.njit(cache=True, fastmath=FAST, error_model="numpy", inline="never")(function)
+
+
+def _pointer() -> ir.PointerType:
+    return ir.DoubleType().as_pointer()
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def call_prepare(typingctx, address, step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+    """Call a compiled `prepare` by address; every argument is an int64 address of doubles."""
+    signature = types.void(*([types.int64] * 6))
+
+    def codegen(context, builder, _signature, args):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202
+        kind = ir.FunctionType(ir.VoidType(), [_pointer()] * 5)
+        target = builder.inttoptr(args[0], kind.as_pointer())
+        builder.call(target, [builder.inttoptr(a, _pointer()) for a in args[1:]])
+        return context.get_dummy_value()
+
+    return signature, codegen
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def call_force(typingctx, address, mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+    """Call a compiled `force` by address; `mode` is an int64, the rest int64 addresses of doubles."""
+    signature = types.void(*([types.int64] * 8))
+
+    def codegen(context, builder, _signature, args):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202
+        kind = ir.FunctionType(ir.VoidType(), [ir.IntType(64)] + [_pointer()] * 6)
+        target = builder.inttoptr(args[0], kind.as_pointer())
+        builder.call(target, [args[1]] + [builder.inttoptr(a, _pointer()) for a in args[2:]])
+        return context.get_dummy_value()
+
+    return signature, codegen

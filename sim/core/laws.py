@@ -1,0 +1,100 @@
+"""The named laws that terms modify before they become contact elements: mesh, ball contact, rotor.
+
+Terms are pure functions from one law to the next; `Term.order` says who comes first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from sim.core.response import FloatArray
+
+RACE_POINTS = 2048
+"""Samples of a race profile over one turn (0.18 degrees)."""
+
+
+def _zeros(n: int) -> FloatArray:
+    return np.zeros(n)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshLaw:
+    """A mesh before it becomes an element.
+
+    `kind` is decided by the part that built it: `total_rows` (rows, n) N/m over `centre_errors_m` (rows,) for a
+    total curve, or the pair arrays for a sum over tooth pairs. Tooth arrays have one entry a tooth.
+    """
+
+    name: str
+    pinion: str
+    gear: str
+    teeth: tuple[int, int]
+    base_radii_m: tuple[float, float]
+    centre_distance_m: float
+    working_angle_rad: float
+    damping_ns_per_m: float
+    backlash_m: float | None
+    error_mean_m: float
+    error_amplitude_m: float
+    error_phase_rad: float
+    centre_errors_m: FloatArray
+    total_rows: FloatArray | None
+    pair_rows: FloatArray | None
+    """(tilts, rows, points) N/m over normalised position 0..1 between start and end of action."""
+    pair_ratios: FloatArray | None
+    """(rows,) contact ratio: the length of engagement in base pitches."""
+    tilts_rad: FloatArray = field(default_factory=lambda: _zeros(1))
+    pinion_tooth_gap_m: FloatArray = field(default_factory=lambda: _zeros(1))
+    gear_tooth_gap_m: FloatArray = field(default_factory=lambda: _zeros(1))
+    runout_pinion_m: float = 0.0
+    runout_pinion_phase_rad: float = 0.0
+    runout_gear_m: float = 0.0
+    runout_gear_phase_rad: float = 0.0
+    true_centre_line: bool = False
+    follow_gear_shaft: bool = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallLaw:
+    """Ball contacts of one bearing before they become an element.
+
+    Profiles are extra gaps in m over the race angle, `RACE_POINTS` samples a turn; positive opens the contact.
+    """
+
+    name: str
+    body: str
+    balls: int
+    diameter_ratio_cos: float
+    """(d_b/d_m) cos(contact angle)."""
+    stiffness_n_per_m15: float
+    gap_m: float
+    cage_phase_rad: float
+    cage_slip: float = 0.0
+    outer_profile_m: FloatArray | None = None
+    inner_profile_m: FloatArray | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SupportLaw:
+    """How an outer ring is held: direct springs to ground, or released (a term takes over)."""
+
+    bearing: str
+    stiffness_x_n_per_m: float
+    stiffness_y_n_per_m: float
+    damping_x_ns_per_m: float
+    damping_y_ns_per_m: float
+    housing_mass_kg: float = 0.0
+    """Above zero: the springs hold a housing mass instead, and a wall contact joins ring and housing."""
+    released: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Laws:
+    """All named laws of a machine; terms return a changed copy."""
+
+    meshes: Mapping[str, MeshLaw]
+    balls: Mapping[str, BallLaw]
+    supports: Mapping[str, SupportLaw]

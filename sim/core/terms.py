@@ -1,0 +1,117 @@
+"""The contract of a physical effect: declared once, used by the simulator, the labels, the forms and the fits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from sim.core.elements import Element
+from sim.core.errors import Problem, SpecError
+from sim.core.laws import Laws
+from sim.core.lines import Line
+from sim.core.params import Param
+from sim.core.spec import MachineSpec
+
+SiteKind = Literal["bearing", "gear", "mesh", "shaft"]
+Values = Mapping[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class SiteContext:
+    """What a term may know when it acts: the machine, the site, base frequencies, shafts' speeds and a seed."""
+
+    machine: MachineSpec
+    site: str
+    shaft: str
+    shaft_base: str
+    """Base name of the site's shaft speed, `f_r1`."""
+    index: int
+    """1-based number of the site among its kind: `bearing1` -> 1."""
+    speed_hz: float
+    bases_hz: Mapping[str, float]
+    seed: int = 0
+
+    def random(self, key: str) -> np.random.Generator:
+        """A generator that depends on the seed, the site and `key` only."""
+        text = f"{key}@{self.site}".encode()
+        return np.random.default_rng([self.seed, *text])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Term:
+    """Base of all effects. Subclasses override what they need; everything is a pure function.
+
+    Composition order is `order` (small first); terms at equal order commute.
+    """
+
+    key: str
+    title: str
+    sentence: str
+    sites: tuple[SiteKind, ...]
+    params: tuple[Param, ...]
+    references: tuple[str, ...]
+    severity: str | None
+    """Name of the parameter that measures the size of the effect; zero of it changes nothing when `zero_is_healthy`."""
+    zero_is_healthy: bool = True
+    passive: bool = False
+    """Never adds energy to the machine."""
+    order: int = 100
+    excludes: tuple[str, ...] = field(default=())
+    """Keys that cannot act at the same site."""
+
+    def values(self, given: Values, where: str) -> dict[str, float]:
+        """Fill defaults and check bounds; SpecError lists every field that is wrong."""
+        known = {p.name: p for p in self.params}
+        problems: list[Problem] = []
+        for name, value in given.items():
+            if name not in known:
+                problems.append(
+                    Problem(
+                        field=f"{where}.{name}",
+                        message=f"unknown parameter of {self.key}",
+                        given=name,
+                        allowed=", ".join(known),
+                    )
+                )
+            elif (problem := known[name].problem(value, f"{where}.{name}")) is not None:
+                problems.append(problem)
+        if problems:
+            raise SpecError(problems)
+        return {p.name: float(given.get(p.name, p.default)) for p in self.params}
+
+    def modify(self, laws: Laws, values: Values, site: SiteContext) -> Laws:  # noqa: ARG002
+        """Return the laws as this effect changes them."""
+        return laws
+
+    def elements(self, laws: Laws, values: Values, site: SiteContext) -> Sequence[Element]:  # noqa: ARG002
+        """Return the contact or excitation elements this effect adds."""
+        return ()
+
+    def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:  # noqa: ARG002
+        """Return the spectral lines this effect predicts."""
+        return ()
+
+
+class Registry:
+    """Terms by key."""
+
+    def __init__(self, terms: Sequence[Term]) -> None:
+        self._terms: dict[str, Term] = {}
+        for term in terms:
+            if term.key in self._terms:
+                raise ValueError(f"two terms named {term.key!r}")
+            self._terms[term.key] = term
+
+    def __iter__(self):  # type: ignore[no-untyped-def]  # noqa: ANN204
+        return iter(self._terms.values())
+
+    def keys(self) -> tuple[str, ...]:
+        """Registered keys, in order."""
+        return tuple(self._terms)
+
+    def get(self, key: str) -> Term | None:
+        """The term, or None."""
+        return self._terms.get(key)

@@ -1,0 +1,114 @@
+"""What every mesh element has in common: its coordinates, outputs and parameter header."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from sim.core.elements import Coordinate, Output
+from sim.core.laws import MeshLaw
+from sim.core.response import FloatArray
+from sim.core.spec import GearSpec, MachineSpec
+from sim.parts import mesh_kernels as mk
+
+COORDINATE_COUNT = 5
+OUTPUTS = (
+    Output(name="stiffness", quantity="stiffness", unit="N/m"),
+    Output(name="centre_distance_error", quantity="displacement", unit="m"),
+    Output(name="offset_angle", quantity="angle", unit="rad"),
+    Output(name="force", quantity="force", unit="N"),
+    Output(name="transmission_error", quantity="displacement", unit="m"),
+    Output(name="contact", quantity="state", unit="1"),
+)
+
+
+def _gear(machine: MachineSpec, name: str) -> GearSpec:
+    return next(g for g in machine.gears if g.name == name)
+
+
+def rings_of(machine: MachineSpec, body: str) -> list[str]:
+    """Bearings that carry a body, in the order of the specification."""
+    return [b.name for b in machine.bearings if b.body == body]
+
+
+def _centre_weights(machine: MachineSpec, body: str, axis: str, sign: float) -> list[tuple[str, float]]:
+    """Shaft centre at the gear: mean of its inner rings (seed eq. 17), else the gear itself."""
+    rings = rings_of(machine, body)
+    if rings:
+        return [(f"{ring}.inner.{axis}", sign / len(rings)) for ring in rings]
+    return [(f"{body}.{axis}", sign)] if _gear(machine, body).translates else []
+
+
+def _tilt_weights(machine: MachineSpec, body: str, axis: str) -> list[tuple[str, float]]:
+    rings = rings_of(machine, body)
+    if len(rings) < 2:
+        return []
+    return [(f"{rings[-1]}.inner.{axis}", 1.0), (f"{rings[0]}.inner.{axis}", -1.0)]
+
+
+def line_of_action(law: MeshLaw, machine: MachineSpec) -> tuple[float, float]:
+    """Unit vector of the line of action, towards the pinion's push: y, or turned by the working angle."""
+    spec = next(m for m in machine.meshes if m.name == law.name)
+    if spec.line_of_action == "y":
+        return 0.0, 1.0
+    return -math.sin(law.working_angle_rad), math.cos(law.working_angle_rad)
+
+
+def mesh_coordinates(law: MeshLaw, machine: MachineSpec) -> tuple[Coordinate, ...]:
+    """Deflection along the line of action; shaft centres apart (x, y); tilt of the pinion's shaft (x, y)."""
+    nx, ny = line_of_action(law, machine)
+    weights: list[tuple[str, float]] = [
+        (f"{law.pinion}.theta", law.base_radii_m[0]),
+        (f"{law.gear}.theta", -law.base_radii_m[1]),
+    ]
+    for body, sign in ((law.pinion, -1.0), (law.gear, 1.0)):
+        if _gear(machine, body).translates:
+            weights += [(f"{body}.{a}", sign * n) for a, n in (("x", nx), ("y", ny)) if n != 0.0]
+    centre = []
+    for axis in ("x", "y"):
+        pair = _centre_weights(machine, law.pinion, axis, 1.0)
+        if law.follow_gear_shaft:
+            pair = pair + _centre_weights(machine, law.gear, axis, -1.0)
+        centre.append(pair)
+    tilt = [_tilt_weights(machine, law.pinion, axis) for axis in ("x", "y")]
+    names = ("deflection", "centre_x", "centre_y", "tilt_x", "tilt_y")
+    rows = (weights, *centre, *tilt)
+    return tuple(
+        Coordinate(name=f"{law.name}.{n}", unit="m", weights=tuple(r)) for n, r in zip(names, rows, strict=True)
+    )
+
+
+def header(law: MeshLaw, machine: MachineSpec, *, table_at: int, points: int) -> FloatArray:
+    """The parameter header of `mesh_kernels`."""
+    spec = next(m for m in machine.meshes if m.name == law.name)
+    turned = law.true_centre_line and spec.line_of_action == "y"
+    shaft = _gear(machine, law.pinion).shaft
+    head = np.zeros(mk.HEADER)
+    head[mk.H_DAMPING] = law.damping_ns_per_m
+    head[mk.H_BACKLASH] = mk.NO_BACKLASH if law.backlash_m is None else law.backlash_m
+    head[mk.H_E_MEAN] = law.error_mean_m
+    head[mk.H_E_AMPLITUDE] = law.error_amplitude_m
+    head[mk.H_E_PHASE] = law.error_phase_rad
+    head[mk.H_TEETH_PINION], head[mk.H_TEETH_GEAR] = law.teeth
+    head[mk.H_CENTRE] = law.centre_distance_m
+    head[mk.H_COS] = math.cos(law.working_angle_rad) if turned else 1.0
+    head[mk.H_SIN] = math.sin(law.working_angle_rad) if turned else 0.0
+    head[mk.H_RUNOUT_P], head[mk.H_RUNOUT_P_PHASE] = law.runout_pinion_m, law.runout_pinion_phase_rad
+    head[mk.H_RUNOUT_G], head[mk.H_RUNOUT_G_PHASE] = law.runout_gear_m, law.runout_gear_phase_rad
+    head[mk.H_LENGTH] = next(s.length_m for s in machine.shafts if s.name == shaft)
+    head[mk.H_HAS_GAPS] = float(bool(np.any(law.pinion_tooth_gap_m) or np.any(law.gear_tooth_gap_m)))
+    head[mk.H_GAPS_P] = mk.HEADER
+    head[mk.H_GAPS_G] = mk.HEADER + law.pinion_tooth_gap_m.size
+    head[mk.H_ROWS] = law.centre_errors_m.size
+    head[mk.H_ROW0] = law.centre_errors_m[0]
+    if law.centre_errors_m.size > 1:
+        head[mk.H_ROW_STEP] = law.centre_errors_m[1] - law.centre_errors_m[0]
+    head[mk.H_POINTS] = points
+    head[mk.H_TABLE] = table_at
+    head[mk.H_TILTS] = law.tilts_rad.size
+    head[mk.H_TILT0] = law.tilts_rad[0]
+    if law.tilts_rad.size > 1:
+        head[mk.H_TILT_STEP] = law.tilts_rad[1] - law.tilts_rad[0]
+    head[mk.H_USE_TILT] = float(spec.offset_angle)
+    return head

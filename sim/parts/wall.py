@@ -1,0 +1,72 @@
+"""What both clearance variants declare alike: parameters, outputs, coordinates, lines."""
+
+from __future__ import annotations
+
+from sim.core.elements import Coordinate, Output
+from sim.core.lines import Line
+from sim.core.params import Param
+from sim.core.terms import SiteContext
+
+CONTEXT = 1
+WALL_PARAMS = (
+    Param(
+        name="gap",
+        unit="m",
+        default=2e-5,
+        low=0.0,
+        high=5e-4,
+        sentence="Radial clearance between outer ring and housing bore.",
+        scale="log",
+    ),
+    Param(
+        name="damping",
+        unit="N*s/m",
+        default=2e3,
+        low=0.0,
+        high=1e6,
+        sentence="Viscous damping of the collision, c_N.",
+        scale="log",
+    ),
+    Param(
+        name="friction", unit="1", default=0.1, low=0.0, high=1.0, sentence="Coulomb friction between ring and bore."
+    ),
+    Param(
+        name="length",
+        unit="mm",
+        default=15.0,
+        low=1.0,
+        high=500.0,
+        sentence="Width of the ring in the bore, L_2 of Palmgren's formula, in mm as it is published.",
+    ),
+    Param(
+        name="friction_speed",
+        unit="m/s",
+        default=1e-4,
+        low=1e-6,
+        high=1e-1,
+        sentence="Sliding speed at which the regularised friction has 76 % of its full value.",
+        scale="log",
+    ),
+)
+OUTPUTS = (
+    Output(name="contact", quantity="state", unit="1"),
+    Output(name="normal_force", quantity="force", unit="N"),
+    Output(name="friction_force", quantity="force", unit="N"),
+)
+
+
+def ring_wall_coordinates(bearing: str, *, against: str | None) -> tuple[Coordinate, ...]:
+    """Outer ring relative to ground, or to the DOF group `against` (a housing)."""
+    result = []
+    for axis in ("x", "y"):
+        weights = [(f"{bearing}.outer.{axis}", 1.0)]
+        if against is not None:
+            weights.append((f"{against}.{axis}", -1.0))
+        result.append(Coordinate(name=f"{bearing}.wall.{axis}", unit="m", weights=tuple(weights)))
+    return tuple(result)
+
+
+def clearance_lines(site: SiteContext, key: str) -> tuple[Line, ...]:
+    """f_o multiples of the bearing and mesh harmonics are fed by the collisions."""
+    base = f"f_o{site.index}"
+    return tuple(Line(orders=((base, k),), component=site.site, mechanism=key, family="outer") for k in range(1, 21))

@@ -1,0 +1,83 @@
+"""Fit clearance between outer ring and housing, the paper's variant (seed eqs 28-34): the support is gone, the ring
+flies freely inside the clearance and strikes a rigid wall.
+
+Corrections of the printed equations are in docs/physics/deviations.md: the wall pushes inwards, friction opposes the
+tangential velocity, no adhesion, Palmgren's penetration in mm. Zero gap is a rigid wall, not the healthy machine;
+`fit_clearance_series` is the variant whose zero is healthy.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from sim.core.compiled import kernel
+from sim.core.elements import Element, flat
+from sim.core.laws import Laws
+from sim.core.lines import Line
+from sim.core.terms import SiteContext, Term, Values
+from sim.parts.wall import CONTEXT, OUTPUTS, WALL_PARAMS, clearance_lines, ring_wall_coordinates
+from sim.parts.wall_kernel import wall_force, wall_prepare
+
+
+def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Nothing depends on the shaft angle."""
+    wall_prepare(step, shafts, u, par, ctx)
+
+
+def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Wall force on the ring, N, as resistance to (x, y) of the ring."""
+    wall_force(mode, u, ud, ctx, par, f, out)
+
+
+KERNEL = kernel(prepare, force)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FitClearance(Term):
+    """See the module."""
+
+    def modify(self, laws: Laws, values: Values, site: SiteContext) -> Laws:  # noqa: ARG002
+        """Release the ring from its support (seed eq. 34), only at this bearing."""
+        support = replace(laws.supports[site.site], released=True)
+        return replace(laws, supports={**laws.supports, site.site: support})
+
+    def elements(self, laws: Laws, values: Values, site: SiteContext) -> Sequence[Element]:  # noqa: ARG002
+        """The wall, on the outer ring's coordinates."""
+        return (
+            Element(
+                name=f"{site.site}.wall",
+                site=site.site,
+                kernel=KERNEL,
+                coordinates=ring_wall_coordinates(site.site, against=None),
+                forces=2,
+                parameters=flat(*(values[p.name] for p in WALL_PARAMS)),
+                context=CONTEXT,
+                shafts=(site.shaft, site.shaft),
+                outputs=OUTPUTS,
+                stiff=True,
+                contact_output=0,
+            ),
+        )
+
+    def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:  # noqa: ARG002
+        """Multiples of the outer-race frequency (seed fig. 10)."""
+        return clearance_lines(site, self.key)
+
+
+TERM = FitClearance(
+    key="fit_clearance",
+    title="Fit clearance, rigid housing",
+    sentence="The outer ring is loose in its housing: it flies freely and strikes the wall.",
+    sites=("bearing",),
+    params=WALL_PARAMS,
+    references=("seed eqs (28)-(34)", "Palmgren, Ball and Roller Bearing Engineering, 3rd ed. 1959 (line contact)"),
+    severity="gap",
+    zero_is_healthy=False,
+    passive=True,
+    order=20,
+    excludes=("fit_clearance_series",),
+)
+
+assert math.isfinite(TERM.params[0].default)  # noqa: S101  (the gap leads the parameter array)

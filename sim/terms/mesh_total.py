@@ -1,0 +1,195 @@
+"""Gear mesh with one total stiffness curve over mesh phase and centre distance (seed eqs 13-15, 17).
+
+The stiffness jumps when a tooth pair enters or leaves. Within a step the curve is replaced by node values with the
+same moments: int k l_j ds = b_j k_j, so a jump inside a step costs no accuracy in impulse (docs/physics/numerics.md).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.core.compiled import inline, kernel
+from sim.core.elements import Element, flat
+from sim.core.laws import Laws
+from sim.core.terms import SiteContext, Term, Values
+from sim.parts.mesh_element import COORDINATE_COUNT, OUTPUTS, header, mesh_coordinates
+from sim.parts.mesh_kernels import (
+    HEADER,
+    centre_error,
+    flank_gap,
+    row_position,
+    runout_error,
+    runout_rate,
+    sine_error,
+    sine_rate,
+    tooth_gap,
+)
+
+CONTEXT = 8  # stiffness, error, error rate, phase, phi_p, phi_g, omega_p, spare
+G1, G2, G3 = 0.1127016653792583, 0.5, 0.8872983346207417
+"""Three-point Gauss nodes on [0, 1]: exact for the quintic of linear stiffness times quadratic weight."""
+
+
+@inline
+def table_value(par, row, phase):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Bilinear stiffness, periodic in phase, N/m."""
+    points = int(par[21])
+    x = phase * points
+    cell = int(math.floor(x))
+    share = x - cell
+    r = int(row)
+    high = row - r
+    base = int(par[22]) + r * points
+    j = cell % points
+    k = (cell + 1) % points
+    low_row = par[base + j] * (1.0 - share) + par[base + k] * share
+    if high <= 0.0:
+        return low_row
+    base += points
+    return low_row * (1.0 - high) + (par[base + j] * (1.0 - share) + par[base + k] * share) * high
+
+
+@inline
+def lagrange(step, s, j, x):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Value of the j-th Lagrange polynomial of the step's nodes at x in [0, 1]."""
+    value = 0.0
+    for power in range(s - 1, -1, -1):
+        value = value * x + step[3 + s + j * s + power]
+    return value
+
+
+@inline
+def add_moments(step, s, par, row, phase0, dphase, x0, x1, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Add int_{x0}^{x1} k l_j dx to ctx[j * CONTEXT] by Gauss quadrature (k is linear on the piece)."""
+    width = x1 - x0
+    for g in range(3):
+        node = G1 if g == 0 else (G2 if g == 1 else G3)
+        weight = (8.0 if g == 1 else 5.0) / 18.0
+        x = x0 + width * node
+        k = table_value(par, row, phase0 + dphase * x) * weight * width
+        for j in range(s):
+            ctx[j * 8] += k * lagrange(step, s, j, x)
+
+
+def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Node values of stiffness (moment-preserving), transmission error and its rate."""
+    h = step[1]
+    s = int(step[2])
+    n = s + 1
+    turn = 6.283185307179586
+    x_mid = u[1] + 0.5 * h * u[6]
+    y_mid = u[2] + 0.5 * h * u[7]
+    for i in range(n):
+        k = i + 1 if i < s else s
+        phi_p = shafts[k]
+        om_p = shafts[n + k]
+        phi_g = shafts[2 * n + k]
+        om_g = shafts[3 * n + k]
+        gap = tooth_gap(par, phi_p, phi_g) if par[15] > 0.0 else 0.0
+        ctx[i * 8] = 0.0
+        ctx[i * 8 + 1] = sine_error(par, phi_p) + runout_error(par, phi_p, phi_g) + gap
+        ctx[i * 8 + 2] = sine_rate(par, phi_p, om_p) + runout_rate(par, phi_p, om_p, phi_g, om_g)
+        ctx[i * 8 + 3] = par[5] * phi_p / turn
+        ctx[i * 8 + 4] = phi_p
+        ctx[i * 8 + 5] = phi_g
+        ctx[i * 8 + 6] = om_p
+    error = centre_error(par, 0.5 * (shafts[0] + shafts[s]), 0.5 * (shafts[2 * n] + shafts[2 * n + s]), x_mid, y_mid)
+    row = row_position(par, error)
+    points = par[21]
+    phase0 = par[5] * shafts[0] / turn
+    dphase = par[5] * shafts[s] / turn - phase0
+    if dphase <= 0.0 or dphase * points > 64.0:
+        for i in range(s):
+            ctx[i * 8] = table_value(par, row, ctx[i * 8 + 3])
+        return
+    x0 = 0.0
+    edge = math.floor(phase0 * points + 1e-9) + 1.0
+    while x0 < 1.0:
+        x1 = min((edge / points - phase0) / dphase, 1.0)
+        if x1 > x0:
+            add_moments(step, s, par, row, phase0, dphase, x0, x1, ctx)
+        x0 = max(x1, x0)
+        edge += 1.0
+    for i in range(s):
+        ctx[i * 8] /= step[3 + s + s * s + i]
+
+
+def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Mesh force on the line of action, N (resistance to positive u[0])."""
+    k = ctx[0]
+    error = 0.0
+    if mode == 2:
+        error = centre_error(par, ctx[4], ctx[5], u[1], u[2])
+        k = table_value(par, row_position(par, error), ctx[3])
+    s = u[0] - ctx[1]
+    sd = ud[0] - ctx[2]
+    load = flank_gap(par[1], s)
+    touching = 1.0 if (par[1] < 0.0 or load != 0.0) else 0.0
+    damping = par[0] * touching
+    f[0] = k * load + damping * sd
+    if mode == 1:
+        for i in range(10):
+            out[i] = 0.0
+        out[0] = k * touching
+        out[5] = damping
+    if mode == 2:
+        out[0] = 0.5 * k * load * load
+        out[1] = damping * sd * sd
+        out[2] = -f[0] * ctx[2]
+        out[3] = k
+        out[4] = error
+        out[5] = math.atan2(math.sqrt(u[3] * u[3] + u[4] * u[4]), par[14])
+        out[6] = f[0]
+        out[7] = ctx[1]
+        out[8] = touching
+
+
+KERNEL = kernel(prepare, force)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshTotal(Term):
+    """See the module."""
+
+    def elements(self, laws: Laws, values: Values, site: SiteContext) -> Sequence[Element]:  # noqa: ARG002
+        """One element per mesh with a total curve."""
+        law = laws.meshes[site.site]
+        if law.total_rows is None:
+            return ()
+        rows = np.asarray(law.total_rows)
+        tables = HEADER + law.pinion_tooth_gap_m.size + law.gear_tooth_gap_m.size
+        head = header(law, site.machine, table_at=tables, points=rows.shape[1])
+        parameters = flat(head, law.pinion_tooth_gap_m, law.gear_tooth_gap_m, rows)
+        return (
+            Element(
+                name=law.name,
+                site=law.name,
+                kernel=KERNEL,
+                coordinates=mesh_coordinates(law, site.machine),
+                forces=1,
+                parameters=parameters,
+                context=CONTEXT,
+                shafts=(law.pinion, law.gear),
+                outputs=OUTPUTS,
+                exact_end=True,
+                contact_output=5,
+            ),
+        )
+
+
+assert COORDINATE_COUNT == 5  # noqa: S101  (the kernel's offsets into u and out)
+
+TERM = MeshTotal(
+    key="mesh_total",
+    title="Gear mesh, total stiffness curve",
+    sentence="The teeth act as one spring whose stiffness follows a given curve over the mesh phase.",
+    sites=("mesh",),
+    params=(),
+    references=("seed eqs (13)-(15), (17)", "docs/physics/deviations.md"),
+    severity=None,
+    order=10,
+)
