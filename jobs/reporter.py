@@ -14,6 +14,8 @@ from sim.core.errors import Cancelled
 log = logging.getLogger(__name__)
 
 MIN_INTERVAL_S = 0.2
+LOOK_INTERVAL_S = 0.25
+"""Longer than between reports, so that a solver that reports need not ask as well."""
 SIMULATION_SHARE = 0.85
 """Part of the whole that the simulation takes; analysis and storing share the rest."""
 
@@ -24,7 +26,7 @@ class Reporter:
     def __init__(self, catalogue: JobCatalogue, clock: Clock, *, job_id: str, attempt: int, lease_s: float) -> None:
         self._catalogue, self._clock = catalogue, clock
         self._job_id, self._attempt, self._lease_s = job_id, attempt, lease_s
-        self._started = self._told = clock()
+        self._started = self._told = self._looked = clock()
         self._stop = False
         self._stale: StaleAttempt | None = None
 
@@ -40,8 +42,7 @@ class Reporter:
     def cancelled(self) -> bool:
         """Whether to stop; called by the solver. Asks the catalogue at most five times a second."""
         now = self._clock()
-        if not self._stop and now - self._told >= MIN_INTERVAL_S:
-            self._told = now
+        if not self._stop and now - self._looked >= LOOK_INTERVAL_S:
             self._look(lambda: self._catalogue.get(self._job_id))
         return self._stop
 
@@ -69,6 +70,7 @@ class Reporter:
         )
 
     def _look(self, ask: Callable[[], JobRecord]) -> None:
+        self._looked = self._clock()
         try:
             record = ask()
         except StaleAttempt as error:

@@ -27,10 +27,10 @@ class Stores:
         self.queue.connection.close()
 
 
-def open_stores(settings: StoreSettings, *, connection: Redis | None = None) -> Stores:
+def open_stores(settings: StoreSettings, *, connection: Redis | None = None, pooled: bool = True) -> Stores:
     """Connect and create the schema where it is missing. The broker is not asked: it may be away."""
     settings.data_dir.mkdir(parents=True, exist_ok=True)
-    database = engine.connect(settings.catalogue_url)
+    database = engine.connect(settings.catalogue_url, pooled=pooled)
     with engine.translated():
         schema.create_schema(database)
     return Stores(

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 from sqlalchemy import Connection, Engine, create_engine, event
 from sqlalchemy.exc import DBAPIError, IntegrityError, OperationalError, SQLAlchemyError
-from sqlalchemy.pool import ConnectionPoolEntry
+from sqlalchemy.pool import ConnectionPoolEntry, NullPool
 
 from jobs.errors import StoreAway, StoreFull
 
@@ -16,11 +16,16 @@ BUSY_TIMEOUT_S = 15
 _FULL = ("disk is full", "No space left", "disk full")
 
 
-def connect(url: str) -> Engine:
-    """An engine for the URL. For SQLite: WAL, full synchronisation (a reply must survive a power cut), no waiting for ever."""
+def connect(url: str, *, pooled: bool = True) -> Engine:
+    """An engine for the URL; `pooled` False keeps no connection open, as a process that forks must.
+
+    For SQLite: WAL, full synchronisation (a reply must survive a power cut), no waiting for ever."""
     if not url.startswith("sqlite"):
+        if not pooled:
+            return create_engine(url, poolclass=NullPool)
         return create_engine(url, pool_pre_ping=True, pool_size=10, max_overflow=20)
-    engine = create_engine(url, connect_args={"timeout": BUSY_TIMEOUT_S, "check_same_thread": False})
+    pool = None if pooled else NullPool
+    engine = create_engine(url, poolclass=pool, connect_args={"timeout": BUSY_TIMEOUT_S, "check_same_thread": False})
     event.listen(engine, "connect", _configure_sqlite)
     event.listen(engine, "begin", _begin_sqlite)
     return engine

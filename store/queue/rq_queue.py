@@ -6,6 +6,7 @@ never be mistaken for a later one.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -26,6 +27,8 @@ QUEUE_NAME = "sideband"
 ENTRY_POINT = "workers.entry.run_job"
 KEPT_S = 300
 """How long the broker remembers a finished ticket: only its own bookkeeping needs it."""
+CLAIM_S = 15.0
+"""Longest time between leaving the queue and the claim in the catalogue; afterwards the ticket is given out again."""
 _HELD = (JobStatus.QUEUED, JobStatus.STARTED, JobStatus.DEFERRED, JobStatus.SCHEDULED)
 
 
@@ -52,6 +55,11 @@ class RqQueue:
         """The broker's client."""
         return self._connection
 
+    @property
+    def queue(self) -> Queue:
+        """The queue as workers listen to it."""
+        return self._queue
+
     def ping(self) -> None:
         """Raise BrokerAway unless the server answers and can write."""
         with _translated():
@@ -77,10 +85,9 @@ class RqQueue:
                 job = Job.fetch(name_of(ticket), connection=self._connection, serializer=JSONSerializer)
             except NoSuchJobError:
                 return False
-            status = job.get_status(refresh=False)
-            if status is JobStatus.QUEUED:
-                return self._connection.lpos(self._queue.key, job.id) is not None
-            return status in _HELD
+            if job.get_status(refresh=False) not in _HELD:
+                return False
+            return self._connection.lpos(self._queue.key, job.id) is not None or _fresh(job)
 
     def withdraw(self, ticket: Ticket) -> None:
         """Take the ticket out, if it is there."""
@@ -91,6 +98,12 @@ class RqQueue:
         """Number of tickets waiting."""
         with _translated():
             return int(self._queue.count)
+
+
+def _fresh(job: Job) -> bool:
+    """Whether a ticket that left the queue did so just now: its worker is about to claim the job, or died trying."""
+    seen = [t.timestamp() for t in (job.enqueued_at, job.started_at) if t is not None]
+    return bool(seen) and time.time() - max(seen) < CLAIM_S
 
 
 def name_of(ticket: Ticket) -> str:
