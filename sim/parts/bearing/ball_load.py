@@ -58,7 +58,7 @@ def ring_state(row: BallRow, displacement_m: FloatArray, cage_phase_rad: float =
 
 
 def ring_force_n(row: BallRow, state: BallLoads, cage_phase_rad: float = 0.0) -> FloatArray:
-    """Resultant of the balls on the inner ring taken as positive against its displacement, shape (2,), N."""
+    """Load the balls carry at this state, shape (2,), N: equal to the external load at equilibrium."""
     angles = row.angles_rad(cage_phase_rad)
     return np.array([state.ball_loads_n @ np.cos(angles), state.ball_loads_n @ np.sin(angles)])
 
@@ -105,4 +105,6 @@ def _line_search(
 def mean_stiffness_n_per_m(row: BallRow, load_n: FloatArray, phases: int = 16) -> FloatArray:
     """Tangent stiffness (2, 2) N/m under a load, averaged over `phases` cage angles within one ball spacing."""
     angles = 2 * np.pi / row.balls * np.arange(phases) / phases
-    return np.mean([static_equilibrium(row, load_n, float(a)).stiffness_n_per_m for a in angles], axis=0)
+    states = [static_equilibrium(row, load_n, float(angle)) for angle in angles]
+    mean: FloatArray = np.mean([state.stiffness_n_per_m for state in states], axis=0)
+    return mean

@@ -8,7 +8,7 @@ from dataclasses import replace
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import BallGeometry, BearingSpec
 from sim.parts.bearing.catalogue import lookup
-from sim.parts.bearing.geometry import RollingGeometry, from_diameters
+from sim.parts.bearing.geometry import RollingGeometry
 
 _SPEC_NAMES = {"contact_angle_rad": "contact_angle_deg"}
 
@@ -18,30 +18,32 @@ def _relocated(error: SpecError, field: str) -> SpecError:
     return SpecError([replace(p, field=f"{field}.{_SPEC_NAMES.get(p.field, p.field)}") for p in error.problems])
 
 
+def _completed(spec: BallGeometry, field: str) -> tuple[float | None, float | None, float]:
+    """Ball diameter, pitch diameter and ratio, each completed from the other two where that is possible."""
+    ball, pitch, ratio = spec.ball_diameter_m, spec.pitch_diameter_m, spec.diameter_ratio
+    if ratio is None:
+        if ball is None or pitch is None:
+            missing = "ball_diameter_m" if ball is None else "pitch_diameter_m"
+            message = "is missing: give both diameters, or their ratio when only frequencies matter"
+            raise SpecError(Problem(field=f"{field}.{missing}", message=message, allowed="a diameter", unit="m"))
+        return ball, pitch, ball / pitch
+    if ball is None and pitch is not None:
+        ball = ratio * pitch
+    elif pitch is None and ball is not None:
+        pitch = ball / ratio
+    return ball, pitch, ratio
+
+
 def geometry_from_ball_spec(spec: BallGeometry, *, field: str = "geometry") -> RollingGeometry:
     """Checked geometry from the specification's form; problems are reported under `field`."""
-    angle_rad = math.radians(spec.contact_angle_deg)
-    if spec.diameter_ratio is None and spec.ball_diameter_m is None and spec.pitch_diameter_m is None:
-        message = "needs both diameters, or their ratio when only frequencies matter"
-        raise SpecError(Problem(field=f"{field}.ball_diameter_m", message=message, allowed="a diameter", unit="m"))
+    ball_m, pitch_m, ratio = _completed(spec, field)
     try:
-        if spec.diameter_ratio is None and spec.ball_diameter_m is not None and spec.pitch_diameter_m is not None:
-            return from_diameters(
-                balls=spec.balls,
-                ball_diameter_m=spec.ball_diameter_m,
-                pitch_diameter_m=spec.pitch_diameter_m,
-                contact_angle_rad=angle_rad,
-                inner_groove_ratio=spec.inner_groove_ratio,
-                outer_groove_ratio=spec.outer_groove_ratio,
-                width_m=spec.width_m,
-            )
         return RollingGeometry(
             balls=spec.balls,
-            # One diameter alone is refused by the constructor; any admissible ratio lets it get that far.
-            diameter_ratio=0.2 if spec.diameter_ratio is None else spec.diameter_ratio,
-            ball_diameter_m=spec.ball_diameter_m,
-            pitch_diameter_m=spec.pitch_diameter_m,
-            contact_angle_rad=angle_rad,
+            diameter_ratio=ratio,
+            ball_diameter_m=ball_m,
+            pitch_diameter_m=pitch_m,
+            contact_angle_rad=math.radians(spec.contact_angle_deg),
             inner_groove_ratio=spec.inner_groove_ratio,
             outer_groove_ratio=spec.outer_groove_ratio,
             width_m=spec.width_m,

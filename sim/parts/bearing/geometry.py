@@ -54,7 +54,7 @@ class RollingGeometry:
     def diameters_m(self) -> tuple[float, float]:
         """Ball and pitch diameter, m; SpecError when only their ratio is known."""
         if self.ball_diameter_m is None or self.pitch_diameter_m is None:
-            message = "is needed for the contact stiffness; only the diameter ratio is known"
+            message = "is needed for the ball-race stiffness; only the diameter ratio is known"
             raise SpecError(Problem(field="ball_diameter_m", message=message, allowed="a diameter", unit="m"))
         return self.ball_diameter_m, self.pitch_diameter_m
 
