@@ -86,7 +86,7 @@ def static_equilibrium(row: BallRow, load_n: FloatArray, cage_phase_rad: float =
         # One loaded ball leaves the row without stiffness across it: a small floor keeps the step finite.
         step = np.linalg.solve(state.stiffness_n_per_m + floor * np.eye(2), residual)
         state = _line_search(row, state, step, load_n, cage_phase_rad)
-    return state
+    raise ArithmeticError(f"no static equilibrium of {row} under {load_n} N within {_MAX_ITERATIONS} steps")
 
 
 def _line_search(

@@ -15,7 +15,7 @@ def _fly_through(mass_kg: float, speed: float, k: float, exponent: float, dampin
     """Duration, deepest point and rebound speed by integration until the contact force would pull."""
 
     def force(x: float, v: float) -> float:
-        return float(k * max(x, 0.0) ** exponent + damping * v
+        return float(k * max(x, 0.0) ** exponent + damping * v)
 
     def release(_: float, y: np.ndarray) -> float:
         return force(y[0], y[1]) if y[1] < 0 else 1.0
