@@ -1,0 +1,108 @@
+"""Specification to system."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from sim.assembly.channels import machine_channels
+from sim.assembly.kinematics import Kinematics, kinematics
+from sim.assembly.laws import Acting, acting_terms, base_laws, modified_laws, site_context
+from sim.assembly.linear import Linear, linear_part
+from sim.assembly.loads import load_vector
+from sim.assembly.references import check_references
+from sim.core.elements import Element
+from sim.core.errors import Problem, SpecError
+from sim.core.laws import Laws
+from sim.core.lines import Line
+from sim.core.spec import MachineSpec
+from sim.core.system import System
+from sim.core.terms import Registry
+from sim.terms import REGISTRY
+
+BASE_TERMS = {"mesh": ("mesh_total", "mesh_pairs"), "bearing": ("ball_contact",)}
+"""Effects every mesh and every bearing has without being asked for."""
+
+
+def _base(machine: MachineSpec, kin: Kinematics, registry: Registry, seed: int) -> list[Acting]:
+    acting = []
+    for kind, names in (("mesh", [m.name for m in machine.meshes]), ("bearing", [b.name for b in machine.bearings])):
+        for name in names:
+            for key in BASE_TERMS[kind]:
+                term = registry.get(key)
+                if term is not None:
+                    site = site_context(machine, kin, name, seed)
+                    acting.append(Acting(term=term, values=term.values({}, key), site=site))
+    return acting
+
+
+def _elements(acting: Sequence[Acting], laws: Laws, dofs: Sequence[str]) -> tuple[Element, ...]:
+    known = set(dofs)
+    elements = [e for a in acting for e in a.term.elements(laws, a.values, a.site)]
+    for element in elements:
+        for coordinate in element.coordinates:
+            for dof, _ in coordinate.weights:
+                if dof not in known:
+                    message = f"{element.name} acts on {dof}, which this machine does not have"
+                    raise SpecError(Problem(field=element.site, message=message, allowed="a body that moves there"))
+    return tuple(elements)
+
+
+def _check_held(linear: Linear, elements: Sequence[Element]) -> None:
+    """Refuse DOFs nothing holds or touches: they would drift away without bound."""
+    touched = np.any(linear.stiffness != 0, axis=1)
+    place = {name: i for i, name in enumerate(linear.names)}
+    for element in elements:
+        for coordinate in element.coordinates[: element.forces]:
+            for dof, _ in coordinate.weights:
+                touched[place[dof]] = True
+    loose = [name for i, name in enumerate(linear.names) if not touched[i]]
+    if loose:
+        raise SpecError(
+            [
+                Problem(field=name, message="is connected to nothing: no spring, bearing or mesh reaches it")
+                for name in loose
+            ]
+        )
+    if not np.all(np.isfinite(linear.mass)) or np.any(linear.mass <= 0):
+        raise SpecError(Problem(field="masses", message="every mass and inertia must be positive and finite"))
+
+
+def _lines(acting: Sequence[Acting]) -> tuple[Line, ...]:
+    return tuple(line for a in acting for line in a.term.lines(a.values, a.site))
+
+
+def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGISTRY) -> System:
+    """Build the system; SpecError lists every field that makes the machine impossible."""
+    check_references(machine)
+    kin = kinematics(machine)
+    derived: dict[str, str] = {}
+    warnings: list[str] = []
+    extra = acting_terms(machine, kin, registry, seed)
+    laws = modified_laws(base_laws(machine, derived, warnings), extra)
+    linear = linear_part(machine, laws.supports)
+    acting = _base(machine, kin, registry, seed) + extra
+    elements = _elements(acting, laws, linear.names)
+    _check_held(linear, elements)
+    derived |= linear.derived
+    load = load_vector(machine, kin, linear.names, linear.mass, derived)
+    dynamic = machine.operating is not None and machine.operating.kinematics == "dynamic"
+    angles = {n[: -len(".theta")]: i for i, n in enumerate(linear.names) if n.endswith(".theta")} if dynamic else {}
+    return System(
+        machine=machine,
+        dofs=linear.names,
+        mass=linear.mass,
+        damping=linear.damping,
+        stiffness=linear.stiffness,
+        dampers=linear.dampers,
+        load=load,
+        elements=elements,
+        speeds_hz=kin.body_hz,
+        dynamic_angle=angles,
+        bases_hz=kin.bases_hz,
+        lines=_lines(acting),
+        derived=derived,
+        warnings=tuple(warnings),
+        channels=machine_channels(linear.names, elements),
+    )

@@ -1,0 +1,39 @@
+"""Every output a machine can give, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sim.core.elements import Element
+from sim.core.response import Channel
+
+MOTION = (
+    ("displacement", "m", "rad"),
+    ("velocity", "m/s", "rad/s"),
+    ("acceleration", "m/s^2", "rad/s^2"),
+)
+
+
+def machine_channels(dofs: Sequence[str], elements: Sequence[Element]) -> tuple[Channel, ...]:
+    """Motion of every DOF, then the outputs of every element (`mesh1.stiffness`, `bearing1.wall.normal_force`)."""
+    result = []
+    for dof in dofs:
+        location, axis = dof.split(".")[0], dof.rsplit(".", 1)[1]
+        for quantity, straight, turning in MOTION:
+            unit = turning if axis == "theta" else straight
+            kind = f"angular_{quantity}" if axis == "theta" else quantity
+            result.append(
+                Channel(name=f"{dof}.{quantity}", quantity=kind, unit=unit, location=location, axis=axis)
+            )
+    for element in elements:
+        for output in element.outputs:
+            result.append(
+                Channel(
+                    name=f"{element.name}.{output.name}",
+                    quantity=output.quantity,
+                    unit=output.unit,
+                    location=element.site,
+                    axis=output.axis,
+                )
+            )
+    return tuple(result)

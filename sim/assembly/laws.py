@@ -1,0 +1,160 @@
+"""From the specification to the named laws, and the terms applied to them in their declared order."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+
+from sim.assembly.kinematics import Kinematics, shaft_of
+from sim.core.errors import Problem, SpecError
+from sim.core.laws import BallLaw, Laws, MeshLaw, SupportLaw
+from sim.core.spec import BearingSpec, MachineSpec
+from sim.core.terms import Registry, SiteContext, SiteKind, Term
+from sim.parts.bearing.from_spec import geometry_from_spec
+from sim.parts.bearing.hertz import ball_race_stiffness_n_per_m15
+from sim.parts.mesh_law import mesh_law
+
+
+@dataclass(frozen=True, kw_only=True)
+class Acting:
+    """A term at work: values and site."""
+
+    term: Term
+    values: Mapping[str, float]
+    site: SiteContext
+
+
+def site_kinds(machine: MachineSpec) -> dict[str, SiteKind]:
+    """Every site of a machine by name."""
+    kinds: dict[str, SiteKind] = {b.name: "bearing" for b in machine.bearings}
+    kinds |= {g.name: "gear" for g in machine.gears}
+    kinds |= {m.name: "mesh" for m in machine.meshes}
+    kinds |= {s.name: "shaft" for s in machine.shafts}
+    return kinds
+
+
+def site_context(machine: MachineSpec, kin: Kinematics, site: str, seed: int) -> SiteContext:
+    """Context of a site."""
+    groups = (machine.bearings, machine.gears, machine.meshes, machine.shafts)
+    names = next(group for group in ([p.name for p in g] for g in groups) if site in group)
+    body = site
+    for bearing in machine.bearings:
+        body = bearing.body if bearing.name == site else body
+    for mesh in machine.meshes:
+        body = mesh.pinion if mesh.name == site else body
+    shaft = (site if site in kin.shaft_base else shaft_of(machine, body)) or ""
+    return SiteContext(
+        machine=machine,
+        site=site,
+        shaft=shaft,
+        shaft_base=kin.shaft_base.get(shaft, ""),
+        index=names.index(site) + 1,
+        speed_hz=kin.shaft_hz.get(shaft, 0.0),
+        bases_hz=kin.bases_hz,
+        seed=seed,
+    )
+
+
+def _ball_law(bearing: BearingSpec, notes: dict[str, str]) -> BallLaw:
+    field = f"bearings.{bearing.name}"
+    geometry = geometry_from_spec(bearing, field=field)
+    if bearing.contact_stiffness_n_per_m15 is None:
+        stiffness = ball_race_stiffness_n_per_m15(geometry)
+        notes[f"{bearing.name}.contact_stiffness_n_per_m15"] = (
+            f"derived: {stiffness:.6g} N/m^1.5 (Hertz contact of ball and both races)"
+        )
+    else:
+        stiffness = bearing.contact_stiffness_n_per_m15
+        notes[f"{bearing.name}.contact_stiffness_n_per_m15"] = f"given: {stiffness:.6g} N/m^1.5"
+    return BallLaw(
+        name=bearing.name,
+        body=bearing.body,
+        balls=geometry.balls,
+        diameter_ratio_cos=geometry.gamma,
+        stiffness_n_per_m15=stiffness,
+        gap_m=bearing.radial_clearance_m,
+        cage_phase_rad=bearing.cage_phase_rad,
+    )
+
+
+def _support(bearing: BearingSpec) -> SupportLaw:
+    s = bearing.support
+    return SupportLaw(
+        bearing=bearing.name,
+        stiffness_x_n_per_m=s.stiffness_x_n_per_m,
+        stiffness_y_n_per_m=s.stiffness_y_n_per_m,
+        damping_x_ns_per_m=s.damping_x_ns_per_m,
+        damping_y_ns_per_m=s.damping_y_ns_per_m,
+    )
+
+
+def base_laws(machine: MachineSpec, notes: dict[str, str], warnings: list[str]) -> Laws:
+    """The healthy machine's laws."""
+    meshes: dict[str, MeshLaw] = {}
+    for mesh in machine.meshes:
+        meshes[mesh.name] = mesh_law(machine, mesh, notes, warnings)
+    return Laws(
+        meshes=meshes,
+        balls={b.name: _ball_law(b, notes) for b in machine.bearings},
+        supports={b.name: _support(b) for b in machine.bearings},
+    )
+
+
+def acting_terms(machine: MachineSpec, kin: Kinematics, registry: Registry, seed: int) -> list[Acting]:
+    """Check the specification's terms against the registry and sort them by order of composition."""
+    kinds = site_kinds(machine)
+    acting: list[Acting] = []
+    problems: list[Problem] = []
+    for i, spec in enumerate(machine.terms):
+        term = registry.get(spec.term)
+        where = f"terms.{i}"
+        if term is None:
+            problems.append(
+                Problem(field=f"{where}.term", message="unknown term", given=spec.term, allowed=", ".join(registry.keys()))
+            )
+            continue
+        allowed = [name for name, kind in kinds.items() if kind in term.sites]
+        if spec.site not in allowed:
+            message = f"is not a site where {term.key} can act"
+            problems.append(
+                Problem(field=f"{where}.site", message=message, given=spec.site, allowed=", ".join(allowed) or "none")
+            )
+            continue
+        try:
+            values = term.values(spec.parameters, f"{where}.parameters")
+        except SpecError as error:
+            problems += error.problems
+            continue
+        acting.append(Acting(term=term, values=values, site=site_context(machine, kin, spec.site, seed)))
+    problems += _conflicts(acting)
+    if problems:
+        raise SpecError(problems)
+    return sorted(acting, key=lambda a: a.term.order)
+
+
+def _conflicts(acting: Sequence[Acting]) -> list[Problem]:
+    problems = []
+    seen: set[tuple[str, str]] = set()
+    for a in acting:
+        key = (a.term.key, a.site.site)
+        if key in seen:
+            problems.append(
+                Problem(field="terms", message=f"{a.term.key} is given twice at {a.site.site}", given=a.term.key)
+            )
+        seen.add(key)
+    for a in acting:
+        for other in a.term.excludes:
+            if (other, a.site.site) in seen:
+                message = f"{a.term.key} and {other} cannot act together at {a.site.site}"
+                problems.append(Problem(field="terms", message=message))
+    return problems
+
+
+def modified_laws(laws: Laws, acting: Sequence[Acting]) -> Laws:
+    """Apply the terms in order."""
+    for a in acting:
+        laws = a.term.modify(laws, a.values, a.site)
+    return laws
+
+

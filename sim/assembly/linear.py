@@ -1,0 +1,177 @@
+"""Mass, damping and stiffness of the linear part: shafts, rings, supports, resonators (seed eqs 1-8)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from sim.core.laws import SupportLaw
+from sim.core.response import FloatArray
+from sim.core.spec import BearingSpec, GearSpec, MachineSpec, ShaftSpec
+from sim.core.system import Damper
+from sim.parts.gear_body import annulus_inertia_kg_m2, annulus_mass_kg
+
+
+@dataclass(kw_only=True)
+class Builder:
+    """Collects masses, springs and dampers while the machine is walked through."""
+
+    names: list[str] = field(default_factory=list)
+    masses: list[float] = field(default_factory=list)
+    springs: list[tuple[str, str | None, float, float]] = field(default_factory=list)
+    derived: dict[str, str] = field(default_factory=dict)
+
+    def mass(self, name: str, value: float) -> None:
+        """Add a degree of freedom."""
+        self.names.append(name)
+        self.masses.append(value)
+
+    def spring(self, a: str, b: str | None, stiffness: float, damping: float) -> None:
+        """Add a spring and damper between two DOFs, or from one to ground."""
+        if stiffness != 0.0 or damping != 0.0:
+            self.springs.append((a, b, stiffness, damping))
+
+    def note(self, name: str, value: float | None, derived: float, unit: str, how: str) -> float:
+        """Take the given value or the derived one, and record which."""
+        if value is not None:
+            self.derived[name] = f"given: {value:.6g} {unit}"
+            return value
+        self.derived[name] = f"derived: {derived:.6g} {unit} ({how})"
+        return derived
+
+
+@dataclass(frozen=True, kw_only=True)
+class Linear:
+    """Names (n), mass (n,), damping and stiffness (n, n), the dampers apart, and what was derived."""
+
+    names: tuple[str, ...]
+    mass: FloatArray
+    damping: FloatArray
+    stiffness: FloatArray
+    dampers: tuple[Damper, ...]
+    derived: Mapping[str, str]
+
+
+def shaft_torsion_nm_per_rad(shaft: ShaftSpec) -> float | None:
+    """G J / (L / 2) of a solid shaft to its middle, where the gear sits; None without a diameter."""
+    if shaft.diameter_m is None:
+        return None
+    return shaft.shear_modulus_pa * math.pi * shaft.diameter_m**4 / 32 / (0.5 * shaft.length_m)
+
+
+def _gear(builder: Builder, gear: GearSpec) -> None:
+    mass = builder.note(
+        f"{gear.name}.mass_kg", gear.mass_kg, annulus_mass_kg(gear), "kg", "disc of pitch radius, bore, width, density"
+    )
+    inertia = builder.note(
+        f"{gear.name}.inertia_kg_m2", gear.inertia_kg_m2, annulus_inertia_kg_m2(gear, mass), "kg m^2", "same disc"
+    )
+    builder.mass(f"{gear.name}.theta", inertia)
+    if gear.translates:
+        for axis, k, c in (
+            ("x", gear.stiffness_x_n_per_m, gear.damping_x_ns_per_m),
+            ("y", gear.stiffness_y_n_per_m, gear.damping_y_ns_per_m),
+        ):
+            builder.mass(f"{gear.name}.{axis}", mass)
+            builder.spring(f"{gear.name}.{axis}", None, k, c)
+
+
+def _bodies(builder: Builder, machine: MachineSpec) -> None:
+    for body in machine.bodies:
+        if body.inertia_kg_m2 is not None:
+            builder.mass(f"{body.name}.theta", body.inertia_kg_m2)
+        for axis, k, c in (
+            ("x", body.stiffness_x_n_per_m, body.damping_x_ns_per_m),
+            ("y", body.stiffness_y_n_per_m, body.damping_y_ns_per_m),
+        ):
+            if axis in body.axes:
+                builder.mass(f"{body.name}.{axis}", body.mass_kg)
+                builder.spring(f"{body.name}.{axis}", None, k, c)
+
+
+def _bearing(builder: Builder, bearing: BearingSpec, support: SupportLaw) -> None:
+    for axis in ("x", "y"):
+        inner, outer = f"{bearing.name}.inner.{axis}", f"{bearing.name}.outer.{axis}"
+        builder.mass(inner, bearing.inner_mass_kg)
+        builder.mass(outer, bearing.outer_mass_kg)
+        body = f"{bearing.body}.{axis}"
+        if body in builder.names:
+            builder.spring(inner, body, bearing.shaft_stiffness_n_per_m, bearing.shaft_damping_ns_per_m)
+        else:
+            builder.spring(inner, None, bearing.shaft_stiffness_n_per_m, bearing.shaft_damping_ns_per_m)
+        if support.released:
+            continue
+        k = support.stiffness_x_n_per_m if axis == "x" else support.stiffness_y_n_per_m
+        c = support.damping_x_ns_per_m if axis == "x" else support.damping_y_ns_per_m
+        if support.housing_mass_kg > 0:
+            housing = f"{bearing.name}.housing.{axis}"
+            builder.mass(housing, support.housing_mass_kg)
+            builder.spring(housing, None, k, c)
+        else:
+            builder.spring(outer, None, k, c)
+
+
+def _torsion(builder: Builder, machine: MachineSpec) -> None:
+    for shaft in machine.shafts:
+        turning = [g.name for g in machine.gears if g.shaft == shaft.name]
+        turning += [b.name for b in machine.bodies if b.shaft == shaft.name and b.inertia_kg_m2 is not None]
+        nodes = [f"{name}.theta" for name in turning]
+        if shaft.end_inertia_kg_m2 is not None:
+            nodes.insert(0, f"{shaft.name}.theta")
+        if len(nodes) < 2:
+            continue
+        computed = shaft_torsion_nm_per_rad(shaft)
+        stiffness = shaft.torsional_stiffness_nm_per_rad
+        if stiffness is not None or computed is not None:
+            stiffness = builder.note(
+                f"{shaft.name}.torsional_stiffness_nm_per_rad", stiffness, computed or 0.0, "N m/rad", "G J / (L/2)"
+            )
+            for a, b in zip(nodes[:-1], nodes[1:], strict=True):
+                builder.spring(a, b, stiffness, shaft.torsional_damping_nms_per_rad)
+
+
+def _matrices(builder: Builder) -> Linear:
+    place = {name: i for i, name in enumerate(builder.names)}
+    n = len(builder.names)
+    stiffness, damping = np.zeros((n, n)), np.zeros((n, n))
+    dampers = []
+    for a, b, k, c in builder.springs:
+        weights = [(place[a], 1.0)] + ([] if b is None else [(place[b], -1.0)])
+        for i, wi in weights:
+            for j, wj in weights:
+                stiffness[i, j] += k * wi * wj
+                damping[i, j] += c * wi * wj
+        if c > 0.0:
+            dampers.append(Damper(weights=tuple(weights), damping=c))
+    return Linear(
+        names=tuple(builder.names),
+        mass=np.array(builder.masses),
+        damping=damping,
+        stiffness=stiffness,
+        dampers=tuple(dampers),
+        derived=builder.derived,
+    )
+
+
+def linear_part(machine: MachineSpec, supports: Mapping[str, SupportLaw]) -> Linear:
+    """Walk the machine shaft by shaft and build the linear matrices; DOF order groups what is coupled."""
+    builder = Builder()
+    for shaft in machine.shafts:
+        if shaft.end_inertia_kg_m2 is not None:
+            builder.mass(f"{shaft.name}.theta", shaft.end_inertia_kg_m2)
+        for gear in machine.gears:
+            if gear.shaft == shaft.name:
+                _gear(builder, gear)
+    _bodies(builder, machine)
+    for bearing in machine.bearings:
+        _bearing(builder, bearing, supports[bearing.name])
+    for resonator in machine.resonators:
+        name = f"{resonator.name}.{resonator.axis}"
+        builder.mass(name, resonator.mass_kg)
+        ring = f"{resonator.bearing}.outer.{resonator.axis}"
+        builder.spring(name, ring, resonator.stiffness_n_per_m, resonator.damping_ns_per_m)
+    _torsion(builder, machine)
+    return _matrices(builder)

@@ -1,0 +1,51 @@
+"""Whether two gears fit each other, and what deserves a warning."""
+
+from __future__ import annotations
+
+import math
+
+from sim.core.errors import Problem, SpecError
+from sim.parts.gear.foundation import FIT_RATIO, FIT_THETA_RAD, body_ratio
+from sim.parts.gear.geometry import GearGeometry
+from sim.parts.gear.tooth import RootModel, root_section
+
+
+def check_mates(pinion: GearGeometry, gear: GearGeometry) -> None:
+    """SpecError unless both gears have the same module and pressure angle (the same base pitch)."""
+    problems = []
+    for name in ("module_m", "pressure_angle_rad"):
+        ours, theirs = getattr(pinion, name), getattr(gear, name)
+        if not math.isclose(ours, theirs, rel_tol=1e-9):
+            message = "must be the same on both gears of a mesh"
+            problems.append(Problem(field=f"gear.{name}", message=message, given=theirs, allowed=f"{ours:.9g}"))
+    if problems:
+        raise SpecError(problems)
+
+
+def check_tip_clearance(pinion: GearGeometry, gear: GearGeometry, centre_distance_m: float) -> None:
+    """SpecError when a tip would reach the mate's root circle at this installed centre distance."""
+    least_m = max(pinion.tip_radius_m + gear.root_radius_m, gear.tip_radius_m + pinion.root_radius_m)
+    # Zero tip clearance is legal; the tolerance only absorbs rounding of the radii.
+    if centre_distance_m < least_m * (1 - 1e-12):
+        message = "interference: a tip reaches into the mate's root circle"
+        allowed = f">= {least_m:.6g}"
+        raise SpecError(
+            Problem(field="centre_distance_m", message=message, given=centre_distance_m, allowed=allowed, unit="m")
+        )
+
+
+def gear_warnings(gear: GearGeometry, name: str, root_model: RootModel) -> tuple[str, ...]:
+    """Sentences about undercut and about a foundation outside its published range."""
+    found = []
+    least = gear.addendum_coefficient - 0.5 * gear.teeth * math.sin(gear.pressure_angle_rad) ** 2
+    if gear.profile_shift_coefficient < least:
+        found.append(
+            f"{name}: a rack cutter undercuts the root; profile shift {gear.profile_shift_coefficient:g} is below "
+            f"{least:.3f} and the stiffness of the undercut root is overestimated"
+        )
+    ratio, theta = body_ratio(gear), root_section(gear, root_model).half_angle_rad
+    if not FIT_RATIO[0] <= ratio <= FIT_RATIO[1]:
+        found.append(f"{name}: root over bore radius {ratio:.3g} is outside {FIT_RATIO}; the foundation uses the limit")
+    if not FIT_THETA_RAD[0] <= theta <= FIT_THETA_RAD[1]:
+        found.append(f"{name}: root angle {theta:.3g} rad is outside {FIT_THETA_RAD}; the foundation uses the limit")
+    return tuple(found)
