@@ -42,18 +42,13 @@ class ContactGeometry:
     start_m: float
     end_m: float
     base_pitch_m: float
+    pitch_point_m: float
+    """Path coordinate of the pitch point, where nothing slides."""
 
     @property
     def contact_ratio(self) -> float:
         """Length of the path over the base pitch: mean number of pairs in contact."""
         return (self.end_m - self.start_m) / self.base_pitch_m
-
-    @property
-    def pitch_point_m(self) -> float:
-        """Path coordinate of the pitch point; there is no sliding there."""
-        return self.line_length_m * self._pinion_share
-
-    _pinion_share: float = 0.5
 
     @classmethod
     def between(cls, pinion: GearGeometry, gear: GearGeometry, centre_distance_m: float) -> ContactGeometry:
@@ -70,9 +65,7 @@ class ContactGeometry:
         if not (math.isfinite(centre_distance_m) and centre_distance_m > base_m):
             message = "the base circles overlap: no line of action"
             given, allowed = centre_distance_m, f"above {base_m:.6g}"
-            raise SpecError(
-                Problem(field="centre_distance_m", message=message, given=given, allowed=allowed, unit="m")
-            )
+            raise SpecError(Problem(field="centre_distance_m", message=message, given=given, allowed=allowed, unit="m"))
         angle = math.acos(base_m / centre_distance_m)
         length_m = centre_distance_m * math.sin(angle)
         return cls(
@@ -82,7 +75,7 @@ class ContactGeometry:
             start_m=length_m - _tangent_length_m(gear),
             end_m=_tangent_length_m(pinion),
             base_pitch_m=pinion.base_pitch_m,
-            _pinion_share=pinion.base_radius_m / base_m,
+            pitch_point_m=length_m * pinion.base_radius_m / base_m,
         )
 
     def problems(self) -> list[Problem]:

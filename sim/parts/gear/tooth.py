@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -61,7 +61,7 @@ def involute_h_m(gear: GearGeometry, alpha_rad: FloatArray) -> FloatArray:
     return gear.base_radius_m * (np.sin(alpha_rad) + (gear.base_half_angle_rad - alpha_rad) * np.cos(alpha_rad))
 
 
-@cache
+@lru_cache(maxsize=256)
 def root_section(gear: GearGeometry, root_model: RootModel) -> RootSection:
     """Clamp and root thickness of a tooth under a root model."""
     base_m, root_m, half = gear.base_radius_m, gear.root_radius_m, gear.base_half_angle_rad
@@ -141,7 +141,7 @@ def _fillet_m(gear: GearGeometry, above_root_m: FloatArray) -> FloatArray:
     return np.asarray(radius_m - np.sqrt(radius_m**2 - left_m**2))
 
 
-@cache
+@lru_cache(maxsize=256)
 def _alpha_at(gear: GearGeometry, x_m: float, lowest_alpha_rad: float) -> float:
     """Flank parameter whose height is x_m; the lower end when x_m lies below the involute."""
     highest = -math.sqrt((gear.tip_radius_m / gear.base_radius_m) ** 2 - 1) + gear.base_half_angle_rad
