@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
+from dataclasses import dataclass
 
 from jobs import transitions
 from jobs.errors import BrokerAway, IllegalTransition
@@ -14,27 +15,39 @@ from jobs.status import Status
 log = logging.getLogger(__name__)
 
 
-def cancel(catalogue: JobCatalogue, queue: Queue, clock: Clock, job_id: str, *, submitter: str | None) -> JobRecord:
-    """Withdraw one submitter (None: everyone). The work stops when none is left; running work is asked to stop.
+@dataclass(frozen=True, kw_only=True)
+class Caller:
+    """Who cancels: the key's holder (empty without keys), the submitter named, or everyone the caller may speak for."""
+
+    principal: str = ""
+    named: str | None = None
+    everyone: bool = False
+
+
+def cancel(catalogue: JobCatalogue, queue: Queue, clock: Clock, job_id: str, caller: Caller) -> JobRecord:
+    """Withdraw the caller. The work stops when no submitter is left; running work is asked to stop.
 
     The catalogue decides: a ticket that the broker still holds for a dismissed job does nothing when it is drawn.
     """
     now = clock()
-    record = catalogue.change(job_id, lambda r: transitions.withdraw(r, submitter, now))
+    record = catalogue.change(job_id, lambda r: transitions.withdraw(r, leaving(r, caller), now))
     if record.status is Status.DISMISSED:
         with contextlib.suppress(BrokerAway):
             queue.withdraw(Ticket(job_id=job_id, attempt=record.attempt, timeout_s=0))
     return record
 
 
-def leaving(record: JobRecord, named: str | None, principal: str) -> str:
-    """Which submitter a cancel speaks for: the one named, else the caller's own, else the latest to ask."""
-    wanted = named or principal
-    if wanted in record.submitters:
-        return wanted
-    if named is None and record.submitters and principal == "":
-        return record.submitters[-1]
-    raise IllegalTransition(f"{wanted or 'the caller'} is not a submitter of job {record.id}")
+def leaving(record: JobRecord, caller: Caller) -> frozenset[str]:
+    """Which submitters a cancel speaks for: all of the caller's, the one named, the holder, or else the latest."""
+    if not record.status.active or not record.submitters:
+        return frozenset()
+    if caller.everyone:
+        own = (s for s in record.submitters if s == caller.principal or s.startswith(f"{caller.principal}/"))
+        return frozenset(own if caller.principal else record.submitters)
+    wanted = caller.named or caller.principal or record.submitters[-1]
+    if wanted not in record.submitters:
+        raise IllegalTransition(f"{wanted} is not a submitter of job {record.id}")
+    return frozenset((wanted,))
 
 
 def delete(catalogue: JobCatalogue, artefacts: ArtefactStore, clock: Clock, job_id: str) -> JobRecord:

@@ -13,8 +13,26 @@ OverrideKey = Annotated[str, Field(min_length=1, max_length=200)]
 OverrideValue = bool | float | str | None
 
 
-class SimulationRequest(SpecModel):
-    """A simulation: a preset or a whole machine, what to change in it, how long, how finely, which outputs."""
+class MachineChoice(SpecModel):
+    """A machine: a preset or a whole specification, and what to change in it."""
+
+    preset: Annotated[str, Field(min_length=1, max_length=80)] | None = None
+    """Name of a preset machine (see `/v1/presets`). Give either this or `machine`."""
+    machine: MachineSpec | None = None
+    """A whole machine specification. Give either this or `preset`."""
+    set: Annotated[dict[OverrideKey, OverrideValue], Field(max_length=200, default_factory=dict)]
+    """Changes: `term@site.parameter` for a term, or a dotted path such as `operating.speed_hz` or
+    `bearings.bearing1.radial_clearance_m`. SI units."""
+
+    @model_validator(mode="after")
+    def _one_machine(self) -> Self:
+        if (self.preset is None) == (self.machine is None):
+            raise ValueError("give exactly one of `preset` and `machine`")
+        return self
+
+
+class SimulationRequest(MachineChoice):
+    """A simulation: a machine, how long, how finely, which outputs."""
 
     model_config = ConfigDict(
         json_schema_extra={
@@ -29,13 +47,6 @@ class SimulationRequest(SpecModel):
         }
     )
 
-    preset: Annotated[str, Field(min_length=1, max_length=80)] | None = None
-    """Name of a preset machine (see `/v1/presets`). Give either this or `machine`."""
-    machine: MachineSpec | None = None
-    """A whole machine specification. Give either this or `preset`."""
-    set: Annotated[dict[OverrideKey, OverrideValue], Field(max_length=200, default_factory=dict)]
-    """Changes: `term@site.parameter` for a term, or a dotted path such as `operating.speed_hz` or
-    `bearings.bearing1.radial_clearance_m`. SI units."""
     duration_s: Annotated[float, Field(gt=0, le=3600)] = 1.0
     """Simulated time, s. A tighter bound may be set by the server."""
     sampling_rate_hz: Annotated[float, Field(ge=100, le=5_000_000)] = 20_000.0
@@ -46,9 +57,3 @@ class SimulationRequest(SpecModel):
     """Seed of everything random in the machine. Bounded so that JSON numbers carry it exactly."""
     discard_transient: bool = True
     """Whether spectra, features and labels leave out the start-up transient. The signals always keep it."""
-
-    @model_validator(mode="after")
-    def _one_machine(self) -> Self:
-        if (self.preset is None) == (self.machine is None):
-            raise ValueError("give exactly one of `preset` and `machine`")
-        return self

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from jobs.limits import Limits, check_cost, check_request, check_sampling
 from jobs.overrides import apply_overrides
-from jobs.ports import Engine
+from jobs.ports import Engine, MachineReport
 from jobs.record import Cost
-from jobs.request import SimulationRequest
+from jobs.request import MachineChoice, SimulationRequest
 from sim.core.errors import Problem, SpecError, UnknownName
 from sim.core.spec import MachineSpec
 
@@ -30,8 +30,8 @@ class Resolved:
 def resolve(request: SimulationRequest, engine: Engine, limits: Limits) -> Resolved:
     """Build the machine, check every reference and bound, estimate the cost; raises SpecError."""
     check_request(request, limits)
-    machine = apply_overrides(machine_of(request, engine), request.set)
-    report = engine.report(machine)
+    machine = machine_of(request, engine)
+    report = report_of(machine, engine)
     check_sampling(request, report.bases_hz)
     if request.channels is not None:
         _check_channels(request.channels, report.channels)
@@ -49,17 +49,31 @@ def resolve(request: SimulationRequest, engine: Engine, limits: Limits) -> Resol
     )
 
 
-def machine_of(request: SimulationRequest, engine: Engine) -> MachineSpec:
-    """The machine before overrides."""
-    if request.machine is not None:
-        return request.machine
+def machine_of(choice: MachineChoice, engine: Engine) -> MachineSpec:
+    """The machine that a choice means, overrides applied; raises SpecError."""
+    if choice.machine is not None:
+        return apply_overrides(choice.machine, choice.set)
     names = engine.preset_names()
-    if request.preset is None or request.preset not in names:
+    if choice.preset is None or choice.preset not in names:
         problem = Problem(
-            field="preset", message="is not a known preset", given=request.preset, allowed=", ".join(names)
+            field="preset", message="is not a known preset", given=choice.preset, allowed=", ".join(names)
         )
         raise SpecError(problem)
-    return engine.preset(request.preset)
+    return apply_overrides(engine.preset(choice.preset), choice.set)
+
+
+def report_of(machine: MachineSpec, engine: Engine) -> MachineReport:
+    """What assembly says of the machine. A name in it that does not exist is a fault of the request."""
+    try:
+        return engine.report(machine)
+    except UnknownName as error:
+        problem = Problem(
+            field=error.kind,
+            message=f"is not a known {error.kind}",
+            given=error.name,
+            allowed=", ".join(error.known) or "none",
+        )
+        raise SpecError(problem) from error
 
 
 def restored(document: Mapping[str, object]) -> tuple[MachineSpec, SimulationRequest]:

@@ -6,7 +6,7 @@ failed, dismissed, gone -> accepted (a new attempt under the same id).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 from jobs.errors import IllegalTransition, QueueFull, StaleAttempt
@@ -122,11 +122,11 @@ def dismiss(record: JobRecord, *, attempt: int, now: float) -> JobRecord:
     return _ended(_own(record, attempt), Status.DISMISSED, now)
 
 
-def withdraw(record: JobRecord, submitter: str | None, now: float) -> JobRecord:
-    """Take one submitter off (None: all). When none is left, waiting work is dismissed, running work is asked to stop."""
+def withdraw(record: JobRecord, leaving: Collection[str], now: float) -> JobRecord:
+    """Take submitters off. When none is left, waiting work is dismissed and running work is asked to stop."""
     if not record.status.active or record.gone is not None:
         raise IllegalTransition(f"job {record.id} is {record.gone or record.status.value} and cannot be cancelled")
-    left = () if submitter is None else tuple(s for s in record.submitters if s != submitter)
+    left = tuple(s for s in record.submitters if s not in leaving)
     changed = replace(record, submitters=left, updated_at=now)
     if left:
         return changed

@@ -1,0 +1,61 @@
+"""Exception handlers: every error leaves as a problem document, none with a traceback."""
+
+from __future__ import annotations
+
+import logging
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
+from starlette.responses import Response
+
+from app import problems
+from sim.core.errors import SidebandError
+
+log = logging.getLogger(__name__)
+
+_DETAILS = {
+    404: "no such address; the interface is described at /openapi.json",
+    405: "this address does not take this method",
+}
+_SLUGS = {400: "bad-request", 404: "not-found", 405: "method-not-allowed", 422: "invalid-request"}
+
+
+def install(app: FastAPI) -> None:
+    """Register the handlers."""
+    app.add_exception_handler(SidebandError, _ours)
+    app.add_exception_handler(RequestValidationError, _invalid)
+    app.add_exception_handler(HTTPException, _http)
+    app.add_exception_handler(Exception, _unexpected)
+
+
+async def _ours(request: Request, error: Exception) -> Response:
+    assert isinstance(error, SidebandError)
+    return problems.response(problems.told(error), request.url.path)
+
+
+async def _invalid(request: Request, error: Exception) -> Response:
+    assert isinstance(error, RequestValidationError)
+    fields = problems.request_errors(error.errors())
+    count = len(fields)
+    detail = f"{count} field{'s' if count != 1 else ''} must change; see `errors`"
+    told = problems.Told(slug="invalid-request", status=422, detail=detail, fields=fields)
+    return problems.response(told, request.url.path)
+
+
+async def _http(request: Request, error: Exception) -> Response:
+    assert isinstance(error, HTTPException)
+    status = error.status_code
+    told = problems.Told(
+        slug=_SLUGS.get(status, f"http-{status}"),
+        status=status,
+        detail=_DETAILS.get(status, str(error.detail)),
+        headers=dict(error.headers or {}),
+    )
+    return problems.response(told, request.url.path)
+
+
+async def _unexpected(request: Request, error: Exception) -> Response:
+    log.error("unexpected error at %s", request.url.path, exc_info=error)
+    detail = "an unexpected error; the server's log has the details"
+    return problems.response(problems.Told(slug="internal", status=500, detail=detail), request.url.path)

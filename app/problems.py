@@ -1,0 +1,154 @@
+"""Errors as problem documents (RFC 9457, `application/problem+json`): one mapping for the whole API."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from http import HTTPStatus
+
+from pydantic import BaseModel
+from pydantic_core import ErrorDetails
+from starlette.responses import Response
+
+from jobs import errors
+from jobs.validation import problem_of, shown
+from sim.core.errors import Diverged, Problem, SidebandError, SpecError, UnknownName
+
+MEDIA_TYPE = "application/problem+json"
+RETRY_AFTER_S = 5
+
+
+class FieldError(BaseModel):
+    """One field to change."""
+
+    field: str
+    """Dotted path of the field, with indices in lists."""
+    location: str = "body"
+    """`body`, `query`, `path` or `header`."""
+    message: str
+    given: object = None
+    allowed: str = ""
+    unit: str = ""
+
+
+class ProblemDocument(BaseModel):
+    """RFC 9457."""
+
+    type: str
+    title: str
+    status: int
+    detail: str
+    instance: str = ""
+    errors: list[FieldError] = []
+
+
+@dataclass(frozen=True, kw_only=True)
+class Told:
+    """An error as it is told: the slug of its type, status, detail, fields, headers."""
+
+    slug: str
+    status: int
+    detail: str
+    fields: Sequence[FieldError] = ()
+    headers: Mapping[str, str] = field(default_factory=dict)
+
+
+_CLASSES: tuple[tuple[type[SidebandError], str, int], ...] = (
+    (errors.UnknownJob, "unknown-job", 404),
+    (errors.UnknownArtefact, "unknown-part", 404),
+    (errors.JobGone, "gone", 410),
+    (errors.ResultNotReady, "not-ready", 409),
+    (errors.IllegalTransition, "conflict", 409),
+    (errors.IdempotencyConflict, "idempotency-conflict", 422),
+    (errors.QueueFull, "queue-full", 429),
+    (errors.BrokerAway, "broker-away", 503),
+    (errors.StoreFull, "storage-full", 507),
+    (errors.StoreAway, "store-away", 503),
+    (SpecError, "invalid-request", 422),
+    (UnknownName, "unknown-name", 404),
+    (Diverged, "diverged", 422),
+)
+
+
+def told(error: SidebandError) -> Told:
+    """How one of our own errors is told."""
+    slug, status = next(((s, code) for kind, s, code in _CLASSES if isinstance(error, kind)), ("error", 500))
+    return Told(slug=slug, status=status, detail=_detail(error), fields=_fields(error), headers=_headers(error, status))
+
+
+def _detail(error: SidebandError) -> str:
+    if isinstance(error, SpecError):
+        count = len(error.problems)
+        return f"{count} field{'s' if count != 1 else ''} must change; see `errors`"
+    return str(error)
+
+
+def _fields(error: SidebandError) -> Sequence[FieldError]:
+    if isinstance(error, SpecError):
+        return [field_error(problem) for problem in error.problems]
+    if isinstance(error, UnknownName):
+        return [_choice(error.kind, error.name, error.known)]
+    if isinstance(error, errors.UnknownArtefact) and error.known:
+        return [_choice(error.kind, error.name, error.known)]
+    if isinstance(error, errors.IdempotencyConflict):
+        message = "was used with another request"
+        return [FieldError(field="Idempotency-Key", location="header", message=message, given=error.key)]
+    return ()
+
+
+def _choice(kind: str, name: str, known: Sequence[str]) -> FieldError:
+    message = f"is not a known {kind}"
+    return FieldError(field=kind, location="path", message=message, given=shown(name), allowed=", ".join(known))
+
+
+def _headers(error: SidebandError, status: int) -> dict[str, str]:
+    if isinstance(error, errors.QueueFull):
+        return {"Retry-After": str(error.retry_after_s)}
+    if status == 503 or (isinstance(error, errors.ResultNotReady) and error.status.active):
+        return {"Retry-After": str(RETRY_AFTER_S)}
+    return {}
+
+
+def field_error(problem: Problem, location: str = "body") -> FieldError:
+    """A field problem of the core as the API tells it."""
+    return FieldError(
+        field=problem.field,
+        location=location,
+        message=problem.message,
+        given=shown(problem.given),
+        allowed=problem.allowed,
+        unit=problem.unit,
+    )
+
+
+def request_errors(details: Sequence[ErrorDetails]) -> list[FieldError]:
+    """Findings of the framework's own validation; their first place says where the field is."""
+    found = []
+    for item in details:
+        location, *rest = item["loc"] or ("body",)
+        inner = ErrorDetails(**{**item, "loc": tuple(rest)})
+        found.append(field_error(problem_of(inner), str(location)))
+    return found
+
+
+def response(told_error: Told, instance: str) -> Response:
+    """The HTTP reply."""
+    document = ProblemDocument(
+        type=f"urn:sideband:problem:{told_error.slug}",
+        title=_title(told_error.status),
+        status=told_error.status,
+        detail=told_error.detail,
+        instance=instance,
+        errors=list(told_error.fields),
+    )
+    body = json.dumps(document.model_dump(mode="json"), ensure_ascii=False, allow_nan=False)
+    headers = {**told_error.headers, "Cache-Control": "no-store"}
+    return Response(body, status_code=told_error.status, media_type=MEDIA_TYPE, headers=headers)
+
+
+def _title(status: int) -> str:
+    try:
+        return HTTPStatus(status).phrase
+    except ValueError:
+        return "Error"

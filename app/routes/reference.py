@@ -1,0 +1,90 @@
+"""What there is to choose from: presets, terms, bearings; and checking a machine without simulating it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+
+from fastapi import APIRouter, Request, Response
+
+from app.conditional import content, etag_of, not_modified
+from app.routes.responses import problems
+from app.schemas import Reply
+from app.state import AppState, State
+from jobs.identity import digest
+from jobs.ports import MachineReport
+from jobs.request import MachineChoice
+from jobs.resolve import machine_of, report_of
+from sim.core.errors import UnknownName
+
+router = APIRouter(tags=["reference"])
+
+
+class MachineCheck(Reply):
+    """What assembly says of a machine."""
+
+    valid: bool
+    name: str
+    bases_hz: dict[str, float]
+    """Kinematic base frequencies (`f_r1`, `f_m`, `f_o1` ...), Hz."""
+    natural_frequencies_hz: list[float]
+    channels: list[str]
+    derived: dict[str, str]
+    """For each mass, inertia and stiffness whether it was given or derived, and how."""
+    warnings: list[str]
+    machine: dict[str, object]
+    """The machine with all defaults and changes written out."""
+
+
+@router.get("/v1/presets", responses=problems(401))
+def presets(request: Request, state: State) -> Response:
+    """The preset machines by name, with their notes."""
+    listed = [
+        {"name": name, "title": spec.name, "notes": spec.notes, "href": f"/v1/presets/{name}"}
+        for name in state.engine.preset_names()
+        for spec in (state.engine.preset(name),)
+    ]
+    return _document(request, state, {"presets": listed})
+
+
+@router.get("/v1/presets/{name}", responses=problems(401, 404))
+def preset(name: str, request: Request, state: State) -> Response:
+    """One preset as a whole machine specification."""
+    if name not in state.engine.preset_names():
+        raise UnknownName("preset", name, state.engine.preset_names())
+    return _document(request, state, state.engine.preset(name).model_dump(mode="json"))
+
+
+@router.get("/v1/terms", responses=problems(401))
+def terms(request: Request, state: State) -> Response:
+    """The physical effects a machine can have: parameters with units and bounds, sites, lines, literature."""
+    return _document(request, state, {"terms": state.engine.terms()})
+
+
+@router.get("/v1/bearings", responses=problems(401))
+def bearings(request: Request, state: State) -> Response:
+    """The bearing catalogue, every row with its source."""
+    return _document(request, state, {"bearings": state.engine.bearings()})
+
+
+@router.post("/v1/machines/check", response_model=MachineCheck, responses=problems(400, 401, 413, 415, 422))
+def check_machine(choice: MachineChoice, state: State) -> MachineCheck:
+    """Assemble a machine and say what was derived; every fault is named. Nothing is simulated."""
+    machine = machine_of(choice, state.engine)
+    report: MachineReport = report_of(machine, state.engine)
+    return MachineCheck(
+        valid=True,
+        name=machine.name,
+        bases_hz=dict(report.bases_hz),
+        natural_frequencies_hz=list(report.natural_frequencies_hz),
+        channels=list(report.channels),
+        derived=dict(report.derived),
+        warnings=list(report.warnings),
+        machine=machine.model_dump(mode="json"),
+    )
+
+
+def _document(request: Request, state: AppState, document: Mapping[str, object]) -> Response:
+    etag = etag_of(state.engine.version, digest(document))
+    body = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
+    return not_modified(request, etag) or content(request, body, etag=etag, media_type="application/json")

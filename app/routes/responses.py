@@ -1,0 +1,28 @@
+"""The error replies that routes declare in the OpenAPI document."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from app.problems import MEDIA_TYPE
+
+_WORDS = {
+    400: "The body is not strict JSON.",
+    401: "An API key is needed.",
+    404: "No such thing.",
+    409: "The job's state does not allow this (yet).",
+    410: "The result expired or was deleted.",
+    413: "The body is too large.",
+    415: "The body is not JSON.",
+    416: "The range lies outside the content.",
+    422: "Fields must change; each is named in `errors`.",
+    429: "Too much is waiting.",
+    503: "The broker or a store is away; nothing was accepted.",
+    507: "No space for the result.",
+}
+_CONTENT = {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/ProblemDocument"}}}
+
+
+def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """Declarations of problem documents for these statuses."""
+    return {status: {"description": _WORDS[status], "content": _CONTENT} for status in statuses}

@@ -1,0 +1,155 @@
+"""`/v1/jobs/{id}/result`: by reference, in slices, in the formats of the field."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated, Literal
+
+from fastapi import APIRouter, Query, Request, Response
+
+from app.conditional import content, etag_of, not_modified, served
+from app.reading import stored
+from app.routes.jobs import JobId
+from app.routes.responses import problems
+from app.state import State
+from jobs import slices
+from jobs.documents import SpectrumDocument, SpectrumKind
+from jobs.errors import UnknownArtefact
+from jobs.thinning import highest
+
+router = APIRouter(tags=["results"])
+RESULT = "/v1/jobs/{job_id}/result"
+ERRORS = problems(401, 404, 409, 410, 422, 503)
+FILE = {200: {"description": "The content.", "content": {"application/octet-stream": {}}}, **problems(416)}
+JSON_TYPE = "application/json"
+
+Format = Literal["json", "npz", "csv", "wav", "parquet", "mat"]
+Channels = Annotated[list[str] | None, Query(alias="channel", max_length=512)]
+MaxPoints = Annotated[int | None, Query(ge=2, le=200_000)]
+Time = Annotated[float | None, Query(ge=0, allow_inf_nan=False)]
+
+
+@router.get(RESULT, responses=ERRORS)
+def summary(job_id: JobId, request: Request, state: State) -> Response:
+    """Features, quality, derived values, the table of contents, and where the parts are."""
+    found = stored(state, job_id)
+    etag = etag_of(found.digest, "summary")
+    known = not_modified(request, etag)
+    if known is not None:
+        return known
+    manifest = found.reader.manifest
+    base = f"/v1/jobs/{job_id}/result"
+    document = {
+        **found.reader.document("summary"),
+        "job": job_id,
+        "physics_version": manifest.physics_version,
+        "seed": manifest.seed,
+        "sampling_rate_hz": manifest.sampling_rate_hz,
+        "samples": manifest.samples,
+        "channels": [channel.model_dump() for channel in manifest.channels],
+        "spectra": [{"channel": s.channel, "kind": s.kind, "unit": s.unit} for s in manifest.spectra],
+        "files": {name: {**entry.model_dump(), "href": f"{base}/files/{name}"} for name, entry in found.files()},
+        "links": {part: f"{base}/{part}" for part in ("signals", "spectra", "peaks", "plots")},
+    }
+    return _json(request, document, etag)
+
+
+@router.get(f"{RESULT}/signals", responses={**ERRORS, **FILE})
+def signals(
+    job_id: JobId,
+    request: Request,
+    state: State,
+    channel: Channels = None,
+    start_s: Time = None,
+    end_s: Time = None,
+    max_points: MaxPoints = None,
+    format: Annotated[Format, Query()] = "json",
+) -> Response:
+    """Samples with start_s <= t < end_s of the channels named (default: all).
+
+    `max_points` thins JSON for a screen: the lowest and highest value of each stretch stay. Files are never thinned.
+    """
+    found = stored(state, job_id)
+    names = channel or [entry.name for entry in found.reader.manifest.channels]
+    for name in names:
+        found.reader.channel(name)
+    part = slices.window(found.reader, start_s, end_s)
+    etag = etag_of(found.digest, "signals", json.dumps([names, part.start, part.stop, max_points, format]))
+    known = not_modified(request, etag)
+    if known is not None:
+        return known
+    if format == "json":
+        return _json(request, slices.as_json(found.reader, names, part, max_points), etag)
+    slices.check_size(len(names), part, format)
+    body = state.encode(slices.recording(found.reader, names, part), format)
+    filename = f"signals-{job_id[:12]}.{format}"
+    return content(request, body, etag=etag, media_type=slices.MEDIA_TYPES[format], filename=filename)
+
+
+@router.get(f"{RESULT}/spectra", responses=ERRORS)
+def spectra(
+    job_id: JobId,
+    request: Request,
+    state: State,
+    channel: Annotated[str, Query(max_length=120)],
+    kind: Annotated[SpectrumKind, Query()] = "amplitude",
+    max_points: MaxPoints = None,
+) -> Response:
+    """One spectrum; `meta` says peak or RMS, window and scaling. `max_points` keeps the highest line of each stretch."""
+    found = stored(state, job_id)
+    etag = etag_of(found.digest, "spectra", channel, kind, str(max_points))
+    known = not_modified(request, etag)
+    if known is not None:
+        return known
+    return _json(request, _spectrum(found.reader.spectrum(channel, kind), max_points), etag)
+
+
+@router.get(f"{RESULT}/peaks", responses=ERRORS)
+def peaks(job_id: JobId, request: Request, state: State) -> Response:
+    """Kinematic frequencies and labelled peaks: present, absent, ambiguous, unexplained."""
+    found = stored(state, job_id)
+    etag = etag_of(found.digest, "peaks")
+    return not_modified(request, etag) or _json(request, found.reader.document("peaks"), etag)
+
+
+@router.get(f"{RESULT}/files/{{name}}", responses={**ERRORS, **FILE})
+def file(job_id: JobId, name: str, request: Request, state: State) -> Response:
+    """A stored file as it is, with byte ranges; `signals.f64` is channels x samples, little-endian float64."""
+    found = stored(state, job_id)
+    files = dict(found.files())
+    if name not in files:
+        raise UnknownArtefact("file", name, tuple(files))
+    etag = f'"{files[name].sha256}"'
+    media_type = JSON_TYPE if name.endswith(".json") else "application/octet-stream"
+    key = f"{found.prefix}/{name}"
+    return not_modified(request, etag) or served(
+        request,
+        files[name].bytes,
+        lambda start, length: state.stores.artefacts.chunks(key, start, length),
+        etag=etag,
+        media_type=media_type,
+        filename=name,
+    )
+
+
+def _spectrum(document: SpectrumDocument, max_points: int | None) -> dict[str, object]:
+    x, y = document.axis, document.values
+    thinned = max_points is not None and y.size > max_points
+    if max_points is not None:
+        x, y = highest(x, y, max_points)
+    return {
+        "channel": document.channel,
+        "kind": document.kind,
+        "axis_unit": document.axis_unit,
+        "unit": document.unit,
+        "meta": dict(document.meta),
+        "lines": int(document.values.size),
+        "thinning": "highest" if thinned else "none",
+        "axis": x.tolist(),
+        "values": y.tolist(),
+    }
+
+
+def _json(request: Request, document: object, etag: str) -> Response:
+    body = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
+    return content(request, body, etag=etag, media_type=JSON_TYPE)

@@ -1,0 +1,97 @@
+"""The server's settings, from the environment or given."""
+
+from __future__ import annotations
+
+import ipaddress
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from jobs.limits import Limits
+from sim.core.errors import Problem, SpecError
+from store.settings import StoreSettings
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """Everything about one API process. `api_keys` maps the SHA-256 of a key to its holder's name."""
+
+    stores: StoreSettings
+    host: str = "127.0.0.1"
+    port: int = 8000
+    api_keys: Mapping[str, str] = field(default_factory=dict)
+    allowed_hosts: tuple[str, ...] = ()
+    """Names under which a server without keys may be called, besides loopback ones. With keys any name will do."""
+    limits: Limits = field(default_factory=Limits)
+    max_body_bytes: int = 8 * 2**20
+    max_json_depth: int = 32
+    body_timeout_s: float = 30.0
+    heartbeat_s: float = 15.0
+    event_streams: int = 200
+    recover_every_s: float = 2.0
+    max_losses: int = 2
+    worker_silent_s: float = 60.0
+    """A worker not heard of for so long is not counted as present."""
+    static_folder: Path = Path(__file__).parent / "dashboard" / "static"
+
+    @property
+    def keys_required(self) -> bool:
+        """Keys are needed as soon as others can reach the server, or when any are set."""
+        return bool(self.api_keys) or not is_loopback(self.host)
+
+    def check(self) -> None:
+        """Refuse to be reachable from other machines without keys."""
+        if not is_loopback(self.host) and not self.api_keys:
+            raise SpecError(
+                Problem(
+                    field="host",
+                    message="can be reached from other machines, so API keys are needed (SIDEBAND_API_KEYS)",
+                    given=self.host,
+                    allowed="a loopback address, or any address with at least one key",
+                )
+            )
+
+    @classmethod
+    def from_environment(cls, environment: Mapping[str, str] | None = None) -> Settings:
+        """`SIDEBAND_HOST`, `SIDEBAND_PORT`, `SIDEBAND_API_KEYS` (`name:sha256,...`), `SIDEBAND_ALLOWED_HOSTS`, limits
+        `SIDEBAND_MAX_DURATION_S`, `SIDEBAND_MAX_MEMORY_BYTES`, `SIDEBAND_MAX_STEPS`, `SIDEBAND_MAX_SECONDS`, `SIDEBAND_MAX_WAITING`."""
+        env = os.environ if environment is None else environment
+        base = Limits()
+        limits = Limits(
+            duration_s=float(env.get("SIDEBAND_MAX_DURATION_S", base.duration_s)),
+            steps=int(env.get("SIDEBAND_MAX_STEPS", base.steps)),
+            memory_bytes=int(env.get("SIDEBAND_MAX_MEMORY_BYTES", base.memory_bytes)),
+            seconds=float(env.get("SIDEBAND_MAX_SECONDS", base.seconds)),
+            waiting_jobs=int(env.get("SIDEBAND_MAX_WAITING", base.waiting_jobs)),
+        )
+        return cls(
+            stores=StoreSettings.from_environment(env),
+            host=env.get("SIDEBAND_HOST", cls.host),
+            port=int(env.get("SIDEBAND_PORT", cls.port)),
+            api_keys=parse_keys(env.get("SIDEBAND_API_KEYS", "")),
+            allowed_hosts=tuple(h.strip() for h in env.get("SIDEBAND_ALLOWED_HOSTS", "").split(",") if h.strip()),
+            limits=limits,
+        )
+
+
+def parse_keys(text: str) -> dict[str, str]:
+    """`name:sha256,name:sha256` as a mapping from digest to name."""
+    keys: dict[str, str] = {}
+    for entry in filter(None, (part.strip() for part in text.split(","))):
+        name, _, digest = entry.rpartition(":")
+        if not name or len(digest) != 64 or set(digest.lower()) - set("0123456789abcdef"):
+            message = "must be `name:sha256` entries; make one with `python -m app.keys NAME`"
+            raise SpecError(Problem(field="SIDEBAND_API_KEYS", message=message, allowed="name:64 hexadecimal digits"))
+        keys[digest.lower()] = name
+    return keys
+
+
+def is_loopback(host: str) -> bool:
+    """Whether only this machine can reach the address."""
+    if host.lower() == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return False
