@@ -11,10 +11,10 @@ from typing import Any, cast
 
 from redis.exceptions import RedisError
 from rq import Queue, Worker
+from rq.exceptions import StopRequested
 from rq.job import Job
 from rq.serializers import JSONSerializer
 from rq.timeouts import HorseMonitorTimeoutException
-from rq.exceptions import StopRequested
 from rq.worker.base import WorkerStatus
 
 from jobs.errors import JobError

@@ -8,10 +8,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from store.settings import StoreSettings  # noqa: E402
-from tests.service.fakes import FakeEngine, analyse  # noqa: E402
-from workers.main import Start, run_worker  # noqa: E402
-from workers.settings import WorkerSettings  # noqa: E402
+from store.settings import StoreSettings
+from tests.service.fakes import FakeEngine, analyse
+from workers.main import Start, run_worker
+from workers.settings import WorkerSettings
 
 if __name__ == "__main__":
     logging.basicConfig(level=logging.INFO)

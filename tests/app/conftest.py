@@ -1,0 +1,25 @@
+"""An application on a real broker with one worker for the whole module; an application without a broker for the rest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx
+import pytest
+
+from tests.service.parts import LiveServer, Parts, open_parts
+
+
+@pytest.fixture(scope="module")
+def parts(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Parts]:
+    opened = open_parts(Path(tmp_path_factory.mktemp("data")))
+    opened.start_worker("worker-1")
+    yield opened
+    opened.close()
+
+
+@pytest.fixture(scope="module")
+def client(parts: Parts) -> Iterator[httpx.Client]:
+    with LiveServer(parts.app()) as opened:
+        yield opened

@@ -1,0 +1,251 @@
+"""From a request to its result, over HTTP, with a real broker and a real worker."""
+
+from __future__ import annotations
+
+import time
+
+import httpx
+import numpy as np
+import pytest
+
+from tests.service.parts import eventually
+
+
+def submit(client: httpx.Client, **body: object) -> dict:
+    reply = client.post("/v1/simulations", json={"preset": "oscillator", **body})
+    assert reply.status_code == 202, reply.text
+    assert reply.headers["Location"] == f"/v1/jobs/{reply.json()['id']}"
+    return reply.json()
+
+
+def wait(client: httpx.Client, job_id: str) -> dict:
+    eventually(lambda: client.get(f"/v1/jobs/{job_id}").json()["status"] not in ("accepted", "running"))
+    return client.get(f"/v1/jobs/{job_id}").json()
+
+
+@pytest.fixture(scope="module")
+def done(client: httpx.Client) -> dict:
+    return wait(client, submit(client, seed=11, duration_s=0.5)["id"])
+
+
+def test_reply_to_a_submission_is_the_full_status(client: httpx.Client) -> None:
+    body = submit(client, seed=1)
+    assert body["status"] in ("accepted", "running", "successful")
+    assert body["created"] is True
+    assert body["request"]["preset"] == "oscillator"
+    assert body["cost"]["steps"] == 20000
+    assert body["links"]["events"] == f"/v1/jobs/{body['id']}/events"
+
+
+def test_job_succeeds_and_says_where_its_result_is(done: dict) -> None:
+    assert done["status"] == "successful"
+    assert done["progress"] == {"fraction": 1.0, "stage": "done", "eta_s": 0.0}
+    assert done["links"]["result"].endswith("/result")
+    assert len(done["result"]["sha256"]) == 64
+
+
+def test_same_request_shares_one_job(client: httpx.Client, done: dict) -> None:
+    again = submit(client, seed=11, duration_s=0.5)
+    assert (again["id"], again["created"], again["attempt"]) == (done["id"], False, 1)
+    whole = client.get("/v1/presets/oscillator").json()
+    spelled = client.post("/v1/simulations", json={"machine": whole, "seed": 11, "duration_s": 0.5}).json()
+    assert spelled["id"] == done["id"], "the same machine spelled out is the same job"
+
+
+def test_other_seed_is_another_job(client: httpx.Client, done: dict) -> None:
+    assert submit(client, seed=12, duration_s=0.5)["id"] != done["id"]
+
+
+def test_summary_lists_channels_and_files(client: httpx.Client, done: dict) -> None:
+    summary = client.get(done["links"]["result"]).json()
+    assert [c["name"] for c in summary["channels"]] == ["mass.y.displacement", "mass.y.acceleration"]
+    assert summary["samples"] == 10000
+    assert summary["files"]["signals.f64"]["bytes"] == 2 * 10000 * 8
+
+
+def test_signals_are_the_simulated_ones(client: httpx.Client, done: dict) -> None:
+    query = {"channel": "mass.y.displacement", "start_s": 0.1, "end_s": 0.2}
+    body = client.get(f"{done['links']['result']}/signals", params=query).json()
+    channel = body["channels"][0]
+    assert (body["samples"], channel["unit"], channel["t_s"][0]) == (2000, "m", 0.1)
+    t = np.array(channel["t_s"])
+    assert np.max(np.abs(np.array(channel["values"]) - np.sin(2 * np.pi * 40 * t))) < 0.01
+
+
+def test_thinned_signal_keeps_extremes(client: httpx.Client, done: dict) -> None:
+    path = f"{done['links']['result']}/signals"
+    whole = client.get(path, params={"channel": "mass.y.displacement"}).json()["channels"][0]["values"]
+    thin = client.get(path, params={"channel": "mass.y.displacement", "max_points": 100}).json()
+    values = thin["channels"][0]["values"]
+    assert len(values) <= 100 and thin["thinning"] == "minimum and maximum"
+    assert (max(values), min(values)) == (max(whole), min(whole))
+
+
+def test_raw_file_answers_ranges(client: httpx.Client, done: dict) -> None:
+    path = f"{done['links']['result']}/files/signals.f64"
+    whole = client.get(path)
+    part = client.get(path, headers={"Range": "bytes=800-1599"})
+    assert part.status_code == 206
+    assert part.headers["Content-Range"] == "bytes 800-1599/160000"
+    assert part.content == whole.content[800:1600]
+    tail = client.get(path, headers={"Range": "bytes=-16"})
+    assert tail.content == whole.content[-16:]
+    outside = client.get(path, headers={"Range": "bytes=160000-"})
+    assert outside.status_code == 416 and outside.headers["Content-Range"] == "bytes */160000"
+    stale = client.get(path, headers={"Range": "bytes=0-9", "If-Range": '"other"'})
+    assert stale.status_code == 200 and len(stale.content) == 160000
+
+
+@pytest.mark.parametrize(
+    "part", ["", "/signals?max_points=100", "/spectra?channel=mass.y.displacement", "/peaks", "/files/peaks.json"]
+)
+def test_strong_etags_save_the_transfer(client: httpx.Client, done: dict, part: str) -> None:
+    path = f"{done['links']['result']}{part}"
+    first = client.get(path)
+    etag = first.headers["ETag"]
+    assert first.status_code == 200 and etag.startswith('"')
+    again = client.get(path, headers={"If-None-Match": f'"x", {etag}'})
+    assert (again.status_code, again.content, again.headers["ETag"]) == (304, b"", etag)
+    assert client.get(path, headers={"If-None-Match": '"x"'}).status_code == 200
+
+
+def test_spectrum_has_its_line_and_its_terms(client: httpx.Client, done: dict) -> None:
+    path = f"{done['links']['result']}/spectra"
+    body = client.get(path, params={"channel": "mass.y.displacement"}).json()
+    top = int(np.argmax(body["values"]))
+    assert body["axis"][top] == 40.0 and body["axis_unit"] == "Hz" and body["meta"]["amplitude"] == "peak"
+    thin = client.get(path, params={"channel": "mass.y.displacement", "max_points": 50}).json()
+    assert len(thin["values"]) == 50 and max(thin["values"]) == max(body["values"])
+
+
+def test_spectrum_that_is_not_there_names_those_that_are(client: httpx.Client, done: dict) -> None:
+    reply = client.get(f"{done['links']['result']}/spectra", params={"channel": "mass.y.displacement", "kind": "order"})
+    assert reply.status_code == 404
+    assert "amplitude of mass.y.displacement" in reply.json()["errors"][0]["allowed"]
+
+
+def test_files_go_through_the_encoder(client: httpx.Client, done: dict) -> None:
+    reply = client.get(
+        f"{done['links']['result']}/signals", params={"channel": "mass.y.acceleration", "format": "npz", "end_s": 0.001}
+    )
+    assert reply.headers["Content-Type"] == "application/x-npz"
+    assert reply.headers["Content-Disposition"].endswith('.npz"')
+    assert reply.content.startswith(b"npz:mass.y.acceleration:") and len(reply.content) == 24 + 20 * 8
+
+
+@pytest.mark.parametrize("name", ["signal.png", "signal.svg", "spectrum.png", "spectrum.svg"])
+def test_plots_are_pictures_and_repeat(client: httpx.Client, done: dict, name: str) -> None:
+    path = f"{done['links']['result']}/plots/{name}"
+    first, second = client.get(path), client.get(path)
+    assert first.status_code == 200, first.text
+    assert first.content[:4] in (b"\x89PNG", b"<?xm")
+    assert first.content == second.content
+    assert path in client.get(f"{done['links']['result']}/plots").json()["plots"]
+
+
+def test_idempotency_key_replays_and_refuses_another_body(client: httpx.Client) -> None:
+    body = {"preset": "oscillator", "seed": 21}
+    headers = {"Idempotency-Key": "abc-1"}
+    first = client.post("/v1/simulations", json=body, headers=headers)
+    again = client.post("/v1/simulations", json={"seed": 21, "preset": "oscillator"}, headers=headers)
+    assert again.status_code == 202 and again.headers["Idempotency-Replayed"] == "true"
+    assert again.json()["id"] == first.json()["id"] and again.json()["submitters"] <= 1
+    other = client.post("/v1/simulations", json={**body, "seed": 22}, headers=headers)
+    assert other.status_code == 422
+    assert other.json()["errors"][0]["field"] == "Idempotency-Key"
+
+
+def test_diverged_job_fails_with_time_dof_and_advice_and_the_worker_lives(client: httpx.Client) -> None:
+    machine = client.get("/v1/presets/oscillator").json() | {"notes": "diverge"}
+    job = wait(client, client.post("/v1/simulations", json={"machine": machine}).json()["id"])
+    assert job["status"] == "failed"
+    assert job["failure"]["code"] == "diverged"
+    assert job["failure"]["detail"] == {"time_s": 0.0123, "dof": "mass.y"}
+    assert job["failure"]["advice"] == "take a smaller step"
+    not_there = client.get(f"/v1/jobs/{job['id']}/result")
+    assert not_there.status_code == 409 and not_there.json()["type"] == "urn:sideband:problem:not-ready"
+    assert wait(client, submit(client, seed=31)["id"])["status"] == "successful"
+
+
+def test_failed_job_is_tried_again_under_the_same_id(client: httpx.Client) -> None:
+    machine = client.get("/v1/presets/oscillator").json() | {"notes": "error"}
+    job = wait(client, client.post("/v1/simulations", json={"machine": machine}).json()["id"])
+    assert job["failure"]["code"] == "internal" and "secret" not in str(job)
+    again = client.post("/v1/simulations", json={"machine": machine}).json()
+    assert (again["id"], again["attempt"]) == (job["id"], 2)
+    assert wait(client, job["id"])["attempt"] == 2
+
+
+def test_deleted_job_is_gone_and_can_be_asked_for_again(client: httpx.Client) -> None:
+    job = wait(client, submit(client, seed=41)["id"])
+    path = f"/v1/jobs/{job['id']}"
+    assert client.delete(path).status_code == 204
+    for address in (path, f"{path}/result", f"{path}/result/peaks", f"{path}/events"):
+        assert client.get(address).status_code == 410, address
+    assert job["id"] not in [j["id"] for j in client.get("/v1/jobs", params={"limit": 200}).json()["jobs"]]
+    again = submit(client, seed=41)
+    assert (again["id"], again["attempt"]) == (job["id"], 2)
+    renewed = wait(client, job["id"])
+    assert renewed["result"]["sha256"] == job["result"]["sha256"], "the same request gives the same bytes"
+
+
+def test_events_tell_the_whole_story_and_replay_from_any_point(client: httpx.Client, done: dict) -> None:
+    reply = client.get(done["links"]["events"])
+    assert reply.headers["Content-Type"].startswith("text/event-stream")
+    ids = [int(line[4:]) for line in reply.text.splitlines() if line.startswith("id: ")]
+    assert ids == sorted(ids) and '"status":"successful"' in reply.text and '"status":"accepted"' in reply.text
+    later = client.get(done["links"]["events"], headers={"Last-Event-ID": str(ids[-2])})
+    assert [line for line in later.text.splitlines() if line.startswith("id: ")] == [f"id: {ids[-1]}"]
+    assert client.get(done["links"]["events"], headers={"Last-Event-ID": str(ids[-1])}).status_code == 204
+
+
+def test_running_job_streams_progress(client: httpx.Client) -> None:
+    machine = client.get("/v1/presets/oscillator").json() | {"notes": "sleep=1.2"}
+    job = client.post("/v1/simulations", json={"machine": machine}).json()
+    started = time.monotonic()
+    text = client.get(job["links"]["events"]).text
+    assert time.monotonic() - started > 0.8
+    fractions = [float(part.split(",")[0]) for part in text.split('"progress":')[1:]]
+    assert fractions == sorted(fractions) and any(0.1 < f < 0.85 for f in fractions)
+    assert text.count("event: progress") >= 3
+
+
+def test_list_filters_sorts_and_pages(client: httpx.Client, done: dict) -> None:
+    everything = client.get("/v1/jobs", params={"limit": 200}).json()
+    seen: list[str] = []
+    path = "/v1/jobs?limit=3&sort=created_at"
+    while path:
+        reply = client.get(path)
+        page = reply.json()
+        seen += [job["id"] for job in page["jobs"]]
+        assert page["total"] == everything["total"]
+        path = page["next"]
+        assert (f'<{path}>; rel="next"' == reply.headers.get("Link")) == bool(path)
+    assert seen == [job["id"] for job in reversed(everything["jobs"])] and len(set(seen)) == len(seen)
+    failed = client.get("/v1/jobs", params={"status": "failed"}).json()["jobs"]
+    assert failed and {job["status"] for job in failed} == {"failed"}
+    assert client.get("/v1/jobs", params={"preset": "slow"}).json()["total"] == 0
+
+
+def test_health_names_every_part(client: httpx.Client, done: dict) -> None:
+    body = client.get("/v1/health").json()
+    assert body["status"] == "ok"
+    assert body["broker"]["status"] == body["catalogue"]["status"] == body["artefacts"]["status"] == "ok"
+    assert [w["name"] for w in body["workers"]] == ["worker-1"]
+    assert body["throughput"]["finished_last_hour"] >= 1 and body["jobs"]["successful"] >= 1
+    assert client.get("/healthz").json() == {"status": "ok"}
+    assert client.get("/readyz").json() == {"ready": True, "away": []}
+
+
+def test_metrics_speak_prometheus(client: httpx.Client) -> None:
+    text = client.get("/metrics").text
+    assert 'sideband_up{part="broker"} 1.0' in text
+    assert 'sideband_http_requests_total{method="POST",route="/v1/simulations",status="202"}' in text
+
+
+def test_reference_addresses(client: httpx.Client) -> None:
+    assert [p["name"] for p in client.get("/v1/presets").json()["presets"]] == ["oscillator", "slow"]
+    assert client.get("/v1/terms").json()["terms"][0]["key"] == "fit_clearance"
+    assert client.get("/v1/bearings").json()["bearings"][0]["designation"] == "6203"
+    check = client.post("/v1/machines/check", json={"preset": "oscillator", "set": {"bodies.mass.mass_kg": 2}})
+    assert check.json()["machine"]["bodies"][0]["mass_kg"] == 2.0 and check.json()["valid"]
