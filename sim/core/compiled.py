@@ -75,8 +75,11 @@ def jit(function: Callable[..., Any]) -> Any:
 
 
 def inline(function: Callable[..., Any]) -> Any:
-    """Compile a small helper for use inside kernels; `.py_func` is the plain twin."""
-    return numba.njit(cache=True, fastmath=FAST, error_model="numpy", inline="never")(function)
+    """Compile a helper that is merged into its callers: arguments of plan and work are hundreds of words wide."""
+    return numba.njit(cache=True, fastmath=FAST, error_model="numpy", forceinline=True)(function)
+
+
+INTEGERS = types.CPointer(types.int64)
 
 
 def _pointer() -> ir.PointerType:
@@ -85,13 +88,12 @@ def _pointer() -> ir.PointerType:
 
 @intrinsic  # type: ignore[untyped-decorator]
 def call_prepare(typingctx, address, step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
-    """Call a compiled `prepare` by address; every argument is an int64 address of doubles."""
-    signature = types.void(*([types.int64] * 6))
+    """Call a compiled `prepare` by address; the other arguments are pointers to doubles."""
+    signature = types.void(types.int64, *([DOUBLES] * 5))
 
     def codegen(context, builder, _signature, args):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202
         kind = ir.FunctionType(ir.VoidType(), [_pointer()] * 5)
-        target = builder.inttoptr(args[0], kind.as_pointer())
-        builder.call(target, [builder.inttoptr(a, _pointer()) for a in args[1:]])
+        builder.call(builder.inttoptr(args[0], kind.as_pointer()), args[1:])
         return context.get_dummy_value()
 
     return signature, codegen
@@ -99,13 +101,42 @@ def call_prepare(typingctx, address, step, shafts, u, par, ctx):  # type: ignore
 
 @intrinsic  # type: ignore[untyped-decorator]
 def call_force(typingctx, address, mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
-    """Call a compiled `force` by address; `mode` is an int64, the rest int64 addresses of doubles."""
-    signature = types.void(*([types.int64] * 8))
+    """Call a compiled `force` by address; `mode` is an int64, the rest pointers to doubles."""
+    signature = types.void(types.int64, types.int64, *([DOUBLES] * 6))
 
     def codegen(context, builder, _signature, args):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202
         kind = ir.FunctionType(ir.VoidType(), [ir.IntType(64)] + [_pointer()] * 6)
-        target = builder.inttoptr(args[0], kind.as_pointer())
-        builder.call(target, [args[1]] + [builder.inttoptr(a, _pointer()) for a in args[2:]])
+        builder.call(builder.inttoptr(args[0], kind.as_pointer()), args[1:])
         return context.get_dummy_value()
 
     return signature, codegen
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def doubles(typingctx, address):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+    """Pointer to doubles from an address: arrays are counted at every use, pointers are not."""
+
+    def codegen(context, builder, _signature, args):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001
+        return builder.inttoptr(args[0], _pointer())
+
+    return DOUBLES(types.int64), codegen
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def integers(typingctx, address):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+    """Pointer to int64 from an address."""
+
+    def codegen(context, builder, _signature, args):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001
+        return builder.inttoptr(args[0], ir.IntType(64).as_pointer())
+
+    return INTEGERS(types.int64), codegen
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def shift(typingctx, pointer, count):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+    """Pointer moved by `count` items."""
+
+    def codegen(context, builder, _signature, args):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001
+        return builder.gep(args[0], [args[1]])
+
+    return DOUBLES(DOUBLES, types.int64), codegen

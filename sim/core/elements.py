@@ -8,8 +8,8 @@ Calling convention (all pointers to doubles; node k of the step is the last, at 
 
 step    [t0, h, s, c_1..c_s, then s*s Lagrange coefficients (row j: ascending powers of l_j), then s weights b_j]
 shafts  4 rows of length s + 1 (start, then nodes): angle and speed of the first shaft, angle and speed of the second
-ctx     (s + 1) rows of `context` doubles: row i < s for node i (may hold step-averaged values), row s for the
-        exact instant at the end of the step
+ctx     (s + 1) rows of `context` doubles: row i < s for node i (may hold step-averaged values); elements with
+        `exact_end` fill row s for the exact instant at the end of the step, the others are observed with row s - 1
 mode    0 force only; 1 also the tangent into out (df/du then df/dud, each `forces` rows of `size`);
         2 observe: `out` receives the declared outputs after [stored energy, dissipated power, parametric power]
 """
@@ -72,6 +72,9 @@ class Element:
     """Whether the force at the end of a step differs from the one at the last node (step-averaged tables)."""
     contact_output: int = -1
     """Index of the output that is 1 in contact and 0 in free flight; -1: none."""
+
+    linear_stiffness: FloatArray | None = None
+    """Mean stiffness (forces, forces) near the working point, N/m, for natural frequencies; None: not counted."""
 
     @property
     def size(self) -> int:

@@ -60,7 +60,9 @@ class Quality:
     step_s: float
     steps: int
     refined_steps: int
-    """Steps of the finest levels taken around impacts."""
+    """Steps shorter than the base step, taken around impacts."""
+    unconverged_steps: int
+    """Steps accepted at the finest level although the corrector had not met its tolerance."""
     step_error: float | None
     """Relative L2 difference against half the step on a pilot stretch, worst requested channel; None: not measured."""
     step_error_kind: str
@@ -85,6 +87,9 @@ class Response:
     bases_hz: Mapping[str, float]
     derived: Mapping[str, str]
     quality: Quality
+    warnings: tuple[str, ...]
+    contact_share: Mapping[str, float]
+    """Share of the time after the transient each wall or mesh was in contact, by element."""
     seed: int
     version: str
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from sim.core.elements import Coordinate, Output
+from sim.core.elements import Coordinate, Output, flat
 from sim.core.lines import Line
 from sim.core.params import Param
-from sim.core.terms import SiteContext
+from sim.core.response import FloatArray
+from sim.core.terms import SiteContext, Values
 
 CONTEXT = 1
 WALL_PARAMS = (
@@ -53,6 +54,15 @@ OUTPUTS = (
     Output(name="normal_force", quantity="force", unit="N"),
     Output(name="friction_force", quantity="force", unit="N"),
 )
+
+
+PALMGREN = 3.83e-5
+"""delta = 3.83e-5 P^0.9 / L^0.8 in mm and N (Palmgren, Ball and Roller Bearing Engineering, 3rd ed., 1959)."""
+
+
+def wall_parameters(values: Values) -> FloatArray:
+    """Parameter array of the wall kernel: the declared parameters, then L^0.8 / 3.83e-5."""
+    return flat(*(values[p.name] for p in WALL_PARAMS), values["length"] ** 0.8 / PALMGREN)
 
 
 def ring_wall_coordinates(bearing: str, *, against: str | None) -> tuple[Coordinate, ...]:

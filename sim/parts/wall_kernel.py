@@ -11,7 +11,7 @@ import math
 
 from sim.core.compiled import inline
 
-P_GAP, P_DAMPING, P_FRICTION, P_LENGTH, P_SPEED = 0, 1, 2, 3, 4
+P_GAP, P_DAMPING, P_FRICTION, P_LENGTH, P_SPEED, P_FACTOR = 0, 1, 2, 3, 4, 5
 
 
 @inline
@@ -44,7 +44,7 @@ def wall_force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  
     ny = y / r
     rate = ud[0] * nx + ud[1] * ny
     slip = -ud[0] * ny + ud[1] * nx
-    elastic = palmgren_force(r - gap, par[3] ** 0.8 / 3.83e-5)
+    elastic = palmgren_force(r - gap, par[5])
     load = elastic + par[1] * rate
     if mode == 2:
         out[0] = elastic * (r - gap) * (9.0 / 19.0)

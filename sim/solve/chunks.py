@@ -14,7 +14,7 @@ from numba import types
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
-from sim.core.compiled import jit
+from sim.core.compiled import DOUBLES, INTEGERS, doubles, inline, integers, jit, shift
 from sim.core.response import FloatArray
 
 LANES = 8
@@ -63,17 +63,15 @@ def _lanes(builder, scalar):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN
 
 @intrinsic  # type: ignore[untyped-decorator]
 def _chunk_dot(typingctx, value, column, x, first, last, y, add):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001
-    """y[0:8] (+)= sum_{first <= k < last} value[8 k : 8 k + 8] x[column[k]]; all arguments int64 (addresses, range)."""
-    signature = types.void(*([types.int64] * 7))
+    """y[0:8] (+)= sum_{first <= k < last} value[8 k : 8 k + 8] x[column[k]]; pointers and a range."""
+    signature = types.void(DOUBLES, INTEGERS, DOUBLES, types.int64, types.int64, DOUBLES, types.int64)
 
     def codegen(context, builder, _signature, args):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202
-        double, integer = ir.DoubleType(), ir.IntType(64)
-        vector = ir.VectorType(double, LANES)
+        integer = ir.IntType(64)
+        vector = ir.VectorType(ir.DoubleType(), LANES)
         zero = ir.Constant(vector, [0.0] * LANES)
-        values = builder.inttoptr(args[0], double.as_pointer())
-        columns = builder.inttoptr(args[1], integer.as_pointer())
-        xs = builder.inttoptr(args[2], double.as_pointer())
-        target = builder.inttoptr(args[5], vector.as_pointer())
+        values, columns, xs = args[0], args[1], args[2]
+        target = builder.bitcast(args[5], vector.as_pointer())
         before = builder.load(target)
         before.align = 8
         start = builder.select(builder.icmp_signed("!=", args[6], ir.Constant(integer, 0)), before, zero)
@@ -107,25 +105,30 @@ def _chunk_dot(typingctx, value, column, x, first, last, y, add):  # type: ignor
     return signature, codegen
 
 
-@jit
-def multiply(pointer, first_chunk, last_chunk, column_at, value_at, x_at, y_at, add):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """y = A x (add = 0) or y += A x (add = 1); the `_at` arguments are addresses, y at the first chunk."""
+@inline
+def multiply(pointer, first_chunk, last_chunk, column, value, x, y, add):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """y = A x (add = 0) or y += A x (add = 1); all pointers, y at the first chunk."""
     for chunk in range(first_chunk, last_chunk):
-        target = y_at + 64 * (chunk - first_chunk)
-        _chunk_dot(value_at, column_at, x_at, pointer[chunk], pointer[chunk + 1], target, add)
+        target = shift(y, 8 * (chunk - first_chunk))
+        _chunk_dot(value, column, x, pointer[chunk], pointer[chunk + 1], target, add)
+
+
+@jit
+def _multiply_arrays(pointer, column, value, x, y):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202
+    multiply(
+        integers(pointer.ctypes.data),
+        0,
+        pointer.size - 1,
+        integers(column.ctypes.data),
+        doubles(value.ctypes.data),
+        doubles(x.ctypes.data),
+        doubles(y.ctypes.data),
+        0,
+    )
 
 
 def multiply_arrays(matrix: Chunked, x: FloatArray) -> FloatArray:
     """A x for tests and small uses; returns the padded product."""
     y = np.zeros(matrix.rows)
-    multiply(
-        matrix.pointer,
-        0,
-        matrix.pointer.size - 1,
-        matrix.column.ctypes.data,
-        matrix.value.ctypes.data,
-        x.ctypes.data,
-        y.ctypes.data,
-        0,
-    )
+    _multiply_arrays(matrix.pointer, matrix.column, matrix.value, x, y)
     return y

@@ -64,6 +64,12 @@ def extrapolation(stages: int, ratio: float) -> FloatArray:
     return np.vander(targets, stages + 1, increasing=True) @ np.linalg.inv(np.vander(known, increasing=True))
 
 
+def node_extrapolation(stages: int, ratio: float) -> FloatArray:
+    """Weights (s, s) that carry values at the nodes of a step to the nodes of the next; `ratio` as above."""
+    c = radau_nodes(stages)
+    return np.vander(1.0 + ratio * c, stages, increasing=True) @ np.linalg.inv(np.vander(c, increasing=True))
+
+
 def derivative_weights(stages: int) -> FloatArray:
     """Weights (s, s + 1): derivative at each node, per step, of the polynomial through start and nodes."""
     c = radau_nodes(stages)

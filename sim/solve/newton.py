@@ -1,151 +1,162 @@
-"""Damped Newton for one stiff element over all nodes of a step, through its own compliance."""
+"""Damped Newton for one stiff element over all nodes of a step, through its own compliance.
+
+Unknowns are the element's node forces, n = s d of them: lam = f(base + C lam). Scratch of `work.newton`:
+base (4 s), lam, old, entry, step, residual (n each), tangents (8 s), Jacobian (n n).
+"""
 
 from __future__ import annotations
 
 import math
 
-import numpy as np
-
-from sim.core.compiled import call_force, jit
+from sim.core.compiled import call_force, inline, shift
 
 MAX_NEWTON = 40
-RTOL = 1e-7
+RTOL_SHARE = 0.1
+"""Tolerance of the inner iteration over that of the outer one."""
 BACKTRACK = 1e-3
+BASE, LAM, OLD, ENTRY, STEP, RES, TANGENT, JACOBIAN, POINT = 0, 16, 24, 32, 40, 48, 56, 80, 120
+NEWTON_SCRATCH = 160
 
 
-@jit
+@inline
 def solve_dense(a, b, n):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Solve a x = b in place by elimination with partial pivoting; the solution replaces b."""
+    """Solve a x = b (row-major n x n) in place by elimination with partial pivoting; x replaces b."""
     for k in range(n):
         best = k
         for i in range(k + 1, n):
-            if abs(a[i, k]) > abs(a[best, k]):
+            if abs(a[i * n + k]) > abs(a[best * n + k]):
                 best = i
-        if a[best, k] == 0.0:
+        if a[best * n + k] == 0.0:
             return False
         if best != k:
             for j in range(k, n):
-                a[k, j], a[best, j] = a[best, j], a[k, j]
-            b[k], b[best] = b[best], b[k]
-        inverse = 1.0 / a[k, k]
+                held = a[k * n + j]
+                a[k * n + j] = a[best * n + j]
+                a[best * n + j] = held
+            held = b[k]
+            b[k] = b[best]
+            b[best] = held
+        inverse = 1.0 / a[k * n + k]
         for i in range(k + 1, n):
-            factor = a[i, k] * inverse
-            if factor != 0.0:
-                for j in range(k + 1, n):
-                    a[i, j] -= factor * a[k, j]
-                b[i] -= factor * b[k]
+            factor = a[i * n + k] * inverse
+            for j in range(k + 1, n):
+                a[i * n + j] -= factor * a[k * n + j]
+            b[i] -= factor * b[k]
     for k in range(n - 1, -1, -1):
         total = b[k]
         for j in range(k + 1, n):
-            total -= a[k, j] * b[j]
-        b[k] = total / a[k, k]
+            total -= a[k * n + j] * b[j]
+        b[k] = total / a[k * n + k]
     return True
 
 
-@jit
-def residual(plan, work, level, e, which, d, base, lam, jacobian, res):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Residual lam - f(u(lam)) and its Jacobian; returns the squared norm and the largest force."""
-    s = plan.sizes[6]
+@inline
+def residual(plan, work, e, own, d):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Residual lam - f(u(lam)) and the tangents of all nodes; returns (squared norm, largest force)."""
+    s = plan.stages
+    w = work.newton
     norm = 0.0
     scale = 0.0
-    u = work.out.ctypes.data + 8 * 40
     for i in range(s):
         for a in range(2 * d):
-            value = base[i, a]
+            value = w[BASE + 4 * i + a]
             for j in range(s):
                 for b in range(d):
-                    value += plan.compliance[level, which, i, a, j, b] * lam[j, b]
-            work.out[40 + a] = value
+                    value += own[(i * 4 + a) * 2 * s + 2 * j + b] * w[LAM + j * d + b]
+            w[POINT + a] = value
         call_force(
             plan.force_address[e],
             1,
-            u,
-            u + 8 * d,
-            work.ctx.ctypes.data + 8 * (plan.ctx_at[e] + i * plan.ctx_width[e]),
-            plan.par.ctypes.data + 8 * plan.par_at[e],
-            work.trial.ctypes.data,
-            work.out.ctypes.data,
+            shift(w, POINT),
+            shift(w, POINT + d),
+            shift(work.ctx, plan.ctx_at[e] + i * plan.ctx_width[e]),
+            shift(plan.par, plan.par_at[e]),
+            work.trial,
+            shift(w, TANGENT + 8 * i),
         )
         for a in range(d):
-            value = lam[i, a] - work.trial[a]
-            res[i * d + a] = value
+            value = w[LAM + i * d + a] - work.trial[a]
+            w[RES + i * d + a] = value
             norm += value * value
-            scale = max(scale, abs(lam[i, a]))
-            for j in range(s):
-                for b in range(d):
-                    slope = 0.0
-                    for c in range(d):
-                        slope += work.out[a * d + c] * plan.compliance[level, which, i, c, j, b]
-                        slope += work.out[d * d + a * d + c] * plan.compliance[level, which, i, d + c, j, b]
-                    jacobian[i * d + a, j * d + b] = (1.0 if i == j and a == b else 0.0) - slope
+            scale = max(scale, abs(w[LAM + i * d + a]))
     return norm, scale
 
 
-@jit
-def newton_element(plan, work, level, e, which):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Solve one stiff element; returns (converged, largest change of its forces)."""
-    s = plan.sizes[6]
-    z = plan.sizes[4]
-    f = plan.sizes[1]
-    r = plan.sizes[3]
-    d = plan.forces[e]
+@inline
+def jacobian(plan, work, own, d):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """I - (df/du C_u + df/du' C_u') for all nodes."""
+    s = plan.stages
     n = s * d
-    base = np.empty((3, 4))
-    lam = np.empty((3, 2))
-    old = np.empty((3, 2))
-    entry = np.empty((3, 2))
-    jacobian = np.empty((6, 6))
-    res = np.empty(6)
+    w = work.newton
     for i in range(s):
         for a in range(d):
-            lam[i, a] = work.z[z + i * f + plan.f_at[e] + a]
-            entry[i, a] = lam[i, a]
-    for i in range(s):
-        for a in range(2 * d):
-            value = work.rows[i * r + plan.stiff_rows[which, a]]
             for j in range(s):
                 for b in range(d):
-                    value -= plan.compliance[level, which, i, a, j, b] * lam[j, b]
-            base[i, a] = value
-    norm, scale = residual(plan, work, level, e, which, d, base, lam, jacobian, res)
+                    slope = 1.0 if (i == j and a == b) else 0.0
+                    for c in range(d):
+                        slope -= w[TANGENT + 8 * i + a * d + c] * own[(i * 4 + c) * 2 * s + 2 * j + b]
+                        slope -= w[TANGENT + 8 * i + d * d + a * d + c] * own[(i * 4 + d + c) * 2 * s + 2 * j + b]
+                    w[JACOBIAN + (i * d + a) * n + j * d + b] = slope
+
+
+@inline
+def newton_element(plan, work, level, e, which, rtol):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Solve one stiff element; returns (converged, largest change of its forces)."""
+    s = plan.stages
+    d = plan.forces[e]
+    n = s * d
+    w = work.newton
+    own = shift(plan.compliance, (level * plan.stiff + which) * 8 * s * s)
+    forces = shift(work.z, plan.states + plan.f_at[e])
+    for i in range(s):
+        for a in range(d):
+            w[LAM + i * d + a] = forces[i * plan.forces_total + a]
+            w[ENTRY + i * d + a] = w[LAM + i * d + a]
+    for i in range(s):
+        for a in range(2 * d):
+            value = work.rows[i * plan.rows + plan.stiff_rows[4 * which + a]]
+            for j in range(s):
+                for b in range(d):
+                    value -= own[(i * 4 + a) * 2 * s + 2 * j + b] * w[LAM + j * d + b]
+            w[BASE + 4 * i + a] = value
+    norm, scale = residual(plan, work, e, own, d)
     converged = False
     for _ in range(MAX_NEWTON):
-        if norm <= (RTOL * scale) ** 2 + 1e-16:
+        if norm <= (RTOL_SHARE * rtol * scale) ** 2 + 1e-16:
             converged = True
             break
-        if not math.isfinite(norm) or not solve_dense(jacobian, res, n):
+        jacobian(plan, work, own, d)
+        if not math.isfinite(norm) or not solve_dense(shift(w, JACOBIAN), shift(w, RES), n):
             break
+        for k in range(n):
+            w[OLD + k] = w[LAM + k]
+            w[STEP + k] = w[RES + k]
         share = 1.0
-        step = res.copy()
-        for i in range(s):
-            for a in range(d):
-                old[i, a] = lam[i, a]
         before = norm
         while True:
-            for i in range(s):
-                for a in range(d):
-                    lam[i, a] = old[i, a] - share * step[i * d + a]
-            norm, scale = residual(plan, work, level, e, which, d, base, lam, jacobian, res)
+            for k in range(n):
+                w[LAM + k] = w[OLD + k] - share * w[STEP + k]
+            norm, scale = residual(plan, work, e, own, d)
             if norm <= before * (1.0 - 1e-4 * share) or share < BACKTRACK:
                 break
             share *= 0.5
     change = 0.0
     for i in range(s):
         for a in range(d):
-            change = max(change, abs(lam[i, a] - entry[i, a]))
-            work.z[z + i * f + plan.f_at[e] + a] = lam[i, a]
+            change = max(change, abs(w[LAM + i * d + a] - w[ENTRY + i * d + a]))
+            forces[i * plan.forces_total + a] = w[LAM + i * d + a]
     return converged, change
 
 
-@jit
-def solve_stiff(plan, work, level):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+@inline
+def solve_stiff(plan, work, level, rtol):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """All stiff elements in turn; returns (all converged, largest change)."""
     ok = True
     change = 0.0
     which = 0
-    for e in range(plan.sizes[0]):
-        if plan.flags[e, 0] == 1:
-            good, moved = newton_element(plan, work, level, e, which)
+    for e in range(plan.elements):
+        if plan.flags[2 * e] == 1:
+            good, moved = newton_element(plan, work, level, e, which, rtol)
             ok = ok and good
             change = max(change, moved)
             which += 1

@@ -13,7 +13,7 @@ from sim.core.elements import STAGES
 from sim.core.response import FloatArray
 from sim.core.system import System
 from sim.solve.chunks import Chunked, chunked
-from sim.solve.collocation import collocation, derivative_weights, extrapolation
+from sim.solve.collocation import collocation, derivative_weights, extrapolation, node_extrapolation
 from sim.solve.operators import Coordinates, StepOperators, coordinates, step_operators
 
 IntArray = NDArray[np.int64]
@@ -35,6 +35,7 @@ class Plan(NamedTuple):
     nodes: FloatArray  # (s,)
     weights: FloatArray  # (s,)
     predict: FloatArray  # (2 * levels + 1, s, s + 1) extrapolation for step ratio 2^(k - levels)
+    force_predict: FloatArray  # (2 * levels + 1, s, s) the same for node forces
     slope: FloatArray  # (s, s + 1)
     pointer: IntArray
     column: IntArray
@@ -184,6 +185,7 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
         nodes=rule.c,
         weights=rule.b,
         predict=np.array([extrapolation(s, 2.0 ** (k - levels)) for k in range(2 * levels + 1)]),
+        force_predict=np.array([node_extrapolation(s, 2.0 ** (k - levels)) for k in range(2 * levels + 1)]),
         slope=derivative_weights(s),
         pointer=pointer,
         column=column,

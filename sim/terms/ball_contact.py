@@ -18,7 +18,10 @@ from sim.core.elements import Coordinate, Element, Output, flat
 from sim.core.laws import RACE_POINTS, BallLaw, Laws
 from sim.core.lines import Line
 from sim.core.response import FloatArray
+from sim.core.spec import MachineSpec
 from sim.core.terms import SiteContext, Term, Values
+from sim.parts.bearing.ball_load import BallRow, mean_stiffness_n_per_m
+from sim.parts.static_load import static_bearing_load_n
 
 LANES = 8
 OPEN_GAP_M = 1.0
@@ -46,8 +49,8 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
     n = int(par[0])
     width = 3 * n + 1
     turn = 6.283185307179586
-    for row in range(s + 1):
-        k = row + 1 if row < s else s
+    for row in range(s):
+        k = row + 1
         cage = par[3] * shafts[k] + par[4]
         c0 = math.cos(cage)
         s0 = math.sin(cage)
@@ -165,6 +168,13 @@ def ring_coordinates(bearing: str) -> tuple[Coordinate, ...]:
     )
 
 
+def working_stiffness(law: BallLaw, machine: MachineSpec) -> FloatArray:
+    """Mean 2 x 2 stiffness under the load of the torque at the mesh, shared by the body's bearings, N/m."""
+    load = max(static_bearing_load_n(machine, law.name), 1.0)
+    row = BallRow(balls=law.balls, stiffness_n_per_m15=law.stiffness_n_per_m15, clearance_m=law.gap_m)
+    return mean_stiffness_n_per_m(row, np.array([0.0, load]))
+
+
 @dataclass(frozen=True, kw_only=True)
 class BallContact(Term):
     """See the module."""
@@ -185,6 +195,7 @@ class BallContact(Term):
                 shafts=(law.body, law.body),
                 outputs=OUTPUTS,
                 rates=False,
+                linear_stiffness=working_stiffness(law, site.machine),
             ),
         )
 

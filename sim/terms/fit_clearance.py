@@ -13,11 +13,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from sim.core.compiled import kernel
-from sim.core.elements import Element, flat
+from sim.core.elements import Element
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.terms import SiteContext, Term, Values
-from sim.parts.wall import CONTEXT, OUTPUTS, WALL_PARAMS, clearance_lines, ring_wall_coordinates
+from sim.parts.wall import CONTEXT, OUTPUTS, WALL_PARAMS, clearance_lines, ring_wall_coordinates, wall_parameters
 from sim.parts.wall_kernel import wall_force, wall_prepare
 
 
@@ -52,7 +52,7 @@ class FitClearance(Term):
                 kernel=KERNEL,
                 coordinates=ring_wall_coordinates(site.site, against=None),
                 forces=2,
-                parameters=flat(*(values[p.name] for p in WALL_PARAMS)),
+                parameters=wall_parameters(values),
                 context=CONTEXT,
                 shafts=(site.shaft, site.shaft),
                 outputs=OUTPUTS,

@@ -1,0 +1,50 @@
+"""Energy balance of a run, computed from states, forces and closed forms; not from the solver's residual.
+
+work of loads + work of moving elements = change of stored energy + dissipated energy + residual.
+The work of an element is the integral of its node forces over the collocation polynomial of its coordinates; stored
+energy is 1/2 v'Mv + 1/2 q'Kq + the elements' potentials; dissipation is integrated from the rates.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sim.core.response import EnergyBalance
+from sim.core.system import System
+from sim.solve.pointers import Work
+from sim.solve.sampling import Probe
+from sim.solve.settings import ENERGY_LIMIT
+
+
+def energy_balance(system: System, work: Work, probe: Probe) -> EnergyBalance:
+    """Balance from t = 0 (at rest) to the current state."""
+    n = len(system.dofs)
+    q, v = work.z[:n], work.z[n : 2 * n]
+    stored = {
+        "kinetic": float(0.5 * v @ (system.mass * v)),
+        "linear_springs": float(0.5 * q @ system.stiffness @ q),
+    }
+    dissipated = {"linear_dampers": float(probe.energy[0])}
+    supplied = {"loads": float(system.load @ q)}
+    through = abs(supplied["loads"]) + stored["kinetic"] + stored["linear_springs"] + dissipated["linear_dampers"]
+    for e, element in enumerate(system.elements):
+        now, lost, error_work, first = (float(probe.energy[2 + 6 * e + k]) for k in range(4))
+        done = float(work.work[e])
+        parametric = done + (now - first) + lost
+        stored[element.name] = now - first
+        dissipated[element.name] = lost
+        if "transmission_error" in [o.name for o in element.outputs]:
+            supplied[f"{element.name}.transmission_error"] = error_work
+            supplied[f"{element.name}.stiffness_variation"] = parametric - error_work
+        else:
+            supplied[element.name] = parametric
+        through += abs(done) + abs(lost)
+    residual = sum(supplied.values()) - sum(stored.values()) - sum(dissipated.values())
+    return EnergyBalance(
+        work_j=supplied,
+        stored_j=stored,
+        dissipated_j=dissipated,
+        residual_j=float(residual),
+        scale_j=float(np.maximum(through, 1e-300)),
+        limit=ENERGY_LIMIT,
+    )
