@@ -1,0 +1,90 @@
+"""Merging lines that are identical by construction into one candidate in its simplest physical form."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from signals.labels.families import MECHANISM
+from signals.labels.identity import VectorKey, base_vectors, vector_key
+from signals.labels.kinematics import Kinematics
+from sim.core.lines import Line
+
+FAMILY_ORDER = ("f_m", "f_r", "f_o", "f_i", "f_b", "f_c")
+"""Order of the bases in a label, and of preference between equally simple forms."""
+_BASE = re.compile(r"^(?P<family>[a-z]_[a-z])(?P<index>\d*)$")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Candidate:
+    """A canonical line: one frequency, every form, component and mechanism it may come from (simplest first)."""
+
+    label: str
+    orders: tuple[tuple[str, int], ...]
+    frequency_hz: float
+    family: str
+    mechanism: str
+    components: tuple[str, ...]
+    mechanisms: tuple[str, ...]
+    aliases: tuple[str, ...]
+
+    @property
+    def weight(self) -> int:
+        """Sum of |orders|: how far-fetched the sum is."""
+        return sum(abs(n) for _, n in self.orders)
+
+
+def merge_lines(
+    lines: Iterable[Line], bases_hz: Mapping[str, float], kinematics: Kinematics | None = None
+) -> tuple[Candidate, ...]:
+    """Canonical candidates sorted by frequency. A sum that is zero by construction is no line."""
+    vectors = base_vectors(kinematics or Kinematics())
+    groups: dict[VectorKey, list[Line]] = {}
+    for line in lines:
+        positive = _positive(line, bases_hz)
+        key = vector_key(positive.orders, vectors)
+        if key:
+            groups.setdefault(key, []).append(positive)
+    merged = [_candidate(group, bases_hz) for group in groups.values()]
+    return tuple(sorted(merged, key=lambda c: (c.frequency_hz, c.label)))
+
+
+def simplicity(orders: Sequence[tuple[str, int]]) -> tuple[int, int, tuple[tuple[int, int, str], ...]]:
+    """Sort key, smallest first: sum of |orders|, number of bases, then mesh before shaft before bearing."""
+    return sum(abs(n) for _, n in orders), len(orders), tuple(_rank(base) for base, _ in orders)
+
+
+def _positive(line: Line, bases_hz: Mapping[str, float]) -> Line:
+    """The line with its bases in canonical order, zeros dropped, and the sign that makes the sum positive."""
+    totals: dict[str, int] = {}
+    for base, n in line.orders:
+        totals[base] = totals.get(base, 0) + n
+    orders = tuple(sorted(((b, n) for b, n in totals.items() if n), key=lambda item: _rank(item[0])))
+    if sum(n * bases_hz[b] for b, n in orders) < 0:
+        orders = tuple((b, -n) for b, n in orders)
+    return Line(orders=orders, component=line.component, mechanism=line.mechanism, family=line.family)
+
+
+def _candidate(group: Sequence[Line], bases_hz: Mapping[str, float]) -> Candidate:
+    # A term's own prediction names the line before the mere kinematics do; the form stays the simplest.
+    ordered = sorted(group, key=lambda x: (simplicity(x.orders), x.mechanism == MECHANISM))
+    first = ordered[0]
+    labels = tuple(dict.fromkeys(x.label for x in ordered))
+    return Candidate(
+        label=first.label,
+        orders=first.orders,
+        frequency_hz=first.frequency_hz(bases_hz),
+        family=first.family,
+        mechanism=first.mechanism,
+        components=tuple(dict.fromkeys(x.component for x in ordered)),
+        mechanisms=tuple(dict.fromkeys(x.mechanism for x in ordered)),
+        aliases=labels[1:],
+    )
+
+
+def _rank(base: str) -> tuple[int, int, str]:
+    match = _BASE.match(base)
+    if match is None or match["family"] not in FAMILY_ORDER:
+        return len(FAMILY_ORDER), 0, base
+    return FAMILY_ORDER.index(match["family"]), int(match["index"] or 0), base

@@ -1,0 +1,94 @@
+"""Labelled peaks: what was found, what was predicted, and how the two met."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from signals.floor import FloorSettings
+from signals.labels.families import Bound
+from signals.spectra.types import Band, Scaling
+
+Status = Literal["present", "absent", "ambiguous", "unexplained"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Matching:
+    """How near a found peak must be to a predicted line.
+
+    Tolerance = `bins` * resolution + `relative` * frequency; `relative` is the uncertainty of the speeds (0 for a
+    simulation; 0.01-0.02 for a bearing line of a real machine, whose cage slips). Between several lines within the
+    tolerance, those further off than the nearest by `tie_bins` bins, or three standard
+    deviations of the measured frequency where that is more, are ruled out.
+    """
+
+    bins: float = 0.5
+    relative: float = 0.0
+    tie_bins: float = 0.05
+
+
+@dataclass(frozen=True, kw_only=True)
+class LabelledPeak:
+    """One label. `frequency_hz` is predicted (measured when unexplained); None means nothing was measured.
+
+    present: found, and no other sum within the bound fits. ambiguous: found, and the sums in `alternatives`
+    fit as well; `chance_coincidence` is the probability that a peak anywhere near meets some other line of the
+    prediction by chance. absent: predicted and not found; `detection_limit` is the amplitude that would have
+    been seen, and `masked_by` the peak too close to look past. unexplained: found, not predicted (empty label).
+    """
+
+    label: str
+    status: Status
+    frequency_hz: float
+    order: float
+    """Frequency over that of the reference shaft."""
+    unit: str
+    scaling: Scaling
+    """`peak` or `rms`: the kind of `amplitude`."""
+    measured_frequency_hz: float | None = None
+    amplitude: float | None = None
+    db_over_floor: float | None = None
+    detection_limit: float | None = None
+    components: tuple[str, ...] = ()
+    family: str = ""
+    mechanism: str = ""
+    mechanisms: tuple[str, ...] = ()
+    aliases: tuple[str, ...] = ()
+    alternatives: tuple[str, ...] = ()
+    masked_by: str | None = None
+    chance_coincidence: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class LabelSet:
+    """All labels of one spectrum, sorted by frequency, with the settings that decided."""
+
+    frequencies_hz: Mapping[str, float]
+    reference: str
+    peaks: tuple[LabelledPeak, ...]
+    channel: str
+    kind: str
+    unit: str
+    scaling: Scaling
+    window: str
+    resolution_hz: float
+    bound: Bound
+    matching: Matching
+    floor: FloorSettings
+    found: int
+    """Peaks found in the spectrum."""
+    unexplained: int
+    """Peaks found that nothing predicted; `peaks` lists the strongest of them."""
+    band: Band | None = field(default=None)
+
+    def with_status(self, status: Status) -> tuple[LabelledPeak, ...]:
+        """The peaks of one status."""
+        return tuple(p for p in self.peaks if p.status == status)
+
+    def __getitem__(self, label: str) -> LabelledPeak:
+        """The peak of a label or of one of its aliases; KeyError when neither is predicted."""
+        for peak in self.peaks:
+            if label and (peak.label == label or label in peak.aliases):
+                return peak
+        raise KeyError(label)

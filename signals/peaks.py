@@ -1,0 +1,109 @@
+"""Finding lines in a spectrum: local maxima, their frequency and amplitude between bins, leakage from others."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from signals.floor import Floor
+from signals.series import BoolArray, FloatArray, IntArray
+from signals.spectra.types import Spectrum
+from signals.windows import MAIN_LOBE_BINS
+
+LEAKAGE_MARGIN = 2.0
+"""A maximum must stand this much above the summed sidelobes of the stronger lines to count as a line."""
+ROW_BLOCK = 512
+MAX_PEAKS = 5000
+"""The strongest peaks that are looked at; a spectrum with more is noise above its own floor."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FoundPeaks:
+    """Lines found in a spectrum, sorted by frequency; arrays of shape (peaks,)."""
+
+    frequency_hz: FloatArray
+    amplitude: FloatArray
+    floor: FloatArray
+    """Noise level at the peak, in the unit of the amplitude."""
+
+    @property
+    def db_over_floor(self) -> FloatArray:
+        """Amplitude over the noise level, dB."""
+        return np.asarray(20 * np.log10(self.amplitude / self.floor), dtype=np.float64)
+
+
+def find_peaks(spectrum: Spectrum, floor: Floor) -> FoundPeaks:
+    """Local maxima above the floor's threshold and above the sidelobes of stronger lines."""
+    first = int(MAIN_LOBE_BINS[spectrum.window])
+    bins = local_maxima(spectrum.values, floor.threshold, first)
+    if bins.size > MAX_PEAKS:
+        bins = np.sort(bins[np.argsort(-spectrum.values[bins], kind="stable")[:MAX_PEAKS]])
+    frequency, amplitude = refine(spectrum, bins)
+    clear = stands_clear(spectrum, frequency, amplitude)
+    return FoundPeaks(frequency_hz=frequency[clear], amplitude=amplitude[clear], floor=floor.level[bins[clear]])
+
+
+def local_maxima(values: FloatArray, above: FloatArray, first_bin: int) -> IntArray:
+    """Bins from `first_bin` on that exceed both neighbours and `above` (both of shape (bins,))."""
+    inner = values[1:-1]
+    is_peak = (inner > values[:-2]) & (inner >= values[2:]) & (inner > above[1:-1])
+    bins = np.flatnonzero(is_peak) + 1
+    return np.asarray(bins[bins >= first_bin], dtype=np.int64)
+
+
+def refine(spectrum: Spectrum, bins: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Frequency (Hz) and amplitude of lines near `bins`, interpolated between bins; both of shape (len(bins),).
+
+    Hann: delta = 2 (X1 - X-1) / (X-1 + 2 X0 + X1) and a = X0 (1 - delta^2) / sinc(delta), exact for one sine
+    (from the Hann transform sinc(x) / (1 - x^2)). Boxcar: the ratio of the two largest bins, exact likewise.
+    Other windows: a parabola through the logarithms, good to a few hundredths of a bin.
+    """
+    left, mid, right = (spectrum.values[bins + i] for i in (-1, 0, 1))
+    is_peak = (mid >= left) & (mid >= right) & (mid > 0)
+    mid_safe = np.where(is_peak, mid, 1.0)
+    if spectrum.window == "hann":
+        shift = 2 * (right - left) / np.where(is_peak, left + 2 * mid + right, 1.0)
+    elif spectrum.window == "boxcar":
+        ratio = np.maximum(left, right) / mid_safe
+        shift = np.where(right >= left, 1.0, -1.0) * ratio / (1 + ratio)
+    else:
+        low, centre, high = (np.log(np.maximum(v / mid_safe, 1e-300)) for v in (left, mid_safe, right))
+        curvature = low - 2 * centre + high
+        shift = np.where(curvature < 0, 0.5 * (low - high) / np.where(curvature < 0, curvature, -1.0), 0.0)
+    shift = np.where(is_peak, np.clip(shift, -0.5, 0.5), 0.0)
+    if spectrum.window == "hann":
+        gain = (1 - shift**2) / np.sinc(shift)
+    elif spectrum.window == "boxcar":
+        gain = 1 / np.sinc(shift)
+    else:
+        gain = np.exp(np.where(is_peak, 0.25 * (high - low) * shift, 0.0))
+    frequency = (bins + shift) * spectrum.resolution_hz
+    return np.asarray(frequency, dtype=np.float64), np.asarray(mid * gain, dtype=np.float64)
+
+
+def leakage(window_name: str, distance_bins: FloatArray) -> FloatArray:
+    """Upper envelope of the window's transform over its peak, at a distance in bins; 1 inside the main lobe.
+
+    Hann: 1 / (pi d (d^2 - 1)) from its transform; boxcar: 1 / (pi d). The others are bounded by their highest
+    sidelobe (Harris 1978, table 1: Hamming -43 dB, Blackman -58 dB, Blackman-Harris -92 dB; flat top -93 dB).
+    """
+    d = np.maximum(distance_bins, 1e-9)
+    if window_name == "hann":
+        return np.where(d < 1.3, 1.0, np.minimum(1.0, 1 / (np.pi * d * np.maximum(d**2 - 1, 1e-9))))
+    if window_name == "boxcar":
+        return np.where(d < 0.7, 1.0, np.minimum(1.0, 1 / (np.pi * d)))
+    highest_db = {"hamming": -42.7, "blackman": -58.1, "blackmanharris": -92.0, "flattop": -93.0}[window_name]
+    return np.where(d < MAIN_LOBE_BINS[window_name], 1.0, 10 ** (highest_db / 20))
+
+
+def stands_clear(spectrum: Spectrum, frequency_hz: FloatArray, amplitude: FloatArray) -> BoolArray:
+    """Which lines are more than the sidelobes of the stronger ones; shapes (lines,)."""
+    position = frequency_hz / spectrum.resolution_hz
+    clear = np.ones(amplitude.size, dtype=np.bool_)
+    for start in range(0, amplitude.size, ROW_BLOCK):
+        rows = slice(start, start + ROW_BLOCK)
+        spread = leakage(spectrum.window, np.abs(position[rows, np.newaxis] - position))
+        stronger = amplitude[np.newaxis] > amplitude[rows, np.newaxis]
+        clear[rows] = amplitude[rows] > LEAKAGE_MARGIN * np.sum(np.where(stronger, spread * amplitude, 0.0), axis=1)
+    return clear

@@ -1,0 +1,171 @@
+"""A recording: channels of samples and what is known about them. Real and simulated are one type."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from signals.series import FloatArray, Series, checked_rate, read_only
+from sim.core.errors import Problem, SpecError, UnknownName
+from sim.core.response import Channel, Response
+from sim.core.spec import TorqueLoad
+
+Condition = Literal["baseline", "unknown"]
+Origin = Literal["measured", "simulated"]
+DIMENSIONLESS = "1"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Operating:
+    """Operating point: the named shaft turns at `speed_hz` (revolutions per second) under `torque_nm`."""
+
+    shaft: str
+    speed_hz: float
+    torque_nm: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tacho:
+    """Pulse times on the clock of the samples, shape (pulses,), s; `pulses_per_revolution` of `shaft`."""
+
+    shaft: str
+    pulse_times_s: FloatArray
+    pulses_per_revolution: int = 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recording:
+    """Synchronous channels. `samples` has shape (channels, n), row i in the unit of `channels[i]`.
+
+    The first sample is at `start_s`. NaN is allowed here (it is found by `signals.checks.inspect`, with its
+    place) but every analysis refuses it.
+    """
+
+    sampling_rate_hz: float
+    channels: tuple[Channel, ...]
+    samples: FloatArray
+    operating: Operating | None = None
+    tacho: Tacho | None = None
+    condition: Condition = "unknown"
+    origin: Origin = "measured"
+    notes: str = ""
+    start_s: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "sampling_rate_hz", checked_rate(self.sampling_rate_hz))
+        object.__setattr__(self, "channels", tuple(self.channels))
+        samples = np.asarray(self.samples, dtype=np.float64)
+        problems = list(_problems(self.channels, samples))
+        if problems:
+            raise SpecError(problems)
+        object.__setattr__(self, "samples", read_only(samples))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Channel names in row order."""
+        return tuple(c.name for c in self.channels)
+
+    @property
+    def duration_s(self) -> float:
+        """Length n / sampling_rate_hz, s."""
+        return int(self.samples.shape[1]) / self.sampling_rate_hz
+
+    def time_s(self) -> FloatArray:
+        """Sample times, shape (n,), s."""
+        return self.start_s + np.arange(self.samples.shape[1]) / self.sampling_rate_hz
+
+    def series(self, name: str) -> Series:
+        """One channel as a `Series`; UnknownName lists what exists."""
+        row = self._row(name)
+        channel = self.channels[row]
+        return Series(
+            samples=self.samples[row],
+            sampling_rate_hz=self.sampling_rate_hz,
+            unit=channel.unit,
+            name=channel.name,
+            quantity=channel.quantity,
+            start_s=self.start_s,
+        )
+
+    def select(
+        self, *, channels: Sequence[str] | None = None, start_s: float | None = None, end_s: float | None = None
+    ) -> Recording:
+        """The named channels (in the order given) with start_s <= t < end_s."""
+        rows = range(len(self.channels)) if channels is None else [self._row(name) for name in channels]
+        n = self.samples.shape[1]
+        first = 0 if start_s is None else self._index(start_s)
+        last = n if end_s is None else self._index(end_s)
+        if not 0 <= first < last <= n:
+            raise SpecError(
+                Problem(
+                    field="start_s/end_s",
+                    message="select no samples of this recording",
+                    given=(start_s, end_s),
+                    allowed=f"{self.start_s:g} <= start_s < end_s <= {self.start_s + self.duration_s:g}",
+                    unit="s",
+                )
+            )
+        return replace(
+            self,
+            channels=tuple(self.channels[r] for r in rows),
+            samples=self.samples[list(rows), first:last],
+            start_s=self.start_s + first / self.sampling_rate_hz,
+        )
+
+    def _row(self, name: str) -> int:
+        if name not in self.names:
+            raise UnknownName("channel", name, self.names)
+        return self.names.index(name)
+
+    def _index(self, time_s: float) -> int:
+        """First sample at or after `time_s`; times within 1e-6 of a sample count as that sample."""
+        if not np.isfinite(time_s):
+            return -1
+        return int(np.ceil((time_s - self.start_s) * self.sampling_rate_hz - 1e-6))
+
+
+def _problems(channels: Sequence[Channel], samples: FloatArray) -> list[Problem]:
+    problems: list[Problem] = []
+    if samples.ndim != 2 or samples.shape[0] != len(channels) or samples.size == 0:
+        problems.append(
+            Problem(
+                field="samples",
+                message="must have one row a channel and at least one sample",
+                given=f"shape {samples.shape}",
+                allowed=f"shape ({len(channels)}, n)",
+            )
+        )
+    names = [c.name for c in channels]
+    for row, channel in enumerate(channels):
+        if not channel.unit:
+            message = f"unknown unit is refused, never guessed ('{DIMENSIONLESS}' means dimensionless)"
+            problems.append(Problem(field=f"channels[{row}].unit", message=message, given=channel.unit))
+        if not channel.name or names.index(channel.name) != row:
+            message = "must be present and different from the others"
+            problems.append(Problem(field=f"channels[{row}].name", message=message, given=channel.name))
+    return problems
+
+
+def from_response(response: Response, *, condition: Condition = "unknown", notes: str = "") -> Recording:
+    """The recording a simulation stands for: same samples, same channels, origin `simulated`."""
+    machine = response.machine
+    operating = None
+    if machine.operating is not None:
+        torques = [x for x in machine.loads if isinstance(x, TorqueLoad) and x.shaft == machine.operating.shaft]
+        operating = Operating(
+            shaft=machine.operating.shaft,
+            speed_hz=machine.operating.speed_hz,
+            torque_nm=sum(load.torque_nm for load in torques) if torques else None,
+        )
+    return Recording(
+        sampling_rate_hz=response.sampling_rate_hz,
+        channels=tuple(c if c.unit else replace(c, unit=DIMENSIONLESS) for c in response.channels),
+        samples=response.signals,
+        operating=operating,
+        condition=condition,
+        origin="simulated",
+        notes=notes or machine.name,
+    )
