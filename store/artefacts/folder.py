@@ -14,7 +14,7 @@ from typing import BinaryIO, cast
 
 from jobs.errors import StoreAway, StoreFull, UnknownArtefact
 
-_KEY = re.compile(r"^[a-z0-9]+(/[A-Za-z0-9][A-Za-z0-9._-]*)+$")
+_KEY = re.compile(r"[a-z0-9]+(/[A-Za-z0-9][A-Za-z0-9._-]*)+")
 _CHUNK = 1 << 20
 
 
@@ -83,7 +83,7 @@ class FolderStore:
             stream.write(b"ok")
 
     def _path(self, key: str) -> Path:
-        if not _KEY.match(key) or ".." in key:
+        if not _KEY.fullmatch(key) or ".." in key:
             raise ValueError(f"not an artefact key: {key!r}")
         return self._root / key
 

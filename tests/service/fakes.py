@@ -126,6 +126,7 @@ def _response(machine: MachineSpec, channels: list[Channel], signals: np.ndarray
         step_s=1 / rate,
         steps=signals.shape[1],
         refined_steps=0,
+        unconverged_steps=0,
         step_error=None,
         step_error_kind="not measured",
         transient_end_s=0.0,
@@ -139,6 +140,8 @@ def _response(machine: MachineSpec, channels: list[Channel], signals: np.ndarray
         bases_hz={"f_r1": TONE_HZ},
         derived={},
         quality=quality,
+        warnings=(),
+        contact_share={},
         seed=seed,
         version=VERSION,
     )

@@ -1,0 +1,28 @@
+"""Thinning for a screen keeps what matters."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from jobs.thinning import highest, min_max
+
+series = arrays(np.float64, st.integers(1, 400), elements=st.floats(-1e6, 1e6))
+
+
+@given(series, st.integers(2, 60))
+def test_extremes_stay_and_points_are_true_ones(y: np.ndarray, points: int) -> None:
+    x = np.arange(y.size, dtype=np.float64)
+    tx, ty = min_max(x, y, points)
+    assert ty.size <= max(points, 2)
+    assert (ty.min(), ty.max()) == (y.min(), y.max())
+    assert np.all(np.diff(tx) > 0) and np.array_equal(y[tx.astype(int)], ty)
+
+
+@given(series, st.integers(2, 60))
+def test_highest_line_stays_at_its_place(y: np.ndarray, points: int) -> None:
+    x = np.arange(y.size, dtype=np.float64)
+    tx, ty = highest(x, y, points)
+    assert ty.size <= points and ty.max() == y.max() and np.array_equal(y[tx.astype(int)], ty)
