@@ -8,7 +8,7 @@ import numpy as np
 
 from sim.assembly.channels import machine_channels
 from sim.assembly.kinematics import Kinematics, kinematics
-from sim.assembly.laws import Acting, acting_terms, base_laws, modified_laws, site_context
+from sim.assembly.laws import Acting, acting_terms, base_laws, machine_context, modified_laws, site_context
 from sim.assembly.linear import Linear, linear_part
 from sim.assembly.loads import load_vector
 from sim.assembly.references import check_references
@@ -34,6 +34,9 @@ def _base(machine: MachineSpec, kin: Kinematics, registry: Registry, seed: int) 
                 if term is not None:
                     site = site_context(machine, kin, name, seed)
                     acting.append(Acting(term=term, values=term.values({}, key), site=site))
+    loads = registry.get("force_load")
+    if loads is not None:
+        acting.append(Acting(term=loads, values={}, site=machine_context(machine, kin, seed)))
     return acting
 
 
@@ -98,7 +101,7 @@ def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGIST
         dampers=linear.dampers,
         load=load,
         elements=elements,
-        speeds_hz=kin.body_hz,
+        speeds_hz={"": 0.0} | dict(kin.body_hz),
         dynamic_angle=angles,
         bases_hz=kin.bases_hz,
         lines=_lines(acting),

@@ -22,9 +22,7 @@ def machine_channels(dofs: Sequence[str], elements: Sequence[Element]) -> tuple[
         for quantity, straight, turning in MOTION:
             unit = turning if axis == "theta" else straight
             kind = f"angular_{quantity}" if axis == "theta" else quantity
-            result.append(
-                Channel(name=f"{dof}.{quantity}", quantity=kind, unit=unit, location=location, axis=axis)
-            )
+            result.append(Channel(name=f"{dof}.{quantity}", quantity=kind, unit=unit, location=location, axis=axis))
     for element in elements:
         for output in element.outputs:
             result.append(

@@ -80,6 +80,4 @@ def kinematics(machine: MachineSpec) -> Kinematics:
             found = bearing_speeds(geometry_from_spec(bearing, field=f"bearings.{bearing.name}"), inner=turning)
             bases |= {f"f_o{i}": found.outer_pass, f"f_i{i}": found.inner_pass}
             bases |= {f"f_b{i}": found.ball_spin, f"f_c{i}": found.cage}
-    return Kinematics(
-        shaft_hz=speeds, body_hz=body_hz, bases_hz=bases, shaft_base=shaft_base, mesh_base=mesh_base
-    )
+    return Kinematics(shaft_hz=speeds, body_hz=body_hz, bases_hz=bases, shaft_base=shaft_base, mesh_base=mesh_base)

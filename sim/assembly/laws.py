@@ -56,6 +56,13 @@ def site_context(machine: MachineSpec, kin: Kinematics, site: str, seed: int) ->
     )
 
 
+def machine_context(machine: MachineSpec, kin: Kinematics, seed: int) -> SiteContext:
+    """Context of an effect that belongs to the machine as a whole."""
+    return SiteContext(
+        machine=machine, site="", shaft="", shaft_base="", index=0, speed_hz=0.0, bases_hz=kin.bases_hz, seed=seed
+    )
+
+
 def _ball_law(bearing: BearingSpec, notes: dict[str, str]) -> BallLaw:
     field = f"bearings.{bearing.name}"
     geometry = geometry_from_spec(bearing, field=field)
@@ -111,7 +118,9 @@ def acting_terms(machine: MachineSpec, kin: Kinematics, registry: Registry, seed
         where = f"terms.{i}"
         if term is None:
             problems.append(
-                Problem(field=f"{where}.term", message="unknown term", given=spec.term, allowed=", ".join(registry.keys()))
+                Problem(
+                    field=f"{where}.term", message="unknown term", given=spec.term, allowed=", ".join(registry.keys())
+                )
             )
             continue
         allowed = [name for name, kind in kinds.items() if kind in term.sites]
@@ -156,5 +165,3 @@ def modified_laws(laws: Laws, acting: Sequence[Acting]) -> Laws:
     for a in acting:
         laws = a.term.modify(laws, a.values, a.site)
     return laws
-
-

@@ -12,7 +12,7 @@ from sim.core.laws import SupportLaw
 from sim.core.response import FloatArray
 from sim.core.spec import BearingSpec, GearSpec, MachineSpec, ShaftSpec
 from sim.core.system import Damper
-from sim.parts.gear_body import annulus_inertia_kg_m2, annulus_mass_kg
+from sim.parts.gear.from_spec import gear_from_spec
 
 
 @dataclass(kw_only=True)
@@ -63,13 +63,10 @@ def shaft_torsion_nm_per_rad(shaft: ShaftSpec) -> float | None:
 
 
 def _gear(builder: Builder, gear: GearSpec) -> None:
-    mass = builder.note(
-        f"{gear.name}.mass_kg", gear.mass_kg, annulus_mass_kg(gear), "kg", "disc of pitch radius, bore, width, density"
-    )
-    inertia = builder.note(
-        f"{gear.name}.inertia_kg_m2", gear.inertia_kg_m2, annulus_inertia_kg_m2(gear, mass), "kg m^2", "same disc"
-    )
-    builder.mass(f"{gear.name}.theta", inertia)
+    made = gear_from_spec(gear)
+    builder.derived |= {name: text for name, text in made.derived.items() if not name.endswith("bore_radius_m")}
+    mass = made.mass_kg
+    builder.mass(f"{gear.name}.theta", made.inertia_kg_m2)
     if gear.translates:
         for axis, k, c in (
             ("x", gear.stiffness_x_n_per_m, gear.damping_x_ns_per_m),

@@ -57,7 +57,9 @@ def check_references(machine: MachineSpec) -> None:
     if machine.operating is not None:
         _need(problems, "operating.shaft", "shaft", machine.operating.shaft, shafts)
     elif machine.shafts:
-        problems.append(Problem(field="operating", message="a machine with shafts needs a speed", allowed="shaft, speed"))
+        problems.append(
+            Problem(field="operating", message="a machine with shafts needs a speed", allowed="shaft, speed")
+        )
     if not bodies:
         problems.append(Problem(field="gears", message="the machine has no gear and no body: nothing can move"))
     if problems:

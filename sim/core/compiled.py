@@ -64,9 +64,7 @@ def kernel(prepare: Python, force: Python) -> Kernel:
     wrap: Any = numba.cfunc
     prepare_c = wrap(PREPARE_SIGNATURE, cache=True, fastmath=FAST, error_model="numpy")(prepare)
     force_c = wrap(FORCE_SIGNATURE, cache=True, fastmath=FAST, error_model="numpy")(force)
-    return Kernel(
-        prepare=prepare, force=force, prepare_address=prepare_c.address, force_address=force_c.address
-    )
+    return Kernel(prepare=prepare, force=force, prepare_address=prepare_c.address, force_address=force_c.address)
 
 
 def jit(function: Callable[..., Any]) -> Any:
@@ -86,8 +84,7 @@ def _pointer() -> ir.PointerType:
     return ir.DoubleType().as_pointer()
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def call_prepare(typingctx, address, step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+def _typed_call_prepare(typingctx, address, step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
     """Call a compiled `prepare` by address; the other arguments are pointers to doubles."""
     signature = types.void(types.int64, *([DOUBLES] * 5))
 
@@ -99,8 +96,10 @@ def call_prepare(typingctx, address, step, shafts, u, par, ctx):  # type: ignore
     return signature, codegen
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def call_force(typingctx, address, mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+call_prepare: Any = intrinsic(_typed_call_prepare)
+
+
+def _typed_call_force(typingctx, address, mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
     """Call a compiled `force` by address; `mode` is an int64, the rest pointers to doubles."""
     signature = types.void(types.int64, types.int64, *([DOUBLES] * 6))
 
@@ -112,8 +111,10 @@ def call_force(typingctx, address, mode, u, ud, ctx, par, f, out):  # type: igno
     return signature, codegen
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def doubles(typingctx, address):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+call_force: Any = intrinsic(_typed_call_force)
+
+
+def _typed_doubles(typingctx, address):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
     """Pointer to doubles from an address: arrays are counted at every use, pointers are not."""
 
     def codegen(context, builder, _signature, args):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001
@@ -122,8 +123,10 @@ def doubles(typingctx, address):  # type: ignore[no-untyped-def]  # noqa: ANN001
     return DOUBLES(types.int64), codegen
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def integers(typingctx, address):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+doubles: Any = intrinsic(_typed_doubles)
+
+
+def _typed_integers(typingctx, address):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
     """Pointer to int64 from an address."""
 
     def codegen(context, builder, _signature, args):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001
@@ -132,11 +135,16 @@ def integers(typingctx, address):  # type: ignore[no-untyped-def]  # noqa: ANN00
     return INTEGERS(types.int64), codegen
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def shift(typingctx, pointer, count):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+integers: Any = intrinsic(_typed_integers)
+
+
+def _typed_shift(typingctx, pointer, count):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
     """Pointer moved by `count` items."""
 
     def codegen(context, builder, _signature, args):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001
         return builder.gep(args[0], [args[1]])
 
     return DOUBLES(DOUBLES, types.int64), codegen
+
+
+shift: Any = intrinsic(_typed_shift)

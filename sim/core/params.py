@@ -34,7 +34,9 @@ class Param:
             return Problem(field=field, message="must be a finite number", given=value, allowed=allowed, unit=self.unit)
         if self.choices and float(value) not in self.choices:
             listed = ", ".join(f"{c:g}" for c in self.choices)
-            return Problem(field=field, message="is not one of the choices", given=value, allowed=listed, unit=self.unit)
+            return Problem(
+                field=field, message="is not one of the choices", given=value, allowed=listed, unit=self.unit
+            )
         if not self.low <= value <= self.high:
             hint = unit_hint(float(value), self)
             return Problem(field=field, message=f"is out of bounds{hint}", given=value, allowed=allowed, unit=self.unit)

@@ -12,7 +12,6 @@ from sim.core.response import FloatArray
 from sim.core.spec import GearSpec, MachineSpec
 from sim.parts import mesh_kernels as mk
 
-COORDINATE_COUNT = 5
 OUTPUTS = (
     Output(name="stiffness", quantity="stiffness", unit="N/m"),
     Output(name="centre_distance_error", quantity="displacement", unit="m"),

@@ -11,7 +11,10 @@ from sim.core.errors import Problem, SpecError
 from sim.core.laws import MeshLaw
 from sim.core.response import FloatArray
 from sim.core.spec import GearSpec, MachineSpec, MeshSpec
-from sim.parts.gear_body import annulus_inertia_kg_m2, annulus_mass_kg
+from sim.parts.gear.from_spec import gear_from_spec, pair_from_spec, user_table
+from sim.parts.gear.pair_table import build_pair_table
+from sim.parts.gear.summary import mean_stiffness_n_per_m
+from sim.parts.gear.total_table import total_table
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,41 +32,54 @@ class MeshCurve:
     """Mean total stiffness at zero centre-distance error, N/m."""
 
 
-def _table(mesh: MeshSpec) -> tuple[FloatArray, FloatArray]:
-    table = mesh.table
-    assert table is not None
-    errors = np.asarray(table.centre_distance_error_m, dtype=np.float64)
-    lengths = {len(row) for row in table.stiffness_n_per_m}
-    field = f"meshes.{mesh.name}.table"
-    if len(lengths) != 1 or len(table.stiffness_n_per_m) != errors.size:
-        message = "needs one row of equal length for every centre-distance error"
-        raise SpecError(Problem(field=field, message=message, given=f"{len(table.stiffness_n_per_m)} rows"))
+TILT_REACH_RAD, TILTS = 5e-4, 21
+"""Tilt grid of the offset angle: five times what the paper's machine reaches."""
+TOTAL_COLUMNS = 2000
+"""Columns of a total curve made from pairs: an entry is smeared over 1/2000 of a mesh period."""
+
+
+def _equal_steps(errors: FloatArray, mesh: MeshSpec) -> None:
     steps = np.diff(errors)
     if errors.size > 1 and (np.any(steps <= 0) or np.ptp(steps) > 1e-6 * steps.mean()):
         message = "centre-distance errors must rise in equal steps"
-        raise SpecError(Problem(field=f"{field}.centre_distance_error_m", message=message, unit="m"))
-    return errors, np.asarray(table.stiffness_n_per_m, dtype=np.float64)
+        raise SpecError(Problem(field=f"meshes.{mesh.name}.table.centre_distance_error_m", message=message, unit="m"))
 
 
 def mesh_curve(
     pinion: GearSpec, gear: GearSpec, mesh: MeshSpec, notes: dict[str, str], warnings: list[str]
 ) -> MeshCurve:
-    """The user's table, or the potential-energy method."""
-    radii = base_radius_m(pinion) + base_radius_m(gear)
-    standard = 0.5 * pinion.module_m * (pinion.teeth + gear.teeth)
-    centre = standard if mesh.centre_distance_m is None else mesh.centre_distance_m
-    angle = math.acos(radii / centre)
-    errors, rows = _table(mesh)
-    zero = int(np.argmin(np.abs(errors)))
+    """The user's table, or the potential-energy method as pairs or as one total curve."""
+    source = pair_from_spec(pinion, gear, mesh, mesh.root_model)
+    notes |= {k: v for k, v in source.derived.items() if k.startswith(mesh.name) or k.endswith("bore_radius_m")}
+    warnings += source.warnings
+    pair = source.pair
+    common = {"centre_distance_m": pair.installed_m, "working_angle_rad": pair.contact(0.0).working_angle_rad}
+    table = user_table(mesh)
+    if table is None and mesh.tooth_pairs:
+        tilts = np.linspace(-TILT_REACH_RAD, TILT_REACH_RAD, TILTS) if mesh.offset_angle else np.zeros(1)
+        rows = build_pair_table(pair, tilts_rad=tilts)
+        return MeshCurve(
+            **common,
+            centre_errors_m=rows.centre_distance_error_m,
+            tilts_rad=rows.tilts_rad,
+            total_rows=None,
+            pair_rows=rows.stiffness_n_per_m,
+            pair_ratios=rows.contact_ratio,
+            mean_row=mean_stiffness_n_per_m(pair),
+        )
+    if table is None:
+        errors = build_pair_table(pair).centre_distance_error_m
+        table = total_table(pair, errors, columns=TOTAL_COLUMNS)
+    _equal_steps(table.centre_distance_error_m, mesh)
+    zero = int(np.argmin(np.abs(table.centre_distance_error_m)))
     return MeshCurve(
-        centre_distance_m=centre,
-        working_angle_rad=angle,
-        centre_errors_m=errors,
+        **common,
+        centre_errors_m=table.centre_distance_error_m,
         tilts_rad=np.zeros(1),
-        total_rows=rows,
+        total_rows=table.stiffness_n_per_m,
         pair_rows=None,
         pair_ratios=None,
-        mean_row=float(rows[zero].mean()),
+        mean_row=float(table.stiffness_n_per_m[zero].mean()),
     )
 
 
@@ -84,9 +100,7 @@ def _damping(mesh: MeshSpec, gears: tuple[GearSpec, GearSpec], mean_n_per_m: flo
         return mesh.damping_ns_per_m
     pairs = []
     for gear in gears:
-        mass = annulus_mass_kg(gear) if gear.mass_kg is None else gear.mass_kg
-        inertia = annulus_inertia_kg_m2(gear, mass) if gear.inertia_kg_m2 is None else gear.inertia_kg_m2
-        pairs.append((base_radius_m(gear), inertia))
+        pairs.append((base_radius_m(gear), gear_from_spec(gear).inertia_kg_m2))
     value = 2.0 * mesh.damping_ratio * math.sqrt(mean_n_per_m * equivalent_mass_kg(pairs[0], pairs[1]))
     notes[f"{mesh.name}.damping_ns_per_m"] = f"derived: {value:.6g} N s/m (ratio {mesh.damping_ratio:g} of critical)"
     return value

@@ -79,9 +79,7 @@ def _check(duration_s: float, rate_hz: float) -> None:
 
 def _start(system: System, rate_hz: float, names: tuple[str, ...], rtol: float) -> _Run:
     built = build_plan(system, 1.0 / rate_hz)
-    run = _Run(
-        system=system, built=built, work=new_work(built.plan), probe=new_probe(built, system, names), rtol=rtol
-    )
+    run = _Run(system=system, built=built, work=new_work(built.plan), probe=new_probe(built, system, names), rtol=rtol)
     begin(built.plan, run.work, run.probe)
     return run
 

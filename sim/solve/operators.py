@@ -76,9 +76,7 @@ def _blocks(system: System) -> list[FloatArray]:
     return [np.flatnonzero(label == k) for k in range(count)]
 
 
-def _responses(
-    a: FloatArray, inputs: FloatArray, span: float, stages: int
-) -> tuple[FloatArray, list[FloatArray]]:
+def _responses(a: FloatArray, inputs: FloatArray, span: float, stages: int) -> tuple[FloatArray, list[FloatArray]]:
     """e^{A span} and the integrals int_0^span e^{A (span - t)} (t / h)^p dt B for p < stages, with h folded later."""
     n, m = inputs.shape
     big = np.zeros((n + stages * m, n + stages * m))

@@ -96,7 +96,9 @@ def _pack(level: StepOperators, padded: int, states: int) -> list[Chunked]:
     width = level.end_state.shape[0]
     node_state = np.concatenate([_pad(_wide(level.node_state[i], states), padded) for i in range(s)])
     forces = level.end_force.shape[2]
-    node_force = np.concatenate([_pad(level.node_force[i].reshape(-1, s * forces), padded) for i in range(s)])
+    node_force = np.concatenate(
+        [_pad(level.node_force[i].reshape(level.node_force.shape[1], s * forces), padded) for i in range(s)]
+    )
     end = np.zeros((states, states + s * forces))
     end[:width, :width] = level.end_state
     end[:width, states:] = level.end_force.reshape(width, s * forces)

@@ -162,7 +162,9 @@ def ring_coordinates(bearing: str) -> tuple[Coordinate, ...]:
     """Inner ring minus outer ring, x and y."""
     return tuple(
         Coordinate(
-            name=f"{bearing}.{axis}", unit="m", weights=((f"{bearing}.inner.{axis}", 1.0), (f"{bearing}.outer.{axis}", -1.0))
+            name=f"{bearing}.{axis}",
+            unit="m",
+            weights=((f"{bearing}.inner.{axis}", 1.0), (f"{bearing}.outer.{axis}", -1.0)),
         )
         for axis in ("x", "y")
     )

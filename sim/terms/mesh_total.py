@@ -15,8 +15,9 @@ import numpy as np
 from sim.core.compiled import inline, kernel
 from sim.core.elements import Element, flat
 from sim.core.laws import Laws
+from sim.core.lines import Line
 from sim.core.terms import SiteContext, Term, Values
-from sim.parts.mesh_element import COORDINATE_COUNT, OUTPUTS, header, mesh_coordinates
+from sim.parts.mesh_element import OUTPUTS, header, mesh_coordinates
 from sim.parts.mesh_kernels import (
     HEADER,
     centre_error,
@@ -182,8 +183,16 @@ class MeshTotal(Term):
             ),
         )
 
+    def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:  # noqa: ARG002
+        """Multiples of the mesh frequency, when this mesh is given by a total curve."""
+        mesh = next(m for m in site.machine.meshes if m.name == site.site)
+        if mesh.table is None and mesh.tooth_pairs:
+            return ()
+        base = "f_m" if site.index == 1 else f"f_m{site.index}"
+        return tuple(
+            Line(orders=((base, k),), component=site.site, mechanism=self.key, family="mesh") for k in range(1, 8)
+        )
 
-assert COORDINATE_COUNT == 5  # noqa: S101  (the kernel's offsets into u and out)
 
 TERM = MeshTotal(
     key="mesh_total",

@@ -82,5 +82,7 @@ class MeshSpec(SpecModel):
     """Whether the shaft's tilt (eq. 16) enters the mesh stiffness."""
     tooth_pairs: bool = True
     """Sum over tooth pairs, each with its own stiffness and gap; False: one total curve."""
+    root_model: Literal["clamped_at_base", "true_root"] = "clamped_at_base"
+    """Where the tooth beam is clamped: on the base circle, or on the root circle with its fillet."""
     table: MeshTable | None = None
     """Total stiffness given by the user; none: potential-energy method."""

@@ -1,0 +1,76 @@
+"""A sinusoidal force on a body, as the loads of the specification list it (a shaker, a force channel)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from sim.core.compiled import kernel
+from sim.core.elements import Coordinate, Element, Output, flat
+from sim.core.laws import Laws
+from sim.core.spec import ForceLoad
+from sim.core.terms import SiteContext, Term, Values
+
+
+def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+    """Force at the nodes, N; the only element that follows time and not a shaft."""
+    s = int(step[2])
+    for i in range(s):
+        ctx[i] = par[0] * math.sin(par[1] * (step[0] + step[3 + i] * step[1]) + par[2])
+
+
+def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+    """Minus the force (elements resist)."""
+    f[0] = -ctx[0]
+    if mode == 1:
+        out[0] = 0.0
+        out[1] = 0.0
+    if mode == 2:
+        out[0] = 0.0
+        out[1] = 0.0
+        out[2] = ctx[0] * ud[0]
+        out[3] = ctx[0]
+
+
+KERNEL = kernel(prepare, force)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ForceLoads(Term):
+    """See the module. Acts wherever the specification's loads say; it has no site of its own."""
+
+    def elements(self, laws: Laws, values: Values, site: SiteContext) -> Sequence[Element]:  # noqa: ARG002
+        """One element a sinusoidal load."""
+        found = []
+        for i, load in enumerate(site.machine.loads):
+            if not isinstance(load, ForceLoad) or load.amplitude_n == 0.0:
+                continue
+            name = f"load{i + 1}"
+            found.append(
+                Element(
+                    name=name,
+                    site=load.body,
+                    kernel=KERNEL,
+                    coordinates=(Coordinate(name=name, unit="m", weights=((f"{load.body}.{load.axis}", 1.0),)),),
+                    forces=1,
+                    parameters=flat(load.amplitude_n, 2.0 * math.pi * load.frequency_hz, load.phase_rad),
+                    context=1,
+                    shafts=("", ""),
+                    outputs=(Output(name="force", quantity="force", unit="N", axis=load.axis),),
+                    rates=False,
+                )
+            )
+        return found
+
+
+TERM = ForceLoads(
+    key="force_load",
+    title="Sinusoidal force",
+    sentence="A force of given amplitude and frequency pushes a body.",
+    sites=(),
+    params=(),
+    references=("docs/conventions.md",),
+    severity=None,
+    order=10,
+)

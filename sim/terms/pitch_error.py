@@ -1,0 +1,67 @@
+"""Individual pitch deviations of a gear: every tooth stands a little off its place, the same at each turn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from sim.core.laws import Laws
+from sim.core.lines import Line
+from sim.core.params import Param
+from sim.core.terms import SiteContext, Term, Values
+
+
+@dataclass(frozen=True, kw_only=True)
+class PitchError(Term):
+    """See the module."""
+
+    def modify(self, laws: Laws, values: Values, site: SiteContext) -> Laws:
+        """Draw one deviation a tooth (zero mean, the stated RMS) and add it to the tooth gaps."""
+        meshes = dict(laws.meshes)
+        for name, law in laws.meshes.items():
+            if site.site not in (law.pinion, law.gear):
+                continue
+            teeth = law.teeth[0] if law.pinion == site.site else law.teeth[1]
+            drawn = site.random(f"pitch_error/{name}").standard_normal(teeth)
+            drawn -= drawn.mean()
+            gaps = values["rms"] * drawn / max(float((drawn**2).mean() ** 0.5), 1e-300)
+            if law.pinion == site.site:
+                meshes[name] = replace(law, pinion_tooth_gap_m=law.pinion_tooth_gap_m + gaps)
+            else:
+                meshes[name] = replace(law, gear_tooth_gap_m=law.gear_tooth_gap_m + gaps)
+        return replace(laws, meshes=meshes)
+
+    def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:
+        """Shaft multiples and sidebands of the mesh."""
+        if values["rms"] == 0.0 or not site.shaft_base:
+            return ()
+        found = [
+            Line(orders=((site.shaft_base, k),), component=site.site, mechanism=self.key, family="shaft")
+            for k in range(1, 4)
+        ]
+        for side in (-2, -1, 1, 2):
+            orders = (("f_m", 1), (site.shaft_base, side))
+            found.append(Line(orders=orders, component=site.site, mechanism=self.key, family="mesh"))
+        return tuple(found)
+
+
+TERM = PitchError(
+    key="pitch_error",
+    title="Pitch error",
+    sentence="Each tooth stands slightly off its place; the pattern repeats every turn.",
+    sites=("gear",),
+    params=(
+        Param(
+            name="rms",
+            unit="m",
+            default=2e-6,
+            low=0.0,
+            high=1e-4,
+            sentence="RMS of the individual tooth deviations along the line of action.",
+            scale="log",
+        ),
+    ),
+    references=("ISO 1328-1:2013 (single pitch deviation)",),
+    severity="rms",
+    order=20,
+)
