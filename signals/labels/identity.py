@@ -82,7 +82,7 @@ def _bearing_vectors(
     """f_c and f_b are symbols of the geometry scaled with the shaft; f_o = Z f_c, f_i = Z (f_r - f_c)."""
     ((root, ratio),) = shaft.items()
     cage = _geometry(geometries, f"cage:{root}", bearing.diameter_ratio, 0.0)
-    ball = _geometry(geometries, f"ball:{root}", bearing.diameter_ratio, bearing.contact_angle_deg)
+    ball = _geometry(geometries, f"ball:{root}", bearing.diameter_ratio, bearing.ball_order)
     z = bearing.balls
     return {
         bearing.base("c"): {cage: ratio},
@@ -92,14 +92,17 @@ def _bearing_vectors(
     }
 
 
-def _geometry(known: list[tuple[str, float, float]], kind: str, ratio: float, angle_deg: float) -> str:
+def _geometry(known: list[tuple[str, float, float]], kind: str, ratio: float, ball_order: float) -> str:
     """Symbol of a geometry, shared by all that equal it; `known` grows by new ones."""
-    for i, (other_kind, other_ratio, other_angle) in enumerate(known):
-        same_ratio = abs(other_ratio - ratio) <= GEOMETRY_TOLERANCE * abs(ratio)
-        if other_kind == kind and same_ratio and abs(other_angle - angle_deg) <= GEOMETRY_TOLERANCE * 90:
+    for i, (other_kind, other_ratio, other_order) in enumerate(known):
+        if other_kind == kind and _same(other_ratio, ratio) and _same(other_order, ball_order):
             return f"{kind}:{i}"
-    known.append((kind, ratio, angle_deg))
+    known.append((kind, ratio, ball_order))
     return f"{kind}:{len(known) - 1}"
+
+
+def _same(a: float, b: float) -> bool:
+    return abs(a - b) <= GEOMETRY_TOLERANCE * max(abs(a), abs(b))
 
 
 def _scaled(vector: Vector, factor: Fraction) -> Vector:

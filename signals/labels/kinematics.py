@@ -32,14 +32,15 @@ class BearingKinematics:
     """A rolling bearing with its inner ring on shaft `shaft`: bases f_o, f_i, f_b, f_c with `index` behind.
 
     `balls` ties f_o = balls * f_c and f_i = balls * (f_r - f_c). `diameter_ratio` is d/D cos(alpha): bearings that
-    share it have equal orders by construction. It is compared, not used as a number.
+    share it have equal orders by construction, and equal ball lines if they share `ball_order` = f_b / f_r too (it
+    differs where the contact angle does). Both are compared, not used as numbers.
     """
 
     index: int
     shaft: str
     balls: int
     diameter_ratio: float
-    contact_angle_deg: float = 0.0
+    ball_order: float = 0.0
     component: str = ""
 
     @property
