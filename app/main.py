@@ -23,6 +23,8 @@ from jobs.ports import Engine
 from jobs.slices import Encoder
 from store.stores import Stores, open_stores
 
+ROUTERS = tuple(module.router for module in (simulations, jobs, events, results, plots, reference, health))
+
 
 def create_app(settings: Settings, *, engine: Engine, encode: Encoder, stores: Stores | None = None) -> FastAPI:
     """An application on these stores (opened from the settings when none are given)."""
@@ -47,8 +49,8 @@ def create_app(settings: Settings, *, engine: Engine, encode: Encoder, stores: S
     app = FastAPI(lifespan=lifespan, docs_url=None, redoc_url=None, redirect_slashes=False)
     app.state.sideband = state
     app.state.streams = set()
-    for module in (simulations, jobs, events, results, plots, reference, health):
-        app.include_router(module.router)
+    for router in ROUTERS:
+        app.include_router(router)
     if settings.static_folder.is_dir():
         app.mount("/", StaticFiles(directory=settings.static_folder, html=True), name="dashboard")
     handlers.install(app)

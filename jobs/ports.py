@@ -25,6 +25,8 @@ class MachineReport:
 
     bases_hz: Mapping[str, float]
     channels: tuple[str, ...]
+    default_channels: tuple[str, ...]
+    """What is recorded when a request names no channels."""
     derived: Mapping[str, str]
     natural_frequencies_hz: tuple[float, ...]
     warnings: tuple[str, ...]

@@ -49,7 +49,7 @@ class SimulationRequest(MachineChoice):
 
     duration_s: Annotated[float, Field(gt=0, le=3600)] = 1.0
     """Simulated time, s. A tighter bound may be set by the server."""
-    sampling_rate_hz: Annotated[float, Field(ge=100, le=5_000_000)] = 20_000.0
+    sampling_rate_hz: Annotated[float, Field(ge=100, le=500_000)] = 20_000.0
     """Output rate, Hz; the signals are low-pass filtered before they are thinned to it."""
     channels: Annotated[list[ChannelName], Field(min_length=1, max_length=512)] | None = None
     """Names of the outputs; none: the engine's standard set."""

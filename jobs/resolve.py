@@ -41,7 +41,7 @@ def resolve(request: SimulationRequest, engine: Engine, limits: Limits) -> Resol
         sampling_rate_hz=request.sampling_rate_hz,
         channels=request.channels,
     )
-    check_cost(request, cost, len(request.channels or report.channels), limits)
+    check_cost(request, cost, len(request.channels or report.default_channels), limits)
     source = {"preset": request.preset, "machine": machine.name, "set": dict(request.set)}
     settings = request.model_dump(mode="json", exclude={"preset", "machine", "set"})
     return Resolved(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import asdict
 
@@ -113,7 +114,20 @@ def _put(store: ArtefactStore, key: str, parts: list[bytes]) -> FileEntry:
 
 
 def _json(document: Mapping[str, object]) -> bytes:
-    return canonical_json(document).encode()
+    return canonical_json(plain(document)).encode()
+
+
+def plain(value: object) -> object:
+    """Only what JSON has: numbers that are not finite become null, numpy's scalars and arrays Python's own."""
+    if isinstance(value, np.generic | np.ndarray):
+        value = value.tolist()
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    return value
 
 
 def _pair(spectrum: SpectrumDocument) -> bytes:

@@ -16,15 +16,9 @@ from sim.core.errors import Problem, SpecError
 Encoder = Callable[[Recording, str], bytes]
 """A recording in a file format, as bytes; the same recording gives the same bytes."""
 
-MEDIA_TYPES = {
-    "csv": "text/csv; charset=utf-8",
-    "mat": "application/x-matlab-data",
-    "npz": "application/x-npz",
-    "parquet": "application/vnd.apache.parquet",
-    "wav": "audio/wav",
-}
 MAX_FILE_VALUES = 50_000_000
-MAX_CSV_VALUES = 5_000_000
+MAX_TEXT_VALUES = 5_000_000
+TEXT = ("csv", "uff")
 MAX_JSON_POINTS = 400_000
 
 
@@ -69,7 +63,7 @@ def recording(reader: ResultReader, channels: Sequence[str], part: Window) -> Re
 
 def check_size(channels: int, part: Window, kind: str) -> None:
     """Refuse a file that would not fit into memory several times over."""
-    bound = MAX_CSV_VALUES if kind == "csv" else MAX_FILE_VALUES
+    bound = MAX_TEXT_VALUES if kind in TEXT else MAX_FILE_VALUES
     values = channels * part.samples
     if values > bound:
         message = f"would hold too many values as {kind} ({values}); ask fewer channels or a shorter stretch"

@@ -29,6 +29,9 @@ class MachineCheck(Reply):
     """Kinematic base frequencies (`f_r1`, `f_m`, `f_o1` ...), Hz."""
     natural_frequencies_hz: list[float]
     channels: list[str]
+    """Every output the machine can give."""
+    default_channels: list[str]
+    """What is recorded when a request names no channels."""
     derived: dict[str, str]
     """For each mass, inertia and stiffness whether it was given or derived, and how."""
     warnings: list[str]
@@ -78,6 +81,7 @@ def check_machine(choice: MachineChoice, state: State) -> MachineCheck:
         bases_hz=dict(report.bases_hz),
         natural_frequencies_hz=list(report.natural_frequencies_hz),
         channels=list(report.channels),
+        default_channels=list(report.default_channels),
         derived=dict(report.derived),
         warnings=list(report.warnings),
         machine=machine.model_dump(mode="json"),

@@ -16,6 +16,7 @@ from jobs import slices
 from jobs.documents import SpectrumDocument, SpectrumKind
 from jobs.errors import UnknownArtefact
 from jobs.thinning import highest
+from signals.encode import MEDIA_TYPES
 
 router = APIRouter(tags=["results"])
 RESULT = "/v1/jobs/{job_id}/result"
@@ -23,7 +24,7 @@ ERRORS = problems(401, 404, 409, 410, 422, 503)
 FILE = {200: {"description": "The content.", "content": {"application/octet-stream": {}}}, **problems(416)}
 JSON_TYPE = "application/json"
 
-Format = Literal["json", "npz", "csv", "wav", "parquet", "mat"]
+Format = Literal["json", "npz", "csv", "wav", "parquet", "mat", "uff"]
 Channels = Annotated[list[str] | None, Query(alias="channel", max_length=512)]
 MaxPoints = Annotated[int | None, Query(ge=2, le=200_000)]
 Time = Annotated[float | None, Query(ge=0, allow_inf_nan=False)]
@@ -83,7 +84,7 @@ def signals(
     slices.check_size(len(names), part, format)
     body = state.encode(slices.recording(found.reader, names, part), format)
     filename = f"signals-{job_id[:12]}.{format}"
-    return content(request, body, etag=etag, media_type=slices.MEDIA_TYPES[format], filename=filename)
+    return content(request, body, etag=etag, media_type=MEDIA_TYPES[format], filename=filename)
 
 
 @router.get(f"{RESULT}/spectra", responses=ERRORS)

@@ -64,6 +64,7 @@ class FakeEngine:
         return MachineReport(
             bases_hz={"f_r1": TONE_HZ},
             channels=tuple(c.name for c in CHANNELS),
+            default_channels=tuple(c.name for c in CHANNELS),
             derived={},
             natural_frequencies_hz=(TONE_HZ,),
             warnings=(),

@@ -19,18 +19,13 @@ from fastapi import FastAPI
 
 from app.main import create_app
 from app.settings import Settings
-from signals.recording import Recording
+from signals.encode import encode
 from store.settings import StoreSettings
 from tests.service.fakes import FakeEngine
 
 ROOT = Path(__file__).resolve().parents[2]
 WORKER = ROOT / "tests" / "service" / "worker.py"
 QUICK = {"SIDEBAND_LEASE_S": "3", "SIDEBAND_CANCEL_GRACE_S": "0.6", "SIDEBAND_SHUTDOWN_GRACE_S": "0.6"}
-
-
-def encode(recording: Recording, kind: str) -> bytes:
-    """Stands for the encoders of `signals`."""
-    return f"{kind}:{','.join(recording.names)}:".encode() + recording.samples.tobytes()
 
 
 def start_broker(folder: Path) -> tuple[subprocess.Popen[str], str]:
@@ -76,7 +71,9 @@ class Parts:
 
     def start_worker(self, name: str) -> subprocess.Popen[bytes]:
         env = {**os.environ, **QUICK, "REDIS_URL": self.url, "SIDEBAND_DATA_DIR": str(self.folder)}
-        worker = subprocess.Popen([sys.executable, str(WORKER), name], env=env, cwd=ROOT, stderr=subprocess.DEVNULL)
+        worker = subprocess.Popen(
+            [sys.executable, str(WORKER), "--name", name], env=env, cwd=ROOT, stderr=subprocess.DEVNULL
+        )
         self.workers.append(worker)
         return worker
 

@@ -1,7 +1,8 @@
-"""A worker process with the fake physics: `python tests/service/worker.py NAME [PARENT]`."""
+"""A worker process with the fake physics: `python tests/service/worker.py --name NAME [--parent PID]`."""
 
 from __future__ import annotations
 
+import argparse
 import logging
 import sys
 from pathlib import Path
@@ -15,10 +16,14 @@ from workers.settings import WorkerSettings
 
 if __name__ == "__main__":
     logging.basicConfig(level=logging.INFO)
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--name", required=True)
+    parser.add_argument("--parent", type=int)
+    given = parser.parse_args()
     start = Start(
-        name=sys.argv[1],
+        name=given.name,
         stores=StoreSettings.from_environment(),
         settings=WorkerSettings.from_environment(),
-        parent_pid=int(sys.argv[2]) if len(sys.argv) > 2 else None,
+        parent_pid=given.parent,
     )
     sys.exit(run_worker(start, FakeEngine(), analyse))

@@ -1,0 +1,196 @@
+"""Everything from one command: broker, workers, HTTP; and down again in the right order."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import webbrowser
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from types import FrameType
+
+import uvicorn
+from fastapi import FastAPI
+
+from app.settings import Settings
+from app.supervise import Supervisor
+from app.wiring import application
+from sim.core.errors import Problem, SidebandError, SpecError
+from store.settings import StoreSettings
+from store.stores import open_stores
+
+HTTP_GRACE_S = 3
+WORKER_GRACE_S = 5.0
+BROKER_STOP_S = 15.0
+
+
+class BrokerUnavailable(SidebandError):
+    """The embedded broker did not start."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Service:
+    """What to serve. `build` and `worker_command` are replaced in tests."""
+
+    settings: Settings
+    workers: int
+    open_browser: bool = False
+    build: Callable[[Settings], FastAPI] = application
+    worker_command: tuple[str, ...] = (sys.executable, "-m", "workers")
+    announce: Callable[[str], None] = field(default=lambda url: print(f"Sideband is at {url}", flush=True))
+
+
+def serve(
+    *,
+    host: str = "127.0.0.1",
+    port: int = 8000,
+    workers: int | None = None,
+    data_dir: Path | None = None,
+    open_browser: bool = False,
+) -> int:
+    """Serve until SIGINT or SIGTERM; what is not given comes from the environment. Returns the exit code."""
+    base = Settings.from_environment()
+    stores = base.stores if data_dir is None else replace(base.stores, data_dir=data_dir.absolute())
+    settings = replace(base, host=host, port=port, stores=stores)
+    return run(Service(settings=settings, workers=workers or default_workers(), open_browser=open_browser))
+
+
+def default_workers() -> int:
+    """One for each core: a simulation keeps one busy."""
+    return max(1, os.cpu_count() or 1)
+
+
+def run(service: Service) -> int:
+    """Start in order (socket, broker, workers, HTTP), stop in the reverse order."""
+    service.settings.check()
+    stop = threading.Event()
+    with (
+        _signals(stop),
+        _listening(service.settings) as listener,
+        _broker(service.settings.stores) as stores,
+        _workers(service, stores),
+    ):
+        settings = replace(service.settings, stores=stores)
+        server = uvicorn.Server(
+            uvicorn.Config(
+                service.build(settings),
+                log_level="warning",
+                server_header=False,
+                timeout_graceful_shutdown=HTTP_GRACE_S,
+                timeout_keep_alive=15,
+                lifespan="on",
+            )
+        )
+        threading.Thread(target=_greet, args=(service, server, listener, stop), daemon=True).start()
+        if not stop.is_set():
+            server.run(sockets=[listener])
+        return 0 if stop.is_set() else 1
+
+
+@contextmanager
+def _signals(stop: threading.Event) -> Iterator[None]:
+    """Note the request to stop. The HTTP server handles it first and passes it on to us when it has stopped."""
+
+    def noted(_signal: int, _frame: FrameType | None) -> None:
+        stop.set()
+
+    before = {kind: signal.signal(kind, noted) for kind in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield
+    finally:
+        for kind, handler in before.items():
+            signal.signal(kind, handler)
+
+
+@contextmanager
+def _listening(settings: Settings) -> Iterator[socket.socket]:
+    """The port, taken before anything else is started."""
+    family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
+    listener = socket.socket(family, socket.SOCK_STREAM)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listener.bind((settings.host.strip("[]"), settings.port))
+    except OSError as error:
+        listener.close()
+        message = f"cannot be listened on: {error.strerror}"
+        raise SpecError(
+            Problem(field="port", message=message, given=settings.port, allowed="a free port, or 0 for any")
+        ) from error
+    with listener:
+        yield listener
+
+
+@contextmanager
+def _broker(stores: StoreSettings) -> Iterator[StoreSettings]:
+    """The stores with a broker: the one in `REDIS_URL`, or an embedded one that lives as long as this block."""
+    if stores.redis_url:
+        yield stores
+        return
+    guard = subprocess.Popen(
+        [sys.executable, "-m", "workers.broker", str(stores.data_dir / "broker")],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        start_new_session=True,
+    )
+    assert guard.stdin is not None and guard.stdout is not None
+    try:
+        line = guard.stdout.readline()
+        told: dict[str, str] = json.loads(line) if line else {}
+        if "url" not in told:
+            raise BrokerUnavailable(told.get("error", "the embedded broker did not start"))
+        yield replace(stores, redis_url=told["url"])
+    finally:
+        guard.stdin.close()
+        try:
+            guard.wait(BROKER_STOP_S)
+        except subprocess.TimeoutExpired:
+            guard.kill()
+            guard.wait()
+        guard.stdout.close()
+
+
+@contextmanager
+def _workers(service: Service, stores: StoreSettings) -> Iterator[None]:
+    """The worker processes, kept alive while the block runs."""
+    environment = {
+        **os.environ,
+        "REDIS_URL": stores.redis_url,
+        "SIDEBAND_DATA_DIR": str(stores.data_dir),
+        "DATABASE_URL": stores.database_url,
+        "ARTEFACT_URL": stores.artefact_url,
+    }
+    opened = open_stores(stores)
+    supervisor = Supervisor(
+        count=service.workers,
+        command=service.worker_command,
+        environment=environment,
+        stores=opened,
+        max_losses=service.settings.max_losses,
+        grace_s=WORKER_GRACE_S,
+    )
+    supervisor.start()
+    try:
+        yield
+    finally:
+        supervisor.stop()
+        opened.close()
+
+
+def _greet(service: Service, server: uvicorn.Server, listener: socket.socket, stop: threading.Event) -> None:
+    while not server.started:
+        if stop.wait(0.02):
+            server.should_exit = True
+            return
+    host, port = listener.getsockname()[:2]
+    name = {"0.0.0.0": "localhost", "::": "localhost"}.get(host, f"[{host}]" if ":" in host else host)
+    url = f"http://{name}:{port}/"
+    service.announce(url)
+    if service.open_browser:
+        webbrowser.open(url)

@@ -1,0 +1,132 @@
+"""`jobs.ports.Engine` on the simulation core."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from threading import Lock
+
+from jobs.identity import canonical_json
+from jobs.ports import MachineReport
+from jobs.record import Cost
+from sim import presets
+from sim.assembly.assemble import assemble
+from sim.assembly.modes import natural_frequencies_hz
+from sim.core.response import Response
+from sim.core.spec import MachineSpec
+from sim.core.system import System
+from sim.core.terms import Term
+from sim.parts.bearing.catalogue import catalogue
+from sim.solve.api import default_channels, resolve_channels, simulate
+from sim.solve.step_choice import run_cost
+from sim.terms import REGISTRY
+from sim.version import PHYSICS_VERSION
+
+KEPT_SYSTEMS = 32
+WARM_PRESET = "paper-demo"
+WARM_S = 0.01
+
+
+class PhysicsEngine:
+    """The simulation core. Assembled machines are kept for a while: checking, costing and asking again share them."""
+
+    def __init__(self) -> None:
+        self._systems: OrderedDict[str, System] = OrderedDict()
+        self._lock = Lock()
+
+    @property
+    def version(self) -> str:
+        """Part of every job's identity."""
+        return PHYSICS_VERSION
+
+    def warm(self) -> None:
+        """Load the compiled kernels by a very short run."""
+        simulate(presets.preset(WARM_PRESET), duration_s=WARM_S, output_rate_hz=20_000.0)
+
+    def preset_names(self) -> tuple[str, ...]:
+        """Names of the preset machines."""
+        return tuple(presets.names())
+
+    def preset(self, name: str) -> MachineSpec:
+        """A preset machine."""
+        return presets.preset(name)
+
+    def terms(self) -> list[dict[str, object]]:
+        """Every registered effect with its parameters."""
+        return [_term(term) for term in REGISTRY]
+
+    def bearings(self) -> list[dict[str, object]]:
+        """The bearing catalogue."""
+        return [asdict(row) | {"published_orders": dict(row.published_orders)} for row in catalogue().values()]
+
+    def report(self, machine: MachineSpec) -> MachineReport:
+        """What assembly says; raises SpecError or UnknownName."""
+        system = self._assembled(machine)
+        return MachineReport(
+            bases_hz=system.bases_hz,
+            channels=tuple(channel.name for channel in system.channels),
+            default_channels=default_channels(system),
+            derived=system.derived,
+            natural_frequencies_hz=tuple(float(f) for f in natural_frequencies_hz(system)),
+            warnings=system.warnings,
+        )
+
+    def cost(
+        self, machine: MachineSpec, *, duration_s: float, sampling_rate_hz: float, channels: Sequence[str] | None
+    ) -> Cost:
+        """What a run would take."""
+        system = self._assembled(machine)
+        count = len(resolve_channels(system, channels))
+        found = run_cost(system, duration_s=duration_s, output_rate_hz=sampling_rate_hz, channels=count)
+        return Cost(steps=found.steps, memory_bytes=found.memory_bytes, seconds=found.seconds)
+
+    def simulate(
+        self,
+        machine: MachineSpec,
+        *,
+        duration_s: float,
+        sampling_rate_hz: float,
+        channels: Sequence[str] | None,
+        seed: int,
+        progress: Callable[[float], None],
+        cancelled: Callable[[], bool],
+    ) -> Response:
+        """Simulate from rest."""
+        return simulate(
+            machine,
+            duration_s=duration_s,
+            output_rate_hz=sampling_rate_hz,
+            channels=channels,
+            seed=seed,
+            progress=progress,
+            cancelled=cancelled,
+        )
+
+    def _assembled(self, machine: MachineSpec) -> System:
+        key = canonical_json(machine.model_dump(mode="json"))
+        with self._lock:
+            known = self._systems.get(key)
+            if known is not None:
+                self._systems.move_to_end(key)
+                return known
+        system = assemble(machine)
+        with self._lock:
+            self._systems[key] = system
+            while len(self._systems) > KEPT_SYSTEMS:
+                self._systems.popitem(last=False)
+        return system
+
+
+def _term(term: Term) -> dict[str, object]:
+    return {
+        "key": term.key,
+        "title": term.title,
+        "sentence": term.sentence,
+        "sites": list(term.sites),
+        "severity": term.severity,
+        "zero_is_healthy": term.zero_is_healthy,
+        "excludes": list(term.excludes),
+        "references": list(term.references),
+        "parameters": [asdict(param) for param in term.params],
+    }

@@ -1,0 +1,41 @@
+"""`python -m workers [--name NAME] [--parent PID]`: one worker on the simulation core, set up from the environment."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import sys
+
+from jobs.analysis import analyse
+from jobs.physics import PhysicsEngine
+from sim.core.errors import SidebandError
+from store.settings import StoreSettings
+from workers.main import Start, default_name, run_worker
+from workers.settings import WorkerSettings
+
+
+def main(arguments: list[str]) -> int:
+    """Entry point."""
+    parser = argparse.ArgumentParser(prog="python -m workers", description="Run one Sideband worker.")
+    parser.add_argument("--name", default=default_name(), help="name shown in health pages")
+    parser.add_argument("--parent", type=int, default=None, help="process to end with")
+    given = parser.parse_args(arguments)
+    logging.basicConfig(level=logging.INFO, format=f"%(levelname)s {given.name}: %(message)s")
+    start = Start(
+        name=given.name,
+        stores=StoreSettings.from_environment(),
+        settings=WorkerSettings.from_environment(),
+        parent_pid=given.parent,
+    )
+    if not start.stores.redis_url:
+        print("REDIS_URL is not set: a worker needs a broker", file=sys.stderr)
+        return 2
+    try:
+        return run_worker(start, PhysicsEngine(), analyse)
+    except SidebandError as error:
+        print(f"worker {given.name}: {error}", file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
