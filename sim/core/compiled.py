@@ -38,7 +38,7 @@ from numba.extending import intrinsic  # noqa: E402
 
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]  # numba may be imported already
 
-DOUBLES = types.CPointer(types.float64)
+DOUBLES = types.CPointer(types.float64)  # type: ignore[no-untyped-call]
 PREPARE_SIGNATURE = types.void(DOUBLES, DOUBLES, DOUBLES, DOUBLES, DOUBLES)
 """prepare(step, shafts, u, par, ctx)"""
 FORCE_SIGNATURE = types.void(types.int64, DOUBLES, DOUBLES, DOUBLES, DOUBLES, DOUBLES, DOUBLES)
@@ -77,7 +77,7 @@ def inline(function: Callable[..., Any]) -> Any:
     return numba.njit(cache=True, fastmath=FAST, error_model="numpy", forceinline=True)(function)
 
 
-INTEGERS = types.CPointer(types.int64)
+INTEGERS = types.CPointer(types.int64)  # type: ignore[no-untyped-call]
 
 
 def _pointer() -> ir.PointerType:

@@ -97,5 +97,6 @@ class Response:
         """Samples of one channel, shape (samples,); KeyError names what exists."""
         for row, channel in enumerate(self.channels):
             if channel.name == name:
-                return self.signals[row]
+                values: FloatArray = self.signals[row]
+                return values
         raise KeyError(f"no channel {name!r}; present: {', '.join(c.name for c in self.channels)}")

@@ -26,12 +26,16 @@ def runout_error(par, phi_p, phi_g):  # type: ignore[no-untyped-def]  # noqa: AN
 
     The pinion turns by +phi_p, the gear by -phi_g; a centre offset of radius r moves the flank by r sin.
     """
+    if par[10] == 0.0 and par[12] == 0.0:
+        return 0.0
     return par[10] * math.sin(phi_p + par[11]) - par[12] * math.sin(par[13] - phi_g)
 
 
 @inline
 def runout_rate(par, phi_p, om_p, phi_g, om_g):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Time derivative of `runout_error`, m/s."""
+    if par[10] == 0.0 and par[12] == 0.0:
+        return 0.0
     return par[10] * om_p * math.cos(phi_p + par[11]) + par[12] * om_g * math.cos(par[13] - phi_g)
 
 
@@ -53,8 +57,9 @@ def centre_error(par, phi_p, phi_g, x, y):  # type: ignore[no-untyped-def]  # no
 
     `x`, `y`: motion of the pinion's shaft centre minus the gear's.
     """
-    x += par[10] * math.cos(phi_p + par[11]) - par[12] * math.cos(par[13] - phi_g)
-    y += par[10] * math.sin(phi_p + par[11]) - par[12] * math.sin(par[13] - phi_g)
+    if par[10] != 0.0 or par[12] != 0.0:
+        x += par[10] * math.cos(phi_p + par[11]) - par[12] * math.cos(par[13] - phi_g)
+        y += par[10] * math.sin(phi_p + par[11]) - par[12] * math.sin(par[13] - phi_g)
     a0 = par[7]
     # a - a0 without cancellation: (a^2 - a0^2) / (a + a0)
     square = -2.0 * a0 * par[8] * x + 2.0 * a0 * par[9] * y + x * x + y * y

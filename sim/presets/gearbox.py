@@ -8,6 +8,7 @@ from sim.core.spec import (
     BallGeometry,
     BearingSpec,
     GearSpec,
+    LoadSpec,
     MachineSpec,
     MeshSpec,
     MeshTable,
@@ -133,7 +134,7 @@ def gearbox(n: GearboxNumbers) -> MachineSpec:
         )
         for i in range(1, 5)
     ]
-    loads = [TorqueLoad(shaft="input", torque_nm=n.torque)]
+    loads: list[LoadSpec] = [TorqueLoad(shaft="input", torque_nm=n.torque)]
     if n.output_torque is not None:
         loads.append(TorqueLoad(shaft="output", torque_nm=-n.output_torque))
     return MachineSpec(

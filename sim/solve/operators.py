@@ -12,6 +12,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import expm
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
@@ -36,7 +37,9 @@ class Coordinates:
 
 def coordinates(system: System) -> Coordinates:
     """Collect the coordinates of all elements."""
-    rows, force_rows, rate_rows = [], [], []
+    rows: list[FloatArray] = []
+    force_rows: list[int] = []
+    rate_rows: list[int] = []
     place = {name: i for i, name in enumerate(system.dofs)}
     for element in system.elements:
         for k, coordinate in enumerate(element.coordinates):
@@ -70,7 +73,7 @@ class StepOperators:
     end_load: FloatArray
 
 
-def _blocks(system: System) -> list[FloatArray]:
+def _blocks(system: System) -> list[NDArray[np.intp]]:
     coupling = (system.stiffness != 0) | (system.damping != 0)
     count, label = connected_components(csr_array(coupling), directed=False)
     return [np.flatnonzero(label == k) for k in range(count)]

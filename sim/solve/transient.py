@@ -18,7 +18,7 @@ def transient_end_s(signals: FloatArray, rate_hz: float, period_s: float) -> flo
     Returns the duration when the motion never settles within it (irregular motion may wander by more).
     """
     samples = signals.shape[1]
-    duration = samples / rate_hz
+    duration = float(samples) / float(rate_hz)
     width = max(int(round(period_s * rate_hz)), samples // WINDOWS, 1)
     count = samples // width
     if count < 4:
@@ -31,4 +31,4 @@ def transient_end_s(signals: FloatArray, rate_hz: float, period_s: float) -> flo
     spread = np.abs(late - level).max(axis=1, keepdims=True)
     allowed = np.maximum(TOLERANCE * level, spread) + 1e-300
     bad = np.flatnonzero(np.any(np.abs(rms - level) > allowed, axis=0))
-    return float((bad[-1] + 1) * width / rate_hz) if bad.size else 0.0
+    return float(bad[-1] + 1) * width / rate_hz if bad.size else 0.0

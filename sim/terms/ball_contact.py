@@ -49,11 +49,25 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
     n = int(par[0])
     width = 3 * n + 1
     turn = 6.283185307179586
+    first = par[3] * shafts[1] + par[4]
+    c1 = math.cos(first)
+    s1 = math.sin(first)
     for row in range(s):
         k = row + 1
         cage = par[3] * shafts[k] + par[4]
-        c0 = math.cos(cage)
-        s0 = math.sin(cage)
+        turned = cage - first
+        c0 = c1
+        s0 = s1
+        if abs(turned) < 0.02:
+            # angle addition; the series are exact to the last digit for so small an angle
+            q = turned * turned
+            cd = 1.0 - q * (0.5 - q * (1.0 / 24.0 - q / 720.0))
+            sd = turned * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q / 5040.0)))
+            c0 = c1 * cd - s1 * sd
+            s0 = s1 * cd + c1 * sd
+        else:
+            c0 = math.cos(cage)
+            s0 = math.sin(cage)
         base = row * width
         ctx[base] = par[3] * shafts[s + 1 + k]
         for i in range(n):

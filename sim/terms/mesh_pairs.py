@@ -128,8 +128,8 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
     s = int(step[2])
     n = s + 1
     turn = 6.283185307179586
-    for i in range(n):
-        k = i + 1 if i < s else s
+    for i in range(s):
+        k = i + 1
         phi_p = shafts[k]
         om_p = shafts[n + k]
         phi_g = shafts[2 * n + k]
@@ -139,6 +139,8 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
         ctx[i * 16 + 2] = par[5] * phi_p / turn
         ctx[i * 16 + 3] = phi_p
         ctx[i * 16 + 4] = phi_g
+    for j in range(8):
+        ctx[s * 16 + j] = ctx[(s - 1) * 16 + j]
     x_mid = u[1] + 0.5 * h * u[6]
     y_mid = u[2] + 0.5 * h * u[7]
     error = centre_error(par, 0.5 * (shafts[0] + shafts[s]), 0.5 * (shafts[2 * n] + shafts[2 * n + s]), x_mid, y_mid)

@@ -86,8 +86,8 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
     turn = 6.283185307179586
     x_mid = u[1] + 0.5 * h * u[6]
     y_mid = u[2] + 0.5 * h * u[7]
-    for i in range(n):
-        k = i + 1 if i < s else s
+    for i in range(s):
+        k = i + 1
         phi_p = shafts[k]
         om_p = shafts[n + k]
         phi_g = shafts[2 * n + k]
@@ -100,6 +100,8 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
         ctx[i * 8 + 4] = phi_p
         ctx[i * 8 + 5] = phi_g
         ctx[i * 8 + 6] = om_p
+    for j in range(8):
+        ctx[s * 8 + j] = ctx[(s - 1) * 8 + j]
     error = centre_error(par, 0.5 * (shafts[0] + shafts[s]), 0.5 * (shafts[2 * n] + shafts[2 * n + s]), x_mid, y_mid)
     row = row_position(par, error)
     points = par[21]
