@@ -1,0 +1,81 @@
+"""Series and recordings: what is refused, and that selecting loses nothing."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from signals.recording import Operating, Recording
+from signals.series import Series
+from sim.core.errors import SpecError, UnknownName
+from sim.core.response import Channel
+
+CHANNELS = (
+    Channel(name="a", quantity="acceleration", unit="m/s^2", location="bearing1", axis="y"),
+    Channel(name="x", quantity="displacement", unit="m", location="pinion", axis="x"),
+)
+
+
+def recording(n: int = 100, **changes: object) -> Recording:
+    samples = np.arange(2.0 * n).reshape(2, n)
+    facts: dict[str, object] = {"sampling_rate_hz": 50.0, "channels": CHANNELS, "samples": samples}
+    return Recording(**(facts | changes))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("rate", [0, -1.0, float("nan"), float("inf"), None, "48000", True])
+def test_unknown_sampling_rate_is_refused(rate: object) -> None:
+    with pytest.raises(SpecError, match="sampling_rate_hz: must be known"):
+        recording(sampling_rate_hz=rate)
+
+
+def test_unknown_unit_and_repeated_name_are_refused_with_their_place() -> None:
+    bad = (
+        Channel(name="a", quantity="acceleration", unit="", location="bearing1"),
+        Channel(name="a", quantity="acceleration", unit="g", location="bearing1"),
+    )
+    with pytest.raises(SpecError) as caught:
+        recording(channels=bad)
+    assert [p.field for p in caught.value.problems] == ["channels[0].unit", "channels[1].name"]
+
+
+def test_rows_must_fit_the_channels() -> None:
+    with pytest.raises(SpecError, match="one row a channel"):
+        recording(samples=np.zeros((3, 10)))
+
+
+def test_samples_cannot_be_written_through() -> None:
+    with pytest.raises(ValueError, match="read-only"):
+        recording().samples[0, 0] = 1.0
+
+
+def test_unknown_channel_lists_the_known() -> None:
+    with pytest.raises(UnknownName, match="known: a, x"):
+        recording().series("b")
+
+
+@given(first=st.integers(0, 90), count=st.integers(8, 10))
+def test_selecting_by_time_takes_exactly_those_samples(first: int, count: int) -> None:
+    whole = recording()
+    part = whole.select(channels=["x"], start_s=first / 50.0, end_s=(first + count) / 50.0)
+    assert np.array_equal(part.samples[0], whole.samples[1, first : first + count])
+    assert part.start_s == pytest.approx(first / 50.0)
+    assert np.allclose(part.time_s(), whole.time_s()[first : first + count])
+    assert part.series("x").start_s == part.start_s
+
+
+@pytest.mark.parametrize(("start", "end"), [(1.0, 1.0), (-1.0, 1.0), (0.0, 9.0), (float("nan"), 1.0)])
+def test_an_empty_or_outside_range_is_refused(start: float, end: float) -> None:
+    with pytest.raises(SpecError, match="select no samples"):
+        recording().select(start_s=start, end_s=end)
+
+
+def test_series_says_where_it_is_not_finite() -> None:
+    samples = np.zeros(100)
+    samples[30:32] = np.nan
+    with pytest.raises(SpecError, match=r"2 samples are not finite, the first at sample 30 \(t = 3.6 s\)"):
+        Series(samples=samples, sampling_rate_hz=50.0, unit="m", start_s=3.0)
+
+
+def test_operating_point_is_kept() -> None:
+    point = Operating(shaft="input", speed_hz=30.0, torque_nm=25.0)
+    assert recording(operating=point).select(channels=["a"]).operating == point
