@@ -15,7 +15,7 @@ from sim.core.spec import MachineSpec
 from sim.core.system import System
 from sim.solve.decimate import Decimator
 from sim.solve.energy import energy_balance
-from sim.solve.plan import Built, build_plan
+from sim.solve.plan import Built, IntArray, build_plan
 from sim.solve.pointers import Work, new_work
 from sim.solve.sampling import Probe, begin, new_probe, sample
 from sim.solve.settings import IRREGULAR, PILOT_S, Settings
@@ -121,10 +121,15 @@ def _pilot_error(system: System, rate_hz: float, names: tuple[str, ...], rtol: f
     return float(np.max(difference[kept] / size[kept])) if np.any(kept) else 0.0
 
 
+PICKED = ("state", "stiffness")
+"""Quantities that jump: sampled at the output instants, because a filter would ring at every tooth entry."""
+
+
 def _signals(
     run: _Run,
     samples: int,
     factor: int,
+    picked: IntArray,
     progress: Callable[[float], None] | None,
     cancelled: Callable[[], bool] | None,
 ) -> FloatArray:
@@ -133,18 +138,25 @@ def _signals(
     decimator = Decimator(factor, channels)
     total = (samples - 1) * factor + 1 + decimator.tail
     signals = np.empty((channels, samples))
+    values = np.empty((picked.size, samples))
     filled, done = 0, 0
     while done < total:
         if cancelled is not None and cancelled():
             raise Cancelled(f"cancelled at t = {done * run.built.plan.base_step:.4g} s")
         count = min(BLOCK, total - done)
-        ready = decimator.push(_advance(run, done, count, total))
+        block = _advance(run, done, count, total)
+        ready = decimator.push(block)
         keep = min(ready.shape[1], samples - filled)
         signals[:, filled : filled + keep] = ready[:, :keep]
         filled += keep
+        first = -(-done // factor)
+        instants = block[picked, first * factor - done :: factor]
+        keep = max(min(instants.shape[1], samples - first), 0)
+        values[:, first : first + keep] = instants[:, :keep]
         done += count
         if progress is not None:
             progress(done / total)
+    signals[picked] = values
     return signals
 
 
@@ -186,7 +198,8 @@ def simulate(
         kind = "irregular" if error > IRREGULAR else "regular"
     run = _start(system, rate, names, chosen.rtol)
     if chosen.anti_alias:
-        signals = _signals(run, samples, factor, progress, cancelled)
+        jumps = np.flatnonzero([c.quantity in PICKED for c in selected])
+        signals = _signals(run, samples, factor, jumps, progress, cancelled)
     else:
         signals = _picked(run, samples, factor, progress, cancelled)
     period = 1.0 / max((hz for hz in system.speeds_hz.values() if hz > 0), default=20.0 / duration_s)
