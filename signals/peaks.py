@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
 from signals.floor import Floor
 from signals.series import BoolArray, FloatArray, IntArray
 from signals.spectra.types import Spectrum
-from signals.windows import MAIN_LOBE_BINS
+from signals.windows import MAIN_LOBE_BINS, transform
 
 LEAKAGE_MARGIN = 2.0
 """A maximum must stand this much above the summed sidelobes of the stronger lines to count as a line."""
@@ -55,31 +56,30 @@ def local_maxima(values: FloatArray, above: FloatArray, first_bin: int) -> IntAr
 def refine(spectrum: Spectrum, bins: IntArray) -> tuple[FloatArray, FloatArray]:
     """Frequency (Hz) and amplitude of lines near `bins`, interpolated between bins; both of shape (len(bins),).
 
-    Hann: delta = 2 (X1 - X-1) / (X-1 + 2 X0 + X1) and a = X0 (1 - delta^2) / sinc(delta), exact for one sine
-    (from the Hann transform sinc(x) / (1 - x^2)). Boxcar: the ratio of the two largest bins, exact likewise.
-    Other windows: a parabola through the logarithms, good to a few hundredths of a bin.
+    The shift from the bin follows from the neighbours by the window's own transform, so both are exact for a
+    single sine far from zero frequency. Where a bin is not a local maximum it is returned as it stands.
     """
     left, mid, right = (spectrum.values[bins + i] for i in (-1, 0, 1))
     is_peak = (mid >= left) & (mid >= right) & (mid > 0)
-    mid_safe = np.where(is_peak, mid, 1.0)
-    if spectrum.window == "hann":
-        shift = 2 * (right - left) / np.where(is_peak, left + 2 * mid + right, 1.0)
-    elif spectrum.window == "boxcar":
-        ratio = np.maximum(left, right) / mid_safe
+    safe = np.where(is_peak, mid, 1.0)
+    if spectrum.window == "boxcar":
+        # Both neighbours of a centred line are zero, whichever way it moves: the larger one tells the side.
+        ratio = np.maximum(left, right) / safe
         shift = np.where(right >= left, 1.0, -1.0) * ratio / (1 + ratio)
     else:
-        low, centre, high = (np.log(np.maximum(v / mid_safe, 1e-300)) for v in (left, mid_safe, right))
-        curvature = low - 2 * centre + high
-        shift = np.where(curvature < 0, 0.5 * (low - high) / np.where(curvature < 0, curvature, -1.0), 0.0)
+        slope, shifts = _shift_table(spectrum.window)
+        shift = np.interp((right - left) / (left + 2 * safe + right), slope, shifts)
     shift = np.where(is_peak, np.clip(shift, -0.5, 0.5), 0.0)
-    if spectrum.window == "hann":
-        gain = (1 - shift**2) / np.sinc(shift)
-    elif spectrum.window == "boxcar":
-        gain = 1 / np.sinc(shift)
-    else:
-        gain = np.exp(np.where(is_peak, 0.25 * (high - low) * shift, 0.0))
     frequency = (bins + shift) * spectrum.resolution_hz
-    return np.asarray(frequency, dtype=np.float64), np.asarray(mid * gain, dtype=np.float64)
+    return np.asarray(frequency, dtype=np.float64), mid / transform(spectrum.window, shift)
+
+
+@cache
+def _shift_table(window_name: str) -> tuple[FloatArray, FloatArray]:
+    """(X1 - X-1) / (X-1 + 2 X0 + X1) of a sine shifted by delta, and delta; for Hann this is delta / 2 exactly."""
+    shifts = np.linspace(-0.5, 0.5, 2001)
+    left, mid, right = (np.abs(transform(window_name, i - shifts)) for i in (-1, 0, 1))
+    return np.asarray((right - left) / (left + 2 * mid + right)), shifts
 
 
 def leakage(window_name: str, distance_bins: FloatArray) -> FloatArray:

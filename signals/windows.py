@@ -16,6 +16,15 @@ from sim.core.errors import UnknownName
 
 MAIN_LOBE_BINS = {"boxcar": 1.0, "hann": 2.0, "hamming": 2.0, "blackman": 3.0, "blackmanharris": 4.0, "flattop": 5.0}
 """Half width of the main lobe to its first zero, in bins of 1/T."""
+COSINES = {
+    "boxcar": (1.0,),
+    "hann": (0.5, 0.5),
+    "hamming": (0.54, 0.46),
+    "blackman": (0.42, 0.5, 0.08),
+    "blackmanharris": (0.35875, 0.48829, 0.14128, 0.01168),
+    "flattop": (0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368),
+}
+"""Coefficients a_k of the windows as sums of a_k cos(2 pi k t / T), t from -T/2 to T/2 (those of scipy.signal.windows)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,3 +56,15 @@ def window(name: str, n: int) -> Window:
         coherent_gain=gain,
         noise_bandwidth_bins=float(np.mean(values**2)) / gain**2,
     )
+
+
+def transform(name: str, distance_bins: FloatArray) -> FloatArray:
+    """Transform of a long window over its value at 0, at distances in bins; real, same shape.
+
+    A window of cosines has the transform a_0 sinc(x) + sum a_k / 2 (sinc(x - k) + sinc(x + k)) (Harris 1978, eq. 29).
+    """
+    first, *others = COSINES[name]
+    total = first * np.sinc(distance_bins)
+    for k, a in enumerate(others, start=1):
+        total = total + a / 2 * (np.sinc(distance_bins - k) + np.sinc(distance_bins + k))
+    return np.asarray(total / first, dtype=np.float64)
