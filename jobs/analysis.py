@@ -1,32 +1,29 @@
-"""Features, spectra and labelled peaks of a response: `jobs.ports.Analyser` on `signals`."""
+"""Features, spectra and labelled peaks of a response: `jobs.ports.Analyser` on `signals`.
+
+The first acceleration is labelled here; other channels are labelled when they are asked for (`jobs.labelling`).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, replace
 
 from jobs.documents import ResultDocuments, SpectrumDocument
-from signals.export import features_document, labels_document
+from jobs.labelling import MIN_SAMPLES, REFERENCE, Predicted, label_channel, moves, no_labels
+from signals.export import features_document
 from signals.features import features
-from signals.labels.families import kinematic_lines
-from signals.labels.machine import machine_kinematics
-from signals.labels.match import label_peaks
 from signals.recording import Recording, from_response
 from signals.series import Series
 from signals.spectra.amplitude import amplitude_spectrum, power_spectral_density
 from signals.spectra.envelope import envelope_spectrum
 from signals.spectra.order import order_spectrum
 from signals.spectra.types import OrderSpectrum, Spectrum
-from sim.assembly.assemble import assemble
 from sim.core.errors import SpecError
 from sim.core.response import Channel, Response
 
-MIN_SAMPLES = 256
 MIN_REVOLUTIONS = 2.0
 VIBRATION = ("acceleration", "velocity", "displacement")
-MAX_LABELLED = 8
 PSD_SEGMENTS = 8
-REFERENCE = "f_r1"
 
 
 def analyse(response: Response, *, discard_transient: bool) -> ResultDocuments:
@@ -35,16 +32,14 @@ def analyse(response: Response, *, discard_transient: bool) -> ResultDocuments:
     recording = from_response(response).select(start_s=start_s)
     moving = [c for c in recording.channels if c.quantity in VIBRATION]
     spectra: list[SpectrumDocument] = []
-    labels: dict[str, dict[str, object]] = {}
     for channel in moving:
-        series = recording.series(channel.name)
-        found = _spectra(series, channel, response)
-        spectra += [document for document, _ in found]
-        if channel.quantity == "acceleration" and len(labels) < MAX_LABELLED and REFERENCE in response.bases_hz:
-            labels[channel.name] = _labels(response, [spectrum for _, spectrum in found])
-    return ResultDocuments(
-        summary=_summary(response, recording, start_s, notes), peaks=_peaks(response, labels), spectra=tuple(spectra)
-    )
+        spectra += [_document(s) for s in channel_spectra(recording.series(channel.name), channel, response.bases_hz)]
+    first = next((c for c in moving if c.quantity == "acceleration"), None)
+    peaks = no_labels(response.bases_hz)
+    if first is not None:
+        known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz)
+        peaks = label_channel(recording.series(first.name), known)
+    return ResultDocuments(summary=_summary(response, recording, start_s, notes), peaks=peaks, spectra=tuple(spectra))
 
 
 def _start(response: Response, discard: bool) -> tuple[float, list[str]]:
@@ -58,20 +53,19 @@ def _start(response: Response, discard: bool) -> tuple[float, list[str]]:
     return 0.0, ["the start-up transient takes most of the record; it is analysed whole: simulate longer"]
 
 
-def _spectra(
-    series: Series, channel: Channel, response: Response
-) -> list[tuple[SpectrumDocument, Spectrum | OrderSpectrum]]:
+def channel_spectra(series: Series, channel: Channel, bases_hz: Mapping[str, float]) -> list[Spectrum | OrderSpectrum]:
+    """The spectra kept of one channel."""
     duration_s = series.samples.size / series.sampling_rate_hz
     found: list[Spectrum | OrderSpectrum] = [
         amplitude_spectrum(series),
         power_spectral_density(series, resolution_hz=PSD_SEGMENTS / duration_s),
     ]
-    if channel.quantity == "acceleration" and series.samples.size >= MIN_SAMPLES and series.samples.std() > 0:
+    if channel.quantity == "acceleration" and moves(series):
         found.append(envelope_spectrum(series))
-    speed = response.bases_hz.get(REFERENCE, 0.0)
+    speed = bases_hz.get(REFERENCE, 0.0)
     if speed * duration_s >= MIN_REVOLUTIONS:
         found.append(order_spectrum(series, shaft=REFERENCE, rotation=speed))
-    return [(_document(spectrum), spectrum) for spectrum in found]
+    return found
 
 
 def _document(spectrum: Spectrum | OrderSpectrum) -> SpectrumDocument:
@@ -98,28 +92,6 @@ def _document(spectrum: Spectrum | OrderSpectrum) -> SpectrumDocument:
         unit=spectrum.unit,
         meta=meta,
     )
-
-
-def _labels(response: Response, spectra: Sequence[Spectrum | OrderSpectrum]) -> dict[str, object]:
-    """Labels of a channel's amplitude spectrum, and of its envelope's under `envelope`."""
-    kinematics = machine_kinematics(response.machine, response.bases_hz)
-    lines = [
-        *kinematic_lines(kinematics, response.bases_hz, max_frequency_hz=response.sampling_rate_hz / 2.56),
-        *assemble(response.machine, seed=response.seed).lines,
-    ]
-    documents: dict[str, dict[str, object]] = {}
-    for spectrum in spectra:
-        if isinstance(spectrum, Spectrum) and spectrum.kind in ("amplitude", "envelope"):
-            labelled = label_peaks(spectrum, lines, response.bases_hz, kinematics=kinematics, reference=REFERENCE)
-            documents[spectrum.kind] = labels_document(labelled)
-    return {**documents["amplitude"], "envelope": documents.get("envelope")}
-
-
-def _peaks(response: Response, labels: dict[str, dict[str, object]]) -> dict[str, object]:
-    """The first labelled channel at the top, all of them under `by_channel`."""
-    if not labels:
-        return {"frequencies": dict(response.bases_hz), "peaks": [], "by_channel": {}}
-    return {**next(iter(labels.values())), "by_channel": labels}
 
 
 def _summary(response: Response, recording: Recording, start_s: float, notes: list[str]) -> dict[str, object]:

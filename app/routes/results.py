@@ -15,6 +15,9 @@ from app.state import State
 from jobs import slices
 from jobs.documents import SpectrumDocument, SpectrumKind
 from jobs.errors import UnknownArtefact
+from jobs.labelling import label_stored
+from jobs.resolve import restored
+from jobs.results import plain
 from jobs.thinning import highest
 from signals.encode import MEDIA_TYPES
 
@@ -106,11 +109,25 @@ def spectra(
 
 
 @router.get(f"{RESULT}/peaks", responses=ERRORS)
-def peaks(job_id: JobId, request: Request, state: State) -> Response:
-    """Kinematic frequencies and labelled peaks: present, absent, ambiguous, unexplained."""
+def peaks(
+    job_id: JobId,
+    request: Request,
+    state: State,
+    channel: Annotated[str | None, Query(max_length=120)] = None,
+) -> Response:
+    """Kinematic frequencies and labelled peaks: present, absent, ambiguous, unexplained.
+
+    Without `channel`: of the first acceleration, as stored with the job.
+    """
     found = stored(state, job_id)
-    etag = etag_of(found.digest, "peaks")
-    return not_modified(request, etag) or _json(request, found.reader.document("peaks"), etag)
+    etag = etag_of(found.digest, "peaks", str(channel))
+    known = not_modified(request, etag)
+    if known is not None:
+        return known
+    if channel is None:
+        return _json(request, found.reader.document("peaks"), etag)
+    machine, _ = restored(state.stores.catalogue.request_of(job_id))
+    return _json(request, plain(label_stored(found.reader, channel, machine)), etag)
 
 
 @router.get(f"{RESULT}/files/{{name}}", responses={**ERRORS, **FILE})

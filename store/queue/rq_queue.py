@@ -28,8 +28,7 @@ ENTRY_POINT = "workers.entry.run_job"
 KEPT_S = 300
 """How long the broker remembers a finished ticket: only its own bookkeeping needs it."""
 CLAIM_S = 15.0
-"""Longest time between leaving the queue and the claim in the catalogue; afterwards the ticket is given out again."""
-_HELD = (JobStatus.QUEUED, JobStatus.STARTED, JobStatus.DEFERRED, JobStatus.SCHEDULED)
+"""Longest time between taking a ticket and claiming its job; afterwards the ticket is given out again."""
 
 
 def connect(url: str, *, timeout_s: float = 2.0) -> Redis:
@@ -85,9 +84,17 @@ class RqQueue:
                 job = Job.fetch(name_of(ticket), connection=self._connection, serializer=JSONSerializer)
             except NoSuchJobError:
                 return False
-            if job.get_status(refresh=False) not in _HELD:
-                return False
-            return self._connection.lpos(self._queue.key, job.id) is not None or _fresh(job)
+            status = job.get_status(refresh=False)
+            if status is JobStatus.QUEUED:
+                return self._listed(job.id)
+            return status is JobStatus.STARTED and _fresh(job)
+
+    def _listed(self, name: str) -> bool:
+        """In the queue, or between it and a worker; both asked at one moment."""
+        with self._connection.pipeline(transaction=True) as pipeline:
+            pipeline.lpos(self._queue.key, name)
+            pipeline.lpos(self._queue.intermediate_queue_key, name)
+            return any(place is not None for place in pipeline.execute())
 
     def withdraw(self, ticket: Ticket) -> None:
         """Take the ticket out, if it is there."""
@@ -101,9 +108,8 @@ class RqQueue:
 
 
 def _fresh(job: Job) -> bool:
-    """Whether a ticket that left the queue did so just now: its worker is about to claim the job, or died trying."""
-    seen = [t.timestamp() for t in (job.enqueued_at, job.started_at) if t is not None]
-    return bool(seen) and time.time() - max(seen) < CLAIM_S
+    """Whether a worker has only just taken the ticket: it is about to claim the job, or died trying."""
+    return job.started_at is not None and time.time() - job.started_at.timestamp() < CLAIM_S
 
 
 def name_of(ticket: Ticket) -> str:

@@ -1,0 +1,76 @@
+"""Labelled peaks of one channel, from a response or from a stored result."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from jobs.results import ResultReader
+from signals.export import labels_document
+from signals.labels.families import kinematic_lines
+from signals.labels.machine import machine_kinematics
+from signals.labels.match import label_peaks
+from signals.series import Series
+from signals.spectra.amplitude import amplitude_spectrum
+from signals.spectra.envelope import envelope_spectrum
+from sim.assembly.assemble import assemble
+from sim.core.spec import MachineSpec
+
+REFERENCE = "f_r1"
+MIN_SAMPLES = 256
+USABLE_BAND = 2.56
+"""Sampling rate over the highest frequency that the anti-alias filter leaves untouched."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Predicted:
+    """What the lines are predicted from."""
+
+    machine: MachineSpec
+    seed: int
+    bases_hz: Mapping[str, float]
+
+
+def moves(series: Series) -> bool:
+    """Whether there is anything to look at."""
+    return series.samples.size >= MIN_SAMPLES and float(series.samples.std()) > 0
+
+
+def no_labels(bases_hz: Mapping[str, float]) -> dict[str, object]:
+    """The document of a channel without labels."""
+    return {"frequencies": dict(bases_hz), "peaks": [], "envelope": None}
+
+
+def label_channel(series: Series, known: Predicted) -> dict[str, object]:
+    """Labels of the amplitude spectrum, and of the envelope spectrum under `envelope`."""
+    if REFERENCE not in known.bases_hz or not moves(series):
+        return no_labels(known.bases_hz)
+    kinematics = machine_kinematics(known.machine, known.bases_hz)
+    lines = [
+        *kinematic_lines(kinematics, known.bases_hz, max_frequency_hz=series.sampling_rate_hz / USABLE_BAND),
+        *assemble(known.machine, seed=known.seed).lines,
+    ]
+    amplitude, envelope = (
+        labels_document(label_peaks(spectrum, lines, known.bases_hz, kinematics=kinematics, reference=REFERENCE))
+        for spectrum in (amplitude_spectrum(series), envelope_spectrum(series))
+    )
+    return {**amplitude, "envelope": envelope}
+
+
+def label_stored(reader: ResultReader, channel: str, machine: MachineSpec) -> dict[str, object]:
+    """The same for a channel of a stored result; raises UnknownArtefact for an unknown channel."""
+    about = reader.channel(channel)
+    summary = reader.document("summary")
+    bases, start_s = summary.get("frequencies", {}), summary.get("analysed_from_s", 0.0)
+    assert isinstance(bases, dict) and isinstance(start_s, int | float)
+    rate = reader.manifest.sampling_rate_hz
+    first = round(start_s * rate)
+    series = Series(
+        samples=reader.signal(channel, first, reader.manifest.samples),
+        sampling_rate_hz=rate,
+        unit=about.unit,
+        name=channel,
+        quantity=about.quantity,
+        start_s=first / rate,
+    )
+    return label_channel(series, Predicted(machine=machine, seed=reader.manifest.seed, bases_hz=bases))
