@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-
 from sim.assembly.kinematics import Kinematics, shaft_of
 from sim.core.errors import Problem, SpecError
 from sim.core.laws import BallLaw, Laws, MeshLaw, SupportLaw

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.signal import firwin, upfirdn
+from numpy.lib.stride_tricks import sliding_window_view
 
 from sim.core.response import FloatArray
 
@@ -15,11 +15,15 @@ BETA = 7.857
 
 
 def filter_taps(factor: int) -> FloatArray:
-    """Low-pass of unit gain at zero frequency for a decimation by `factor`; odd length, symmetric."""
-    length = 2 * HALF_LENGTH * factor + 1
+    """Low-pass of unit gain at zero frequency for a decimation by `factor`; odd length, symmetric.
+
+    Windowed sinc, written out because importing scipy.signal costs a third of a fresh process's start.
+    """
+    half = HALF_LENGTH * factor
     cutoff = 0.5 * (PASS_BAND + 1.0) / factor
-    taps: FloatArray = firwin(length, cutoff, window=("kaiser", BETA))
-    return taps
+    taps = np.sinc(cutoff * np.arange(-half, half + 1)) * np.kaiser(2 * half + 1, BETA)
+    result: FloatArray = taps / taps.sum()
+    return result
 
 
 class Decimator:
@@ -48,9 +52,7 @@ class Decimator:
         if ready <= 0:
             self._held = joined
             return np.empty((self._channels, 0))
-        used = (ready - 1) * self.factor + self.taps.size
-        full = upfirdn(self.taps, joined[:, :used], up=1, down=self.factor, axis=1)
-        first = (self.taps.size - 1) // self.factor
-        result: FloatArray = full[:, first : first + ready]
+        windows = sliding_window_view(joined, self.taps.size, axis=1)[:, : ready * self.factor : self.factor]
         self._held = joined[:, ready * self.factor :]
+        result: FloatArray = windows @ self.taps
         return result

@@ -14,8 +14,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import expm
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
 
 from sim.core.response import FloatArray
 from sim.core.system import System
@@ -74,9 +72,13 @@ class StepOperators:
 
 
 def _blocks(system: System) -> list[NDArray[np.intp]]:
-    coupling = (system.stiffness != 0) | (system.damping != 0)
-    count, label = connected_components(csr_array(coupling), directed=False)
-    return [np.flatnonzero(label == k) for k in range(count)]
+    """Groups of DOFs that stiffness or damping couples."""
+    coupled = (system.stiffness != 0) | (system.damping != 0)
+    label = np.arange(len(system.dofs))
+    for i in range(label.size):
+        for j in np.flatnonzero(coupled[i]):
+            label[label == label[j]] = label[i]
+    return [np.flatnonzero(label == k) for k in np.unique(label)]
 
 
 def _responses(a: FloatArray, inputs: FloatArray, span: float, stages: int) -> tuple[FloatArray, list[FloatArray]]:

@@ -9,8 +9,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
+
+from sim.core.roots import bracketed_root
 
 LOG_RATIO_HIGH = math.log(1e4)
 """Largest axis ratio looked for: F(rho) there is within 1e-7 of a line contact."""
@@ -49,9 +50,7 @@ def contact_ellipse(difference: float) -> ContactEllipse:
     top = curvature_difference(math.exp(LOG_RATIO_HIGH))
     if not 0 <= difference < top:
         raise ValueError(f"curvature difference {difference!r} is outside 0 to {top:.9f}: no elliptical point contact")
-    log_ratio = float(
-        brentq(lambda x: curvature_difference(math.exp(x)) - difference, 0.0, LOG_RATIO_HIGH, xtol=1e-14, rtol=1e-14)
-    )
+    log_ratio = bracketed_root(lambda x: curvature_difference(math.exp(x)) - difference, 0.0, LOG_RATIO_HIGH)
     kappa = math.exp(log_ratio)
     m = (kappa - 1) * (kappa + 1) / kappa**2
     e, k = float(ellipe(m)), float(ellipk(m))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from scipy.optimize import brentq
+from sim.core.roots import bracketed_root
 
 
 def involute(angle_rad: float) -> float:
@@ -14,4 +14,4 @@ def involute(angle_rad: float) -> float:
 
 def inverse_involute(value_rad: float) -> float:
     """Angle in [0, 1.5] rad whose involute is `value_rad` >= 0."""
-    return float(brentq(lambda angle: involute(angle) - value_rad, 0.0, 1.5, xtol=1e-15, rtol=1e-14))
+    return bracketed_root(lambda angle: involute(angle) - value_rad, 0.0, 1.5)

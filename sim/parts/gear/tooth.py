@@ -20,8 +20,8 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
+from sim.core.roots import bracketed_root
 from sim.parts.gear.geometry import GearGeometry
 
 FloatArray = NDArray[np.float64]
@@ -151,4 +151,4 @@ def _alpha_at(gear: GearGeometry, x_m: float, lowest_alpha_rad: float) -> float:
 
     if miss(lowest_alpha_rad) >= 0:
         return lowest_alpha_rad
-    return highest if miss(highest) <= 0 else float(brentq(miss, highest, lowest_alpha_rad, xtol=1e-14))
+    return highest if miss(highest) <= 0 else bracketed_root(miss, highest, lowest_alpha_rad)
