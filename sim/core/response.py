@@ -89,7 +89,7 @@ class Response:
     quality: Quality
     warnings: tuple[str, ...]
     contact_share: Mapping[str, float]
-    """Share of the time after the transient each wall or mesh was in contact, by element."""
+    """Share of the simulated time each wall or mesh was in contact, by element."""
     seed: int
     version: str
 

@@ -76,7 +76,21 @@ def ring_wall_coordinates(bearing: str, *, against: str | None) -> tuple[Coordin
     return tuple(result)
 
 
-def clearance_lines(site: SiteContext, key: str) -> tuple[Line, ...]:
-    """f_o multiples of the bearing and mesh harmonics are fed by the collisions."""
+def mesh_sidebands(site: SiteContext, key: str, *, harmonics: int, sides: int) -> tuple[Line, ...]:
+    """Mesh harmonics modulated by the passing balls of this bearing: j f_m +- k f_o."""
     base = f"f_o{site.index}"
-    return tuple(Line(orders=((base, k),), component=site.site, mechanism=key, family="outer") for k in range(1, 21))
+    meshes = [name for name in site.bases_hz if name.startswith("f_m")]
+    return tuple(
+        Line(orders=((mesh, j), (base, k)), component=site.site, mechanism=key, family="outer")
+        for mesh in meshes
+        for j in range(1, harmonics + 1)
+        for k in range(-sides, sides + 1)
+        if k != 0
+    )
+
+
+def clearance_lines(site: SiteContext, key: str) -> tuple[Line, ...]:
+    """Multiples of f_o (the seed reports up to the 18th) and their sidebands of the mesh harmonics."""
+    base = f"f_o{site.index}"
+    own = tuple(Line(orders=((base, k),), component=site.site, mechanism=key, family="outer") for k in range(1, 21))
+    return own + mesh_sidebands(site, key, harmonics=8, sides=9)

@@ -22,6 +22,7 @@ from sim.core.spec import MachineSpec
 from sim.core.terms import SiteContext, Term, Values
 from sim.parts.bearing.ball_load import BallRow, mean_stiffness_n_per_m
 from sim.parts.static_load import static_bearing_load_n
+from sim.parts.wall import mesh_sidebands
 
 LANES = 8
 OPEN_GAP_M = 1.0
@@ -218,9 +219,10 @@ class BallContact(Term):
     def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:  # noqa: ARG002
         """Varying compliance: the balls pass the load at the outer-race frequency."""
         base = f"f_o{site.index}"
-        return tuple(
+        own = tuple(
             Line(orders=((base, k),), component=site.site, mechanism=self.key, family="outer") for k in range(1, 7)
         )
+        return own + mesh_sidebands(site, self.key, harmonics=7, sides=2)
 
 
 TERM = BallContact(

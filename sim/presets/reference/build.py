@@ -182,10 +182,15 @@ def _compose(
             terms=terms,
         )
     )
-    bearings = [
-        b.model_copy(update={"geometry": entry.geometry}) for b, entry in zip(machine.bearings, rolling, strict=True)
-    ]
+    bearings = [b.model_copy(update=_rolling_fields(e)) for b, e in zip(machine.bearings, rolling, strict=True)]
     standard = 0.5 * v["m"] * (v["z1"] + v["z2"])
     moved = abs(v["a0"] - standard) > 1e-9 * standard
     mesh = machine.meshes[0].model_copy(update={"centre_distance_m": v["a0"] if moved else None})
     return machine.model_copy(update={"bearings": bearings, "meshes": [mesh]})
+
+
+def _rolling_fields(entry: Entry) -> dict[str, object]:
+    """A designation stays a designation as long as nothing of its geometry was overruled."""
+    if entry.designation is not None and entry.has_diameters:
+        return {"catalogue": entry.designation, "geometry": None}
+    return {"geometry": entry.geometry}
