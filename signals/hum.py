@@ -36,24 +36,22 @@ def find_hum(series: Series, expected_hz: Sequence[float] = ()) -> tuple[Hum, ..
     """Lines at multiples of 50 or 60 Hz, but for those within two bins of `expected_hz` (shaft harmonics ...)."""
     spectrum = amplitude_spectrum(series)
     found = find_peaks(spectrum, noise_floor(spectrum, FloorSettings()))
-    over = found.db_over_floor
     expected = np.asarray(expected_hz, dtype=np.float64)
-    hums: list[Hum] = []
-    for mains in MAINS_HZ:
-        for harmonic in HARMONICS:
-            target = mains * harmonic
-            reach = TOLERANCE * target + spectrum.resolution_hz
-            for i in np.flatnonzero(np.abs(found.frequency_hz - target) <= reach):
-                if np.all(np.abs(expected - found.frequency_hz[i]) > 2 * spectrum.resolution_hz):
-                    hums.append(
-                        Hum(
-                            channel=series.name,
-                            mains_hz=mains,
-                            harmonic=harmonic,
-                            frequency_hz=float(found.frequency_hz[i]),
-                            amplitude_peak=float(found.amplitude[i]),
-                            unit=series.unit,
-                            db_over_floor=float(over[i]),
-                        )
-                    )
-    return tuple(hums)
+    foreign = [
+        i for i, hz in enumerate(found.frequency_hz) if np.all(np.abs(expected - hz) > 2 * spectrum.resolution_hz)
+    ]
+    return tuple(
+        Hum(
+            channel=series.name,
+            mains_hz=mains,
+            harmonic=harmonic,
+            frequency_hz=float(found.frequency_hz[i]),
+            amplitude_peak=float(found.amplitude[i]),
+            unit=series.unit,
+            db_over_floor=float(found.db_over_floor[i]),
+        )
+        for mains in MAINS_HZ
+        for harmonic in HARMONICS
+        for i in foreign
+        if abs(found.frequency_hz[i] - mains * harmonic) <= TOLERANCE * mains * harmonic + spectrum.resolution_hz
+    )

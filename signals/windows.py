@@ -24,7 +24,7 @@ COSINES = {
     "blackmanharris": (0.35875, 0.48829, 0.14128, 0.01168),
     "flattop": (0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368),
 }
-"""Coefficients a_k of the windows as sums of a_k cos(2 pi k t / T), t from -T/2 to T/2 (those of scipy.signal.windows)."""
+"""Coefficients a_k of the windows, sums of a_k cos(2 pi k t / T) t from -T/2 to T/2, as in scipy.signal.windows."""
 
 
 @dataclass(frozen=True, kw_only=True)

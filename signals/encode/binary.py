@@ -9,8 +9,8 @@ import struct
 import zipfile
 
 import numpy as np
-import pyarrow as pa  # type: ignore[import-untyped]
-import pyarrow.parquet as pq  # type: ignore[import-untyped]
+import pyarrow as pa
+import pyarrow.parquet as pq
 from numpy.lib.format import write_array
 from scipy.io import savemat
 
@@ -42,7 +42,7 @@ def encode_npz(data: Table) -> bytes:
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=4) as archive:
         for name, values in arrays.items():
             member = io.BytesIO()
-            write_array(member, np.ascontiguousarray(values), allow_pickle=False)
+            write_array(member, np.asarray(values, order="C"), allow_pickle=False)
             entry = zipfile.ZipInfo(f"{name}.npy", date_time=ZIP_EPOCH)
             entry.create_system = 3  # the same on every platform
             archive.writestr(entry, member.getvalue(), compress_type=zipfile.ZIP_DEFLATED)

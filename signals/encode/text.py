@@ -41,7 +41,8 @@ def _dataset58(data: Table, row: int) -> str:
         "    58",
         f"{name[:80]:<80}",
         f"{'unit ' + unit:<80.80}",
-        f"{'':<80}",
+        # the abscissa step below has six digits only
+        f"{f'sampling rate {data.sampling_rate_hz!r} Hz':<80.80}",
         f"{'channel ' + name:<80.80}",
         f"{'NONE':<80}",
         # function type 1 (time response); response entity, node and direction, reference likewise

@@ -11,8 +11,8 @@ from signals.labels.identity import VectorKey, base_vectors, vector_key
 from signals.labels.kinematics import Kinematics
 from sim.core.lines import Line
 
-FAMILY_ORDER = ("f_m", "f_r", "f_o", "f_i", "f_b", "f_c")
-"""Order of the bases in a label, and of preference between equally simple forms."""
+FAMILY_ORDER = ("f_m", "f_o", "f_i", "f_b", "f_c", "f_r")
+"""Order of the bases in a label (carriers before what modulates them), and of preference between equal weights."""
 _BASE = re.compile(r"^(?P<family>[a-z]_[a-z])(?P<index>\d*)$")
 
 
@@ -51,7 +51,7 @@ def merge_lines(
 
 
 def simplicity(orders: Sequence[tuple[str, int]]) -> tuple[int, int, tuple[tuple[int, int, str], ...]]:
-    """Sort key, smallest first: sum of |orders|, number of bases, then mesh before shaft before bearing."""
+    """Sort key, smallest first: sum of |orders|, number of bases, then mesh before bearing before shaft."""
     return sum(abs(n) for _, n in orders), len(orders), tuple(_rank(base) for base, _ in orders)
 
 

@@ -14,8 +14,8 @@ from signals.peaks import FoundPeaks
 from signals.series import FloatArray
 
 FREQUENCY_SPREAD_BINS = 0.75
-"""Standard deviation of the interpolated frequency of a Hann line, in bins, times amplitude over floor level: what three
-bins give (measured 0.7 by a test). The Cramer-Rao bound is 0.32 (D. C. Rife and R. R. Boorstyn, IEEE Trans. Inf.
+"""Standard deviation of the interpolated frequency of a Hann line, in bins, times amplitude over floor level: what
+three bins give (measured 0.7 by a test). The Cramer-Rao bound is 0.32 (D. C. Rife and R. R. Boorstyn, IEEE Trans. Inf.
 Theory 20 (1974) 591-598, with the floor of a Hann bin)."""
 SIGMAS = 3.0
 

@@ -118,5 +118,5 @@ def test_trains_chain_exactly_and_contradictions_are_refused() -> None:
     wrong = MeshKinematics(
         base="f_m3", pinion_shaft="f_r1", pinion_teeth=20, gear_shaft="f_r3", gear_teeth=50, component="mesh3"
     )
-    with pytest.raises(SpecError, match="mesh[23]: closes a train"):
+    with pytest.raises(SpecError, match=r"mesh[23]: closes a train"):
         base_vectors(Kinematics(meshes=(first, second, wrong)))

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.signal import welch
 
 from signals.series import Series
 from signals.spectra import amplitude_spectrum, power_spectral_density
@@ -77,8 +78,6 @@ def test_density_integrates_to_the_variance_and_is_flat_for_white_noise() -> Non
 
 
 def test_density_equals_welch_of_scipy() -> None:
-    from scipy.signal import welch
-
     samples = np.random.default_rng(4).normal(0.0, 1.0, 4096)
     samples -= samples.mean()
     ours = power_spectral_density(Series(samples=samples, sampling_rate_hz=RATE, unit="m"), resolution_hz=RATE / 512)
