@@ -1,0 +1,34 @@
+# Sideband: API and worker in one image; the command decides which.
+FROM python:3.11-slim AS build
+WORKDIR /src
+RUN python -m venv /opt/sideband
+COPY pyproject.toml README.md LICENSE THIRD_PARTY_NOTICES.md ./
+COPY sim sim
+COPY signals signals
+COPY jobs jobs
+COPY store store
+COPY workers workers
+COPY app app
+RUN /opt/sideband/bin/pip install --no-cache-dir .
+
+FROM python:3.11-slim
+RUN useradd --system --uid 10001 --create-home --home-dir /home/sideband sideband \
+    && install -d -o sideband -g sideband /data /var/cache/sideband
+COPY --from=build /opt/sideband /opt/sideband
+ENV PATH=/opt/sideband/bin:$PATH \
+    PYTHONUNBUFFERED=1 \
+    NUMBA_CACHE_DIR=/var/cache/sideband \
+    MPLCONFIGDIR=/var/cache/sideband/matplotlib \
+    OMP_NUM_THREADS=1 \
+    OPENBLAS_NUM_THREADS=1 \
+    SIDEBAND_DATA_DIR=/data
+USER sideband
+WORKDIR /home/sideband
+# Compile the kernels while the image is built: the first job must not wait for it. Another kind of CPU compiles again.
+RUN python -c "from jobs.physics import PhysicsEngine; PhysicsEngine().warm()"
+VOLUME /data
+EXPOSE 8000
+STOPSIGNAL SIGTERM
+HEALTHCHECK --interval=10s --timeout=5s --start-period=30s --retries=3 \
+    CMD ["python", "-c", "import urllib.request as r; r.urlopen('http://127.0.0.1:8000/healthz', timeout=4)"]
+CMD ["uvicorn", "--factory", "app.wiring:application", "--host", "0.0.0.0", "--port", "8000", "--no-server-header"]

@@ -1,0 +1,72 @@
+"""The Compose file against the Compose Specification's schema, and against what the product promises.
+
+No container engine runs here: images are not built and containers not started by these tests.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+SCHEMA = ROOT / "tests" / "data" / "compose" / "compose-spec.json"
+
+
+@pytest.fixture(scope="module")
+def compose() -> dict[str, Any]:
+    return yaml.safe_load((ROOT / "docker-compose.yml").read_text(encoding="utf-8"))
+
+
+def validate(document: object) -> None:
+    schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
+    jsonschema.validators.validator_for(schema)(schema).validate(document)
+
+
+def test_file_follows_the_specification(compose: dict[str, Any]) -> None:
+    validate(compose)
+
+
+def test_schema_does_refuse(compose: dict[str, Any]) -> None:
+    broken = json.loads(json.dumps(compose))
+    broken["services"]["api"]["helthcheck"] = {}
+    with pytest.raises(jsonschema.ValidationError):
+        validate(broken)
+
+
+def test_every_service_has_a_health_check_and_known_volumes(compose: dict[str, Any]) -> None:
+    assert set(compose["services"]) == {"valkey", "api", "worker"}
+    for name, service in compose["services"].items():
+        assert service["healthcheck"]["test"][0] == "CMD", name
+        for volume in service["volumes"]:
+            assert volume.split(":")[0] in compose["volumes"]
+
+
+def test_workers_can_be_scaled_and_broker_keeps_what_it_accepts(compose: dict[str, Any]) -> None:
+    worker = compose["services"]["worker"]
+    assert "container_name" not in worker and "ports" not in worker
+    command = compose["services"]["valkey"]["command"]
+    assert command[command.index("--maxmemory-policy") + 1] == "noeviction"
+    assert command[command.index("--appendonly") + 1] == "yes"
+
+
+def test_only_loopback_is_published_and_keys_are_demanded(compose: dict[str, Any]) -> None:
+    published = [port for service in compose["services"].values() for port in service.get("ports", [])]
+    assert len(published) == 1 and published[0].startswith("127.0.0.1:")
+    assert ":?" in compose["services"]["api"]["environment"]["SIDEBAND_API_KEYS"]
+
+
+def test_image_runs_without_root_and_copies_what_exists() -> None:
+    text = (ROOT / "Dockerfile").read_text(encoding="utf-8")
+    assert re.search(r"^USER sideband$", text, re.MULTILINE)
+    ignored = (ROOT / ".dockerignore").read_text(encoding="utf-8")
+    for line in re.findall(r"^COPY (?!--)(.+) \S+$", text, re.MULTILINE):
+        for source in line.split():
+            assert f"!{source}" in ignored, source
+            if (ROOT / source).suffix == "" and source != "LICENSE":
+                assert (ROOT / source / "__init__.py").exists(), source
