@@ -211,7 +211,7 @@ def try_step(plan, work, t, level, rtol):  # type: ignore[no-untyped-def]  # noq
         stiff_ok = True
         moved = 0.0
         if plan.stiff > 0:
-            stiff_ok, moved = solve_stiff(plan, work, level, rtol)
+            stiff_ok, moved = solve_stiff(plan, work, level, rtol, iteration)
         change, largest = regular_forces(plan, work)
         change = max(change, moved)
         work.counts[0] += 1

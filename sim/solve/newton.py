@@ -14,6 +14,8 @@ MAX_NEWTON = 40
 RTOL_SHARE = 0.1
 """Tolerance of the inner iteration over that of the outer one."""
 BACKTRACK = 1e-3
+CLOSE = 0.02
+"""Relative residual below which Newton's own quadratic convergence is trusted."""
 BASE, LAM, OLD, ENTRY, STEP, RES, TANGENT, JACOBIAN, POINT = 0, 16, 24, 32, 40, 48, 56, 80, 120
 NEWTON_SCRATCH = 160
 
@@ -100,7 +102,7 @@ def jacobian(plan, work, own, d):  # type: ignore[no-untyped-def]  # noqa: ANN00
 
 
 @inline
-def newton_element(plan, work, level, e, which, rtol):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+def newton_element(plan, work, level, e, which, rtol, iteration):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Solve one stiff element; returns (converged, largest change of its forces)."""
     s = plan.stages
     d = plan.forces[e]
@@ -128,6 +130,12 @@ def newton_element(plan, work, level, e, which, rtol):  # type: ignore[no-untype
         jacobian(plan, work, own, d)
         if not math.isfinite(norm) or not solve_dense(shift(w, JACOBIAN), shift(w, RES), n):
             break
+        if iteration > 0 and norm <= (CLOSE * scale) ** 2:
+            # one undamped step; the outer iteration judges convergence by how far it moved
+            for k in range(n):
+                w[LAM + k] -= w[RES + k]
+            converged = True
+            break
         for k in range(n):
             w[OLD + k] = w[LAM + k]
             w[STEP + k] = w[RES + k]
@@ -149,14 +157,14 @@ def newton_element(plan, work, level, e, which, rtol):  # type: ignore[no-untype
 
 
 @inline
-def solve_stiff(plan, work, level, rtol):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+def solve_stiff(plan, work, level, rtol, iteration):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """All stiff elements in turn; returns (all converged, largest change)."""
     ok = True
     change = 0.0
     which = 0
     for e in range(plan.elements):
         if plan.flags[2 * e] == 1:
-            good, moved = newton_element(plan, work, level, e, which, rtol)
+            good, moved = newton_element(plan, work, level, e, which, rtol, iteration)
             ok = ok and good
             change = max(change, moved)
             which += 1

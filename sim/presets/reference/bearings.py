@@ -153,11 +153,9 @@ def merged(entry: Entry | None, balls: float | None, ratio: float | None, names:
     )
     if same:
         return entry, ""
-    text = (
-        f"{names[0]} = {balls if balls is not None else 'absent'}, {names[1]} = {ratio if ratio is not None else 'absent'}"
-        f" contradict `bearings` ({entry.designation or 'geometry'}: {entry.geometry.balls} balls,"
-        f" ratio {entry.ratio:.4g})"
-    )
+    said = " and ".join(f"{n} = {v:g}" for n, v in zip(names, (balls, ratio), strict=True) if v is not None)
+    theirs = f"{entry.designation or 'geometry'}: {entry.geometry.balls} balls, ratio {entry.ratio:.4g}"
+    text = f"{said} contradicts `bearings` ({theirs})"
     if entry.designation is None:
         raise SpecError(
             Problem(field=f"parameters.{names[1]}", message=text, allowed="numbers that agree, or only one")
