@@ -1,0 +1,42 @@
+"""A result folder: signals.npz, summary.json, labels.json, machine.json."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from app.cli.files import json_text, write, write_text
+from jobs.documents import ResultDocuments
+from sim.core.response import Response
+
+FILES = ("signals.npz", "summary.json", "labels.json", "machine.json")
+RESERVED = ("time_s", "sampling_rate_hz")
+
+
+def write_result(
+    folder: Path, response: Response, documents: ResultDocuments, *, request: Mapping[str, object], elapsed_s: float
+) -> None:
+    """Write every file whole. signals.npz: one array a channel by its name, `time_s` (samples,), `sampling_rate_hz`."""
+    arrays = {channel.name: row for channel, row in zip(response.channels, response.signals, strict=True)}
+    samples = response.signals.shape[1]
+    arrays |= {
+        "time_s": np.arange(samples) / response.sampling_rate_hz,
+        "sampling_rate_hz": np.array(response.sampling_rate_hz),
+    }
+    write(folder / "signals.npz", lambda stream: np.savez(stream, **arrays))
+    summary = {
+        **documents.summary,
+        "request": dict(request),
+        "seed": response.seed,
+        "physics_version": response.version,
+        "sampling_rate_hz": response.sampling_rate_hz,
+        "samples": samples,
+        "channels": [asdict(channel) for channel in response.channels],
+        "elapsed_s": elapsed_s,
+    }
+    write_text(folder / "summary.json", json_text(summary))
+    write_text(folder / "labels.json", json_text(documents.peaks))
+    write_text(folder / "machine.json", json_text(response.machine.model_dump(mode="json")))

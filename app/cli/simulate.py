@@ -1,0 +1,148 @@
+"""Simulate a machine without any server; write signals.npz, summary.json, labels.json and machine.json to a folder.
+
+Example: sideband simulate --preset paper --set fit_clearance@bearing1.gap=2e-5 --duration 2 --out result
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+import psutil
+from pydantic import ValidationError
+from tqdm import tqdm
+
+from app.cli.choice import add_machine_options, chosen_machine
+from app.cli.files import refuse_existing
+from app.cli.result import FILES, write_result
+from jobs.analysis import analyse
+from jobs.documents import ResultDocuments
+from jobs.limits import Limits
+from jobs.physics import PhysicsEngine
+from jobs.request import SimulationRequest
+from jobs.resolve import resolve
+from jobs.validation import problems_of
+from sim.core.errors import Problem, SpecError
+from sim.core.response import Response
+from sim.core.spec import MachineSpec
+
+DEFAULT_PRESET = "paper-demo"
+LOCAL_LIMITS = Limits(duration_s=3600.0, samples=2**40, steps=2**50, seconds=float("inf"))
+"""A person's own machine: only what cannot work is refused."""
+MEMORY_SHARE = 0.8
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    add_machine_options(parser, default=DEFAULT_PRESET)
+    parser.add_argument(
+        "--duration", type=float, default=1.0, metavar="S", help="simulated time, s (default %(default)g)"
+    )
+    parser.add_argument(
+        "--rate", type=float, default=30000.0, metavar="HZ", help="output rate, Hz (default %(default)g)"
+    )
+    parser.add_argument("--seed", type=int, default=0, help="seed of everything random (default %(default)d)")
+    parser.add_argument(
+        "--channels", nargs="+", metavar="NAME", help="outputs, or `all` (default: the sensors); see `sideband machine`"
+    )
+    parser.add_argument(
+        "--keep-transient", action="store_true", help="analyse from t = 0 instead of after the start-up"
+    )
+    parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder of the result")
+    parser.add_argument("--force", action="store_true", help="overwrite an earlier result in DIR")
+    parser.add_argument("--quiet", action="store_true", help="no progress bar, no table of lines")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the command."""
+    machine = chosen_machine(arguments)
+    refuse_existing([arguments.out / name for name in FILES], force=arguments.force)
+    engine = PhysicsEngine()
+    request = _request(arguments, machine, engine)
+    memory = int(MEMORY_SHARE * psutil.virtual_memory().available)
+    resolved = resolve(request, engine, Limits(**{**vars(LOCAL_LIMITS), "memory_bytes": memory}))
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    engine.warm()
+    started = time.perf_counter()
+    response = _simulated(engine, machine, request, show=not arguments.quiet)
+    elapsed = time.perf_counter() - started
+    documents = analyse(response, discard_transient=request.discard_transient)
+    origin = {"preset": arguments.preset or arguments.default_preset, "machine_file": None, "set": arguments.set}
+    if arguments.machine is not None:
+        origin |= {"preset": None, "machine_file": str(arguments.machine)}
+    settings = {k: v for k, v in resolved.source.items() if k not in ("preset", "machine", "set")}
+    write_result(arguments.out, response, documents, request={**origin, **settings}, elapsed_s=elapsed)
+    if not arguments.quiet:
+        _say(response, documents, elapsed)
+        print(f"wrote {', '.join(FILES)} to {arguments.out}", file=sys.stderr)
+    return 0
+
+
+def _request(arguments: argparse.Namespace, machine: MachineSpec, engine: PhysicsEngine) -> SimulationRequest:
+    """The same request the service would take."""
+    channels = _channels(arguments.channels, machine, engine)
+    try:
+        return SimulationRequest(
+            machine=machine,
+            set={},
+            duration_s=arguments.duration,
+            sampling_rate_hz=arguments.rate,
+            channels=channels,
+            seed=arguments.seed,
+            discard_transient=not arguments.keep_transient,
+        )
+    except ValidationError as error:
+        raise SpecError(problems_of(error)) from error
+
+
+def _channels(given: Sequence[str] | None, machine: MachineSpec, engine: PhysicsEngine) -> list[str] | None:
+    if given is None:
+        return None
+    names = [name for item in given for name in item.split(",") if name]
+    if "all" not in names:
+        return list(dict.fromkeys(names))
+    if len(names) > 1:
+        raise SpecError(Problem(field="--channels", message="`all` stands alone", given=" ".join(given)))
+    return list(engine.report(machine).channels)
+
+
+def _simulated(engine: PhysicsEngine, machine: MachineSpec, request: SimulationRequest, *, show: bool) -> Response:
+    text = "{l_bar}{bar}| {n:.3g}/{total:.3g} s [{elapsed}<{remaining}]"
+    with tqdm(total=request.duration_s, disable=not show, bar_format=text, file=sys.stderr) as bar:
+        return engine.simulate(
+            machine,
+            duration_s=request.duration_s,
+            sampling_rate_hz=request.sampling_rate_hz,
+            channels=request.channels,
+            seed=request.seed,
+            progress=lambda share: _show(bar, share * request.duration_s),
+            cancelled=lambda: False,
+        )
+
+
+def _show(bar: tqdm, seconds: float) -> None:  # type: ignore[type-arg]
+    bar.update(min(seconds, float(bar.total or 0.0)) - bar.n)
+
+
+STRONGEST = 12
+
+
+def _say(response: Response, documents: ResultDocuments, elapsed_s: float) -> None:
+    """The strongest labelled lines and the quality of the run."""
+    listed, warnings = documents.peaks["peaks"], documents.summary["warnings"]
+    assert isinstance(listed, list) and isinstance(warnings, list)
+    found = [p for p in listed if p["status"] in ("present", "ambiguous")]
+    for peak in sorted(found, key=lambda p: -p["amplitude"])[:STRONGEST]:
+        print(f"{peak['label']:<20} {peak['frequency_hz']:>10.2f} Hz {peak['amplitude']:>12.4g} {peak['unit']}")
+    quality, speed = response.quality, response.signals.shape[1] / response.sampling_rate_hz / elapsed_s
+    error = "not measured" if quality.step_error is None else f"{quality.step_error:.1e}"
+    print(
+        f"step error {error} ({quality.step_error_kind}), energy residual {quality.energy.relative_residual:.1e}, "
+        f"{speed:.2g} times real time",
+        file=sys.stderr,
+    )
+    for warning in warnings:
+        print(f"warning: {warning}", file=sys.stderr)
