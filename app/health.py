@@ -92,7 +92,7 @@ def collect(state: AppState, version: str) -> Health:
     """Ask every part. No part that is away keeps the others from answering."""
     now = time.time()
     broker = _asked(state.stores.queue.ping)
-    catalogue = _asked(lambda: state.stores.catalogue.waiting())
+    catalogue = _asked(state.stores.catalogue.waiting)
     artefacts = _asked(state.stores.artefacts.check)
     numbers = _numbers(state, now) if catalogue.status == "ok" else _NOTHING
     present = _workers(state, now) if catalogue.status == "ok" else []

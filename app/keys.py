@@ -18,11 +18,11 @@ def digest_of(key: str) -> str:
 def main(arguments: list[str]) -> int:
     """Entry point."""
     if len(arguments) != 1 or not arguments[0].replace("-", "").replace("_", "").isalnum():
-        print("usage: python -m app.keys NAME (letters, digits, - and _)", file=sys.stderr)
+        sys.stderr.write("usage: python -m app.keys NAME (letters, digits, - and _)\n")
         return 2
     key = f"sb_{secrets.token_urlsafe(32)}"
-    print(f"key (give it to {arguments[0]}, it is not shown again): {key}")
-    print(f"SIDEBAND_API_KEYS entry: {arguments[0]}:{digest_of(key)}")
+    sys.stdout.write(f"key (give it to {arguments[0]}, it is not shown again): {key}\n")
+    sys.stdout.write(f"SIDEBAND_API_KEYS entry: {arguments[0]}:{digest_of(key)}\n")
     return 0
 
 

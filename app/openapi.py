@@ -29,11 +29,12 @@ def main(arguments: list[str]) -> int:
     text = rendered()
     if "--check" in arguments:
         same = SNAPSHOT.is_file() and SNAPSHOT.read_text(encoding="utf-8") == text
-        print("the OpenAPI document is up to date" if same else "the OpenAPI document differs: python -m app.openapi")
+        told = "is up to date" if same else "differs from the application: run `python -m app.openapi`"
+        sys.stdout.write(f"the OpenAPI document {told}\n")
         return 0 if same else 1
     SNAPSHOT.parent.mkdir(exist_ok=True)
     SNAPSHOT.write_text(text, encoding="utf-8")
-    print(f"wrote {SNAPSHOT}")
+    sys.stdout.write(f"wrote {SNAPSHOT}\n")
     return 0
 
 

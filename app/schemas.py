@@ -31,7 +31,8 @@ class FailureView(Reply):
     """Why a job failed."""
 
     code: str
-    """`diverged`, `invalid-machine`, `worker-lost`, `timeout`, `out-of-memory`, `store-full`, `store-away`, `internal`."""
+    """`diverged`, `invalid-machine`, `worker-lost`, `timeout`, `out-of-memory`, `store-full`, `store-away` or
+    `internal`."""
     message: str
     advice: str
     detail: dict[str, object] | None = None

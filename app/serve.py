@@ -12,7 +12,7 @@ import threading
 import webbrowser
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import FrameType
 
@@ -35,6 +35,11 @@ class BrokerUnavailable(SidebandError):
     """The embedded broker did not start."""
 
 
+def _say_where(url: str) -> None:
+    sys.stdout.write(f"Sideband is at {url}\n")
+    sys.stdout.flush()
+
+
 @dataclass(frozen=True, kw_only=True)
 class Service:
     """What to serve. `build` and `worker_command` are replaced in tests."""
@@ -44,7 +49,7 @@ class Service:
     open_browser: bool = False
     build: Callable[[Settings], FastAPI] = application
     worker_command: tuple[str, ...] = (sys.executable, "-m", "workers")
-    announce: Callable[[str], None] = field(default=lambda url: print(f"Sideband is at {url}", flush=True))
+    announce: Callable[[str], None] = _say_where
 
 
 def serve(

@@ -54,8 +54,9 @@ class Settings:
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> Settings:
-        """`SIDEBAND_HOST`, `SIDEBAND_PORT`, `SIDEBAND_API_KEYS` (`name:sha256,...`), `SIDEBAND_ALLOWED_HOSTS`, limits
-        `SIDEBAND_MAX_DURATION_S`, `SIDEBAND_MAX_MEMORY_BYTES`, `SIDEBAND_MAX_STEPS`, `SIDEBAND_MAX_SECONDS`, `SIDEBAND_MAX_WAITING`."""
+        """`SIDEBAND_HOST`, `SIDEBAND_PORT`, `SIDEBAND_API_KEYS` (`name:sha256,...`), `SIDEBAND_ALLOWED_HOSTS`; limits:
+        `SIDEBAND_MAX_DURATION_S`, `SIDEBAND_MAX_MEMORY_BYTES`, `SIDEBAND_MAX_STEPS`, `SIDEBAND_MAX_SECONDS`,
+        `SIDEBAND_MAX_WAITING`."""
         env = os.environ if environment is None else environment
         base = Limits()
         limits = Limits(

@@ -10,7 +10,7 @@ from jobs.request import SimulationRequest
 from sim.core.errors import Problem, SpecError
 
 NYQUIST_MARGIN = 2.56
-"""Sampling over the highest frequency wanted: room for the anti-alias filter's transition band, as in ISO 13373-2:2016 practice."""
+"""Sampling over the highest frequency wanted: the customary room for the anti-alias filter's transition band."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -17,7 +17,7 @@ from sim.core.response import Response
 from sim.core.spec import MachineSpec
 from sim.core.system import System
 from sim.core.terms import Term
-from sim.parts.bearing.catalogue import catalogue
+from sim.parts.bearing.catalogue import catalogue, missing
 from sim.solve.api import default_channels, resolve_channels, simulate
 from sim.solve.step_choice import run_cost
 from sim.terms import REGISTRY
@@ -59,6 +59,10 @@ class PhysicsEngine:
     def bearings(self) -> list[dict[str, object]]:
         """The bearing catalogue."""
         return [asdict(row) | {"published_orders": dict(row.published_orders)} for row in catalogue().values()]
+
+    def missing_bearings(self) -> dict[str, str]:
+        """Sizes left out of the catalogue, with the reason."""
+        return dict(missing())
 
     def report(self, machine: MachineSpec) -> MachineReport:
         """What assembly says; raises SpecError or UnknownName."""

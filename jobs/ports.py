@@ -36,16 +36,35 @@ class Engine(Protocol):
     """The physics, as the service sees it."""
 
     @property
-    def version(self) -> str: ...
-    def warm(self) -> None: ...
-    def preset_names(self) -> tuple[str, ...]: ...
-    def preset(self, name: str) -> MachineSpec: ...
-    def terms(self) -> list[dict[str, object]]: ...
-    def bearings(self) -> list[dict[str, object]]: ...
-    def report(self, machine: MachineSpec) -> MachineReport: ...
+    def version(self) -> str:
+        """Part of every job's identity."""
+
+    def warm(self) -> None:
+        """Load compiled kernels."""
+
+    def preset_names(self) -> tuple[str, ...]:
+        """Names of the preset machines."""
+
+    def preset(self, name: str) -> MachineSpec:
+        """A preset machine."""
+
+    def terms(self) -> list[dict[str, object]]:
+        """Every effect with its parameters."""
+
+    def bearings(self) -> list[dict[str, object]]:
+        """The bearing catalogue."""
+
+    def missing_bearings(self) -> dict[str, str]:
+        """Sizes left out of the catalogue, with the reason."""
+
+    def report(self, machine: MachineSpec) -> MachineReport:
+        """What assembly says; raises SpecError or UnknownName."""
+
     def cost(
         self, machine: MachineSpec, *, duration_s: float, sampling_rate_hz: float, channels: Sequence[str] | None
-    ) -> Cost: ...
+    ) -> Cost:
+        """What a run would take."""
+
     def simulate(
         self,
         machine: MachineSpec,
@@ -56,13 +75,15 @@ class Engine(Protocol):
         seed: int,
         progress: Callable[[float], None],
         cancelled: Callable[[], bool],
-    ) -> Response: ...
+    ) -> Response:
+        """Simulate; raises Diverged, Cancelled."""
 
 
 class Analyser(Protocol):
     """Features, spectra and labelled peaks of a response."""
 
-    def __call__(self, response: Response, *, discard_transient: bool) -> ResultDocuments: ...
+    def __call__(self, response: Response, *, discard_transient: bool) -> ResultDocuments:
+        """Analyse a response."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,11 +98,20 @@ class Ticket:
 class Queue(Protocol):
     """The broker's queue. Every method raises BrokerAway when the server does not answer."""
 
-    def ping(self) -> None: ...
-    def submit(self, ticket: Ticket) -> None: ...
-    def holds(self, ticket: Ticket) -> bool: ...
-    def withdraw(self, ticket: Ticket) -> None: ...
-    def length(self) -> int: ...
+    def ping(self) -> None:
+        """Raise BrokerAway unless the server answers."""
+
+    def submit(self, ticket: Ticket) -> None:
+        """Put a ticket into the queue."""
+
+    def holds(self, ticket: Ticket) -> bool:
+        """Whether the server has the ticket and is not done with it."""
+
+    def withdraw(self, ticket: Ticket) -> None:
+        """Take a ticket out, if it is there."""
+
+    def length(self) -> int:
+        """Number of tickets waiting."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,35 +137,71 @@ class JobQuery:
 class JobCatalogue(Protocol):
     """The system of record. Raises StoreAway or StoreFull when it cannot answer."""
 
-    def get(self, job_id: str) -> JobRecord: ...
-    def request_of(self, job_id: str) -> Mapping[str, object]: ...
+    def get(self, job_id: str) -> JobRecord:
+        """The record; raises UnknownJob."""
+
+    def request_of(self, job_id: str) -> Mapping[str, object]:
+        """The resolved request."""
+
     def put(
         self, job_id: str, request: Mapping[str, object], first: Callable[[], JobRecord], again: Transition
     ) -> tuple[JobRecord, bool]:
         """Insert `first()` or change the present record with `again`, in one transaction; True when inserted."""
 
-    def change(self, job_id: str, transition: Transition) -> JobRecord: ...
-    def query(self, query: JobQuery) -> tuple[list[JobRecord], int]: ...
-    def outbox(self, now: float, limit: int) -> list[JobRecord]: ...
-    def enqueued(self, limit: int) -> list[JobRecord]: ...
-    def lapsed(self, now: float, limit: int) -> list[JobRecord]: ...
-    def running_on(self, worker: str) -> list[JobRecord]: ...
-    def expired(self, now: float, limit: int) -> list[JobRecord]: ...
-    def waiting(self) -> int: ...
-    def events_after(self, job_id: str, sequence: int, limit: int) -> list[JobEvent]: ...
+    def change(self, job_id: str, transition: Transition) -> JobRecord:
+        """Apply a transition in one transaction."""
+
+    def query(self, query: JobQuery) -> tuple[list[JobRecord], int]:
+        """A page, and how many match."""
+
+    def outbox(self, now: float, limit: int) -> list[JobRecord]:
+        """Accepted, not with the broker, due."""
+
+    def enqueued(self, limit: int) -> list[JobRecord]:
+        """Accepted, should be with the broker."""
+
+    def lapsed(self, now: float, limit: int) -> list[JobRecord]:
+        """Running, lease over."""
+
+    def running_on(self, worker: str) -> list[JobRecord]:
+        """Running on a worker."""
+
+    def expired(self, now: float, limit: int) -> list[JobRecord]:
+        """Result past its time."""
+
+    def waiting(self) -> int:
+        """Number of accepted jobs."""
+
+    def events_after(self, job_id: str, sequence: int, limit: int) -> list[JobEvent]:
+        """History after a sequence number."""
+
     def remember(self, scope: str, key: str, body_sha256: str, job_id: str, now: float) -> Remembered | None:
         """Keep the key; returns the earlier use when there was one."""
 
-    def recall(self, scope: str, key: str) -> Remembered | None: ...
+    def recall(self, scope: str, key: str) -> Remembered | None:
+        """The earlier use of a key."""
 
 
 class ArtefactStore(Protocol):
     """Blobs by key (`job/attempt/name`); a key appears whole or not at all."""
 
-    def write(self, key: str) -> AbstractContextManager[BinaryIO]: ...
-    def read(self, key: str, start: int = 0, length: int | None = None) -> bytes: ...
-    def chunks(self, key: str, start: int, length: int) -> Iterator[bytes]: ...
-    def size(self, key: str) -> int: ...
-    def delete_prefix(self, prefix: str) -> None: ...
-    def free_bytes(self) -> int: ...
-    def check(self) -> None: ...
+    def write(self, key: str) -> AbstractContextManager[BinaryIO]:
+        """A stream; the key appears when it is closed well."""
+
+    def read(self, key: str, start: int = 0, length: int | None = None) -> bytes:
+        """Bytes of a stretch."""
+
+    def chunks(self, key: str, start: int, length: int) -> Iterator[bytes]:
+        """The same in pieces."""
+
+    def size(self, key: str) -> int:
+        """Length in bytes."""
+
+    def delete_prefix(self, prefix: str) -> None:
+        """Remove everything under a prefix."""
+
+    def free_bytes(self) -> int:
+        """Space left."""
+
+    def check(self) -> None:
+        """Raise StoreAway unless it can be written to."""

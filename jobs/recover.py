@@ -1,4 +1,4 @@
-"""Keeping the promise that nothing accepted is lost: the catalogue is compared with the world and the world put right."""
+"""Keeping the promise that nothing accepted is lost: the world is compared with the catalogue and put right."""
 
 from __future__ import annotations
 

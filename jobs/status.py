@@ -6,7 +6,7 @@ from enum import StrEnum
 
 
 class Status(StrEnum):
-    """Where a job stands. The words follow OGC API Processes 1.0 (OGC 18-062r2), section 7.12."""
+    """Where a job stands. The words follow OGC API Processes 1.0 (OGC 18-062r2)."""
 
     ACCEPTED = "accepted"
     RUNNING = "running"

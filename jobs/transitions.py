@@ -138,7 +138,7 @@ def withdraw(record: JobRecord, leaving: Collection[str], now: float) -> JobReco
 def lose(
     record: JobRecord, *, attempt: int, failure: Failure, max_losses: int, delay_s: float, now: float
 ) -> JobRecord:
-    """The attempt died under its worker: dismissed if it was to stop anyway, else tried again a bounded number of times."""
+    """The attempt died under its worker: dismissed if it was to stop anyway, else tried again, not for ever."""
     own = _own(record, attempt)
     if own.cancel_requested_at is not None:
         return _ended(own, Status.DISMISSED, now)

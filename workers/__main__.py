@@ -28,12 +28,12 @@ def main(arguments: list[str]) -> int:
         parent_pid=given.parent,
     )
     if not start.stores.redis_url:
-        print("REDIS_URL is not set: a worker needs a broker", file=sys.stderr)
+        sys.stderr.write("REDIS_URL is not set: a worker needs a broker\n")
         return 2
     try:
         return run_worker(start, PhysicsEngine(), analyse)
     except SidebandError as error:
-        print(f"worker {given.name}: {error}", file=sys.stderr)
+        sys.stderr.write(f"worker {given.name}: {error}\n")
         return 1
 
 

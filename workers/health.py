@@ -19,7 +19,7 @@ def main() -> int:
     try:
         rows = workers.seen_since(database, time.time() - SILENT_S)
     except SidebandError as error:
-        print(error, file=sys.stderr)
+        sys.stderr.write(f"{error}\n")
         return 1
     return 0 if any(row.host == socket.gethostname() for row in rows) else 1
 

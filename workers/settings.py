@@ -25,7 +25,7 @@ class WorkerSettings:
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> WorkerSettings:
-        """`SIDEBAND_LEASE_S`, `SIDEBAND_CANCEL_GRACE_S`, `SIDEBAND_SHUTDOWN_GRACE_S`, `SIDEBAND_KEEP_DAYS` (0: for ever)."""
+        """`SIDEBAND_LEASE_S`, `SIDEBAND_CANCEL_GRACE_S`, `SIDEBAND_SHUTDOWN_GRACE_S`, `SIDEBAND_KEEP_DAYS` (0: ever)"""
         env = os.environ if environment is None else environment
         lease = float(env.get("SIDEBAND_LEASE_S", cls.lease_s))
         days = float(env.get("SIDEBAND_KEEP_DAYS", 30))

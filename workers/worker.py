@@ -7,8 +7,9 @@ import os
 import signal
 import time
 from types import FrameType
-from typing import Any, cast
+from typing import cast
 
+from redis.client import Pipeline
 from redis.exceptions import RedisError
 from rq import Queue, Worker
 from rq.exceptions import StopRequested
@@ -52,7 +53,7 @@ class SidebandWorker(Worker):
             log_job_description=False,
         )
 
-    def heartbeat(self, timeout: int | None = None, pipeline: Any = None) -> None:
+    def heartbeat(self, timeout: int | None = None, pipeline: Pipeline | None = None) -> None:
         """Tell the broker and the catalogue that this worker lives."""
         super().heartbeat(timeout, pipeline)
         self._watch.report("busy" if self._horse_pid else "idle")
@@ -108,7 +109,7 @@ class SidebandWorker(Worker):
         except RedisError as error:
             log.warning("the broker does not answer: %s", error)
 
-    def request_stop(self, signum: int, frame: FrameType | None) -> None:
+    def request_stop(self, signum: int, frame: FrameType | None) -> None:  # noqa: ARG002 - a signal handler's form
         """Leave: at once when idle, after a grace when busy; asked again, at once."""
         now = time.monotonic()
         self._stop_at = now if self._stop_at is not None else now + self._context.settings.shutdown_grace_s

@@ -25,6 +25,7 @@ class AccessGuard:
         self._app, self._settings = app, settings
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Handle one connection."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
@@ -52,7 +53,7 @@ class AccessGuard:
         return None
 
     def _host_known(self, header: str) -> bool:
-        # A page whose name an attacker points at 127.0.0.1 must not reach a server that asks for no key (DNS rebinding).
+        # DNS rebinding: a page whose name an attacker points at 127.0.0.1 must not reach a server without keys.
         if self._settings.keys_required:
             return True
         name = urlsplit(f"//{header}").hostname or ""

@@ -23,6 +23,7 @@ class BodyGuard:
         self._app, self._max_bytes, self._max_depth, self._timeout_s = app, max_bytes, max_depth, timeout_s
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Handle one connection."""
         if scope["type"] != "http" or scope["method"] not in _WITH_BODY:
             await self._app(scope, receive, send)
             return

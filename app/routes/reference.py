@@ -66,8 +66,9 @@ def terms(request: Request, state: State) -> Response:
 
 @router.get("/v1/bearings", responses=problems(401))
 def bearings(request: Request, state: State) -> Response:
-    """The bearing catalogue, every row with its source."""
-    return _document(request, state, {"bearings": state.engine.bearings()})
+    """The bearing catalogue, every row with its source; and the sizes left out, with the reason."""
+    document = {"bearings": state.engine.bearings(), "missing": state.engine.missing_bearings()}
+    return _document(request, state, document)
 
 
 @router.post("/v1/machines/check", response_model=MachineCheck, responses=problems(400, 401, 413, 415, 422))

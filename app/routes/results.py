@@ -99,7 +99,7 @@ def spectra(
     kind: Annotated[SpectrumKind, Query()] = "amplitude",
     max_points: MaxPoints = None,
 ) -> Response:
-    """One spectrum; `meta` says peak or RMS, window and scaling. `max_points` keeps the highest line of each stretch."""
+    """One spectrum; `meta` says peak or RMS, window, scaling. `max_points` keeps the highest line of each stretch."""
     found = stored(state, job_id)
     etag = etag_of(found.digest, "spectra", channel, kind, str(max_points))
     known = not_modified(request, etag)

@@ -41,7 +41,7 @@ class FolderStore:
                     yield cast(BinaryIO, stream)
                     stream.flush()
                     os.fsync(stream.fileno())
-                os.replace(temporary, target)
+                Path(temporary).replace(target)
             except BaseException:
                 Path(temporary).unlink(missing_ok=True)
                 raise

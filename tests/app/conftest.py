@@ -1,4 +1,4 @@
-"""An application on a real broker with one worker for the whole module; an application without a broker for the rest."""
+"""An application on a real broker with one worker, for a whole module."""
 
 from __future__ import annotations
 

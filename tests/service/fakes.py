@@ -55,6 +55,9 @@ class FakeEngine:
     def bearings(self) -> list[dict[str, object]]:
         return [{"designation": "6203", "balls": 8}]
 
+    def missing_bearings(self) -> dict[str, str]:
+        return {"6204": "no source"}
+
     def report(self, machine: MachineSpec) -> MachineReport:
         if not machine.bodies:
             raise SpecError(Problem(field="machine.bodies", message="the machine has no mass", allowed="at least one"))

@@ -33,13 +33,18 @@ def main(arguments: list[str]) -> int:
         with open(0, "rb", buffering=0, closefd=False) as owner:
             guard(Path(arguments[0]).absolute(), owner=owner, announce=_announce, stopped=lambda: stop_asked)
     except SidebandError as error:
-        print(json.dumps({"error": str(error)}), flush=True)
+        _say(error=str(error))
         return 1
     return 0
 
 
 def _announce(address: Address) -> None:
-    print(json.dumps({"url": address.url}), flush=True)
+    _say(url=address.url)
+
+
+def _say(**document: str) -> None:
+    sys.stdout.write(json.dumps(document) + "\n")
+    sys.stdout.flush()
 
 
 if __name__ == "__main__":
