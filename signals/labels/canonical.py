@@ -42,10 +42,11 @@ def merge_lines(
     vectors = base_vectors(kinematics or Kinematics())
     groups: dict[VectorKey, list[Line]] = {}
     for line in lines:
-        positive = _positive(line, bases_hz)
-        key = vector_key(positive.orders, vectors)
+        ordered = _ordered(line)
+        key = vector_key(ordered.orders, vectors)
         if key:
-            groups.setdefault(key, []).append(positive)
+            # a sum and its negative are one line: the frequency folds
+            groups.setdefault(min(key, tuple((symbol, -share) for symbol, share in key)), []).append(ordered)
     merged = [_candidate(group, bases_hz) for group in groups.values()]
     return tuple(sorted(merged, key=lambda c: (c.frequency_hz, c.label)))
 
@@ -55,13 +56,13 @@ def simplicity(orders: Sequence[tuple[str, int]]) -> tuple[int, int, tuple[tuple
     return sum(abs(n) for _, n in orders), len(orders), tuple(_rank(base) for base, _ in orders)
 
 
-def _positive(line: Line, bases_hz: Mapping[str, float]) -> Line:
-    """The line with its bases in canonical order, zeros dropped, and the sign that makes the sum positive."""
+def _ordered(line: Line) -> Line:
+    """The line with its bases in canonical order, zeros dropped, and the first multiple positive."""
     totals: dict[str, int] = {}
     for base, n in line.orders:
         totals[base] = totals.get(base, 0) + n
     orders = tuple(sorted(((b, n) for b, n in totals.items() if n), key=lambda item: _rank(item[0])))
-    if sum(n * bases_hz[b] for b, n in orders) < 0:
+    if orders and orders[0][1] < 0:
         orders = tuple((b, -n) for b, n in orders)
     return Line(orders=orders, component=line.component, mechanism=line.mechanism, family=line.family)
 

@@ -18,7 +18,8 @@ MECHANISM = "kinematic"
 
 @dataclass(frozen=True, kw_only=True)
 class Bound:
-    """Largest orders looked at: harmonics of each family, sidebands on each side.
+    """Largest orders looked at: harmonics of each family, sidebands on each side, and in combinations of three
+    (j f_m + n f_r + k f_o, only for peaks that no family explains) the largest |n| and |k|.
 
     `ambiguity_weight`: a sum competes for a peak that a simpler sum explains only if its |orders| add up to no more.
     """
@@ -33,6 +34,8 @@ class Bound:
     ball: int = 5
     ball_cage_sidebands: int = 2
     cage: int = 5
+    combination_shaft: int = 5
+    combination_outer: int = 20
     ambiguity_weight: int = 12
 
 
@@ -47,7 +50,7 @@ def kinematic_lines(
     limits = bound or Bound()
     lines: list[Line] = []
     for shaft in kinematics.shafts:
-        lines += [_line({shaft.base: k}, shaft.component, "shaft") for k in range(1, limits.shaft + 1)]
+        lines += [predicted({shaft.base: k}, shaft.component, "shaft") for k in range(1, limits.shaft + 1)]
     for mesh in kinematics.meshes:
         lines += _mesh(mesh, kinematics.bearings, limits)
     for bearing in kinematics.bearings:
@@ -61,13 +64,13 @@ def _mesh(mesh: MeshKinematics, bearings: tuple[BearingKinematics, ...], bound: 
     shafts = ((mesh.pinion_shaft, mesh.pinion), (mesh.gear_shaft, mesh.gear))
     carried = [b for b in bearings if b.shaft in (mesh.pinion_shaft, mesh.gear_shaft)]
     for k in range(1, bound.mesh + 1):
-        yield _line({mesh.base: k}, mesh.component, "mesh")
+        yield predicted({mesh.base: k}, mesh.component, "mesh")
         for shaft, component in shafts:
-            for n in _both_signs(bound.mesh_shaft_sidebands):
-                yield _line({mesh.base: k, shaft: n}, component, "mesh")
+            for n in both_signs(bound.mesh_shaft_sidebands):
+                yield predicted({mesh.base: k, shaft: n}, component, "mesh")
         for bearing in carried:
-            for n in _both_signs(bound.mesh_outer_sidebands):
-                yield _line({mesh.base: k, bearing.base("o"): n}, bearing.site, "mesh")
+            for n in both_signs(bound.mesh_outer_sidebands):
+                yield predicted({mesh.base: k, bearing.base("o"): n}, bearing.site, "mesh")
 
 
 def _bearing(bearing: BearingKinematics, bound: Bound) -> Iterator[Line]:
@@ -75,21 +78,23 @@ def _bearing(bearing: BearingKinematics, bound: Bound) -> Iterator[Line]:
     o, i, b, c = (bearing.base(letter) for letter in "oibc")
     site = bearing.site
     for k in range(1, bound.outer + 1):
-        yield _line({o: k}, site, "outer")
+        yield predicted({o: k}, site, "outer")
     for k in range(1, bound.inner + 1):
-        for n in (0, *_both_signs(bound.inner_shaft_sidebands)):
-            yield _line({i: k, bearing.shaft: n}, site, "inner")
+        for n in (0, *both_signs(bound.inner_shaft_sidebands)):
+            yield predicted({i: k, bearing.shaft: n}, site, "inner")
     for k in range(1, bound.ball + 1):
-        for n in (0, *_both_signs(bound.ball_cage_sidebands)):
-            yield _line({b: 2 * k, c: n}, site, "ball")
+        for n in (0, *both_signs(bound.ball_cage_sidebands)):
+            yield predicted({b: 2 * k, c: n}, site, "ball")
     for k in range(1, bound.cage + 1):
-        yield _line({c: k}, site, "cage")
+        yield predicted({c: k}, site, "cage")
 
 
-def _both_signs(count: int) -> tuple[int, ...]:
+def both_signs(count: int) -> tuple[int, ...]:
+    """-1, 1, -2, 2 ... up to `count`."""
     return tuple(s * n for n in range(1, count + 1) for s in (-1, 1))
 
 
-def _line(orders: Mapping[str, int], component: str, family: str) -> Line:
+def predicted(orders: Mapping[str, int], component: str, family: str, mechanism: str = MECHANISM) -> Line:
+    """A line with its zero orders dropped."""
     kept = tuple((base, n) for base, n in orders.items() if n)
-    return Line(orders=kept, component=component, mechanism=MECHANISM, family=family)
+    return Line(orders=kept, component=component, mechanism=mechanism, family=family)

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from signals.floor import Floor, FloorSettings, noise_floor
+from signals.floor import FloorSettings, noise_floor
 from signals.labels.canonical import Candidate, merge_lines
+from signals.labels.combinations import combine
+from signals.labels.entries import Scene, labelled, unexplained
 from signals.labels.families import Bound
 from signals.labels.kinematics import Kinematics
-from signals.labels.rivals import Meeting, meet
+from signals.labels.rivals import chance_of_another, meet, reach_hz
 from signals.labels.types import LabelledPeak, LabelSet, Matching
 from signals.peaks import FoundPeaks, find_peaks
 from signals.spectra.types import Spectrum
@@ -35,9 +37,10 @@ def label_peaks(
 ) -> LabelSet:
     """Match the peaks of a line spectrum with `lines`, merged where `kinematics` make them identical.
 
-    Every predicted line inside the spectrum gets exactly one entry (present, ambiguous or absent); peaks that no
-    line explains are listed as unexplained, the strongest first up to a limit. `reference` is the shaft that
-    orders are counted by.
+    Every predicted line inside the spectrum gets exactly one entry (present, ambiguous or absent). Peaks that no
+    line explains are tried against the combinations of `bound` (family `combination`, listed only where found);
+    what is still left is unexplained, the strongest listed up to a limit. `reference` is the shaft that orders
+    are counted by.
     """
     spectrum.amplitude_factor("peak")  # refuses densities
     if reference not in bases_hz:
@@ -49,14 +52,18 @@ def label_peaks(
     noise = noise_floor(spectrum, settings, predicted)
     found = find_peaks(spectrum, noise)
     meeting = meet(candidates, found, spectrum.resolution_hz, near, limits)
-    scene = _Scene(spectrum=spectrum, found=found, noise=noise, meeting=meeting, unit_hz=bases_hz[reference])
-    labelled = [_labelled(scene, i, candidate) for i, candidate in enumerate(candidates)]
-    free = [i for i in np.argsort(-found.amplitude, kind="stable") if not meeting.explained[i]]
-    labelled += [_unexplained(scene, int(i)) for i in free[:MAX_UNEXPLAINED]]
+    scene = Scene(spectrum=spectrum, found=found, noise=noise, meeting=meeting, unit_hz=bases_hz[reference])
+    entries = [labelled(scene, i, candidate) for i, candidate in enumerate(candidates)]
+    left = found.part(~np.array(meeting.explained, dtype=np.bool_))
+    if kinematics is not None:
+        combined, left = _combined(scene, left, bases_hz, kinematics, near, limits)
+        entries += combined
+    strongest = np.argsort(-left.amplitude, kind="stable")[:MAX_UNEXPLAINED]
+    entries += [unexplained(replace(scene, found=left), int(i)) for i in strongest]
     return LabelSet(
         frequencies_hz=dict(bases_hz),
         reference=reference,
-        peaks=tuple(sorted(labelled, key=lambda p: (p.frequency_hz, p.label))),
+        peaks=tuple(sorted(entries, key=lambda p: (p.frequency_hz, p.label))),
         channel=spectrum.channel,
         kind=spectrum.kind,
         unit=spectrum.unit,
@@ -67,9 +74,41 @@ def label_peaks(
         matching=near,
         floor=settings,
         found=found.amplitude.size,
-        unexplained=len(free),
+        unexplained=left.amplitude.size,
         band=spectrum.band,
     )
+
+
+def _combined(
+    scene: Scene,
+    left: FoundPeaks,
+    bases_hz: Mapping[str, float],
+    kinematics: Kinematics,
+    matching: Matching,
+    bound: Bound,
+) -> tuple[list[LabelledPeak], FoundPeaks]:
+    """Entries of the peaks in `left` that a credible combination explains, and the peaks still left."""
+    spectrum = scene.spectrum
+    top = float(spectrum.frequency_hz[-1])
+    combinations = combine(
+        kinematics, bases_hz, left, reach_hz=matching.bins * spectrum.resolution_hz, max_frequency_hz=top, bound=bound
+    )
+    candidates = _inside(merge_lines(combinations.lines, bases_hz, kinematics), spectrum)
+    meeting = meet(candidates, left, spectrum.resolution_hz, matching, bound)
+    inner = replace(scene, found=left, meeting=meeting)
+    entries: list[LabelledPeak] = []
+    explained = np.zeros(left.amplitude.size, dtype=np.bool_)
+    for i, candidate in enumerate(candidates):
+        peak = meeting.peak[i]
+        if peak is None:
+            continue
+        rivals = combinations.up_to(candidate.weight)
+        reach = float(reach_hz(left, spectrum.resolution_hz, matching)[peak])
+        chance = chance_of_another(rivals, float(left.frequency_hz[peak]), reach, spectrum.resolution_hz)
+        if chance <= matching.max_chance:
+            explained[peak] = True
+            entries.append(replace(labelled(inner, i, candidate), chance_coincidence=chance))
+    return entries, left.part(~explained)
 
 
 def _check_bases(lines: Sequence[Line], bases_hz: Mapping[str, float]) -> None:
@@ -92,68 +131,3 @@ def _inside(candidates: Sequence[Candidate], spectrum: Spectrum) -> tuple[Candid
     lobe = MAIN_LOBE_BINS[spectrum.window] * spectrum.resolution_hz
     top = float(spectrum.frequency_hz[-1])
     return tuple(c for c in candidates if lobe <= c.frequency_hz <= top - lobe)
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Scene:
-    """Everything a label is read from."""
-
-    spectrum: Spectrum
-    found: FoundPeaks
-    noise: Floor
-    meeting: Meeting
-    unit_hz: float
-
-
-def _labelled(scene: _Scene, i: int, candidate: Candidate) -> LabelledPeak:
-    """The entry of a predicted line."""
-    meeting, spectrum = scene.meeting, scene.spectrum
-    label = LabelledPeak(
-        label=candidate.label,
-        status="absent",
-        frequency_hz=candidate.frequency_hz,
-        order=candidate.frequency_hz / scene.unit_hz,
-        unit=spectrum.unit,
-        scaling=spectrum.scaling,
-        components=candidate.components,
-        family=candidate.family,
-        mechanism=candidate.mechanism,
-        mechanisms=candidate.mechanisms,
-        aliases=candidate.aliases,
-    )
-    peak = meeting.peak[i]
-    if peak is None:
-        reach_hz = MAIN_LOBE_BINS[spectrum.window] * spectrum.resolution_hz
-        limit = _detection_limit(scene, candidate.frequency_hz)
-        return replace(label, detection_limit=limit, masked_by=meeting.masked_by(i, reach_hz))
-    return replace(
-        label,
-        status="ambiguous" if meeting.alternatives[i] else "present",
-        measured_frequency_hz=float(scene.found.frequency_hz[peak]),
-        amplitude=float(scene.found.amplitude[peak]),
-        db_over_floor=float(scene.found.db_over_floor[peak]),
-        alternatives=meeting.alternatives[i],
-        chance_coincidence=meeting.chance[i],
-    )
-
-
-def _detection_limit(scene: _Scene, frequency_hz: float) -> float:
-    """Amplitude that would have been seen: the threshold, or what stands there already if that is more."""
-    nearest = round(frequency_hz / scene.spectrum.resolution_hz)
-    seen = float(np.max(scene.spectrum.values[nearest - 1 : nearest + 2]))
-    return max(float(scene.noise.threshold[nearest]), seen)
-
-
-def _unexplained(scene: _Scene, peak: int) -> LabelledPeak:
-    frequency = float(scene.found.frequency_hz[peak])
-    return LabelledPeak(
-        label="",
-        status="unexplained",
-        frequency_hz=frequency,
-        order=frequency / scene.unit_hz,
-        unit=scene.spectrum.unit,
-        scaling=scene.spectrum.scaling,
-        measured_frequency_hz=frequency,
-        amplitude=float(scene.found.amplitude[peak]),
-        db_over_floor=float(scene.found.db_over_floor[peak]),
-    )

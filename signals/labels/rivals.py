@@ -13,12 +13,6 @@ from signals.labels.types import Matching
 from signals.peaks import FoundPeaks
 from signals.series import FloatArray
 
-FREQUENCY_SPREAD_BINS = 0.75
-"""Standard deviation of the interpolated frequency of a Hann line, in bins, times amplitude over floor level: what
-three bins give (measured 0.7 by a test). The Cramer-Rao bound is 0.32 (D. C. Rife and R. R. Boorstyn, IEEE Trans. Inf.
-Theory 20 (1974) 591-598, with the floor of a Hann bin)."""
-SIGMAS = 3.0
-
 
 @dataclass(frozen=True, kw_only=True)
 class Meeting:
@@ -55,18 +49,18 @@ def meet(
     """Give each candidate the strongest peak within tolerance, then settle peaks that several candidates claim."""
     predicted = np.array([c.frequency_hz for c in candidates])
     peak_hz = found.frequency_hz
-    claims = _claims(predicted, found, matching.bins * resolution_hz + matching.relative * predicted)
+    reach = reach_hz(found, resolution_hz, matching)
+    claims = _claims(predicted, found, reach)
     peak: list[int | None] = [None] * len(candidates)
     alternatives: list[tuple[str, ...]] = [()] * len(candidates)
     chance: list[float | None] = [None] * len(candidates)
     owner = [""] * peak_hz.size
     for index, claimants in claims.items():
-        spread_bins = SIGMAS * FREQUENCY_SPREAD_BINS * found.floor[index] / found.amplitude[index]
-        tie_hz = max(spread_bins, matching.tie_bins) * resolution_hz + matching.relative * peak_hz[index]
+        tie_hz = float(reach[index])
         owners = _owners(claimants, candidates, np.abs(predicted - peak_hz[index]), tie_hz, bound)
         labels = [candidates[i].label for i in owners]
         owner[index] = labels[0]
-        probability = _chance(predicted, float(peak_hz[index]), tie_hz, resolution_hz)
+        probability = chance_of_another(predicted, float(peak_hz[index]), tie_hz, resolution_hz)
         for i in owners:
             peak[i], chance[i] = index, probability
             alternatives[i] = tuple(label for label in labels if label != candidates[i].label)
@@ -81,14 +75,23 @@ def meet(
     )
 
 
-def _claims(predicted: FloatArray, found: FoundPeaks, reach_hz: FloatArray) -> dict[int, list[int]]:
-    """Candidates of each peak; the peaks are sorted by frequency."""
-    low = np.searchsorted(found.frequency_hz, predicted - reach_hz)
-    high = np.searchsorted(found.frequency_hz, predicted + reach_hz, side="right")
+def reach_hz(found: FoundPeaks, resolution_hz: float, matching: Matching) -> FloatArray:
+    """How far from each peak the line behind it may lie, shape (peaks,), Hz."""
+    bins = np.minimum(matching.tie_bins + found.doubt_bins, matching.bins)
+    return np.asarray(bins * resolution_hz + matching.relative * found.frequency_hz, dtype=np.float64)
+
+
+def _claims(predicted: FloatArray, found: FoundPeaks, reach: FloatArray) -> dict[int, list[int]]:
+    """Candidates of each peak, the strongest peak that reaches the candidate; the peaks are sorted by frequency."""
+    widest = float(np.max(reach, initial=0.0))
+    low = np.searchsorted(found.frequency_hz, predicted - widest)
+    high = np.searchsorted(found.frequency_hz, predicted + widest, side="right")
     claims: dict[int, list[int]] = {}
     for i in np.flatnonzero(high > low):
-        strongest = int(low[i]) + int(np.argmax(found.amplitude[low[i] : high[i]]))
-        claims.setdefault(strongest, []).append(int(i))
+        near = np.arange(low[i], high[i])
+        near = near[np.abs(found.frequency_hz[near] - predicted[i]) <= reach[near]]
+        if near.size:
+            claims.setdefault(int(near[np.argmax(found.amplitude[near])]), []).append(int(i))
     return claims
 
 
@@ -103,9 +106,10 @@ def _owners(
     return [i for i in tied if candidates[i].weight <= heaviest]
 
 
-def _chance(predicted: FloatArray, frequency_hz: float, tie_hz: float, resolution_hz: float) -> float:
-    """Probability that some *other* line lies within `tie_hz`: Poisson with the density of lines in the neighbourhood
-    (5 % of the frequency, at least 100 bins, to each side).
+def chance_of_another(predicted: FloatArray, frequency_hz: float, tie_hz: float, resolution_hz: float) -> float:
+    """Probability that some *other* of the `predicted` lines (sorted, Hz) lies within `tie_hz`.
+
+    Poisson with the density of lines in the neighbourhood (5 % of the frequency, at least 100 bins, to each side).
     """
     half = max(0.05 * frequency_hz, 100 * resolution_hz)
     others = int(np.searchsorted(predicted, frequency_hz + half) - np.searchsorted(predicted, frequency_hz - half)) - 1

@@ -17,15 +17,18 @@ Status = Literal["present", "absent", "ambiguous", "unexplained"]
 class Matching:
     """How near a found peak must be to a predicted line.
 
-    Tolerance = `bins` * resolution + `relative` * frequency; `relative` is the uncertainty of the speeds (0 for a
-    simulation; 0.01-0.02 for a bearing line of a real machine, whose cage slips). Between several lines within the
-    tolerance, those further off than the nearest by `tie_bins` bins, or three standard
-    deviations of the measured frequency where that is more, are ruled out.
+    Tolerance = (`tie_bins` + doubt, at most `bins`) * resolution + `relative` * frequency, where doubt is three
+    standard deviations of the measured frequency plus the pull of stronger lines' sidelobes: a strong peak is held
+    to its exact place, a weak one is not. `relative` is the uncertainty of the speeds (0 for a simulation; 0.01-0.02
+    for a bearing of a real machine, whose cage slips). Between several lines within the tolerance, those further
+    off than the nearest by once more the tolerance are ruled out. `max_chance`: combinations (sums beyond the
+    predicted families) explain a peak only when chance would bring one so near with no more than this probability.
     """
 
     bins: float = 0.5
     relative: float = 0.0
     tie_bins: float = 0.05
+    max_chance: float = 0.05
 
 
 @dataclass(frozen=True, kw_only=True)

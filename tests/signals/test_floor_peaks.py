@@ -6,8 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from signals.floor import FloorSettings, noise_floor
-from signals.labels.rivals import FREQUENCY_SPREAD_BINS
-from signals.peaks import find_peaks, leakage, refine
+from signals.peaks import FREQUENCY_SPREAD_BINS, find_peaks, leakage, refine
 from signals.series import Series
 from signals.spectra import amplitude_spectrum
 from signals.windows import MAIN_LOBE_BINS, window
