@@ -90,8 +90,8 @@ def _level(transform: NDArray[np.complex128], parts: int, nyquist: float) -> lis
     width = nyquist * size / transform.size
     return [
         _Candidate(
-            low_hz=i * width,
-            high_hz=(i + 1) * width,
+            low_hz=float(i * width),
+            high_hz=float((i + 1) * width),
             kurtosis=float(np.mean(power[i] ** 2) / mean[i] ** 2 - 2),
             negentropy=_negentropy(power[i] - mean[i]),
             samples=size,

@@ -1,0 +1,52 @@
+"""Combinations explain what the families leave, and little of what they should not."""
+
+import numpy as np
+import pytest
+from gearbox import BASES, KINEMATICS, LINES, labelled, sines
+
+from signals.labels import Kinematics, Matching, label_peaks
+from signals.spectra import amplitude_spectrum
+
+F_M, F_R1, F_O1 = BASES["f_m"], BASES["f_r1"], BASES["f_o1"]
+
+
+def test_a_sum_of_three_is_named_with_all_its_parts() -> None:
+    found = labelled({F_M: 1.0, 2 * F_M + F_R1 - F_O1: 0.1})
+    peak = found["2*f_m-1*f_o1+1*f_r1"]
+    assert (peak.status, peak.family, peak.mechanism) == ("present", "combination", "intermodulation")
+    assert set(peak.components) == {"pinion", "bearing1", "bearing2"}
+    assert peak.amplitude == pytest.approx(0.1, rel=0.01)
+    assert peak.chance_coincidence is not None and peak.chance_coincidence <= 0.05
+    assert found.unexplained == 0
+
+
+def test_a_sum_below_zero_folds() -> None:
+    found = labelled({F_M: 1.0, 6 * F_O1 + 2 * F_R1 - F_M: 0.1, 4 * F_M - 1 * F_O1 + 2 * F_R1: 0.1}, seconds=20.0)
+    assert found["1*f_m-6*f_o1-2*f_r1"].status == "present"
+
+
+def test_combinations_are_listed_only_where_found() -> None:
+    assert not [p for p in labelled({F_M: 1.0}).peaks if p.family == "combination"]
+
+
+def test_strangers_are_mostly_left_unexplained() -> None:
+    """Each of 200 lines anywhere may meet a sum by chance with at most 5 %: 200 trials pass 20 with 0.2 %."""
+    places = np.random.default_rng(11).uniform(50.0, 4900.0, 200)
+    found = labelled({float(f): 1.0 for f in places}, seconds=20.0)
+    explained = [p for p in found.peaks if p.family == "combination"]
+    assert len(explained) <= 20
+    assert found.unexplained > 150
+
+
+def test_uncertain_speeds_leave_combinations_unproven() -> None:
+    """With 1 % of uncertainty a combination is near every peak, so none proves anything."""
+    found = labelled({F_M: 1.0, 3456.7: 0.1}, matching=Matching(relative=0.01))
+    assert not [p for p in found.peaks if p.family == "combination"]
+    assert labelled({F_M: 1.0, 1234.5: 0.1}, matching=Matching(max_chance=0.0)).unexplained == 1
+
+
+def test_machines_without_a_mesh_have_no_combinations() -> None:
+    lone = Kinematics(shafts=KINEMATICS.shafts[:1])
+    lines = [x for x in LINES if x.family == "shaft" and x.component == "input"]
+    found = label_peaks(amplitude_spectrum(sines({F_R1: 1.0, 1234.5: 0.1})), lines, BASES, kinematics=lone)
+    assert found.unexplained == 1
