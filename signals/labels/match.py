@@ -43,13 +43,10 @@ def label_peaks(
     are counted by.
     """
     spectrum.amplitude_factor("peak")  # refuses densities
-    if reference not in bases_hz:
-        raise UnknownName("base frequency", reference, tuple(bases_hz))
-    _check_bases(lines, bases_hz)
+    _check_bases(lines, bases_hz, reference)
     settings, near, limits = floor or FloorSettings(), matching or Matching(), bound or Bound()
     candidates = _inside(merge_lines(lines, bases_hz, kinematics), spectrum)
-    predicted = np.array([c.frequency_hz for c in candidates])
-    noise = noise_floor(spectrum, settings, predicted)
+    noise = noise_floor(spectrum, settings, np.array([c.frequency_hz for c in candidates]))
     found = find_peaks(spectrum, noise)
     meeting = meet(candidates, found, spectrum.resolution_hz, near, limits)
     scene = Scene(spectrum=spectrum, found=found, noise=noise, meeting=meeting, unit_hz=bases_hz[reference])
@@ -58,8 +55,7 @@ def label_peaks(
     if kinematics is not None:
         combined, left = _combined(scene, left, bases_hz, kinematics, near, limits)
         entries += combined
-    strongest = np.argsort(-left.amplitude, kind="stable")[:MAX_UNEXPLAINED]
-    entries += [unexplained(replace(scene, found=left), int(i)) for i in strongest]
+    entries += _strangers(scene, left)
     return LabelSet(
         frequencies_hz=dict(bases_hz),
         reference=reference,
@@ -111,8 +107,14 @@ def _combined(
     return entries, left.part(~explained)
 
 
-def _check_bases(lines: Sequence[Line], bases_hz: Mapping[str, float]) -> None:
-    unknown = sorted({base for line in lines for base, _ in line.orders} - set(bases_hz))
+def _strangers(scene: Scene, left: FoundPeaks) -> list[LabelledPeak]:
+    """Entries of the strongest peaks in `left`."""
+    strongest = np.argsort(-left.amplitude, kind="stable")[:MAX_UNEXPLAINED]
+    return [unexplained(replace(scene, found=left), int(i)) for i in strongest]
+
+
+def _check_bases(lines: Sequence[Line], bases_hz: Mapping[str, float], reference: str) -> None:
+    unknown = sorted(({base for line in lines for base, _ in line.orders} | {reference}) - set(bases_hz))
     if unknown:
         raise UnknownName("base frequency", unknown[0], tuple(bases_hz))
     bad = [base for base, hz in bases_hz.items() if not (np.isfinite(hz) and hz > 0)]
