@@ -1,7 +1,7 @@
 """First-order right-hand sides for general-purpose integrators: an interpreted one and a compiled one.
 
-y = (q, q'), y' = (q', M^-1 (F - K q - C q' - B f)). Elements are asked for a single instant (one node, no length), so
-neither side shares the step operators, the collocation or the averaging of tables with the product's own method.
+y = (q, q'), y' = (q', M^-1 (F - K q - C q' - B f)). Elements are asked for a single instant, so neither side shares the
+step operators, the collocation or the averaging of tables with the product's own method.
 """
 
 from __future__ import annotations
@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.compiled import call_force, call_prepare, doubles, integers, jit, shift
+from sim.core.elements import STAGES
 from sim.core.response import FloatArray
 from sim.core.system import System
 from sim.solve.chunks import Chunked, chunked, multiply
-from sim.solve.plain import coordinate_rows, instant, plain_context, plain_force, shaft_rows
+from sim.solve.plain import coordinate_rows, instant_force
 from sim.solve.plan import SCRATCH
 
 RightSide = Callable[[float, FloatArray], FloatArray]
@@ -30,11 +31,9 @@ def plain_rhs(system: System) -> RightSide:
     def rhs(t: float, y: FloatArray) -> FloatArray:
         q, v = y[:n], y[n:]
         total = system.load - system.stiffness @ q - system.damping @ v
-        step = instant(t)
         for element, row in zip(system.elements, rows, strict=True):
-            u, ud = row @ q, row @ v
-            context = plain_context(element, step, shaft_rows(system, element, step, y), u, ud)
-            total = total - row[: element.forces].T @ plain_force(element, 0, u, ud, context[0]).force
+            force = instant_force(system, element, t, y, row @ q, row @ v)
+            total = total - row[: element.forces].T @ force
         return np.concatenate([v, total / system.mass])
 
     return rhs
@@ -73,7 +72,7 @@ def _rhs(t, y, table, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN2
             if dof >= 0:
                 angle += x[dof]
                 speed += x[n + dof]
-            for k in range(2):
+            for k in range(2):  # start and the one node
                 shafts[4 * side + k] = angle
                 shafts[4 * side + 2 + k] = speed
         for k in range(d):
@@ -81,9 +80,11 @@ def _rhs(t, y, table, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN2
             trial[d + k] = w[head[5] + at + k]
         values = shift(par, whole[own + 5])
         call_prepare(whole[own], step, shafts, trial, values, context)
-        call_force(
-            whole[own + 1], 0, trial, shift(trial, d), context, values, shift(x, 2 * n + whole[own + 4]), scratch
-        )
+        # the exact row where an element has one: its node rows may hold averages over a step
+        exact = whole[own + 6]
+        mode = 2 if exact > 0 else 0
+        f = shift(x, 2 * n + whole[own + 4])
+        call_force(whole[own + 1], mode, trial, shift(trial, d), shift(context, exact), values, f, scratch)
     x[2 * n + forces] = 1.0
     multiply(integers(table[15]), 0, head[4], integers(table[16]), doubles(table[17]), x, result, 0)
     for i in range(n):
@@ -92,11 +93,13 @@ def _rhs(t, y, table, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN2
 
 
 def _element_table(system: System) -> NDArray[np.int64]:
-    """Per element: two addresses, first coordinate, size, first force, first parameter, spare, two angle DOFs."""
+    """Per element: two addresses, first coordinate, size, first force, first parameter, exact row, two angle DOFs."""
     rows, u, f, p = [], 0, 0, 0
     for e in system.elements:
         angles = [system.dynamic_angle.get(body, -1) for body in e.shafts]
-        rows.append([e.kernel.prepare_address, e.kernel.force_address, u, e.size, f, p, 0, *angles])
+        rows.append(
+            [e.kernel.prepare_address, e.kernel.force_address, u, e.size, f, p, e.context * e.exact_end, *angles]
+        )
         u, f, p = u + e.size, f + e.forces, p + e.parameters.size
     return np.array(rows or [[0] * 9], dtype=np.int64)
 
@@ -110,7 +113,10 @@ def compiled_rhs(system: System) -> RightSide:
     maps: Chunked = chunked(np.block([[coordinate, zero], [zero, coordinate]]))
     dynamics: Chunked = chunked(_dynamics(system, coordinate))
     forces = sum(e.forces for e in elements)
-    width = 2 * max((e.context for e in elements), default=1)
+    # one node of no length; kernels written for three nodes read and write a little further, hence the padding
+    step = np.zeros(2 + STAGES * (STAGES + 2) + 1)
+    step[2:6] = 1.0
+    width = (STAGES + 1) * max((e.context for e in elements), default=1)
     sizes = [len(elements), n, forces, maps.rows // 8, dynamics.rows // 8, count]
     parameters = np.concatenate([e.parameters for e in elements]) if elements else np.zeros(1)
     turns = np.array([[system.speeds_hz[b] for b in e.shafts] for e in elements] or [[0.0, 0.0]])
@@ -118,7 +124,7 @@ def compiled_rhs(system: System) -> RightSide:
         np.array(sizes, dtype=np.int64),
         _element_table(system),
         turns,
-        instant(0.0),
+        step,
         np.zeros(8),
         np.zeros(SCRATCH),
         np.zeros(width),

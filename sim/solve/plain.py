@@ -15,18 +15,19 @@ from typing import Any
 import numpy as np
 
 from sim.core.compiled import shift
-from sim.core.elements import OUT_ENERGY, Element
+from sim.core.elements import OUT_ENERGY, STAGES, Element
 from sim.core.response import FloatArray
 from sim.core.system import System
+from sim.solve.collocation import collocation
 
-_TWINS: dict[object, Any] = {}
+_TWINS: dict[object, Callable[..., Any]] = {}
 
 
-def _moved(pointer: Any, count: int) -> Any:
+def _moved(pointer: memoryview, count: int) -> memoryview:
     return pointer[count:]
 
 
-def interpreted(function: Callable[..., Any]) -> Any:
+def interpreted(function: Callable[..., Any]) -> Callable[..., Any]:
     """Copy of `function` whose compiled helpers are replaced by interpreted ones."""
     if function is shift:
         return _moved
@@ -37,7 +38,7 @@ def interpreted(function: Callable[..., Any]) -> Any:
     twin = FunctionType(original.__code__, names, original.__name__, original.__defaults__, original.__closure__)
     _TWINS[function] = twin
     for name in original.__code__.co_names:
-        value = names.get(name)
+        value: Any = names.get(name)
         if value is shift or hasattr(value, "py_func") or isinstance(value, FunctionType):
             names[name] = interpreted(value)
     return twin
@@ -45,7 +46,8 @@ def interpreted(function: Callable[..., Any]) -> Any:
 
 def view(array: FloatArray) -> memoryview:
     """One-dimensional view of a contiguous array as Python floats."""
-    return memoryview(array.reshape(-1))
+    flat: Any = array.reshape(-1)
+    return memoryview(flat)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,11 +63,6 @@ class Evaluated:
 def step_array(t0_s: float, h_s: float, nodes: FloatArray, lagrange: FloatArray, weights: FloatArray) -> FloatArray:
     """The `step` argument of the kernels."""
     return np.concatenate([[t0_s, h_s, float(nodes.size)], nodes, lagrange.ravel(), weights])
-
-
-def instant(t_s: float) -> FloatArray:
-    """The `step` argument that makes `prepare` describe a single instant: one node, no length."""
-    return step_array(t_s, 0.0, np.ones(1), np.ones((1, 1)), np.ones(1))
 
 
 def shaft_rows(system: System, element: Element, step: FloatArray, state: FloatArray) -> FloatArray:
@@ -105,6 +102,18 @@ def plain_force(element: Element, mode: int, u: FloatArray, ud: FloatArray, cont
     if mode == 2:
         return Evaluated(force=f[:forces], outputs=out[: OUT_ENERGY + len(element.outputs)])
     return Evaluated(force=f[:forces])
+
+
+def instant_force(
+    system: System, element: Element, t_s: float, state: FloatArray, u: FloatArray, ud: FloatArray
+) -> FloatArray:
+    """Force (forces,) N at the instant `t_s`, from the exact row where an element has one."""
+    rule = collocation(STAGES)
+    step = step_array(t_s, 0.0, rule.c, rule.lagrange, rule.b)
+    context = plain_context(element, step, shaft_rows(system, element, step, state), u, ud)
+    if element.exact_end:
+        return plain_force(element, 2, u, ud, context[STAGES]).force
+    return plain_force(element, 0, u, ud, context[STAGES - 1]).force
 
 
 def coordinate_rows(system: System, element: Element) -> FloatArray:
