@@ -16,9 +16,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from types import FrameType
 
+import httpx
 import uvicorn
 from fastapi import FastAPI
 
+from app.demo import submit_demo
 from app.settings import Settings
 from app.supervise import Supervisor
 from app.wiring import application
@@ -47,6 +49,7 @@ class Service:
     settings: Settings
     workers: int
     open_browser: bool = False
+    demo: bool = False
     build: Callable[[Settings], FastAPI] = application
     worker_command: tuple[str, ...] = (sys.executable, "-m", "workers")
     announce: Callable[[str], None] = _say_where
@@ -59,12 +62,13 @@ def serve(
     workers: int | None = None,
     data_dir: Path | None = None,
     open_browser: bool = False,
+    demo: bool = False,
 ) -> int:
     """Serve until SIGINT or SIGTERM; what is not given comes from the environment. Returns the exit code."""
     base = Settings.from_environment()
     stores = base.stores if data_dir is None else replace(base.stores, data_dir=data_dir.absolute())
     settings = replace(base, host=host, port=port, stores=stores)
-    return run(Service(settings=settings, workers=workers or default_workers(), open_browser=open_browser))
+    return run(Service(settings=settings, workers=workers or default_workers(), open_browser=open_browser, demo=demo))
 
 
 def default_workers() -> int:
@@ -197,5 +201,18 @@ def _greet(service: Service, server: uvicorn.Server, listener: socket.socket, st
     name = {"0.0.0.0": "localhost", "::": "localhost"}.get(host, f"[{host}]" if ":" in host else host)
     url = f"http://{name}:{port}/"
     service.announce(url)
+    page = _demo_page(url) if service.demo else url
     if service.open_browser:
-        webbrowser.open(url)
+        webbrowser.open(page)
+
+
+def _demo_page(url: str) -> str:
+    """Submit the demo and say where its result will be; a failure leaves the service running."""
+    try:
+        page = submit_demo(url)
+    except httpx.HTTPError as error:
+        sys.stdout.write(f"The demo was not accepted: {error}\n")
+        return url
+    sys.stdout.write(f"The paper's machine is being simulated; its labelled spectrum: {page}\n")
+    sys.stdout.flush()
+    return page

@@ -21,6 +21,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--port", type=int, help="port, 0 for any free one (default: SIDEBAND_PORT or 8000)")
     parser.add_argument("--workers", type=int, metavar="N", help="worker processes (default: one a core)")
     parser.add_argument("--data", metavar="DIR", type=Path, help="data folder (default: SIDEBAND_DATA_DIR or ./data)")
+    parser.add_argument("--demo", action="store_true", help="simulate the paper's machine and show its result page")
     parser.add_argument("--open", action="store_true", help="open the dashboard in a browser")
 
 
@@ -42,4 +43,5 @@ def run(arguments: argparse.Namespace) -> int:
         workers=arguments.workers,
         data_dir=arguments.data,
         open_browser=arguments.open,
+        demo=arguments.demo,
     )
