@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import math
-from dataclasses import asdict
 
 from app.cli.files import json_text
 from sim.parts.bearing import CatalogueRow, catalogue, defect_orders, lookup, missing
@@ -41,7 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _document(row: CatalogueRow) -> dict[str, object]:
     orders = defect_orders(row.geometry())
     computed = {"ftf": orders.cage, "bpfo": orders.outer_pass, "bpfi": orders.inner_pass, "bsf": orders.ball_spin}
-    return {**asdict(row), "published_orders": dict(row.published_orders), "orders": computed}
+    return {**vars(row), "published_orders": dict(row.published_orders), "orders": computed}
 
 
 def _explained(row: CatalogueRow) -> str:

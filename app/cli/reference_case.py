@@ -75,7 +75,7 @@ def read_arrays(path: Path) -> dict[str, FloatArray]:
     if not path.is_file():
         raise SpecError(Problem(field=str(path), message="is missing beside its JSON file"))
     try:
-        with np.load(path, allow_pickle=False) as stored:
+        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
             found = {name: np.asarray(stored[name]) for name in stored.files}
     except (ValueError, OSError, EOFError, KeyError, zipfile.BadZipFile) as error:
         raise SpecError(Problem(field=str(path), message=f"is not a readable npz file: {error}")) from error

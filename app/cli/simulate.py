@@ -6,6 +6,7 @@ Example: sideband simulate --preset paper --set fit_clearance@bearing1.gap=2e-5 
 from __future__ import annotations
 
 import argparse
+import difflib
 import sys
 import time
 from collections.abc import Sequence
@@ -101,12 +102,21 @@ def _request(arguments: argparse.Namespace, machine: MachineSpec, engine: Physic
 def _channels(given: Sequence[str] | None, machine: MachineSpec, engine: PhysicsEngine) -> list[str] | None:
     if given is None:
         return None
-    names = [name for item in given for name in item.split(",") if name]
-    if "all" not in names:
-        return list(dict.fromkeys(names))
-    if len(names) > 1:
-        raise SpecError(Problem(field="--channels", message="`all` stands alone", given=" ".join(given)))
-    return list(engine.report(machine).channels)
+    names = list(dict.fromkeys(name for item in given for name in item.split(",") if name))
+    known = engine.report(machine).channels
+    if names == ["all"]:
+        return list(known)
+    problems = [_no_channel(name, known) for name in names if name not in known]
+    if problems:
+        raise SpecError(problems)
+    return names
+
+
+def _no_channel(name: str, known: Sequence[str]) -> Problem:
+    near = difflib.get_close_matches(name, known, n=3) or known[:3]
+    message = "`all` stands alone" if name == "all" else "is not an output of this machine"
+    allowed = f"{', '.join(near)} ... ({len(known)} in all: `sideband machine --check FILE --json`)"
+    return Problem(field="--channels", message=message, given=name, allowed=allowed)
 
 
 def _simulated(engine: PhysicsEngine, machine: MachineSpec, request: SimulationRequest, *, show: bool) -> Response:

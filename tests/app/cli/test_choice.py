@@ -1,0 +1,75 @@
+"""`--preset`, `--machine`, `--set`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from app.cli.choice import changed, parse_set, read_machine
+from sim.core.errors import SpecError
+from sim.core.spec import TorqueLoad
+from sim.presets import preset
+
+
+def test_values_are_json_or_text() -> None:
+    assert parse_set(["a.b=2e-5", "c=true", "d=printed", "e=null"]) == {
+        "a.b": 2e-5,
+        "c": True,
+        "d": "printed",
+        "e": None,
+    }
+    assert parse_set(["speed_hz=20"]) == {"operating.speed_hz": 20}
+
+
+@pytest.mark.parametrize("text", ["gap", "=3", ""])
+def test_what_is_not_key_value_is_refused(text: str) -> None:
+    with pytest.raises(SpecError, match="KEY=VALUE"):
+        parse_set([text])
+
+
+def test_a_key_given_twice_is_refused() -> None:
+    with pytest.raises(SpecError, match="twice"):
+        parse_set(["speed_hz=20", "operating.speed_hz=30"])
+
+
+def test_a_term_is_changed_or_added() -> None:
+    demo = changed(preset("paper-demo"), {"fit_clearance@bearing1.gap": 1e-5, "unbalance@gear.moment": 1e-4})
+    found = {(t.term, t.site): t.parameters for t in demo.terms}
+    assert found["fit_clearance", "bearing1"]["gap"] == 1e-5
+    assert found["fit_clearance", "bearing1"]["damping"] == 2e3
+    assert found["unbalance", "gear"] == {"moment": 1e-4}
+
+
+def test_torque_is_the_driven_shafts_and_scales_a_given_output() -> None:
+    machine = preset("paper").model_copy(
+        update={"loads": [TorqueLoad(shaft="input", torque_nm=25.0), TorqueLoad(shaft="output", torque_nm=-80.0)]}
+    )
+    loads = changed(machine, {"torque": 5.0}).loads
+    assert [load.torque_nm for load in loads if isinstance(load, TorqueLoad)] == [5.0, -16.0]
+
+
+@pytest.mark.parametrize(("key", "value"), [("torque", "x"), ("torque", 1e9), ("speed", 3), ("operating.speed_hz", -1)])
+def test_wrong_changes_are_refused(key: str, value: object) -> None:
+    with pytest.raises(SpecError):
+        changed(preset("paper"), {key: value})
+
+
+def test_torque_needs_a_driven_shaft() -> None:
+    with pytest.raises(SpecError, match="torque"):
+        changed(preset("oscillator"), {"torque": 3.0})
+
+
+def test_a_parameter_file_is_recognised_where_a_machine_is_due(tmp_path: Path) -> None:
+    path = tmp_path / "p.json"
+    path.write_text('{"parameters": {"If1": 1}}')
+    with pytest.raises(SpecError, match="--from-reference"):
+        read_machine(path)
+
+
+@pytest.mark.parametrize("text", ["{", "[1]", '{"name": NaN}', '{"name": "x", "wheels": 4}', '{"name": ""}'])
+def test_broken_machine_files_are_refused(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "m.json"
+    path.write_text(text)
+    with pytest.raises(SpecError):
+        read_machine(path)
