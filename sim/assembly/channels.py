@@ -24,14 +24,14 @@ def machine_channels(dofs: Sequence[str], elements: Sequence[Element]) -> tuple[
             kind = f"angular_{quantity}" if axis == "theta" else quantity
             result.append(Channel(name=f"{dof}.{quantity}", quantity=kind, unit=unit, location=location, axis=axis))
     for element in elements:
-        for output in element.outputs:
-            result.append(
-                Channel(
-                    name=f"{element.name}.{output.name}",
-                    quantity=output.quantity,
-                    unit=output.unit,
-                    location=element.site,
-                    axis=output.axis,
-                )
+        result.extend(
+            Channel(
+                name=f"{element.name}.{output.name}",
+                quantity=output.quantity,
+                unit=output.unit,
+                location=element.site,
+                axis=output.axis,
             )
+            for output in element.outputs
+        )
     return tuple(result)

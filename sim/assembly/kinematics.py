@@ -68,7 +68,7 @@ def kinematics(machine: MachineSpec) -> Kinematics:
     body_hz = dict(speeds)
     for name in [g.name for g in machine.gears] + [b.name for b in machine.bodies]:
         shaft = shaft_of(machine, name)
-        body_hz[name] = speeds[shaft] if shaft in speeds else 0.0
+        body_hz[name] = speeds.get(shaft or "", 0.0)
     mesh_base = {}
     for i, mesh in enumerate(machine.meshes, 1):
         pinion = next(g for g in machine.gears if g.name == mesh.pinion)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -126,7 +127,7 @@ def _torsion(builder: Builder, machine: MachineSpec) -> None:
             stiffness = builder.note(
                 f"{shaft.name}.torsional_stiffness_nm_per_rad", stiffness, computed or 0.0, "N m/rad", "G J / (L/2)"
             )
-            for a, b in zip(nodes[:-1], nodes[1:], strict=True):
+            for a, b in pairwise(nodes):
                 builder.spring(a, b, stiffness, shaft.torsional_damping_nms_per_rad)
 
 

@@ -27,12 +27,7 @@ def _duplicates(machine: MachineSpec) -> list[Problem]:
     ]
 
 
-def check_references(machine: MachineSpec) -> None:
-    """Raise SpecError listing every dangling or repeated name."""
-    problems = _duplicates(machine)
-    shafts = [s.name for s in machine.shafts]
-    gears = [g.name for g in machine.gears]
-    bodies = gears + [b.name for b in machine.bodies]
+def _rotors(machine: MachineSpec, problems: list[Problem], shafts: list[str], gears: list[str]) -> None:
     for gear in machine.gears:
         _need(problems, f"gears.{gear.name}.shaft", "shaft", gear.shaft, shafts)
     for body in machine.bodies:
@@ -44,11 +39,9 @@ def check_references(machine: MachineSpec) -> None:
         _need(problems, f"meshes.{mesh.name}.gear", "gear", mesh.gear, gears)
         if mesh.pinion == mesh.gear:
             problems.append(Problem(field=f"meshes.{mesh.name}", message="a gear cannot mesh with itself"))
-    for bearing in machine.bearings:
-        _need(problems, f"bearings.{bearing.name}.body", "gear or body", bearing.body, bodies)
-    bearings = [b.name for b in machine.bearings]
-    for resonator in machine.resonators:
-        _need(problems, f"resonators.{resonator.name}.bearing", "bearing", resonator.bearing, bearings)
+
+
+def _loads(machine: MachineSpec, problems: list[Problem], shafts: list[str], bodies: list[str]) -> None:
     for i, load in enumerate(machine.loads):
         if isinstance(load, TorqueLoad):
             _need(problems, f"loads.{i}.shaft", "shaft", load.shaft, shafts)
@@ -60,6 +53,21 @@ def check_references(machine: MachineSpec) -> None:
         problems.append(
             Problem(field="operating", message="a machine with shafts needs a speed", allowed="shaft, speed")
         )
+
+
+def check_references(machine: MachineSpec) -> None:
+    """Raise SpecError listing every dangling or repeated name."""
+    problems = _duplicates(machine)
+    shafts = [s.name for s in machine.shafts]
+    gears = [g.name for g in machine.gears]
+    bodies = gears + [b.name for b in machine.bodies]
+    _rotors(machine, problems, shafts, gears)
+    for bearing in machine.bearings:
+        _need(problems, f"bearings.{bearing.name}.body", "gear or body", bearing.body, bodies)
+    bearings = [b.name for b in machine.bearings]
+    for resonator in machine.resonators:
+        _need(problems, f"resonators.{resonator.name}.bearing", "bearing", resonator.bearing, bearings)
+    _loads(machine, problems, shafts, bodies)
     if not bodies:
         problems.append(Problem(field="gears", message="the machine has no gear and no body: nothing can move"))
     if problems:

@@ -67,12 +67,12 @@ def kernel(prepare: Python, force: Python) -> Kernel:
     return Kernel(prepare=prepare, force=force, prepare_address=prepare_c.address, force_address=force_c.address)
 
 
-def jit(function: Callable[..., Any]) -> Any:
+def jit(function: Callable[..., Any]) -> Any:  # noqa: ANN401  (numba's dispatcher has no type)
     """Compile with the cache and error model of the product."""
     return numba.njit(cache=True, fastmath=FAST, error_model="numpy")(function)
 
 
-def inline(function: Callable[..., Any]) -> Any:
+def inline(function: Callable[..., Any]) -> Any:  # noqa: ANN401
     """Compile a helper that is merged into its callers: arguments of plan and work are hundreds of words wide."""
     return numba.njit(cache=True, fastmath=FAST, error_model="numpy", forceinline=True)(function)
 
@@ -84,7 +84,7 @@ def _pointer() -> ir.PointerType:
     return ir.DoubleType().as_pointer()
 
 
-def _typed_call_prepare(typingctx, address, step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+def _typed_call_prepare(typingctx, address, step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001
     """Call a compiled `prepare` by address; the other arguments are pointers to doubles."""
     signature = types.void(types.int64, *([DOUBLES] * 5))
 
@@ -99,7 +99,7 @@ def _typed_call_prepare(typingctx, address, step, shafts, u, par, ctx):  # type:
 call_prepare: Any = intrinsic(_typed_call_prepare)
 
 
-def _typed_call_force(typingctx, address, mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+def _typed_call_force(typingctx, address, mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001
     """Call a compiled `force` by address; `mode` is an int64, the rest pointers to doubles."""
     signature = types.void(types.int64, types.int64, *([DOUBLES] * 6))
 
@@ -114,7 +114,7 @@ def _typed_call_force(typingctx, address, mode, u, ud, ctx, par, f, out):  # typ
 call_force: Any = intrinsic(_typed_call_force)
 
 
-def _typed_doubles(typingctx, address):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+def _typed_doubles(typingctx, address):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001
     """Pointer to doubles from an address: arrays are counted at every use, pointers are not."""
 
     def codegen(context, builder, _signature, args):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001
@@ -126,7 +126,7 @@ def _typed_doubles(typingctx, address):  # type: ignore[no-untyped-def]  # noqa:
 doubles: Any = intrinsic(_typed_doubles)
 
 
-def _typed_integers(typingctx, address):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+def _typed_integers(typingctx, address):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001
     """Pointer to int64 from an address."""
 
     def codegen(context, builder, _signature, args):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001
@@ -138,7 +138,7 @@ def _typed_integers(typingctx, address):  # type: ignore[no-untyped-def]  # noqa
 integers: Any = intrinsic(_typed_integers)
 
 
-def _typed_shift(typingctx, pointer, count):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+def _typed_shift(typingctx, pointer, count):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001
     """Pointer moved by `count` items."""
 
     def codegen(context, builder, _signature, args):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202,ARG001

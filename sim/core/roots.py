@@ -11,7 +11,7 @@ HALVINGS = 200
 
 
 def bracketed_root(function: Callable[[float], float], low: float, high: float) -> float:
-    """Root of a continuous function between `low` and `high`, to the last digit; ValueError without a change of sign."""
+    """Root of a continuous function between `low` and `high`, to the last digit; ValueError if the sign stays."""
     at_low, at_high = function(low), function(high)
     if at_low == 0.0:
         return low

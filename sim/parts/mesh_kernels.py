@@ -83,8 +83,8 @@ def tooth_gap(par, phi_p, phi_g):  # type: ignore[no-untyped-def]  # noqa: ANN00
     z_g = int(par[6])
     phase_p = par[5] * phi_p / TURN
     phase_g = par[6] * phi_g / TURN
-    n_p = int(math.floor(phase_p))
-    n_g = int(math.floor(phase_g))
+    n_p = math.floor(phase_p)
+    n_g = math.floor(phase_g)
     share_p = phase_p - n_p
     share_g = phase_g - n_g
     base_p = int(par[16])

@@ -98,9 +98,7 @@ def _damping(mesh: MeshSpec, gears: tuple[GearSpec, GearSpec], mean_n_per_m: flo
     if mesh.damping_ns_per_m is not None:
         notes[f"{mesh.name}.damping_ns_per_m"] = f"given: {mesh.damping_ns_per_m:.6g} N s/m"
         return mesh.damping_ns_per_m
-    pairs = []
-    for gear in gears:
-        pairs.append((base_radius_m(gear), gear_from_spec(gear).inertia_kg_m2))
+    pairs = [(base_radius_m(gear), gear_from_spec(gear).inertia_kg_m2) for gear in gears]
     value = 2.0 * mesh.damping_ratio * math.sqrt(mean_n_per_m * equivalent_mass_kg(pairs[0], pairs[1]))
     notes[f"{mesh.name}.damping_ns_per_m"] = f"derived: {value:.6g} N s/m (ratio {mesh.damping_ratio:g} of critical)"
     return value

@@ -55,7 +55,7 @@ def chunked(matrix: FloatArray) -> Chunked:
     )
 
 
-def _lanes(builder: Any, scalar: Any) -> Any:
+def _lanes(builder: Any, scalar: Any) -> Any:  # noqa: ANN401  (llvmlite has no types)
     vector = ir.VectorType(ir.DoubleType(), LANES)
     empty = ir.Constant(vector, ir.Undefined)
     first = builder.insert_element(empty, scalar, ir.Constant(ir.IntType(32), 0))

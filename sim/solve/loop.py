@@ -196,7 +196,6 @@ def try_step(plan, work, t, level, rtol):  # type: ignore[no-untyped-def]  # noq
     h = plan.base_step / 2.0**level
     size_z = plan.states
     s = plan.stages
-    f = plan.forces_total
     prepare_all(plan, work, t, h)
     for k in range(s * plan.rows):
         work.fixed[k] = plan.node_load[level * s * plan.rows + k]

@@ -102,14 +102,10 @@ def jacobian(plan, work, own, d):  # type: ignore[no-untyped-def]  # noqa: ANN00
 
 
 @inline
-def newton_element(plan, work, level, e, which, rtol, iteration):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Solve one stiff element; returns (converged, largest change of its forces)."""
+def enter(plan, work, which, own, forces, d):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Load the element's forces, and the coordinates they would leave without themselves."""
     s = plan.stages
-    d = plan.forces[e]
-    n = s * d
     w = work.newton
-    own = shift(plan.compliance, (level * plan.stiff + which) * 8 * s * s)
-    forces = shift(work.z, plan.states + plan.f_at[e])
     for i in range(s):
         for a in range(d):
             w[LAM + i * d + a] = forces[i * plan.forces_total + a]
@@ -121,6 +117,47 @@ def newton_element(plan, work, level, e, which, rtol, iteration):  # type: ignor
                 for b in range(d):
                     value -= own[(i * 4 + a) * 2 * s + 2 * j + b] * w[LAM + j * d + b]
             w[BASE + 4 * i + a] = value
+
+
+@inline
+def damped_step(plan, work, e, own, d, before):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Newton step with halving until the residual falls; returns (squared norm, largest force)."""
+    n = plan.stages * d
+    w = work.newton
+    for k in range(n):
+        w[OLD + k] = w[LAM + k]
+        w[STEP + k] = w[RES + k]
+    share = 1.0
+    while True:
+        for k in range(n):
+            w[LAM + k] = w[OLD + k] - share * w[STEP + k]
+        norm, scale = residual(plan, work, e, own, d)
+        if norm <= before * (1.0 - 1e-4 * share) or share < BACKTRACK:
+            return norm, scale
+        share *= 0.5
+
+
+@inline
+def leave(plan, work, forces, d):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Store the forces; returns their largest change."""
+    change = 0.0
+    w = work.newton
+    for i in range(plan.stages):
+        for a in range(d):
+            change = max(change, abs(w[LAM + i * d + a] - w[ENTRY + i * d + a]))
+            forces[i * plan.forces_total + a] = w[LAM + i * d + a]
+    return change
+
+
+@inline
+def newton_element(plan, work, level, e, which, rtol, iteration):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Solve one stiff element; returns (converged, largest change of its forces)."""
+    d = plan.forces[e]
+    n = plan.stages * d
+    w = work.newton
+    own = shift(plan.compliance, (level * plan.stiff + which) * 8 * plan.stages * plan.stages)
+    forces = shift(work.z, plan.states + plan.f_at[e])
+    enter(plan, work, which, own, forces, d)
     norm, scale = residual(plan, work, e, own, d)
     converged = False
     for _ in range(MAX_NEWTON):
@@ -136,24 +173,8 @@ def newton_element(plan, work, level, e, which, rtol, iteration):  # type: ignor
                 w[LAM + k] -= w[RES + k]
             converged = True
             break
-        for k in range(n):
-            w[OLD + k] = w[LAM + k]
-            w[STEP + k] = w[RES + k]
-        share = 1.0
-        before = norm
-        while True:
-            for k in range(n):
-                w[LAM + k] = w[OLD + k] - share * w[STEP + k]
-            norm, scale = residual(plan, work, e, own, d)
-            if norm <= before * (1.0 - 1e-4 * share) or share < BACKTRACK:
-                break
-            share *= 0.5
-    change = 0.0
-    for i in range(s):
-        for a in range(d):
-            change = max(change, abs(w[LAM + i * d + a] - w[ENTRY + i * d + a]))
-            forces[i * plan.forces_total + a] = w[LAM + i * d + a]
-    return converged, change
+        norm, scale = damped_step(plan, work, e, own, d, norm)
+    return converged, leave(plan, work, forces, d)
 
 
 @inline

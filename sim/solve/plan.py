@@ -75,7 +75,7 @@ class Built:
     levels: tuple[StepOperators, ...]
 
 
-def _place(system: System, coords: Coordinates, padded: int) -> IntArray:
+def _place(coords: Coordinates, padded: int) -> IntArray:
     count = coords.rows.shape[0]
     place = np.full(padded, -1, dtype=np.int64)
     for r, u in enumerate(coords.force_rows):
@@ -195,7 +195,7 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
         span=span,
         node_load=np.array([np.concatenate([_pad(level.node_load[i], r) for i in range(s)]) for level in ops]),
         end_load=np.array([_pad(level.end_load, z) for level in ops]),
-        row_place=_place(system, coords, r),
+        row_place=_place(coords, r),
         prepare_address=np.array([e.kernel.prepare_address for e in elements], dtype=np.int64),
         force_address=np.array([e.kernel.force_address for e in elements], dtype=np.int64),
         u_at=u_at,

@@ -67,13 +67,15 @@ def new_work(plan: Plan) -> Work:
     )
 
 
-PlanPointers = namedtuple(  # noqa: PYI024  (compiled code builds it; types are known to the compiler only)
+# compiled code builds these; the compiler knows the types
+PlanPointers = namedtuple(
     "PlanPointers",
-    "elements forces_total coords rows states dofs stages levels stiff outputs base_step nodes weights predict force_predict slope "
+    "elements forces_total coords rows states dofs stages levels stiff outputs base_step nodes weights predict "
+    "force_predict slope "
     "pointer column value span node_load end_load row_place prepare_address force_address u_at f_at size forces "
     "par_at par ctx_at ctx_width out_at out_count flags turns angle_dof carries observe_rows compliance stiff_rows",
 )
-WorkPointers = namedtuple(  # noqa: PYI024
+WorkPointers = namedtuple(
     "WorkPointers",
     "z rows fixed u before start ctx step shafts trial out newton next_z last_force force_nodes work counts",
 )

@@ -79,7 +79,7 @@ def _compressed(rows: list[dict[int, float]]) -> tuple[IntArray, IntArray, Float
 def new_probe(built: Built, system: System, names: tuple[str, ...]) -> Probe:
     """Probe of the requested channels."""
     pointer, column, value = _compressed(probe_rows(built, system, names))
-    dampers = [{i: w for i, w in d.weights} for d in system.dampers]
+    dampers = [dict(d.weights) for d in system.dampers]
     d_pointer, d_column, d_value = _compressed(dampers)
     states, forces, outs = (int(built.plan.sizes[k]) for k in (4, 1, 9))
     x = np.zeros(states + forces + outs + 1)

@@ -19,7 +19,7 @@ def transient_end_s(signals: FloatArray, rate_hz: float, period_s: float) -> flo
     """
     samples = signals.shape[1]
     duration = float(samples) / float(rate_hz)
-    width = max(int(round(period_s * rate_hz)), samples // WINDOWS, 1)
+    width = max(round(period_s * rate_hz), samples // WINDOWS, 1)
     count = samples // width
     if count < 4:
         return duration

@@ -27,7 +27,7 @@ from sim.parts.wall import mesh_sidebands
 LANES = 8
 OPEN_GAP_M = 1.0
 """Gap of a padding ball: never closes."""
-# parameters: padded, stiffness, gap, cage ratio, cage phase, has_profiles, spare, spare, cos[n], sin[n], gap[n], profiles
+# parameters: padded, stiffness, gap, cage ratio, cage phase, has_profiles, balls, spare, cos n, sin n, gap n, profiles
 HEAD = 8
 
 

@@ -149,7 +149,7 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
     ratio = row_value(par, int(par[26]), row)
     phase0 = par[5] * shafts[0] / turn
     dphase = max(par[5] * shafts[s] / turn - phase0, 1e-12)
-    top = int(math.floor(phase0 + dphase))
+    top = math.floor(phase0 + dphase)
     for slot in range(4):
         pair = top - slot
         gap = slot_gap(par, pair)

@@ -40,7 +40,7 @@ def table_value(par, row, phase):  # type: ignore[no-untyped-def]  # noqa: ANN00
     """Bilinear stiffness, periodic in phase, N/m."""
     points = int(par[21])
     x = phase * points
-    cell = int(math.floor(x))
+    cell = math.floor(x)
     share = x - cell
     r = int(row)
     high = row - r

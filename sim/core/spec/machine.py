@@ -19,15 +19,15 @@ class MachineSpec(SpecModel):
     schema_version: Literal[1] = 1
     name: Annotated[str, Field(min_length=1, max_length=80)]
     notes: Annotated[str, Field(max_length=2000)] = ""
-    shafts: Annotated[list[ShaftSpec], Field(max_length=MAX_ITEMS)] = []
-    gears: Annotated[list[GearSpec], Field(max_length=MAX_ITEMS)] = []
-    bodies: Annotated[list[BodySpec], Field(max_length=MAX_ITEMS)] = []
-    meshes: Annotated[list[MeshSpec], Field(max_length=MAX_ITEMS)] = []
-    bearings: Annotated[list[BearingSpec], Field(max_length=MAX_ITEMS)] = []
-    resonators: Annotated[list[ResonatorSpec], Field(max_length=MAX_ITEMS)] = []
-    loads: Annotated[list[LoadSpec], Field(max_length=MAX_ITEMS)] = []
+    shafts: Annotated[list[ShaftSpec], Field(max_length=MAX_ITEMS)] = Field(default_factory=list)
+    gears: Annotated[list[GearSpec], Field(max_length=MAX_ITEMS)] = Field(default_factory=list)
+    bodies: Annotated[list[BodySpec], Field(max_length=MAX_ITEMS)] = Field(default_factory=list)
+    meshes: Annotated[list[MeshSpec], Field(max_length=MAX_ITEMS)] = Field(default_factory=list)
+    bearings: Annotated[list[BearingSpec], Field(max_length=MAX_ITEMS)] = Field(default_factory=list)
+    resonators: Annotated[list[ResonatorSpec], Field(max_length=MAX_ITEMS)] = Field(default_factory=list)
+    loads: Annotated[list[LoadSpec], Field(max_length=MAX_ITEMS)] = Field(default_factory=list)
     gravity_m_per_s2: Annotated[float, Field(ge=0, le=100)] = 0.0
     """Along -y on every body, ring and resonator."""
     operating: OperatingSpec | None = None
     """Needed by any machine with shafts."""
-    terms: Annotated[list[TermSpec], Field(max_length=4 * MAX_ITEMS)] = []
+    terms: Annotated[list[TermSpec], Field(max_length=4 * MAX_ITEMS)] = Field(default_factory=list)
