@@ -1,0 +1,1 @@
+"""The paper's figures and trends, recomputed: `python -m paper` writes docs/paper.md."""

@@ -1,0 +1,1 @@
+"""Numbers from signals: pure functions of arrays."""
