@@ -86,7 +86,9 @@ def _defaults(given: Mapping[str, float], notes: dict[str, str]) -> dict[str, fl
         if key.absence == "default" and key.name not in given:
             found[key.name] = key.default
             if key.name not in quiet and (key.default != 0 or key.name in ("c0", "e0", "em", "delta")):
-                notes[key.name] = f"not given: {key.default:g} {key.unit} is taken"
+                notes[key.name] = (
+                    f"not given: {key.default:g} {key.unit if key.unit != '1' else ''}".rstrip() + " is taken"
+                )
     return found
 
 
