@@ -61,6 +61,8 @@ def accept(desk: Desk, request: SimulationRequest, *, submitter: str, scope: str
     if _needs_work(desk.catalogue, identifier):
         _check_room(desk, resolved)
     now = desk.clock()
+    if key is not None:
+        _reserve(desk, scope, key, body, identifier)
     record, created = desk.catalogue.put(
         identifier,
         resolved.document,
@@ -69,8 +71,6 @@ def accept(desk: Desk, request: SimulationRequest, *, submitter: str, scope: str
         ),
         again=lambda present: transitions.submit_again(present, submitter, now),
     )
-    if key is not None:
-        desk.catalogue.remember(scope, key, body, identifier, now)
     return Acceptance(record=hand_over(desk, record), created=created, replayed=False)
 
 
@@ -98,7 +98,17 @@ def _replayed(desk: Desk, scope: str, key: str, body: str) -> Acceptance | None:
         return None
     if earlier.body_sha256 != body:
         raise IdempotencyConflict(key)
-    return Acceptance(record=desk.catalogue.get(earlier.job_id), created=False, replayed=True)
+    try:
+        return Acceptance(record=desk.catalogue.get(earlier.job_id), created=False, replayed=True)
+    except UnknownJob:
+        return None  # The key was kept, but its request never came to be accepted.
+
+
+def _reserve(desk: Desk, scope: str, key: str, body: str, identifier: str) -> None:
+    """Keep the key before the job: of two requests that come at once with one key, the second is refused."""
+    earlier = desk.catalogue.remember(scope, key, body, identifier, desk.clock())
+    if earlier is not None and earlier.body_sha256 != body:
+        raise IdempotencyConflict(key)
 
 
 def _needs_work(catalogue: JobCatalogue, identifier: str) -> bool:

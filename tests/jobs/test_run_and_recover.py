@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from jobs import recover, run
-from jobs.accept import Desk, accept
-from jobs.errors import BrokerAway, QueueFull, StoreFull, UnknownArtefact, UnknownJob
+from jobs.accept import Acceptance, Desk, accept
+from jobs.errors import BrokerAway, IdempotencyConflict, QueueFull, StoreFull, UnknownArtefact, UnknownJob
 from jobs.limits import Limits
 from jobs.ports import Ticket
 from jobs.record import JobRecord
@@ -98,6 +98,10 @@ class House:
     def ask(self, notes: str = "", seed: int = 0, submitter: str = "me") -> JobRecord:
         request = SimulationRequest(machine=machine(notes), seed=seed, duration_s=0.1)
         return accept(self.desk, request, submitter=submitter, scope="", key=None).record
+
+    def ask_keyed(self, key: str, seed: int) -> Acceptance:
+        request = SimulationRequest(machine=machine(), seed=seed, duration_s=0.1)
+        return accept(self.desk, request, submitter="me", scope="", key=key)
 
     def tick(self) -> recover.Recovered:
         return recover.tick(self.desk, max_losses=2)
@@ -187,6 +191,30 @@ def test_no_space_is_told_before_accepting(house: House, monkeypatch: pytest.Mon
     with pytest.raises(UnknownJob):
         house.catalogue.get("x")
     assert house.catalogue.waiting() == 0
+
+
+def test_key_of_a_request_that_was_not_accepted_can_be_used_again(
+    house: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with monkeypatch.context() as patched, pytest.raises(StoreFull):
+        patched.setattr(house.catalogue, "put", _full)
+        house.ask_keyed("k", seed=1)
+    assert house.ask_keyed("k", seed=1).created
+    assert house.ask_keyed("k", seed=1).replayed
+    with pytest.raises(IdempotencyConflict):
+        house.ask_keyed("k", seed=2)
+
+
+def test_two_requests_at_once_with_one_key_are_not_both_accepted(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+    house.ask_keyed("k", seed=1)
+    monkeypatch.setattr(house.catalogue, "recall", lambda *_: None)  # The other one was not there yet.
+    with pytest.raises(IdempotencyConflict):
+        house.ask_keyed("k", seed=2)
+    assert house.catalogue.waiting() == 1
+
+
+def _full(*_: object, **__: object) -> None:
+    raise StoreFull("the disk of the catalogue is full")
 
 
 def test_queue_has_an_end(house: House) -> None:
