@@ -92,7 +92,7 @@ def rotors(draw: st.DrawFn) -> MachineSpec:
             BearingSpec(
                 name="bearing1",
                 body="disc",
-                geometry=BallGeometry(balls=draw(st.integers(5, 12)), diameter_ratio=draw(st.floats(0.15, 0.3))),
+                geometry=BallGeometry(balls=draw(st.integers(5, 10)), diameter_ratio=draw(st.floats(0.15, 0.3))),
                 contact_stiffness_n_per_m15=draw(_logs(1e9, 1e10)),
                 radial_clearance_m=draw(st.floats(-2e-6, 2e-6)),
                 inner_mass_kg=ring,
