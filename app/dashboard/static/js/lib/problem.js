@@ -1,0 +1,63 @@
+/** Showing what went wrong: problem documents field by field, short notices, the banner. */
+
+import { ApiProblem } from "/js/lib/api.js";
+import { h, replace } from "/js/lib/dom.js";
+import { number, unit } from "/js/lib/format.js";
+
+const NAMES = {
+  duration_s: "Duration", sampling_rate_hz: "Sampling rate", seed: "Seed", preset: "Machine", channels: "Outputs",
+  "operating.speed_hz": "Shaft speed", gap: "Clearance gap", max_points: "Points",
+};
+
+function title(field) {
+  const last = field.replace(/^set\./, "").replace(/^terms\.\d+\.parameters\./, "");
+  return NAMES[last] ?? NAMES[last.split(".").at(-1)] ?? field;
+}
+
+function shown(value) {
+  if (typeof value === "number") return number(value, 6);
+  return typeof value === "string" ? value : JSON.stringify(value);
+}
+
+function fieldItem(error, names) {
+  const units = unit(error.unit);
+  const facts = [];
+  if (error.given !== null && error.given !== undefined) facts.push(["given", `${shown(error.given)} ${units}`]);
+  if (error.allowed) facts.push(["allowed", `${error.allowed} ${units}`]);
+  return h("li", {},
+    h("div", {}, h("strong", {}, names[error.field] ?? title(error.field)), ` ${error.message}`),
+    h("dl", {}, facts.map(([name, text]) => h("div", {}, h("dt", {}, name), h("dd", {}, text.trim()))),
+      h("div", {}, h("dt", {}, "field"), h("dd", {}, error.field))));
+}
+
+/** A problem as a message box. `names` may give fields the names they have on screen. */
+export function problemBox(error, names = {}) {
+  const problem = error instanceof ApiProblem ? error.document : { title: "Error", detail: String(error.message ?? error) };
+  const count = (problem.errors ?? []).length;
+  const heading = count === 1 ? "One value must change" : count > 1 ? `${count} values must change` : problem.title;
+  return h("div", { class: "message", role: "alert", tabindex: "-1", dataset: { tone: "bad", type: problem.type ?? "" } },
+    h("p", { class: "message-title" }, heading),
+    count ? null : h("p", {}, problem.detail),
+    count ? h("ul", { class: "problem-fields" }, problem.errors.map((item) => fieldItem(item, names))) : null);
+}
+
+/** A short notice in the corner that goes by itself. */
+export function toast(text, tone = "") {
+  const box = h("div", { class: "message fade-in", dataset: { tone } }, h("p", {}, text));
+  document.getElementById("toasts").append(box);
+  setTimeout(() => box.remove(), 6000);
+}
+
+export function toastProblem(error) {
+  toast(error.message, "bad");
+}
+
+const banner = () => document.getElementById("banner");
+
+export function showBanner(...content) {
+  replace(banner(), h("div", { class: "message", dataset: { tone: "warn" } }, ...content));
+}
+
+export function clearBanner() {
+  if (banner().hasChildNodes()) replace(banner());
+}

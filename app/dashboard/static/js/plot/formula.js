@@ -1,0 +1,39 @@
+/** Labels such as `1*f_m-2*f_r1` as formulas: f_m − 2 f_r1 with lowered indices, on a page and on a canvas. */
+
+import { h } from "/js/lib/dom.js";
+import { labelTerms } from "/js/lib/format.js";
+
+export function formula(label) {
+  const parts = labelTerms(label);
+  if (!parts.length) return h("span", { class: "formula" }, label || "–");
+  return h("span", { class: "formula", title: label }, parts.map((part, i) => [
+    part.sign ? (i ? ` ${part.sign} ` : part.sign) : "",
+    part.count === 1 ? "" : `${part.count}\u202f`,
+    h("i", {}, part.base), h("sub", {}, part.index),
+  ]));
+}
+
+/** Pieces of text with their fonts: [{text, lowered}], widths measured for `ctx`. */
+export function measured(ctx, label, sans) {
+  const pieces = [];
+  labelTerms(label).forEach((part, i) => {
+    const head = `${part.sign && i ? `${part.sign}` : part.sign}${part.count === 1 ? "" : part.count}${part.base}`;
+    pieces.push({ text: head, font: `11px ${sans}`, drop: 0 }, { text: part.index, font: `8.5px ${sans}`, drop: 3 });
+  });
+  let width = 0;
+  for (const piece of pieces) {
+    ctx.font = piece.font;
+    piece.x = width;
+    width += ctx.measureText(piece.text).width + 0.5;
+  }
+  return { pieces, width };
+}
+
+export function drawFormula(ctx, { pieces }, x, y) {
+  ctx.textAlign = "left";
+  ctx.textBaseline = "alphabetic";
+  for (const piece of pieces) {
+    ctx.font = piece.font;
+    ctx.fillText(piece.text, x + piece.x, y + piece.drop);
+  }
+}

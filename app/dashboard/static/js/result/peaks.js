@@ -1,0 +1,94 @@
+/** The table of labelled peaks. */
+
+import { h, replace, segmented } from "/js/lib/dom.js";
+import { familyInfo, familyOf } from "/js/lib/families.js";
+import { number, partName, scaled, unit } from "/js/lib/format.js";
+import { familyChips, swatch } from "/js/result/families.js";
+import { formula } from "/js/plot/formula.js";
+
+const STEP = 60;
+const TONES = { present: "ok", absent: "", ambiguous: "warn", unexplained: "bad" };
+const COLUMNS = [
+  ["label", "Label", false, (p) => p.label],
+  ["frequency", "Frequency (Hz)", true, (p) => p.measured_frequency_hz ?? p.frequency_hz],
+  ["order", "Order", true, (p) => p.order],
+  ["amplitude", "Amplitude", true, (p) => p.amplitude ?? -1],
+  ["floor", "Over floor (dB)", true, (p) => p.db_over_floor ?? -Infinity],
+  ["status", "Status", false, (p) => p.status],
+  ["components", "Components", false, (p) => p.components.join()],
+  ["mechanism", "Mechanism", false, (p) => (p.mechanisms ?? []).join()],
+];
+
+export function peaksCard(context, { onChoose, onFamilies }) {
+  let labels = { peaks: [] };
+  let status = "found";
+  let sort = { key: "amplitude", down: true };
+  let limit = STEP;
+  let chosen = null;
+  const chips = familyChips(context, onFamilies);
+  const statuses = segmented("Status of the lines", [["found", "Found"], ["present", "Present"], ["ambiguous", "Ambiguous"], ["unexplained", "Unexplained"], ["absent", "Absent"], ["all", "All"]], "found", (value) => { status = value; limit = STEP; draw(); });
+  const count = h("span", { class: "muted small num" });
+  const heads = COLUMNS.map(([key, name, right]) => h("th", { scope: "col", class: right ? "right" : "", dataset: { key } },
+    h("button", { type: "button", onclick: () => sortBy(key) }, h("span", {}, name), h("span", { class: "arrow", "aria-hidden": "true" }))));
+  const body = h("tbody");
+  const more = h("button", { type: "button", class: "button small", onclick: () => { limit += 4 * STEP; draw(); } }, "Show more");
+  const element = h("section", { class: "card", id: "card-peaks", "aria-label": "Labelled peaks" },
+    h("div", { class: "card-head" }, h("h2", {}, "Labelled peaks"), statuses, h("span", { class: "spacer" }), count),
+    h("div", { class: "card-body" }, h("div", { class: "tools" }, chips.element),
+      h("div", { class: "table-wrap peaks-wrap", tabindex: "0", role: "region", "aria-label": "Table of peaks" },
+        h("table", { class: "peaks-table" }, h("thead", {}, h("tr", {}, heads)), body)), h("p", { class: "notes" }, more)));
+
+  function sortBy(key) {
+    sort = { key, down: sort.key === key ? !sort.down : ["amplitude", "floor"].includes(key) };
+    draw();
+  }
+
+  const wanted = (peak) => context.families.has(familyOf(peak)) || (status === "unexplained" && peak.status === "unexplained");
+  const inStatus = (peak) => status === "all" || peak.status === status || (status === "found" && peak.status !== "absent");
+
+  function draw() {
+    const pick = COLUMNS.find(([key]) => key === sort.key)[3];
+    const sign = sort.down ? -1 : 1;
+    const rows = labels.peaks.filter((peak) => wanted(peak) && inStatus(peak))
+      .sort((a, b) => { const [p, q] = [pick(a), pick(b)]; return sign * (p < q ? -1 : p > q ? 1 : 0); });
+    heads.forEach((head) => {
+      const current = head.dataset.key === sort.key;
+      if (current) head.setAttribute("aria-sort", sort.down ? "descending" : "ascending");
+      else head.removeAttribute("aria-sort");
+      head.querySelector(".arrow").textContent = current ? (sort.down ? "↓" : "↑") : "";
+    });
+    const most = labels.peaks.reduce((top, peak) => Math.max(top, peak.amplitude ?? 0), 0);
+    const scale = scaled(most, labels.peaks[0]?.unit ?? "");
+    count.textContent = `${rows.length} of ${labels.peaks.length} lines`;
+    more.hidden = rows.length <= limit;
+    replace(body, rows.length ? rows.slice(0, limit).map((peak) => row(peak, scale)) : h("tr", {}, h("td", { colspan: COLUMNS.length, class: "empty" }, labels.peaks.length ? "No line of these families has this status." : "This channel has no labels.")));
+  }
+
+  function row(peak, [factor, shown]) {
+    const family = familyOf(peak);
+    const same = chosen && chosen.label === peak.label && chosen.frequency_hz === peak.frequency_hz;
+    return h("tr", { dataset: { label: peak.label, status: peak.status }, class: same ? "chosen" : "", onclick: () => { choose(peak); onChoose(peak); } },
+      h("td", {}, h("button", { type: "button", class: "row-button", title: peak.aliases?.length ? `same as ${peak.aliases.join(", ")}` : peak.label }, swatch(family, "swatch"), peak.label ? formula(peak.label) : h("span", { class: "muted" }, "not explained"), h("span", { class: "visually-hidden" }, familyInfo(family).name))),
+      h("td", { class: "right" }, number(peak.measured_frequency_hz ?? peak.frequency_hz, 6)),
+      h("td", { class: "right" }, number(peak.order, 5)),
+      h("td", { class: "right" }, peak.amplitude === null ? h("span", { class: "muted", title: "Smallest amplitude that would have been seen" }, `< ${number(peak.detection_limit * factor, 2)} ${shown}`) : `${number(peak.amplitude * factor, 4)} ${shown} ${peak.scaling}`),
+      h("td", { class: "right" }, peak.db_over_floor === null ? "–" : number(peak.db_over_floor, 3)),
+      h("td", {}, h("span", { class: "pill", dataset: { tone: TONES[peak.status] ?? "" }, title: peak.alternatives?.length ? `or ${peak.alternatives.join(", ")}` : peak.masked_by ? `masked by ${peak.masked_by}` : "" }, peak.status)),
+      h("td", {}, peak.components.map(partName).join(", ") || "–"),
+      h("td", {}, (peak.mechanisms ?? []).map((m) => m.replace(/_/g, " ")).join(", ") || "–"));
+  }
+
+  function choose(peak) {
+    chosen = peak;
+    draw();
+    body.querySelector(".chosen")?.scrollIntoView({ block: "nearest" });
+  }
+
+  return {
+    element, choose,
+    wait() { count.textContent = "labelling …"; },
+    set(found) { labels = found; chosen = null; limit = STEP; chips.setPeaks(found.peaks); draw(); },
+    refreshFamilies() { chips.refresh(); draw(); },
+    stop() { chips.stop(); },
+  };
+}

@@ -1,0 +1,48 @@
+/** A job that is under way, and one that did not end well. */
+
+import { h, replace } from "/js/lib/dom.js";
+import { duration } from "/js/lib/format.js";
+
+const STAGES = { waiting: "Waiting for a worker", starting: "Starting", simulating: "Simulating", analysing: "Analysing spectra and labels", storing: "Storing the result", done: "Done" };
+
+export function progressPanel(job) {
+  const stage = h("strong", {});
+  const left = h("span", { class: "muted num" });
+  const bar = h("i", {});
+  const progress = h("div", { class: "progress", role: "progressbar", "aria-label": "Progress of the simulation", "aria-valuemin": "0", "aria-valuemax": "100" }, bar);
+  const element = h("section", { class: "card card-body progress-card", "aria-live": "polite" },
+    h("div", { class: "progress-row" }, stage, left), progress,
+    h("p", { class: "muted small" }, `Estimated to take ${duration(job.cost.seconds)} of computing. The result opens here by itself.`));
+
+  function update(data) {
+    const fraction = typeof data.progress === "number" ? data.progress : data.fraction ?? 0;
+    stage.textContent = data.cancel_requested ? "Stopping" : STAGES[data.stage] ?? data.stage ?? "";
+    left.textContent = `${Math.round(fraction * 100)} %${data.eta_s ? ` · about ${duration(data.eta_s)} left` : ""}`;
+    bar.style.width = `${fraction * 100}%`;
+    progress.setAttribute("aria-valuenow", String(Math.round(fraction * 100)));
+  }
+  update({ ...job.progress, cancel_requested: job.cancel_requested });
+  return { element, update };
+}
+
+export function failurePanel(job) {
+  if (job.gone) return note("The result is no longer kept.", "Run it again to have it back: the same request gives the same result.", "warn");
+  if (job.status === "dismissed") return note("This job was cancelled.", "Nothing was stored.", "warn");
+  const { failure } = job;
+  if (!failure) return note("There is no result.", `The job is ${job.status}.`, "warn");
+  const box = note(failure.code === "diverged" ? "The simulation diverged" : "The job failed", failure.message, "bad");
+  if (failure.advice) box.append(h("p", {}, h("strong", {}, "What to do: "), failure.advice));
+  const details = Object.entries(failure.detail ?? {}).filter(([, value]) => typeof value !== "object");
+  if (details.length) box.append(h("dl", { class: "facts" }, details.map(([name, value]) => [h("dt", {}, name), h("dd", {}, String(value))])));
+  const errors = failure.detail?.errors;
+  if (Array.isArray(errors)) {
+    const list = h("ul", { class: "problem-fields" });
+    replace(list, errors.map((e) => h("li", {}, h("strong", {}, e.field), ` ${e.message}`, h("span", { class: "muted" }, ` given ${JSON.stringify(e.given)}, allowed ${e.allowed ?? ""} ${e.unit ?? ""}`))));
+    box.append(list);
+  }
+  return box;
+}
+
+function note(title, text, tone) {
+  return h("div", { class: "message", role: "alert", dataset: { tone } }, h("p", { class: "message-title" }, title), h("p", {}, text));
+}
