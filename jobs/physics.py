@@ -58,7 +58,7 @@ class PhysicsEngine:
 
     def bearings(self) -> list[dict[str, object]]:
         """The bearing catalogue."""
-        return [asdict(row) | {"published_orders": dict(row.published_orders)} for row in catalogue().values()]
+        return [vars(row) | {"published_orders": dict(row.published_orders)} for row in catalogue().values()]
 
     def missing_bearings(self) -> dict[str, str]:
         """Sizes left out of the catalogue, with the reason."""

@@ -31,6 +31,8 @@ COMMANDS = {
     "bearings": Command(module="app.cli.bearings", sentence="list the bearing catalogue"),
     "serve": Command(module="app.cli.serve", sentence="start the service: broker, workers, HTTP, dashboard"),
 }
+ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+"""Matrices here are small: threads cost more than they bring, and one thread gives the same bytes every time."""
 FAILED, WRONG_INPUT, INTERRUPTED = 1, 2, 130
 
 
@@ -40,6 +42,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     if not arguments or arguments[0] not in COMMANDS:
         return _overview(arguments)
     name = arguments[0]
+    for library in ONE_THREAD:
+        os.environ.setdefault(library, "1")
     module = importlib.import_module(COMMANDS[name].module)
     try:
         return _run(module, _parser(name, module).parse_args(arguments[1:]))

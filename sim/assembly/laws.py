@@ -130,7 +130,8 @@ def acting_terms(machine: MachineSpec, kin: Kinematics, registry: Registry, seed
             )
             continue
         try:
-            values = term.values(spec.parameters, f"{where}.parameters")
+            given = {**term.machine_values(machine, spec.site), **spec.parameters}
+            values = term.values(given, f"{where}.parameters")
         except SpecError as error:
             problems += error.problems
             continue

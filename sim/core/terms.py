@@ -82,6 +82,10 @@ class Term:
             raise SpecError(problems)
         return {p.name: float(given.get(p.name, p.default)) for p in self.params}
 
+    def machine_values(self, machine: MachineSpec, site: str) -> Values:  # noqa: ARG002
+        """Parameters the machine itself gives at a site; what the term is given goes before them."""
+        return {}
+
     def modify(self, laws: Laws, values: Values, site: SiteContext) -> Laws:  # noqa: ARG002
         """Return the laws as this effect changes them."""
         return laws

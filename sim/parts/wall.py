@@ -6,6 +6,7 @@ from sim.core.elements import Coordinate, Output, flat
 from sim.core.lines import Line
 from sim.core.params import Param
 from sim.core.response import FloatArray
+from sim.core.spec import MachineSpec
 from sim.core.terms import SiteContext, Values
 
 CONTEXT = 1
@@ -63,6 +64,12 @@ PALMGREN = 3.83e-5
 def wall_parameters(values: Values) -> FloatArray:
     """Parameter array of the wall kernel: the declared parameters, then L^0.8 / 3.83e-5."""
     return flat(*(values[p.name] for p in WALL_PARAMS), values["length"] ** 0.8 / PALMGREN)
+
+
+def bore_values(machine: MachineSpec, bearing: str) -> Values:
+    """Collision damping from the bearing's specification, when it has one."""
+    damping = next(b.bore_damping_ns_per_m for b in machine.bearings if b.name == bearing)
+    return {} if damping is None else {"damping": damping}
 
 
 def ring_wall_coordinates(bearing: str, *, against: str | None) -> tuple[Coordinate, ...]:

@@ -51,6 +51,7 @@ class GearboxNumbers:
     resonator_mass: float = 1.0
     ball_stiffness: float | None = 1e9
     ball_clearance: float = 0.0
+    bore_damping: float = 2e5
     error_mean: float = 3e-5
     error_amplitude: float = 2e-5
     error_phase: float = 0.0
@@ -84,6 +85,7 @@ def _bearing(n: GearboxNumbers, index: int) -> BearingSpec:
         geometry=BallGeometry(balls=balls, diameter_ratio=n.input_ratio if first else n.output_ratio),
         contact_stiffness_n_per_m15=n.ball_stiffness,
         radial_clearance_m=n.ball_clearance,
+        bore_damping_ns_per_m=n.bore_damping,
         inner_mass_kg=n.inner_mass,
         outer_mass_kg=n.outer_mass,
         shaft_stiffness_n_per_m=n.shaft_stiffness,

@@ -15,8 +15,17 @@ from sim.core.compiled import kernel
 from sim.core.elements import Element
 from sim.core.laws import Laws
 from sim.core.lines import Line
+from sim.core.spec import MachineSpec
 from sim.core.terms import SiteContext, Term, Values
-from sim.parts.wall import CONTEXT, OUTPUTS, WALL_PARAMS, clearance_lines, ring_wall_coordinates, wall_parameters
+from sim.parts.wall import (
+    CONTEXT,
+    OUTPUTS,
+    WALL_PARAMS,
+    bore_values,
+    clearance_lines,
+    ring_wall_coordinates,
+    wall_parameters,
+)
 from sim.parts.wall_kernel import wall_force, wall_prepare
 
 
@@ -36,6 +45,10 @@ KERNEL = kernel(prepare, force)
 @dataclass(frozen=True, kw_only=True)
 class FitClearance(Term):
     """See the module."""
+
+    def machine_values(self, machine: MachineSpec, site: str) -> Values:
+        """Collision damping of the bearing's bore."""
+        return bore_values(machine, site)
 
     def modify(self, laws: Laws, values: Values, site: SiteContext) -> Laws:  # noqa: ARG002
         """Release the ring from its support (seed eq. 34), only at this bearing."""

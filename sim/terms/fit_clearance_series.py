@@ -14,8 +14,17 @@ from sim.core.elements import Element
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.params import Param
+from sim.core.spec import MachineSpec
 from sim.core.terms import SiteContext, Term, Values
-from sim.parts.wall import CONTEXT, OUTPUTS, WALL_PARAMS, clearance_lines, ring_wall_coordinates, wall_parameters
+from sim.parts.wall import (
+    CONTEXT,
+    OUTPUTS,
+    WALL_PARAMS,
+    bore_values,
+    clearance_lines,
+    ring_wall_coordinates,
+    wall_parameters,
+)
 from sim.parts.wall_kernel import wall_force, wall_prepare
 
 
@@ -41,6 +50,10 @@ Elastic Bodies in Contact, Chalmers); modelled by scaling Palmgren's compliance 
 @dataclass(frozen=True, kw_only=True)
 class FitClearanceSeries(Term):
     """See the module."""
+
+    def machine_values(self, machine: MachineSpec, site: str) -> Values:
+        """Collision damping of the bearing's bore."""
+        return bore_values(machine, site)
 
     def modify(self, laws: Laws, values: Values, site: SiteContext) -> Laws:
         """Put a housing mass between support and ring."""

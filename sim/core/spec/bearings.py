@@ -57,6 +57,8 @@ class BearingSpec(SpecModel):
     shaft_damping_ns_per_m: Damping = 0.0
     support: SupportSpec
     cage_phase_rad: Finite = 0.0
+    bore_damping_ns_per_m: Damping | None = None
+    """c_N of the ring striking its bore, where a clearance term does not give its own."""
 
 
 class ResonatorSpec(SpecModel):
