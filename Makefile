@@ -2,20 +2,21 @@
 PYTHON ?= $(shell command -v python3.11 || command -v python3.12 || command -v python3.13 || command -v python3)
 VENV := .venv
 BIN := $(VENV)/bin
-PACKAGES := sim signals jobs store workers app paper bench
 PORT ?= 8000
 
-.PHONY: run setup dev browser lint fast test full bench paper openapi lock clean
+.DELETE_ON_ERROR:
+.PHONY: run setup dev browser lint fast test bench paper openapi lock clean help
 
 run: setup  ## start the service, simulate the demo through the queue, open its page
 	$(BIN)/sideband serve --port $(PORT) --demo --open
 
-setup: $(VENV)/.installed
+setup: $(VENV)/.installed  ## environment, and the kernels compiled into their cache
 	@$(BIN)/python -m workers.warm
 
 $(VENV)/.installed: requirements.lock pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed" if sys.version_info < (3, 11) else 0)'
-	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV) || { rm -rf $(VENV); \
+	  echo "python's venv module is missing (on Debian and Ubuntu: apt-get install python3-venv)"; exit 1; }
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps -e .
 	touch $@
@@ -31,30 +32,33 @@ browser:  ## what the browser tests need (Debian; needs root)
 	    apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
 	    chromium chromium-driver fonts-dejavu-core >/dev/null; } || echo "no browser: browser tests will be skipped"
 
-lint: dev
+lint: dev  ## style, types, import rules
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
-fast: dev  ## the loop while working: under half a minute
+fast: dev  ## the loop while working: no slow test, no browser
 	$(BIN)/python -m pytest -q -n 2 -m "not slow and not browser"
 
-test: dev browser setup lint  ## everything
+test: dev browser setup lint  ## lint and every test; what CI runs
 	$(BIN)/python -m pytest -q -n 2 --dist loadgroup
 
-bench: dev setup
+bench: dev setup  ## speed and accuracy; ends with one line of JSON
 	$(BIN)/python -m bench
 
-paper: dev setup
+paper: dev setup  ## the paper's figures and trends, recomputed into docs/
 	$(BIN)/python -m paper
 
-openapi: dev
+openapi: dev  ## write openapi/openapi.json
 	$(BIN)/python -m app.openapi
 
-lock: dev
-	$(BIN)/pip-compile --quiet --no-emit-index-url --no-emit-find-links --strip-extras --no-header -o requirements.lock pyproject.toml
-	$(BIN)/pip-compile --quiet --no-emit-index-url --no-emit-find-links --strip-extras --no-header --extra dev -o requirements-dev.lock pyproject.toml
+lock: dev  ## new lock files from pyproject.toml (keeps what is locked; add UPGRADE=--upgrade to renew)
+	$(BIN)/pip-compile --quiet --no-emit-index-url --no-emit-find-links --strip-extras --no-header $(UPGRADE) -o requirements.lock pyproject.toml
+	$(BIN)/pip-compile --quiet --no-emit-index-url --no-emit-find-links --strip-extras --no-header $(UPGRADE) --extra dev -o requirements-dev.lock pyproject.toml
 
-clean:
+clean:  ## remove what the doors made in this folder (not the kernel cache, not data)
 	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build *.egg-info
+
+help:  ## this list
+	@sed -nE 's/^([a-z]+):.*## (.*)/\1\t\2/p' $(MAKEFILE_LIST) | sort -u | expand -t 10

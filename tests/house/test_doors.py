@@ -1,0 +1,48 @@
+"""The commands that README and CI promise exist."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+
+import pytest
+
+from app.cli.main import COMMANDS
+from tests.house.project import ROOT
+
+MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+PROMISED = ("run", "test", "fast", "lint", "bench", "paper", "openapi", "lock", "clean", "setup")
+
+
+def _targets() -> set[str]:
+    return set(re.findall(r"^([a-z]+):", MAKEFILE, re.MULTILINE))
+
+
+@pytest.mark.parametrize("target", PROMISED)
+def test_the_door_exists_and_is_no_file(target):
+    assert target in _targets()
+    assert re.search(rf"^\.PHONY:.*\b{target}\b", MAKEFILE, re.MULTILINE)
+
+
+def test_readme_names_only_doors_and_commands_that_exist():
+    assert set(re.findall(r"\bmake ([a-z]+)\b", README)) <= _targets()
+    assert set(re.findall(r"bin/sideband ([a-z]+)", README)) <= set(COMMANDS)
+
+
+def test_ci_runs_the_test_door_and_nothing_else():
+    script = ROOT / ".ci" / "run"
+    assert os.access(script, os.X_OK)
+    commands = [line for line in script.read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")]
+    assert commands[0] == "set -euo pipefail"
+    assert commands[-1] == "make test"
+    assert sum("make " in line for line in commands) == 1
+
+
+def test_make_accepts_its_file():
+    told = subprocess.run(["make", "-n", "test"], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert told.returncode == 0, told.stderr
+    assert "pytest" in told.stdout.splitlines()[-1], "the test runner's closing line must come last"
+    for tool in ("ruff check", "ruff format --check", "mypy", "lint-imports"):
+        assert tool in told.stdout
