@@ -2,7 +2,7 @@
 
 Pair n enters at mesh phase n and leaves one contact ratio later; stiffness and contact ratio follow the current
 centre distance (and the signed tilt in the plane of action when asked for). Stiffness within a step is replaced by
-node values of equal moments, pair by pair (docs/physics/numerics.md), so entries and exits need no small steps.
+node values of equal moments, pair by pair (docs/numerics.md), so entries and exits need no small steps.
 """
 
 from __future__ import annotations

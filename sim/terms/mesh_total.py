@@ -1,7 +1,7 @@
 """Gear mesh with one total stiffness curve over mesh phase and centre distance (seed eqs 13-15, 17).
 
 The stiffness jumps when a tooth pair enters or leaves. Within a step the curve is replaced by node values with the
-same moments: int k l_j ds = b_j k_j, so a jump inside a step costs no accuracy in impulse (docs/physics/numerics.md).
+same moments: int k l_j ds = b_j k_j, so a jump inside a step costs no accuracy in impulse (docs/numerics.md).
 """
 
 from __future__ import annotations
