@@ -29,7 +29,7 @@ export function numberField(param, onChange) {
     changed();
   } }) : null;
   const error = h("p", { class: "field-error", id: `${id}-error` });
-  const bounds = param.high === undefined ? "" : `${number(toShown(param.low), 6)} to ${number(toShown(param.high), 6)} ${shown}`;
+  const bounds = param.high === undefined || param.integer ? "" : `${number(toShown(param.low), 6)} to ${number(toShown(param.high), 6)} ${shown}`;
   const extra = h("span", {});
   const element = h("div", { class: "field", dataset: { param: param.name } },
     h("label", { for: id }, param.label ?? param.name.replace(/_/g, " ").replace(/^./, (c) => c.toUpperCase())),
@@ -43,7 +43,7 @@ export function numberField(param, onChange) {
     const given = value();
     let text = "";
     if (!Number.isFinite(given)) text = "Enter a number.";
-    else if (param.high !== undefined && (given < param.low || given > param.high)) text = `Allowed: ${bounds}.`;
+    else if (param.high !== undefined && (given < param.low || given > param.high)) text = `Allowed: ${bounds || `${param.low} to ${param.high}`}.`;
     else if (param.integer && !Number.isInteger(given)) text = "Enter a whole number.";
     problem(text);
     return !text;

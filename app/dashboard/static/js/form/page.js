@@ -13,16 +13,16 @@ import { buildRequest, fieldFor } from "/js/form/request.js";
 export function formPage(main, { query }) {
   main.append(h("p", { class: "muted" }, "Loading …"));
   const abort = new AbortController();
-  load(query.get("from"), abort.signal)
+  load(query.get("from"), query.get("preset"), abort.signal)
     .then((found) => { if (!abort.signal.aborted) build(main, found, abort.signal); })
     .catch((error) => { if (!abort.signal.aborted) replace(main, problemBox(error)); });
   return () => abort.abort();
 }
 
-async function load(from, signal) {
+async function load(from, wanted, signal) {
   const [{ presets }, { terms }] = await Promise.all([reference("/v1/presets"), reference("/v1/terms")]);
   const earlier = from ? (await getJson(`/v1/jobs/${from}`, { signal })).request : null;
-  return { presets, terms, earlier };
+  return { presets, terms, earlier, wanted };
 }
 
 function general(onChange) {
@@ -31,11 +31,11 @@ function general(onChange) {
     speed: numberField({ name: "speed_hz", label: "Shaft speed", unit: "Hz", default: 30, note: rpm }, onChange),
     duration_s: numberField({ name: "duration_s", label: "Duration", unit: "s", default: 2, sentence: "Simulated time." }, onChange),
     sampling_rate_hz: numberField({ name: "sampling_rate_hz", label: "Sampling rate", unit: "Hz", default: 30000, low: 100, high: 500000, sentence: "Filtered before thinning." }, onChange),
-    seed: numberField({ name: "seed", label: "Seed", unit: "1", default: 0, low: 0, high: 2 ** 53 - 1, integer: true, sentence: "Of everything random." }, onChange),
+    seed: numberField({ name: "seed", label: "Seed", unit: "1", default: 0, low: 0, high: 2 ** 53 - 1, integer: true, sentence: "Of everything random in the machine; a whole number." }, onChange),
   };
 }
 
-function build(main, { presets, terms, earlier }, signal) {
+function build(main, { presets, terms, earlier, wanted }, signal) {
   let machine = null;
   const recheck = debounce(() => check(), 350);
   const fields = general(recheck);
@@ -44,7 +44,7 @@ function build(main, { presets, terms, earlier }, signal) {
   const checked = checkPanel();
   const problems = h("div", { class: "form-problems" });
   const notes = h("p", { class: "preset-notes" });
-  const chosen = presets.some((p) => p.name === earlier?.preset) ? earlier.preset : presets[0].name;
+  const chosen = presets.find((p) => p.name === (earlier?.preset ?? wanted))?.name ?? presets[0].name;
   const preset = select(presets.map((p) => [p.name, p.title]), chosen, { id: "preset", onchange: () => usePreset() });
   const submit = h("button", { type: "submit", class: "button primary" }, "Simulate");
   const form = h("form", { novalidate: true, class: "form-main", "aria-label": "New simulation", onsubmit: send },

@@ -29,11 +29,16 @@ export function measured(ctx, label, sans) {
   return { pieces, width };
 }
 
+/** Drawn over a rim in the stroke colour, so that it is read above a busy spectrum. */
 export function drawFormula(ctx, { pieces }, x, y) {
   ctx.textAlign = "left";
   ctx.textBaseline = "alphabetic";
-  for (const piece of pieces) {
-    ctx.font = piece.font;
-    ctx.fillText(piece.text, x + piece.x, y + piece.drop);
+  ctx.lineWidth = 3.5;
+  ctx.lineJoin = "round";
+  for (const write of ["strokeText", "fillText"]) {
+    for (const piece of pieces) {
+      ctx.font = piece.font;
+      ctx[write](piece.text, x + piece.x, y + piece.drop);
+    }
   }
 }

@@ -16,7 +16,7 @@ export class Plot {
    * onPick(x, y px) for a click, hover(x, y px) -> text or null.
    */
   constructor(options) {
-    this.options = { height: 280, xLabel: "", yLabel: "", log: false, ...options };
+    this.options = { height: 280, xLabel: "", yLabel: "", log: false, line: "--signal", ...options };
     this.canvas = h("canvas", {
       class: "plot-canvas", tabindex: "0", role: "img", "aria-label": options.label,
       "aria-keyshortcuts": "ArrowLeft ArrowRight + - 0",
@@ -103,9 +103,10 @@ export class Plot {
     const ctx = this.canvas.getContext("2d");
     ctx.scale(ratio, ratio);
     this.box = { left: MARGIN.left, right: width - MARGIN.right, top: MARGIN.top, bottom: height - MARGIN.bottom };
+    this.canvas.dataset.view = this.view.map((value) => Number(value.toPrecision(9))).join(" ");
     this.x = new Linear(this.view[0], this.view[1], this.box.left, this.box.right);
     this.y = this.fitted();
-    this.colours = { grid: token("--grid"), axis: token("--axis"), muted: token("--muted"), text: token("--text"), line: token("--signal"), soft: token("--signal-soft"), cursor: token("--cursor") };
+    this.colours = { grid: token("--grid"), axis: token("--axis"), muted: token("--muted"), text: token("--text"), line: token(this.options.line), soft: token(`${this.options.line}-soft`), cursor: token("--cursor") };
     ctx.font = `11px ${token("--sans")}`;
     this.drawGrid(ctx);
     ctx.save();

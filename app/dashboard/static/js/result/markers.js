@@ -38,6 +38,7 @@ export function markerLayer(plot, context, drawn) {
     });
     placed = seen.map((peak) => ({ peak, x: plot.x.px(place(peak)), y: peak.status === "absent" ? plot.box.bottom - 5 : plot.y.px(height(peak) ?? 0) }));
     placed.sort((a, b) => a.y - b.y);
+    plot.canvas.dataset.markers = String(placed.length);
     for (const item of [...placed].reverse()) marker(ctx, item);
     texts(ctx);
     const chosen = layer.chosen && placed.find((item) => item.peak === layer.chosen || (item.peak.label && item.peak.label === layer.chosen.label));
@@ -62,19 +63,22 @@ export function markerLayer(plot, context, drawn) {
   /** Formulas of the highest peaks first, as long as they cover neither each other nor the frame. */
   function texts(ctx) {
     const sans = token("--sans");
+    const surface = token("--surface");
     const boxes = [];
+    const marks = placed.map(({ x, y }) => ({ left: x - 4, right: x + 4, top: y - 5, bottom: y + 5 }));
+    const meets = (box) => (b) => b.left < box.right && box.left < b.right && b.top < box.bottom && box.top < b.bottom;
     let count = 0;
     for (const { peak, x, y } of placed) {
       if (count >= MOST_TEXTS) break;
       if (!peak.label || peak.status === "absent") continue;
       const text = measured(ctx, peak.label, sans);
-      const box = { left: x - text.width / 2 - 2, right: x + text.width / 2 + 2, top: y - 21, bottom: y - 5 };
+      const box = { left: x - text.width / 2 - 2, right: x + text.width / 2 + 2, top: y - 21, bottom: y - 5.5 };
       if (box.left < plot.box.left || box.right > plot.box.right || box.top < plot.box.top) continue;
-      if (boxes.some((b) => b.left < box.right && box.left < b.right && b.top < box.bottom && box.top < b.bottom)) continue;
+      if (boxes.some(meets(box)) || marks.some(meets(box))) continue;
       boxes.push(box);
       count += 1;
       ctx.fillStyle = familyColour(familyOf(peak));
-      ctx.strokeStyle = token("--surface");
+      ctx.strokeStyle = surface;
       drawFormula(ctx, text, x - text.width / 2, y - 9);
     }
   }

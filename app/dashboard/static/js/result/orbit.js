@@ -23,6 +23,7 @@ export function orbitCard({ base, summary }) {
   if (!parts.length) return null;
   const shaft = summary.frequencies.f_r1 ?? 10;
   let turns = "10";
+  let equal = true;
   const first = parts.find((p) => p.key === "bearing1.inner") ?? parts[0];
   const chooser = select(parts.map((p) => [p.key, p.key.split(".").map(partName).join(", ") + (p.key.includes(".") ? " ring" : "")]), first.key, { class: "small", "aria-label": "Orbit of", onchange: load });
   const canvas = h("canvas", { class: "orbit-canvas", role: "img" });
@@ -31,6 +32,7 @@ export function orbitCard({ base, summary }) {
   const notes = h("p", { class: "notes" });
   const element = h("section", { class: "card", id: "card-orbit", "aria-label": "Shaft orbit" },
     h("div", { class: "card-head" }, h("h2", {}, "Shaft orbit"), h("span", { class: "spacer" }), chooser,
+      segmented("Axes", [["equal", "Equal axes"], ["fitted", "Fitted"]], "equal", (value) => { equal = value === "equal"; draw(); }),
       segmented("Revolutions", [["1", "1 rev"], ["10", "10"], ["40", "40"]], turns, (value) => { turns = value; load(); })),
     h("div", { class: "card-body" }, notice, canvas, notes));
   let points = null;
@@ -50,7 +52,7 @@ export function orbitCard({ base, summary }) {
       points = { x: x.map((v) => v * UM), y: y.map((v) => v * UM) };
       replace(notice);
       const range = (v) => Math.max(...v) - Math.min(...v);
-      notes.textContent = `The last ${number(span_s * shaft, 3)} revolutions of the input shaft. Extent ${number(range(points.x), 3)} µm in x, ${number(range(points.y), 3)} µm in y; both axes at one scale.`;
+      notes.textContent = `The last ${number(span_s * shaft, 3)} revolutions of the input shaft. Extent ${number(range(points.x), 3)} µm in x, ${number(range(points.y), 3)} µm in y.`;
       canvas.setAttribute("aria-label", `Orbit of ${chooser.selectedOptions[0].textContent}. ${notes.textContent}`);
       draw();
     } catch (error) {
@@ -67,7 +69,7 @@ export function orbitCard({ base, summary }) {
     const ctx = canvas.getContext("2d");
     ctx.scale(ratio, ratio);
     const box = { left: 56, right: width - 12, top: 8, bottom: height - 40 };
-    const [xs, ys] = axes(points, box);
+    const [xs, ys] = axes(points, box, equal);
     grid(ctx, box, xs, ys);
     trail(ctx, points, xs, ys);
   }
@@ -79,14 +81,16 @@ export function orbitCard({ base, summary }) {
   };
 }
 
-/** Scales with the same length of a micrometre in both directions. */
-function axes({ x, y }, box) {
+/** Scales with the same length of a micrometre in both directions, or each fitted to its own extent. */
+function axes({ x, y }, box, equal) {
   const middle = (v) => [(Math.min(...v) + Math.max(...v)) / 2, Math.max(...v) - Math.min(...v)];
   const [cx, wx] = middle(x);
   const [cy, wy] = middle(y);
-  const perPx = Math.max((wx * 1.12) / (box.right - box.left), (wy * 1.12) / (box.bottom - box.top), 1e-9);
-  const halfX = (perPx * (box.right - box.left)) / 2;
-  const halfY = (perPx * (box.bottom - box.top)) / 2;
+  const perX = Math.max((wx * 1.12) / (box.right - box.left), 1e-9);
+  const perY = Math.max((wy * 1.12) / (box.bottom - box.top), 1e-9);
+  const most = Math.max(perX, perY);
+  const halfX = ((equal ? most : perX) * (box.right - box.left)) / 2;
+  const halfY = ((equal ? most : perY) * (box.bottom - box.top)) / 2;
   return [new Linear(cx - halfX, cx + halfX, box.left, box.right), new Linear(cy - halfY, cy + halfY, box.bottom, box.top)];
 }
 

@@ -12,7 +12,7 @@ export function progressPanel(job) {
   const progress = h("div", { class: "progress", role: "progressbar", "aria-label": "Progress of the simulation", "aria-valuemin": "0", "aria-valuemax": "100" }, bar);
   const element = h("section", { class: "card card-body progress-card", "aria-live": "polite" },
     h("div", { class: "progress-row" }, stage, left), progress,
-    h("p", { class: "muted small" }, `Estimated to take ${duration(job.cost.seconds)} of computing. The result opens here by itself.`));
+    h("p", { class: "muted small" }, "The result opens here by itself. You may leave this page; the job goes on."));
 
   function update(data) {
     const fraction = typeof data.progress === "number" ? data.progress : data.fraction ?? 0;

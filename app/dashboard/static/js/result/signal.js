@@ -19,8 +19,8 @@ export function signalCard(context, { title, id, channels = null, height = 250, 
   const element = h("section", { class: "card", id: `card-${id}`, "aria-label": title },
     h("div", { class: "card-head" }, h("h2", {}, title), h("span", { class: "spacer" }), chooser),
     h("div", { class: "card-body" }, notice, plot.element, stats,
-      h("p", { class: "notes" }, from_s > 0 && !channels ? `Shaded: start-up transient, left out of spectra and features (${quantity(from_s, "s")}). ` : "",
-        "Drag to zoom, Shift-drag to move, double-click for all; keys: arrows, +, −, 0.")));
+      h("p", { class: "notes" }, from_s > 0 && !channels ? `The start-up transient ends at ${quantity(from_s, "s")} (shaded before); spectra and features begin there. ` : "",
+        "Drag to zoom, Shift-drag to move, double-click for the whole record; keys: arrows, +, −, 0.")));
   let channel = null;
   let factor = 1;
   let fetched = null;
@@ -35,7 +35,7 @@ export function signalCard(context, { title, id, channels = null, height = 250, 
   });
 
   function firstView() {
-    if (!periods) return [0, length_s];
+    if (!periods) return [from_s < 0.95 * length_s ? from_s : 0, length_s];
     const rate = summary.frequencies.f_m ?? summary.frequencies.f_r1 ?? 10;
     const start = Math.min(from_s, Math.max(0, length_s - periods / rate));
     return [start, Math.min(length_s, start + periods / rate)];

@@ -14,7 +14,7 @@ const NAMES = { amplitude: "Amplitude", psd: "PSD", order: "Orders", envelope: "
 
 export function spectrumCard(context, { title, id, kinds, onPick, onFamilies }) {
   const { base, summary } = context;
-  const plot = new Plot({ label: title, height: id === "spectrum" ? 340 : 270, xLabel: "Frequency", xUnit: "Hz", yLabel: "Amplitude", fill: true, fromZero: true, headroom: 34, log: true,
+  const plot = new Plot({ label: title, height: id === "spectrum" ? 340 : 270, xLabel: "Frequency", xUnit: "Hz", yLabel: "Amplitude", line: "--spectrum", fill: true, fromZero: true, headroom: 34, log: true,
     hover: (point) => tipFor(markers.at(point)), onPick: (point) => pick(markers.at(point)) });
   const markers = markerLayer(plot, context, () => ({ kind, factor }));
   const chips = familyChips(context, onFamilies);

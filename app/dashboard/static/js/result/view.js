@@ -6,6 +6,7 @@ import { channelName } from "/js/lib/format.js";
 import { FAMILIES } from "/js/lib/families.js";
 import { toastProblem } from "/js/lib/problem.js";
 import { downloadsCard } from "/js/result/downloads.js";
+import { frequenciesCard } from "/js/result/frequencies.js";
 import { orbitCard } from "/js/result/orbit.js";
 import { peaksCard } from "/js/result/peaks.js";
 import { qualityCard } from "/js/result/quality.js";
@@ -34,7 +35,8 @@ export function resultView(job, summary) {
   const cards = [time, spectrum, envelope, peaks, inner, orbit].filter(Boolean);
   const element = h("div", { class: "result-grid" },
     h("div", { class: "channel-bar wide" }, h("label", { for: "channel" }, "Channel"), chooser, h("span", { class: "muted small" }, "for time signal, spectra and peaks")),
-    wide(time), wide(spectrum), wide(peaks), wide(envelope), orbit?.element, inner?.element, qualityCard(summary), downloadsCard(context, () => ({ channel, view: time.view() })));
+    wide(time), wide(spectrum), wide(peaks), wide(envelope), orbit?.element, inner?.element, qualityCard(summary),
+    h("div", { class: "stack" }, frequenciesCard(summary), downloadsCard(context, () => ({ channel, view: time.view() }))));
 
   function wide(card) {
     card.element.classList.add("wide");

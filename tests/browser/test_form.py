@@ -1,0 +1,101 @@
+"""The form: generated from the declared terms, checked by the server, understandable when it refuses."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.browser.conftest import Service
+from tests.browser.driver import Browser, eventually
+
+CLEARANCE = '[data-effect="fit_clearance@bearing1"]'
+GAP = f"{CLEARANCE} [data-param=gap] input[type=number]"
+
+
+@pytest.fixture
+def form(browser: Browser, service: Service) -> Browser:
+    browser.open(service.page("/new?preset=paper-demo"))
+    browser.find("aside, [aria-label='Machine check'] .facts")
+    return browser
+
+
+def test_every_parameter_of_a_term_is_shown_as_declared(form: Browser, service: Service) -> None:
+    terms = {term["key"]: term for term in service.client.get("/v1/terms").json()["terms"]}
+    form.click(f"{CLEARANCE} summary")
+    for param in terms["fit_clearance"]["parameters"]:
+        text = form.text(f'{CLEARANCE} [data-param="{param["name"]}"]')
+        assert param["sentence"] in text
+    assert "0 to 500 µm" in form.text(f"{CLEARANCE} [data-param=gap]")
+    assert float(form.run(f"return document.querySelector('{GAP}').value")) == pytest.approx(20)
+    assert terms["fit_clearance"]["sentence"] in form.text(CLEARANCE)
+
+
+def test_the_machine_check_follows_the_speed(form: Browser) -> None:
+    form.type("[data-param=speed_hz] input", "60", clear=True)
+    eventually(lambda: "154.41 Hz" in form.text("[aria-label='Machine check']"), what="f_o1 at twice the speed")
+    assert "3600 rpm" in form.text("[data-param=speed_hz]")
+
+
+def test_refused_values_are_named_with_what_is_allowed(form: Browser) -> None:
+    form.type(GAP, "5000", clear=True)
+    assert form.run(f"return document.querySelector('{GAP}').getAttribute('aria-invalid')") == "true"
+    form.click("button[type=submit]")
+    box = form.text(".form-problems [role=alert]")
+    assert "Gap" in box
+    assert "0.005 m" in box and "0 to 0.0005 m" in box
+    assert form.run("return document.activeElement === document.querySelector('.form-problems [role=alert]')")
+    assert any("422" in line for line in form.complaints())
+
+
+def test_several_refusals_are_listed_together(form: Browser) -> None:
+    form.type("[data-param=duration_s] input", "-1", clear=True)
+    form.type("[data-param=sampling_rate_hz] input", "3", clear=True)
+    form.click("button[type=submit]")
+    box = form.text(".form-problems [role=alert]")
+    assert "2 values must change" in box and "Duration" in box and "Sampling rate" in box
+    assert form.count("[aria-invalid=true]") == 2
+    assert any("422" in line for line in form.complaints())
+
+
+def test_from_the_form_to_the_result(form: Browser, service: Service) -> None:
+    form.type(GAP, "50", clear=True)
+    form.type("[data-param=duration_s] input", "0.8", clear=True)
+    eventually(lambda: "(4)" in form.text(".outputs-list"), what="the outputs to be known")
+    form.click("button[type=submit]")
+    form.find("#card-time canvas", within_s=60)
+    job = form.run("return location.hash").rsplit("/", 1)[1]
+    request = service.client.get(f"/v1/jobs/{job}").json()["request"]
+    assert request["preset"] == "paper-demo"
+    assert request["set"] == {"fit_clearance@bearing1.gap": pytest.approx(5e-5)}
+    assert {"bearing1.inner.x.displacement", "mesh1.stiffness", "resonator1.y.acceleration"} <= set(request["channels"])
+    assert "bearing 1 gap 50" in form.text(".result-title")
+
+
+def test_an_effect_of_the_preset_can_be_left_out(form: Browser, service: Service) -> None:
+    form.click('[data-effect="eccentricity@pinion"] input[type=checkbox]')
+    form.type("[data-param=duration_s] input", "0.5", clear=True)
+    form.click("button[type=submit]")
+    form.find(".result-title h1")
+    job = form.run("return location.hash").rsplit("/", 1)[1]
+    service.wait(job, "successful")
+    form.find(".peaks-table tr[data-label]", within_s=30)
+    peaks = service.client.get(f"/v1/jobs/{job}/result/peaks").json()["peaks"]
+    assert not any("eccentricity" in mechanism for peak in peaks for mechanism in peak["mechanisms"])
+
+
+def test_a_request_can_be_changed_and_run_again(form: Browser, service: Service) -> None:
+    body = {
+        "preset": "rotor",
+        "set": {"operating.speed_hz": 41},
+        "duration_s": 0.3,
+        "sampling_rate_hz": 12000,
+        "seed": 5,
+    }
+    job = service.client.post("/v1/simulations", json=body).json()["id"]
+    form.open(service.page(f"/new?from={job}"))
+    form.find("[aria-label='Machine check'] .facts")
+    values = {
+        name: form.run(f"return document.querySelector('[data-param={name}] input').value")
+        for name in ("speed_hz", "duration_s", "seed")
+    }
+    assert values == {"speed_hz": "41", "duration_s": "0.3", "seed": "5"}
+    assert form.run("return document.getElementById('preset').value") == "rotor"

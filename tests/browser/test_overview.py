@@ -1,0 +1,69 @@
+"""The first page: health, jobs, cancel, delete, what happens when the server is away."""
+
+from __future__ import annotations
+
+from tests.browser.conftest import DEMO, Service
+from tests.browser.driver import ENTER, Browser, eventually
+
+LONG = {**DEMO, "duration_s": 60, "channels": ["resonator1.y.acceleration"]}
+
+
+def test_health_of_every_part_is_shown_as_the_api_tells_it(browser: Browser, service: Service) -> None:
+    browser.open(service.page())
+    browser.find('.tile[data-tile="broker"][data-status="ok"]')
+    for part in ("service", "broker", "workers", "queue", "store", "throughput"):
+        assert browser.find(f'.tile[data-tile="{part}"]')
+    told = service.client.get("/v1/health").json()
+    assert browser.text('.tile[data-tile="workers"] .tile-value') == str(len(told["workers"]))
+    assert told["version"] in browser.text('.tile[data-tile="service"]')
+
+
+def test_nothing_is_fetched_from_elsewhere(browser: Browser, service: Service) -> None:
+    browser.open(service.page(f"/jobs/{service.demo}"))
+    browser.find(".peaks-table tr[data-label]")
+    script = "return performance.getEntriesByType('resource').map((e) => new URL(e.name).origin)"
+    assert set(browser.run(script)) == {service.url.rstrip("/")}
+
+
+def test_a_job_is_cancelled_and_deleted_with_the_keyboard(browser: Browser, service: Service) -> None:
+    job = service.client.post("/v1/simulations", json=LONG).json()["id"]
+    row = f'tr[data-job="{job}"]'
+    browser.open(service.page())
+    browser.find(f"{row}[data-status=running] [role=progressbar]")
+    eventually(
+        lambda: float(browser.run(f"return document.querySelector('{row} [role=progressbar]').ariaValueNow")) > 0,
+        what="progress",
+    )
+    browser.run(f"document.querySelector('{row} .job-actions button').focus()")
+    browser.type(f"{row} .job-actions button", ENTER)
+    browser.type("dialog [data-choice=all]", ENTER)
+    browser.find(f"{row}[data-status=dismissed]")
+    service.wait(job, "dismissed")
+    browser.click(f"{row} .danger")
+    browser.click("dialog [data-choice=delete]")
+    eventually(lambda: browser.count(row) == 0, what="the row to go")
+    assert service.client.get(f"/v1/jobs/{job}").status_code == 410
+
+
+def test_keeping_a_job_changes_nothing(browser: Browser, service: Service) -> None:
+    browser.open(service.page())
+    browser.click(f'tr[data-job="{service.demo}"] .danger')
+    browser.click("dialog button:not(.danger)")
+    eventually(lambda: browser.count("dialog") == 0, what="the dialog to close")
+    assert service.client.get(f"/v1/jobs/{service.demo}").json()["status"] == "successful"
+
+
+def test_a_server_that_is_away_is_told_and_its_return_noticed(browser: Browser, service: Service) -> None:
+    browser.open(service.page())
+    browser.find('.tile[data-tile="broker"][data-status="ok"]')
+    browser.cdp("Network.enable")
+    offline = {"latency": 0, "downloadThroughput": -1, "uploadThroughput": -1}
+    browser.cdp("Network.emulateNetworkConditions", offline=True, **offline)
+    try:
+        eventually(lambda: "does not answer" in browser.text("#banner"), what="the banner")
+        assert browser.find('#health-pill[data-status="away"]')
+    finally:
+        browser.cdp("Network.emulateNetworkConditions", offline=False, **offline)
+    browser.find('#health-pill[data-status="ok"]')
+    eventually(lambda: browser.count("#banner > *") == 0, what="the banner to go")
+    assert all("ERR_INTERNET_DISCONNECTED" in line for line in browser.complaints())

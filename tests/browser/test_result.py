@@ -1,0 +1,154 @@
+"""The result page: plots that draw and zoom, families that switch, a table that agrees with the API."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.browser.conftest import Service
+from tests.browser.driver import Browser, eventually
+
+SPECTRUM = "#card-spectrum canvas.plot-canvas"
+INKED = """
+const canvas = document.querySelector(arguments[0]);
+const data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+let inked = 0;
+for (let i = 3; i < data.length; i += 4) if (data[i] > 0) inked += 1;
+return inked / (data.length / 4);
+"""
+
+
+@pytest.fixture
+def result(browser: Browser, service: Service) -> Browser:
+    browser.open(service.page(f"/jobs/{service.demo}"))
+    browser.find(".peaks-table tr[data-label]")
+    eventually(lambda: int(markers(browser)) > 0, what="marked peaks")
+    return browser
+
+
+def markers(browser: Browser) -> str:
+    return str(browser.run(f"return document.querySelector('{SPECTRUM}').dataset.markers ?? '0'"))
+
+
+def view(browser: Browser, css: str) -> tuple[float, float]:
+    low, high = browser.run("return document.querySelector(arguments[0]).dataset.view", css).split()
+    return float(low), float(high)
+
+
+@pytest.mark.parametrize("card", ["#card-time", "#card-spectrum", "#card-envelope", "#card-inner", "#card-orbit"])
+def test_every_plot_is_drawn_and_named(result: Browser, card: str) -> None:
+    canvas = f"{card} canvas[role=img]"
+    eventually(lambda: result.run(INKED, canvas) > 0.01, what=f"ink in {card}")
+    assert len(result.run("return document.querySelector(arguments[0]).getAttribute('aria-label')", canvas)) > 20
+
+
+def test_the_table_says_what_the_api_says(result: Browser, service: Service) -> None:
+    peaks = service.client.get(f"/v1/jobs/{service.demo}/result/peaks").json()["peaks"]
+    mesh = next(peak for peak in peaks if peak["label"] == "1*f_m")
+    text = result.text('.peaks-table tr[data-label="1*f_m"]')
+    assert "690" in text and mesh["status"] in text and "mesh 1" in text
+    assert f"{mesh['amplitude']:.3g}"[:3] in text
+    known = sum(1 for peak in peaks if peak["family"] and peak["status"] != "absent")
+    assert f"{known} of {len(peaks)} lines" in result.text("#card-peaks .card-head")
+
+
+def test_a_family_is_switched_in_plot_and_table(result: Browser) -> None:
+    before = int(markers(result))
+    assert result.count('.peaks-table tr[data-label="1*f_m"]') == 1
+    result.click('#card-spectrum [data-family="mesh"]')
+    eventually(lambda: int(markers(result)) < before, what="fewer markers")
+    assert result.count('.peaks-table tr[data-label="1*f_m"]') == 0
+    assert result.run("return document.querySelector('#card-peaks [data-family=mesh]').ariaPressed") == "false"
+    result.click('#card-peaks [data-family="mesh"]')
+    eventually(lambda: int(markers(result)) == before, what="the markers again")
+
+
+def test_absent_lines_are_listed_with_what_would_have_been_seen(result: Browser) -> None:
+    result.click('[aria-label="Status of the lines"] [data-value="absent"]')
+    assert "<" in result.text('.peaks-table tr[data-status="absent"]')
+    assert result.count('.peaks-table tr[data-status="present"]') == 0
+
+
+def test_keys_and_buttons_zoom_and_move(result: Browser) -> None:
+    first = view(result, SPECTRUM)
+    result.type(SPECTRUM, "++")
+    eventually(lambda: view(result, SPECTRUM)[1] - view(result, SPECTRUM)[0] < 0.6 * (first[1] - first[0]), what="zoom")
+    zoomed = view(result, SPECTRUM)
+    result.click('#card-spectrum [aria-label="Move right"]')
+    eventually(lambda: view(result, SPECTRUM)[0] > zoomed[0], what="a move")
+    result.click('#card-spectrum [aria-label="Show all"]')
+    eventually(lambda: view(result, SPECTRUM)[1] > 7000, what="the whole axis")
+
+
+def test_a_zoomed_time_signal_is_fetched_in_detail(result: Browser) -> None:
+    canvas = "#card-time canvas.plot-canvas"
+    result.find(canvas)
+    for _ in range(6):
+        result.click('#card-time [aria-label="Zoom in"]')
+    script = """
+    const low_high = document.querySelector(arguments[0]).dataset.view.split(" ").map(Number);
+    const fetched = performance.getEntriesByType("resource").map((e) => new URL(e.name))
+      .filter((u) => u.pathname.endsWith("/signals") && u.searchParams.get("channel") === "resonator1.y.acceleration");
+    const last = fetched.at(-1).searchParams;
+    return [Number(last.get("start_s")) <= low_high[0], Number(last.get("end_s")) >= low_high[1],
+            Number(last.get("end_s")) - Number(last.get("start_s")), low_high[1] - low_high[0]];
+    """
+
+    def detailed() -> bool:
+        starts, ends, fetched_s, seen_s = result.run(script, canvas)
+        return bool(starts and ends and seen_s < 0.1 and fetched_s < 10 * seen_s)
+
+    eventually(detailed, what="the stretch in view")
+
+
+def test_choosing_a_peak_shows_it_in_the_spectrum(result: Browser) -> None:
+    result.click('.peaks-table tr[data-label="5*f_m"] .row-button')
+    eventually(lambda: view(result, SPECTRUM)[0] < 3450 < view(result, SPECTRUM)[1], what="5 f_m in view")
+    assert "chosen" in result.run("return document.querySelector('tr[data-label=\"5*f_m\"]').className")
+
+
+def test_another_channel_brings_its_own_labels(result: Browser, service: Service) -> None:
+    result.run(
+        "const s = document.getElementById('channel'); s.value = 'bearing1.inner.y.displacement';"
+        "s.dispatchEvent(new Event('change'))"
+    )
+    eventually(
+        lambda: "µm" in result.text(".peaks-table tbody") or "nm" in result.text(".peaks-table tbody"), what="lengths"
+    )
+    assert "Envelope spectra are made of accelerations" in result.text("#card-envelope")
+
+
+def test_other_spectra_are_a_click_away(result: Browser) -> None:
+    result.click('#card-spectrum [data-value="order"]')
+    eventually(lambda: "revolutions" in result.text("#card-spectrum .notes"), what="the order spectrum")
+    result.click('#card-spectrum [data-value="psd"]')
+    eventually(lambda: "averages" in result.text("#card-spectrum .notes"), what="the density")
+
+
+def test_quality_is_told_as_it_is(result: Browser, service: Service) -> None:
+    quality = service.client.get(f"/v1/jobs/{service.demo}/result").json()["quality"]
+    text = result.text("#card-quality")
+    for name in ("Energy balance", "Step error", "Start-up transient"):
+        assert name in text
+    assert f"limit {quality['energy']['limit'] * 100:.2g} %" in text
+
+
+@pytest.mark.parametrize(("kind", "start"), [("npz", b"PK"), ("csv", b""), ("wav", b"RIFF"), ("parquet", b"PAR1")])
+def test_files_come_as_asked(result: Browser, service: Service, kind: str, start: bytes) -> None:
+    asked = result.run(
+        "const [format] = arguments; let path = null; const click = HTMLAnchorElement.prototype.click;"
+        "HTMLAnchorElement.prototype.click = function () { path = this.getAttribute('href'); };"
+        "const card = document.getElementById('card-downloads'); card.querySelector('select').value = format;"
+        "card.querySelector('form').requestSubmit(); return new Promise((done) => setTimeout(() => {"
+        "HTMLAnchorElement.prototype.click = click; done(path); }, 50))",
+        kind,
+    )
+    reply = service.client.get(asked)
+    assert reply.status_code == 200
+    assert reply.content.startswith(start) and len(reply.content) > 10_000
+    assert f".{kind}" in reply.headers["content-disposition"]
+
+
+def test_an_unknown_job_is_told(browser: Browser, service: Service) -> None:
+    browser.open(service.page("/jobs/0123456789"))
+    assert "0123456789" in browser.text("[role=alert]")
+    assert any("404" in line for line in browser.complaints())
