@@ -18,7 +18,7 @@ RUNOUT_M = 2e-5
 COLLISION_DAMPING: Mapping[str, float] = {"paper": 2e5, "paper-lightly-damped": 2e3}
 """c_N, N*s/m: Table 1 for the preset as written, an engineering value for the lightly damped one."""
 GAPS_UM = (1.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0)
-SPEEDS_HZ = (10.0, 20.0, 30.0, 40.0, 50.0, 60.0)
+SPEEDS_HZ = (10.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0)
 SPEED_SWEEP_GAP_UM = 20.0
 
 

@@ -20,7 +20,7 @@ from sim.version import PHYSICS_VERSION
 
 FIGURES = (
     ("figure07", figure_7, "Figure 7: centre-distance error and offset angle, no run-out."),
-    ("figure08", figure_8, "Figure 8: mesh stiffness; (b) its single-tooth part; (c) its minimum in each mesh period."),
+    ("figure08", figure_8, "Figure 8: mesh stiffness and its mean over every single-tooth interval."),
     ("figure09", figure_9, "Figure 9: displacement of the resonator of bearing 1 and its median line, no run-out."),
     ("figure10", figure_10, "Figure 10: acceleration spectra, run-out 20 um."),
     (
@@ -73,8 +73,8 @@ def _sensitivity(folder: Path, found: Mapping[Case, Result]) -> list[str]:
     lines = [
         "## Which unstated parameter decides",
         "",
-        "One parameter changed at a time (six clearances, run-out 20 um, rigid wall, printed form; trend 7 needs the",
-        "speed sweep and is left out). Trend parts as in the tables above.",
+        "One parameter changed at a time (six clearances, run-out 20 um, rigid wall, printed form). The speed sweep of",
+        "trend 7 was made for some of them only. Trend parts as in the tables above.",
         "",
     ]
     for setting in STUDIED:

@@ -9,14 +9,18 @@ import multiprocessing
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 
 from paper.cases import Case, machine
 from paper.measure.all import measures
+from paper.measure.mean import PairLaw
 from paper.measure.window import FloatArray, Window
+from sim.assembly.laws import base_laws
 from sim.core.response import Response
+from sim.core.spec import MachineSpec
 from sim.solve.api import simulate
 from sim.solve.settings import Settings
 from sim.version import PHYSICS_VERSION
@@ -77,10 +81,28 @@ def run(case: Case) -> tuple[Window, Response]:
     return window, response
 
 
+@cache
+def _law_of(gears_and_meshes: str) -> PairLaw:
+    law = next(iter(base_laws(MachineSpec.model_validate_json(gears_and_meshes), {}, []).meshes.values()))
+    assert law.pair_rows is not None  # the presets' meshes are sums over tooth pairs
+    assert law.pair_ratios is not None
+    return PairLaw(
+        errors_m=law.centre_errors_m, contact_ratio=law.pair_ratios, stiffness_n_per_m=np.asarray(law.pair_rows)[0]
+    )
+
+
+def pair_law(spec: MachineSpec) -> PairLaw | None:
+    """Stiffness of a tooth pair of the machine; None where the offset angle acts on it too."""
+    if any(m.offset_angle for m in spec.meshes):
+        return None
+    parts = MachineSpec(name="mesh", shafts=spec.shafts, gears=spec.gears, meshes=spec.meshes)
+    return _law_of(parts.model_dump_json())
+
+
 def result_of(case: Case) -> Result:
     """Simulate and measure."""
     window, response = run(case)
-    numbers = measures(window)
+    numbers = measures(window, pair_law(response.machine))
     quality = response.quality
     numbers |= {
         "f_o1_hz": window.f_o1_hz,

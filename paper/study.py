@@ -12,6 +12,8 @@ from paper.verdict.parts import PARTS
 from paper.verdict.rules import Judgement
 from paper.verdict.sweep import Sweep
 
+SPEED_CHANGES = ("masses/4", "masses*4", "balls 1e9", "balls 1e10", "damping 1.8e4", "te 5")
+"""Changes whose speed sweep is made too: they move the resonance the speed sweep crosses."""
 CHANGE_GAPS_UM = (5.0, 10.0, 20.0, 30.0, 45.0, 50.0)
 STUDIED = (
     Setting(preset="paper", runout_m=RUNOUT_M),
@@ -31,8 +33,9 @@ def main_cases() -> tuple[Case, ...]:
 
 
 def sensitivity_cases() -> tuple[Case, ...]:
-    """Coarse clearance sweeps of the changed machines."""
-    return tuple(c for s in changed_settings() for c in clearance_sweep(s, CHANGE_GAPS_UM) if c.gap_um != 0.0)
+    """Coarse clearance sweeps of the changed machines, speed sweeps of some."""
+    fast = tuple(c for s in changed_settings() if s.change in SPEED_CHANGES for c in speed_sweep(s))
+    return fast + tuple(c for s in changed_settings() for c in clearance_sweep(s, CHANGE_GAPS_UM) if c.gap_um != 0.0)
 
 
 def sweep_of(setting: Setting, results: Mapping[Case, Result], gaps_um: tuple[float, ...] = GAPS_UM) -> Sweep:
@@ -65,5 +68,5 @@ def judged_changes(setting: Setting, results: Mapping[Case, Result]) -> dict[str
     found = {}
     for change in ("", *CHANGES):
         sweep = sweep_of(replace(setting, change=change), results, CHANGE_GAPS_UM)
-        found[change] = judged(replace(sweep, by_speed={}))
+        found[change] = judged(sweep)
     return found

@@ -81,7 +81,7 @@ def changed_table(preset: str, table: Mapping[str, Mapping[str, Judgement]]) -> 
     claims = {p.key: p.claim for p in PARTS}
     for key, judgement in base.items():
         level = order[judgement.verdict]
-        moved = {label: order[row[key].verdict] - level for label, row in table.items()}
+        moved = {label: order[row[key].verdict] - level for label, row in table.items() if key in row}
         better = [f"{label} ({MARKS[table[label][key].verdict]})" for label, d in moved.items() if d > 0]
         worse = [f"{label} ({MARKS[table[label][key].verdict]})" for label, d in moved.items() if d < 0]
         cells = [f"{key} {claims[key]}", MARKS[judgement.verdict], "; ".join(better), "; ".join(worse)]

@@ -18,7 +18,7 @@ from paper.run import Result
 mpl.use("Agg")
 Results = Mapping[Case, Result]
 DPI = 80
-COLOUR_COUNT = 48
+COLOUR_COUNT = 200
 TITLES = {"paper": "paper (tables as written)", "paper-lightly-damped": "paper-lightly-damped"}
 COLOURS = {None: "0.25", 0.0: "0.6", 10.0: "tab:blue", 20.0: "tab:green", 30.0: "tab:orange", 50.0: "tab:red"}
 
@@ -31,7 +31,7 @@ def grid(rows: int, columns: int, *, width: float = 12.0, height: float = 3.0) -
 
 
 def save(figure: Figure, folder: Path, name: str) -> Path:
-    """Write a small picture: 48 colours are enough for lines, and a tenth of the bytes."""
+    """Write a small picture: a palette is enough for lines, and half the bytes."""
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{name}.png"
     buffer = BytesIO()
@@ -49,9 +49,12 @@ def label(axes: Axes, x: str, y: str, title: str = "") -> None:
     axes.grid(visible=True, linewidth=0.3)
 
 
-def legend(axes: Axes) -> None:
-    """Small legend."""
-    axes.legend(fontsize=7, loc="best")
+def legend(axes: Axes, *, outside: bool = False) -> None:
+    """Small legend, beside the axes where it would hide points."""
+    if outside:
+        axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    else:
+        axes.legend(fontsize=7, loc="best")
 
 
 def pick(results: Results, setting: Setting, gap_um: float | None, speed_hz: float = 30.0) -> Result:

@@ -10,9 +10,19 @@ from matplotlib.figure import Figure
 
 from paper.cases import PRESETS, SPEEDS_HZ, Setting
 from paper.figures.draw import COLOURS, TITLES, Results, grid, label, legend, name_of, per_mesh, pick, trace
+from paper.measure.mesh import SINGLE_PHASES
+from paper.measure.window import FloatArray
+from paper.run import Result
 
 GAPS: tuple[float | None, ...] = (None, 10.0, 30.0, 50.0)
 SPAN_S = 0.04
+
+
+def single_tooth(result: Result) -> FloatArray:
+    """Mean stiffness of every single-tooth interval, N/m, shape (periods,)."""
+    blocks = per_mesh(result, "k")
+    first, last = (round(p * blocks.shape[1]) for p in SINGLE_PHASES)
+    return np.asarray(blocks[:, first:last].mean(axis=1))
 
 
 def _motion(axes: Axes, results: Results, setting: Setting, name: str, unit: str) -> None:
@@ -36,42 +46,39 @@ def figure_7(results: Results) -> Figure:
     return figure
 
 
+def _single(axes: Axes, results: Results, setting: Setting) -> None:
+    for gap in (None, 10.0, 20.0, 30.0, 50.0):
+        low = single_tooth(pick(results, setting, gap))
+        axes.plot(np.arange(low.size) / 0.69, low * 1e-8, color=COLOURS[gap], linewidth=0.8, label=name_of(gap))
+    label(axes, "time, ms", "single-tooth mean, 1e8 N/m", f"{setting.form} centre distance")
+
+
 def figure_8(results: Results) -> Figure:
-    """Stiffness over two mesh periods, the single-tooth part, and its minimum in every mesh period."""
+    """Stiffness over two mesh periods and its mean over every single-tooth interval, in both forms."""
     figure, axes = grid(2, 3)
     for row, preset in zip(axes, PRESETS, strict=True):
-        for gap in (None, 10.0, 20.0, 30.0):
-            result = pick(results, Setting(preset=preset), gap)
-            colour, text = COLOURS[gap], name_of(gap)
-            t, k = trace(result, "k", 2 / 690.0)
-            row[0].plot(t, k * 1e-8, color=colour, linewidth=0.8, label=text)
-            single = np.where(k < 2.75e8, k, np.nan)
-            row[1].plot(t, single * 1e-8, color=colour, linewidth=0.8, label=text)
-            lowest = per_mesh(result, "k").min(axis=1)
-            row[2].plot(
-                np.arange(lowest.size) / 0.69,
-                (lowest / lowest.mean() - 1) * 1e6,
-                color=colour,
-                linewidth=0.8,
-                label=text,
-            )
-        label(row[0], "time, ms", "mesh stiffness, 1e8 N/m", TITLES[preset])
-        label(row[1], "time, ms", "single-tooth part, 1e8 N/m")
-        label(row[2], "time, ms", "single-tooth minimum, ppm of its mean")
+        setting = Setting(preset=preset, form="true")
+        for gap in (None, 10.0, 30.0, 50.0):
+            t, k = trace(pick(results, setting, gap), "k", 2 / 690.0)
+            row[0].plot(t, k * 1e-8, color=COLOURS[gap], linewidth=0.8, label=name_of(gap))
+        label(row[0], "time, ms", "mesh stiffness, 1e8 N/m", f"{TITLES[preset]}: true centre distance")
+        _single(row[1], results, replace(setting, form="printed"))
+        _single(row[2], results, setting)
         legend(row[0])
+        legend(row[2], outside=True)
     return figure
 
 
 def figure_13(results: Results) -> Figure:
-    """Single-tooth minimum at every speed, true and printed centre distance."""
+    """Single-tooth stiffness at every speed, true and printed centre distance."""
     figure, axes = grid(2, 2)
     for row, preset in zip(axes, PRESETS, strict=True):
         for axis, form in zip(row, ("printed", "true"), strict=True):
             for i, hz in enumerate(SPEEDS_HZ):
                 setting = Setting(preset=preset, form="true" if form == "true" else "printed")
-                lowest = per_mesh(pick(results, setting, 20.0, hz), "k").min(axis=1)
-                turns = np.arange(lowest.size) / 23
-                axis.plot(turns, (lowest / lowest.mean() - 1) * 1e6, color=f"C{i}", linewidth=0.8, label=f"{hz:g} Hz")
-            label(axis, "pinion revolutions", "single-tooth minimum, ppm", f"{TITLES[preset]}, {form} form, 20 um")
-        legend(row[1])
+                low = single_tooth(pick(results, setting, 20.0, hz))
+                turns = np.arange(low.size) / 23
+                axis.plot(turns, (low / low.mean() - 1) * 1e6, color=f"C{i}", linewidth=0.8, label=f"{hz:g} Hz")
+            label(axis, "pinion revolutions", "single-tooth mean, ppm", f"{TITLES[preset]}, {form} form, 20 um")
+        legend(row[1], outside=True)
     return figure

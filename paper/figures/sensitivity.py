@@ -15,9 +15,13 @@ COLOURS = ListedColormap(["#d95f5f", "#f2d16b", "#6bb36b"])
 
 
 def figure_sensitivity(title: str, table: Mapping[str, Mapping[str, Judgement]]) -> Figure:
-    """One row a change, one column a part of a trend: red not, yellow partly, green reproduced."""
+    """One row a change, one column a part of a trend: red not, yellow partly, green reproduced, white not computed."""
     rows, columns = list(table), list(next(iter(table.values())))
-    levels = np.array([[LEVEL[table[r][c].verdict] for c in columns] for r in rows])
+    levels = np.full((len(rows), len(columns)), np.nan)
+    for i, row in enumerate(rows):
+        for j, column in enumerate(columns):
+            if column in table[row]:
+                levels[i, j] = LEVEL[table[row][column].verdict]
     figure = Figure(figsize=(12, 0.24 * len(rows) + 1.2), layout="constrained")
     axes = figure.subplots()
     axes.pcolormesh(levels, cmap=COLOURS, vmin=0, vmax=2, edgecolors="white", linewidth=0.5)

@@ -73,9 +73,9 @@ def figure_12(results: Results) -> Figure:
         polar = figure.add_subplot(2, 2, 2 * i + 2, projection="polar")
         for gap in (50.0, 30.0, 10.0, None):
             result = pick(results, Setting(preset=preset), gap)
-            x, y = (result.trace[n] * 1e6 for n in ("ring_x", "ring_y"))
-            plane.plot(x, y - y.mean(), color=COLOURS[gap], linewidth=0.5, label=name_of(gap))
             n = round(result.trace_rate_hz / 30.0)
+            x, y = (result.trace[name][: 2 * n] * 1e6 for name in ("ring_x", "ring_y"))
+            plane.plot(x, y - y.mean(), color=COLOURS[gap], linewidth=0.5, label=name_of(gap))
             angle = np.linspace(0, 2 * np.pi, n, endpoint=False)
             polar.plot(angle, np.hypot(x[:n], y[:n]), color=COLOURS[gap], linewidth=0.5)
         label(plane, "x, um", "y less its mean, um", f"{TITLES[preset]}: inner ring of bearing 1")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from paper.cases import GAPS_UM, PRESETS, RUNOUT_M, SPEEDS_HZ, VARIANTS, Setting
 from paper.figures.draw import TITLES, Results, grid, label, legend, pick, trace
@@ -30,7 +31,8 @@ def figure_11(results: Results) -> Figure:
         for axis, names in zip(row, (mesh, outer), strict=True):
             _lines(axis, results, setting, names)
             label(axis, "clearance, um", "amplitude, m/s^2", f"{TITLES[preset]}, {WORDS[variant]}")
-            legend(axis)
+            axis.yaxis.set_minor_formatter(NullFormatter())
+            legend(axis, outside=True)
     return figure
 
 
@@ -39,7 +41,7 @@ def _against_speed(axes: Axes, results: Results, setting: Setting, names: tuple[
         values = [pick(results, setting, 20.0, hz).numbers[name] for hz in SPEEDS_HZ]
         axes.semilogy(SPEEDS_HZ, values, marker=".", linewidth=0.8, label=text)
     label(axes, "input speed, Hz", "m/s^2")
-    legend(axes)
+    legend(axes, outside=True)
 
 
 def figure_14(results: Results) -> Figure:

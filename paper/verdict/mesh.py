@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from paper.verdict.rules import Judgement, Verdict, both, change, falls, rank, rises, share, shown
+from paper.verdict.rules import LEAST_CHANGE, MOST, Judgement, Verdict, both, change, falls, rank, rises, share, shown
 from paper.verdict.sweep import Numbers, Sweep
 
 LEAST_SHARE = 1e-3
@@ -77,10 +77,14 @@ def stiffness_reduced(sweep: Sweep) -> Judgement:
 
 
 def extremes_at_ends(sweep: Sweep) -> Judgement:
-    """Local extremes of the stiffness near the ends of the single- and double-tooth intervals."""
-    near = sweep.row("k_extremes_near", sweep.gaps(FIRST_GAP))
-    verdict: Verdict = "reproduced" if min(near) > 0.8 else "partly" if min(near) > 2 * CHANCE else "not"
-    return Judgement(verdict=verdict, numbers=f"share near a jump {shown(near)} (random: {CHANCE})")
+    """Local extremes beyond the healthy machine's, near the ends of the single- and double-tooth intervals."""
+    gaps = sweep.gaps(FIRST_GAP)
+    near, found = sweep.row("k_extremes_near", gaps), sweep.row("k_extremes", gaps)
+    more = [f > (1 + LEAST_CHANGE) * sweep.healthy["k_extremes"] for f in found]
+    gathered: Verdict = "reproduced" if min(near) > MOST else "partly" if min(near) > 2 * CHANCE else "not"
+    verdict: Verdict = "not" if not any(more) else gathered
+    text = f"{shown(found)} a mesh period (healthy {sweep.healthy['k_extremes']:.3g}); near a jump {shown(near)}"
+    return Judgement(verdict=verdict, numbers=text)
 
 
 def extremes_grow(sweep: Sweep) -> Judgement:

@@ -23,10 +23,13 @@ def drawn(sweep: Sweep, name: str, unit_scale: float = 1e6) -> Judgement:
 
 
 def lines_present(sweep: Sweep, names: tuple[str, ...]) -> Judgement:
-    """Median over the clearances from 10 um on of how many of the lines stand out."""
+    """Median over the clearances from 10 um on of how many of the lines stand out; all at some clearance: partly."""
     counts = [sum(sweep.by_gap[g][f"{n}_on"] for n in names) for g in sweep.gaps(FIRST_GAP)]
     wanted = len(names)
-    return Judgement(verdict=count(median(counts), wanted), numbers=f"{shown(counts)} of {wanted} at 10..50 um")
+    verdict = count(median(counts), wanted)
+    if verdict == "not" and max(counts) >= wanted:
+        verdict = "partly"
+    return Judgement(verdict=verdict, numbers=f"{shown(counts)} of {wanted} at 10..50 um")
 
 
 def orders_present(numbers: Numbers) -> int:
@@ -63,15 +66,20 @@ def side_bands_grow(sweep: Sweep) -> Judgement:
 
 
 def peak_near(sweep: Sweep, name: str, *, at_um: float, tolerance_um: float, lowest: bool = False) -> Judgement:
-    """Where a line has its maximum (or minimum), from the healthy machine to the end of the sweep."""
+    """Where a line has its maximum (or minimum), from the healthy machine to the end of the sweep.
+
+    A maximum at the healthy machine is none; one at the end of the sweep is at best partly one.
+    """
     gaps = [0.0, *sweep.gaps()]
     values = sweep.row(name, gaps)
     place = gaps[values.index(min(values) if lowest else max(values))]
-    within = abs(place - at_um) <= tolerance_um
+    distance = abs(place - at_um)
     inner = gaps[0] < place < gaps[-1]
-    verdict: Verdict = (
-        "reproduced" if within else "partly" if inner and abs(place - at_um) <= 3 * tolerance_um else "not"
-    )
+    verdict: Verdict = "not"
+    if inner and distance <= tolerance_um:
+        verdict = "reproduced"
+    elif place > gaps[0] and distance <= 2 * tolerance_um:
+        verdict = "partly"
     kind = "minimum" if lowest else "maximum"
     return Judgement(verdict=verdict, numbers=f"{kind} at {place:g} um; {shown(values)} at 0, {shown(gaps[1:])} um")
 

@@ -7,6 +7,7 @@ import pytest
 
 from paper.measure.envelopes import slow, turning_points
 from paper.measure.lines import levels, line, without_periodic
+from paper.measure.mean import PairLaw, mean_stiffness
 from paper.measure.mesh import extremes
 from paper.measure.window import FloatArray, Window
 
@@ -60,3 +61,26 @@ def test_extremes_of_a_square_stiffness_lie_at_its_jumps() -> None:
     count, near = extremes(window)
     assert count >= 2.0
     assert near > 0.5
+
+
+def _law() -> PairLaw:
+    x = np.linspace(0.0, 1.0, 101)
+    base = 2e8 * (1.0 + 0.4 * np.sin(np.pi * x))
+    return PairLaw(
+        errors_m=np.array([-1e-4, 0.0, 1e-4]),
+        contact_ratio=np.array([1.75, 1.7, 1.65]),
+        stiffness_n_per_m=np.vstack([base * 1.02, base, base * 0.98]),
+    )
+
+
+def test_mean_stiffness_is_contact_ratio_times_the_mean_of_a_pair() -> None:
+    law = _law()
+    expected = 1.7 * np.trapezoid(law.stiffness_n_per_m[1], dx=0.01)
+    assert mean_stiffness(law, np.zeros(90 * 200), 90) == pytest.approx(expected, rel=2e-5)
+
+
+def test_mean_stiffness_resolves_centre_distances_that_sampling_does_not() -> None:
+    law = _law()
+    values = [mean_stiffness(law, np.full(90 * 200, a), 90) for a in (0.0, 1e-6)]
+    slope = (1.65 * 0.98 - 1.7) * np.trapezoid(law.stiffness_n_per_m[1], dx=0.01) / 1e-4
+    assert (values[1] - values[0]) / 1e-6 == pytest.approx(slope, rel=0.05)
