@@ -1,0 +1,1 @@
+"""Benchmarks: speed, error, memory and start, printed; never part of the tests."""
