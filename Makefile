@@ -36,7 +36,7 @@ lint: dev  ## style, types, import rules
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
-	$(BIN)/lint-imports
+	$(BIN)/lint-imports --no-logo
 
 fast: dev  ## the loop while working: no slow test, no browser
 	$(BIN)/python -m pytest -q -n 2 -m "not slow and not browser"
