@@ -9,6 +9,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
@@ -20,7 +21,7 @@ SERVE = (
     "import sys; from pathlib import Path; from app.serve import serve; "
     "raise SystemExit(serve(port=0, workers=1, data_dir=Path(sys.argv[1])))"
 )
-DEMO = {
+DEMO: dict[str, Any] = {
     "preset": "paper-demo",
     "duration_s": 1.2,
     "sampling_rate_hz": 20000,

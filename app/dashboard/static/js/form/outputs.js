@@ -11,7 +11,7 @@ const GROUPS = [
     pick: (names) => names.filter((n) => /^mesh\d*\.(stiffness|force)$/.test(n)) },
   { key: "contact", name: "Contact forces", hint: "Collisions of a loose ring with its housing.", on: true,
     pick: (names) => names.filter((n) => /\.wall\.(normal_force|contact)$/.test(n)) },
-  { key: "everything", name: "Every other output", hint: "All motions of all parts: a larger file.", on: false,
+  { key: "everything", name: "All outputs", hint: "All motions of all parts: a larger file.", on: false,
     pick: (names) => names },
 ];
 

@@ -1,7 +1,9 @@
 /** Numbers, units and times as people read them. */
 
 const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"]];
-const PREFIXABLE = new Set(["m", "N", "N/m", "Hz", "s", "Pa", "W", "J", "V", "rad", "N*s/m"]);
+const PREFIXABLE = new Set(["m", "N", "N/m", "Hz", "s", "Pa", "W", "J", "V", "rad", "N*s/m", "m/s", "m/s^2", "rad/s", "rad/s^2"]);
+/** Nobody reads km/s². */
+const ONLY_SMALLER = new Set(["m", "m/s", "m/s^2", "rad", "rad/s", "rad/s^2", "s"]);
 const NBSP = "\u202f";
 
 export function number(value, digits = 4) {
@@ -28,7 +30,8 @@ export function unit(text) {
 /** The factor and unit in which values up to `size` read well: 2e-5 m -> [1e6, "µm"]. */
 export function scaled(size, siUnit) {
   if (!PREFIXABLE.has(siUnit) || !(size > 0) || !Number.isFinite(size)) return [1, unit(siUnit)];
-  const [step, prefix] = PREFIXES.find(([limit]) => size >= limit * 0.9999) ?? PREFIXES.at(-1);
+  const [step, prefix] = PREFIXES.filter(([limit]) => limit <= 1 || !ONLY_SMALLER.has(siUnit))
+    .find(([limit]) => size >= limit * 0.9999) ?? PREFIXES.at(-1);
   return [1 / step, prefix + unit(siUnit)];
 }
 

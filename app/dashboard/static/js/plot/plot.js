@@ -7,7 +7,7 @@ import { extent, lowerBound, tracePath } from "/js/plot/reduce.js";
 import { Linear, Log } from "/js/plot/scale.js";
 import { toolbar } from "/js/plot/toolbar.js";
 
-const MARGIN = { left: 62, right: 14, top: 14, bottom: 40 };
+const MARGIN = { left: 70, right: 14, top: 14, bottom: 40 };
 const LOG_DECADES = 6;
 
 export class Plot {
@@ -162,7 +162,7 @@ export class Plot {
     ctx.textBaseline = "bottom";
     ctx.fillText(named(this.options.xLabel, this.options.xUnit), (left + right) / 2, bottom + MARGIN.bottom - 2);
     ctx.save();
-    ctx.translate(12, (top + bottom) / 2);
+    ctx.translate(9, (top + bottom) / 2);
     ctx.rotate(-Math.PI / 2);
     ctx.textBaseline = "middle";
     ctx.fillText(named(this.options.yLabel, this.options.yUnit), 0, 0);

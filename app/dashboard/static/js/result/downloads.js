@@ -9,7 +9,7 @@ const FORMATS = [["npz", "NumPy .npz"], ["csv", "CSV"], ["parquet", "Parquet"], 
 
 export function downloadsCard({ base, job, summary }, current) {
   const format = select(FORMATS, "npz", { "aria-label": "Format" });
-  const which = select([["all", `All ${summary.channels.length} channels`], ["one", "Channel in view"]], "all", { "aria-label": "Channels" });
+  const which = select([["all", summary.channels.length === 1 ? "The one channel" : `All ${summary.channels.length} channels`], ["one", "Channel in view"]], "all", { "aria-label": "Channels" });
   const range = select([["all", "Whole record"], ["view", "Stretch in view"]], "all", { "aria-label": "Stretch" });
   const notice = h("div");
   const button = h("button", { type: "submit", class: "button primary" }, icon("download"), "Download");

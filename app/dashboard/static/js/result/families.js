@@ -17,7 +17,7 @@ export function familyChips(context, onChange) {
 
   function refresh() {
     replace(element, FAMILIES.map(({ key, name }) => h("button", {
-      type: "button", class: "family", dataset: { family: key }, "aria-pressed": String(context.families.has(key)), onclick: () => toggle(key),
+      type: "button", class: "family", dataset: { family: key, empty: String(!counts[key]) }, "aria-pressed": String(context.families.has(key)), onclick: () => toggle(key),
     }, swatch(key), name, h("span", { class: "count num muted" }, String(counts[key] ?? 0)))));
   }
 

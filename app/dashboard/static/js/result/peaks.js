@@ -86,7 +86,11 @@ export function peaksCard(context, { onChoose, onFamilies }) {
 
   return {
     element, choose,
-    wait() { count.textContent = "labelling …"; },
+    wait() {
+      count.textContent = "labelling …";
+      more.hidden = true;
+      replace(body, h("tr", {}, h("td", { colspan: COLUMNS.length, class: "empty" }, "Labelling …")));
+    },
     set(found) { labels = found; chosen = null; limit = STEP; chips.setPeaks(found.peaks); draw(); },
     refreshFamilies() { chips.refresh(); draw(); },
     stop() { chips.stop(); },

@@ -21,6 +21,7 @@ export function resultView(job, summary) {
   const vibration = analysed.length ? analysed : summary.channels;
   let channel = vibration.find((c) => c.quantity === "acceleration") ?? vibration[0];
   let labelling = new AbortController();
+  let stored = null;
 
   const chooser = select(vibration.map((c) => [c.name, channelName(c.name)]), channel.name, { id: "channel", onchange: () => {
     channel = vibration.find((c) => c.name === chooser.value);
@@ -30,7 +31,7 @@ export function resultView(job, summary) {
   const spectrum = spectrumCard(context, { title: "Spectrum", id: "spectrum", kinds: ["amplitude", "psd", "order"], onPick: (peak) => peaks.choose(peak), onFamilies: refreshFamilies });
   const envelope = spectrumCard(context, { title: "Envelope spectrum", id: "envelope", kinds: ["envelope"], onPick: () => {}, onFamilies: refreshFamilies });
   const peaks = peaksCard(context, { onChoose: (peak) => spectrum.showPeak(peak), onFamilies: refreshFamilies });
-  const inner = inside.length ? signalCard(context, { title: "Mesh stiffness and forces", id: "inner", channels: inside, height: 240, periods: 8 }) : null;
+  const inner = inside.length ? signalCard(context, { title: inside.some((c) => c.quantity === "stiffness") ? "Mesh stiffness and forces" : "Forces and states", id: "inner", channels: inside, height: 240, periods: 8 }) : null;
   const orbit = orbitCard(context);
   const cards = [time, spectrum, envelope, peaks, inner, orbit].filter(Boolean);
   const element = h("div", { class: "result-grid" },
@@ -47,6 +48,12 @@ export function resultView(job, summary) {
     for (const card of [spectrum, envelope, peaks]) card.refreshFamilies();
   }
 
+  /** The labels stored with the result when they are of this channel; others are made when they are asked for. */
+  async function labelsOf(name, signal) {
+    stored ??= await getJson(`${base}/peaks`, { signal });
+    return stored.channel === name ? stored : getJson(`${base}/peaks?${query({ channel: name })}`, { signal });
+  }
+
   async function useChannel() {
     time.use(channel);
     spectrum.use(channel);
@@ -55,7 +62,7 @@ export function resultView(job, summary) {
     labelling = new AbortController();
     peaks.wait();
     try {
-      const labels = await getJson(`${base}/peaks?${query({ channel: channel.name })}`, { signal: labelling.signal });
+      const labels = await labelsOf(channel.name, labelling.signal);
       spectrum.setLabels(labels);
       envelope.setLabels(labels.envelope ?? { peaks: [], frequencies: labels.frequencies });
       peaks.set(labels);
