@@ -14,7 +14,7 @@ from paper.figures.sensor import figure_9, figure_10, figure_12, figure_16
 from paper.figures.sweeps import figure_11, figure_14
 from paper.run import Result
 from paper.study import STUDIED, judged_changes, judged_main
-from paper.tables import changed_table, quality_table, trend_tables, verdict_numbers
+from paper.tables import changed_table, quality_table, summary_table, trend_tables, verdict_numbers
 from paper.verdict.rules import Judgement
 from sim.version import PHYSICS_VERSION
 
@@ -96,7 +96,7 @@ def write_page(docs: Path, found: Mapping[Case, Result]) -> Path:
     numbers = ["# Numbers behind every verdict", "", f"Physics version {PHYSICS_VERSION}.", "", *verdict_numbers(main)]
     (folder / "numbers.md").write_text("\n".join(numbers) + "\n", encoding="utf-8")
     findings = FINDINGS.read_text(encoding="utf-8").splitlines() if FINDINGS.exists() else []
-    blocks = [HEAD, *findings, "", RULES, *trend_tables(main), *_sensitivity(folder, found)]
+    blocks = [HEAD, *findings, "", RULES, *summary_table(main), *trend_tables(main), *_sensitivity(folder, found)]
     blocks += [*quality_table(found), *_pictures(folder, found)]
     page = docs / "paper.md"
     page.write_text("\n".join(blocks).rstrip() + "\n", encoding="utf-8")

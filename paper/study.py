@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+import numpy as np
+
 from paper.cases import GAPS_UM, RUNOUT_M, Case, Setting, all_settings, clearance_sweep, healthy_of, speed_sweep
 from paper.changes import CHANGES
 from paper.run import Result
@@ -38,14 +40,20 @@ def sensitivity_cases() -> tuple[Case, ...]:
     return fast + tuple(c for s in changed_settings() for c in clearance_sweep(s, CHANGE_GAPS_UM) if c.gap_um != 0.0)
 
 
+def _numbers(result: Result) -> dict[str, float]:
+    """Measures of a run and the largest distance of the shaft from the bearing's centre over the stored revolutions."""
+    reach = {f"reach_{axis}": float(np.max(np.abs(result.trace[f"ring_{axis}"]))) for axis in "xy"}
+    return {**result.numbers, **reach}
+
+
 def sweep_of(setting: Setting, results: Mapping[Case, Result], gaps_um: tuple[float, ...] = GAPS_UM) -> Sweep:
     """The numbers of a setting at the given clearances and at every speed that was computed."""
     healthy = results[Case(setting=healthy_of(setting), gap_um=None)]
     mine = [r for c, r in results.items() if c.setting == setting and c.gap_um is not None]
-    gaps = {r.case.gap_um or 0.0: r.numbers for r in mine if r.case.speed_hz == 30.0 and r.case.gap_um in gaps_um}
-    fast = {r.case.speed_hz: r.numbers for r in mine if r.case.gap_um == 20.0}
+    gaps = {r.case.gap_um or 0.0: _numbers(r) for r in mine if r.case.speed_hz == 30.0 and r.case.gap_um in gaps_um}
+    fast = {r.case.speed_hz: _numbers(r) for r in mine if r.case.gap_um == 20.0}
     return Sweep(
-        healthy=healthy.numbers,
+        healthy=_numbers(healthy),
         by_gap=dict(sorted(gaps.items())),
         by_speed=dict(sorted(fast.items())) if len(fast) > 1 else {},
         f_o1_hz=healthy.numbers["f_o1_hz"],

@@ -41,6 +41,17 @@ def _pair(main: Judged, column: tuple[str, str, Form], key: str) -> str:
     return first if first == second else f"{first} / {second}"
 
 
+def summary_table(main: Judged) -> list[str]:
+    """How many parts each setting reproduces, reproduces partly, and does not."""
+    lines = ["## Summary", "", _row(["setting", "run-out, um", "++", "+", "-"]), _row(["---"] * 5)]
+    for setting, judged in main.items():
+        marks = [MARKS[j.verdict] for j in judged.values()]
+        name = f"{SHORT[setting.preset]} {SHORT[setting.variant]} {setting.form}"
+        counts = [str(marks.count(mark)) for mark in ("++", "+", "-")]
+        lines.append(_row([name, f"{setting.runout_m * 1e6:g}", *counts]))
+    return [*lines, ""]
+
+
 def trend_tables(main: Judged) -> list[str]:
     """One table a trend: verdicts of every part by preset, variant and form; `without / with run-out`."""
     columns = [(p, v, f) for p in PRESETS for v in VARIANTS for f in FORMS]

@@ -18,7 +18,7 @@ from paper.run import Result
 mpl.use("Agg")
 Results = Mapping[Case, Result]
 DPI = 80
-COLOUR_COUNT = 200
+COLOUR_COUNT = 120
 TITLES = {"paper": "paper (tables as written)", "paper-lightly-damped": "paper-lightly-damped"}
 COLOURS = {None: "0.25", 0.0: "0.6", 10.0: "tab:blue", 20.0: "tab:green", 30.0: "tab:orange", 50.0: "tab:red"}
 

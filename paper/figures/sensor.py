@@ -67,7 +67,7 @@ def figure_10(results: Results) -> Figure:
 
 def figure_12(results: Results) -> Figure:
     """Orbit of the shaft at bearing 1 about its mean, and its radius over the angle of the pinion."""
-    figure = Figure(figsize=(12, 8), layout="constrained")
+    figure = Figure(figsize=(11, 7), layout="constrained")
     for i, preset in enumerate(PRESETS):
         plane = figure.add_subplot(2, 2, 2 * i + 1)
         polar = figure.add_subplot(2, 2, 2 * i + 2, projection="polar")

@@ -63,6 +63,7 @@ PARTS: tuple[Part, ...] = (
     _part("6a", "orbit widens", sensor.orbit_widens),
     _part("6b", "more in y than in x", sensor.more_in_y),
     _part("6c", "more peaks in polar form", sensor.peaks_grow),
+    _part("6d", "shaft moves away from the centre, more in y", sensor.moves_away),
     _part("7a", "stiffness modulation grows with speed", lambda s: speed.with_speed(s, "k_single_at_f_o1")),
     _part("7b", "RMS rises (acceleration)", lambda s: speed.with_speed(s, "acc_rms")),
     _part("7c", "RMS about the mean rises (displacement)", lambda s: speed.with_speed(s, "y_std")),

@@ -149,6 +149,18 @@ def more_in_y(sweep: Sweep) -> Judgement:
     return Judgement(verdict=verdict, numbers=f"widening healthy to {gap:g} um: x {dx * 1e6:.3g}, y {dy * 1e6:.3g} um")
 
 
+def moves_away(sweep: Sweep) -> Judgement:
+    """Largest distance from the bearing's centre, static part included, against clearance: both grow, y more."""
+    gaps = [0.0, *sweep.gaps()]
+    x, y = sweep.row("reach_x", gaps), sweep.row("reach_y", gaps)
+    grown = rises(y)
+    verdict: Verdict = grown if y[-1] - y[0] > x[-1] - x[0] else "not"
+    if rises(x) == "not" and verdict == "reproduced":
+        verdict = "partly"
+    text = f"farthest in x {shown(x, 1e6)}; in y {shown(y, 1e6)} um at 0, {shown(gaps[1:])} um"
+    return Judgement(verdict=verdict, numbers=text)
+
+
 def peaks_grow(sweep: Sweep) -> Judgement:
     """Peaks of the orbit's radius in a revolution."""
     values = sweep.row("orbit_peaks", [0.0, *sweep.gaps()])

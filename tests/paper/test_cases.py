@@ -8,11 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from paper.cases import RUNOUT_M, Case, Setting, all_settings, clearance_sweep, machine
+from paper.cases import COLLISION_DAMPING, PRESETS, RUNOUT_M, Case, Setting, all_settings, clearance_sweep, machine
 from paper.changes import CHANGES
 from paper.run import CHANNELS, Result, cache_path, load, save
 from paper.verdict.parts import PARTS
 from paper.verdict.sweep import Sweep
+from sim.presets import preset
 
 SETTING = Setting(preset="paper", runout_m=RUNOUT_M)
 CASE = Case(setting=SETTING, gap_um=20.0, speed_hz=40.0)
@@ -27,6 +28,11 @@ def test_machine_carries_its_setting() -> None:
     assert spec.meshes[0].centre_distance_form == "true"
     assert spec.operating is not None
     assert spec.operating.speed_hz == 40.0
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_collision_damping_is_the_machines(name: str) -> None:
+    assert {b.bore_damping_ns_per_m for b in preset(name).bearings} == {COLLISION_DAMPING[name]}
 
 
 def test_settings_are_all_different_and_the_healthy_machine_has_no_clearance() -> None:
