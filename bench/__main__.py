@@ -26,10 +26,8 @@ def singles() -> dict[str, float | None]:
     print(f"Ours: whole calls of {LONG_S:g} s, assembly included, compile excluded.")
     print(f"LSODA: compiled right-hand side, whole reference, fastest tolerances with an error <= {LIMIT:g};")
     print("ratio: through odeint, the fastest door; (b): the same tolerances through solve_ivp.\n")
-    print(
-        f"{'case':32s}{'ours':>22s}{'x real':>8s}{'error':>10s}"
-        f"{'LSODA x slower':>16s}{'error':>10s}{'ratio':>8s}{'(b)':>8s}"
-    )
+    head = ("LSODA x slower", 16), ("error", 10), ("ratio", 8), ("(b)", 8)
+    print(f"{'case':32s}{'ours':>22s}{'x real':>8s}{'error':>10s}" + "".join(f"{name:>{n}s}" for name, n in head))
     factors, errors, ratios, slower = [], [], [], []
     for case in found:
         mine, theirs = ours(case), lsoda(case)
@@ -84,8 +82,7 @@ def main() -> None:
         result |= processes()
         accept_ms, overhead_ms = service_times_ms()
         print(
-            f"\nService: a submission takes {accept_ms:.1f} ms, "
-            f"a job {overhead_ms:.0f} ms beyond its simulation (medians)"
+            f"\nService, medians: a submission takes {accept_ms:.1f} ms, a job {overhead_ms:.0f} ms beyond simulating"
         )
         result |= {"api_accept_p50_ms": accept_ms, "job_overhead_ms": overhead_ms}
     rounded = {name: None if value is None else float(f"{value:.4g}") for name, value in result.items()}
