@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from sim.assembly.channels import machine_channels
-from sim.assembly.kinematics import Kinematics, kinematics
+from sim.assembly.kinematics import Kinematics, kinematics, slipped_bases
 from sim.assembly.laws import Acting, acting_terms, base_laws, machine_context, modified_laws, site_context
 from sim.assembly.linear import Linear, linear_part
 from sim.assembly.loads import load_vector
@@ -84,6 +84,7 @@ def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGIST
     warnings: list[str] = []
     extra = acting_terms(machine, kin, registry, seed)
     laws = modified_laws(base_laws(machine, derived, warnings), extra)
+    bases = slipped_bases(kin, machine, laws)
     linear = linear_part(machine, laws.supports)
     acting = _base(machine, kin, registry, seed) + extra
     elements = _elements(acting, laws, linear.names)
@@ -103,7 +104,7 @@ def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGIST
         elements=elements,
         speeds_hz={"": 0.0} | dict(kin.body_hz),
         dynamic_angle=angles,
-        bases_hz=kin.bases_hz,
+        bases_hz=bases,
         lines=_lines(acting),
         derived=derived,
         warnings=tuple(warnings),

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from sim.core.errors import Problem, SpecError
+from sim.core.laws import Laws
 from sim.core.spec import MachineSpec
 from sim.parts.bearing.frequencies import bearing_speeds
 from sim.parts.bearing.from_spec import geometry_from_spec
@@ -81,3 +82,18 @@ def kinematics(machine: MachineSpec) -> Kinematics:
             bases |= {f"f_o{i}": found.outer_pass, f"f_i{i}": found.inner_pass}
             bases |= {f"f_b{i}": found.ball_spin, f"f_c{i}": found.cage}
     return Kinematics(shaft_hz=speeds, body_hz=body_hz, bases_hz=bases, shaft_base=shaft_base, mesh_base=mesh_base)
+
+
+def slipped_bases(kin: Kinematics, machine: MachineSpec, laws: Laws) -> dict[str, float]:
+    """Base frequencies with the cages' slip: the cage lags, the ball pass of the inner ring rises, Z f_r is kept."""
+    bases = dict(kin.bases_hz)
+    for i, bearing in enumerate(machine.bearings, 1):
+        law = laws.balls[bearing.name]
+        if law.cage_slip > 0.0 and f"f_c{i}" in bases:
+            cage = bases[f"f_c{i}"] * (1.0 - law.cage_slip)
+            turning = kin.body_hz[bearing.body]
+            bases[f"f_c{i}"] = cage
+            bases[f"f_o{i}"] = law.balls * cage
+            bases[f"f_i{i}"] = law.balls * (turning - cage)
+            bases[f"f_b{i}"] *= 1.0 - law.cage_slip
+    return bases

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from sim.core.errors import Problem, SpecError
 from sim.core.laws import SupportLaw
 from sim.core.response import FloatArray
 from sim.core.spec import BearingSpec, GearSpec, MachineSpec, ShaftSpec
@@ -123,6 +124,10 @@ def _torsion(builder: Builder, machine: MachineSpec) -> None:
             continue
         computed = shaft_torsion_nm_per_rad(shaft)
         stiffness = shaft.torsional_stiffness_nm_per_rad
+        if stiffness is None and computed is None:
+            message = f"is needed: {', '.join(nodes)} turn on this shaft and nothing couples them"
+            field = f"shafts.{shaft.name}.torsional_stiffness_nm_per_rad"
+            raise SpecError(Problem(field=field, message=message, allowed="a stiffness, or a diameter", unit="N m/rad"))
         if stiffness is not None or computed is not None:
             stiffness = builder.note(
                 f"{shaft.name}.torsional_stiffness_nm_per_rad", stiffness, computed or 0.0, "N m/rad", "G J / (L/2)"

@@ -20,21 +20,38 @@ def _torsion_node(machine: MachineSpec, shaft: str, dofs: Sequence[str]) -> str 
     return None
 
 
+BALANCE = 1e-3
+"""Power of the given torques that may be left over, relative to the largest: rounding of printed values."""
+
+
 def _balance(machine: MachineSpec, kin: Kinematics, derived: dict[str, str]) -> dict[str, float]:
-    """Torque by shaft; a single given torque is balanced at the other shafts' end by the speed ratio."""
-    given = {load.shaft: load.torque_nm for load in machine.loads if isinstance(load, TorqueLoad)}
-    if len(given) != 1 or not machine.meshes:
+    """Torque by shaft (summed); one shaft's torque is balanced at the last other gear shaft by the speed ratio."""
+    given: dict[str, float] = {}
+    for load in machine.loads:
+        if isinstance(load, TorqueLoad):
+            given[load.shaft] = given.get(load.shaft, 0.0) + load.torque_nm
+    if not given:
         return given
-    shaft, torque = next(iter(given.items()))
-    meshed = {g.name: g.shaft for g in machine.gears}
-    partners = [meshed[m.gear] if meshed[m.pinion] == shaft else meshed[m.pinion] for m in machine.meshes]
-    driven = [s.name for s in machine.shafts if s.name != shaft and s.name in meshed.values()]
-    if not driven or not partners:
-        return given
-    last = driven[-1]
-    opposite = -torque * kin.shaft_hz[shaft] / kin.shaft_hz[last]
-    derived[f"{last}.torque_nm"] = f"derived: {opposite:.6g} N m (in balance with {torque:g} N m on {shaft})"
-    return given | {last: opposite}
+    geared = {g.shaft for g in machine.gears}
+    if len(given) == 1 and machine.meshes:
+        shaft, torque = next(iter(given.items()))
+        driven = [s.name for s in machine.shafts if s.name != shaft and s.name in geared]
+        if shaft in geared and driven:
+            last = driven[-1]
+            opposite = -torque * kin.shaft_hz[shaft] / kin.shaft_hz[last]
+            derived[f"{last}.torque_nm"] = f"derived: {opposite:.6g} N m (in balance with {torque:g} N m on {shaft})"
+            return given | {last: opposite}
+    return given
+
+
+def _check_balance(given: dict[str, float], kin: Kinematics) -> None:
+    powers = [torque * kin.shaft_hz[shaft] for shaft, torque in given.items()]
+    if powers and abs(sum(powers)) > BALANCE * max(abs(p) for p in powers):
+        message = "the torques are not in balance (sum of torque times speed is not zero): the shafts would run away"
+        text = ", ".join(f"{name}: {value:g}" for name, value in given.items())
+        raise SpecError(
+            Problem(field="loads", message=message, given=text, allowed="balanced, or one only", unit="N m")
+        )
 
 
 def load_vector(
@@ -43,12 +60,14 @@ def load_vector(
     """Constant generalised forces, shape (n,), N or N m, acting from t = 0."""
     place = {name: i for i, name in enumerate(dofs)}
     load = np.zeros(len(dofs))
-    for shaft, torque in _balance(machine, kin, derived).items():
+    torques = _balance(machine, kin, derived)
+    for shaft, torque in torques.items():
         node = _torsion_node(machine, shaft, dofs)
         if node is None:
             message = "carries a torque but nothing on it can turn"
             raise SpecError(Problem(field=f"shafts.{shaft}", message=message, given=torque, unit="N m"))
         load[place[node]] += torque
+    _check_balance(torques, kin)
     for i, item in enumerate(machine.loads):
         if isinstance(item, ForceLoad):
             dof = f"{item.body}.{item.axis}"

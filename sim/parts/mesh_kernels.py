@@ -95,6 +95,32 @@ def tooth_gap(par, phi_p, phi_g):  # type: ignore[no-untyped-def]  # noqa: ANN00
 
 
 @inline
+def tooth_gap_rate(par, phi_p, om_p, phi_g, om_g):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Time derivative of `tooth_gap`, m/s."""
+    z_p = int(par[5])
+    z_g = int(par[6])
+    n_p = math.floor(par[5] * phi_p / TURN)
+    n_g = math.floor(par[6] * phi_g / TURN)
+    base_p = int(par[16])
+    base_g = int(par[17])
+    first = (par[base_p + (n_p + 1) % z_p] - par[base_p + n_p % z_p]) * par[5] * om_p
+    second = (par[base_g + (n_g + 1) % z_g] - par[base_g + n_g % z_g]) * par[6] * om_g
+    return (first + second) / TURN
+
+
+@inline
+def unilateral(backlash, elastic, viscous):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Elastic plus viscous force; with backlash the flanks push only, so damping cannot make them pull."""
+    if backlash < 0.0:
+        return elastic + viscous
+    if elastic > 0.0:
+        return max(elastic + viscous, 0.0)
+    if elastic < 0.0:
+        return min(elastic + viscous, 0.0)
+    return 0.0
+
+
+@inline
 def flank_gap(backlash, s):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Deflection that carries load: both senses without backlash, drive or back flank with it, m."""
     if backlash < 0.0:

@@ -160,6 +160,17 @@ def _signals(
     return signals
 
 
+STEP_WARNING = 1e-2
+
+
+def _step_warnings(error: float | None, kind: str) -> tuple[str, ...]:
+    if error is None or error <= STEP_WARNING:
+        return ()
+    if kind == "irregular":
+        return ("the motion is irregular (impacts): compare spectra and statistics, not single samples",)
+    return (f"the step changes the result by {100 * error:.2g} %: ask for more steps per output sample",)
+
+
 def _contact_share(run: _Run) -> dict[str, float]:
     share = {}
     for e, element in enumerate(run.system.elements):
@@ -221,7 +232,7 @@ def simulate(
             transient_end_s=transient_end_s(signals, output_rate_hz, period),
             energy=energy_balance(system, run.work, run.probe),
         ),
-        warnings=system.warnings,
+        warnings=system.warnings + _step_warnings(error, kind),
         contact_share=_contact_share(run),
         seed=seed,
         version=PHYSICS_VERSION,

@@ -28,6 +28,7 @@ from sim.parts.mesh_kernels import (
     runout_rate,
     sine_error,
     sine_rate,
+    unilateral,
 )
 
 SLOTS = 4
@@ -188,15 +189,15 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
             tangent += k
     touching = 1.0 if (par[1] < 0.0 or tangent != 0.0) else 0.0
     damping = par[0] * touching
-    f[0] = load + damping * sd
+    f[0] = unilateral(par[1], load, damping * sd)
     if mode == 1:
         for i in range(10):
             out[i] = 0.0
-        out[0] = tangent
-        out[5] = damping
+        out[0] = tangent if f[0] != 0.0 else 0.0
+        out[5] = damping if f[0] != 0.0 else 0.0
     if mode == 2:
         out[0] = energy
-        out[1] = damping * sd * sd
+        out[1] = (f[0] - load) * sd
         out[2] = -f[0] * ctx[1]
         out[3] = total
         out[4] = centre_error(par, ctx[3], ctx[4], u[1], u[2])

@@ -28,6 +28,8 @@ from sim.parts.mesh_kernels import (
     sine_error,
     sine_rate,
     tooth_gap,
+    tooth_gap_rate,
+    unilateral,
 )
 
 CONTEXT = 8  # stiffness, error, error rate, phase, phi_p, phi_g, omega_p, spare
@@ -96,6 +98,8 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
         ctx[i * 8] = 0.0
         ctx[i * 8 + 1] = sine_error(par, phi_p) + runout_error(par, phi_p, phi_g) + gap
         ctx[i * 8 + 2] = sine_rate(par, phi_p, om_p) + runout_rate(par, phi_p, om_p, phi_g, om_g)
+        if par[15] > 0.0:
+            ctx[i * 8 + 2] += tooth_gap_rate(par, phi_p, om_p, phi_g, om_g)
         ctx[i * 8 + 3] = par[5] * phi_p / turn
         ctx[i * 8 + 4] = phi_p
         ctx[i * 8 + 5] = phi_g
@@ -134,15 +138,15 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
     load = flank_gap(par[1], s)
     touching = 1.0 if (par[1] < 0.0 or load != 0.0) else 0.0
     damping = par[0] * touching
-    f[0] = k * load + damping * sd
+    f[0] = unilateral(par[1], k * load, damping * sd)
     if mode == 1:
         for i in range(10):
             out[i] = 0.0
-        out[0] = k * touching
-        out[5] = damping
+        out[0] = k * touching if f[0] != 0.0 else 0.0
+        out[5] = damping if f[0] != 0.0 else 0.0
     if mode == 2:
         out[0] = 0.5 * k * load * load
-        out[1] = damping * sd * sd
+        out[1] = (f[0] - k * load) * sd
         out[2] = -f[0] * ctx[2]
         out[3] = k
         out[4] = error

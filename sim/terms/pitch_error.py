@@ -22,7 +22,7 @@ class PitchError(Term):
             if site.site not in (law.pinion, law.gear):
                 continue
             teeth = law.teeth[0] if law.pinion == site.site else law.teeth[1]
-            drawn = site.random(f"pitch_error/{name}").standard_normal(teeth)
+            drawn = site.random("pitch_error").standard_normal(teeth)
             drawn -= drawn.mean()
             gaps = values["rms"] * drawn / max(float((drawn**2).mean() ** 0.5), 1e-300)
             if law.pinion == site.site:
@@ -39,9 +39,12 @@ class PitchError(Term):
             Line(orders=((site.shaft_base, k),), component=site.site, mechanism=self.key, family="shaft")
             for k in range(1, 4)
         ]
-        for side in (-2, -1, 1, 2):
-            orders = (("f_m", 1), (site.shaft_base, side))
-            found.append(Line(orders=orders, component=site.site, mechanism=self.key, family="mesh"))
+        for i, mesh in enumerate(site.machine.meshes, 1):
+            if site.site in (mesh.pinion, mesh.gear):
+                base = "f_m" if i == 1 else f"f_m{i}"
+                for side in (-2, -1, 1, 2):
+                    orders = ((base, 1), (site.shaft_base, side))
+                    found.append(Line(orders=orders, component=site.site, mechanism=self.key, family="mesh"))
         return tuple(found)
 
 

@@ -32,8 +32,8 @@ def machine(**body: object) -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("body", "field", "given", "allowed", "unit"),
     [
-        ({"machine": machine(mass_kg=-1)}, "machine.bodies.0.mass_kg", -1, "> 0", "kg"),
-        ({"machine": machine(mass_kg=0)}, "machine.bodies.0.mass_kg", 0, "> 0", "kg"),
+        ({"machine": machine(mass_kg=-1)}, "machine.bodies.0.mass_kg", -1, ">= 1e-06", "kg"),
+        ({"machine": machine(mass_kg=0)}, "machine.bodies.0.mass_kg", 0, ">= 1e-06", "kg"),
         ({"machine": machine(mass_kg=1e9)}, "machine.bodies.0.mass_kg", 1e9, "<= 100000", "kg"),
         ({"machine": machine(colour="red")}, "machine.bodies.0.colour", "red", "", ""),
         ({"preset": "oscillator", "duration_s": 0}, "duration_s", 0, "> 0", "s"),
@@ -45,7 +45,7 @@ def machine(**body: object) -> dict[str, Any]:
         ({"preset": "oscillator", "seed": -1}, "seed", -1, ">= 0", ""),
         ({"preset": "oscillator", "set": {"operating.speed": 3}}, "set.operating.speed", "operating.speed", "", ""),
         ({"preset": "oscillator", "set": {"bodies.mas.mass_kg": 3}}, "set.bodies.mas.mass_kg", None, "mass", ""),
-        ({"preset": "oscillator", "set": {"bodies.mass.mass_kg": -3}}, "set.bodies.0.mass_kg", -3, "> 0", "kg"),
+        ({"preset": "oscillator", "set": {"bodies.mass.mass_kg": -3}}, "set.bodies.0.mass_kg", -3, ">= 1e-06", "kg"),
         ({"preset": "oscillator", "set": {"nonsense@mass.x": 1}}, "term", "nonsense", "fit_clearance", ""),
         ({"preset": "oscillator", "set": {"fit_clearance@": 1}}, "set.fit_clearance@", None, "", ""),
         ({"preset": "oscillator", "extra": 1}, "extra", 1, "", ""),

@@ -10,7 +10,7 @@ from sim.core.spec.base import Finite, Name, SpecModel
 
 Stiffness = Annotated[float, Field(ge=0, le=1e13)]
 Damping = Annotated[float, Field(ge=0, le=1e9)]
-Mass = Annotated[float, Field(gt=0, le=1e4)]
+Mass = Annotated[float, Field(ge=1e-6, le=1e4)]
 
 
 class BallGeometry(SpecModel):

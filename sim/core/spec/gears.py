@@ -29,8 +29,8 @@ class GearSpec(SpecModel):
     youngs_modulus_pa: Annotated[float, Field(ge=1e8, le=1e12)] = 2.06e11
     poisson_ratio: Annotated[float, Field(ge=0, lt=0.5)] = 0.3
     density_kg_per_m3: Annotated[float, Field(ge=500, le=25000)] = 7850.0
-    mass_kg: Annotated[float, Field(gt=0, le=1e5)] | None = None
-    inertia_kg_m2: Annotated[float, Field(gt=0, le=1e5)] | None = None
+    mass_kg: Annotated[float, Field(ge=1e-6, le=1e5)] | None = None
+    inertia_kg_m2: Annotated[float, Field(ge=1e-12, le=1e5)] | None = None
     translates: bool = True
     """False: the gear turns on a rigid support and has no radial motion."""
     stiffness_x_n_per_m: Annotated[float, Field(ge=0, le=1e13)] = 0.0

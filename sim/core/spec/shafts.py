@@ -13,7 +13,7 @@ class ShaftSpec(SpecModel):
     """A shaft: its torsion between the end (motor or brake) and the gear, and its length."""
 
     name: Name
-    end_inertia_kg_m2: Annotated[float, Field(gt=0, le=1e4)] | None = None
+    end_inertia_kg_m2: Annotated[float, Field(ge=1e-12, le=1e4)] | None = None
     """Inertia at the driving or driven end; none: the shaft has no torsional end mass."""
     torsional_stiffness_nm_per_rad: Annotated[float, Field(gt=0, le=1e10)] | None = None
     torsional_damping_nms_per_rad: Annotated[float, Field(ge=0, le=1e8)] = 0.0
@@ -27,9 +27,9 @@ class BodySpec(SpecModel):
     """A rigid mass without teeth: a disc on a shaft, or a mass on a spring to ground."""
 
     name: Name
-    mass_kg: Annotated[float, Field(gt=0, le=1e5)]
+    mass_kg: Annotated[float, Field(ge=1e-6, le=1e5)]
     shaft: Name | None = None
-    inertia_kg_m2: Annotated[float, Field(gt=0, le=1e5)] | None = None
+    inertia_kg_m2: Annotated[float, Field(ge=1e-12, le=1e5)] | None = None
     """Polar inertia; needs `shaft`."""
     axes: Literal["x", "y", "xy"] = "xy"
     stiffness_x_n_per_m: NonNegative = 0.0

@@ -36,3 +36,10 @@ def test_it_grows_with_the_decay():
 
 def test_a_run_too_short_to_judge_is_all_transient():
     assert transient_end_s(np.ones((1, 30)), RATE, PERIOD) == pytest.approx(30 / RATE)
+
+
+@pytest.mark.parametrize("growth", [3.0, -0.5])
+def test_motion_that_keeps_growing_or_decaying_has_not_settled(growth):
+    t = np.arange(0, 4.0, 1e-3)
+    signal = np.exp(growth * t) * np.sin(2 * np.pi * 50 * t)
+    assert transient_end_s(signal[None, :], 1000.0, 0.1) == pytest.approx(4.0)
