@@ -17,7 +17,7 @@ RUN useradd --system --uid 10001 --create-home --home-dir /home/sideband sideban
 COPY --from=build /opt/sideband /opt/sideband
 ENV PATH=/opt/sideband/bin:$PATH \
     PYTHONUNBUFFERED=1 \
-    NUMBA_CACHE_DIR=/var/cache/sideband \
+    SIDEBAND_CACHE=/var/cache/sideband \
     MPLCONFIGDIR=/var/cache/sideband/matplotlib \
     OMP_NUM_THREADS=1 \
     OPENBLAS_NUM_THREADS=1 \

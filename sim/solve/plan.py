@@ -18,7 +18,7 @@ from sim.solve.operators import Coordinates, StepOperators, coordinates, step_op
 
 IntArray = NDArray[np.int64]
 LEVELS = 6
-"""Halvings of the base step that are prepared: base / 64 is the finest step around an impact."""
+"""Halvings of the base step that are prepared: base / 32 is the finest step around an impact."""
 KINDS = 3  # node rows from the state, node rows from the forces, end state
 SCRATCH = 64
 
