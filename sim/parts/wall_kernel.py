@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 
 from sim.core.compiled import inline
+from sim.core.elementary import hyperbolic_tangent, ninth_root_power
 
 P_GAP, P_DAMPING, P_FRICTION, P_LENGTH, P_SPEED, P_FACTOR = 0, 1, 2, 3, 4, 5
 
@@ -23,7 +24,7 @@ def wall_prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # 
 @inline
 def palmgren_force(penetration, length_factor):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Load of a line contact, N, for a penetration in m; `length_factor` = L^0.8 / 3.83e-5 with L in mm."""
-    return (penetration * 1e3 * length_factor) ** (10.0 / 9.0)
+    return ninth_root_power(penetration * 1e3 * length_factor)
 
 
 @inline
@@ -53,7 +54,7 @@ def wall_force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  
         out[1] = (max(load, 0.0) - elastic) * rate
     if load <= 0.0:
         return
-    share = math.tanh(slip / par[4])
+    share = hyperbolic_tangent(slip / par[4])
     friction = par[2] * load * share
     f[0] = load * nx - friction * ny
     f[1] = load * ny + friction * nx

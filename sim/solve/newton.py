@@ -1,7 +1,9 @@
-"""Damped Newton for one stiff element over all nodes of a step, through its own compliance.
+"""Newton's method for one stiff element over all nodes of a step, through its own compliance.
 
-Unknowns are the element's node forces, n = s d of them: lam = f(base + C lam). Scratch of `work.newton`:
-base (4 s), lam, old, entry, step, residual (n each), tangents (8 s), Jacobian (n n).
+Unknowns are the element's node forces (two a node; elements with one coordinate leave the second at zero):
+lam = f(base + C lam). The inverse Jacobian of the first iteration of a step serves all later ones (chord method,
+Deuflhard, Newton Methods for Nonlinear Problems, 2011, sect. 1.3); where that is not close enough, damped Newton
+steps with a fresh Jacobian follow. Products run in vector lanes: rows of eight, most of them used.
 """
 
 from __future__ import annotations
@@ -9,129 +11,171 @@ from __future__ import annotations
 import math
 
 from sim.core.compiled import call_force, inline, shift
+from sim.core.lanes import as_lanes
 
 MAX_NEWTON = 40
 RTOL_SHARE = 0.1
 """Tolerance of the inner iteration over that of the outer one."""
 BACKTRACK = 1e-3
 CLOSE = 0.02
-"""Relative residual below which Newton's own quadratic convergence is trusted."""
-BASE, LAM, OLD, ENTRY, STEP, RES, TANGENT, JACOBIAN, POINT = 0, 16, 24, 32, 40, 48, 56, 80, 120
-NEWTON_SCRATCH = 160
+"""Relative residual below which one step is trusted: the outer iteration judges by how far it moved."""
+NODES = 3
+BASE, LAM, OLD, ENTRY, RES, TANGENT, POINT = 0, 16, 24, 32, 40, 48, 72
+JACOBIAN, INVERSE = 88, 136
+NEWTON_SCRATCH = 192
+COMPLIANCE = 12 * 8 + 6 * 16
+"""Own compliance of one element: 12 rows (node, u u ud ud) of 6 forces padded to 8, then 6 columns padded to 16."""
 
 
 @inline
-def solve_dense(a, b, n):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Solve a x = b (row-major n x n) in place by elimination with partial pivoting; x replaces b."""
-    for k in range(n):
+def invert(work):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Invert the 6 x 6 Jacobian by elimination with partial pivoting; False when it is singular."""
+    a = shift(work.newton, 88)
+    left = as_lanes(a)
+    b = shift(work.newton, 136)
+    right = as_lanes(b)
+    for i in range(6):
+        right[i] = 0.0
+        b[8 * i + i] = 1.0
+    for k in range(6):
         best = k
-        for i in range(k + 1, n):
-            if abs(a[i * n + k]) > abs(a[best * n + k]):
+        for i in range(k + 1, 6):
+            if abs(a[8 * i + k]) > abs(a[8 * best + k]):
                 best = i
-        if a[best * n + k] == 0.0:
-            return False
         if best != k:
-            for j in range(k, n):
-                held = a[k * n + j]
-                a[k * n + j] = a[best * n + j]
-                a[best * n + j] = held
-            held = b[k]
-            b[k] = b[best]
-            b[best] = held
-        inverse = 1.0 / a[k * n + k]
-        for i in range(k + 1, n):
-            factor = a[i * n + k] * inverse
-            for j in range(k + 1, n):
-                a[i * n + j] -= factor * a[k * n + j]
-            b[i] -= factor * b[k]
-    for k in range(n - 1, -1, -1):
-        total = b[k]
-        for j in range(k + 1, n):
-            total -= a[k * n + j] * b[j]
-        b[k] = total / a[k * n + k]
+            held = left[k]
+            left[k] = left[best]
+            left[best] = held
+            held = right[k]
+            right[k] = right[best]
+            right[best] = held
+        pivot = a[8 * k + k]
+        if pivot == 0.0:
+            return False
+        inverse = 1.0 / pivot
+        one = left[k] * inverse
+        other = right[k] * inverse
+        left[k] = one
+        right[k] = other
+        for i in range(6):
+            if i != k:
+                factor = a[8 * i + k]
+                left[i] = left[i] - one * factor
+                right[i] = right[i] - other * factor
     return True
 
 
 @inline
-def residual(plan, work, e, own, d):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Residual lam - f(u(lam)) and the tangents of all nodes; returns (squared norm, largest force)."""
-    s = plan.stages
+def residual(plan, work, e, own, d, mode):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Residual lam - f(u(lam)), with tangents in mode 1; returns (squared norm, largest force)."""
     w = work.newton
+    column = as_lanes(shift(own, 96))
+    base = as_lanes(w)
+    first = base[0]
+    second = base[1]
+    for k in range(6):
+        first = first + column[2 * k] * w[16 + k]
+        second = second + column[2 * k + 1] * w[16 + k]
+    point = as_lanes(shift(w, 72))
+    point[0] = first
+    point[1] = second
     norm = 0.0
     scale = 0.0
-    for i in range(s):
-        for a in range(2 * d):
-            value = w[BASE + 4 * i + a]
-            for j in range(s):
-                for b in range(d):
-                    value += own[(i * 4 + a) * 2 * s + 2 * j + b] * w[LAM + j * d + b]
-            w[POINT + a] = value
+    for i in range(3):
         call_force(
             plan.force_address[e],
-            1,
-            shift(w, POINT),
-            shift(w, POINT + d),
+            mode,
+            shift(w, 72 + 4 * i),
+            shift(w, 74 + 4 * i),
             shift(work.ctx, plan.ctx_at[e] + i * plan.ctx_width[e]),
             shift(plan.par, plan.par_at[e]),
             work.trial,
-            shift(w, TANGENT + 8 * i),
+            shift(w, 48 + 8 * i),
         )
         for a in range(d):
-            value = w[LAM + i * d + a] - work.trial[a]
-            w[RES + i * d + a] = value
+            value = w[16 + 2 * i + a] - work.trial[a]
+            w[40 + 2 * i + a] = value
             norm += value * value
-            scale = max(scale, abs(w[LAM + i * d + a]))
+            scale = max(scale, abs(w[16 + 2 * i + a]))
     return norm, scale
 
 
 @inline
-def jacobian(plan, work, own, d):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """I - (df/du C_u + df/du' C_u') for all nodes."""
-    s = plan.stages
-    n = s * d
+def jacobian(work, own, d):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """I - (df/du C_u + df/du' C_u') by rows."""
     w = work.newton
-    for i in range(s):
-        for a in range(d):
-            for j in range(s):
-                for b in range(d):
-                    slope = 1.0 if (i == j and a == b) else 0.0
-                    for c in range(d):
-                        slope -= w[TANGENT + 8 * i + a * d + c] * own[(i * 4 + c) * 2 * s + 2 * j + b]
-                        slope -= w[TANGENT + 8 * i + d * d + a * d + c] * own[(i * 4 + d + c) * 2 * s + 2 * j + b]
-                    w[JACOBIAN + (i * d + a) * n + j * d + b] = slope
+    row = as_lanes(own)
+    a = shift(w, 88)
+    target = as_lanes(a)
+    for i in range(3):
+        for k in range(2):
+            total = row[4 * i] * 0.0
+            if k < d:
+                for c in range(d):
+                    total = total - row[4 * i + c] * w[48 + 8 * i + k * d + c]
+                    total = total - row[4 * i + 2 + c] * w[48 + 8 * i + d * d + k * d + c]
+            target[2 * i + k] = total
+            a[8 * (2 * i + k) + 2 * i + k] += 1.0
 
 
 @inline
 def enter(plan, work, which, own, forces, d):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Load the element's forces, and the coordinates they would leave without themselves."""
-    s = plan.stages
+    """Load the element's forces, and the coordinates it would leave without itself."""
     w = work.newton
-    for i in range(s):
+    for i in range(3):
+        for a in range(2):
+            value = forces[i * plan.forces_total + a] if a < d else 0.0
+            w[16 + 2 * i + a] = value
+            w[32 + 2 * i + a] = value
+            w[40 + 2 * i + a] = 0.0
+            w[4 * i + a] = 0.0
+            w[4 * i + 2 + a] = 0.0
         for a in range(d):
-            w[LAM + i * d + a] = forces[i * plan.forces_total + a]
-            w[ENTRY + i * d + a] = w[LAM + i * d + a]
-    for i in range(s):
-        for a in range(2 * d):
-            value = work.rows[i * plan.rows + plan.stiff_rows[4 * which + a]]
-            for j in range(s):
-                for b in range(d):
-                    value -= own[(i * 4 + a) * 2 * s + 2 * j + b] * w[LAM + j * d + b]
-            w[BASE + 4 * i + a] = value
+            w[4 * i + a] = work.rows[i * plan.rows + plan.stiff_rows[4 * which + a]]
+            w[4 * i + 2 + a] = work.rows[i * plan.rows + plan.stiff_rows[4 * which + d + a]]
+    column = as_lanes(shift(own, 96))
+    base = as_lanes(w)
+    first = base[0]
+    second = base[1]
+    for k in range(6):
+        first = first - column[2 * k] * w[16 + k]
+        second = second - column[2 * k + 1] * w[16 + k]
+    base[0] = first
+    base[1] = second
+
+
+@inline
+def corrected(work, share):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """lam = old - share J^-1 residual, with `old` and the residual as they stand."""
+    w = work.newton
+    for r in range(6):
+        total = 0.0
+        for k in range(6):
+            total += w[136 + 8 * r + k] * w[40 + k]
+        w[16 + r] = w[24 + r] - share * total
+
+
+@inline
+def keep(work):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Remember the forces a step starts from."""
+    w = work.newton
+    for k in range(6):
+        w[24 + k] = w[16 + k]
 
 
 @inline
 def damped_step(plan, work, e, own, d, before):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Newton step with halving until the residual falls; returns (squared norm, largest force)."""
-    n = plan.stages * d
     w = work.newton
-    for k in range(n):
-        w[OLD + k] = w[LAM + k]
-        w[STEP + k] = w[RES + k]
+    keep(work)
     share = 1.0
+    for k in range(6):
+        w[184 + k] = w[40 + k]
     while True:
-        for k in range(n):
-            w[LAM + k] = w[OLD + k] - share * w[STEP + k]
-        norm, scale = residual(plan, work, e, own, d)
+        for k in range(6):
+            w[40 + k] = w[184 + k]
+        corrected(work, share)
+        norm, scale = residual(plan, work, e, own, d, 1)
         if norm <= before * (1.0 - 1e-4 * share) or share < BACKTRACK:
             return norm, scale
         share *= 0.5
@@ -142,10 +186,10 @@ def leave(plan, work, forces, d):  # type: ignore[no-untyped-def]  # noqa: ANN00
     """Store the forces; returns their largest change."""
     change = 0.0
     w = work.newton
-    for i in range(plan.stages):
+    for i in range(3):
         for a in range(d):
-            change = max(change, abs(w[LAM + i * d + a] - w[ENTRY + i * d + a]))
-            forces[i * plan.forces_total + a] = w[LAM + i * d + a]
+            change = max(change, abs(w[16 + 2 * i + a] - w[32 + 2 * i + a]))
+            forces[i * plan.forces_total + a] = w[16 + 2 * i + a]
     return change
 
 
@@ -153,24 +197,29 @@ def leave(plan, work, forces, d):  # type: ignore[no-untyped-def]  # noqa: ANN00
 def newton_element(plan, work, level, e, which, rtol, iteration):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Solve one stiff element; returns (converged, largest change of its forces)."""
     d = plan.forces[e]
-    n = plan.stages * d
-    w = work.newton
-    own = shift(plan.compliance, (level * plan.stiff + which) * 8 * plan.stages * plan.stages)
+    own = shift(plan.compliance, (level * plan.stiff + which) * 192)
     forces = shift(work.z, plan.states + plan.f_at[e])
     enter(plan, work, which, own, forces, d)
-    norm, scale = residual(plan, work, e, own, d)
+    chord = iteration > 0 and plan.stiff == 1
+    norm, scale = residual(plan, work, e, own, d, 0 if chord else 1)
     converged = False
     for _ in range(MAX_NEWTON):
         if norm <= (RTOL_SHARE * rtol * scale) ** 2 + 1e-16:
             converged = True
             break
-        jacobian(plan, work, own, d)
-        if not math.isfinite(norm) or not solve_dense(shift(w, JACOBIAN), shift(w, RES), n):
+        if not math.isfinite(norm):
             break
-        if iteration > 0 and norm <= (CLOSE * scale) ** 2:
-            # one undamped step; the outer iteration judges convergence by how far it moved
-            for k in range(n):
-                w[LAM + k] -= w[RES + k]
+        near = norm <= (CLOSE * scale) ** 2
+        if not (chord and near):
+            if chord:
+                norm, scale = residual(plan, work, e, own, d, 1)
+                chord = False
+            jacobian(work, own, d)
+            if not invert(work):
+                break
+        if near:
+            keep(work)
+            corrected(work, 1.0)
             converged = True
             break
         norm, scale = damped_step(plan, work, e, own, d, norm)

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from sim.core.elements import STAGES
 from sim.core.response import FloatArray
 from sim.core.system import System
-from sim.solve.chunks import Chunked, chunked
+from sim.solve.chunks import Chunked, aligned_copy, chunked
 from sim.solve.collocation import collocation, derivative_weights, extrapolation, node_extrapolation
+from sim.solve.newton import COMPLIANCE
 from sim.solve.operators import Coordinates, StepOperators, coordinates, step_operators
 
 IntArray = NDArray[np.int64]
@@ -75,14 +76,29 @@ class Built:
     levels: tuple[StepOperators, ...]
 
 
-def _place(coords: Coordinates, padded: int) -> IntArray:
-    count = coords.rows.shape[0]
-    place = np.full(padded, -1, dtype=np.int64)
-    for r, u in enumerate(coords.force_rows):
-        place[r] = u
-    for r, u in enumerate(coords.rate_rows):
-        place[len(coords.force_rows) + r] = count + u
-    return place
+def row_order(level: StepOperators) -> IntArray:
+    """Order of the node rows, -1 for padding: rows that the same states move stand together, so chunks stay narrow."""
+    touched = np.any(level.node_state != 0, axis=0)
+    count = touched.shape[0]
+    label = np.arange(count)
+    for i in range(count):
+        for j in range(i):
+            if label[j] != label[i] and np.any(touched[i] & touched[j]):
+                label[label == label[j]] = label[i]
+    sizes = np.bincount(label, minlength=count)[label] if count else label
+    order = np.lexsort((np.arange(count), label, -sizes))
+    return np.concatenate([order, np.full(-count % 8, -1)]).astype(np.int64)
+
+
+def _place_of(order: IntArray) -> IntArray:
+    """Where a node row stands in the order."""
+    return np.argsort(np.where(order < 0, order.size, order), kind="stable")
+
+
+def _place(coords: Coordinates, order: IntArray) -> IntArray:
+    u_count = coords.rows.shape[0]
+    target = [*coords.force_rows, *(u_count + u for u in coords.rate_rows)]
+    return np.array([-1 if r < 0 else target[r] for r in order], dtype=np.int64)
 
 
 def _pad(matrix: FloatArray, rows: int) -> FloatArray:
@@ -91,13 +107,19 @@ def _pad(matrix: FloatArray, rows: int) -> FloatArray:
     return out
 
 
-def _pack(level: StepOperators, padded: int, states: int) -> list[Chunked]:
+def _ordered(matrix: FloatArray, order: IntArray) -> FloatArray:
+    out = np.zeros((order.size, *matrix.shape[1:]))
+    out[order >= 0] = matrix[order[order >= 0]]
+    return out
+
+
+def _pack(level: StepOperators, order: IntArray, states: int) -> list[Chunked]:
     s = level.node_load.shape[0]
     width = level.end_state.shape[0]
-    node_state = np.concatenate([_pad(_wide(level.node_state[i], states), padded) for i in range(s)])
+    node_state = np.concatenate([_ordered(_wide(level.node_state[i], states), order) for i in range(s)])
     forces = level.end_force.shape[2]
     node_force = np.concatenate(
-        [_pad(level.node_force[i].reshape(level.node_force.shape[1], s * forces), padded) for i in range(s)]
+        [_ordered(level.node_force[i].reshape(level.node_force.shape[1], s * forces), order) for i in range(s)]
     )
     end = np.zeros((states, states + s * forces))
     end[:width, :width] = level.end_state
@@ -115,13 +137,18 @@ def _own_compliance(
     system: System, levels: Sequence[StepOperators], rows: IntArray, starts: IntArray, s: int
 ) -> FloatArray:
     stiff = [i for i, e in enumerate(system.elements) if e.stiff]
-    table = np.zeros((len(levels), max(len(stiff), 1), s, 4, s, 2))
+    table = np.zeros((len(levels), max(len(stiff), 1), COMPLIANCE))
     for ell, level in enumerate(levels):
         for k, i in enumerate(stiff):
             d = system.elements[i].forces
             f0 = int(starts[i])
             picked = level.node_force[:, rows[k, : 2 * d]][:, :, :, f0 : f0 + d]
-            table[ell, k, :, : 2 * d, :, :d] = picked
+            own = np.zeros((s, 2, 2, s, 2))
+            own[:, :, :d, :, :d] = picked.reshape(s, 2, d, s, d)
+            square = own.reshape(4 * s, 2 * s)
+            by_rows = np.pad(square, ((0, 0), (0, 8 - 2 * s)))
+            by_columns = np.pad(square.T, ((0, 0), (0, 16 - 4 * s)))
+            table[ell, k] = np.concatenate([by_rows.ravel(), by_columns.ravel()])
     return table
 
 
@@ -168,9 +195,9 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
     ops = tuple(step_operators(system, coords, rule, base_step_s / 2**k) for k in range(levels))
     n, s = len(system.dofs), rule.stages
     f, u = len(coords.force_rows), coords.rows.shape[0]
-    r = -(-(f + len(coords.rate_rows)) // 8) * 8
-    z = -(-2 * n // 8) * 8
-    pointer, column, value, span = _chunks([_pack(level, r, z) for level in ops])
+    order = row_order(ops[0])
+    r, z = order.size, -(-2 * n // 8) * 8
+    pointer, column, value, span = _chunks([_pack(level, order, z) for level in ops])
     u_at, f_at = _starts([e.size for e in elements]), _starts([e.forces for e in elements])
     par_at = _starts([e.parameters.size for e in elements])
     ctx_at = _starts([(s + 1) * e.context for e in elements])
@@ -191,11 +218,11 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
         slope=derivative_weights(s),
         pointer=pointer,
         column=column,
-        value=value,
+        value=aligned_copy(value),
         span=span,
-        node_load=np.array([np.concatenate([_pad(level.node_load[i], r) for i in range(s)]) for level in ops]),
+        node_load=np.array([np.concatenate([_ordered(level.node_load[i], order) for i in range(s)]) for level in ops]),
         end_load=np.array([_pad(level.end_load, z) for level in ops]),
-        row_place=_place(coords, r),
+        row_place=_place(coords, order),
         prepare_address=np.array([e.kernel.prepare_address for e in elements], dtype=np.int64),
         force_address=np.array([e.kernel.force_address for e in elements], dtype=np.int64),
         u_at=u_at,
@@ -203,7 +230,7 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
         size=np.array([e.size for e in elements], dtype=np.int64),
         forces=np.array([e.forces for e in elements], dtype=np.int64),
         par_at=par_at,
-        par=np.concatenate(parameters) if parameters else np.zeros(1),
+        par=aligned_copy(np.concatenate(parameters)) if parameters else np.zeros(1),
         ctx_at=ctx_at,
         ctx_width=np.array([e.context for e in elements], dtype=np.int64),
         ctx_size=int(ctx_at[-1]),
@@ -216,7 +243,7 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
         ).reshape(-1, 2),
         carries=np.isin(np.arange(u), coords.force_rows).astype(np.int64),
         observe_rows=np.ascontiguousarray(coords.rows),
-        compliance=_own_compliance(system, ops, rows, f_at, s),
-        stiff_rows=rows,
+        compliance=aligned_copy(_own_compliance(system, ops, rows, f_at, s)),
+        stiff_rows=_place_of(order)[rows] if stiff else rows,
     )
     return Built(plan=plan, coords=coords, levels=ops)

@@ -23,7 +23,7 @@ IRREGULAR = 0.2
 class Settings:
     """`rtol`: corrector tolerance relative to the largest contact force. `steps_per_output`: None is automatic."""
 
-    rtol: float = 1e-4
+    rtol: float = 3e-4
     steps_per_output: int | None = None
     anti_alias: bool = True
     estimate_error: bool = True
