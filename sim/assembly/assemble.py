@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from sim.assembly.channels import machine_channels
+from sim.assembly.held import check_held
 from sim.assembly.kinematics import Kinematics, kinematics, slipped_bases
 from sim.assembly.laws import Acting, acting_terms, base_laws, machine_context, modified_laws, site_context
 from sim.assembly.linear import Linear, linear_part
@@ -52,22 +53,7 @@ def _elements(acting: Sequence[Acting], laws: Laws, dofs: Sequence[str]) -> tupl
     return tuple(elements)
 
 
-def _check_held(linear: Linear, elements: Sequence[Element]) -> None:
-    """Refuse DOFs nothing holds or touches: they would drift away without bound."""
-    touched = np.any(linear.stiffness != 0, axis=1)
-    place = {name: i for i, name in enumerate(linear.names)}
-    for element in elements:
-        for coordinate in element.coordinates[: element.forces]:
-            for dof, _ in coordinate.weights:
-                touched[place[dof]] = True
-    loose = [name for i, name in enumerate(linear.names) if not touched[i]]
-    if loose:
-        raise SpecError(
-            [
-                Problem(field=name, message="is connected to nothing: no spring, bearing or mesh reaches it")
-                for name in loose
-            ]
-        )
+def _check_masses(linear: Linear) -> None:
     if not np.all(np.isfinite(linear.mass)) or np.any(linear.mass <= 0):
         raise SpecError(Problem(field="masses", message="every mass and inertia must be positive and finite"))
 
@@ -88,7 +74,8 @@ def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGIST
     linear = linear_part(machine, laws.supports)
     acting = _base(machine, kin, registry, seed) + extra
     elements = _elements(acting, laws, linear.names)
-    _check_held(linear, elements)
+    _check_masses(linear)
+    check_held(machine, linear, elements, laws.supports, kin.body_hz)
     derived |= linear.derived
     load = load_vector(machine, kin, linear.names, linear.mass, derived)
     dynamic = machine.operating is not None and machine.operating.kinematics == "dynamic"

@@ -47,13 +47,17 @@ class Builder:
 
 @dataclass(frozen=True, kw_only=True)
 class Linear:
-    """Names (n), mass (n,), damping and stiffness (n, n), the dampers apart, and what was derived."""
+    """Names (n), mass (n,), damping and stiffness (n, n), the dampers apart, and what was derived.
+
+    `holds` (springs, n): the weights of every spring, so that stiffness = holds^T diag(k) holds.
+    """
 
     names: tuple[str, ...]
     mass: FloatArray
     damping: FloatArray
     stiffness: FloatArray
     dampers: tuple[Damper, ...]
+    holds: FloatArray
     derived: Mapping[str, str]
 
 
@@ -140,13 +144,18 @@ def _matrices(builder: Builder) -> Linear:
     place = {name: i for i, name in enumerate(builder.names)}
     n = len(builder.names)
     stiffness, damping = np.zeros((n, n)), np.zeros((n, n))
-    dampers = []
+    dampers, holds = [], []
     for a, b, k, c in builder.springs:
         weights = [(place[a], 1.0)] + ([] if b is None else [(place[b], -1.0)])
         for i, wi in weights:
             for j, wj in weights:
                 stiffness[i, j] += k * wi * wj
                 damping[i, j] += c * wi * wj
+        if k > 0.0:
+            row = np.zeros(n)
+            for i, wi in weights:
+                row[i] += wi
+            holds.append(row)
         if c > 0.0:
             dampers.append(Damper(weights=tuple(weights), damping=c))
     return Linear(
@@ -155,6 +164,7 @@ def _matrices(builder: Builder) -> Linear:
         damping=damping,
         stiffness=stiffness,
         dampers=tuple(dampers),
+        holds=np.array(holds).reshape(-1, n),
         derived=builder.derived,
     )
 
