@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints
+from pydantic_core import PydanticCustomError
 
 SCHEMA_VERSION = 1
 MAX_ITEMS = 64
@@ -16,7 +17,19 @@ NonNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
 
-class SpecModel(BaseModel):
-    """Frozen, strict about unknown keys, finite numbers only."""
+def _number(value: object) -> object:
+    if isinstance(value, bool | str):
+        raise PydanticCustomError("int_type", "must be a whole number: text and truth values are not converted")
+    return value
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, use_attribute_docstrings=True)
+
+WHOLE = BeforeValidator(_number)
+"""With `strict=False` on an integer: 23.0 is a whole number (JSON knows one kind of number), "23" and true are not."""
+
+
+class SpecModel(BaseModel):
+    """Frozen, strict about types (no number from text, no truth value from a number), known keys, finite numbers."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", strict=True, allow_inf_nan=False, use_attribute_docstrings=True
+    )

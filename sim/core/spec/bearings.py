@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from sim.core.spec.base import Finite, Name, SpecModel
+from sim.core.spec.base import WHOLE, Finite, Name, SpecModel
 
 Stiffness = Annotated[float, Field(ge=0, le=1e13)]
 Damping = Annotated[float, Field(ge=0, le=1e9)]
@@ -16,7 +16,7 @@ Mass = Annotated[float, Field(ge=1e-6, le=1e4)]
 class BallGeometry(SpecModel):
     """Rolling-element geometry. Either both diameters, or their ratio when only frequencies matter."""
 
-    balls: Annotated[int, Field(ge=3, le=64)]
+    balls: Annotated[int, Field(ge=3, le=64, strict=False), WHOLE]
     ball_diameter_m: Annotated[float, Field(gt=0, le=0.5)] | None = None
     pitch_diameter_m: Annotated[float, Field(gt=0, le=5)] | None = None
     diameter_ratio: Annotated[float, Field(gt=0, lt=0.9)] | None = None

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from sim.core.spec.base import Finite, Name, SpecModel
+from sim.core.spec.base import WHOLE, Finite, Name, SpecModel
 
 
 class GearSpec(SpecModel):
@@ -14,7 +14,7 @@ class GearSpec(SpecModel):
 
     name: Name
     shaft: Name
-    teeth: Annotated[int, Field(ge=6, le=2000)]
+    teeth: Annotated[int, Field(ge=6, le=2000, strict=False), WHOLE]
     module_m: Annotated[float, Field(ge=1e-4, le=0.1)]
     """A module of 2 mm is 0.002."""
     pressure_angle_deg: Annotated[float, Field(ge=10, le=35)] = 20.0
