@@ -68,14 +68,14 @@ def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGIST
     kin = kinematics(machine)
     derived: dict[str, str] = {}
     warnings: list[str] = []
-    extra = acting_terms(machine, kin, registry, seed)
+    extra = [a for a in acting_terms(machine, kin, registry, seed) if not a.term.idle(a.values)]
     laws = modified_laws(base_laws(machine, derived, warnings), extra)
     bases = slipped_bases(kin, machine, laws)
     linear = linear_part(machine, laws.supports)
     acting = _base(machine, kin, registry, seed) + extra
     elements = _elements(acting, laws, linear.names)
     _check_masses(linear)
-    check_held(machine, linear, elements, laws.supports, kin.body_hz)
+    check_held(machine, linear, elements, laws.supports)
     derived |= linear.derived
     load = load_vector(machine, kin, linear.names, linear.mass, derived)
     dynamic = machine.operating is not None and machine.operating.kinematics == "dynamic"

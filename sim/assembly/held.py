@@ -69,10 +69,17 @@ def _reduced(basis: FloatArray, weight: FloatArray) -> FloatArray:
     return reduced
 
 
-def _rotation(names: Sequence[str], speeds_hz: Mapping[str, float]) -> FloatArray:
-    """All shafts turning together, shape (n,): free on purpose, because the torques are in balance."""
-    parts = [name.rsplit(".", 1) for name in names]
-    return np.array([speeds_hz.get(body, 0.0) if axis == "theta" else 0.0 for body, axis in parts])
+def _pins(rows: FloatArray, turning: BoolArray) -> FloatArray:
+    """One DOF held, shape (rotations, n), for each motion of angles alone: shafts turning together, which may be free
+    because the torques are in balance.
+    """
+    angles = np.flatnonzero(turning)
+    spun = free_motions(rows[:, angles], np.ones(angles.size, dtype=np.bool_))
+    pins = np.zeros((spun.shape[0], turning.size))
+    part = np.abs(spun) > SHARE * np.max(np.abs(spun), axis=1, keepdims=True, initial=0.0)
+    for pin, alone in zip(pins, part & (part.sum(axis=0) == 1), strict=True):
+        pin[angles[np.argmax(alone)]] = 1.0
+    return pins
 
 
 def check_held(
@@ -80,18 +87,14 @@ def check_held(
     linear: Linear,
     elements: Sequence[Element],
     supports: Mapping[str, SupportLaw],
-    speeds_hz: Mapping[str, float],
 ) -> None:
     """SpecError for each way the machine could drift off without bound; only its rotation may be free."""
     names = linear.names
     rows = np.vstack([linear.holds, *(element_rows(e, names) for e in elements)])
-    rotation = _rotation(names, speeds_hz)
-    turning = np.flatnonzero(rotation)
-    resisted = np.abs(rows @ rotation) > SHARE * (np.abs(rows) @ np.abs(rotation))
-    if turning.size and not np.any(resisted):
-        rows = np.vstack([rows, np.eye(len(names))[turning[0]]])
+    turning = np.array([name.endswith(".theta") for name in names])
+    rows = np.vstack([rows, _pins(rows, turning)])
     problems = []
-    for motion in free_motions(rows, np.array([not name.endswith(".theta") for name in names])):
+    for motion in free_motions(rows, ~turning):
         moving = [names[i] for i in np.flatnonzero(np.abs(motion) > SHARE * np.max(np.abs(motion)))]
         problems.append(_problem(machine, supports, moving))
     if problems:
@@ -110,7 +113,7 @@ def _problem(machine: MachineSpec, supports: Mapping[str, SupportLaw], moving: S
     remedy = " or ".join(ways) or "a spring, bearing or mesh that reaches it"
     return Problem(
         field=fields[0] if fields else moving[0],
-        message=f"nothing holds {listed}{more}, free to drift away{together}: {remedy} would hold it",
+        message=f"nothing holds {listed}{more}: free to drift away{together}; {remedy} would hold it",
         given=0.0 if fields else None,
         allowed="above 0" if fields else "",
         unit="N/m" if fields else "",

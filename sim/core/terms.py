@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -40,6 +40,25 @@ class SiteContext:
         return np.random.default_rng([self.seed, *text])
 
 
+def _as_it_is(machine: MachineSpec) -> MachineSpec:
+    return machine
+
+
+@dataclass(frozen=True, kw_only=True)
+class Demo:
+    """Where an effect is plain to see: its first `leading` lines stand out there against the machine without it.
+
+    `machine` names a preset; `site` is empty for the first one where the effect may act; `values` replace defaults.
+    `prepare` changes the machine where no preset has what the effect needs.
+    """
+
+    machine: str = "paper-lightly-damped"
+    site: str = ""
+    values: Values = field(default_factory=dict)
+    leading: int = 3
+    prepare: Callable[[MachineSpec], MachineSpec] = _as_it_is
+
+
 @dataclass(frozen=True, kw_only=True)
 class Term:
     """Base of all effects. Subclasses override what they need; everything is a pure function.
@@ -61,6 +80,7 @@ class Term:
     order: int = 100
     excludes: tuple[str, ...] = field(default=())
     """Keys that cannot act at the same site."""
+    demo: Demo = field(default_factory=Demo)
 
     def values(self, given: Values, where: str) -> dict[str, float]:
         """Fill defaults and check bounds; SpecError lists every field that is wrong."""
@@ -95,7 +115,15 @@ class Term:
         return ()
 
     def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:  # noqa: ARG002
-        """Return the spectral lines this effect predicts."""
+        """Return the spectral lines this effect predicts, the most telling first."""
+        return ()
+
+    def idle(self, values: Values) -> bool:
+        """Whether these values leave the machine as it is: assembly then passes the effect over."""
+        return self.severity is not None and self.zero_is_healthy and values[self.severity] == 0.0
+
+    def cautions(self, values: Values, site: SiteContext) -> Sequence[str]:  # noqa: ARG002
+        """Return sentences about values that are allowed but hardly meant, with the numbers in them."""
         return ()
 
 

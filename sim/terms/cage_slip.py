@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from sim.core.laws import Laws
 from sim.core.params import Param
-from sim.core.terms import SiteContext, Term, Values
+from sim.core.terms import Demo, SiteContext, Term, Values
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,4 +32,5 @@ TERM = CageSlip(
     references=("Randall & Antoni 2011, Mech. Syst. Signal Process. 25(2), 485-520 (slip of 1 to 2 %)",),
     severity="share",
     order=20,
+    demo=Demo(values={"share": 0.05}),
 )

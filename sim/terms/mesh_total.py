@@ -16,7 +16,8 @@ from sim.core.compiled import inline, kernel
 from sim.core.elements import Element, flat
 from sim.core.laws import Laws
 from sim.core.lines import Line
-from sim.core.terms import SiteContext, Term, Values
+from sim.core.spec import MachineSpec
+from sim.core.terms import Demo, SiteContext, Term, Values
 from sim.parts.mesh_element import OUTPUTS, header, mesh_coordinates
 from sim.parts.mesh_kernels import (
     HEADER,
@@ -200,6 +201,12 @@ class MeshTotal(Term):
         )
 
 
+def one_curve(machine: MachineSpec) -> MachineSpec:
+    """The machine with its meshes as one curve each."""
+    meshes = [mesh.model_copy(update={"tooth_pairs": False}) for mesh in machine.meshes]
+    return machine.model_copy(update={"meshes": meshes})
+
+
 TERM = MeshTotal(
     key="mesh_total",
     title="Gear mesh, total stiffness curve",
@@ -209,4 +216,5 @@ TERM = MeshTotal(
     references=("seed eqs (13)-(15), (17)", "docs/physics/deviations.md"),
     severity=None,
     order=10,
+    demo=Demo(prepare=one_curve),
 )

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.params import Param
-from sim.core.terms import SiteContext, Term, Values
+from sim.core.terms import Demo, SiteContext, Term, Values
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,4 +67,5 @@ TERM = PitchError(
     references=("ISO 1328-1:2013 (single pitch deviation)",),
     severity="rms",
     order=20,
+    demo=Demo(leading=7),
 )

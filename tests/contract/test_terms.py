@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +29,7 @@ BASE = {"mesh_total", "mesh_pairs", "ball_contact", "force_load"}
 """Effects a machine has without asking, and that cannot be asked for twice."""
 ALL = [pytest.param(term, id=term.key) for term in REGISTRY]
 EXTRA = [pytest.param(term, id=term.key) for term in REGISTRY if term.key not in BASE]
+HEALTHY = [p for p in EXTRA if p.values[0].severity and p.values[0].zero_is_healthy]
 
 
 def acting(term: Term, **values: float):
@@ -34,10 +37,10 @@ def acting(term: Term, **values: float):
     return with_terms(MACHINE, TermSpec(term=term.key, site=SITES[term.sites[0]], parameters=values))
 
 
-def added(term: Term, **values: float):
+def added(term: Term, registry: Registry = REGISTRY, **values: float):
     """System with the term and the elements that the machine without it does not have, or has otherwise."""
     before = {e.name: e for e in assemble(MACHINE).elements}
-    system = assemble(acting(term, **values))
+    system = assemble(acting(term, **values), registry=registry)
     return system, [
         e
         for e in system.elements
@@ -96,11 +99,44 @@ def test_it_changes_something_at_its_default(term):
     assert elements or system.dofs != healthy.dofs
 
 
-@pytest.mark.parametrize("term", [p for p in EXTRA if p.values[0].severity and p.values[0].zero_is_healthy])
-def test_zero_severity_changes_nothing(term):
+def awake(term: Term) -> Registry:
+    """The registry with a term that assembly does not pass over at zero: what its own laws and elements do there."""
+    return Registry([replace(t, zero_is_healthy=False) if t.key == term.key else t for t in REGISTRY])
+
+
+@pytest.mark.parametrize("term", HEALTHY)
+def test_zero_severity_adds_nothing(term):
+    healthy, zero = assemble(MACHINE), assemble(acting(term, **{term.severity: 0.0}))
+    assert term.idle(term.values({term.severity: 0.0}, "here"))
+    assert zero.dofs == healthy.dofs
+    assert zero.channels == healthy.channels
+    assert zero.lines == healthy.lines
+    for ours, theirs in zip(zero.elements, healthy.elements, strict=True):
+        assert ours.name == theirs.name
+        assert np.array_equal(ours.parameters, theirs.parameters)
+
+
+@pytest.mark.parametrize("term", HEALTHY)
+def test_at_zero_severity_its_own_elements_are_without_effect(term):
+    system, elements = added(term, awake(term), **{term.severity: 0.0})
+    healthy = assemble(MACHINE)
+    for name in ("mass", "damping", "stiffness", "load"):
+        assert np.array_equal(getattr(system, name), getattr(healthy, name)), name
+    for element in elements:
+        for trial in trials(system, element, count=4):
+            row = plain_context(element, trial.step, trial.shafts, trial.u, trial.ud)[0]
+            for mode in (1, 2):
+                found = plain_force(element, mode, trial.u, trial.ud, row)
+                assert np.all(found.force == 0.0)
+            assert np.all(found.outputs[:3] == 0.0)
+
+
+@pytest.mark.parametrize("term", HEALTHY)
+def test_at_zero_severity_its_own_laws_and_elements_change_no_motion(term, monkeypatch):
     run = {"duration_s": 0.005, "output_rate_hz": 30_000.0}
     settings = Settings(estimate_error=False, anti_alias=False, steps_per_output=2)
     healthy = simulate(MACHINE, settings=settings, **run).signals
+    monkeypatch.setattr("sim.solve.api.assemble", partial(assemble, registry=awake(term)))
     zero = simulate(acting(term, **{term.severity: 0.0}), settings=settings, **run).signals
     # an element of zero force reorders sums, so rounding may differ; nothing else may
     assert zero == pytest.approx(healthy, abs=1e-11 * np.max(np.abs(healthy)))
@@ -159,9 +195,9 @@ def test_predicted_lines_refer_to_existing_bases(term):
     assert len({(line.label, line.component) for line in lines}) == len(lines), "a line is predicted twice"
 
 
-@pytest.mark.parametrize("term", [p for p in EXTRA if p.values[0].severity and p.values[0].zero_is_healthy])
+@pytest.mark.parametrize("term", HEALTHY)
 def test_zero_severity_predicts_no_line(term):
-    system = assemble(acting(term, **{term.severity: 0.0}))
+    system = assemble(acting(term, **{term.severity: 0.0}), registry=awake(term))
     assert not [line for line in system.lines if line.mechanism == term.key]
 
 
