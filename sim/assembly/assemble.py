@@ -12,6 +12,7 @@ from sim.assembly.kinematics import Kinematics, kinematics, slipped_bases
 from sim.assembly.laws import Acting, acting_terms, base_laws, machine_context, modified_laws, site_context
 from sim.assembly.linear import Linear, linear_part
 from sim.assembly.loads import load_vector
+from sim.assembly.plausibility import implausible
 from sim.assembly.references import check_references
 from sim.core.elements import Element
 from sim.core.errors import Problem, SpecError
@@ -70,6 +71,8 @@ def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGIST
     warnings: list[str] = []
     extra = [a for a in acting_terms(machine, kin, registry, seed) if not a.term.idle(a.values)]
     laws = modified_laws(base_laws(machine, derived, warnings), extra)
+    warnings += implausible(machine, kin)
+    warnings += [text for a in extra for text in a.term.cautions(a.values, a.site)]
     bases = slipped_bases(kin, machine, laws)
     linear = linear_part(machine, laws.supports)
     acting = _base(machine, kin, registry, seed) + extra

@@ -8,6 +8,8 @@ from sim.core.params import Param
 from sim.core.response import FloatArray
 from sim.core.spec import MachineSpec
 from sim.core.terms import SiteContext, Values
+from sim.parts.bearing.clearances import loosest_seat_m
+from sim.parts.bearing.size import bearing_size
 
 CONTEXT = 1
 WALL_PARAMS = (
@@ -70,6 +72,16 @@ def bore_values(machine: MachineSpec, bearing: str) -> Values:
     """Collision damping from the bearing's specification, when it has one."""
     damping = next(b.bore_damping_ns_per_m for b in machine.bearings if b.name == bearing)
     return {} if damping is None else {"damping": damping}
+
+
+def fit_cautions(values: Values, site: SiteContext) -> tuple[str, ...]:
+    """A sentence when the gap is wider than any fit of a ring of that size; none where its size is unknown."""
+    size = bearing_size(next(b for b in site.machine.bearings if b.name == site.site))
+    if size is None or values["gap"] <= (loosest := loosest_seat_m(size.outside_m)):
+        return ()
+    ring = f"a ring of {'about ' if size.estimated else ''}{1e3 * size.outside_m:.3g} mm"
+    gap = f"radial fit clearance {1e6 * values['gap']:.4g} um"
+    return (f"{site.site}: {gap} is above {1e6 * loosest:.3g} um, the loosest seat (H11/h11, ISO 286-1) of {ring}",)
 
 
 def ring_wall_coordinates(bearing: str, *, against: str | None) -> tuple[Coordinate, ...]:

@@ -23,6 +23,7 @@ from sim.parts.wall import (
     WALL_PARAMS,
     bore_values,
     clearance_lines,
+    fit_cautions,
     ring_wall_coordinates,
     wall_parameters,
 )
@@ -76,6 +77,10 @@ class FitClearance(Term):
     def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:  # noqa: ARG002
         """Multiples of the outer-race frequency (seed fig. 10)."""
         return clearance_lines(site, self.key)
+
+    def cautions(self, values: Values, site: SiteContext) -> Sequence[str]:
+        """A gap wider than any fit."""
+        return fit_cautions(values, site)
 
 
 TERM = FitClearance(

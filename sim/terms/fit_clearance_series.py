@@ -22,6 +22,7 @@ from sim.parts.wall import (
     WALL_PARAMS,
     bore_values,
     clearance_lines,
+    fit_cautions,
     ring_wall_coordinates,
     wall_parameters,
 )
@@ -88,6 +89,10 @@ class FitClearanceSeries(Term):
     def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:
         """Multiples of the outer-race frequency."""
         return clearance_lines(site, self.key) if values["gap"] > 0 else ()
+
+    def cautions(self, values: Values, site: SiteContext) -> Sequence[str]:
+        """A gap wider than any fit."""
+        return fit_cautions(values, site)
 
 
 TERM = FitClearanceSeries(
