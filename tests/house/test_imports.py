@@ -19,6 +19,7 @@ PLANTED = {
     "sim/terms/unbalance.py": "import sim.terms.eccentricity",
     "jobs/limits.py": "import rq",
     "workers/settings.py": "import app.settings",
+    "sideband_client/errors.py": "import sim.core.errors",
 }
 """One forbidden import for each contract, in the order they are declared below."""
 BROKEN_BY = {
@@ -28,6 +29,7 @@ BROKEN_BY = {
     "terms": "sim/terms/unbalance.py",
     "no-web-below": "jobs/limits.py",
     "rooms": "workers/settings.py",
+    "client": "sideband_client/errors.py",
 }
 
 

@@ -1,0 +1,130 @@
+"""The door: `connect`, and what can be asked of a server."""
+
+from __future__ import annotations
+
+import uuid
+from collections.abc import Iterator, Mapping, Sequence
+from types import TracebackType
+from typing import Any, Self
+from urllib.parse import urlsplit
+
+import httpx
+
+from sideband_client.errors import BadReply
+from sideband_client.job import Job
+from sideband_client.state import JobState, state_of
+from sideband_client.transport import Timing, Transport
+
+PAGE = 100
+
+
+def connect(url: str, *, api_key: str | None = None, timing: Timing | None = None) -> Client:
+    """A client of the server at `url` (`http://127.0.0.1:8000`). Nothing is sent before the first question."""
+    chosen = timing or Timing()
+    parts = urlsplit(url)
+    if parts.scheme not in ("http", "https") or not parts.hostname:
+        raise ValueError(f"url must be http://HOST[:PORT] or https://HOST[:PORT], not {url!r}")
+    headers = {"Accept": "application/json"} | ({"Authorization": f"Bearer {api_key}"} if api_key else {})
+    http = httpx.Client(
+        base_url=url, headers=headers, timeout=httpx.Timeout(chosen.connect_s, read=chosen.read_s, write=chosen.read_s)
+    )
+    return Client(Transport(http, chosen))
+
+
+class Client:
+    """Use it in a `with` block or close it. Not to be shared between processes; threads may share it."""
+
+    def __init__(self, transport: Transport) -> None:
+        self._transport = transport
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Give back the connections."""
+        self._transport.close()
+
+    def simulate(
+        self,
+        machine: str | Mapping[str, Any],
+        *,
+        overrides: Mapping[str, bool | float | str | None] | None = None,
+        duration_s: float = 1.0,
+        sampling_rate_hz: float = 20_000.0,
+        channels: Sequence[str] | None = None,
+        seed: int = 0,
+        discard_transient: bool = True,
+        idempotency_key: str | None = None,
+    ) -> Job:
+        """Ask for a simulation of a preset (its name) or of a whole machine specification.
+
+        `overrides`: `term@site.parameter` or a dotted path to a value in SI units. The same request shares one job and
+        one result. Repeated after a lost reply under the same key, it makes no second job; the key is made here unless
+        given. Raises InvalidRequest with the fields to change, Busy, ServiceAway, StorageFull, Unreachable.
+        """
+        body: dict[str, Any] = {"preset": machine} if isinstance(machine, str) else {"machine": dict(machine)}
+        body |= {"duration_s": duration_s, "sampling_rate_hz": sampling_rate_hz, "seed": seed}
+        body |= {"discard_transient": discard_transient, "set": dict(overrides or {})}
+        if channels is not None:
+            body["channels"] = list(channels)
+        # A name of its own for every submission: cancelling this job withdraws this submission and no other.
+        submitter = f"client-{uuid.uuid4().hex[:16]}"
+        headers = {"Idempotency-Key": idempotency_key or uuid.uuid4().hex, "X-Submitter": submitter}
+        document = self._transport.json("POST", "/v1/simulations", body=body, headers=headers)
+        return Job(self._transport, state_of(document), submitter=submitter)
+
+    def check(
+        self, machine: str | Mapping[str, Any], *, overrides: Mapping[str, bool | float | str | None] | None = None
+    ) -> dict[str, Any]:
+        """What assembly says of a machine (frequencies, channels, warnings); nothing is simulated."""
+        body: dict[str, Any] = {"preset": machine} if isinstance(machine, str) else {"machine": dict(machine)}
+        return self._transport.json("POST", "/v1/machines/check", body={**body, "set": dict(overrides or {})})
+
+    def job(self, job_id: str) -> Job:
+        """A job by its id; raises NotFound, Gone."""
+        return Job(self._transport, state_of(self._transport.json("GET", f"/v1/jobs/{_segment(job_id)}")))
+
+    def jobs(
+        self, *, status: Sequence[str] | None = None, preset: str | None = None, sort: str = "-created_at"
+    ) -> Iterator[JobState]:
+        """Jobs, the newest first; pages are fetched as they are needed."""
+        query = {"status": status, "preset": preset, "sort": sort, "limit": PAGE}
+        page = self._transport.json("GET", "/v1/jobs", query=query)
+        while True:
+            yield from (state_of(document) for document in page["jobs"])
+            following = page["next"]
+            if following is None:
+                return
+            if not str(following).startswith("/v1/jobs?"):
+                raise BadReply(f"the next page of the list has a strange address: {following}")
+            page = self._transport.json("GET", str(following))
+
+    def presets(self) -> list[dict[str, Any]]:
+        """The preset machines: `name`, `title`, `notes`."""
+        return list(self._transport.json("GET", "/v1/presets")["presets"])
+
+    def preset(self, name: str) -> dict[str, Any]:
+        """A preset as a whole machine specification, to be changed and simulated."""
+        return self._transport.json("GET", f"/v1/presets/{_segment(name)}")
+
+    def terms(self) -> list[dict[str, Any]]:
+        """The physical effects a machine can have, with parameters, units and bounds."""
+        return list(self._transport.json("GET", "/v1/terms")["terms"])
+
+    def bearings(self) -> list[dict[str, Any]]:
+        """The bearing catalogue."""
+        return list(self._transport.json("GET", "/v1/bearings")["bearings"])
+
+    def health(self) -> dict[str, Any]:
+        """How the service and each part of it is; `status` is ok, degraded or away."""
+        return self._transport.json("GET", "/v1/health")
+
+
+def _segment(text: str) -> str:
+    """Refuse what would be another address."""
+    if not text or not all(c.isalnum() or c in "-_." for c in text) or text.strip(".") == "":
+        raise ValueError(f"not a name: {text!r}")
+    return text
