@@ -53,9 +53,12 @@ paper: dev setup  ## the paper's figures and trends, recomputed into docs/
 openapi: dev  ## write openapi/openapi.json
 	$(BIN)/python -m app.openapi
 
+LOCK = $(BIN)/pip-compile --quiet --no-emit-index-url --no-emit-find-links --strip-extras --no-header $(UPGRADE)
+SERVER = --extra postgres
 lock: dev  ## new lock files from pyproject.toml (keeps what is locked; add UPGRADE=--upgrade to renew)
-	$(BIN)/pip-compile --quiet --no-emit-index-url --no-emit-find-links --strip-extras --no-header $(UPGRADE) -o requirements.lock pyproject.toml
-	$(BIN)/pip-compile --quiet --no-emit-index-url --no-emit-find-links --strip-extras --no-header $(UPGRADE) --extra dev -o requirements-dev.lock pyproject.toml
+	$(LOCK) -o requirements.lock pyproject.toml
+	$(LOCK) $(SERVER) -o requirements-server.lock pyproject.toml
+	$(LOCK) $(SERVER) --extra dev -o requirements-dev.lock pyproject.toml
 
 clean:  ## remove what the doors made in this folder (not the kernel cache, not data)
 	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build *.egg-info

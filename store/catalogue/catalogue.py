@@ -146,8 +146,12 @@ class SqlCatalogue:
 
     def remember(self, scope: str, key: str, body_sha256: str, job_id: str, now: float) -> Remembered | None:
         """Keep an idempotency key."""
-        with translated(), self._engine.begin() as connection:
-            return keys.remember(connection, scope, key, body_sha256, job_id, now)
+        try:
+            with translated(), self._engine.begin() as connection:
+                return keys.remember(connection, scope, key, body_sha256, job_id, now)
+        except IntegrityError:
+            # Another request kept the key between our look and our insert (PostgreSQL).
+            return self.recall(scope, key)
 
     def _select(self, statement: Select[Any], limit: int) -> list[JobRecord]:
         with translated(), self._reading.connect() as connection:

@@ -2,9 +2,25 @@
 
 from __future__ import annotations
 
-from sqlalchemy import BigInteger, Column, Engine, Float, Index, Integer, MetaData, String, Table, Text, inspect
+from sqlalchemy import (
+    BigInteger,
+    Column,
+    Engine,
+    Float,
+    Index,
+    Integer,
+    MetaData,
+    String,
+    Table,
+    Text,
+    func,
+    inspect,
+    select,
+)
 
 SCHEMA_VERSION = 1
+_SCHEMA_LOCK = 0x51DEBA4D
+"""Any number, the same in every process."""
 _SEQUENCE = BigInteger().with_variant(Integer(), "sqlite")
 
 metadata = MetaData()
@@ -74,9 +90,12 @@ workers = Table(
 
 
 def create_schema(engine: Engine) -> None:
-    """Create what is missing and check the version; running it again changes nothing."""
-    metadata.create_all(engine)
+    """Create what is missing and check the version; running it again, or in several processes at once, does no harm."""
     with engine.begin() as connection:
+        if engine.dialect.name == "postgresql":
+            # Two processes that start together would both find nothing and both create; SQLite's lock is taken already.
+            connection.execute(select(func.pg_advisory_xact_lock(_SCHEMA_LOCK)))
+        metadata.create_all(connection)
         row = connection.execute(meta.select().where(meta.c.name == "schema_version")).first()
         if row is None:
             connection.execute(meta.insert().values(name="schema_version", value=str(SCHEMA_VERSION)))

@@ -14,7 +14,10 @@ from packaging.utils import canonicalize_name
 
 from tests.house.project import ROOT, configuration, tracked
 
-LOCKS = ("requirements.lock", "requirements-dev.lock")
+LOCKS = ("requirements.lock", "requirements-server.lock", "requirements-dev.lock")
+RUN, SERVER, DEV = LOCKS
+SERVER_EXTRAS = ("postgres",)
+"""What the image installs besides: other stores than the folder and SQLite."""
 COPYLEFT = re.compile(r"\bA?GPL|GNU (?:Affero )?General Public", re.IGNORECASE)
 
 
@@ -51,7 +54,7 @@ def test_data_files_are_installed_with_their_package():
         assert any(fnmatch(rest, pattern) for pattern in chosen), f"{name} would not be installed"
 
 
-@pytest.mark.parametrize(("lock", "extras"), [(LOCKS[0], ()), (LOCKS[1], ("dev",))])
+@pytest.mark.parametrize(("lock", "extras"), [(RUN, ()), (SERVER, SERVER_EXTRAS), (DEV, (*SERVER_EXTRAS, "dev"))])
 def test_every_declared_dependency_is_locked_to_one_allowed_version(lock, extras):
     pins = locked(lock)
     for wanted in _declared(*extras):
@@ -69,9 +72,10 @@ def test_everything_locked_is_pinned_by_name():
 
 
 def test_developers_test_the_versions_that_run():
-    run, developed = (locked(name) for name in LOCKS)
-    differing = {name for name, pin in run.items() if str(developed[name].specifier) != str(pin.specifier)}
-    assert not differing
+    developed = locked(DEV)
+    for lock in (RUN, SERVER):
+        pins = locked(lock).items()
+        assert not {name for name, pin in pins if str(developed[name].specifier) != str(pin.specifier)}, lock
 
 
 def _licence(name: str) -> str:
@@ -84,8 +88,8 @@ def _licence(name: str) -> str:
 def test_no_dependency_is_under_the_gpl():
     present = {dist.name: dist.version for dist in installed.distributions()}
     known = {canonicalize_name(name) for name in present}
-    names = [name for name in locked(LOCKS[1]) if name in known]
-    assert len(names) > 0.8 * len(locked(LOCKS[1])), "the locked packages are not the installed ones"
+    names = [name for name in locked(DEV) if name in known]
+    assert len(names) > 0.8 * len(locked(DEV)), "the locked packages are not the installed ones"
     offending = {name: _licence(name) for name in names if COPYLEFT.search(_licence(name).replace("LGPL", ""))}
     assert not offending
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import threading
 from collections.abc import Iterator
 from pathlib import Path
@@ -25,9 +24,7 @@ COST = Cost(steps=1, memory_bytes=2, seconds=0.5)
 def catalogue(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[SqlCatalogue]:
     url = f"sqlite:///{tmp_path / 'c.sqlite'}"
     if request.param == "postgresql":
-        url = os.environ.get("SIDEBAND_TEST_POSTGRESQL_URL", "")
-        if not url:
-            pytest.skip("SIDEBAND_TEST_POSTGRESQL_URL is not set: an empty PostgreSQL database and an installed driver")
+        url = request.getfixturevalue("postgresql_url")
     database = engine.connect(url)
     schema.metadata.drop_all(database)
     schema.create_schema(database)
@@ -136,6 +133,20 @@ def test_many_writers_lose_nothing(catalogue: SqlCatalogue) -> None:
     for thread in threads:
         thread.join()
     assert len(catalogue.get("shared").submitters) == 80
+
+
+def test_of_many_requests_with_one_key_one_is_the_first(catalogue: SqlCatalogue) -> None:
+    earlier: list[object] = []
+
+    def ask(i: int) -> None:
+        earlier.append(catalogue.remember("s", "k", "h", f"j{i}", 1.0))
+
+    threads = [threading.Thread(target=ask, args=(i,)) for i in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(earlier) == 8 and earlier.count(None) == 1
 
 
 def test_idempotency_keys_are_kept_a_day(catalogue: SqlCatalogue) -> None:
