@@ -53,8 +53,8 @@ paper: dev setup  ## the paper's figures and trends, recomputed into docs/
 openapi: dev  ## write openapi/openapi.json
 	$(BIN)/python -m app.openapi
 
-LOCK = $(BIN)/pip-compile --quiet --no-emit-index-url --no-emit-find-links --strip-extras --no-header $(UPGRADE)
-SERVER = --extra postgres
+LOCK = $(BIN)/pip-compile --quiet -c constraints.txt --no-emit-index-url --no-emit-find-links --strip-extras --no-header $(UPGRADE)
+SERVER = --extra postgres --extra s3
 lock: dev  ## new lock files from pyproject.toml (keeps what is locked; add UPGRADE=--upgrade to renew)
 	$(LOCK) -o requirements.lock pyproject.toml
 	$(LOCK) $(SERVER) -o requirements-server.lock pyproject.toml

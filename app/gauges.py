@@ -19,7 +19,7 @@ def state_metrics(health: Health) -> CollectorRegistry:
     plain = {
         "sideband_outbox_jobs": ("Accepted jobs not yet with the broker.", health.queue.outbox),
         "sideband_queue_oldest_seconds": ("Age of the oldest waiting job.", health.queue.oldest_waiting_s or 0),
-        "sideband_disk_free_bytes": ("Space left for results.", health.disk.free_bytes or 0),
+        "sideband_disk_free_bytes": ("Space left for results.", _free(health)),
         "sideband_finished_last_minute": ("Jobs finished in the last minute.", health.throughput.finished_last_minute),
         "sideband_finished_last_hour": ("Jobs finished in the last hour.", health.throughput.finished_last_hour),
         "sideband_run_seconds_mean": ("Mean running time, last hour.", health.throughput.mean_run_s or 0),
@@ -34,6 +34,13 @@ def _labelled(registry: CollectorRegistry, name: str, text: str, label: str, val
     gauge = Gauge(name, text, (label,), registry=registry)
     for key, value in values.items():
         gauge.labels(key).set(value)
+
+
+def _free(health: Health) -> float:
+    if health.disk.free_bytes is None:
+        # An object store tells no bound; 0 would set off alarms.
+        return float("inf") if health.disk.status == "ok" else 0.0
+    return float(health.disk.free_bytes)
 
 
 def _parts(health: Health) -> dict[str, int]:

@@ -55,6 +55,7 @@ class DiskHealth(Reply):
 
     status: Word
     free_bytes: int | None
+    """None: an object store, which has no bound that it tells, or away."""
 
 
 class ThroughputHealth(Reply):
@@ -174,7 +175,8 @@ def _disk(state: AppState) -> DiskHealth:
         free = state.stores.artefacts.free_bytes()
     except JobError:
         return DiskHealth(status="away", free_bytes=None)
-    return DiskHealth(status="ok" if free > 4 * RESERVED_BYTES else "degraded", free_bytes=free)
+    enough = free is None or free > 4 * RESERVED_BYTES
+    return DiskHealth(status="ok" if enough else "degraded", free_bytes=free)
 
 
 def _queue(state: AppState, numbers: stats.JobStats, broker_ok: bool) -> QueueHealth:

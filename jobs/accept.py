@@ -126,7 +126,7 @@ def _check_room(desk: Desk, resolved: Resolved) -> None:
         raise QueueFull(waiting, desk.limits.waiting_jobs, retry_after_s=30)
     needed = result_bytes(resolved.document) + RESERVED_BYTES
     free = desk.artefacts.free_bytes()
-    if free < needed:
+    if free is not None and free < needed:
         raise StoreFull(f"the result needs about {needed} bytes of space, {free} are free")
 
 

@@ -200,8 +200,8 @@ class ArtefactStore(Protocol):
     def delete_prefix(self, prefix: str) -> None:
         """Remove everything under a prefix."""
 
-    def free_bytes(self) -> int:
-        """Space left."""
+    def free_bytes(self) -> int | None:
+        """Space left; None when the store has no bound that it can tell."""
 
     def check(self) -> None:
         """Raise StoreAway unless it can be written to."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sim.core.errors import Problem, SpecError
+from store.artefacts.place import ALLOWED
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,14 +27,14 @@ class StoreSettings:
 
     @property
     def artefact_folder(self) -> Path:
-        """Folder of the artefacts."""
+        """Folder of the artefacts, unless they go to a bucket (`store.artefacts.choose`)."""
         url = self.artefact_url
         if not url:
             return self.data_dir / "artefacts"
         if url.startswith("file://"):
             return Path(url.removeprefix("file://"))
         message = "is not a kind of artefact store this build has"
-        raise SpecError(Problem(field="ARTEFACT_URL", message=message, given=url, allowed="file:///absolute/folder"))
+        raise SpecError(Problem(field="ARTEFACT_URL", message=message, given=url, allowed=ALLOWED))
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> StoreSettings:

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from redis import Redis
 
-from store.artefacts.folder import FolderStore
+from jobs.ports import ArtefactStore
+from store.artefacts.choose import open_artefacts
 from store.catalogue import engine, schema
 from store.catalogue.catalogue import SqlCatalogue
 from store.queue import rq_queue
@@ -18,7 +19,7 @@ class Stores:
     """The catalogue, the artefacts and the queue."""
 
     catalogue: SqlCatalogue
-    artefacts: FolderStore
+    artefacts: ArtefactStore
     queue: rq_queue.RqQueue
 
     def close(self) -> None:
@@ -35,6 +36,6 @@ def open_stores(settings: StoreSettings, *, connection: Redis | None = None, poo
         schema.create_schema(database)
     return Stores(
         catalogue=SqlCatalogue(database),
-        artefacts=FolderStore(settings.artefact_folder),
+        artefacts=open_artefacts(settings),
         queue=rq_queue.RqQueue(connection or rq_queue.connect(settings.redis_url)),
     )

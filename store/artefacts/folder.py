@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import re
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -13,8 +12,8 @@ from pathlib import Path
 from typing import BinaryIO, cast
 
 from jobs.errors import StoreAway, StoreFull, UnknownArtefact
+from store.artefacts.naming import checked
 
-_KEY = re.compile(r"[a-z0-9]+(/[A-Za-z0-9][A-Za-z0-9._-]*)+")
 _CHUNK = 1 << 20
 
 
@@ -83,9 +82,7 @@ class FolderStore:
             stream.write(b"ok")
 
     def _path(self, key: str) -> Path:
-        if not _KEY.fullmatch(key) or ".." in key:
-            raise ValueError(f"not an artefact key: {key!r}")
-        return self._root / key
+        return self._root / checked(key)
 
 
 def _sync_folder(folder: Path) -> None:

@@ -16,7 +16,7 @@ from tests.house.project import ROOT, configuration, tracked
 
 LOCKS = ("requirements.lock", "requirements-server.lock", "requirements-dev.lock")
 RUN, SERVER, DEV = LOCKS
-SERVER_EXTRAS = ("postgres",)
+SERVER_EXTRAS = ("postgres", "s3")
 """What the image installs besides: other stores than the folder and SQLite."""
 COPYLEFT = re.compile(r"\bA?GPL|GNU (?:Affero )?General Public", re.IGNORECASE)
 
