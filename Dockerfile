@@ -1,7 +1,11 @@
-# Sideband: API and worker in one image; the command decides which.
+# Sideband: API and worker in one image; the command decides which. The API asks for SIDEBAND_API_KEYS, because from
+# inside a container it cannot tell who reaches its port.
 FROM python:3.11-slim AS build
 WORKDIR /src
 RUN python -m venv /opt/sideband
+# The locked versions first, in a layer of their own: they change seldom, the code often.
+COPY requirements-server.lock ./
+RUN /opt/sideband/bin/pip install --no-cache-dir -r requirements-server.lock
 COPY pyproject.toml README.md LICENSE THIRD_PARTY_NOTICES.md ./
 COPY sim sim
 COPY signals signals
@@ -9,7 +13,8 @@ COPY jobs jobs
 COPY store store
 COPY workers workers
 COPY app app
-RUN /opt/sideband/bin/pip install --no-cache-dir .
+COPY sideband_client sideband_client
+RUN /opt/sideband/bin/pip install --no-cache-dir --no-deps . && /opt/sideband/bin/pip check
 
 FROM python:3.11-slim
 RUN useradd --system --uid 10001 --create-home --home-dir /home/sideband sideband \
@@ -21,11 +26,12 @@ ENV PATH=/opt/sideband/bin:$PATH \
     MPLCONFIGDIR=/var/cache/sideband/matplotlib \
     OMP_NUM_THREADS=1 \
     OPENBLAS_NUM_THREADS=1 \
-    SIDEBAND_DATA_DIR=/data
+    SIDEBAND_DATA_DIR=/data \
+    SIDEBAND_HOST=0.0.0.0
 USER sideband
 WORKDIR /home/sideband
 # Compile the kernels while the image is built: the first job must not wait for it. Another kind of CPU compiles again.
-RUN python -c "from jobs.physics import PhysicsEngine; PhysicsEngine().warm()"
+RUN python -m workers.warm
 VOLUME /data
 EXPOSE 8000
 STOPSIGNAL SIGTERM
