@@ -30,9 +30,13 @@ def base_rate_hz(system: System) -> float:
     return min(wanted, MAX_RATE_HZ)
 
 
+LEAST_STEPS_PER_OUTPUT = 2
+"""With one step a sample there would be nothing to filter, and what lies above the output's Nyquist would fold down."""
+
+
 def steps_per_output(system: System, output_rate_hz: float) -> int:
     """Base steps between two output samples."""
-    return max(1, math.ceil(base_rate_hz(system) / output_rate_hz - 1e-9))
+    return max(LEAST_STEPS_PER_OUTPUT, math.ceil(base_rate_hz(system) / output_rate_hz - 1e-9))
 
 
 SECONDS_PER_STEP = 2.2e-6
