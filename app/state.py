@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, cast
 
 from fastapi import Depends, Request
@@ -11,6 +11,7 @@ from fastapi import Depends, Request
 from app.instruments import Instruments
 from app.settings import Settings
 from jobs.accept import Desk
+from jobs.kept import Kept
 from jobs.ports import Engine
 from jobs.slices import Encoder
 from store.stores import Stores
@@ -26,6 +27,8 @@ class AppState:
     encode: Encoder
     instruments: Instruments
     started_at: float
+    labels: Kept = field(default_factory=Kept)
+    """Labels of channels that are not stored with their result."""
 
     def desk(self) -> Desk:
         """For accepting and recovering."""

@@ -126,8 +126,14 @@ def peaks(
         return known
     if channel is None:
         return _json(request, found.reader.document("peaks"), etag)
-    machine, _ = restored(state.stores.catalogue.request_of(job_id))
-    return _json(request, plain(label_stored(found.reader, channel, machine)), etag)
+
+    def label() -> bytes:
+        machine, _ = restored(state.stores.catalogue.request_of(job_id))
+        return _text(plain(label_stored(found.reader, channel, machine)))
+
+    # The id names the machine, the digest the result's bytes, physics version and all.
+    body = state.labels.get((job_id, found.digest, channel), label)
+    return content(request, body, etag=etag, media_type=JSON_TYPE)
 
 
 @router.get(f"{RESULT}/files/{{name}}", responses={**ERRORS, **FILE})
@@ -169,5 +175,8 @@ def _spectrum(document: SpectrumDocument, max_points: int | None) -> dict[str, o
 
 
 def _json(request: Request, document: object, etag: str) -> Response:
-    body = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
-    return content(request, body, etag=etag, media_type=JSON_TYPE)
+    return content(request, _text(document), etag=etag, media_type=JSON_TYPE)
+
+
+def _text(document: object) -> bytes:
+    return json.dumps(document, separators=(",", ":"), allow_nan=False).encode()

@@ -11,6 +11,7 @@ import pyarrow.parquet as pq
 import pytest
 from scipy.io import loadmat, wavfile
 
+from jobs.errors import UnknownArtefact
 from tests.service.parts import eventually
 
 
@@ -276,3 +277,26 @@ def test_reference_addresses(client: httpx.Client) -> None:
     assert client.get("/v1/bearings").json()["bearings"][0]["designation"] == "6203"
     check = client.post("/v1/machines/check", json={"preset": "oscillator", "set": {"bodies.mass.mass_kg": 2}})
     assert check.json()["machine"]["bodies"][0]["mass_kg"] == 2.0 and check.json()["valid"]
+
+
+def test_labels_of_a_channel_are_made_once(client: httpx.Client, done: dict, monkeypatch: pytest.MonkeyPatch) -> None:
+    made: list[str] = []
+
+    def label(reader: object, channel: str, machine: object) -> dict[str, object]:
+        made.append(channel)
+        if channel == "nothing":
+            raise UnknownArtefact("channel", channel, ("mass.y.displacement",))
+        return {"frequencies": {}, "peaks": [], "of": channel}
+
+    monkeypatch.setattr("app.routes.results.label_stored", label)
+    path = f"{done['links']['result']}/peaks"
+    for channel in ("mass.y.displacement", "mass.y.acceleration", "mass.y.displacement"):
+        reply = client.get(path, params={"channel": channel})
+        assert reply.json()["of"] == channel and reply.headers["ETag"]
+    assert made == ["mass.y.displacement", "mass.y.acceleration"]
+    for _ in range(2):
+        assert client.get(path, params={"channel": "nothing"}).status_code == 404
+    assert made[2:] == ["nothing", "nothing"], "what fails is not kept"
+    other = wait(client, submit(client, seed=12, duration_s=0.5)["id"])
+    client.get(f"{other['links']['result']}/peaks", params={"channel": "mass.y.displacement"})
+    assert len(made) == 5, "another job has labels of its own"
