@@ -85,7 +85,7 @@ def run(arguments: argparse.Namespace) -> int:
     settings = {k: v for k, v in resolved.source.items() if k not in ("preset", "machine", "set")}
     write_result(arguments.out, response, documents, request={**origin, **settings}, elapsed_s=elapsed)
     if not arguments.quiet:
-        _say(response, documents, elapsed)
+        _say(response, documents, elapsed / (1 + further_runs(machine, request)))
         names = [*FILES, *(f"{name}.json" for name in documents.extras)]
         print(f"wrote {', '.join(names)} to {arguments.out}", file=sys.stderr)
     return 0
