@@ -214,7 +214,9 @@ def test_a_loose_ring_is_pressed_once_a_ball_pass() -> None:
     assert not folds["f_r1"]["locked"] and folds["f_r1"]["coherence"] < 0.1
     assert folds["f_c1"]["per_period"] == pytest.approx(9.0, abs=0.2), "nine balls a turn of the cage"
     times = np.array([e["time_s"] for e in wall["events"]])
-    assert np.diff(times) == pytest.approx(1 / outcome.response.bases_hz["f_o1"], rel=0.05)
+    # the second half, when the start has died away
+    late = np.diff(times[times > 1.0])
+    assert late == pytest.approx(1 / outcome.response.bases_hz["f_o1"], rel=0.05)
 
 
 @pytest.mark.slow
