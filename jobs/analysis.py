@@ -28,7 +28,7 @@ PSD_SEGMENTS = 8
 
 def analyse(response: Response, *, discard_transient: bool) -> ResultDocuments:
     """Everything that is kept beside the signals. Channels that are no vibration get features only."""
-    start_s, notes = _start(response, discard_transient)
+    start_s, notes = analysed_from(response, discard_transient)
     recording = from_response(response).select(start_s=start_s)
     moving = [c for c in recording.channels if c.quantity in VIBRATION]
     spectra: list[SpectrumDocument] = []
@@ -42,8 +42,8 @@ def analyse(response: Response, *, discard_transient: bool) -> ResultDocuments:
     return ResultDocuments(summary=_summary(response, recording, start_s, notes), peaks=peaks, spectra=tuple(spectra))
 
 
-def _start(response: Response, discard: bool) -> tuple[float, list[str]]:
-    """Where the analysis begins. A record that is nearly all transient is analysed whole, and says so."""
+def analysed_from(response: Response, discard: bool) -> tuple[float, list[str]]:
+    """Where the analysis begins, s, and notes. A record that is nearly all transient is analysed whole, and says so."""
     if not discard:
         return 0.0, []
     samples = response.signals.shape[1]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -35,9 +35,11 @@ class SpectrumDocument:
 class ResultDocuments:
     """Everything that is kept of a simulation beside its signals.
 
-    `summary` holds features, quality, derived values and warnings; `peaks` holds `frequencies` and `peaks`.
+    `summary` holds features, quality, derived values and warnings; `peaks` holds `frequencies` and `peaks`; `extras`
+    further documents by name (`causes`, `impacts`).
     """
 
     summary: Json
     peaks: Json
     spectra: tuple[SpectrumDocument, ...]
+    extras: Mapping[str, Json] = field(default_factory=dict)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -9,7 +10,8 @@ from jobs.results import ResultReader
 from signals.export import labels_document
 from signals.labels.families import kinematic_lines
 from signals.labels.machine import machine_kinematics
-from signals.labels.match import label_peaks
+from signals.labels.match import MAX_UNEXPLAINED, label_peaks
+from signals.labels.types import LabelSet
 from signals.series import Series
 from signals.spectra.amplitude import amplitude_spectrum
 from signals.spectra.envelope import envelope_spectrum
@@ -18,8 +20,6 @@ from sim.core.spec import MachineSpec
 
 REFERENCE = "f_r1"
 MIN_SAMPLES = 256
-USABLE_BAND = 2.56
-"""Sampling rate over the highest frequency that the anti-alias filter leaves untouched."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +29,14 @@ class Predicted:
     machine: MachineSpec
     seed: int
     bases_hz: Mapping[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ChannelLabels:
+    """Labels of both spectra of a channel."""
+
+    amplitude: LabelSet
+    envelope: LabelSet
 
 
 def moves(series: Series) -> bool:
@@ -41,23 +49,40 @@ def no_labels(bases_hz: Mapping[str, float]) -> dict[str, object]:
     return {"frequencies": dict(bases_hz), "peaks": [], "envelope": None}
 
 
-def label_channel(series: Series, known: Predicted) -> dict[str, object]:
-    """Labels of the amplitude spectrum, and of the envelope spectrum under `envelope`."""
+def label_sets(series: Series, known: Predicted, max_unexplained: int = MAX_UNEXPLAINED) -> ChannelLabels | None:
+    """Labels of the amplitude and of the envelope spectrum; None where there is nothing to label."""
     if REFERENCE not in known.bases_hz or not moves(series):
-        return no_labels(known.bases_hz)
+        return None
     kinematics = machine_kinematics(known.machine, known.bases_hz)
     lines = [
-        *kinematic_lines(kinematics, known.bases_hz, max_frequency_hz=series.sampling_rate_hz / USABLE_BAND),
+        *kinematic_lines(kinematics, known.bases_hz, max_frequency_hz=math.inf),
         *assemble(known.machine, seed=known.seed).lines,
     ]
     amplitude, envelope = (
-        labels_document(label_peaks(spectrum, lines, known.bases_hz, kinematics=kinematics, reference=REFERENCE))
+        label_peaks(
+            spectrum,
+            lines,
+            known.bases_hz,
+            kinematics=kinematics,
+            reference=REFERENCE,
+            max_unexplained=max_unexplained,
+        )
         for spectrum in (amplitude_spectrum(series), envelope_spectrum(series))
     )
-    return {**amplitude, "envelope": envelope}
+    return ChannelLabels(amplitude=amplitude, envelope=envelope)
 
 
-def label_stored(reader: ResultReader, channel: str, machine: MachineSpec) -> dict[str, object]:
+def label_channel(series: Series, known: Predicted, max_unexplained: int = MAX_UNEXPLAINED) -> dict[str, object]:
+    """Labels of the amplitude spectrum, and of the envelope spectrum under `envelope`."""
+    found = label_sets(series, known, max_unexplained)
+    if found is None:
+        return no_labels(known.bases_hz)
+    return {**labels_document(found.amplitude), "envelope": labels_document(found.envelope)}
+
+
+def label_stored(
+    reader: ResultReader, channel: str, machine: MachineSpec, max_unexplained: int = MAX_UNEXPLAINED
+) -> dict[str, object]:
     """The same for a channel of a stored result; raises UnknownArtefact for an unknown channel."""
     about = reader.channel(channel)
     summary = reader.document("summary")
@@ -73,4 +98,5 @@ def label_stored(reader: ResultReader, channel: str, machine: MachineSpec) -> di
         quantity=about.quantity,
         start_s=first / rate,
     )
-    return label_channel(series, Predicted(machine=machine, seed=reader.manifest.seed, bases_hz=bases))
+    known = Predicted(machine=machine, seed=reader.manifest.seed, bases_hz=bases)
+    return label_channel(series, known, max_unexplained)

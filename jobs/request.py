@@ -57,3 +57,7 @@ class SimulationRequest(MachineChoice):
     """Seed of everything random in the machine. Bounded so that JSON numbers carry it exactly."""
     discard_transient: bool = True
     """Whether spectra, features and labels leave out the start-up transient. The signals always keep it."""
+    causes: bool = False
+    """Whether to show what causes each labelled line, by simulating the machine without each of its effects (and
+    without each excitation of the base machine): some ten further runs, counted in the cost. Also lists the impacts in
+    every contact."""

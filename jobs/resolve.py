@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from jobs.causes import further_runs
 from jobs.limits import Limits, check_cost, check_request, check_sampling
 from jobs.overrides import apply_overrides
 from jobs.ports import Engine, MachineReport
@@ -35,15 +36,19 @@ def resolve(request: SimulationRequest, engine: Engine, limits: Limits) -> Resol
     check_sampling(request, report.bases_hz)
     if request.channels is not None:
         _check_channels(request.channels, report.channels)
-    cost = engine.cost(
+    one = engine.cost(
         machine,
         duration_s=request.duration_s,
         sampling_rate_hz=request.sampling_rate_hz,
         channels=request.channels,
     )
+    runs = 1 + further_runs(machine, request)
+    cost = replace(one, steps=one.steps * runs, seconds=one.seconds * runs)
     check_cost(request, cost, len(request.channels or report.default_channels), limits)
     source = {"preset": request.preset, "machine": machine.name, "set": dict(request.set)}
-    settings = request.model_dump(mode="json", exclude={"preset", "machine", "set"})
+    # a request without causes keeps the identity it had before there were any
+    absent = set() if request.causes else {"causes"}
+    settings = request.model_dump(mode="json", exclude={"preset", "machine", "set"} | absent)
     return Resolved(
         document={"machine": machine.model_dump(mode="json"), **settings}, source={**source, **settings}, cost=cost
     )

@@ -1,7 +1,8 @@
 """A result on the artefact store: written once by an attempt, read in slices.
 
 Layout under `job/attempt/`: `signals.f64` (channels x samples, little-endian float64, row after row), `spectra.f64`
-(axis then values of each spectrum), `summary.json`, `peaks.json`, and `manifest.json`, written last.
+(axis then values of each spectrum), `summary.json`, `peaks.json`, where asked for `causes.json` and `impacts.json`,
+and `manifest.json`, written last.
 """
 
 from __future__ import annotations
@@ -89,6 +90,7 @@ def write_result(
         "summary.json": _put(store, f"{prefix}/summary.json", [_json(documents.summary)]),
         "peaks.json": _put(store, f"{prefix}/peaks.json", [_json(documents.peaks)]),
     }
+    files |= {f"{name}.json": _put(store, f"{prefix}/{name}.json", [_json(d)]) for name, d in documents.extras.items()}
     manifest = Manifest(
         physics_version=response.version,
         seed=response.seed,
@@ -160,8 +162,15 @@ class ResultReader:
         self._store, self._prefix = store, prefix
         self.manifest = Manifest.model_validate_json(store.read(f"{prefix}/manifest.json"))
 
+    def has(self, name: str) -> bool:
+        """Whether the result has a document of this name."""
+        return f"{name}.json" in self.manifest.files
+
     def document(self, name: str) -> dict[str, object]:
-        """`summary` or `peaks` as JSON."""
+        """`summary`, `peaks`, or another document of the result (`has` tells) as JSON; raises UnknownArtefact."""
+        if not self.has(name):
+            known = [file.removesuffix(".json") for file in self.manifest.files if file.endswith(".json")]
+            raise UnknownArtefact("document", name, known)
         loaded: dict[str, object] = json.loads(self._store.read(f"{self._prefix}/{name}.json"))
         return loaded
 

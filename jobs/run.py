@@ -6,6 +6,7 @@ import logging
 from dataclasses import dataclass
 
 from jobs import transitions
+from jobs.carry_out import carry_out, completed
 from jobs.errors import StaleAttempt, StoreAway, StoreFull
 from jobs.ports import Analyser, ArtefactStore, Clock, Engine, JobCatalogue
 from jobs.record import Failure, JobRecord
@@ -84,17 +85,11 @@ def _work(bench: Bench, job_id: str, attempt: int) -> JobRecord:
 
 def _result(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> JobRecord:
     machine, request = restored(bench.catalogue.request_of(job_id))
-    response = bench.engine.simulate(
-        machine,
-        duration_s=request.duration_s,
-        sampling_rate_hz=request.sampling_rate_hz,
-        channels=request.channels,
-        seed=request.seed,
-        progress=reporter.simulating,
-        cancelled=reporter.cancelled,
-    )
+    outcome = carry_out(bench.engine, machine, request, progress=reporter.simulating, cancelled=reporter.cancelled)
+    response = outcome.response
     reporter.stage("analysing", 0.85)
     documents = bench.analyse(response, discard_transient=request.discard_transient)
+    documents = completed(documents, outcome.extras)
     reporter.stage("storing", 0.95)
     finished = bench.clock()
     reference = write_result(

@@ -32,6 +32,8 @@ def labels_document(labels: LabelSet) -> Document:
         "floor": asdict(labels.floor),
         "found": labels.found,
         "unexplained": labels.unexplained,
+        "truncated": labels.truncated,
+        "false_match": asdict(labels.false_match),
         "peaks": [_peak(p) for p in labels.peaks],
     }
 

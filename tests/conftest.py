@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import os
 
-import matplotlib as mpl
-from hypothesis import HealthCheck, settings
+# Before anything loads a linear algebra library: its threads would only wait for those of the other test workers.
+for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(_name, "1")
+
+import matplotlib as mpl  # noqa: E402
+from hypothesis import HealthCheck, settings  # noqa: E402
 
 mpl.use("Agg")
 

@@ -13,6 +13,8 @@ from jobs.documents import ResultDocuments
 from sim.core.response import Response
 
 FILES = ("signals.npz", "summary.json", "labels.json", "machine.json")
+FURTHER = ("causes.json", "impacts.json")
+"""Files of a result where causes were asked for or contacts recorded."""
 RESERVED = ("time_s", "sampling_rate_hz")
 
 
@@ -39,4 +41,6 @@ def write_result(
     }
     write_text(folder / "summary.json", json_text(summary))
     write_text(folder / "labels.json", json_text(documents.peaks))
+    for name, document in documents.extras.items():
+        write_text(folder / f"{name}.json", json_text(document))
     write_text(folder / "machine.json", json_text(response.machine.model_dump(mode="json")))

@@ -9,8 +9,9 @@ import argparse
 import difflib
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import psutil
 from pydantic import ValidationError
@@ -18,8 +19,10 @@ from tqdm import tqdm
 
 from app.cli.choice import add_machine_options, chosen_machine
 from app.cli.files import refuse_existing
-from app.cli.result import FILES, write_result
+from app.cli.result import FILES, FURTHER, write_result
 from jobs.analysis import analyse
+from jobs.carry_out import Outcome, carry_out, completed
+from jobs.causes import further_runs
 from jobs.documents import ResultDocuments
 from jobs.limits import Limits
 from jobs.physics import PhysicsEngine
@@ -52,6 +55,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--keep-transient", action="store_true", help="analyse from t = 0 instead of after the start-up"
     )
+    parser.add_argument(
+        "--causes",
+        action="store_true",
+        help="show what causes each line, by some ten further runs without each effect; lists impacts too",
+    )
     parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder of the result")
     parser.add_argument("--force", action="store_true", help="overwrite an earlier result in DIR")
     parser.add_argument("--quiet", action="store_true", help="no progress bar, no table of lines")
@@ -60,7 +68,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
     machine = chosen_machine(arguments)
-    refuse_existing([arguments.out / name for name in FILES], force=arguments.force)
+    refuse_existing([arguments.out / name for name in (*FILES, *FURTHER)], force=arguments.force)
     engine = PhysicsEngine()
     request = _request(arguments, machine, engine)
     memory = int(MEMORY_SHARE * psutil.virtual_memory().available)
@@ -68,17 +76,18 @@ def run(arguments: argparse.Namespace) -> int:
     arguments.out.mkdir(parents=True, exist_ok=True)
     engine.warm()
     started = time.perf_counter()
-    response = _simulated(engine, machine, request, show=not arguments.quiet)
-    elapsed = time.perf_counter() - started
-    documents = analyse(response, discard_transient=request.discard_transient)
+    outcome = _simulated(engine, machine, request, show=not arguments.quiet)
+    response, elapsed = outcome.response, time.perf_counter() - started
+    documents = completed(analyse(response, discard_transient=request.discard_transient), outcome.extras)
     origin = {"preset": arguments.preset or arguments.default_preset, "machine_file": None, "set": arguments.set}
     if arguments.machine is not None:
         origin |= {"preset": None, "machine_file": str(arguments.machine)}
     settings = {k: v for k, v in resolved.source.items() if k not in ("preset", "machine", "set")}
     write_result(arguments.out, response, documents, request={**origin, **settings}, elapsed_s=elapsed)
     if not arguments.quiet:
-        _say(response, documents, elapsed)
-        print(f"wrote {', '.join(FILES)} to {arguments.out}", file=sys.stderr)
+        _say(response, documents, elapsed / (1 + further_runs(machine, request)))
+        names = [*FILES, *(f"{name}.json" for name in documents.extras)]
+        print(f"wrote {', '.join(names)} to {arguments.out}", file=sys.stderr)
     return 0
 
 
@@ -94,6 +103,7 @@ def _request(arguments: argparse.Namespace, machine: MachineSpec, engine: Physic
             channels=channels,
             seed=arguments.seed,
             discard_transient=not arguments.keep_transient,
+            causes=arguments.causes,
         )
     except ValidationError as error:
         raise SpecError(problems_of(error)) from error
@@ -119,15 +129,16 @@ def _no_channel(name: str, known: Sequence[str]) -> Problem:
     return Problem(field="--channels", message=message, given=name, allowed=allowed)
 
 
-def _simulated(engine: PhysicsEngine, machine: MachineSpec, request: SimulationRequest, *, show: bool) -> Response:
+def _simulated(engine: PhysicsEngine, machine: MachineSpec, request: SimulationRequest, *, show: bool) -> Outcome:
+    runs = further_runs(machine, request)
+    if runs and show:
+        print(f"causes: {runs} further runs", file=sys.stderr)
     text = "{l_bar}{bar}| {n:.3g}/{total:.3g} s [{elapsed}<{remaining}]"
     with tqdm(total=request.duration_s, disable=not show, bar_format=text, file=sys.stderr) as bar:
-        return engine.simulate(
+        return carry_out(
+            engine,
             machine,
-            duration_s=request.duration_s,
-            sampling_rate_hz=request.sampling_rate_hz,
-            channels=request.channels,
-            seed=request.seed,
+            request,
             progress=lambda share: _show(bar, share * request.duration_s),
             cancelled=lambda: False,
         )
@@ -140,13 +151,20 @@ def _show(bar: tqdm, seconds: float) -> None:  # type: ignore[type-arg]
 STRONGEST = 12
 
 
+def _causes(peak: Mapping[str, Any]) -> str:
+    """The shares that make up most of a line, where causes were asked for."""
+    told = [f"{100 * c['share']:.0f} % {c['term']}@{c['site']}" for c in peak.get("causes", ()) if c["share"] >= 0.1]
+    return f"   {', '.join(told)}".replace("base_machine@", "base machine") if told else ""
+
+
 def _say(response: Response, documents: ResultDocuments, elapsed_s: float) -> None:
     """The strongest labelled lines and the quality of the run."""
     listed, warnings = documents.peaks["peaks"], documents.summary["warnings"]
     assert isinstance(listed, list) and isinstance(warnings, list)
     found = [p for p in listed if p["status"] in ("present", "ambiguous")]
     for peak in sorted(found, key=lambda p: -p["amplitude"])[:STRONGEST]:
-        print(f"{peak['label']:<20} {peak['frequency_hz']:>10.2f} Hz {peak['amplitude']:>12.4g} {peak['unit']}")
+        line = f"{peak['label']:<20} {peak['frequency_hz']:>10.2f} Hz {peak['amplitude']:>12.4g} {peak['unit']}"
+        print(f"{line}{_causes(peak)}")
     quality, speed = response.quality, response.signals.shape[1] / response.sampling_rate_hz / elapsed_s
     error = "not measured" if quality.step_error is None else f"{quality.step_error:.1e}"
     print(

@@ -13,13 +13,17 @@ from app.routes.jobs import JobId
 from app.routes.responses import problems
 from app.state import State
 from jobs import slices
+from jobs.carry_out import CAUSES, IMPACTS
+from jobs.causes import with_causes
 from jobs.documents import SpectrumDocument, SpectrumKind
 from jobs.errors import UnknownArtefact
 from jobs.labelling import label_stored
 from jobs.resolve import restored
-from jobs.results import plain
+from jobs.results import ResultReader, plain
 from jobs.thinning import highest
 from signals.encode import MEDIA_TYPES
+from signals.labels.match import MAX_UNEXPLAINED
+from signals.peaks import MAX_PEAKS
 
 router = APIRouter(tags=["results"])
 RESULT = "/v1/jobs/{job_id}/result"
@@ -53,7 +57,7 @@ def summary(job_id: JobId, request: Request, state: State) -> Response:
         "channels": [channel.model_dump() for channel in manifest.channels],
         "spectra": [{"channel": s.channel, "kind": s.kind, "unit": s.unit} for s in manifest.spectra],
         "files": {name: {**entry.model_dump(), "href": f"{base}/files/{name}"} for name, entry in found.files()},
-        "links": {part: f"{base}/{part}" for part in ("signals", "spectra", "peaks", "plots")},
+        "links": {part: f"{base}/{part}" for part in ("signals", "spectra", "peaks", "plots", *_further(found.reader))},
     }
     return _json(request, document, etag)
 
@@ -114,26 +118,46 @@ def peaks(
     request: Request,
     state: State,
     channel: Annotated[str | None, Query(max_length=120)] = None,
+    max_unexplained: Annotated[int | None, Query(ge=0, le=MAX_PEAKS)] = None,
 ) -> Response:
-    """Kinematic frequencies and labelled peaks: present, absent, ambiguous, unexplained.
+    """Kinematic frequencies and labelled peaks: present, absent, ambiguous, unexplained, above_nyquist.
 
-    Without `channel`: of the first acceleration, as stored with the job.
+    Without `channel`: of the first acceleration, as stored with the job. `max_unexplained`: how many unexplained lines
+    are listed at most, the strongest first (200); `truncated` says how many are not. With `causes` asked for, each
+    found line lists what causes it.
     """
     found = stored(state, job_id)
-    etag = etag_of(found.digest, "peaks", str(channel))
+    etag = etag_of(found.digest, "peaks", str(channel), str(max_unexplained))
     known = not_modified(request, etag)
     if known is not None:
         return known
-    if channel is None:
-        return _json(request, found.reader.document("peaks"), etag)
+    first = found.reader.document("peaks")
+    name = channel or first.get("channel")
+    if not isinstance(name, str) or (channel is None and max_unexplained is None):
+        return _json(request, first, etag)
+    most = MAX_UNEXPLAINED if max_unexplained is None else max_unexplained
 
     def label() -> bytes:
         machine, _ = restored(state.stores.catalogue.request_of(job_id))
-        return _text(plain(label_stored(found.reader, channel, machine)))
+        labels = label_stored(found.reader, name, machine, most)
+        if found.reader.has(CAUSES):
+            labels = with_causes(labels, found.reader.document(CAUSES), name)
+        return _text(plain(labels))
 
     # The id names the machine, the digest the result's bytes, physics version and all.
-    body = state.labels.get((job_id, found.digest, channel), label)
+    body = state.labels.get((job_id, found.digest, name, str(most)), label)
     return content(request, body, etag=etag, media_type=JSON_TYPE)
+
+
+@router.get(f"{RESULT}/impacts", responses=ERRORS)
+def impacts(job_id: JobId, request: Request, state: State) -> Response:
+    """Events of every recorded contact (touch, release, impact, surge), with shaft angles and histograms over periods.
+
+    There where the contacts' outputs were recorded, or `causes` was asked for.
+    """
+    found = stored(state, job_id)
+    etag = etag_of(found.digest, IMPACTS)
+    return not_modified(request, etag) or _json(request, found.reader.document(IMPACTS), etag)
 
 
 @router.get(f"{RESULT}/files/{{name}}", responses={**ERRORS, **FILE})
@@ -154,6 +178,10 @@ def file(job_id: JobId, name: str, request: Request, state: State) -> Response:
         media_type=media_type,
         filename=name,
     )
+
+
+def _further(reader: ResultReader) -> tuple[str, ...]:
+    return (IMPACTS,) if reader.has(IMPACTS) else ()
 
 
 def _spectrum(document: SpectrumDocument, max_points: int | None) -> dict[str, object]:

@@ -29,19 +29,7 @@ class Scene:
 def labelled(scene: Scene, i: int, candidate: Candidate) -> LabelledPeak:
     """The entry of a predicted line."""
     meeting, spectrum = scene.meeting, scene.spectrum
-    label = LabelledPeak(
-        label=candidate.label,
-        status="absent",
-        frequency_hz=candidate.frequency_hz,
-        order=candidate.frequency_hz / scene.unit_hz,
-        unit=spectrum.unit,
-        scaling=spectrum.scaling,
-        components=candidate.components,
-        family=candidate.family,
-        mechanism=candidate.mechanism,
-        mechanisms=candidate.mechanisms,
-        aliases=candidate.aliases,
-    )
+    label = _named(scene, candidate)
     peak = meeting.peak[i]
     if peak is None:
         reach_hz = MAIN_LOBE_BINS[spectrum.window] * spectrum.resolution_hz
@@ -55,6 +43,29 @@ def labelled(scene: Scene, i: int, candidate: Candidate) -> LabelledPeak:
         db_over_floor=float(scene.found.db_over_floor[peak]),
         alternatives=meeting.alternatives[i],
         chance_coincidence=meeting.chance[i],
+    )
+
+
+def above_nyquist(scene: Scene, candidate: Candidate) -> LabelledPeak:
+    """The entry of a predicted line that the spectrum cannot show: nothing is said of its size."""
+    return replace(_named(scene, candidate), status="above_nyquist")
+
+
+def _named(scene: Scene, candidate: Candidate) -> LabelledPeak:
+    """The entry of a predicted line before anything was measured."""
+    return LabelledPeak(
+        label=candidate.label,
+        status="absent",
+        frequency_hz=candidate.frequency_hz,
+        order=candidate.frequency_hz / scene.unit_hz,
+        unit=scene.spectrum.unit,
+        scaling=scene.spectrum.scaling,
+        component=candidate.components[0] if len(candidate.components) == 1 else None,
+        components=candidate.components,
+        family=candidate.family,
+        mechanism=candidate.mechanism,
+        mechanisms=candidate.mechanisms,
+        aliases=candidate.aliases,
     )
 
 

@@ -18,8 +18,9 @@ MECHANISM = "kinematic"
 
 @dataclass(frozen=True, kw_only=True)
 class Bound:
-    """Largest orders looked at: harmonics of each family, sidebands on each side, and in combinations of three
-    (j f_m + n f_r + k f_o, only for peaks that no family explains) the largest |n| and |k|.
+    """Largest orders looked at: harmonics of each family, sidebands on each side, and in combinations (j f_m with up to
+    two modulating bases, only for peaks that no family explains) the largest |order| of a shaft and of a bearing;
+    that of the mesh is bounded by the spectrum.
 
     `ambiguity_weight`: a sum competes for a peak that a simpler sum explains only if its |orders| add up to no more.
     """
@@ -35,7 +36,7 @@ class Bound:
     ball_cage_sidebands: int = 2
     cage: int = 5
     combination_shaft: int = 5
-    combination_outer: int = 20
+    combination_outer: int = 24
     ambiguity_weight: int = 12
 
 

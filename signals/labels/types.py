@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from signals.floor import FloorSettings
+from signals.labels.explain import FalseMatch
 from signals.labels.families import Bound
 from signals.spectra.types import Band, Scaling
 
-Status = Literal["present", "absent", "ambiguous", "unexplained"]
+Status = Literal["present", "absent", "ambiguous", "unexplained", "above_nyquist"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +40,9 @@ class LabelledPeak:
     fit as well; `chance_coincidence` is the probability that a peak anywhere near meets some other line of the
     prediction by chance. absent: predicted and not found; `detection_limit` is the amplitude that would have
     been seen, and `masked_by` the peak too close to look past. unexplained: found, not predicted (empty label).
+    above_nyquist: predicted beyond the end of the spectrum.
+    `mechanism` is the first of the `mechanisms` that predict the line, or, once counterfactual runs were made, the one
+    shown to cause it (`mechanism_basis` says which); `component` is None while several `components` are possible.
     """
 
     label: str
@@ -53,9 +57,11 @@ class LabelledPeak:
     amplitude: float | None = None
     db_over_floor: float | None = None
     detection_limit: float | None = None
+    component: str | None = None
     components: tuple[str, ...] = ()
     family: str = ""
     mechanism: str = ""
+    mechanism_basis: Literal["predicted", "counterfactual"] = "predicted"
     mechanisms: tuple[str, ...] = ()
     aliases: tuple[str, ...] = ()
     alternatives: tuple[str, ...] = ()
@@ -83,6 +89,9 @@ class LabelSet:
     """Peaks found in the spectrum."""
     unexplained: int
     """Peaks found that nothing predicted; `peaks` lists the strongest of them."""
+    truncated: int
+    """Unexplained peaks that `peaks` does not list."""
+    false_match: FalseMatch
     band: Band | None = field(default=None)
 
     def with_status(self, status: Status) -> tuple[LabelledPeak, ...]:

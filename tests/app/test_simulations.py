@@ -56,6 +56,26 @@ def test_same_request_shares_one_job(client: httpx.Client, done: dict) -> None:
     assert spelled["id"] == done["id"], "the same machine spelled out is the same job"
 
 
+def test_causes_are_another_job_that_costs_its_runs(client: httpx.Client, done: dict) -> None:
+    reply = wait(client, submit(client, seed=11, duration_s=0.5, causes=True)["id"])
+    assert reply["id"] != done["id"] and reply["status"] == "successful", reply
+    assert reply["request"]["causes"] is True and "causes" not in done["request"]
+    assert reply["cost"]["steps"] == done["cost"]["steps"], "an oscillator has nothing that can be taken away"
+    summary = client.get(f"/v1/jobs/{reply['id']}/result").json()
+    assert summary["cause_cost"] == {"runs": 0, "steps": 0}
+    assert "causes.json" in summary["files"] and "impacts" not in summary["links"]
+    missing = client.get(f"/v1/jobs/{reply['id']}/result/impacts")
+    assert missing.status_code == 404 and missing.headers["content-type"].startswith("application/problem+json")
+
+
+def test_the_list_of_unexplained_lines_is_asked_for(client: httpx.Client, done: dict) -> None:
+    address = f"/v1/jobs/{done['id']}/result/peaks"
+    channel = "mass.y.acceleration"
+    some = client.get(address, params={"channel": channel, "max_unexplained": 0})
+    assert some.status_code == 200 and not [p for p in some.json()["peaks"] if p["status"] == "unexplained"]
+    assert client.get(address, params={"max_unexplained": -1}).status_code == 422
+
+
 def test_other_seed_is_another_job(client: httpx.Client, done: dict) -> None:
     assert submit(client, seed=12, duration_s=0.5)["id"] != done["id"]
 

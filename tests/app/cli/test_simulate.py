@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.cli.result import FILES
+from app.cli.result import FILES, FURTHER
 
 Call = Callable[..., tuple[int, str, str]]
 Process = Callable[..., subprocess.CompletedProcess[str]]
@@ -41,6 +41,24 @@ def test_a_result_folder(sideband: Process, tmp_path: Path) -> None:
     assert summary["quality"]["energy"]["acceptable"] is True
     machine = json.loads((out / "machine.json").read_text())
     assert machine["terms"] == [{"term": "fit_clearance", "site": "bearing1", "parameters": {"gap": 2e-5}}]
+
+
+@pytest.mark.slow
+def test_causes_and_impacts_on_request(sideband: Process, tmp_path: Path) -> None:
+    out = tmp_path / "result"
+    change = ("--set", "eccentricity@pinion.radius=2e-5", "--duration", 0.6, "--channels", "resonator1.y.acceleration")
+    done = sideband("simulate", "--preset", "paper-lightly-damped", *change, "--causes", "--out", out)
+    assert done.returncode == 0, done.stderr
+    assert "causes: 7 further runs" in done.stderr and "100 % eccentricity@pinion" in done.stdout
+    assert {path.name for path in out.iterdir()} == {*FILES, *FURTHER}
+    labels = json.loads((out / "labels.json").read_text())
+    assert labels["cause_cost"]["runs"] == 7 and labels["cause_cost"]["steps"] > 7 * 36_000
+    sideband_line = next(p for p in labels["peaks"] if p["label"] == "1*f_m+1*f_r1")
+    assert sideband_line["causes"][0]["term"] == "eccentricity" and sideband_line["causes"][0]["share"] > 0.9
+    impacts = json.loads((out / "impacts.json").read_text())
+    assert [c["contact"] for c in impacts["contacts"]] == ["mesh1"]
+    with np.load(out / "signals.npz") as signals:
+        assert "mesh1.contact" not in signals, "only what was asked for is kept"
 
 
 def test_the_written_machine_gives_the_same_signals(call: Call, tmp_path: Path) -> None:

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from gearbox import BASES, KINEMATICS, LINES, labelled, sines
 
-from signals.labels import Kinematics, Matching, label_peaks
+from signals.labels import Bound, Kinematics, Matching, label_peaks
+from signals.labels.combinations import modulators
 from signals.spectra import amplitude_spectrum
+from sim.core.lines import Line
 
 F_M, F_R1, F_O1 = BASES["f_m"], BASES["f_r1"], BASES["f_o1"]
 
@@ -36,6 +38,46 @@ def test_strangers_are_mostly_left_unexplained() -> None:
     explained = [p for p in found.peaks if p.family == "combination"]
     assert len(explained) <= 20
     assert found.unexplained > 150
+
+
+def test_the_false_match_rate_is_measured_and_bounded() -> None:
+    """The rate told beside the labels is that of lines put anywhere, and stays below the bound."""
+    rng = np.random.default_rng(5)
+    places = np.sort(rng.uniform(50.0, 4900.0, 150))
+    told = labelled({float(f): 1.0 for f in places}, seconds=20.0, noise=0.05)
+    assert 0 < told.false_match.combinations <= told.false_match.bound == 0.05
+    assert told.false_match.families < 0.05
+    hits = 0
+    for seed in range(4):
+        again = np.random.default_rng(100 + seed).uniform(50.0, 4900.0, 150)
+        found = labelled({float(f): 1.0 for f in again}, seconds=20.0, noise=0.05)
+        hits += sum(p.family == "combination" for p in found.peaks)
+    # 600 lines at the rate told: within four standard deviations
+    expected = told.false_match.combinations
+    assert abs(hits / 600 - expected) < 4 * (expected * (1 - expected) / 600) ** 0.5
+
+
+def test_many_products_of_few_bases_are_explained() -> None:
+    """j f_m + k f_o1 with k far beyond the families, and with a shaft: what clearance and run-out make together."""
+    lines = {j * F_M + k * F_O1: 0.01 for j in range(1, 5) for k in (-14, -11, 10, 13, 17)}
+    lines |= {j * F_M + n * F_R1 + k * F_O1: 0.01 for j in range(1, 5) for n in (-1, 1) for k in (-2, -1, 1, 2)}
+    found = labelled({F_M: 1.0, **lines}, seconds=10.0)
+    explained = [p for p in found.peaks if p.family == "combination"]
+    assert len(explained) > 0.9 * len(lines)
+    assert found.unexplained < 0.1 * len(lines)
+
+
+def test_only_excited_bases_modulate() -> None:
+    """With a term that speaks of f_r1 alone, f_r2 (9/32 of it here) explains nothing."""
+    excited = Line(orders=(("f_m", 1), ("f_r1", 1)), component="pinion", mechanism="eccentricity", family="mesh")
+    bound = Bound()
+    assert {m.base for m in modulators(KINEMATICS, BASES, LINES, bound)} == {"f_r1", "f_r2", "f_o1", "f_o3"}
+    assert {m.base for m in modulators(KINEMATICS, BASES, [*LINES, excited], bound)} == {"f_r1"}
+
+
+def test_equal_bearings_are_one_modulator_of_two_components() -> None:
+    found = {m.base: m.components for m in modulators(KINEMATICS, BASES, LINES, Bound())}
+    assert found["f_o1"] == ("bearing1", "bearing2")
 
 
 def test_uncertain_speeds_leave_combinations_unproven() -> None:

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from signals.export import labels_document
 from signals.floor import FloorSettings
-from signals.labels import Bound, Matching, label_peaks, merge_lines
-from signals.spectra import amplitude_spectrum, power_spectral_density
+from signals.labels import Bound, Matching, kinematic_lines, label_peaks, merge_lines
+from signals.spectra import amplitude_spectrum, envelope_spectrum, power_spectral_density
 from sim.core.errors import SpecError, UnknownName
 from sim.core.lines import Line
 
@@ -63,6 +63,35 @@ def test_found_lines_nobody_predicts_are_unexplained() -> None:
     assert stranger.measured_frequency_hz == pytest.approx(1234.567, abs=0.01)
     assert stranger.amplitude == pytest.approx(0.01, rel=0.01)
     assert found.unexplained == 1
+
+
+def test_the_list_of_unexplained_lines_is_bounded_and_says_so() -> None:
+    lines = {1000.0 + 37.77 * k: 0.01 for k in range(30)}
+    found = labelled(GEAR | lines, max_unexplained=5, matching=Matching(max_chance=0.0))
+    assert len(found.with_status("unexplained")) == 5
+    assert found.unexplained == found.truncated + 5 > 20
+    assert labelled(GEAR | lines, max_unexplained=0).truncated > 0
+
+
+def test_lines_beyond_the_axis_are_listed_as_such() -> None:
+    lines = kinematic_lines(KINEMATICS, BASES, max_frequency_hz=np.inf)
+    spectrum = amplitude_spectrum(sines(GEAR))
+    found = label_peaks(spectrum, lines, BASES, kinematics=KINEMATICS)
+    beyond = found.with_status("above_nyquist")
+    assert found["8*f_m"].status == "above_nyquist" and found["8*f_m"].frequency_hz == pytest.approx(5520.0)
+    assert all(p.frequency_hz > RATE / 2 - 2.0 and p.amplitude is None and p.detection_limit is None for p in beyond)
+    assert not [p for p in found.with_status("absent") if p.frequency_hz > RATE / 2]
+    inside = {p.label for p in found.peaks if p.label} - {p.label for p in beyond}
+    assert {"7*f_m", "1*f_o1"} <= inside
+    envelope = label_peaks(envelope_spectrum(sines(GEAR), band=(500.0, 1500.0)), lines, BASES, kinematics=KINEMATICS)
+    assert not envelope.with_status("above_nyquist")  # its axis ends with the band, not with the record
+
+
+def test_one_component_is_named_and_several_are_left_open() -> None:
+    found = labelled(GEAR | OUTER)
+    assert found["1*f_m"].component == "mesh1"
+    assert found["1*f_o1"].component is None and found["1*f_o1"].components == ("bearing1", "bearing2")
+    assert {p.mechanism_basis for p in found.peaks} == {"predicted"}
 
 
 def two_sums(distance_hz: float) -> tuple[dict[str, float], list[Line]]:
@@ -177,7 +206,8 @@ def test_the_document_has_the_agreed_keys_and_is_json() -> None:
     assert document["frequencies"]["f_m"] == 690.0
     keys = {"label", "frequency_hz", "order", "amplitude", "unit", "status", "components"}
     assert all(keys <= set(peak) for peak in document["peaks"])
-    assert {p["status"] for p in document["peaks"]} == {"present", "absent", "unexplained"}
+    assert {p["status"] for p in document["peaks"]} <= {"present", "absent", "unexplained", "above_nyquist"}
+    assert document["truncated"] == 0 and document["false_match"]["bound"] == 0.05
     assert document["bound"]["outer"] == 20 and document["floor"]["false_alarm"] == 1e-6
 
 
@@ -207,13 +237,14 @@ def test_every_predicted_line_has_one_entry_and_every_peak_an_owner(lines: dict[
     names = [p.label for p in found.peaks if p.label]
     assert len(names) == len(set(names))
     inside = [c for c in merge_lines(LINES, BASES, KINEMATICS) if 2.0 <= c.frequency_hz <= RATE / 2 - 2.0]
-    assert {p.label for p in found.peaks if p.label and p.family != "combination"} == {c.label for c in inside}
+    listed = [p for p in found.peaks if p.label and p.family != "combination" and p.status != "above_nyquist"]
+    assert {p.label for p in listed} == {c.label for c in inside}
     for peak in found.peaks:
-        assert (peak.amplitude is None) == (peak.status == "absent")
+        assert (peak.amplitude is None) == (peak.status in ("absent", "above_nyquist"))
         assert (peak.detection_limit is not None) == (peak.status == "absent")
         assert bool(peak.alternatives) == (peak.status == "ambiguous")
     owned = {p.measured_frequency_hz for p in found.peaks if p.amplitude is not None}
-    assert len(owned) == found.found
+    assert len(owned) == found.found - found.truncated
 
 
 @settings(deadline=None, max_examples=20)

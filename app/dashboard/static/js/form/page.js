@@ -41,6 +41,7 @@ function build(main, { presets, terms, earlier, wanted }, signal) {
   const fields = general(recheck);
   const effects = effectsPanel(terms, recheck);
   const outputs = outputsPanel(() => {});
+  const causes = h("input", { type: "checkbox", name: "causes" });
   const checked = checkPanel();
   const problems = h("div", { class: "form-problems" });
   const notes = h("p", { class: "preset-notes" });
@@ -51,7 +52,8 @@ function build(main, { presets, terms, earlier, wanted }, signal) {
     problems,
     section("Machine", h("div", { class: "fields" },
       h("div", { class: "field" }, h("label", { for: "preset" }, "Preset"), h("div", { class: "field-input" }, preset)), fields.speed.element), notes),
-    section("Run", h("div", { class: "fields" }, fields.duration_s.element, fields.sampling_rate_hz.element, fields.seed.element)),
+    section("Run", h("div", { class: "fields" }, fields.duration_s.element, fields.sampling_rate_hz.element, fields.seed.element),
+      h("label", { class: "check" }, causes, h("span", {}, "Show what causes each line", h("small", {}, "Some ten further runs, each without one effect; lists the impacts too.")))),
     section("Physical effects", effects.element),
     section("Outputs", outputs.element),
     h("div", { class: "submit-row" }, submit, h("span", { class: "muted small" }, "The same request shares one result.")));
@@ -75,13 +77,14 @@ function build(main, { presets, terms, earlier, wanted }, signal) {
 
   function prefill(values) {
     for (const name of ["duration_s", "sampling_rate_hz", "seed"]) fields[name].set(values[name]);
+    causes.checked = Boolean(values.causes);
     effects.apply(values.set ?? {});
     if (values.set?.["operating.speed_hz"]) fields.speed.set(values.set["operating.speed_hz"]);
   }
 
   function body() {
     const run = Object.fromEntries(["duration_s", "sampling_rate_hz", "seed"].map((name) => [name, fields[name].value()]));
-    return buildRequest({ preset: preset.value, machine, speed_hz: fields.speed.value(), general: run, effects: effects.effects(), channels: outputs.channels() });
+    return buildRequest({ preset: preset.value, machine, speed_hz: fields.speed.value(), general: causes.checked ? { ...run, causes: true } : run, effects: effects.effects(), channels: outputs.channels() });
   }
 
   function valid() {

@@ -15,6 +15,9 @@ export const FAMILIES = [
 
 const KNOWN = new Set(FAMILIES.map((family) => family.key));
 
+/** Predicted lines that nothing was found of: absent, or beyond the end of the spectrum. */
+export const unseen = (peak) => peak.status === "absent" || peak.status === "above_nyquist";
+
 /** The family of a peak as the dashboard groups it; families it does not know join the combinations. */
 export function familyOf(peak) {
   if (peak.status === "unexplained" || !peak.family) return "unexplained";

@@ -1,7 +1,7 @@
 /** Buttons that switch the families of lines on and off; one choice for all plots and the table. */
 
 import { h, replace } from "/js/lib/dom.js";
-import { FAMILIES, drawMarker, familyColour, familyOf } from "/js/lib/families.js";
+import { FAMILIES, drawMarker, familyColour, familyOf, unseen } from "/js/lib/families.js";
 
 export function swatch(key, className = "") {
   const canvas = h("canvas", { width: 28, height: 28, class: className, "aria-hidden": "true" });
@@ -30,7 +30,7 @@ export function familyChips(context, onChange) {
 
   function setPeaks(peaks) {
     counts = {};
-    for (const peak of peaks) if (peak.status !== "absent") counts[familyOf(peak)] = (counts[familyOf(peak)] ?? 0) + 1;
+    for (const peak of peaks) if (!unseen(peak)) counts[familyOf(peak)] = (counts[familyOf(peak)] ?? 0) + 1;
     refresh();
   }
   document.addEventListener("themechange", refresh);

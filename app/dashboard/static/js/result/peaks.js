@@ -1,7 +1,7 @@
 /** The table of labelled peaks. */
 
 import { h, replace, segmented } from "/js/lib/dom.js";
-import { familyInfo, familyOf } from "/js/lib/families.js";
+import { familyInfo, familyOf, unseen } from "/js/lib/families.js";
 import { number, partName, scaled, unit } from "/js/lib/format.js";
 import { familyChips, swatch } from "/js/result/families.js";
 import { formula } from "/js/plot/formula.js";
@@ -26,7 +26,7 @@ export function peaksCard(context, { onChoose, onFamilies }) {
   let limit = STEP;
   let chosen = null;
   const chips = familyChips(context, onFamilies);
-  const statuses = segmented("Status of the lines", [["found", "Found"], ["present", "Present"], ["ambiguous", "Ambiguous"], ["unexplained", "Unexplained"], ["absent", "Absent"], ["all", "All"]], "found", (value) => { status = value; limit = STEP; draw(); });
+  const statuses = segmented("Status of the lines", [["found", "Found"], ["present", "Present"], ["ambiguous", "Ambiguous"], ["unexplained", "Unexplained"], ["absent", "Absent"], ["above_nyquist", "Beyond Nyquist"], ["all", "All"]], "found", (value) => { status = value; limit = STEP; draw(); });
   const count = h("span", { class: "muted small num" });
   const heads = COLUMNS.map(([key, name, right]) => h("th", { scope: "col", class: right ? "right" : "", dataset: { key } },
     h("button", { type: "button", onclick: () => sortBy(key) }, h("span", {}, name), h("span", { class: "arrow", "aria-hidden": "true" }))));
@@ -44,7 +44,7 @@ export function peaksCard(context, { onChoose, onFamilies }) {
   }
 
   const wanted = (peak) => context.families.has(familyOf(peak)) || (status === "unexplained" && peak.status === "unexplained");
-  const inStatus = (peak) => status === "all" || peak.status === status || (status === "found" && peak.status !== "absent");
+  const inStatus = (peak) => status === "all" || peak.status === status || (status === "found" && !unseen(peak));
 
   function draw() {
     const pick = COLUMNS.find(([key]) => key === sort.key)[3];
@@ -71,11 +71,18 @@ export function peaksCard(context, { onChoose, onFamilies }) {
       h("td", {}, h("button", { type: "button", class: "row-button", title: peak.aliases?.length ? `same as ${peak.aliases.join(", ")}` : peak.label }, swatch(family, "swatch"), peak.label ? formula(peak.label) : h("span", { class: "muted" }, "not explained"), h("span", { class: "visually-hidden" }, familyInfo(family).name))),
       h("td", { class: "right" }, number(peak.measured_frequency_hz ?? peak.frequency_hz, 6)),
       h("td", { class: "right" }, number(peak.order, 5)),
-      h("td", { class: "right" }, peak.amplitude === null ? h("span", { class: "muted", title: "Smallest amplitude that would have been seen" }, `< ${number(peak.detection_limit * factor, 2)} ${shown}`) : `${number(peak.amplitude * factor, 4)} ${shown} ${peak.scaling}`),
+      h("td", { class: "right" }, peak.status === "above_nyquist" ? "–" : peak.amplitude === null ? h("span", { class: "muted", title: "Smallest amplitude that would have been seen" }, `< ${number(peak.detection_limit * factor, 2)} ${shown}`) : `${number(peak.amplitude * factor, 4)} ${shown} ${peak.scaling}`),
       h("td", { class: "right" }, peak.db_over_floor === null ? "–" : number(peak.db_over_floor, 3)),
-      h("td", {}, h("span", { class: "pill", dataset: { tone: TONES[peak.status] ?? "" }, title: peak.alternatives?.length ? `or ${peak.alternatives.join(", ")}` : peak.masked_by ? `masked by ${peak.masked_by}` : "" }, peak.status)),
+      h("td", {}, h("span", { class: "pill", dataset: { tone: TONES[peak.status] ?? "" }, title: peak.alternatives?.length ? `or ${peak.alternatives.join(", ")}` : peak.masked_by ? `masked by ${peak.masked_by}` : "" }, peak.status.replace(/_/g, " "))),
       h("td", {}, peak.components.map(partName).join(", ") || "–"),
-      h("td", {}, (peak.mechanisms ?? []).map((m) => m.replace(/_/g, " ")).join(", ") || "–"));
+      h("td", {}, peak.causes?.length ? causes(peak) : (peak.mechanisms ?? []).map((m) => m.replace(/_/g, " ")).join(", ") || "–"));
+  }
+
+  /** Shares of the line's power, shown by counterfactual runs. */
+  function causes(peak) {
+    const told = peak.causes.map((c) => `${Math.round(c.share * 100)} % ${c.term.replace(/_/g, " ")}${c.site ? ` ${partName(c.site)}` : ""}`);
+    const removed = peak.causes.map((c) => `without ${c.term} ${c.site} (${c.counterfactual.replace(/_/g, " ")}): ${c.at_least ? "at least " : ""}${number(c.removed_db, 3)} dB less`);
+    return h("span", { class: "causes", title: removed.join("\n") }, told.filter((_, i) => peak.causes[i].share >= 0.01).join(", ") || "–");
   }
 
   function choose(peak) {

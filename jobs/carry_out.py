@@ -1,0 +1,89 @@
+"""Carrying out a request: the simulation, and on request the counterfactual runs and the impacts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+from jobs.analysis import analysed_from
+from jobs.causes import find_causes, further_runs, plan_causes, with_causes
+from jobs.documents import Json, ResultDocuments
+from jobs.impacts import contact_outputs, impacts_document, impacts_summary, narrowed
+from jobs.ports import Engine
+from jobs.request import SimulationRequest
+from sim.core.response import Response
+from sim.core.spec import MachineSpec
+
+CAUSES, IMPACTS = "causes", "impacts"
+"""Names of the further documents of a result."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """The response that was asked for, and what else was found, by name."""
+
+    response: Response
+    extras: Mapping[str, Json]
+
+
+def carry_out(
+    engine: Engine,
+    machine: MachineSpec,
+    request: SimulationRequest,
+    *,
+    progress: Callable[[float], None],
+    cancelled: Callable[[], bool],
+) -> Outcome:
+    """Simulate; raises Diverged, Cancelled. Progress counts all runs alike; nothing is kept when one of them ends."""
+    total = 1 + further_runs(machine, request)
+    done = 0
+
+    def run(variant: MachineSpec, channels: list[str] | None) -> Response:
+        nonlocal done
+        first = done
+        response = engine.simulate(
+            variant,
+            duration_s=request.duration_s,
+            sampling_rate_hz=request.sampling_rate_hz,
+            channels=channels,
+            seed=request.seed,
+            progress=lambda share: progress((first + share) / total),
+            cancelled=cancelled,
+        )
+        done += 1
+        return response
+
+    if not request.causes:
+        response = run(machine, request.channels)
+        return Outcome(response=response, extras=_impacts(response, response, request))
+    wanted, recorded = _channels(engine, machine, request)
+    whole = run(machine, recorded)
+    response = narrowed(whole, wanted)
+    start_s, _ = analysed_from(response, request.discard_transient)
+    causes = find_causes(response, plan_causes(machine), lambda twin: run(twin, list(wanted)), start_s=start_s)
+    return Outcome(response=response, extras={CAUSES: causes, **_impacts(whole, response, request)})
+
+
+def completed(documents: ResultDocuments, extras: Mapping[str, Json]) -> ResultDocuments:
+    """The documents with causes in the labels and a summary of the impacts."""
+    peaks, summary = documents.peaks, documents.summary
+    if CAUSES in extras and "channel" in peaks:
+        peaks = with_causes(peaks, extras[CAUSES], str(peaks["channel"]))
+    if CAUSES in extras:
+        summary = {**summary, "cause_cost": extras[CAUSES]["cost"], "cause_rule": extras[CAUSES]["rule"]}
+    if IMPACTS in extras:
+        summary = {**summary, "impacts": impacts_summary(extras[IMPACTS])}
+    return replace(documents, peaks=peaks, summary=summary, extras=extras)
+
+
+def _channels(engine: Engine, machine: MachineSpec, request: SimulationRequest) -> tuple[tuple[str, ...], list[str]]:
+    """What was asked for, and that with the outputs of the contacts."""
+    report = engine.report(machine)
+    wanted = tuple(request.channels or report.default_channels)
+    return wanted, list(dict.fromkeys((*wanted, *contact_outputs(report.channels))))
+
+
+def _impacts(whole: Response, response: Response, request: SimulationRequest) -> dict[str, Json]:
+    start_s, _ = analysed_from(response, request.discard_transient)
+    found = impacts_document(whole, start_s)
+    return {} if found is None else {IMPACTS: found}

@@ -1,0 +1,172 @@
+"""Which combinations explain what the families leave, and how often chance alone would have explained a peak.
+
+A sum explains a peak when all distinct sums at most as heavy (`rank_of`) are so sparse there that one of them would
+lie within the peak's tolerance by chance with at most `max_chance`. The accepted sums around a peak therefore cover
+no more than that share of the axis: a line put anywhere at random is explained with at most that probability. The
+share is also measured, with the peaks moved to places that have nothing to do with the machine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from signals.labels.combinations import Grid
+from signals.peaks import FoundPeaks
+from signals.series import BoolArray, FloatArray, IntArray
+from sim.core.lines import Line
+
+GOLDEN = 0.6180339887498949
+"""Fractional part of the golden ratio: its multiples fill the unit interval evenly and fit no lattice of lines."""
+PLACES = 2000
+"""Random places looked at, at least: a share of 5 % is then known to about half a percent."""
+TRIALS = 6
+SAME_HZ = 1e-6
+"""Sums nearer than this are one: rounding of identical sums."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FalseMatch:
+    """Share of lines at random places that would have been explained, 0..1.
+
+    `families`: by a predicted line; `combinations`: by a sum beyond them, kept at or below `bound` by construction.
+    """
+
+    families: float
+    combinations: float
+    bound: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sums:
+    """Distinct sums of all grids sorted by frequency; `grid` and `row` say where each comes from; shape (sums,)."""
+
+    grids: tuple[Grid, ...]
+    frequency_hz: FloatArray
+    rank: IntArray
+    grid: IntArray
+    row: IntArray
+
+    def lines(self, i: int) -> tuple[Line, ...]:
+        """The sum as lines, one for each component."""
+        return tuple(self.grids[int(self.grid[i])].lines(int(self.row[i])))
+
+
+def gather(grids: Sequence[Grid]) -> Sums:
+    """All sums; of those with equal frequency the one of lowest rank."""
+    if not grids:
+        none = np.zeros(0, dtype=np.int64)
+        return Sums(grids=(), frequency_hz=np.zeros(0), rank=none, grid=none, row=none)
+    frequency = np.concatenate([g.frequency_hz for g in grids])
+    rank = np.concatenate([g.rank for g in grids])
+    grid = np.concatenate([np.full(g.rank.size, i) for i, g in enumerate(grids)])
+    row = np.concatenate([np.arange(g.rank.size) for g in grids])
+    place = np.round(frequency / SAME_HZ)
+    order = np.lexsort((rank, place))
+    kept = order[np.diff(place[order], prepend=-1.0) > 0]
+    return Sums(grids=tuple(grids), frequency_hz=frequency[kept], rank=rank[kept], grid=grid[kept], row=row[kept])
+
+
+def explained_by(
+    sums: Sums, frequency_hz: FloatArray, reach_hz: FloatArray, *, resolution_hz: float, max_chance: float
+) -> tuple[list[list[int]], FloatArray]:
+    """For each frequency the credible sums within its reach, lowest rank first, and the chance of the first.
+
+    Chance is that of a Poisson process with the density of all sums at most as heavy in the neighbourhood (5 % of the
+    frequency, at least 100 bins, to each side). No credible sum: an empty list and a chance of 1.
+    """
+    chance = np.ones(frequency_hz.size)
+    owners: list[list[int]] = []
+    for k, (f, reach) in enumerate(zip(frequency_hz.tolist(), reach_hz.tolist(), strict=True)):
+        low, high = np.searchsorted(sums.frequency_hz, (f - reach, f + reach))
+        if high <= low:
+            owners.append([])
+            continue
+        half = neighbourhood_hz(f, resolution_hz)
+        start, stop = np.searchsorted(sums.frequency_hz, (f - half, f + half))
+        near = sums.rank[start:stop]
+        width = half + min(half, f)
+        credible = []
+        for i in sorted(range(low, high), key=lambda j: (sums.rank[j], abs(sums.frequency_hz[j] - f))):
+            others = int(np.count_nonzero(near <= sums.rank[i]))
+            probability = float(-np.expm1(-2 * reach * others / width))
+            if probability > max_chance:
+                break
+            chance[k] = min(chance[k], probability)
+            credible.append(i)
+        owners.append(credible)
+    return owners, chance
+
+
+def neighbourhood_hz(frequency_hz: float, resolution_hz: float) -> float:
+    """Half width of the stretch in which densities are counted, Hz."""
+    return max(0.05 * frequency_hz, 100 * resolution_hz)
+
+
+def displaced(found: FoundPeaks, resolution_hz: float, top_hz: float, *, round_: int) -> FloatArray:
+    """The peaks moved within their neighbourhoods to places without meaning, the same every time, Hz."""
+    numbers = np.arange(found.frequency_hz.size) + round_ * found.frequency_hz.size + 1
+    share = 2 * np.mod(numbers * GOLDEN, 1.0) - 1
+    half = np.array([neighbourhood_hz(f, resolution_hz) for f in found.frequency_hz])
+    moved = np.abs(found.frequency_hz + share * half)
+    return np.asarray(np.where(moved > top_hz, 2 * top_hz - moved, moved), dtype=np.float64)
+
+
+def _rounds(found: FoundPeaks) -> int:
+    return max(1, -(-PLACES // found.frequency_hz.size))
+
+
+def measured_chance(
+    sums: Sums, found: FoundPeaks, reach_hz: FloatArray, *, resolution_hz: float, top_hz: float, max_chance: float
+) -> float:
+    """Share of displaced peaks that the combinations explain."""
+    if not found.frequency_hz.size or not sums.rank.size:
+        return 0.0
+    hits = [
+        np.mean(
+            [
+                bool(o)
+                for o in explained_by(
+                    sums,
+                    displaced(found, resolution_hz, top_hz, round_=i),
+                    reach_hz,
+                    resolution_hz=resolution_hz,
+                    max_chance=max_chance,
+                )[0]
+            ]
+        )
+        for i in range(_rounds(found))
+    ]
+    return float(np.mean(hits))
+
+
+def bounded_chance(
+    sums: Sums, found: FoundPeaks, reach_hz: FloatArray, *, resolution_hz: float, top_hz: float, max_chance: float
+) -> tuple[float, float]:
+    """A limit on the chance that keeps the measured share of false matches within `max_chance`, and that share.
+
+    Sums crowd near multiples of each other, so the share can exceed the limit by a little; the limit is then lowered.
+    """
+    limit = max_chance
+    for _ in range(TRIALS):
+        share = measured_chance(sums, found, reach_hz, resolution_hz=resolution_hz, top_hz=top_hz, max_chance=limit)
+        if share <= max_chance:
+            return limit, share
+        limit *= 0.9 * max_chance / share
+    return 0.0, 0.0
+
+
+def measured_hits(
+    predicted_hz: FloatArray, found: FoundPeaks, reach_hz: FloatArray, *, resolution_hz: float, top_hz: float
+) -> float:
+    """Share of displaced peaks that some predicted line (sorted, Hz) reaches."""
+    if not found.frequency_hz.size or not predicted_hz.size:
+        return 0.0
+    hits: list[BoolArray] = []
+    for i in range(_rounds(found)):
+        moved = displaced(found, resolution_hz, top_hz, round_=i)
+        low = np.searchsorted(predicted_hz, moved - reach_hz)
+        hits.append(np.asarray(np.searchsorted(predicted_hz, moved + reach_hz, side="right") > low))
+    return float(np.mean(hits))
