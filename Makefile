@@ -3,28 +3,42 @@ PYTHON ?= $(shell command -v python3.11 || command -v python3.12 || command -v p
 VENV := .venv
 BIN := $(VENV)/bin
 PORT ?= 8000
+OPEN ?= --open
+# Shows how many of the packages named in a lock file are fetched; a failure of pip stays one.
+FETCHED = awk -v all="$$(grep -c '==' $(1))" '/^Collecting /{n++; if (n % 10 == 0) say(n " of " all " packages fetched")} \
+  /^Installing collected/{say("unpacking them")} /^pip failed$$/{bad = 1} function say(text) {print "      " text; fflush()} \
+  END{exit bad}'
+PIP = PYTHONUNBUFFERED=1 $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 
 .DELETE_ON_ERROR:
-.PHONY: run setup dev browser lint fast test bench paper openapi lock clean help
+.PHONY: run setup env dev browser lint fast test bench cost paper openapi lock clean help
 
-run: setup  ## start the service, simulate the demo through the queue, open its page
-	$(BIN)/sideband serve --port $(PORT) --demo --open
+run: setup  ## start the service, simulate the demo through the queue, open its page (PORT=8001, OPEN= for no browser)
+	@echo "[4/4] starting broker, workers and HTTP server on port $(PORT)"
+	@$(BIN)/sideband serve --port $(PORT) --demo $(OPEN)
 
-setup: $(VENV)/.installed  ## environment, and the kernels compiled into their cache
+setup: env  ## environment, and the kernels compiled into their cache
+	@echo "[3/4] numerical kernels: loading, or compiling them once (about 20 s)"
 	@$(BIN)/python -m workers.warm
 
+env: $(VENV)/.installed
+
 $(VENV)/.installed: requirements.lock pyproject.toml
-	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed" if sys.version_info < (3, 11) else 0)'
-	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV) || { rm -rf $(VENV); \
+	@test -n "$(PYTHON)" || { echo "no python3 found: Python 3.11 or newer is needed, or name one: make PYTHON=/path/to/python3"; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed, this is %d.%d; name another: make PYTHON=/path/to/python3" % sys.version_info[:2] if sys.version_info < (3, 11) else 0)'
+	@echo "[1/4] creating the environment in $(VENV) ($(PYTHON))"
+	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV) || { rm -rf $(VENV); \
 	  echo "python's venv module is missing (on Debian and Ubuntu: apt-get install python3-venv)"; exit 1; }
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps -e .
-	touch $@
+	@echo "[2/4] installing the locked packages (once; about a minute, depending on the network)"
+	@{ $(PIP) -r requirements.lock || echo "pip failed"; } | $(call FETCHED,requirements.lock)
+	@$(PIP) --quiet --no-deps -e .
+	@touch $@
 
 dev: $(VENV)/.developed
 $(VENV)/.developed: requirements-dev.lock $(VENV)/.installed
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements-dev.lock
-	touch $@
+	@echo "installing the developers' tools (once; about a minute)"
+	@{ $(PIP) -r requirements-dev.lock || echo "pip failed"; } | $(call FETCHED,requirements-dev.lock)
+	@touch $@
 
 browser:  ## what the browser tests need (Debian; needs root)
 	@command -v chromium >/dev/null && command -v chromedriver >/dev/null || \
@@ -46,6 +60,9 @@ test: dev browser setup lint  ## lint and every test; what CI runs
 
 bench: dev setup  ## speed and accuracy; ends with one line of JSON
 	$(BIN)/python -m bench
+
+cost: setup  ## measure again what a step costs (data/ of the estimate: jobs/cost.json)
+	$(BIN)/python -m bench.cost
 
 paper: dev setup  ## the paper's figures and trends, recomputed into docs/
 	$(BIN)/python -m paper

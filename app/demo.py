@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import threading
+from dataclasses import dataclass
+
 import httpx
 
 DEMO = {
@@ -19,11 +22,31 @@ DEMO = {
 }
 """Sensor, orbit, mesh stiffness and wall force: what the result page draws. The same request shares one result."""
 TIMEOUT_S = 10.0
+LOOK_EVERY_S = 0.3
 
 
-def submit_demo(url: str, api_key: str | None = None) -> str:
-    """Submit the demo at a running server; returns the address of its result page."""
-    headers = {} if api_key is None else {"Authorization": f"Bearer {api_key}"}
-    reply = httpx.post(f"{url}v1/simulations", json=DEMO, headers=headers, timeout=TIMEOUT_S)
+@dataclass(frozen=True, kw_only=True)
+class Demo:
+    """A demo that was accepted: its job, the addresses of its status and of its page."""
+
+    job_url: str
+    page: str
+
+
+def submit_demo(url: str) -> Demo:
+    """Submit the demo at a running server."""
+    reply = httpx.post(f"{url}v1/simulations", json=DEMO, timeout=TIMEOUT_S)
     reply.raise_for_status()
-    return f"{url}#/jobs/{reply.json()['id']}"
+    job_id = reply.json()["id"]
+    return Demo(job_url=f"{url}v1/jobs/{job_id}", page=f"{url}#/jobs/{job_id}")
+
+
+def wait_for_demo(demo: Demo, stop: threading.Event) -> str:
+    """How the demo ended: `successful`, `failed`, `dismissed`; an empty text when the service stops before."""
+    while not stop.wait(LOOK_EVERY_S):
+        reply = httpx.get(demo.job_url, timeout=TIMEOUT_S)
+        reply.raise_for_status()
+        status = str(reply.json()["status"])
+        if status not in ("accepted", "running"):
+            return status
+    return ""

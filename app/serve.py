@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import signal
@@ -20,7 +21,7 @@ import httpx
 import uvicorn
 from fastapi import FastAPI
 
-from app.demo import submit_demo
+from app.demo import submit_demo, wait_for_demo
 from app.settings import Settings
 from app.supervise import Supervisor
 from app.wiring import application
@@ -37,9 +38,13 @@ class BrokerUnavailable(SidebandError):
     """The embedded broker did not start."""
 
 
-def _say_where(url: str) -> None:
-    sys.stdout.write(f"Sideband is at {url}\n")
+def _say(text: str) -> None:
+    sys.stdout.write(f"{text}\n")
     sys.stdout.flush()
+
+
+def _say_where(url: str) -> None:
+    _say(f"Sideband is at {url}")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,6 +105,7 @@ def run(service: Service) -> int:
         threading.Thread(target=_greet, args=(service, server, listener, stop), daemon=True).start()
         if not stop.is_set():
             server.run(sockets=[listener])
+            _say("stopping workers and broker; what was running is handed back and starts again with the service")
         return 0 if stop.is_set() else 1
 
 
@@ -129,12 +135,21 @@ def _listening(settings: Settings) -> Iterator[socket.socket]:
         listener.bind((settings.host.strip("[]"), settings.port))
     except OSError as error:
         listener.close()
-        message = f"cannot be listened on: {error.strerror}"
-        raise SpecError(
-            Problem(field="port", message=message, given=settings.port, allowed="a free port, or 0 for any")
-        ) from error
+        raise SpecError(_not_listening(settings, error)) from error
     with listener:
         yield listener
+
+
+def _not_listening(settings: Settings, error: OSError) -> Problem:
+    if error.errno == errno.EADDRINUSE:
+        message = "is taken by another program, perhaps by another Sideband"
+        allowed = f"a free port: `make run PORT={settings.port + 1}`, `sideband serve --port {settings.port + 1}`, or 0"
+        return Problem(field="port", message=message, given=settings.port, allowed=allowed)
+    if error.errno == errno.EACCES:
+        allowed = "1024 to 65535"
+        return Problem(field="port", message="needs more rights than you have", given=settings.port, allowed=allowed)
+    message = f"cannot be listened on: {error.strerror or error}"
+    return Problem(field="host", message=message, given=settings.host, allowed="an address of this machine")
 
 
 @contextmanager
@@ -202,18 +217,33 @@ def _greet(service: Service, server: uvicorn.Server, listener: socket.socket, st
     name = {"0.0.0.0": "localhost", "::": "localhost"}.get(host, f"[{host}]" if ":" in host else host)
     url = f"http://{name}:{port}/"
     service.announce(url)
-    page = _demo_page(url) if service.demo else url
-    if service.open_browser:
-        webbrowser.open(page)
+    data = service.settings.stores.data_dir
+    _say(f"{_count(service.workers, 'worker')}; jobs and results are kept in {data}; Ctrl-C stops everything in order")
+    if service.open_browser and not service.demo:
+        webbrowser.open(url)
+    if service.demo:
+        _show_demo(service, url, stop)
 
 
-def _demo_page(url: str) -> str:
-    """Submit the demo and say where its result will be; a failure leaves the service running."""
+def _count(number: int, thing: str) -> str:
+    return f"{number} {thing}{'' if number == 1 else 's'}"
+
+
+def _show_demo(service: Service, url: str, stop: threading.Event) -> None:
+    """Submit the demo, say where its result is and when it is there; a failure leaves the service running."""
+    if service.settings.keys_required:
+        _say(f"no demo: this server asks for API keys; start a simulation at {url}#/new")
+        return
     try:
-        page = submit_demo(url)
+        demo = submit_demo(url)
+        _say(f"simulating the paper's gearbox with a loose bearing: {demo.page}")
+        if service.open_browser:
+            webbrowser.open(demo.page)
+        ended = wait_for_demo(demo, stop)
     except httpx.HTTPError as error:
-        sys.stdout.write(f"The demo was not accepted: {error}\n")
-        return url
-    sys.stdout.write(f"The paper's machine is being simulated; its labelled spectrum: {page}\n")
-    sys.stdout.flush()
-    return page
+        _say(f"the demo could not be shown: {error}")
+        return
+    if ended == "successful":
+        _say(f"The demo is ready, open its labelled spectrum: {demo.page}")
+    elif ended:
+        _say(f"the demo is {ended}: {demo.page} says why")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ipaddress
+import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -60,20 +61,35 @@ class Settings:
         env = os.environ if environment is None else environment
         base = Limits()
         limits = Limits(
-            duration_s=float(env.get("SIDEBAND_MAX_DURATION_S", base.duration_s)),
-            steps=int(env.get("SIDEBAND_MAX_STEPS", base.steps)),
-            memory_bytes=int(env.get("SIDEBAND_MAX_MEMORY_BYTES", base.memory_bytes)),
-            seconds=float(env.get("SIDEBAND_MAX_SECONDS", base.seconds)),
-            waiting_jobs=int(env.get("SIDEBAND_MAX_WAITING", base.waiting_jobs)),
+            duration_s=number(env, "SIDEBAND_MAX_DURATION_S", base.duration_s),
+            steps=int(number(env, "SIDEBAND_MAX_STEPS", base.steps)),
+            memory_bytes=int(number(env, "SIDEBAND_MAX_MEMORY_BYTES", base.memory_bytes)),
+            seconds=number(env, "SIDEBAND_MAX_SECONDS", base.seconds),
+            waiting_jobs=int(number(env, "SIDEBAND_MAX_WAITING", base.waiting_jobs)),
         )
         return cls(
             stores=StoreSettings.from_environment(env),
             host=env.get("SIDEBAND_HOST", cls.host),
-            port=int(env.get("SIDEBAND_PORT", cls.port)),
+            port=int(number(env, "SIDEBAND_PORT", cls.port, most=65535)),
             api_keys=parse_keys(env.get("SIDEBAND_API_KEYS", "")),
             allowed_hosts=tuple(h.strip() for h in env.get("SIDEBAND_ALLOWED_HOSTS", "").split(",") if h.strip()),
             limits=limits,
         )
+
+
+def number(env: Mapping[str, str], name: str, default: float, *, most: float = math.inf) -> float:
+    """A number from 0 to `most` in the environment; SpecError names the variable. An empty text is the default."""
+    text = env.get(name, "").strip()
+    if not text:
+        return default
+    try:
+        found = float(text)
+    except ValueError:
+        found = math.nan
+    if not 0 <= found <= most or math.isinf(found):
+        allowed = f"0 to {most:g}" if math.isfinite(most) else "a number, 0 or more"
+        raise SpecError(Problem(field=name, message="is not usable", given=text, allowed=allowed))
+    return found
 
 
 def parse_keys(text: str) -> dict[str, str]:

@@ -72,14 +72,14 @@ class Supervisor:
                 try:
                     self._look(place)
                 except (SidebandError, OSError) as error:
-                    log.warning("worker %s: %s", place.name, error)
+                    log.warning("%s: %s", place.name, error)
             self._stopping.wait(LOOK_EVERY_S)
         self._end()
 
     def _look(self, place: _Place) -> None:
         now = time.monotonic()
         if place.process is not None and place.process.poll() is not None:
-            log.warning("worker %s ended with code %s", place.name, place.process.returncode)
+            log.warning("%s ended with code %s; it is started again", place.name, place.process.returncode)
             place.failures = 0 if now - place.started_at > STEADY_S else place.failures + 1
             place.not_before = now + min(LONGEST_PAUSE_S, 0.2 * 2**place.failures if place.failures else 0.0)
             place.process = None
@@ -116,4 +116,4 @@ class Supervisor:
             try:
                 self._settle(place.name, lost=False)
             except SidebandError as error:
-                log.warning("worker %s: %s", place.name, error)
+                log.warning("%s: %s", place.name, error)

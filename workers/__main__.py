@@ -33,7 +33,7 @@ def main(arguments: list[str]) -> int:
     try:
         return run_worker(start, PhysicsEngine(), analyse)
     except SidebandError as error:
-        sys.stderr.write(f"worker {given.name}: {error}\n")
+        sys.stderr.write(f"{given.name}: {error}\n")
         return 1
 
 

@@ -36,7 +36,7 @@ def run_worker(start: Start, engine: Engine, analyse: Analyser) -> int:
     opened = context.open_context(start.name, start.stores, start.settings, engine, analyse)
     context.install(opened)
     worker = SidebandWorker(opened)
-    log.info("worker %s is ready", start.name)
+    log.info("ready")  # the log's format names the worker
     worker.work(logging_level="WARNING")
     return 0 if worker.asked_to_stop else 1
 
