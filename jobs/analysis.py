@@ -1,6 +1,7 @@
 """Features, spectra and labelled peaks of a response: `jobs.ports.Analyser` on `signals`.
 
-The first acceleration is labelled here; other channels are labelled when they are asked for (`jobs.labelling`).
+The first acceleration, of a machine without one the first angular acceleration, is labelled here; other channels are
+labelled when they are asked for (`jobs.labelling`).
 """
 
 from __future__ import annotations
@@ -22,7 +23,9 @@ from sim.core.errors import SpecError
 from sim.core.response import Channel, Response
 
 MIN_REVOLUTIONS = 2.0
-VIBRATION = ("acceleration", "velocity", "displacement")
+LABELLED = ("acceleration", "angular_acceleration")
+"""Quantities labelled with the result, the best first."""
+VIBRATION = (*LABELLED, "velocity", "displacement", "angular_velocity", "angular_displacement")
 PSD_SEGMENTS = 8
 
 
@@ -34,12 +37,19 @@ def analyse(response: Response, *, discard_transient: bool) -> ResultDocuments:
     spectra: list[SpectrumDocument] = []
     for channel in moving:
         spectra += [_document(s) for s in channel_spectra(recording.series(channel.name), channel, response.bases_hz)]
-    first = next((c for c in moving if c.quantity == "acceleration"), None)
-    peaks = no_labels(response.bases_hz)
-    if first is not None:
-        known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz)
-        peaks = label_channel(recording.series(first.name), known)
+    peaks = _labels(response, recording)
+    if "reason" in peaks:
+        notes = [*notes, f"no labels: {peaks['reason']}"]
     return ResultDocuments(summary=_summary(response, recording, start_s, notes), peaks=peaks, spectra=tuple(spectra))
+
+
+def _labels(response: Response, recording: Recording) -> dict[str, object]:
+    """Labels of the first channel of the best quantity there is."""
+    ranked = [c for quantity in LABELLED for c in recording.channels if c.quantity == quantity]
+    if not ranked:
+        return no_labels(response.bases_hz, "no acceleration was recorded; ask for one, or for `all` channels")
+    known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz)
+    return label_channel(recording.series(ranked[0].name), known)
 
 
 def analysed_from(response: Response, discard: bool) -> tuple[float, list[str]]:
@@ -60,7 +70,7 @@ def channel_spectra(series: Series, channel: Channel, bases_hz: Mapping[str, flo
         amplitude_spectrum(series),
         power_spectral_density(series, resolution_hz=PSD_SEGMENTS / duration_s),
     ]
-    if channel.quantity == "acceleration" and moves(series):
+    if channel.quantity in LABELLED and moves(series):
         found.append(envelope_spectrum(series))
     speed = bases_hz.get(REFERENCE, 0.0)
     if speed * duration_s >= MIN_REVOLUTIONS:

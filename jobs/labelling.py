@@ -44,14 +44,25 @@ def moves(series: Series) -> bool:
     return series.samples.size >= MIN_SAMPLES and float(series.samples.std()) > 0
 
 
-def no_labels(bases_hz: Mapping[str, float]) -> dict[str, object]:
-    """The document of a channel without labels."""
-    return {"frequencies": dict(bases_hz), "peaks": [], "envelope": None}
+def no_labels(bases_hz: Mapping[str, float], reason: str) -> dict[str, object]:
+    """The document of a channel without labels; `reason` says why and what would help."""
+    return {"frequencies": dict(bases_hz), "peaks": [], "envelope": None, "reason": reason}
+
+
+def why_unlabelled(series: Series, bases_hz: Mapping[str, float]) -> str:
+    """Why a channel cannot be labelled; empty when it can."""
+    if REFERENCE not in bases_hz:
+        return "nothing turns in this machine, so there are no kinematic lines to look for"
+    if series.samples.size < MIN_SAMPLES:
+        return f"the analysed stretch has {series.samples.size} samples, labels need {MIN_SAMPLES}: simulate longer"
+    if not moves(series):
+        return f"{series.name} does not move"
+    return ""
 
 
 def label_sets(series: Series, known: Predicted, max_unexplained: int = MAX_UNEXPLAINED) -> ChannelLabels | None:
     """Labels of the amplitude and of the envelope spectrum; None where there is nothing to label."""
-    if REFERENCE not in known.bases_hz or not moves(series):
+    if why_unlabelled(series, known.bases_hz):
         return None
     kinematics = machine_kinematics(known.machine, known.bases_hz)
     lines = [
@@ -76,7 +87,7 @@ def label_channel(series: Series, known: Predicted, max_unexplained: int = MAX_U
     """Labels of the amplitude spectrum, and of the envelope spectrum under `envelope`."""
     found = label_sets(series, known, max_unexplained)
     if found is None:
-        return no_labels(known.bases_hz)
+        return no_labels(known.bases_hz, why_unlabelled(series, known.bases_hz))
     return {**labels_document(found.amplitude), "envelope": labels_document(found.envelope)}
 
 

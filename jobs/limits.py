@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -26,8 +27,23 @@ class Limits:
     waiting_jobs: int = 1000
 
 
+LEAST_SAMPLES = 64
+"""Fewer output samples have no spectrum worth the name."""
+
+
 def check_request(request: SimulationRequest, limits: Limits) -> None:
     """Refuse what can be refused without building the machine."""
+    rate = request.sampling_rate_hz
+    if request.duration_s * rate < LEAST_SAMPLES * (1 - 1e-6):
+        raise SpecError(
+            Problem(
+                field="duration_s",
+                message=f"is too short: {math.ceil(request.duration_s * rate)} samples at {rate:g} Hz",
+                given=request.duration_s,
+                allowed=f">= {LEAST_SAMPLES / rate:.6g}",
+                unit="s",
+            )
+        )
     if request.duration_s > limits.duration_s:
         allowed = f"<= {limits.duration_s:g}"
         message = "is longer than this server accepts"

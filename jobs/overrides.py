@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import copy
 import difflib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
 from pydantic import ValidationError
@@ -13,6 +15,7 @@ from jobs.validation import problems_of
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec
 
+RPM_NAMES = ("rpm", "speed_rpm", "n_rpm", "revolutions", "rev_per_min")
 SYNTAX = "`term@site.parameter`, or a dotted path into the machine such as `operating.speed_hz`"
 
 
@@ -31,10 +34,61 @@ def apply_overrides(machine: MachineSpec, overrides: Mapping[str, object]) -> Ma
             problems.append(problem)
     if problems:
         raise SpecError(problems)
+    with told_by_key(document, overrides):
+        try:
+            return MachineSpec.model_validate(document)
+        except ValidationError as error:
+            raise SpecError(problems_of(error)) from error
+
+
+@contextmanager
+def told_by_key(document: Mapping[str, Any], overrides: Mapping[str, object]) -> Iterator[None]:
+    """Problems raised inside name the override that brought them, not the place it has in the machine.
+
+    `document`: the machine with the overrides in it. A problem that no override touches keeps its field.
+    """
     try:
-        return MachineSpec.model_validate(document)
-    except ValidationError as error:
-        raise SpecError(problems_of(error, prefix="set")) from error
+        yield
+    except SpecError as error:
+        places = {place: key for key in overrides for place in _places(document, key)}
+        raise SpecError([_renamed(problem, places) for problem in error.problems]) from error
+
+
+def _renamed(problem: Problem, places: Mapping[str, str]) -> Problem:
+    key = places.get(problem.field.removeprefix("machine."))
+    if key is None:
+        return problem
+    near = difflib.get_close_matches(str(problem.given), problem.allowed.split(", "), n=1)
+    hint = f" (did you mean {near[0]}?)" if near and isinstance(problem.given, str) else ""
+    return replace(problem, field=f"set.{key}", message=problem.message + hint)
+
+
+def _places(document: Mapping[str, Any], key: str) -> Iterator[str]:
+    """Fields by which validation and assembly may call what `key` names: by number, and by name."""
+    if "@" not in key:
+        yield key
+        yield ".".join(_numbered(document, key.split(".")))
+        return
+    term, _, place = key.partition("@")
+    site, _, parameter = place.partition(".")
+    for i, spec in enumerate(document["terms"]):
+        if spec["term"] == term and spec["site"] == site:
+            yield f"terms.{i}.parameters.{parameter}"
+            # Of a term's name and site only what was given here can be wrong: presets are checked.
+            yield from (f"terms.{i}.term", f"terms.{i}.site", f"terms.{i}")
+
+
+def _numbered(node: Any, parts: list[str]) -> list[str]:  # noqa: ANN401 - a JSON document
+    if not parts:
+        return []
+    if isinstance(node, list):
+        names = [item.get("name") for item in node]
+        if parts[0] not in names:
+            return parts
+        at = names.index(parts[0])
+        return [str(at), *_numbered(node[at], parts[1:])]
+    child = node.get(parts[0]) if isinstance(node, dict) else None
+    return [parts[0], *_numbered(child, parts[1:])]
 
 
 def _set_term(document: dict[str, Any], key: str, value: object) -> Problem | None:
@@ -59,7 +113,9 @@ def _set_path(document: dict[str, Any], key: str, value: object) -> Problem | No
     for depth, part in enumerate(parts):
         names = _names(node)
         if part not in names:
-            return _unknown(key, part, ".".join(parts[:depth]) or "the machine", names)
+            near = _near(node, part)
+            whole = [".".join([*parts[:depth], path]) for path in near]
+            return _unknown(key, value, part, ".".join(parts[:depth]) or "the machine", names, whole)
         if depth == len(parts) - 1:
             break
         node = node[part] if isinstance(node, dict) else next(item for item in node if item.get("name") == part)
@@ -72,13 +128,36 @@ def _set_path(document: dict[str, Any], key: str, value: object) -> Problem | No
 def _names(node: object) -> list[str]:
     if isinstance(node, dict):
         return list(node)
-    if isinstance(node, list):
-        return [item["name"] for item in node if isinstance(item, dict) and "name" in item]
-    return []
+    return [item["name"] for item in _named(node)]
 
 
-def _unknown(key: str, part: str, where: str, names: list[str]) -> Problem:
-    close = difflib.get_close_matches(part, names, n=1)
-    hint = f" (did you mean {close[0]!r}?)" if close else ""
-    allowed = ", ".join(names) or SYNTAX
-    return Problem(field=f"set.{key}", message=f"{where} has no {part!r}{hint}", given=key, allowed=allowed)
+def _named(node: object) -> list[dict[str, Any]]:
+    return [i for i in node if isinstance(i, dict) and "name" in i] if isinstance(node, list) else []
+
+
+def _near(node: object, part: str) -> list[str]:
+    """Paths below `node` whose last name is like `part`; the likeliest first, at most three."""
+    leaves = list(_leaves(node))
+    names = {path.rsplit(".", 1)[-1] for path in leaves} | set(_names(node))
+    close = difflib.get_close_matches(part, sorted(names), n=2)
+    close += [name for name in sorted(names) if name.startswith(f"{part}_") and name not in close]
+    by_name = [path for name in close for path in (*_names(node), *leaves) if path.rsplit(".", 1)[-1] == name]
+    return list(dict.fromkeys(by_name))[:3]
+
+
+def _leaves(node: object, path: str = "") -> Iterator[str]:
+    if isinstance(node, dict | list):
+        items = node.items() if isinstance(node, dict) else zip(_names(node), _named(node), strict=True)
+        for name, item in items:
+            yield from _leaves(item, f"{path}.{name}" if path else name)
+    elif path:
+        yield path
+
+
+def _unknown(key: str, value: object, part: str, where: str, names: list[str], near: list[str]) -> Problem:
+    hint = f" (did you mean {' or '.join(near)}?)" if near else ""
+    if part.lower() in RPM_NAMES:
+        hertz = f"={value / 60:g}" if isinstance(value, int | float) and not isinstance(value, bool) else ""
+        hint = f" (speeds are given in Hz, rpm / 60: operating.speed_hz{hertz})"
+    allowed = SYNTAX if near or hint else ", ".join(names) or SYNTAX
+    return Problem(field=f"set.{key}", message=f"{where} has no {part!r}{hint}", given=value, allowed=allowed)

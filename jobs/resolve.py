@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from jobs.causes import further_runs
 from jobs.limits import Limits, check_cost, check_request, check_sampling
-from jobs.overrides import apply_overrides
+from jobs.overrides import apply_overrides, told_by_key
 from jobs.ports import Engine, MachineReport
 from jobs.record import Cost
 from jobs.request import MachineChoice, SimulationRequest
@@ -32,7 +32,8 @@ def resolve(request: SimulationRequest, engine: Engine, limits: Limits) -> Resol
     """Build the machine, check every reference and bound, estimate the cost; raises SpecError."""
     check_request(request, limits)
     machine = machine_of(request, engine)
-    report = report_of(machine, engine)
+    with told_by_key(machine.model_dump(mode="json"), request.set):
+        report = report_of(machine, engine)
     check_sampling(request, report.bases_hz)
     if request.channels is not None:
         _check_channels(request.channels, report.channels)

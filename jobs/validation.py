@@ -52,7 +52,7 @@ def problem_of(details: ErrorDetails, prefix: str = "") -> Problem:
     context: Mapping[str, object] = details.get("ctx", {})
     given = None if details["type"] == "missing" else shown(details.get("input"))
     unit = unit_of(field)
-    message = _message(details) + _unit_hint(details.get("input"), unit, context)
+    message = _message(details) + _unit_hint(details.get("input"), field, context)
     return Problem(field=field, message=message, given=given, allowed=_allowed(details["type"], context), unit=unit)
 
 
@@ -95,12 +95,16 @@ def _number(value: object) -> str:
     return f"{value:g}" if isinstance(value, int | float) else str(value)
 
 
-def _unit_hint(value: object, unit: str, context: Mapping[str, object]) -> str:
-    """Recognise millimetres and micrometres where a length in metres is too large."""
+def _unit_hint(value: object, field: str, context: Mapping[str, object]) -> str:
+    """Recognise rpm where a frequency is too large, millimetres and micrometres where a length in metres is."""
     high = context.get("le", context.get("lt"))
-    if unit != "m" or isinstance(value, bool) or not isinstance(value, int | float) or value <= 0:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value) or value <= 0:
         return ""
-    if not isinstance(high, int | float) or not math.isfinite(value):
+    if not isinstance(high, int | float):
+        return ""
+    if field.endswith("speed_hz") and value / 60 <= high:
+        return f" (if rpm were meant: {value:g} rpm are {value / 60:g} Hz)"
+    if unit_of(field) != "m":
         return ""
     for factor, name in ((1e-3, "mm"), (1e-6, "um")):
         if value * factor <= high:

@@ -6,8 +6,9 @@ import contextlib
 import json
 import math
 import os
+import shutil
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import BinaryIO
 
@@ -17,21 +18,45 @@ from sim.core.errors import Problem, SpecError
 
 
 def read_json(path: Path) -> dict[str, object]:
-    """A JSON object; SpecError says where it is broken. NaN and Infinity are refused."""
-
-    def refuse(text: str) -> object:
-        raise SpecError(Problem(field=str(path), message="is not JSON", given=text, allowed="finite numbers"))
-
+    """A JSON object; SpecError says where it is broken. NaN, Infinity and repeated keys are refused."""
     try:
-        document = json.loads(path.read_text(encoding="utf-8"), parse_constant=refuse)
-    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise SpecError(Problem(field=str(path), message=f"is not readable JSON: {error}")) from error
+        document = strict_json(path.read_text(encoding="utf-8"), str(path))
+    except UnicodeDecodeError as error:
+        raise SpecError(Problem(field=str(path), message=f"is not text in UTF-8: {error.reason}")) from error
     if not isinstance(document, dict):
         allowed = "a JSON object"
         raise SpecError(
             Problem(field=str(path), message="is not an object", given=type(document).__name__, allowed=allowed)
         )
     return document
+
+
+def strict_json(text: str, field: str) -> object:
+    """The JSON in a text; SpecError names `field` and says where it is broken."""
+
+    def refuse(constant: str) -> object:
+        raise SpecError(Problem(field=field, message="is not JSON", given=constant, allowed="finite numbers"))
+
+    def unique(pairs: list[tuple[str, object]]) -> dict[str, object]:
+        found = dict(pairs)
+        if len(found) < len(pairs):
+            keys = [key for key, _ in pairs]
+            twice = next(key for key in keys if keys.count(key) > 1)
+            raise SpecError(Problem(field=field, message="has a key twice", given=twice[:80], allowed="each key once"))
+        return found
+
+    try:
+        return json.loads(text, parse_constant=refuse, object_pairs_hook=unique)
+    except json.JSONDecodeError as error:
+        raise SpecError(Problem(field=field, message=f"is not readable JSON: {error}")) from error
+    except RecursionError as error:
+        raise SpecError(Problem(field=field, message="is nested too deeply")) from error
+    except SpecError:
+        raise
+    except ValueError as error:
+        # Python refuses to read whole numbers beyond some thousands of digits.
+        message = "has a whole number with too many digits"
+        raise SpecError(Problem(field=field, message=message, allowed="numbers as a double holds them")) from error
 
 
 def plain(value: object) -> object:
@@ -54,7 +79,16 @@ def json_text(document: object) -> str:
 
 @contextlib.contextmanager
 def whole_file(path: Path) -> Iterator[BinaryIO]:
-    """A file that appears under its name only when it is complete."""
+    """A file that appears under its name only when it is complete; OSError names it, not its unfinished form."""
+    try:
+        with _unfinished(path) as stream:
+            yield stream
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from error
+
+
+@contextlib.contextmanager
+def _unfinished(path: Path) -> Iterator[BinaryIO]:
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     unfinished = Path(name)
     try:
@@ -81,9 +115,45 @@ def write(path: Path, put: Callable[[BinaryIO], None]) -> None:
         put(stream)
 
 
-def refuse_existing(paths: list[Path], *, force: bool) -> None:
-    """SpecError for files that would be overwritten."""
-    present = [path for path in paths if path.exists()]
+def check_folder(folder: Path, names: Sequence[str], *, force: bool) -> None:
+    """SpecError, one line, when `names` cannot be written there or an earlier result would be lost."""
+    if folder.exists() and not folder.is_dir():
+        raise SpecError(Problem(field="--out", message="is a file, not a folder", given=str(folder)))
+    present = [name for name in names if (folder / name).exists()]
     if present and not force:
-        message = "exists already; --force overwrites it"
-        raise SpecError([Problem(field=str(path), message=message) for path in present])
+        message = f"holds an earlier result ({', '.join(present)})"
+        raise SpecError(
+            Problem(field="--out", message=message, given=str(folder), allowed="another --out, or --force to overwrite")
+        )
+    there = next(parent for parent in (folder.absolute(), *folder.absolute().parents) if parent.exists())
+    if not there.is_dir():
+        message = f"cannot be made: {there} is not a folder"
+        raise SpecError(Problem(field="--out", message=message, given=str(folder)))
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise SpecError(
+            Problem(field="--out", message=f"cannot be made: no right to write in {there}", given=str(folder))
+        )
+
+
+@contextlib.contextmanager
+def whole_folder(folder: Path) -> Iterator[Path]:
+    """A folder to write into that takes its name only when all is written; one that exists is written in directly."""
+    if folder.exists():
+        yield folder
+        return
+    made = [parent for parent in folder.absolute().parents if not parent.exists()]
+    folder.absolute().parent.mkdir(parents=True, exist_ok=True)
+    unfinished = folder.absolute().with_name(f".{folder.absolute().name}.{os.getpid()}")
+    try:
+        try:
+            unfinished.mkdir()
+        except OSError as error:
+            raise OSError(error.errno, error.strerror, str(folder)) from error
+        yield unfinished
+        unfinished.replace(folder)
+    except BaseException:
+        shutil.rmtree(unfinished, ignore_errors=True)
+        for parent in made:
+            with contextlib.suppress(OSError):
+                parent.rmdir()
+        raise

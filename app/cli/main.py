@@ -44,9 +44,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     name = arguments[0]
     for library in ONE_THREAD:
         os.environ.setdefault(library, "1")
-    module = importlib.import_module(COMMANDS[name].module)
     try:
+        # Kernels that are not in the cache are compiled by this import: it can take long enough to be interrupted.
+        module = importlib.import_module(COMMANDS[name].module)
         return _run(module, _parser(name, module).parse_args(arguments[1:]))
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return INTERRUPTED
     except BrokenPipeError:
         # The reader (head, less) has seen enough; nothing more may be written to the pipe at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -69,9 +73,6 @@ def _run(module: ModuleType, arguments: argparse.Namespace) -> int:
         code: int = module.run(arguments)
         sys.stdout.flush()
         return code
-    except KeyboardInterrupt:
-        print("interrupted", file=sys.stderr)
-        return INTERRUPTED
     except Cancelled as error:
         print(error, file=sys.stderr)
         return INTERRUPTED
@@ -79,9 +80,19 @@ def _run(module: ModuleType, arguments: argparse.Namespace) -> int:
         print("\n".join(f"error: {problem}" for problem in error.problems), file=sys.stderr)
     except BrokenPipeError:
         raise
-    except (SidebandError, OSError) as error:
+    except SidebandError as error:
         print(f"error: {error}", file=sys.stderr)
+    except OSError as error:
+        print(f"error: {_system(error)}", file=sys.stderr)
+    except MemoryError:
+        print("error: not enough memory; shorten the run, lower the rate or ask fewer channels", file=sys.stderr)
     return WRONG_INPUT
+
+
+def _system(error: OSError) -> str:
+    """The operating system's refusal as a sentence: file, reason."""
+    reason = (error.strerror or str(error)).lower()
+    return f"{error.filename2 or error.filename}: {reason}" if error.filename else reason
 
 
 def _overview(arguments: Sequence[str]) -> int:

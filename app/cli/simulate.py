@@ -9,7 +9,9 @@ import argparse
 import difflib
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +20,7 @@ from pydantic import ValidationError
 from tqdm import tqdm
 
 from app.cli.choice import add_machine_options, chosen_machine
-from app.cli.files import refuse_existing
+from app.cli.files import check_folder, whole_folder
 from app.cli.result import FILES, FURTHER, write_result
 from jobs.analysis import analyse
 from jobs.carry_out import Outcome, carry_out, completed
@@ -26,7 +28,7 @@ from jobs.causes import further_runs
 from jobs.documents import ResultDocuments
 from jobs.limits import Limits
 from jobs.physics import PhysicsEngine
-from jobs.request import SimulationRequest
+from jobs.request import DEFAULT_RATE_HZ, SimulationRequest
 from jobs.resolve import resolve
 from jobs.validation import problems_of
 from sim.core.errors import Problem, SpecError
@@ -46,7 +48,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--duration", type=float, default=1.0, metavar="S", help="simulated time, s (default %(default)g)"
     )
     parser.add_argument(
-        "--rate", type=float, default=30000.0, metavar="HZ", help="output rate, Hz (default %(default)g)"
+        "--rate", type=float, default=DEFAULT_RATE_HZ, metavar="HZ", help="output rate, Hz (default %(default)g)"
     )
     parser.add_argument("--seed", type=int, default=0, help="seed of everything random (default %(default)d)")
     parser.add_argument(
@@ -60,20 +62,23 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="show what causes each line, by some ten further runs without each effect; lists impacts too",
     )
-    parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder of the result")
+    parser.add_argument(
+        "--out", metavar="DIR", type=Path, help="folder of the result (default: result-NAME, of preset or machine file)"
+    )
     parser.add_argument("--force", action="store_true", help="overwrite an earlier result in DIR")
-    parser.add_argument("--quiet", action="store_true", help="no progress bar, no table of lines")
+    parser.add_argument("--quiet", action="store_true", help="no progress bar, no table of lines, no warnings")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
     machine = chosen_machine(arguments)
-    refuse_existing([arguments.out / name for name in (*FILES, *FURTHER)], force=arguments.force)
+    out = arguments.out or default_folder(arguments)
+    check_folder(out, (*FILES, *FURTHER), force=arguments.force)
     engine = PhysicsEngine()
-    request = _request(arguments, machine, engine)
     memory = int(MEMORY_SHARE * psutil.virtual_memory().available)
-    resolved = resolve(request, engine, Limits(**{**vars(LOCAL_LIMITS), "memory_bytes": memory}))
-    arguments.out.mkdir(parents=True, exist_ok=True)
+    with _named_as_options():
+        request = _request(arguments, machine, engine)
+        resolved = resolve(request, engine, Limits(**{**vars(LOCAL_LIMITS), "memory_bytes": memory}))
     engine.warm()
     started = time.perf_counter()
     outcome = _simulated(engine, machine, request, show=not arguments.quiet)
@@ -83,12 +88,31 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.machine is not None:
         origin |= {"preset": None, "machine_file": str(arguments.machine)}
     settings = {k: v for k, v in resolved.source.items() if k not in ("preset", "machine", "set")}
-    write_result(arguments.out, response, documents, request={**origin, **settings}, elapsed_s=elapsed)
+    with whole_folder(out) as folder:
+        write_result(folder, response, documents, request={**origin, **settings}, elapsed_s=elapsed)
     if not arguments.quiet:
         _say(response, documents, elapsed / (1 + further_runs(machine, request)))
         names = [*FILES, *(f"{name}.json" for name in documents.extras)]
-        print(f"wrote {', '.join(names)} to {arguments.out}", file=sys.stderr)
+        print(f"wrote {', '.join(names)} to {out}/", file=sys.stderr)
     return 0
+
+
+def default_folder(arguments: argparse.Namespace) -> Path:
+    """`result-NAME` in the current folder, by the preset or the machine file."""
+    name = arguments.machine.stem if arguments.machine is not None else arguments.preset or arguments.default_preset
+    return Path(f"result-{name}")
+
+
+OPTIONS = {"duration_s": "--duration", "sampling_rate_hz": "--rate", "seed": "--seed"}
+
+
+@contextmanager
+def _named_as_options() -> Iterator[None]:
+    """Problems of the request's fields name the options they were given by."""
+    try:
+        yield
+    except SpecError as error:
+        raise SpecError([replace(p, field=OPTIONS.get(p.field, p.field)) for p in error.problems]) from error
 
 
 def _request(arguments: argparse.Namespace, machine: MachineSpec, engine: PhysicsEngine) -> SimulationRequest:
@@ -134,7 +158,8 @@ def _simulated(engine: PhysicsEngine, machine: MachineSpec, request: SimulationR
     if runs and show:
         print(f"causes: {runs} further runs", file=sys.stderr)
     text = "{l_bar}{bar}| {n:.3g}/{total:.3g} s [{elapsed}<{remaining}]"
-    with tqdm(total=request.duration_s, disable=not show, bar_format=text, file=sys.stderr) as bar:
+    # `disable=None`: a bar on a terminal only, not in a file or a pipe.
+    with tqdm(total=request.duration_s, disable=None if show else True, bar_format=text, file=sys.stderr) as bar:
         return carry_out(
             engine,
             machine,

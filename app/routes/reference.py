@@ -12,6 +12,7 @@ from app.routes.responses import problems
 from app.schemas import Reply
 from app.state import AppState, State
 from jobs.identity import digest
+from jobs.overrides import told_by_key
 from jobs.ports import MachineReport
 from jobs.request import MachineChoice
 from jobs.resolve import machine_of, report_of
@@ -75,7 +76,8 @@ def bearings(request: Request, state: State) -> Response:
 def check_machine(choice: MachineChoice, state: State) -> MachineCheck:
     """Assemble a machine and say what was derived; every fault is named. Nothing is simulated."""
     machine = machine_of(choice, state.engine)
-    report: MachineReport = report_of(machine, state.engine)
+    with told_by_key(machine.model_dump(mode="json"), choice.set):
+        report: MachineReport = report_of(machine, state.engine)
     return MachineCheck(
         valid=True,
         name=machine.name,

@@ -43,10 +43,10 @@ def test_a_term_is_changed_or_added() -> None:
 
 def test_torque_is_the_driven_shafts_and_scales_a_given_output() -> None:
     machine = preset("paper").model_copy(
-        update={"loads": [TorqueLoad(shaft="input", torque_nm=25.0), TorqueLoad(shaft="output", torque_nm=-80.0)]}
+        update={"loads": [TorqueLoad(shaft="input", torque_nm=23.0), TorqueLoad(shaft="output", torque_nm=-81.0)]}
     )
-    loads = changed(machine, {"torque": 5.0}).loads
-    assert [load.torque_nm for load in loads if isinstance(load, TorqueLoad)] == [5.0, -16.0]
+    loads = changed(machine, {"torque": 46.0}).loads
+    assert [load.torque_nm for load in loads if isinstance(load, TorqueLoad)] == [46.0, -162.0]
 
 
 @pytest.mark.parametrize(("key", "value"), [("torque", "x"), ("torque", 1e9), ("speed", 3), ("operating.speed_hz", -1)])
@@ -67,7 +67,18 @@ def test_a_parameter_file_is_recognised_where_a_machine_is_due(tmp_path: Path) -
         read_machine(path)
 
 
-@pytest.mark.parametrize("text", ["{", "[1]", '{"name": NaN}', '{"name": "x", "wheels": 4}', '{"name": ""}'])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "{",
+        "[1]",
+        '{"name": NaN}',
+        '{"name": "a", "name": "b"}',
+        f'{{"x": {"9" * 5000}}}',
+        '{"name": "x", "wheels": 4}',
+        '{"name": ""}',
+    ],
+)
 def test_broken_machine_files_are_refused(tmp_path: Path, text: str) -> None:
     path = tmp_path / "m.json"
     path.write_text(text)

@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 
 from app.cli.result import FILES, FURTHER
+from jobs.physics import PhysicsEngine
+from jobs.request import DEFAULT_RATE_HZ, SimulationRequest
 
 Call = Callable[..., tuple[int, str, str]]
 Process = Callable[..., subprocess.CompletedProcess[str]]
@@ -76,7 +78,7 @@ def test_nothing_is_overwritten_without_force(call: Call, tmp_path: Path) -> Non
     (tmp_path / "summary.json").write_text("mine")
     code, _, error = call(*common)
     assert code == 2
-    assert "--force" in error
+    assert "--force" in error and "summary.json" in error and error.count("\n") == 1
     assert (tmp_path / "summary.json").read_text() == "mine"
     assert not (tmp_path / "signals.npz").exists()
     assert call(*common, "--force")[0] == 0
@@ -86,18 +88,28 @@ def test_nothing_is_overwritten_without_force(call: Call, tmp_path: Path) -> Non
 @pytest.mark.parametrize(
     ("arguments", "named"),
     [
-        (("--duration", "-1"), "duration_s"),
-        (("--duration", "nan"), "duration_s"),
-        (("--duration", "1e9"), "duration_s"),
-        (("--rate", "500"), "sampling_rate_hz"),
-        (("--seed", "-1"), "seed"),
+        (("--duration", "-1"), "--duration: "),
+        (("--duration", "nan"), "--duration: "),
+        (("--duration", "1e9"), "--duration: "),
+        (("--duration", "1e-4"), ">= 0.0021333"),
+        (("--rate", "500"), "--rate: "),
+        (("--seed", "-1"), "--seed: "),
         (("--channels", "resonator1.y.accelerations"), "resonator1.y.acceleration "),
         (("--channels", "all", "mesh1.force"), "all"),
         (("--preset", "paperr"), "paper-demo"),
-        (("--set", "fit_clearance@bearing1.gap=20"), "gap"),
-        (("--set", "no_such@bearing1.gap=1"), "no_such"),
+        (("--set", "fit_clearance@bearing1.gap=20"), "--set fit_clearance@bearing1.gap: "),
+        (("--set", "fit_clearance@bearing1.gape=2e-5"), "did you mean gap?"),
+        (("--set", "fit_clearence@bearing1.gap=1"), "did you mean fit_clearance?"),
         (("--set", "fit_clearance@bearing9.gap=1e-5"), "bearing9"),
+        (("--set", "bearings.bearing2.radial_clearance_m=5"), "--set bearings.bearing2.radial_clearance_m: "),
+        (("--set", "gears.pinion.teeth=3"), "--set gears.pinion.teeth: "),
+        (("--set", "teeth=20"), "did you mean gears.pinion.teeth"),
+        (("--set", "speed=20"), "did you mean speed_hz?"),
+        (("--set", "rpm=1800"), "speed_hz=30"),
+        (("--set", "speed_hz=1800"), "1800 rpm are 30 Hz"),
+        (("--set", "torq=3"), "did you mean torque?"),
         (("--set", "nonsense"), "KEY=VALUE"),
+        (("--set", f"gears.pinion.teeth={'9' * 5000}"), "--set gears.pinion.teeth: "),
     ],
 )
 def test_wrong_requests_are_refused_before_a_folder_is_made(
@@ -109,3 +121,82 @@ def test_wrong_requests_are_refused_before_a_folder_is_made(
     assert error.startswith("error: ")
     assert named in error.replace(",", " ")
     assert not out.exists()
+
+
+SHORT = ("simulate", "--preset", "oscillator", "--duration", "0.05")
+
+
+def test_the_folder_is_named_after_the_machine_unless_it_is_given(
+    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert call(*SHORT)[0] == 0
+    assert {path.name for path in (tmp_path / "result-oscillator").iterdir()} == set(FILES)
+    assert call(*SHORT)[0] == 2
+    assert call("simulate", "--machine", "result-oscillator/machine.json", "--duration", "0.05")[0] == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["result-machine", "result-oscillator"]
+
+
+def test_both_ways_in_have_one_default_rate(call: Call, tmp_path: Path) -> None:
+    assert call(*SHORT, "--out", tmp_path / "r")[0] == 0
+    summary = json.loads((tmp_path / "r" / "summary.json").read_text())
+    assert summary["sampling_rate_hz"] == SimulationRequest(preset="oscillator").sampling_rate_hz == DEFAULT_RATE_HZ
+
+
+@pytest.mark.parametrize("where", ["simulating", "writing"])
+def test_an_interrupt_leaves_nothing_behind(
+    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, where: str
+) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    if where == "simulating":
+        monkeypatch.setattr(PhysicsEngine, "simulate", interrupted)
+    else:
+        monkeypatch.setattr(np, "savez", interrupted)
+    code, _, error = call(*SHORT, "--out", tmp_path / "new" / "deep")
+    assert code == 130
+    assert "interrupted" in error and "Traceback" not in error
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_full_disk_is_one_line_and_leaves_nothing(
+    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(np, "savez", full)
+    code, _, error = call(*SHORT, "--quiet", "--out", tmp_path / "new")
+    assert code == 2
+    assert error.endswith("signals.npz: no space left on device\n") and error.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+def test_places_that_cannot_be_written_are_refused_in_one_line(call: Call, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("mine")
+    for out in (tmp_path / "file", tmp_path / "file" / "below", Path("/proc/1/result")):
+        code, _, error = call(*SHORT, "--out", out)
+        assert code == 2
+        assert error.startswith("error: --out: ") and error.count("\n") == 1 and "Errno" not in error
+
+
+def test_no_bar_is_drawn_where_nobody_watches(call: Call, tmp_path: Path) -> None:
+    code, _, error = call(*SHORT, "--out", tmp_path / "r")
+    assert code == 0
+    assert "\r" not in error and "%" not in error
+
+
+def test_a_machine_without_lines_says_why(call: Call, tmp_path: Path) -> None:
+    code, _, error = call(*SHORT, "--out", tmp_path / "r")
+    labels = json.loads((tmp_path / "r" / "labels.json").read_text())
+    assert code == 0 and labels["peaks"] == [] and "nothing turns" in labels["reason"]
+    assert "no labels: nothing turns" in error
+
+
+def test_a_machine_of_angles_only_is_labelled_by_them(call: Call, tmp_path: Path) -> None:
+    assert call("simulate", "--preset", "gear-pair", "--duration", "0.5", "--quiet", "--out", tmp_path / "r")[0] == 0
+    labels = json.loads((tmp_path / "r" / "labels.json").read_text())
+    mesh = next(p for p in labels["peaks"] if p["label"] == "1*f_m")
+    assert (mesh["status"], mesh["unit"]) == ("present", "rad/s^2")
+    assert "reason" not in labels
