@@ -61,7 +61,7 @@ test: dev browser setup lint  ## lint and every test; what CI runs
 bench: dev setup  ## speed and accuracy; ends with one line of JSON
 	$(BIN)/python -m bench
 
-cost: setup  ## measure again what a step costs (data/ of the estimate: jobs/cost.json)
+cost: setup  ## measure again what a simulation costs (jobs/cost.json, from which requests are estimated)
 	$(BIN)/python -m bench.cost
 
 paper: dev setup  ## the paper's figures and trends, recomputed into docs/

@@ -27,18 +27,20 @@ LOOK_EVERY_S = 0.3
 
 @dataclass(frozen=True, kw_only=True)
 class Demo:
-    """A demo that was accepted: its job, the addresses of its status and of its page."""
+    """A demo that was accepted: the addresses of its status and of its page; `ready` when it was simulated before."""
 
     job_url: str
     page: str
+    ready: bool
 
 
 def submit_demo(url: str) -> Demo:
     """Submit the demo at a running server."""
     reply = httpx.post(f"{url}v1/simulations", json=DEMO, timeout=TIMEOUT_S)
     reply.raise_for_status()
-    job_id = reply.json()["id"]
-    return Demo(job_url=f"{url}v1/jobs/{job_id}", page=f"{url}#/jobs/{job_id}")
+    job = reply.json()
+    ready = job["status"] == "successful"
+    return Demo(job_url=f"{url}v1/jobs/{job['id']}", page=f"{url}#/jobs/{job['id']}", ready=ready)
 
 
 def wait_for_demo(demo: Demo, stop: threading.Event) -> str:

@@ -236,7 +236,8 @@ def _show_demo(service: Service, url: str, stop: threading.Event) -> None:
         return
     try:
         demo = submit_demo(url)
-        _say(f"simulating the paper's gearbox with a loose bearing: {demo.page}")
+        if not demo.ready:
+            _say(f"simulating the paper's gearbox with a loose bearing (a few seconds): {demo.page}")
         if service.open_browser:
             webbrowser.open(demo.page)
         ended = wait_for_demo(demo, stop)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from threading import Lock
 
+from jobs.cost import Run, expected
 from jobs.identity import canonical_json
 from jobs.ports import MachineReport
 from jobs.record import Cost
@@ -19,7 +20,6 @@ from sim.core.system import System
 from sim.core.terms import Term
 from sim.parts.bearing.catalogue import catalogue, missing
 from sim.solve.api import default_channels, resolve_channels, simulate
-from sim.solve.step_choice import run_cost
 from sim.terms import REGISTRY
 from sim.version import PHYSICS_VERSION
 
@@ -82,7 +82,7 @@ class PhysicsEngine:
         """What a run would take."""
         system = self._assembled(machine)
         count = len(resolve_channels(system, channels))
-        found = run_cost(system, duration_s=duration_s, output_rate_hz=sampling_rate_hz, channels=count)
+        found = expected(system, Run(duration_s=duration_s, sampling_rate_hz=sampling_rate_hz, channels=count))
         return Cost(steps=found.steps, memory_bytes=found.memory_bytes, seconds=found.seconds)
 
     def simulate(

@@ -8,6 +8,7 @@ from tests.browser.conftest import Service
 from tests.browser.driver import Browser, eventually
 
 CLEARANCE = '[data-effect="fit_clearance@bearing1"]'
+RPM = "document.querySelector('[aria-label=\"Shaft speed in rpm\"]')"
 GAP = f"{CLEARANCE} [data-param=gap] input[type=number]"
 
 
@@ -32,7 +33,26 @@ def test_every_parameter_of_a_term_is_shown_as_declared(form: Browser, service: 
 def test_the_machine_check_follows_the_speed(form: Browser) -> None:
     form.type("[data-param=speed_hz] input", "60", clear=True)
     eventually(lambda: "154.41 Hz" in form.text("[aria-label='Machine check']"), what="f_o1 at twice the speed")
-    assert "3600 rpm" in form.text("[data-param=speed_hz]")
+    assert form.run(f"return {RPM}.value") == "3600"
+
+
+def test_a_speed_may_be_given_in_rpm(form: Browser) -> None:
+    form.type('[aria-label="Shaft speed in rpm"]', "3600", clear=True)
+    eventually(lambda: "154.41 Hz" in form.text("[aria-label='Machine check']"), what="f_o1 at twice the speed")
+    assert form.run("return document.querySelector('[data-param=speed_hz] input').value") == "60"
+
+
+def test_values_are_stepped_by_round_amounts_within_their_bounds(form: Browser) -> None:
+    value = f"return document.querySelector('{GAP}').value"
+    form.click('[aria-label="More gap"]')
+    assert form.run(value) == "22"
+    form.type(GAP, "\ue015" * 2)  # arrow down
+    assert form.run(value) == "18"
+    form.type(GAP, "495", clear=True)
+    form.click('[aria-label="More gap"]')
+    form.click('[aria-label="More gap"]')
+    assert form.run(value) == "500"
+    assert form.count("[aria-invalid=true]") == 0
 
 
 def test_refused_values_are_named_with_what_is_allowed(form: Browser) -> None:

@@ -154,3 +154,56 @@ def test_an_unknown_job_is_told(browser: Browser, service: Service) -> None:
     browser.open(service.page("/jobs/0123456789"))
     assert "0123456789" in browser.text("[role=alert]")
     assert any("404" in line for line in browser.complaints())
+
+
+PLACED = """
+return import("/js/plot/labels.js").then(({ placer }) => {
+  const box = { left: 0, right: 400, top: 0, bottom: 300 };
+  const scale = { px: (v) => v };
+  const series = { x: [0, 99, 100, 101, 139, 140, 141, 400], y: [300, 300, 50, 300, 300, 200, 300, 300] };
+  const plot = { box, series, x: scale, y: scale, view: [0, 400] };
+  const marks = [{ x: 100, y: 50 }, { x: 140, y: 200 }, { x: 140, y: 200 }, { x: 2, y: 4 }];
+  const place = placer(plot, marks);
+  return marks.map((mark) => place(mark, 60));
+});
+"""
+
+
+def test_texts_cover_neither_each_other_nor_the_curve(result: Browser) -> None:
+    high, beside, crowded, cornered = result.run(PLACED)
+    assert high["left"] <= 100 - 30 + 2 and high["leader"] is None, "centred above its own peak"
+    assert beside["left"] > 101, "moved off the stem of the higher peak"
+    assert crowded is None or crowded["leader"] is not None, "lifted over its neighbour, or left out"
+    assert cornered is None, "no room in the corner"
+    texts = int(result.run(f"return document.querySelector('{SPECTRUM}').dataset.texts"))
+    assert texts >= 20
+
+
+def finished(service: Service, **body: object) -> str:
+    job = str(service.client.post("/v1/simulations", json=body).raise_for_status().json()["id"])
+    service.wait(job, "successful")
+    return job
+
+
+def test_a_machine_without_lines_says_why(browser: Browser, service: Service) -> None:
+    job = finished(service, preset="oscillator", duration_s=0.5)
+    browser.open(service.page(f"/jobs/{job}"))
+    eventually(lambda: "nothing turns in this machine" in browser.text(".peaks-table tbody"), what="the reason")
+
+
+def test_the_start_up_does_not_set_the_scale(browser: Browser, service: Service) -> None:
+    # Half of the record is transient: it is analysed whole, but seen from where it has settled.
+    job = finished(service, preset="oscillator", duration_s=0.5)
+    browser.open(service.page(f"/jobs/{job}"))
+    canvas = "#card-time canvas.plot-canvas"
+    eventually(lambda: browser.run("return document.querySelector(arguments[0])?.dataset.view", canvas), what="a view")
+    summary = service.client.get(f"/v1/jobs/{job}/result").json()
+    assert summary["analysed_from_s"] == 0
+    low, high = view(browser, canvas)
+    assert low >= 0.2 and high == pytest.approx(0.5)
+
+
+def test_a_machine_of_angles_is_labelled(browser: Browser, service: Service) -> None:
+    job = finished(service, preset="gear-pair", duration_s=0.5)
+    browser.open(service.page(f"/jobs/{job}"))
+    assert "rad/s²" in browser.text('.peaks-table tr[data-label="1*f_m"]')

@@ -2,7 +2,7 @@
 
 import { getJson, reference, request as call, submitter } from "/js/lib/api.js";
 import { debounce, h, replace, select } from "/js/lib/dom.js";
-import { number } from "/js/lib/format.js";
+import { prose } from "/js/lib/format.js";
 import { problemBox, toast } from "/js/lib/problem.js";
 import { checkPanel } from "/js/form/check.js";
 import { effectsPanel } from "/js/form/effects.js";
@@ -26,11 +26,10 @@ async function load(from, wanted, signal) {
 }
 
 function general(onChange) {
-  const rpm = (hz) => (Number.isFinite(hz) ? `= ${number(hz * 60, 5)} rpm` : "");
   return {
-    speed: numberField({ name: "speed_hz", label: "Shaft speed", unit: "Hz", default: 30, note: rpm }, onChange),
-    duration_s: numberField({ name: "duration_s", label: "Duration", unit: "s", default: 2, sentence: "Simulated time." }, onChange),
-    sampling_rate_hz: numberField({ name: "sampling_rate_hz", label: "Sampling rate", unit: "Hz", default: 30000, low: 100, high: 500000, sentence: "Filtered before thinning." }, onChange),
+    speed: numberField({ name: "speed_hz", label: "Shaft speed", unit: "Hz", default: 30, sentence: "Of the driven shaft.", twin: { unit: "rpm", factor: 60 } }, onChange),
+    duration_s: numberField({ name: "duration_s", label: "Duration", unit: "s", default: 2, low: 0.003, high: 3600, sentence: "Simulated time; this server may allow less." }, onChange),
+    sampling_rate_hz: numberField({ name: "sampling_rate_hz", label: "Sampling rate", unit: "Hz", default: 30000, low: 100, high: 500000, sentence: "Low-pass filtered before thinning." }, onChange),
     seed: numberField({ name: "seed", label: "Seed", unit: "1", default: 0, low: 0, high: 2 ** 53 - 1, integer: true, sentence: "Of everything random in the machine; a whole number." }, onChange),
   };
 }
@@ -67,7 +66,7 @@ function build(main, { presets, terms, earlier, wanted }, signal) {
       replace(problems, problemBox(error));
       return;
     }
-    notes.textContent = presets.find((p) => p.name === preset.value).notes;
+    notes.textContent = prose(presets.find((p) => p.name === preset.value).notes);
     fields.speed.element.hidden = !machine.operating;
     if (machine.operating) fields.speed.set(machine.operating.speed_hz);
     effects.setMachine(machine);

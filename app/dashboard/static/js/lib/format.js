@@ -17,6 +17,20 @@ export function number(value, digits = 4) {
   return String(Number(value.toPrecision(digits))).replace("-", "−");
 }
 
+/** A number as it is given: `500 000`, `20`, `0.05`; no more digits than it has. */
+export function plainNumber(value) {
+  if (!Number.isFinite(value)) return "–";
+  if (Math.abs(value) >= 1e9 || (value !== 0 && Math.abs(value) < 1e-4)) return number(value, 6);
+  const [whole, rest] = String(Number(value.toPrecision(9))).split(".");
+  const grouped = whole.length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, NBSP) : whole;
+  return (rest ? `${grouped}.${rest}` : grouped).replace("-", "−");
+}
+
+/** Sentences of the server with the signs a page can show: `20 um`, `+-`. */
+export function prose(text) {
+  return text.replace(/(\d) ?um\b/g, `$1${NBSP}µm`).replace(/ \+-/g, " ±").replace(/±(?=\S)/g, "± ");
+}
+
 function superscript(exponent) {
   return String(exponent).replace(/[-0-9]/g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]));
 }

@@ -4,6 +4,8 @@ import { h, token } from "/js/lib/dom.js";
 import { drawMarker, familyColour, familyInfo, familyOf } from "/js/lib/families.js";
 import { number, partName, quantity, unit } from "/js/lib/format.js";
 import { drawFormula, formula, measured } from "/js/plot/formula.js";
+import { placer } from "/js/plot/labels.js";
+import { stroke } from "/js/plot/plot.js";
 import { highestNear } from "/js/plot/reduce.js";
 
 const REACH_PX = 9;
@@ -60,27 +62,34 @@ export function markerLayer(plot, context, drawn) {
     ctx.stroke();
   }
 
-  /** Formulas of the highest peaks first, as long as they cover neither each other nor the frame. */
+  /** Formulas of the highest peaks first, as far as they cover neither each other, nor a mark, nor the curve. */
   function texts(ctx) {
     const sans = token("--sans");
     const surface = token("--surface");
-    const boxes = [];
-    const marks = placed.map(({ x, y }) => ({ left: x - 4, right: x + 4, top: y - 5, bottom: y + 5 }));
-    const meets = (box) => (b) => b.left < box.right && box.left < b.right && b.top < box.bottom && box.top < b.bottom;
+    const place = placer(plot, placed);
     let count = 0;
     for (const { peak, x, y } of placed) {
       if (count >= MOST_TEXTS) break;
       if (!peak.label || peak.status === "absent") continue;
       const text = measured(ctx, peak.label, sans);
-      const box = { left: x - text.width / 2 - 2, right: x + text.width / 2 + 2, top: y - 21, bottom: y - 5.5 };
-      if (box.left < plot.box.left || box.right > plot.box.right || box.top < plot.box.top) continue;
-      if (boxes.some(meets(box)) || marks.some(meets(box))) continue;
-      boxes.push(box);
+      const found = place({ x, y }, text.width);
+      if (!found) continue;
       count += 1;
-      ctx.fillStyle = familyColour(familyOf(peak));
+      const colour = familyColour(familyOf(peak));
+      if (found.leader) leader(ctx, x, found.leader, colour);
+      ctx.fillStyle = colour;
       ctx.strokeStyle = surface;
-      drawFormula(ctx, text, x - text.width / 2, y - 9);
+      drawFormula(ctx, text, found.left, found.baseline);
     }
+    plot.canvas.dataset.texts = String(count);
+  }
+
+  function leader(ctx, x, { top, bottom }, colour) {
+    ctx.lineWidth = 0.8;
+    ctx.strokeStyle = colour;
+    ctx.globalAlpha = 0.6;
+    stroke(ctx, x, top + 1, x, bottom);
+    ctx.globalAlpha = 1;
   }
 
   /** The peak under the pointer. */

@@ -61,7 +61,7 @@ export function peaksCard(context, { onChoose, onFamilies }) {
     const scale = scaled(most, labels.peaks[0]?.unit ?? "");
     count.textContent = `${rows.length} of ${labels.peaks.length} lines`;
     more.hidden = rows.length <= limit;
-    replace(body, rows.length ? rows.slice(0, limit).map((peak) => row(peak, scale)) : h("tr", {}, h("td", { colspan: COLUMNS.length, class: "empty" }, labels.peaks.length ? "No line of these families has this status." : "This channel has no labels.")));
+    replace(body, rows.length ? rows.slice(0, limit).map((peak) => row(peak, scale)) : h("tr", {}, h("td", { colspan: COLUMNS.length, class: "empty" }, labels.peaks.length ? "No line of these families has this status." : `No labels: ${labels.reason ?? "none were found"}.`)));
   }
 
   function row(peak, [factor, shown]) {

@@ -11,7 +11,7 @@ const MAX_POINTS = 6000;
 export function signalCard(context, { title, id, channels = null, height = 250, periods = null }) {
   const { base, summary } = context;
   const length_s = summary.samples / summary.sampling_rate_hz;
-  const from_s = summary.analysed_from_s ?? 0;
+  const from_s = settledFrom(summary, length_s);
   const plot = new Plot({ label: title, height, xLabel: "Time", xUnit: "s", minShare: 16 / summary.samples, onRange: debounce(() => fetchStretch(), 160) });
   const stats = h("dl", { class: "stat-row" });
   const notice = h("div");
@@ -19,7 +19,7 @@ export function signalCard(context, { title, id, channels = null, height = 250, 
   const element = h("section", { class: "card", id: `card-${id}`, "aria-label": title },
     h("div", { class: "card-head" }, h("h2", {}, title), h("span", { class: "spacer" }), chooser),
     h("div", { class: "card-body" }, notice, plot.element, stats,
-      h("p", { class: "notes" }, from_s > 0 && !channels ? `The start-up transient ends at ${quantity(from_s, "s")} (shaded before); spectra and features begin there. ` : "",
+      h("p", { class: "notes" }, from_s > 0 && !channels ? `${settledText(summary, from_s)} ` : "",
         "Drag to zoom, Shift-drag to move, double-click for the whole record; keys: arrows, +, −, 0.")));
   let channel = null;
   let factor = 1;
@@ -35,7 +35,7 @@ export function signalCard(context, { title, id, channels = null, height = 250, 
   });
 
   function firstView() {
-    if (!periods) return [from_s < 0.95 * length_s ? from_s : 0, length_s];
+    if (!periods) return [from_s, length_s];
     const rate = summary.frequencies.f_m ?? summary.frequencies.f_r1 ?? 10;
     const start = Math.min(from_s, Math.max(0, length_s - periods / rate));
     return [start, Math.min(length_s, start + periods / rate)];
@@ -79,6 +79,23 @@ export function signalCard(context, { title, id, channels = null, height = 250, 
   }
 
   return { element, use, view: () => plot.view, stop: () => { abort.abort(); plot.destroy(); } };
+}
+
+/**
+ * Where the view starts: the load steps on at t = 0, and what it strikes would set the scale. A motion that does not
+ * settle is seen from its second half on.
+ */
+function settledFrom({ analysed_from_s: analysed, quality }, length_s) {
+  if (analysed > 0) return analysed;
+  const end = quality?.transient_end_s ?? 0;
+  return end < 0.75 * length_s ? end : length_s / 2;
+}
+
+function settledText({ analysed_from_s: analysed, quality }, from_s) {
+  if (analysed > 0) return `The start-up transient ends at ${quantity(from_s, "s")} (shaded before); spectra and features begin there.`;
+  const end = quality?.transient_end_s ?? 0;
+  return end === from_s ? `The start-up transient ends at ${quantity(from_s, "s")} (shaded before), but spectra and features use the whole record.`
+    : "The motion does not settle in this record: the view begins at its half, spectra and features use all of it.";
 }
 
 function name(channel) {
