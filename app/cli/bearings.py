@@ -1,4 +1,7 @@
-"""List the bearing catalogue, or show one bearing with its geometry, orders and source."""
+"""List the bearing catalogue, or explain one bearing: its geometry, orders and source.
+
+Example: sideband bearings 6205
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,7 @@ from sim.parts.bearing import CatalogueRow, catalogue, defect_orders, lookup, mi
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("name", metavar="NAME", nargs="?", help="show this designation")
+    parser.add_argument("name", metavar="NAME", nargs="?", help="explain this one")
     parser.add_argument("--json", action="store_true", help="print JSON")
 
 

@@ -31,7 +31,8 @@ speed_hz and torque stand for the driven shaft's"""
 def add_machine_options(parser: argparse.ArgumentParser, *, default: str | None) -> None:
     """`--preset`, `--machine`, `--set`."""
     group = parser.add_mutually_exclusive_group(required=default is None)
-    group.add_argument("--preset", metavar="NAME", help=f"a ready machine: {', '.join(presets.names())}")
+    usual = f" (default {default})" if default else ""
+    group.add_argument("--preset", metavar="NAME", help=f"a ready machine: {', '.join(presets.names())}{usual}")
     group.add_argument("--machine", metavar="FILE", type=Path, help="a machine specification, JSON")
     parser.set_defaults(default_preset=default)
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help=SET_HELP)

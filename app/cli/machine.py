@@ -2,6 +2,8 @@
 
 --from-reference reads the names of the reference solutions (flat, or under "parameters" with "bearings" and
 "tolerance"), derives what is missing and says so; an unknown key is named, never ignored.
+
+Example: sideband machine --preset paper-demo --set speed_hz=25 --out machine.json
 """
 
 from __future__ import annotations
@@ -24,10 +26,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     source = parser.add_mutually_exclusive_group(required=True)
     source.add_argument("--from-reference", metavar="FILE", type=Path, help="a parameter file, JSON")
-    source.add_argument("--preset", metavar="NAME", help=f"explain a ready machine: {', '.join(presets.names())}")
-    source.add_argument("--check", metavar="FILE", type=Path, help="check and explain a machine specification")
+    source.add_argument("--preset", metavar="NAME", help=f"a ready machine: {', '.join(presets.names())}")
+    source.add_argument(
+        "--machine", "--check", dest="check", metavar="FILE", type=Path, help="a machine specification, JSON"
+    )
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help=SET_HELP)
-    parser.add_argument("--out", metavar="FILE", type=Path, help="write the machine specification (- for the output)")
+    parser.add_argument(
+        "--out", metavar="FILE", type=Path, help="write the machine specification, replacing FILE (- for the output)"
+    )
     parser.add_argument("--json", action="store_true", help="print JSON")
 
 

@@ -33,6 +33,7 @@ COMMANDS = {
 }
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 """Matrices here are small: threads cost more than they bring, and one thread gives the same bytes every time."""
+EXIT_CODES = "exit codes: 0 done, 1 a comparison failed, 2 wrong input, 130 interrupted; all in docs/cli.md"
 FAILED, WRONG_INPUT, INTERRUPTED = 1, 2, 130
 
 
@@ -61,6 +62,7 @@ def _parser(name: str, module: ModuleType) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog=f"sideband {name}",
         description=module.__doc__,
+        epilog=EXIT_CODES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )

@@ -1,4 +1,7 @@
-"""Contact ratio and stiffness of a gear mesh by the potential-energy method, and what its least known inputs change."""
+"""Contact ratio and stiffness of a gear mesh by the potential-energy method, and what its least known inputs change.
+
+Example: sideband mesh --preset paper --json
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""List the ready machines, or print the specification of one."""
+"""List the ready machines, or print the specification of one (always JSON).
+
+Example: sideband presets paper > machine.json
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,7 @@ from sim import presets
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("name", metavar="NAME", nargs="?", help="print this one's specification (JSON)")
+    parser.add_argument("name", metavar="NAME", nargs="?", help="print the specification of this one")
     parser.add_argument("--json", action="store_true", help="print JSON")
 
 

@@ -1,6 +1,8 @@
 """Start the service: embedded broker, workers, HTTP interface and dashboard. Ctrl-C stops it in order.
 
 REDIS_URL, DATABASE_URL and ARTEFACT_URL name outside stores instead of the embedded ones.
+
+Example: sideband serve --port 8001 --demo --open
 """
 
 from __future__ import annotations

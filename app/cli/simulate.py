@@ -1,6 +1,6 @@
 """Simulate a machine without any server; write signals.npz, summary.json, labels.json and machine.json to a folder.
 
-Example: sideband simulate --preset paper --set fit_clearance@bearing1.gap=2e-5 --duration 2 --out result
+Example: sideband simulate --preset paper --set fit_clearance@bearing1.gap=2e-5 --duration 2 --out out
 """
 
 from __future__ import annotations
@@ -149,7 +149,7 @@ def _channels(given: Sequence[str] | None, machine: MachineSpec, engine: Physics
 def _no_channel(name: str, known: Sequence[str]) -> Problem:
     near = difflib.get_close_matches(name, known, n=3) or known[:3]
     message = "`all` stands alone" if name == "all" else "is not an output of this machine"
-    allowed = f"{', '.join(near)} ... ({len(known)} in all: `sideband machine --check FILE --json`)"
+    allowed = f"{', '.join(near)} ... ({len(known)} in all: `sideband machine --machine FILE --json`)"
     return Problem(field="--channels", message=message, given=name, allowed=allowed)
 
 

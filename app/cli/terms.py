@@ -1,4 +1,7 @@
-"""List the physical effects, or explain one: where it acts, its parameters, its literature."""
+"""List the physical effects, or explain one: where it acts, its parameters, its literature.
+
+Example: sideband terms fit_clearance
+"""
 
 from __future__ import annotations
 

@@ -3,6 +3,8 @@
 Prints NAME and the worst relative L2 error of the four resonators' instantaneous accelerations (t >= 0.05 s).
 Files named rattle_* move irregularly: the first 20 ms are compared to 1e-2, then RMS, kurtosis and the share of
 free flight to 15 %. The exit code is 1 when anything is above its tolerance, 2 when a file cannot be used.
+
+Example: sideband verify FOLDER --json
 """
 
 from __future__ import annotations
@@ -27,7 +29,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("folder", metavar="FOLDER", type=Path, help="folder of NAME.json and NAME.npz")
     parser.add_argument(
-        "--tolerance", type=float, default=TOLERANCE, help="largest relative error (default %(default)g)"
+        "--tolerance",
+        type=float,
+        default=TOLERANCE,
+        metavar="SHARE",
+        help="largest relative error (default %(default)g)",
     )
     parser.add_argument(
         "--step-rate", type=float, default=None, metavar="HZ", help="least integration steps per second"
