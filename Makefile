@@ -4,10 +4,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 PORT ?= 8000
 OPEN ?= --open
-# Shows how many of the packages named in a lock file are fetched; a failure of pip stays one.
-FETCHED = awk -v all="$$(grep -c '==' $(1))" '/^Collecting /{n++; if (n % 10 == 0) say(n " of " all " packages fetched")} \
-  /^Installing collected/{say("unpacking them")} /^pip failed$$/{bad = 1} function say(text) {print "      " text; fflush()} \
-  END{exit bad}'
+# Says now and then how many of the packages named in a lock file were fetched; a failure of pip stays one.
+FETCHED = { n=0; while read -r word rest; do case "$$word $$rest" in \
+  Collecting*|Processing*) n=$$((n + 1)); [ $$((n % 10)) != 0 ] || echo "      $$n of $$(grep -c == $(1)) packages fetched";; \
+  "Installing collected"*) echo "      unpacking them";; "pip failed") exit 1;; esac; done; }
 PIP = PYTHONUNBUFFERED=1 $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 
 .DELETE_ON_ERROR:
@@ -18,7 +18,7 @@ run: setup  ## start the service, simulate the demo through the queue, open its 
 	@$(BIN)/sideband serve --port $(PORT) --demo $(OPEN)
 
 setup: env  ## environment, and the kernels compiled into their cache
-	@echo "[3/4] numerical kernels: loading, or compiling them once (about 20 s)"
+	@echo "[3/4] numerical kernels: loading, or compiling them once (20 s to a minute)"
 	@$(BIN)/python -m workers.warm
 
 env: $(VENV)/.installed

@@ -13,7 +13,7 @@ from tests.house.project import ROOT
 
 MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-PROMISED = ("run", "test", "fast", "lint", "bench", "paper", "openapi", "lock", "clean", "setup")
+PROMISED = ("run", "test", "fast", "lint", "bench", "cost", "paper", "openapi", "lock", "clean", "setup")
 
 
 def _targets() -> set[str]:
@@ -24,6 +24,11 @@ def _targets() -> set[str]:
 def test_the_door_exists_and_is_no_file(target):
     assert target in _targets()
     assert re.search(rf"^\.PHONY:.*\b{target}\b", MAKEFILE, re.MULTILINE)
+
+
+def test_every_door_is_told_to_make_as_no_file():
+    phony = set(re.findall(r"^\.PHONY:(.*)", MAKEFILE, re.MULTILINE)[0].split())
+    assert _targets() == phony
 
 
 def test_readme_names_only_doors_and_commands_that_exist():
