@@ -34,11 +34,11 @@ LEAST_SAMPLES = 64
 def check_request(request: SimulationRequest, limits: Limits) -> None:
     """Refuse what can be refused without building the machine."""
     rate = request.sampling_rate_hz
-    if request.duration_s * rate < LEAST_SAMPLES * (1 - 1e-6):
+    if request.duration_s * rate < LEAST_SAMPLES * (1 - 1e-5):
         raise SpecError(
             Problem(
                 field="duration_s",
-                message=f"is too short: {math.ceil(request.duration_s * rate)} samples at {rate:g} Hz",
+                message=f"is too short: {math.ceil(request.duration_s * rate - 1e-6)} samples at {rate:g} Hz",
                 given=request.duration_s,
                 allowed=f">= {LEAST_SAMPLES / rate:.6g}",
                 unit="s",

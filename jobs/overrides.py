@@ -16,6 +16,7 @@ from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec
 
 RPM_NAMES = ("rpm", "speed_rpm", "n_rpm", "revolutions", "rev_per_min")
+MANY_NAMES = 8
 SYNTAX = "`term@site.parameter`, or a dotted path into the machine such as `operating.speed_hz`"
 
 
@@ -159,5 +160,6 @@ def _unknown(key: str, value: object, part: str, where: str, names: list[str], n
     if part.lower() in RPM_NAMES:
         hertz = f"={value / 60:g}" if isinstance(value, int | float) and not isinstance(value, bool) else ""
         hint = f" (speeds are given in Hz, rpm / 60: operating.speed_hz{hertz})"
-    allowed = SYNTAX if near or hint else ", ".join(names) or SYNTAX
+    # A dozen names of which one is suggested already would hide the suggestion.
+    allowed = SYNTAX if hint and len(names) > MANY_NAMES else ", ".join(names) or SYNTAX
     return Problem(field=f"set.{key}", message=f"{where} has no {part!r}{hint}", given=value, allowed=allowed)

@@ -14,9 +14,11 @@ from scipy.io import loadmat, wavfile
 from jobs.errors import UnknownArtefact
 from tests.service.parts import eventually
 
+RATE_HZ = 20_000
+
 
 def submit(client: httpx.Client, **body: object) -> dict:
-    reply = client.post("/v1/simulations", json={"preset": "oscillator", **body})
+    reply = client.post("/v1/simulations", json={"preset": "oscillator", "sampling_rate_hz": RATE_HZ, **body})
     assert reply.status_code == 202, reply.text
     assert reply.headers["Location"] == f"/v1/jobs/{reply.json()['id']}"
     return reply.json()
@@ -52,7 +54,9 @@ def test_same_request_shares_one_job(client: httpx.Client, done: dict) -> None:
     again = submit(client, seed=11, duration_s=0.5)
     assert (again["id"], again["created"], again["attempt"]) == (done["id"], False, 1)
     whole = client.get("/v1/presets/oscillator").json()
-    spelled = client.post("/v1/simulations", json={"machine": whole, "seed": 11, "duration_s": 0.5}).json()
+    spelled = client.post(
+        "/v1/simulations", json={"machine": whole, "sampling_rate_hz": RATE_HZ, "seed": 11, "duration_s": 0.5}
+    ).json()
     assert spelled["id"] == done["id"], "the same machine spelled out is the same job"
 
 
