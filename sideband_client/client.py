@@ -53,7 +53,7 @@ class Client:
         *,
         overrides: Mapping[str, bool | float | str | None] | None = None,
         duration_s: float = 1.0,
-        sampling_rate_hz: float = 20_000.0,
+        sampling_rate_hz: float = 30_000.0,
         channels: Sequence[str] | None = None,
         seed: int = 0,
         discard_transient: bool = True,

@@ -90,6 +90,8 @@ def run(arguments: argparse.Namespace) -> int:
     settings = {k: v for k, v in resolved.source.items() if k not in ("preset", "machine", "set")}
     with whole_folder(out) as folder:
         write_result(folder, response, documents, request={**origin, **settings}, elapsed_s=elapsed)
+        for stale in {*FURTHER} - {f"{name}.json" for name in documents.extras}:
+            (folder / stale).unlink(missing_ok=True)
     if not arguments.quiet:
         _say(response, documents, elapsed / (1 + further_runs(machine, request)))
         names = [*FILES, *(f"{name}.json" for name in documents.extras)]
@@ -103,7 +105,7 @@ def default_folder(arguments: argparse.Namespace) -> Path:
     return Path(f"result-{name}")
 
 
-OPTIONS = {"duration_s": "--duration", "sampling_rate_hz": "--rate", "seed": "--seed"}
+OPTIONS = {"duration_s": "--duration", "sampling_rate_hz": "--rate", "seed": "--seed", "causes": "--causes"}
 
 
 @contextmanager
