@@ -9,7 +9,7 @@ import numpy as np
 from sim.assembly.channels import machine_channels
 from sim.assembly.held import check_held
 from sim.assembly.kinematics import Kinematics, kinematics, slipped_bases
-from sim.assembly.laws import Acting, acting_terms, base_laws, machine_context, modified_laws, site_context
+from sim.assembly.laws import Acting, acting_terms, base_laws, machine_context, modified_laws, settings_of, site_context
 from sim.assembly.linear import Linear, linear_part
 from sim.assembly.loads import load_vector
 from sim.assembly.plausibility import implausible
@@ -70,7 +70,8 @@ def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGIST
     derived: dict[str, str] = {}
     warnings: list[str] = []
     extra = [a for a in acting_terms(machine, kin, registry, seed) if not a.term.idle(a.values)]
-    laws = modified_laws(base_laws(machine, derived, warnings), extra)
+    settings = settings_of(machine, kin, extra)
+    laws = modified_laws(base_laws(machine, derived, warnings, settings=settings, senses=kin.senses), extra)
     warnings += implausible(machine, kin)
     warnings += [text for a in extra for text in a.term.cautions(a.values, a.site)]
     bases = slipped_bases(kin, machine, laws)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from sim.assembly.senses import Senses, senses
 from sim.core.errors import Problem, SpecError
 from sim.core.laws import Laws
 from sim.core.spec import MachineSpec
@@ -21,6 +22,8 @@ class Kinematics:
     bases_hz: Mapping[str, float]
     shaft_base: Mapping[str, str]
     mesh_base: Mapping[str, str]
+    senses: Senses
+    """Sense of rotation of every shaft and what it carries; speeds carry no sign."""
 
 
 def shaft_of(machine: MachineSpec, body: str) -> str | None:
@@ -81,7 +84,14 @@ def kinematics(machine: MachineSpec) -> Kinematics:
             found = bearing_speeds(geometry_from_spec(bearing, field=f"bearings.{bearing.name}"), inner=turning)
             bases |= {f"f_o{i}": found.outer_pass, f"f_i{i}": found.inner_pass}
             bases |= {f"f_b{i}": found.ball_spin, f"f_c{i}": found.cage}
-    return Kinematics(shaft_hz=speeds, body_hz=body_hz, bases_hz=bases, shaft_base=shaft_base, mesh_base=mesh_base)
+    return Kinematics(
+        shaft_hz=speeds,
+        body_hz=body_hz,
+        bases_hz=bases,
+        shaft_base=shaft_base,
+        mesh_base=mesh_base,
+        senses=senses(machine),
+    )
 
 
 def slipped_bases(kin: Kinematics, machine: MachineSpec, laws: Laws) -> dict[str, float]:

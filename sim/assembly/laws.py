@@ -6,13 +6,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from sim.assembly.kinematics import Kinematics, shaft_of
+from sim.assembly.loads import shaft_torques_nm
+from sim.assembly.mesh_settings import mesh_settings
+from sim.assembly.senses import Senses
 from sim.core.errors import Problem, SpecError
 from sim.core.laws import BallLaw, Laws, MeshLaw, SupportLaw
 from sim.core.spec import BearingSpec, MachineSpec
 from sim.core.terms import Registry, SiteContext, SiteKind, Term
 from sim.parts.bearing.from_spec import geometry_from_spec
 from sim.parts.bearing.hertz import ball_race_stiffness_n_per_m15
-from sim.parts.mesh_law import mesh_law
+from sim.parts.mesh_law import ALONE, MeshSetting, mesh_law
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,6 +55,7 @@ def site_context(machine: MachineSpec, kin: Kinematics, site: str, seed: int) ->
         speed_hz=kin.shaft_hz.get(shaft, 0.0),
         bases_hz=kin.bases_hz,
         seed=seed,
+        sense=kin.senses.rotors.get(body, 1.0),
     )
 
 
@@ -62,7 +66,7 @@ def machine_context(machine: MachineSpec, kin: Kinematics, seed: int) -> SiteCon
     )
 
 
-def _ball_law(bearing: BearingSpec, notes: dict[str, str]) -> BallLaw:
+def _ball_law(bearing: BearingSpec, notes: dict[str, str], senses: Senses) -> BallLaw:
     field = f"bearings.{bearing.name}"
     geometry = geometry_from_spec(bearing, field=field)
     if bearing.contact_stiffness_n_per_m15 is None:
@@ -81,6 +85,7 @@ def _ball_law(bearing: BearingSpec, notes: dict[str, str]) -> BallLaw:
         stiffness_n_per_m15=stiffness,
         gap_m=bearing.radial_clearance_m,
         cage_phase_rad=bearing.cage_phase_rad,
+        sense=senses.rings.get(bearing.body, 1.0),
     )
 
 
@@ -95,14 +100,30 @@ def _support(bearing: BearingSpec) -> SupportLaw:
     )
 
 
-def base_laws(machine: MachineSpec, notes: dict[str, str], warnings: list[str]) -> Laws:
-    """The healthy machine's laws."""
+def settings_of(machine: MachineSpec, kin: Kinematics, acting: Sequence[Acting]) -> dict[str, MeshSetting]:
+    """What the machine and the effects that act in it decide about each mesh."""
+    loose: dict[str, float] = {}
+    for a in acting:
+        loose[a.site.site] = loose.get(a.site.site, 0.0) + a.term.centre_play_m(a.values)
+    return mesh_settings(machine, kin.senses, shaft_torques_nm(machine, kin), loose)
+
+
+def base_laws(
+    machine: MachineSpec,
+    notes: dict[str, str],
+    warnings: list[str],
+    *,
+    settings: Mapping[str, MeshSetting] | None = None,
+    senses: Senses | None = None,
+) -> Laws:
+    """The healthy machine's laws; without settings and senses those of the seed."""
+    known = settings or {}
     meshes: dict[str, MeshLaw] = {}
     for mesh in machine.meshes:
-        meshes[mesh.name] = mesh_law(machine, mesh, notes, warnings)
+        meshes[mesh.name] = mesh_law(machine, mesh, notes, warnings, known.get(mesh.name, ALONE))
     return Laws(
         meshes=meshes,
-        balls={b.name: _ball_law(b, notes) for b in machine.bearings},
+        balls={b.name: _ball_law(b, notes, senses or Senses()) for b in machine.bearings},
         supports={b.name: _support(b) for b in machine.bearings},
     )
 

@@ -44,6 +44,11 @@ def _balance(machine: MachineSpec, kin: Kinematics, derived: dict[str, str]) -> 
     return given
 
 
+def shaft_torques_nm(machine: MachineSpec, kin: Kinematics) -> dict[str, float]:
+    """Torque by shaft with its balance, N m, positive in the sense in which the shaft turns."""
+    return _balance(machine, kin, {})
+
+
 def _check_balance(given: dict[str, float], kin: Kinematics) -> None:
     powers = [torque * kin.shaft_hz[shaft] for shaft, torque in given.items()]
     if powers and abs(sum(powers)) > BALANCE * max(abs(p) for p in powers):

@@ -55,6 +55,15 @@ class MeshLaw:
     runout_gear_phase_rad: float = 0.0
     true_centre_line: bool = False
     follow_gear_shaft: bool = True
+    pinion_sense: float = 1.0
+    """Sense in which the pinion's run-out turns: +1 from x to y, -1 from y to x. The defaults are the seed's."""
+    gear_sense: float = -1.0
+    flank: float = 1.0
+    """Side on which a positive force pushes the pinion: +1 towards +y (the seed), -1 towards -y."""
+    drive: float = 1.0
+    """+1: the flanks on which the pinion drives carry the load; -1: those on which the gear drives."""
+    gear_first_tooth: int = 0
+    """Number of the gear's tooth that enters at mesh phase 0; the pinion's is tooth 0."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,6 +81,8 @@ class BallLaw:
     stiffness_n_per_m15: float
     gap_m: float
     cage_phase_rad: float
+    sense: float = 1.0
+    """Sense in which cage and inner ring turn: +1 from x to y, -1 from y to x."""
     cage_slip: float = 0.0
     outer_profile_m: FloatArray | None = None
     inner_profile_m: FloatArray | None = None

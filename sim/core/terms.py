@@ -33,6 +33,8 @@ class SiteContext:
     speed_hz: float
     bases_hz: Mapping[str, float]
     seed: int = 0
+    sense: float = 1.0
+    """Sense in which the site's run-out and unbalance turn: +1 from x to y, -1 from y to x."""
 
     def random(self, key: str) -> np.random.Generator:
         """A generator that depends on the seed, the site and `key` only."""
@@ -105,6 +107,10 @@ class Term:
     def machine_values(self, machine: MachineSpec, site: str) -> Values:  # noqa: ARG002
         """Parameters the machine itself gives at a site; what the term is given goes before them."""
         return {}
+
+    def centre_play_m(self, values: Values) -> float:  # noqa: ARG002
+        """How far the effect moves the shaft's centre at its site, m, or lets it move: sizes the meshes' tables."""
+        return 0.0
 
     def modify(self, laws: Laws, values: Values, site: SiteContext) -> Laws:  # noqa: ARG002
         """Return the laws as this effect changes them."""

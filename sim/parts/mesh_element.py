@@ -19,6 +19,7 @@ OUTPUTS = (
     Output(name="force", quantity="force", unit="N"),
     Output(name="transmission_error", quantity="displacement", unit="m"),
     Output(name="contact", quantity="state", unit="1"),
+    Output(name="outside_table", quantity="state", unit="1"),
 )
 
 
@@ -47,11 +48,28 @@ def _tilt_weights(machine: MachineSpec, body: str, axis: str) -> list[tuple[str,
 
 
 def line_of_action(law: MeshLaw, machine: MachineSpec) -> tuple[float, float]:
-    """Unit vector of the line of action, towards the pinion's push: y, or turned by the working angle."""
+    """Unit vector n of the line of action, in which a positive force pushes the pinion: +-y, or turned.
+
+    The tooth force pushes the gears apart, whichever of them drives: n points away from the gear (-x) where the pinion
+    drives and force is positive, towards it where the gear drives and force is negative.
+    """
     spec = next(m for m in machine.meshes if m.name == law.name)
     if spec.line_of_action == "y":
-        return 0.0, 1.0
-    return -math.sin(law.working_angle_rad), math.cos(law.working_angle_rad)
+        return 0.0, law.flank
+    return -law.drive * math.sin(law.working_angle_rad), law.flank * math.cos(law.working_angle_rad)
+
+
+def centre_line(law: MeshLaw, machine: MachineSpec) -> tuple[float, float]:
+    """Unit vector from pinion to gear: x, or in the true form with y as line of action turned by the working angle."""
+    spec = next(m for m in machine.meshes if m.name == law.name)
+    if not (law.true_centre_line and spec.line_of_action == "y"):
+        return 1.0, 0.0
+    return math.cos(law.working_angle_rad), -law.flank * law.drive * math.sin(law.working_angle_rad)
+
+
+def zero_row(law: MeshLaw) -> int:
+    """Index of the row at the installed centre distance."""
+    return int(np.argmin(np.abs(law.centre_errors_m)))
 
 
 def mesh_coordinates(law: MeshLaw, machine: MachineSpec) -> tuple[Coordinate, ...]:
@@ -81,7 +99,6 @@ def mesh_coordinates(law: MeshLaw, machine: MachineSpec) -> tuple[Coordinate, ..
 def header(law: MeshLaw, machine: MachineSpec, *, table_at: int, points: int) -> FloatArray:
     """The parameter header of `mesh_kernels`."""
     spec = next(m for m in machine.meshes if m.name == law.name)
-    turned = law.true_centre_line and spec.line_of_action == "y"
     shaft = _gear(machine, law.pinion).shaft
     head = np.zeros(mk.HEADER)
     head[mk.H_DAMPING] = law.damping_ns_per_m
@@ -91,8 +108,12 @@ def header(law: MeshLaw, machine: MachineSpec, *, table_at: int, points: int) ->
     head[mk.H_E_PHASE] = law.error_phase_rad
     head[mk.H_TEETH_PINION], head[mk.H_TEETH_GEAR] = law.teeth
     head[mk.H_CENTRE] = law.centre_distance_m
-    head[mk.H_COS] = math.cos(law.working_angle_rad) if turned else 1.0
-    head[mk.H_SIN] = math.sin(law.working_angle_rad) if turned else 0.0
+    along_x, along_y = centre_line(law, machine)
+    head[mk.H_COS], head[mk.H_SIN] = along_x, -along_y
+    head[mk.H_NORMAL_X], head[mk.H_NORMAL_Y] = line_of_action(law, machine)
+    head[mk.H_SENSE_P], head[mk.H_SENSE_G] = law.pinion_sense, law.gear_sense
+    head[mk.H_BACKLASH_SLOPE] = 2.0 * math.sin(law.working_angle_rad)
+    head[mk.H_DRIVE] = law.drive
     head[mk.H_RUNOUT_P], head[mk.H_RUNOUT_P_PHASE] = law.runout_pinion_m, law.runout_pinion_phase_rad
     head[mk.H_RUNOUT_G], head[mk.H_RUNOUT_G_PHASE] = law.runout_gear_m, law.runout_gear_phase_rad
     head[mk.H_LENGTH] = next(s.length_m for s in machine.shafts if s.name == shaft)

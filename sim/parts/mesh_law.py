@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,9 +12,31 @@ from sim.core.laws import MeshLaw
 from sim.core.response import FloatArray
 from sim.core.spec import GearSpec, MachineSpec, MeshSpec
 from sim.parts.gear.from_spec import gear_from_spec, pair_from_spec, user_table
+from sim.parts.gear.pair import GearPair
 from sim.parts.gear.pair_table import build_pair_table
+from sim.parts.gear.reach import covering_errors_m, covering_tilts_rad
 from sim.parts.gear.summary import mean_stiffness_n_per_m
 from sim.parts.gear.total_table import total_table
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshSetting:
+    """What the machine around it decides about a mesh; the defaults are the seed's senses and no load known."""
+
+    pinion_sense: float = 1.0
+    gear_sense: float = -1.0
+    flank: float = 1.0
+    drive: float = 1.0
+    gear_first_tooth: int = 0
+    force_n: float = 0.0
+    """Mean force on the line of action, N."""
+    centre_play_m: float = 0.0
+    """Change of the centre distance that the tables must cover, m."""
+    tilt_play_rad: float = 0.0
+    """Tilt of the pinion's shaft that the tables must cover, rad."""
+
+
+ALONE = MeshSetting()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,8 +54,6 @@ class MeshCurve:
     """Mean total stiffness at zero centre-distance error, N/m."""
 
 
-TILT_REACH_RAD, TILTS = 5e-4, 21
-"""Tilt grid of the offset angle: five times what the paper's machine reaches."""
 TOTAL_COLUMNS = 2000
 """Columns of a total curve made from pairs: an entry is smeared over 1/2000 of a mesh period."""
 
@@ -45,8 +65,51 @@ def _equal_steps(errors: FloatArray, mesh: MeshSpec) -> None:
         raise SpecError(Problem(field=f"meshes.{mesh.name}.table.centre_distance_error_m", message=message, unit="m"))
 
 
+def _brackets_zero(errors: FloatArray, mesh: MeshSpec) -> None:
+    if not errors[0] <= 0.0 <= errors[-1]:
+        message = "the rows must include the installed centre distance, error 0"
+        given = f"{errors[0]:g} to {errors[-1]:g}"
+        field = f"meshes.{mesh.name}.table.centre_distance_error_m"
+        raise SpecError(Problem(field=field, message=message, given=given, allowed="first <= 0 <= last", unit="m"))
+
+
+def _loaded(pair: GearPair, mesh: MeshSpec, force_n: float, notes: dict[str, str]) -> GearPair:
+    """The pair with the mean deflection of the transmitted load, on which the torsion arm of a tilt depends."""
+    if not mesh.offset_angle or force_n <= 0.0:
+        return pair
+    deflection = force_n / mean_stiffness_n_per_m(pair)
+    said = f"derived: {deflection:.6g} m (mean force {force_n:.6g} N over mean stiffness)"
+    notes[f"{mesh.name}.mean_deflection_m"] = said
+    return replace(pair, mean_deflection_m=deflection)
+
+
+def _beyond(curve: MeshCurve, mesh: MeshSpec, setting: MeshSetting) -> list[str]:
+    """Sentences about motion that the parameters allow and the table does not cover."""
+    why = "where the teeth stop working (contact ratio 1, or interference)" if mesh.table is None else "as it is given"
+    found = []
+    low, high = float(curve.centre_errors_m[0]), float(curve.centre_errors_m[-1])
+    play = setting.centre_play_m
+    if (mesh.table is None or curve.centre_errors_m.size > 1) and play > min(-low, high) * (1 + 1e-9):
+        found.append(
+            f"{mesh.name}: run-out, clearances and deflection may change the centre distance by {1e6 * play:.0f} um, "
+            f"the stiffness table runs from {1e6 * low:.0f} to {1e6 * high:.0f} um, {why}; beyond, its last row is used"
+        )
+    reach = float(curve.tilts_rad[-1])
+    if curve.tilts_rad.size > 1 and setting.tilt_play_rad > reach * (1 + 1e-9):
+        found.append(
+            f"{mesh.name}: clearances and deflection may tilt the shaft by {1e3 * setting.tilt_play_rad:.2g} mrad, the "
+            f"stiffness table ends at {1e3 * reach:.2g} mrad; beyond, its last layer is used"
+        )
+    return found
+
+
 def mesh_curve(
-    pinion: GearSpec, gear: GearSpec, mesh: MeshSpec, notes: dict[str, str], warnings: list[str]
+    pinion: GearSpec,
+    gear: GearSpec,
+    mesh: MeshSpec,
+    notes: dict[str, str],
+    warnings: list[str],
+    setting: MeshSetting = ALONE,
 ) -> MeshCurve:
     """The user's table, or the potential-energy method as pairs or as one total curve."""
     source = pair_from_spec(pinion, gear, mesh, mesh.root_model)
@@ -56,8 +119,10 @@ def mesh_curve(
     common = {"centre_distance_m": pair.installed_m, "working_angle_rad": pair.contact(0.0).working_angle_rad}
     table = user_table(mesh)
     if table is None and mesh.tooth_pairs:
-        tilts = np.linspace(-TILT_REACH_RAD, TILT_REACH_RAD, TILTS) if mesh.offset_angle else np.zeros(1)
-        rows = build_pair_table(pair, tilts_rad=tilts)
+        tilts = covering_tilts_rad(setting.tilt_play_rad) if mesh.offset_angle else np.zeros(1)
+        pair = _loaded(pair, mesh, setting.force_n, notes)
+        errors = covering_errors_m(pair, setting.centre_play_m)
+        rows = build_pair_table(pair, tilts_rad=tilts, centre_distance_errors_m=errors)
         return MeshCurve(
             **common,
             centre_errors_m=rows.centre_distance_error_m,
@@ -68,9 +133,10 @@ def mesh_curve(
             mean_row=mean_stiffness_n_per_m(pair),
         )
     if table is None:
-        errors = build_pair_table(pair).centre_distance_error_m
+        errors = covering_errors_m(pair, setting.centre_play_m)
         table = total_table(pair, errors, columns=TOTAL_COLUMNS)
     _equal_steps(table.centre_distance_error_m, mesh)
+    _brackets_zero(table.centre_distance_error_m, mesh)
     zero = int(np.argmin(np.abs(table.centre_distance_error_m)))
     return MeshCurve(
         **common,
@@ -104,11 +170,14 @@ def _damping(mesh: MeshSpec, gears: tuple[GearSpec, GearSpec], mean_n_per_m: flo
     return value
 
 
-def mesh_law(machine: MachineSpec, mesh: MeshSpec, notes: dict[str, str], warnings: list[str]) -> MeshLaw:
+def mesh_law(
+    machine: MachineSpec, mesh: MeshSpec, notes: dict[str, str], warnings: list[str], setting: MeshSetting = ALONE
+) -> MeshLaw:
     """Build the law; damping from the ratio when not given."""
     gears = {g.name: g for g in machine.gears}
     pinion, gear = gears[mesh.pinion], gears[mesh.gear]
-    curve = mesh_curve(pinion, gear, mesh, notes, warnings)
+    curve = mesh_curve(pinion, gear, mesh, notes, warnings, setting)
+    warnings += _beyond(curve, mesh, setting)
     middle = curve.mean_row
     return MeshLaw(
         name=mesh.name,
@@ -132,4 +201,9 @@ def mesh_law(machine: MachineSpec, mesh: MeshSpec, notes: dict[str, str], warnin
         gear_tooth_gap_m=np.zeros(gear.teeth),
         true_centre_line=mesh.centre_distance_form == "true",
         follow_gear_shaft=mesh.follow_gear_shaft,
+        pinion_sense=setting.pinion_sense,
+        gear_sense=setting.gear_sense,
+        flank=setting.flank,
+        drive=setting.drive,
+        gear_first_tooth=setting.gear_first_tooth,
     )

@@ -104,7 +104,7 @@ def _rotor() -> MachineSpec:
         bodies=[BodySpec(name="disc", mass_kg=5.0, shaft="input", axes="xy")],
         bearings=[_small_bearing(1), _small_bearing(2)],
         gravity_m_per_s2=9.80665,
-        operating=OperatingSpec(shaft="input", speed_hz=30.0),
+        operating=OperatingSpec(shaft="input", speed_hz=30.0, rotation="geared"),
     )
 
 
@@ -122,7 +122,7 @@ def _gear_pair() -> MachineSpec:
             MeshSpec(name="mesh1", pinion="pinion", gear="gear", transmission_error=TransmissionError(amplitude_m=5e-6))
         ],
         loads=[TorqueLoad(shaft="input", torque_nm=25.0)],
-        operating=OperatingSpec(shaft="input", speed_hz=30.0),
+        operating=OperatingSpec(shaft="input", speed_hz=30.0, rotation="geared"),
     )
 
 

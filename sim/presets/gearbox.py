@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from sim.core.spec import (
     BallGeometry,
@@ -58,6 +59,7 @@ class GearboxNumbers:
     mesh_damping: float | None = None
     mesh_damping_ratio: float = 0.05
     speed_hz: float = 30.0
+    rotation: Literal["printed", "geared"] = "printed"
     torque: float = 25.0
     output_torque: float | None = None
     pinion_teeth: int = 23
@@ -161,6 +163,6 @@ def gearbox(n: GearboxNumbers) -> MachineSpec:
         resonators=resonators,
         loads=loads,
         gravity_m_per_s2=n.gravity,
-        operating=OperatingSpec(shaft="input", speed_hz=n.speed_hz),
+        operating=OperatingSpec(shaft="input", speed_hz=n.speed_hz, rotation=n.rotation),
         terms=list(n.terms),
     )

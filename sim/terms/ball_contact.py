@@ -1,6 +1,6 @@
 """Ball-race contacts of a bearing (seed eqs 9-12): every ball a unilateral Hertz spring, F = k eps^1.5.
 
-Ball i stands at 2 pi i / Z + cage phase + (1 - (d/D) cos alpha) / 2 * (1 - slip) * phi of the shaft. Race profiles
+Ball i stands at 2 pi i / Z + cage phase + sense (1 - (d/D) cos alpha) / 2 (1 - slip) phi of the shaft. Race profiles
 (gaps over the race angle) let defects enter without another kernel. Balls are padded to multiples of eight with
 contacts that never close, so that one vector instruction handles eight of them.
 """
@@ -27,7 +27,7 @@ from sim.parts.wall import mesh_sidebands
 LANES = 8
 OPEN_GAP_M = 1.0
 """Gap of a padding ball: never closes."""
-# parameters: padded, stiffness, gap, cage ratio, cage phase, has_profiles, balls, spare, cos n, sin n, gap n, profiles
+# parameters: padded, stiffness, gap, cage ratio, cage phase, has_profiles, balls, sense, cos n, sin n, gap n, profiles
 HEAD = 8
 
 
@@ -81,7 +81,7 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
             balls = int(par[6])
             for i in range(balls):
                 angle = cage + turn * i / balls
-                extra = profile(par, 8 + 3 * n, angle) + profile(par, 8 + 3 * n + 2048, angle - shafts[k])
+                extra = profile(par, 8 + 3 * n, angle) + profile(par, 8 + 3 * n + 2048, angle - par[7] * shafts[k])
                 ctx[base + 1 + 2 * n + i] += extra
 
 
@@ -157,11 +157,11 @@ def ball_parameters(law: BallLaw) -> FloatArray:
         float(n),
         law.stiffness_n_per_m15,
         law.gap_m,
-        0.5 * (1.0 - law.diameter_ratio_cos) * (1.0 - law.cage_slip),
+        law.sense * 0.5 * (1.0 - law.diameter_ratio_cos) * (1.0 - law.cage_slip),
         law.cage_phase_rad,
         float(profiles),
         float(law.balls),
-        0.0,
+        law.sense,
         np.cos(angle),
         np.sin(angle),
         gap,

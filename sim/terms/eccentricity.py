@@ -1,8 +1,9 @@
 """Run-out of a gear: its base circle turns about a point beside its centre.
 
-A radius r displaces the flank along the line of action by r sin(phi + phase) and the centre by r in the rotating
-direction; the mesh sees both, so mesh lines get sidebands at the gear's shaft speed. The seed has no such term and
-therefore cannot produce f_m +- f_r1 (docs/physics/deviations.md).
+The base circle's centre stands off the axis by the vector r (cos, sin)(sense * phi + phase). Its component on the line
+of action enters the transmission error, the one on the centre line the centre distance (`sim/parts/mesh_kernels.py`),
+so mesh lines get sidebands at the gear's shaft speed. The seed has no such term and therefore cannot produce
+f_m +- f_r1 (docs/physics/deviations.md).
 """
 
 from __future__ import annotations
@@ -19,6 +20,10 @@ from sim.core.terms import SiteContext, Term, Values
 @dataclass(frozen=True, kw_only=True)
 class Eccentricity(Term):
     """See the module."""
+
+    def centre_play_m(self, values: Values) -> float:
+        """The radius of the run-out."""
+        return values["radius"]
 
     def modify(self, laws: Laws, values: Values, site: SiteContext) -> Laws:
         """Set the run-out of the gear in every mesh it takes part in."""

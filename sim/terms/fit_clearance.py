@@ -51,6 +51,10 @@ class FitClearance(Term):
         """Collision damping of the bearing's bore."""
         return bore_values(machine, site)
 
+    def centre_play_m(self, values: Values) -> float:
+        """The clearance: the ring, and the shaft with it, may stand that far off."""
+        return values["gap"]
+
     def modify(self, laws: Laws, values: Values, site: SiteContext) -> Laws:  # noqa: ARG002
         """Release the ring from its support (seed eq. 34), only at this bearing."""
         support = replace(laws.supports[site.site], released=True)

@@ -56,6 +56,10 @@ class FitClearanceSeries(Term):
         """Collision damping of the bearing's bore."""
         return bore_values(machine, site)
 
+    def centre_play_m(self, values: Values) -> float:
+        """The clearance: the ring, and the shaft with it, may stand that far off."""
+        return values["gap"]
+
     def modify(self, laws: Laws, values: Values, site: SiteContext) -> Laws:
         """Put a housing mass between support and ring."""
         if values["gap"] == 0.0:

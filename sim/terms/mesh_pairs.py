@@ -18,22 +18,28 @@ from sim.core.elements import Element, flat
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.terms import SiteContext, Term, Values
-from sim.parts.mesh_element import OUTPUTS, header, mesh_coordinates
+from sim.parts.mesh_element import OUTPUTS, header, mesh_coordinates, zero_row
 from sim.parts.mesh_kernels import (
     HEADER,
+    backlash_growth,
     centre_error,
     flank_gap,
+    node_growth,
+    outside_table,
     row_position,
     runout_error,
     runout_rate,
+    shaft_tilt,
     sine_error,
     sine_rate,
+    touch_share,
+    touch_slope,
     unilateral,
 )
 
 SLOTS = 4
 """Pairs that can touch within a step: contact ratios up to 3."""
-CONTEXT = 8 + 2 * SLOTS  # error, rate, phase, phi_p, phi_g, spare x 3, then (stiffness, gap) a slot
+CONTEXT = 8 + 2 * SLOTS  # error, rate, phase, phi_p, phi_g, change of backlash, spare x 2, then (stiffness, gap) a slot
 GAUSS = 0.7745966692414834
 """Three-point Gauss node sqrt(3/5)."""
 
@@ -79,11 +85,11 @@ def pair_value(par, row, tilt, x):  # type: ignore[no-untyped-def]  # noqa: ANN0
 
 
 @inline
-def tilt_position(par, tilt_y):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Position on the tilt grid for the shaft's end-to-end displacement along the line of action, clamped."""
+def tilt_position(par, tilt):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Position on the tilt grid for a tilt in rad, clamped."""
     if par[27] <= 0.0 or par[23] < 2.0:
         return 0.0
-    position = (tilt_y / par[14] - par[24]) / par[25]
+    position = (tilt - par[24]) / par[25]
     return min(max(position, 0.0), par[23] - 1.000000001)
 
 
@@ -140,13 +146,14 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
         ctx[i * 16 + 2] = par[5] * phi_p / turn
         ctx[i * 16 + 3] = phi_p
         ctx[i * 16 + 4] = phi_g
+        ctx[i * 16 + 5] = node_growth(par, step[3 + i] * h, u, phi_p, phi_g)
     for j in range(8):
         ctx[s * 16 + j] = ctx[(s - 1) * 16 + j]
     x_mid = u[1] + 0.5 * h * u[6]
     y_mid = u[2] + 0.5 * h * u[7]
     error = centre_error(par, 0.5 * (shafts[0] + shafts[s]), 0.5 * (shafts[2 * n] + shafts[2 * n + s]), x_mid, y_mid)
     row = row_position(par, error)
-    tilt = tilt_position(par, u[4] + 0.5 * h * u[9])
+    tilt = tilt_position(par, shaft_tilt(par, u[3] + 0.5 * h * u[8], u[4] + 0.5 * h * u[9]))
     ratio = row_value(par, int(par[26]), row)
     phase0 = par[5] * shafts[0] / turn
     dphase = max(par[5] * shafts[s] / turn - phase0, 1e-12)
@@ -160,15 +167,14 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
 
 
 @inline
-def exact_stiffness(par, u, ctx, slot):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Stiffness of a slot's pair at the instant of the context row, N/m."""
-    error = centre_error(par, ctx[3], ctx[4], u[1], u[2])
+def exact_stiffness(par, u, ctx, error, slot):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Stiffness of a slot's pair at the instant of the context row and a centre-distance error, N/m."""
     row = row_position(par, error)
     ratio = row_value(par, int(par[26]), row)
     x = (ctx[2] - math.floor(ctx[2]) + slot) / ratio
     if x >= 1.0:
         return 0.0
-    return pair_value(par, row, tilt_position(par, u[4]), x)
+    return pair_value(par, row, tilt_position(par, shaft_tilt(par, u[3], u[4])), x)
 
 
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
@@ -179,32 +185,47 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
     energy = 0.0
     tangent = 0.0
     total = 0.0
+    share = 0.0
+    slope = 0.0
+    growth = ctx[5]
+    error = 0.0
+    if mode == 2:
+        error = centre_error(par, ctx[3], ctx[4], u[1], u[2])
+        growth = backlash_growth(par, error)
     for slot in range(4):
-        k = exact_stiffness(par, u, ctx, slot) if mode == 2 else ctx[8 + 2 * slot]
-        d = flank_gap(par[1], s - ctx[9 + 2 * slot])
+        k = exact_stiffness(par, u, ctx, error, slot) if mode == 2 else ctx[8 + 2 * slot]
+        d = flank_gap(par, growth, s - ctx[9 + 2 * slot])
         load += k * d
         total += k
         energy += 0.5 * k * d * d
+        if par[1] >= 0.0:
+            share += k * touch_share(d)
+            slope += k * touch_slope(par, d)
         if par[1] < 0.0 or d != 0.0:
             tangent += k
     touching = 1.0 if (par[1] < 0.0 or tangent != 0.0) else 0.0
     damping = par[0] * touching
+    if par[1] >= 0.0:  # every pair damps in proportion to its stiffness, from touch on
+        share = share / total if total > 0.0 else 0.0
+        slope = slope / total if total > 0.0 else 0.0
+        damping = par[0] * share
     f[0] = unilateral(par[1], load, damping * sd)
     if mode == 1:
         for i in range(10):
             out[i] = 0.0
-        out[0] = tangent if f[0] != 0.0 else 0.0
+        out[0] = tangent + par[0] * slope * sd if f[0] != 0.0 else 0.0
         out[5] = damping if f[0] != 0.0 else 0.0
     if mode == 2:
         out[0] = energy
         out[1] = (f[0] - load) * sd
         out[2] = -f[0] * ctx[1]
         out[3] = total
-        out[4] = centre_error(par, ctx[3], ctx[4], u[1], u[2])
+        out[4] = error
         out[5] = math.atan2(math.sqrt(u[3] * u[3] + u[4] * u[4]), par[14])
         out[6] = f[0]
         out[7] = ctx[0]
         out[8] = touching
+        out[9] = outside_table(par, error, shaft_tilt(par, u[3], u[4]))
 
 
 KERNEL = kernel(prepare, force)
@@ -225,8 +246,8 @@ class MeshPairs(Term):
         head = header(law, site.machine, table_at=table_at, points=law.pair_rows.shape[2])
         head[26] = ratios_at
         parameters = flat(head, law.pinion_tooth_gap_m, law.gear_tooth_gap_m, law.pair_ratios, law.pair_rows)
-        middle = law.pair_rows[law.pair_rows.shape[0] // 2, law.pair_rows.shape[1] // 2]
-        mean = float(middle.mean() * law.pair_ratios[law.pair_ratios.size // 2])
+        middle = law.pair_rows[law.pair_rows.shape[0] // 2, zero_row(law)]
+        mean = float(middle.mean() * law.pair_ratios[zero_row(law)])
         return (
             Element(
                 name=law.name,

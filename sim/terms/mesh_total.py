@@ -18,11 +18,14 @@ from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.spec import MachineSpec
 from sim.core.terms import Demo, SiteContext, Term, Values
-from sim.parts.mesh_element import OUTPUTS, header, mesh_coordinates
+from sim.parts.mesh_element import OUTPUTS, header, mesh_coordinates, zero_row
 from sim.parts.mesh_kernels import (
     HEADER,
+    backlash_growth,
     centre_error,
     flank_gap,
+    node_growth,
+    outside_table,
     row_position,
     runout_error,
     runout_rate,
@@ -30,10 +33,12 @@ from sim.parts.mesh_kernels import (
     sine_rate,
     tooth_gap,
     tooth_gap_rate,
+    touch_share,
+    touch_slope,
     unilateral,
 )
 
-CONTEXT = 8  # stiffness, error, error rate, phase, phi_p, phi_g, omega_p, spare
+CONTEXT = 8  # stiffness, error, error rate, phase, phi_p, phi_g, omega_p, change of backlash
 GAUSS = 0.5773502691896258
 """Two-point Gauss node 1/sqrt(3): exact for a cubic, that is linear stiffness times quadratic weight."""
 
@@ -105,6 +110,7 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
         ctx[i * 8 + 4] = phi_p
         ctx[i * 8 + 5] = phi_g
         ctx[i * 8 + 6] = om_p
+        ctx[i * 8 + 7] = node_growth(par, step[3 + i] * h, u, phi_p, phi_g)
     for j in range(8):
         ctx[s * 8 + j] = ctx[(s - 1) * 8 + j]
     error = centre_error(par, 0.5 * (shafts[0] + shafts[s]), 0.5 * (shafts[2 * n] + shafts[2 * n + s]), x_mid, y_mid)
@@ -130,20 +136,24 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Mesh force on the line of action, N (resistance to positive u[0])."""
     k = ctx[0]
+    growth = ctx[7]
     error = 0.0
     if mode == 2:
         error = centre_error(par, ctx[4], ctx[5], u[1], u[2])
         k = table_value(par, row_position(par, error), ctx[3])
+        growth = backlash_growth(par, error)
     s = u[0] - ctx[1]
     sd = ud[0] - ctx[2]
-    load = flank_gap(par[1], s)
+    load = flank_gap(par, growth, s)
     touching = 1.0 if (par[1] < 0.0 or load != 0.0) else 0.0
     damping = par[0] * touching
+    if par[1] >= 0.0:
+        damping *= touch_share(load)
     f[0] = unilateral(par[1], k * load, damping * sd)
     if mode == 1:
         for i in range(10):
             out[i] = 0.0
-        out[0] = k * touching if f[0] != 0.0 else 0.0
+        out[0] = k * touching + par[0] * touch_slope(par, load) * sd if f[0] != 0.0 else 0.0
         out[5] = damping if f[0] != 0.0 else 0.0
     if mode == 2:
         out[0] = 0.5 * k * load * load
@@ -155,6 +165,7 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
         out[6] = f[0]
         out[7] = ctx[1]
         out[8] = touching
+        out[9] = outside_table(par, error, 0.0)
 
 
 KERNEL = kernel(prepare, force)
@@ -186,7 +197,7 @@ class MeshTotal(Term):
                 outputs=OUTPUTS,
                 exact_end=True,
                 contact_output=5,
-                linear_stiffness=np.array([[float(rows[rows.shape[0] // 2].mean())]]),
+                linear_stiffness=np.array([[float(rows[zero_row(law)].mean())]]),
             ),
         )
 

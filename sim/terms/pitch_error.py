@@ -1,9 +1,15 @@
-"""Individual pitch deviations of a gear: every tooth stands a little off its place, the same at each turn."""
+"""Individual pitch deviations of a gear: every tooth stands a little off its place, the same at each turn.
+
+A deviation moves both flanks of a tooth in the sense from x to y. Where the gear is driven that opens the gap of the
+pair on one side of the line of action, and where the same gear drives the next one it closes it: hence `flank`.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+
+import numpy as np
 
 from sim.core.laws import Laws
 from sim.core.lines import Line
@@ -26,9 +32,10 @@ class PitchError(Term):
             drawn -= drawn.mean()
             gaps = values["rms"] * drawn / max(float((drawn**2).mean() ** 0.5), 1e-300)
             if law.pinion == site.site:
-                meshes[name] = replace(law, pinion_tooth_gap_m=law.pinion_tooth_gap_m + gaps)
+                meshes[name] = replace(law, pinion_tooth_gap_m=law.pinion_tooth_gap_m + law.flank * gaps)
             else:
-                meshes[name] = replace(law, gear_tooth_gap_m=law.gear_tooth_gap_m + gaps)
+                entering = np.roll(law.flank * gaps, -law.gear_first_tooth)
+                meshes[name] = replace(law, gear_tooth_gap_m=law.gear_tooth_gap_m + entering)
         return replace(laws, meshes=meshes)
 
     def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:

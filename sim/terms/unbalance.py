@@ -53,8 +53,7 @@ class Unbalance(Term):
     """See the module."""
 
     def elements(self, laws: Laws, values: Values, site: SiteContext) -> Sequence[Element]:  # noqa: ARG002
-        """A turning force on the gear's x and y."""
-        driven = any(m.gear == site.site for m in site.machine.meshes)
+        """A turning force on the gear's x and y, in the sense of its shaft."""
         coordinates = tuple(
             Coordinate(name=f"{site.site}.unbalance.{a}", unit="m", weights=((f"{site.site}.{a}", 1.0),))
             for a in ("x", "y")
@@ -66,7 +65,7 @@ class Unbalance(Term):
                 kernel=KERNEL,
                 coordinates=coordinates,
                 forces=2,
-                parameters=flat(values["moment"], values["phase"], -1.0 if driven else 1.0),
+                parameters=flat(values["moment"], values["phase"], site.sense),
                 context=CONTEXT,
                 shafts=(site.site, site.site),
                 outputs=OUTPUTS,

@@ -16,6 +16,8 @@ class OperatingSpec(SpecModel):
     speed_hz: Annotated[float, Field(ge=0.1, le=1000)]
     kinematics: Literal["prescribed", "dynamic"] = "prescribed"
     """Shaft angle phi(t): `prescribed` is the speed profile alone (the seed), `dynamic` adds the torsional motion."""
+    rotation: Literal["printed", "geared"] = "geared"
+    """`geared`: shafts turn against each other through their meshes; `printed`: all shafts in one sense (the seed)."""
 
 
 class TorqueLoad(SpecModel):
