@@ -285,6 +285,7 @@ TERM = MeshPairs(
     references=(
         "seed eqs (13)-(27)",
         "Yang & Lin 1987, J. Mech. Trans. Autom. Des. 109(2), 189-196 (potential-energy method)",
+        "Hunt & Crossley 1975, J. Appl. Mech. 42(2), 440-445 (damping of a contact vanishes at touch)",
         "Sainsot, Velex & Duverger 2004, J. Mech. Des. 126(4), 748-752 (gear body)",
     ),
     severity=None,

@@ -68,7 +68,7 @@ class MeshSpec(SpecModel):
     """Viscous mesh damping c_t; none: from `damping_ratio`."""
     damping_ratio: Annotated[float, Field(ge=0, le=2)] = 0.05
     backlash_m: Annotated[float, Field(ge=0, le=5e-3)] | None = None
-    """Total backlash on the line of action; none: the flanks never part (as the seed's equations)."""
+    """Total backlash on the line of action at the installed centre distance; none: the flanks never part (the seed)."""
     transmission_error: TransmissionError = TransmissionError()
     centre_distance_m: Annotated[float, Field(gt=0, le=50)] | None = None
     """Installed centre distance; none: the standard one."""
