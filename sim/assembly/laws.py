@@ -45,6 +45,7 @@ def site_context(machine: MachineSpec, kin: Kinematics, site: str, seed: int) ->
         body = bearing.body if bearing.name == site else body
     for mesh in machine.meshes:
         body = mesh.pinion if mesh.name == site else body
+    rolling = any(b.name == site for b in machine.bearings)
     shaft = (site if site in kin.shaft_base else shaft_of(machine, body)) or ""
     return SiteContext(
         machine=machine,
@@ -55,7 +56,7 @@ def site_context(machine: MachineSpec, kin: Kinematics, site: str, seed: int) ->
         speed_hz=kin.shaft_hz.get(shaft, 0.0),
         bases_hz=kin.bases_hz,
         seed=seed,
-        sense=kin.senses.rotors.get(body, 1.0),
+        sense=(kin.senses.rings if rolling else kin.senses.rotors).get(body, 1.0),
     )
 
 

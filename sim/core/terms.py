@@ -34,7 +34,7 @@ class SiteContext:
     bases_hz: Mapping[str, float]
     seed: int = 0
     sense: float = 1.0
-    """Sense in which the site's run-out and unbalance turn: +1 from x to y, -1 from y to x."""
+    """Sense in which the site turns, a bearing's inner ring and cage or a gear's run-out: +1 x to y, -1 y to x."""
 
     def random(self, key: str) -> np.random.Generator:
         """A generator that depends on the seed, the site and `key` only."""

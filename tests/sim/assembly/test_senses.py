@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from sim.assembly.assemble import assemble
+from sim.assembly.kinematics import kinematics
+from sim.assembly.laws import site_context
 from sim.assembly.senses import senses
 from sim.core.errors import SpecError
 from sim.core.spec import OperatingSpec, TermSpec
@@ -67,6 +69,16 @@ def test_geared_is_the_default_and_every_preset_says_its_own():
         if operating is not None:
             assert "rotation" in operating.model_fields_set
             assert operating.rotation == ("printed" if name.startswith("paper") else "geared")
+
+
+def test_effects_are_told_the_sense_of_their_site():
+    machine = train(CHAIN, ROW, {"a": 20.0}, rotation="printed")
+    kin = kinematics(machine)
+    assert [site_context(machine, kin, site, 0).sense for site in ("b", "b_1", "mesh1")] == [-1.0, 1.0, 1.0]
+    machine = train(CHAIN, ROW, {"a": 20.0})
+    kin = kinematics(machine)
+    found = [site_context(machine, kin, site, 0).sense for site in ("b", "b_1", "shaft_b", "mesh1")]
+    assert found == [1.0, 1.0, 1.0, -1.0]
 
 
 @pytest.mark.parametrize("rotation", ["printed", "geared"])
