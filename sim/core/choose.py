@@ -151,22 +151,28 @@ def pick(table: Any, index: float) -> Any:  # noqa: ANN401
     return table[int(index)]
 
 
+def _gathered(builder: Any, table: Any, index: Any, stored_by_lane: bool) -> Any:  # noqa: ANN401
+    """Eight items of a table, by the whole numbers of `index`."""
+    at = builder.fptosi(index, WHOLE)
+    if stored_by_lane:
+        at = builder.mul(at, ir.Constant(WHOLE, [WIDTH] * WIDTH))
+        at = builder.add(at, ir.Constant(WHOLE, list(range(WIDTH))))
+    result = ir.Constant(VECTOR, ir.Undefined)
+    for k in range(WIDTH):
+        lane = ir.Constant(ir.IntType(32), k)
+        item = builder.load(builder.gep(table, [builder.extract_element(at, lane)]))
+        result = builder.insert_element(result, item, lane)
+    return result
+
+
 def _typed_pick(typingctx: Any, table: Any, index: Any) -> Any:  # noqa: ANN401, ARG001
-    wide = table is LANE_POINTER
+    by_lane = table is LANE_POINTER
+    wide = by_lane or index is LANES
 
     def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:  # noqa: ANN401, ARG001
-        if not wide:
-            return builder.load(builder.gep(args[0], [builder.fptosi(args[1], INT64)]))
-        whole = builder.fptosi(widen(builder, args[1], sig.args[1]), WHOLE)
-        at = builder.add(
-            builder.mul(whole, ir.Constant(WHOLE, [WIDTH] * WIDTH)), ir.Constant(WHOLE, list(range(WIDTH)))
-        )
-        result = ir.Constant(VECTOR, ir.Undefined)
-        for k in range(WIDTH):
-            lane = ir.Constant(ir.IntType(32), k)
-            item = builder.load(builder.gep(args[0], [builder.extract_element(at, lane)]))
-            result = builder.insert_element(result, item, lane)
-        return result
+        if wide:
+            return _gathered(builder, args[0], widen(builder, args[1], sig.args[1]), by_lane)
+        return builder.load(builder.gep(args[0], [builder.fptosi(args[1], INT64)]))
 
     number = LANES if wide else types.float64
     return number(table, LANES if index is LANES else types.float64), codegen

@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -39,32 +38,8 @@ from numba.extending import intrinsic  # noqa: E402
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]  # numba may be imported already
 
 DOUBLES = types.CPointer(types.float64)  # type: ignore[no-untyped-call]
-PREPARE_SIGNATURE = types.void(DOUBLES, DOUBLES, DOUBLES, DOUBLES, DOUBLES)
-"""prepare(step, shafts, u, par, ctx)"""
-FORCE_SIGNATURE = types.void(types.int64, DOUBLES, DOUBLES, DOUBLES, DOUBLES, DOUBLES, DOUBLES)
-"""force(mode, u, ud, ctx, par, f, out)"""
 FAST = {"contract", "reassoc", "nsz", "arcp", "afn"}
 """Floating-point freedoms of the kernels; not `nnan`/`ninf`: divergence must stay visible."""
-
-Python = Callable[..., None]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Kernel:
-    """Compiled address and plain Python twin of the two functions of an effect."""
-
-    prepare: Python
-    force: Python
-    prepare_address: int
-    force_address: int
-
-
-def kernel(prepare: Python, force: Python) -> Kernel:
-    """Compile an effect's `prepare` and `force`; the Python functions themselves are the plain twins."""
-    wrap: Any = numba.cfunc
-    prepare_c = wrap(PREPARE_SIGNATURE, cache=True, fastmath=FAST, error_model="numpy")(prepare)
-    force_c = wrap(FORCE_SIGNATURE, cache=True, fastmath=FAST, error_model="numpy")(force)
-    return Kernel(prepare=prepare, force=force, prepare_address=prepare_c.address, force_address=force_c.address)
 
 
 def jit(function: Callable[..., Any]) -> Any:  # noqa: ANN401  (numba's dispatcher has no type)

@@ -117,3 +117,25 @@ def hyperbolic_tangent(x):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN20
     t = exponential(-2.0 * size(x))
     y = (1.0 - t) / (1.0 + t)
     return select(x < 0.0, -y, y)
+
+
+@inline
+def arctangent(x):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Angle of a slope, rad; Cephes atan.c without its low-order correction, absolute error below 4e-16."""
+    a = size(x)
+    steep = a > 2.414213562373095
+    middle = (a > 0.66) & ~steep
+    t = select(steep, -1.0 / larger(a, 1e-300), select(middle, (a - 1.0) / (a + 1.0), a))
+    base = select(steep, 1.5707963267948966, select(middle, 0.7853981633974483, 0.0))
+    q = t * t
+    p = -8.750608600031904122785e-1 * q - 1.615753718733365076637e1
+    p = p * q - 7.500855792314704667340e1
+    p = p * q - 1.228866684490136173410e2
+    p = p * q - 6.485021904942025371773e1
+    d = q + 2.485846490142306297962e1
+    d = d * q + 1.650270098316988542046e2
+    d = d * q + 4.328810604912902668951e2
+    d = d * q + 4.853903996359136964868e2
+    d = d * q + 1.945506571482613964425e2
+    y = base + (t * (q * p / d) + t)
+    return select(x < 0.0, -y, y)

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.core.compiled import Kernel
+from sim.core.kernels import Kernel
 from sim.core.response import FloatArray
 
 STAGES = 3

@@ -217,3 +217,69 @@ def _typed_as_lanes(typingctx: Any, pointer: Any) -> Any:  # noqa: ANN401, ARG00
 
 
 as_lanes: Any = intrinsic(_typed_as_lanes)
+
+
+def _typed_lane_shift(typingctx: Any, pointer: Any, count: Any) -> Any:  # noqa: ANN401, ARG001
+    """Lane pointer moved by `count` items."""
+
+    def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:  # noqa: ANN401, ARG001
+        return builder.gep(args[0], [builder.mul(args[1], ir.Constant(ir.IntType(64), WIDTH))])
+
+    return LANE_POINTER(LANE_POINTER, types.int64), codegen
+
+
+lane_shift: Any = intrinsic(_typed_lane_shift)
+
+
+def _typed_lowest(typingctx: Any, x: Any) -> Any:  # noqa: ANN401, ARG001
+    """Smallest of the eight numbers."""
+
+    def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:  # noqa: ANN401, ARG001
+        low = builder.extract_element(args[0], ir.Constant(ir.IntType(32), 0))
+        for k in range(1, WIDTH):
+            one = builder.extract_element(args[0], ir.Constant(ir.IntType(32), k))
+            low = builder.select(builder.fcmp_ordered("<", one, low), one, low)
+        return low
+
+    return types.float64(LANES), codegen
+
+
+lowest: Any = intrinsic(_typed_lowest)
+
+
+def _typed_call_lane_prepare(typingctx: Any, address: Any, step: Any, shafts: Any, u: Any, par: Any, ctx: Any) -> Any:  # noqa: ANN401, ARG001
+    """Call a lane `prepare` by address."""
+
+    def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:  # noqa: ANN401, ARG001
+        kind = ir.FunctionType(ir.VoidType(), [ir.DoubleType().as_pointer()] * 5)
+        builder.call(builder.inttoptr(args[0], kind.as_pointer()), args[1:])
+        return context.get_dummy_value()
+
+    return types.void(types.int64, *([LANE_POINTER] * 5)), codegen
+
+
+call_lane_prepare: Any = intrinsic(_typed_call_lane_prepare)
+
+
+def _typed_call_lane_force(
+    typingctx: Any,  # noqa: ANN401, ARG001
+    address: Any,  # noqa: ANN401, ARG001
+    mode: Any,  # noqa: ANN401, ARG001
+    u: Any,  # noqa: ANN401, ARG001
+    ud: Any,  # noqa: ANN401, ARG001
+    ctx: Any,  # noqa: ANN401, ARG001
+    par: Any,  # noqa: ANN401, ARG001
+    f: Any,  # noqa: ANN401, ARG001
+    out: Any,  # noqa: ANN401, ARG001
+) -> Any:  # noqa: ANN401
+    """Call a lane `force` by address; `mode` is one for all lanes."""
+
+    def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:  # noqa: ANN401, ARG001
+        kind = ir.FunctionType(ir.VoidType(), [ir.IntType(64)] + [ir.DoubleType().as_pointer()] * 6)
+        builder.call(builder.inttoptr(args[0], kind.as_pointer()), args[1:])
+        return context.get_dummy_value()
+
+    return types.void(types.int64, types.int64, *([LANE_POINTER] * 6)), codegen
+
+
+call_lane_force: Any = intrinsic(_typed_call_lane_force)

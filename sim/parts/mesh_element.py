@@ -131,4 +131,6 @@ def header(law: MeshLaw, machine: MachineSpec, *, table_at: int, points: int) ->
     if law.tilts_rad.size > 1:
         head[mk.H_TILT_STEP] = law.tilts_rad[1] - law.tilts_rad[0]
     head[mk.H_USE_TILT] = float(spec.offset_angle)
+    head[mk.H_KINDS] = 1.0
+    head[mk.H_SLICES] = 1.0
     return head

@@ -33,19 +33,6 @@ class Chunked:
     rows: int
 
 
-def aligned(count: int) -> FloatArray:
-    """Zeros that start on a cache line: a vector load that straddles two costs twice, and at random from run to run."""
-    spare = np.zeros(count + 8)
-    return spare[(-spare.ctypes.data // 8) % 8 :][:count]
-
-
-def aligned_copy(values: FloatArray) -> FloatArray:
-    """The same numbers, shape included, from a cache line on."""
-    copy = aligned(values.size).reshape(values.shape)
-    copy[...] = values
-    return copy
-
-
 def chunked(matrix: FloatArray) -> Chunked:
     """Pack a dense (rows, columns) matrix; rows are padded to a multiple of eight, columns of a chunk to four."""
     rows, columns = matrix.shape

@@ -12,27 +12,25 @@ from __future__ import annotations
 
 import numpy as np
 
-from sim.core.response import EnergyBalance
+from sim.core.response import EnergyBalance, FloatArray
 from sim.core.system import System
-from sim.solve.pointers import Work
-from sim.solve.sampling import Probe
 from sim.solve.settings import ENERGY_LIMIT
 
 
-def energy_balance(system: System, work: Work, probe: Probe) -> EnergyBalance:
-    """Balance from t = 0 (at rest) to the current state."""
+def energy_balance(system: System, z: FloatArray, work: FloatArray, energy: FloatArray) -> EnergyBalance:
+    """Balance from rest at t = 0 to the state `z`; `work` (E,) J, `energy` as `sampling.account` fills it."""
     n = len(system.dofs)
-    q, v = work.z[:n], work.z[n : 2 * n]
+    q, v = z[:n], z[n : 2 * n]
     stored = {
         "kinetic": float(0.5 * v @ (system.mass * v)),
         "linear_springs": float(0.5 * q @ system.stiffness @ q),
     }
-    dissipated = {"linear_dampers": float(probe.energy[0])}
+    dissipated = {"linear_dampers": float(energy[0])}
     supplied = {"loads": float(system.load @ q)}
     through = abs(supplied["loads"]) + stored["kinetic"] + stored["linear_springs"] + dissipated["linear_dampers"]
     for e, element in enumerate(system.elements):
-        now, lost, given, first = (float(probe.energy[2 + 6 * e + k]) for k in range(4))
-        done = float(work.work[e])
+        now, lost, given, first = (float(energy[2 + 6 * e + k]) for k in range(4))
+        done = float(work[e])
         stored[element.name] = now - first
         dissipated[element.name] = lost
         if "transmission_error" in [o.name for o in element.outputs]:

@@ -81,27 +81,47 @@ def _blocks(system: System) -> list[NDArray[np.intp]]:
     return [np.flatnonzero(label == k) for k in np.unique(label)]
 
 
-def _responses(a: FloatArray, inputs: FloatArray, span: float, stages: int) -> tuple[FloatArray, list[FloatArray]]:
-    """e^{A span} and the integrals int_0^span e^{A (span - t)} (t / h)^p dt B for p < stages, with h folded later."""
+def _responses(
+    a: FloatArray, inputs: FloatArray, spans: FloatArray, halvings: int
+) -> list[tuple[FloatArray, FloatArray]]:
+    """e^{A t} and the integrals of (t' / t)^p forces for every span t, then for halves of it, longest first.
+
+    One exponential per span, of the shortest stretch; the longer ones follow by squaring. Shapes (s, n, n) and
+    (s, p, n, m) for s spans.
+    """
     n, m = inputs.shape
-    big = np.zeros((n + stages * m, n + stages * m))
-    big[:n, :n] = a * span
-    big[:n, n : n + m] = inputs * span
-    for p in range(stages - 1):
-        big[n + p * m : n + (p + 1) * m, n + (p + 1) * m : n + (p + 2) * m] = np.eye(m)
-    full = expm(big)
-    return full[:n, :n], [full[:n, n + p * m : n + (p + 1) * m] * math.factorial(p) for p in range(stages)]
+    stages = spans.size
+    size = n + stages * m
+    shortest = np.empty((spans.size, size, size))
+    for i, span in enumerate(spans / 2.0 ** (halvings - 1)):
+        big = np.zeros((size, size))
+        big[:n, :n] = a * span
+        big[:n, n : n + m] = inputs * span
+        for p in range(stages - 1):
+            big[n + p * m : n + (p + 1) * m, n + (p + 1) * m : n + (p + 2) * m] = np.eye(m)
+        shortest[i] = expm(big)
+    found = []
+    for k in range(halvings):
+        integrals = [
+            shortest[:, :n, n + p * m : n + (p + 1) * m] * (math.factorial(p) / 2.0 ** (k * p)) for p in range(stages)
+        ]
+        found.append((shortest[:, :n, :n].copy(), np.stack(integrals, axis=1)))
+        if k < halvings - 1:
+            shortest = shortest @ shortest
+    return found[::-1]
 
 
-def step_operators(system: System, coords: Coordinates, rule: Collocation, h: float) -> StepOperators:
-    """Build the operators of a step of length `h` in s."""
+def step_operators(
+    system: System, coords: Coordinates, rule: Collocation, h: float, levels: int = 1
+) -> tuple[StepOperators, ...]:
+    """Build the operators of a step of length `h` in s, and of its halvings: `levels` in all, longest first."""
     n, s = len(system.dofs), rule.stages
     force = coords.rows[list(coords.force_rows)]
     columns = np.column_stack([-(force / system.mass).T, system.load / system.mass])
     f = force.shape[0]
-    times = rule.c
-    states = np.zeros((s, 2 * n, 2 * n))
-    polys = np.zeros((s, s, 2 * n, f + 1))
+    states = np.zeros((levels, s, 2 * n, 2 * n))
+    polys = np.zeros((levels, s, s, 2 * n, f + 1))
+    powers = rule.c[:, None] ** np.arange(s)
     for block in _blocks(system):
         both = np.concatenate([block, block + n])
         k = block.size
@@ -113,11 +133,18 @@ def step_operators(system: System, coords: Coordinates, rule: Collocation, h: fl
         used = np.flatnonzero(np.any(columns[block] != 0, axis=0))
         inputs = np.zeros((2 * k, used.size))
         inputs[k:] = columns[np.ix_(block, used)]
-        for i, c in enumerate(times):
-            e, integrals = _responses(a, inputs, c * h, s)
-            states[i][np.ix_(both, both)] = e
-            for p, value in enumerate(integrals):
-                polys[i, p][np.ix_(both, used)] = value * c**p
+        for level, (e, integrals) in enumerate(_responses(a, inputs, rule.c * h, levels)):
+            states[level][:, both[:, None], both] = e
+            polys[level][:, :, both[:, None], used] = integrals * powers[:, :, None, None]
+    return tuple(_operators(coords, rule, h / 2.0**level, states[level], polys[level], f) for level in range(levels))
+
+
+def _operators(
+    coords: Coordinates, rule: Collocation, h: float, states: FloatArray, polys: FloatArray, f: int
+) -> StepOperators:
+    """Rows of the coordinates from the states (s, 2n, 2n) and integrals (s, p, 2n, f + 1) of one step length."""
+    n = states.shape[1] // 2
+    force = coords.rows[list(coords.force_rows)]
     weights = np.einsum("jp,ipzf->ijzf", rule.lagrange, polys[..., :f])
     loads = polys[:, 0, :, f]
     rows = np.zeros((f + len(coords.rate_rows), 2 * n))

@@ -54,7 +54,7 @@ def plain_run(system: System, base_step_s: float, *, levels: int = 6, rtol: floa
         history=np.zeros((STAGES + 1, count)),
         node_forces=np.zeros((STAGES, len(coords.force_rows))),
         coords=coords,
-        operators=[step_operators(system, coords, rule, base_step_s / 2**k) for k in range(levels)],
+        operators=[*step_operators(system, coords, rule, base_step_s, levels)],
     )
 
 

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from sim.core.elements import STAGES
 from sim.core.response import FloatArray
 from sim.core.system import System
-from sim.solve.chunks import Chunked, aligned_copy, chunked
+from sim.solve.chunks import Chunked, chunked
 from sim.solve.collocation import collocation, derivative_weights, extrapolation, node_extrapolation
-from sim.solve.newton import COMPLIANCE
+from sim.solve.memory import together
 from sim.solve.operators import Coordinates, StepOperators, coordinates, step_operators
 
 IntArray = NDArray[np.int64]
@@ -133,11 +133,12 @@ def _wide(matrix: FloatArray, columns: int) -> FloatArray:
     return out
 
 
-def _own_compliance(
+def own_compliance(
     system: System, levels: Sequence[StepOperators], rows: IntArray, starts: IntArray, s: int
 ) -> FloatArray:
+    """Response of each stiff element to its own forces, (levels, stiff, 12, 6): rows node, u u ud ud."""
     stiff = [i for i, e in enumerate(system.elements) if e.stiff]
-    table = np.zeros((len(levels), max(len(stiff), 1), COMPLIANCE))
+    table = np.zeros((len(levels), max(len(stiff), 1), 4 * s, 2 * s))
     for ell, level in enumerate(levels):
         for k, i in enumerate(stiff):
             d = system.elements[i].forces
@@ -145,14 +146,20 @@ def _own_compliance(
             picked = level.node_force[:, rows[k, : 2 * d]][:, :, :, f0 : f0 + d]
             own = np.zeros((s, 2, 2, s, 2))
             own[:, :, :d, :, :d] = picked.reshape(s, 2, d, s, d)
-            square = own.reshape(4 * s, 2 * s)
-            by_rows = np.pad(square, ((0, 0), (0, 8 - 2 * s)))
-            by_columns = np.pad(square.T, ((0, 0), (0, 16 - 4 * s)))
-            table[ell, k] = np.concatenate([by_rows.ravel(), by_columns.ravel()])
+            table[ell, k] = own.reshape(4 * s, 2 * s)
     return table
 
 
-def _stiff_rows(system: System, coords: Coordinates, starts: IntArray) -> IntArray:
+def _padded_compliance(own: FloatArray) -> FloatArray:
+    """By rows padded to 8, then by columns padded to 16, as `sim.solve.newton` reads it."""
+    by_rows = np.pad(own, ((0, 0), (0, 0), (0, 0), (0, 2)))
+    by_columns = np.pad(np.swapaxes(own, 2, 3), ((0, 0), (0, 0), (0, 0), (0, 4)))
+    flat = [part.reshape(*own.shape[:2], -1) for part in (by_rows, by_columns)]
+    return np.concatenate(flat, axis=2)
+
+
+def stiff_rows(system: System, coords: Coordinates, starts: IntArray) -> IntArray:
+    """Node rows (before ordering) of each stiff element's coordinates and rates."""
     stiff = [i for i, e in enumerate(system.elements) if e.stiff]
     rows = np.zeros((max(len(stiff), 1), 4), dtype=np.int64)
     first_rate = len(coords.force_rows)
@@ -192,7 +199,7 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
     rule = collocation(STAGES)
     coords = coordinates(system)
     elements = system.elements
-    ops = tuple(step_operators(system, coords, rule, base_step_s / 2**k) for k in range(levels))
+    ops = step_operators(system, coords, rule, base_step_s, levels)
     n, s = len(system.dofs), rule.stages
     f, u = len(coords.force_rows), coords.rows.shape[0]
     order = row_order(ops[0])
@@ -202,7 +209,7 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
     par_at = _starts([e.parameters.size for e in elements])
     ctx_at = _starts([(s + 1) * e.context for e in elements])
     out_at = _starts([3 + len(e.outputs) for e in elements])
-    rows = _stiff_rows(system, coords, f_at)
+    rows = stiff_rows(system, coords, f_at)
     stiff = sum(e.stiff for e in elements)
     parameters = [e.parameters for e in elements]
     head = np.concatenate([[0.0, 0.0, float(s)], rule.c, rule.lagrange.ravel(), rule.b])
@@ -218,7 +225,7 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
         slope=derivative_weights(s),
         pointer=pointer,
         column=column,
-        value=aligned_copy(value),
+        value=value,
         span=span,
         node_load=np.array([np.concatenate([_ordered(level.node_load[i], order) for i in range(s)]) for level in ops]),
         end_load=np.array([_pad(level.end_load, z) for level in ops]),
@@ -230,7 +237,7 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
         size=np.array([e.size for e in elements], dtype=np.int64),
         forces=np.array([e.forces for e in elements], dtype=np.int64),
         par_at=par_at,
-        par=aligned_copy(np.concatenate(parameters)) if parameters else np.zeros(1),
+        par=np.concatenate(parameters) if parameters else np.zeros(1),
         ctx_at=ctx_at,
         ctx_width=np.array([e.context for e in elements], dtype=np.int64),
         ctx_size=int(ctx_at[-1]),
@@ -243,7 +250,7 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
         ).reshape(-1, 2),
         carries=np.isin(np.arange(u), coords.force_rows).astype(np.int64),
         observe_rows=np.ascontiguousarray(coords.rows),
-        compliance=aligned_copy(_own_compliance(system, ops, rows, f_at, s)),
+        compliance=_padded_compliance(own_compliance(system, ops, rows, f_at, s)),
         stiff_rows=_place_of(order)[rows] if stiff else rows,
     )
-    return Built(plan=plan, coords=coords, levels=ops)
+    return Built(plan=together(plan), coords=coords, levels=ops)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from sim.core.compiled import doubles, inline, integers
 from sim.core.response import FloatArray
-from sim.solve.chunks import aligned, aligned_copy
+from sim.solve.memory import together
 from sim.solve.newton import NEWTON_SCRATCH
 from sim.solve.plan import SCRATCH, Plan
 
@@ -47,25 +47,26 @@ class Work(NamedTuple):
 def new_work(plan: Plan) -> Work:
     """A machine at rest at t = 0."""
     e, f, u, r, z, _, s = (int(v) for v in plan.sizes[:7])
-    return Work(
-        z=aligned(z + s * f),
-        rows=aligned(s * r),
-        fixed=aligned(s * r),
-        u=aligned(max(s * 2 * u, 1)),
-        before=aligned(max((s + 1) * u, 1)),
-        start=aligned(max(2 * u, 1)),
-        ctx=aligned(max(plan.ctx_size, 1)),
-        step=aligned_copy(plan.step_head),
-        shafts=aligned(max(e * 4 * (s + 1), 1)),
-        trial=aligned(SCRATCH),
-        out=aligned(SCRATCH),
-        newton=aligned(NEWTON_SCRATCH),
-        next_z=aligned(z),
-        last_force=aligned(max(f, 1)),
-        force_nodes=aligned(max(s * f, 1)),
-        work=aligned(max(e, 1)),
+    work = Work(
+        z=np.zeros(z + s * f),
+        rows=np.zeros(s * r),
+        fixed=np.zeros(s * r),
+        u=np.zeros(max(s * 2 * u, 1)),
+        before=np.zeros(max((s + 1) * u, 1)),
+        start=np.zeros(max(2 * u, 1)),
+        ctx=np.zeros(max(plan.ctx_size, 1)),
+        step=plan.step_head.copy(),
+        shafts=np.zeros(max(e * 4 * (s + 1), 1)),
+        trial=np.zeros(SCRATCH),
+        out=np.zeros(SCRATCH),
+        newton=np.zeros(NEWTON_SCRATCH),
+        next_z=np.zeros(z),
+        last_force=np.zeros(max(f, 1)),
+        force_nodes=np.zeros(max(s * f, 1)),
+        work=np.zeros(max(e, 1)),
         counts=np.zeros(8, dtype=np.int64),
     )
+    return together(work)
 
 
 # compiled code builds these; the compiler knows the types

@@ -12,7 +12,8 @@ from sim.core.compiled import jit
 from sim.core.response import FloatArray
 from sim.core.system import System
 from sim.solve.loop import OK, advance_base, evaluate, prepare_all, start_coordinates
-from sim.solve.plan import Built
+from sim.solve.operators import Coordinates
+from sim.solve.plan import Built, Plan
 from sim.solve.pointers import plan_pointers, work_pointers
 
 IntArray = NDArray[np.int64]
@@ -35,17 +36,17 @@ class Probe(NamedTuple):
     contact_output: IntArray
 
 
-def probe_rows(built: Built, system: System, names: tuple[str, ...]) -> list[dict[int, float]]:
+def probe_rows(plan: Plan, coords: Coordinates, system: System, names: tuple[str, ...]) -> list[dict[int, float]]:
     """Read-out weights by column for each requested channel; names must exist."""
-    n, states = len(system.dofs), int(built.plan.sizes[4])
-    forces = int(built.plan.sizes[1])
+    n, states = len(system.dofs), int(plan.sizes[4])
+    forces = int(plan.sizes[1])
     place = {name: i for i, name in enumerate(system.dofs)}
     outputs = {}
     for e, element in enumerate(system.elements):
         for k, output in enumerate(element.outputs):
-            outputs[f"{element.name}.{output.name}"] = states + forces + int(built.plan.out_at[e]) + 3 + k
-    force_map = built.coords.rows[list(built.coords.force_rows)]
-    one = states + forces + int(built.plan.sizes[9])
+            outputs[f"{element.name}.{output.name}"] = states + forces + int(plan.out_at[e]) + 3 + k
+    force_map = coords.rows[list(coords.force_rows)]
+    one = states + forces + int(plan.sizes[9])
     rows = []
     for name in names:
         if name in outputs:
@@ -78,7 +79,7 @@ def _compressed(rows: list[dict[int, float]]) -> tuple[IntArray, IntArray, Float
 
 def new_probe(built: Built, system: System, names: tuple[str, ...]) -> Probe:
     """Probe of the requested channels."""
-    pointer, column, value = _compressed(probe_rows(built, system, names))
+    pointer, column, value = _compressed(probe_rows(built.plan, built.coords, system, names))
     dampers = [dict(d.weights) for d in system.dampers]
     d_pointer, d_column, d_value = _compressed(dampers)
     states, forces, outs = (int(built.plan.sizes[k]) for k in (4, 1, 9))

@@ -7,14 +7,17 @@ contacts that never close, so that one vector instruction handles eight of them.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
-from sim.core.compiled import inline, kernel
+from sim.core.choose import floor, larger, pick, root, select, uniform
+from sim.core.compiled import inline
+from sim.core.elementary import sine_cosine
 from sim.core.elements import Coordinate, Element, Output, flat
+from sim.core.kernels import kernel
 from sim.core.laws import RACE_POINTS, BallLaw, Laws
 from sim.core.lines import Line
 from sim.core.response import FloatArray
@@ -34,111 +37,122 @@ HEAD = 8
 @inline
 def profile(par, base, angle):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Periodic linear interpolation of a race profile of 2048 points, m."""
-    turn = 6.283185307179586
-    x = angle / turn
-    x = (x - math.floor(x)) * 2048.0
-    cell = int(x)
+    x = angle * (2048.0 / 6.283185307179586)
+    cell = floor(x)
     share = x - cell
-    i = cell % 2048
-    j = (cell + 1) % 2048
-    return par[base + i] * (1.0 - share) + par[base + j] * share
+    i = cell - 2048.0 * floor(cell * (1.0 / 2048.0))
+    j = select(i >= 2047.0, 0.0, i + 1.0)
+    return pick(par, base + i) * (1.0 - share) + pick(par, base + j) * share
+
+
+@inline
+def write_profiles(shafts, par, ctx, s, n):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Gap of every ball at every node, race profiles included."""
+    balls = uniform(par[6])
+    for row in range(s):
+        cage = par[3] * shafts[row + 1] + par[4]
+        for i in range(n):
+            ctx[row * (3 * n + 1) + 1 + 2 * n + i] = par[8 + 2 * n + i]
+        for i in range(balls):
+            angle = cage + 6.283185307179586 * i / balls
+            inner = profile(par, 8 + 3 * n + 2048, angle - par[7] * shafts[row + 1])
+            ctx[row * (3 * n + 1) + 1 + 2 * n + i] += profile(par, 8 + 3 * n, angle) + inner
 
 
 def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
-    """Cosine, sine and gap of every ball at every node; row: [cage speed, cos n, sin n, gap n]."""
-    s = int(step[2])
-    n = int(par[0])
+    """Cosine and sine of every ball at every node, with profiles its gap; row: [cage speed, cos n, sin n, gap n]."""
+    s = uniform(step[2])
+    n = uniform(par[0])
     width = 3 * n + 1
-    turn = 6.283185307179586
-    first = par[3] * shafts[1] + par[4]
-    c1 = math.cos(first)
-    s1 = math.sin(first)
+    s1, c1 = sine_cosine(par[3] * shafts[1] + par[4])
+    s2, c2 = sine_cosine(par[3] * shafts[2] + par[4])
+    s3, c3 = sine_cosine(par[3] * shafts[3] + par[4])
     for row in range(s):
-        k = row + 1
-        cage = par[3] * shafts[k] + par[4]
-        turned = cage - first
-        c0 = c1
-        s0 = s1
-        if abs(turned) < 0.02:
-            # angle addition; the series are exact to the last digit for so small an angle
-            q = turned * turned
-            cd = 1.0 - q * (0.5 - q * (1.0 / 24.0 - q / 720.0))
-            sd = turned * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q / 5040.0)))
-            c0 = c1 * cd - s1 * sd
-            s0 = s1 * cd + c1 * sd
-        else:
-            c0 = math.cos(cage)
-            s0 = math.sin(cage)
-        base = row * width
-        ctx[base] = par[3] * shafts[s + 1 + k]
-        for i in range(n):
-            a = par[8 + i]
-            b = par[8 + n + i]
-            ctx[base + 1 + i] = a * c0 - b * s0
-            ctx[base + 1 + n + i] = b * c0 + a * s0
-            ctx[base + 1 + 2 * n + i] = par[8 + 2 * n + i]
-        if par[5] > 0.0:
-            balls = int(par[6])
-            for i in range(balls):
-                angle = cage + turn * i / balls
-                extra = profile(par, 8 + 3 * n, angle) + profile(par, 8 + 3 * n + 2048, angle - par[7] * shafts[k])
-                ctx[base + 1 + 2 * n + i] += extra
+        ctx[row * width] = par[3] * shafts[s + 2 + row]
+    for i in range(n):
+        a = par[8 + i]
+        b = par[8 + n + i]
+        ctx[1 + i] = a * c1 - b * s1
+        ctx[1 + n + i] = b * c1 + a * s1
+        ctx[width + 1 + i] = a * c2 - b * s2
+        ctx[width + 1 + n + i] = b * c2 + a * s2
+        ctx[2 * width + 1 + i] = a * c3 - b * s3
+        ctx[2 * width + 1 + n + i] = b * c3 + a * s3
+    if uniform(par[5]) > 0:
+        write_profiles(shafts, par, ctx, s, n)
 
 
-def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
-    """Force of the inner ring on the outer, N, for the displacement (inner - outer) u[0:2], m."""
-    n = int(par[0])
-    stiffness = par[1]
-    x = u[0]
-    y = u[1]
-    fx = 0.0
-    fy = 0.0
+@inline
+def compression(u, ctx, par, n, i):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Approach of ball i beyond its gap, m, not below zero."""
+    gap = par[8 + 2 * n + i]
+    if uniform(par[5]) > 0:
+        gap = ctx[1 + 2 * n + i]
+    return larger(u[0] * ctx[1 + i] + u[1] * ctx[1 + n + i] - gap, 0.0)
+
+
+@inline
+def ball_tangent(u, ctx, par, n, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Stiffness matrix, N/m; the rates do nothing."""
+    kxx = 0.0 * u[0]
+    kxy = kxx
+    kyy = kxx
     for i in range(n):
         c = ctx[1 + i]
         s = ctx[1 + n + i]
-        e = max(x * c + y * s - ctx[1 + 2 * n + i], 0.0)
-        p = e * math.sqrt(e)
-        fx += p * c
-        fy += p * s
-    f[0] = stiffness * fx
-    f[1] = stiffness * fy
-    if mode == 0:
-        return
-    kxx = 0.0
-    kxy = 0.0
-    kyy = 0.0
-    energy = 0.0
-    power = 0.0
-    loaded = 0.0
-    for i in range(n):
-        c = ctx[1 + i]
-        s = ctx[1 + n + i]
-        e = max(x * c + y * s - ctx[1 + 2 * n + i], 0.0)
-        root = math.sqrt(e)
-        k = 1.5 * root
+        k = 1.5 * root(compression(u, ctx, par, n, i))
         kxx += k * c * c
         kxy += k * c * s
         kyy += k * s * s
-        energy += 0.4 * e * e * root
-        power += e * root * (y * c - x * s)
-        loaded += 1.0 if e > 0.0 else 0.0
-    if mode == 1:
-        out[0] = stiffness * kxx
-        out[1] = stiffness * kxy
-        out[2] = stiffness * kxy
-        out[3] = stiffness * kyy
-        for i in range(4, 8):
-            out[i] = 0.0
-        return
-    out[0] = stiffness * energy
+    out[0] = par[1] * kxx
+    out[1] = par[1] * kxy
+    out[2] = par[1] * kxy
+    out[3] = par[1] * kyy
+    for i in range(4, 8):
+        out[i] = 0.0
+
+
+@inline
+def ball_outputs(u, ctx, par, n, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Stored energy, work done by the turning of the balls, force and number of loaded balls."""
+    energy = 0.0 * u[0]
+    power = energy
+    loaded = energy
+    for i in range(n):
+        c = ctx[1 + i]
+        s = ctx[1 + n + i]
+        e = compression(u, ctx, par, n, i)
+        p = e * root(e)
+        energy += 0.4 * e * p
+        power += p * (u[1] * c - u[0] * s)
+        loaded += select(e > 0.0, 1.0, 0.0)
+    out[0] = par[1] * energy
     out[1] = 0.0
-    out[2] = stiffness * power * ctx[0]
+    out[2] = par[1] * power * ctx[0]
     out[3] = f[0]
     out[4] = f[1]
     out[5] = loaded
 
 
-KERNEL = kernel(prepare, force)
+def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
+    """Force of the inner ring on the outer, N, for the displacement (inner - outer) u[0:2], m."""
+    n = uniform(par[0])
+    fx = 0.0 * u[0]
+    fy = fx
+    for i in range(n):
+        e = compression(u, ctx, par, n, i)
+        p = e * root(e)
+        fx += p * ctx[1 + i]
+        fy += p * ctx[1 + n + i]
+    f[0] = par[1] * fx
+    f[1] = par[1] * fy
+    if mode == 1:
+        ball_tangent(u, ctx, par, n, out)
+    if mode == 2:
+        ball_outputs(u, ctx, par, n, f, out)
+
+
+KERNEL = kernel(prepare, force, same=(0, 5, 6))
 OUTPUTS = (
     Output(name="force_x", quantity="force", unit="N", axis="x"),
     Output(name="force_y", quantity="force", unit="N", axis="y"),
@@ -185,11 +199,16 @@ def ring_coordinates(bearing: str) -> tuple[Coordinate, ...]:
     )
 
 
+@lru_cache(maxsize=4096)
+def _mean_stiffness(row: BallRow, load_n: float) -> FloatArray:
+    return mean_stiffness_n_per_m(row, np.array([0.0, load_n]))
+
+
 def working_stiffness(law: BallLaw, machine: MachineSpec) -> FloatArray:
     """Mean 2 x 2 stiffness under the load of the torque at the mesh, shared by the body's bearings, N/m."""
     load = max(static_bearing_load_n(machine, law.name), 1.0)
     row = BallRow(balls=law.balls, stiffness_n_per_m15=law.stiffness_n_per_m15, clearance_m=law.gap_m)
-    return mean_stiffness_n_per_m(row, np.array([0.0, load]))
+    return _mean_stiffness(row, load)
 
 
 @dataclass(frozen=True, kw_only=True)

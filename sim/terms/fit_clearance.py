@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from sim.core.compiled import kernel
 from sim.core.elements import Element
 from sim.core.laws import Laws
 from sim.core.lines import Line
@@ -27,20 +26,7 @@ from sim.parts.wall import (
     ring_wall_coordinates,
     wall_parameters,
 )
-from sim.parts.wall_kernel import wall_force, wall_prepare
-
-
-def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Nothing depends on the shaft angle."""
-    wall_prepare(step, shafts, u, par, ctx)
-
-
-def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Wall force on the ring, N, as resistance to (x, y) of the ring."""
-    wall_force(mode, u, ud, ctx, par, f, out)
-
-
-KERNEL = kernel(prepare, force)
+from sim.parts.wall_kernel import KERNEL
 
 
 @dataclass(frozen=True, kw_only=True)

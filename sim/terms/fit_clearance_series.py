@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from sim.core.compiled import kernel
 from sim.core.elements import Element
 from sim.core.laws import Laws
 from sim.core.lines import Line
@@ -26,20 +25,8 @@ from sim.parts.wall import (
     ring_wall_coordinates,
     wall_parameters,
 )
-from sim.parts.wall_kernel import wall_force, wall_prepare
+from sim.parts.wall_kernel import KERNEL
 
-
-def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Nothing depends on the shaft angle."""
-    wall_prepare(step, shafts, u, par, ctx)
-
-
-def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Wall force between ring and housing, N, as resistance to the ring's motion relative to the housing."""
-    wall_force(mode, u, ud, ctx, par, f, out)
-
-
-KERNEL = kernel(prepare, force)
 LEAST_GAP_M = 1e-8
 """Below this gap the contact gets no stiffer: its mode would only cost steps."""
 CONFORMAL_GAP_M = 1e-6

@@ -6,8 +6,10 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from sim.core.compiled import kernel
+from sim.core.choose import uniform
+from sim.core.elementary import sine_cosine
 from sim.core.elements import Coordinate, Element, Output, flat
+from sim.core.kernels import kernel
 from sim.core.laws import Laws
 from sim.core.spec import ForceLoad
 from sim.core.terms import SiteContext, Term, Values
@@ -15,9 +17,10 @@ from sim.core.terms import SiteContext, Term, Values
 
 def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
     """Force at the nodes, N; the only element that follows time and not a shaft."""
-    s = int(step[2])
+    s = uniform(step[2])
     for i in range(s):
-        ctx[i] = par[0] * math.sin(par[1] * (step[0] + step[3 + i] * step[1]) + par[2])
+        sine, _ = sine_cosine(par[1] * (step[0] + step[3 + i] * step[1]) + par[2])
+        ctx[i] = par[0] * sine
 
 
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001

@@ -7,23 +7,23 @@ node values of equal moments, pair by pair (docs/numerics.md), so entries and ex
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from sim.core.compiled import inline, kernel
+from sim.core.choose import floor, larger, select, smaller, uniform
 from sim.core.elements import Element, flat
+from sim.core.kernels import kernel
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.terms import SiteContext, Term, Values
 from sim.parts.mesh_element import OUTPUTS, header, mesh_coordinates, zero_row
 from sim.parts.mesh_kernels import (
     HEADER,
+    SAME,
     backlash_growth,
     centre_error,
-    flank_gap,
     node_growth,
     outside_table,
     row_position,
@@ -31,108 +31,24 @@ from sim.parts.mesh_kernels import (
     runout_rate,
     shaft_tilt,
     sine_error,
-    sine_rate,
-    touch_share,
-    touch_slope,
+    slope_angle,
     unilateral,
 )
-
-SLOTS = 4
-"""Pairs that can touch within a step: contact ratios up to 3."""
-CONTEXT = 8 + 2 * SLOTS  # error, rate, phase, phi_p, phi_g, change of backlash, spare x 2, then (stiffness, gap) a slot
-GAUSS = 0.7745966692414834
-"""Three-point Gauss node sqrt(3/5)."""
-
-
-@inline
-def row_value(par, base, row):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Linear interpolation of a column vector over the centre-distance rows."""
-    r = int(row)
-    share = row - r
-    if share <= 0.0:
-        return par[base + r]
-    return par[base + r] * (1.0 - share) + par[base + r + 1] * share
-
-
-@inline
-def plane_value(par, base, row, x):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Bilinear stiffness over (row, normalised position x in 0..1)."""
-    points = int(par[21])
-    position = x * (points - 1)
-    cell = min(int(position), points - 2)
-    share = position - cell
-    r = int(row)
-    high = row - r
-    at = base + r * points + cell
-    low = par[at] * (1.0 - share) + par[at + 1] * share
-    if high <= 0.0:
-        return low
-    at += points
-    return low * (1.0 - high) + (par[at] * (1.0 - share) + par[at + 1] * share) * high
-
-
-@inline
-def pair_value(par, row, tilt, x):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Stiffness of one pair at normalised position x, N/m; `tilt` is a position on the tilt grid."""
-    layer = int(par[18]) * int(par[21])
-    t = int(tilt)
-    share = tilt - t
-    base = int(par[22]) + t * layer
-    low = plane_value(par, base, row, x)
-    if share <= 0.0:
-        return low
-    return low * (1.0 - share) + plane_value(par, base + layer, row, x) * share
-
-
-@inline
-def tilt_position(par, tilt):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Position on the tilt grid for a tilt in rad, clamped."""
-    if par[27] <= 0.0 or par[23] < 2.0:
-        return 0.0
-    position = (tilt - par[24]) / par[25]
-    return min(max(position, 0.0), par[23] - 1.000000001)
-
-
-@inline
-def slot_gap(par, n):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Pitch deviation of the teeth of pair n, m."""
-    if par[15] <= 0.0:
-        return 0.0
-    z_p = int(par[5])
-    z_g = int(par[6])
-    i = n % z_p
-    j = n % z_g
-    return par[int(par[16]) + i] + par[int(par[17]) + j]
-
-
-@inline
-def pair_moments(step, s, par, row, tilt, ratio, phase0, dphase, n, slot, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Node stiffness of pair n with the moments of its true stiffness over the step."""
-    x0 = max((n - phase0) / dphase, 0.0)
-    x1 = min((n + ratio - phase0) / dphase, 1.0)
-    m0 = 0.0
-    m1 = 0.0
-    m2 = 0.0
-    if x1 > x0:
-        half = 0.5 * (x1 - x0)
-        middle = 0.5 * (x1 + x0)
-        for g in range(3):
-            x = middle + half * GAUSS * (g - 1)
-            weight = half * (8.0 if g == 1 else 5.0) / 9.0
-            k = weight * pair_value(par, row, tilt, min(max((phase0 + dphase * x - n) / ratio, 0.0), 1.0))
-            m0 += k
-            m1 += k * x
-            m2 += k * x * x
-    for j in range(s):
-        at = 3 + s + j * s
-        value = (step[at] * m0 + step[at + 1] * m1 + step[at + 2] * m2) / step[3 + s + s * s + j]
-        ctx[j * 16 + 8 + 2 * slot] = value
+from sim.parts.pair_kernels import (
+    CONTEXT,
+    exact_stiffness,
+    pair_gap,
+    pair_load,
+    pair_moments,
+    row_value,
+    tilt_position,
+)
 
 
 def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Node values of every pair's stiffness, gaps, transmission error and its rate."""
+    """Node values of every pair's stiffness and gap, transmission error and its rate."""
     h = step[1]
-    s = int(step[2])
+    s = uniform(step[2])
     n = s + 1
     turn = 6.283185307179586
     for i in range(s):
@@ -141,94 +57,86 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
         om_p = shafts[n + k]
         phi_g = shafts[2 * n + k]
         om_g = shafts[3 * n + k]
-        ctx[i * 16] = sine_error(par, phi_p) + runout_error(par, phi_p, phi_g)
-        ctx[i * 16 + 1] = sine_rate(par, phi_p, om_p) + runout_rate(par, phi_p, om_p, phi_g, om_g)
+        error, rate = sine_error(par, phi_p, om_p)
+        ctx[i * 16] = error + runout_error(par, phi_p, phi_g)
+        ctx[i * 16 + 1] = rate + runout_rate(par, phi_p, om_p, phi_g, om_g)
         ctx[i * 16 + 2] = par[5] * phi_p / turn
         ctx[i * 16 + 3] = phi_p
         ctx[i * 16 + 4] = phi_g
         ctx[i * 16 + 5] = node_growth(par, step[3 + i] * h, u, phi_p, phi_g)
-    for j in range(8):
-        ctx[s * 16 + j] = ctx[(s - 1) * 16 + j]
-    x_mid = u[1] + 0.5 * h * u[6]
-    y_mid = u[2] + 0.5 * h * u[7]
-    error = centre_error(par, 0.5 * (shafts[0] + shafts[s]), 0.5 * (shafts[2 * n] + shafts[2 * n + s]), x_mid, y_mid)
+    middle_p = 0.5 * (shafts[0] + shafts[s])
+    middle_g = 0.5 * (shafts[2 * n] + shafts[2 * n + s])
+    error = centre_error(par, middle_p, middle_g, u[1] + 0.5 * h * u[6], u[2] + 0.5 * h * u[7])
     row = row_position(par, error)
-    tilt = tilt_position(par, shaft_tilt(par, u[3] + 0.5 * h * u[8], u[4] + 0.5 * h * u[9]))
-    ratio = row_value(par, int(par[26]), row)
+    tilt = shaft_tilt(par, u[3] + 0.5 * h * u[8], u[4] + 0.5 * h * u[9])
+    ratio = row_value(par, par[26], row)
     phase0 = par[5] * shafts[0] / turn
-    dphase = max(par[5] * shafts[s] / turn - phase0, 1e-12)
-    top = math.floor(phase0 + dphase)
+    dphase = larger(par[5] * shafts[s] / turn - phase0, 1e-12)
+    top = floor(phase0 + dphase)
     for slot in range(4):
         pair = top - slot
-        gap = slot_gap(par, pair)
-        pair_moments(step, s, par, row, tilt, ratio, phase0, dphase, pair, slot, ctx)
-        for i in range(n):
-            ctx[i * 16 + 9 + 2 * slot] = gap
-
-
-@inline
-def exact_stiffness(par, u, ctx, error, slot):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Stiffness of a slot's pair at the instant of the context row and a centre-distance error, N/m."""
-    row = row_position(par, error)
-    ratio = row_value(par, int(par[26]), row)
-    x = (ctx[2] - math.floor(ctx[2]) + slot) / ratio
-    if x >= 1.0:
-        return 0.0
-    return pair_value(par, row, tilt_position(par, shaft_tilt(par, u[3], u[4])), x)
+        pair_moments(step, s, par, (row, tilt_position(par, tilt), ratio), (phase0, dphase), pair, slot, ctx)
+        for i in range(s):
+            place = smaller(larger((ctx[i * 16 + 2] - pair) / ratio, 0.0), 1.0)
+            ctx[i * 16 + 9 + 2 * slot] = pair_gap(par, place, pair)
+            ctx[i * 16 + 6] = tilt
+    for j in range(16):
+        ctx[s * 16 + j] = ctx[(s - 1) * 16 + j]
 
 
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Mesh force on the line of action, N (resistance to positive u[0])."""
     s = u[0] - ctx[0]
     sd = ud[0] - ctx[1]
-    load = 0.0
-    energy = 0.0
-    tangent = 0.0
-    total = 0.0
-    share = 0.0
-    slope = 0.0
+    load = 0.0 * s
+    energy = load
+    tangent = load
+    total = load
+    share = load
+    slope = load
     growth = ctx[5]
-    error = 0.0
+    tilt = ctx[6]
+    error = load
     if mode == 2:
         error = centre_error(par, ctx[3], ctx[4], u[1], u[2])
         growth = backlash_growth(par, error)
+        tilt = shaft_tilt(par, u[3], u[4])
     for slot in range(4):
-        k = exact_stiffness(par, u, ctx, error, slot) if mode == 2 else ctx[8 + 2 * slot]
-        d = flank_gap(par, growth, s - ctx[9 + 2 * slot])
-        load += k * d
+        k = ctx[8 + 2 * slot]
+        if mode == 2:
+            k = exact_stiffness(par, ctx, error, tilt, slot)
         total += k
-        energy += 0.5 * k * d * d
-        if par[1] >= 0.0:
-            share += k * touch_share(d)
-            slope += k * touch_slope(par, d)
-        if par[1] < 0.0 or d != 0.0:
-            tangent += k
-    touching = 1.0 if (par[1] < 0.0 or tangent != 0.0) else 0.0
-    damping = par[0] * touching
-    if par[1] >= 0.0:  # every pair damps in proportion to its stiffness, from touch on
-        share = share / total if total > 0.0 else 0.0
-        slope = slope / total if total > 0.0 else 0.0
-        damping = par[0] * share
+        found = pair_load(par, growth, tilt, s - ctx[9 + 2 * slot], k)
+        load += found[0]
+        energy += found[1]
+        tangent += found[2]
+        share += found[3]
+        slope += found[4]
+    free = par[1] < 0.0
+    touching = select(free | (tangent != 0.0), 1.0, 0.0)
+    # with backlash every pair damps in proportion to its stiffness, from touch on
+    whole = select(total > 0.0, total, 1.0)
+    damping = par[0] * select(free, 1.0, share / whole)
     f[0] = unilateral(par[1], load, damping * sd)
     if mode == 1:
         for i in range(10):
             out[i] = 0.0
-        out[0] = tangent + par[0] * slope * sd if f[0] != 0.0 else 0.0
-        out[5] = damping if f[0] != 0.0 else 0.0
+        out[0] = select(f[0] != 0.0, tangent + par[0] * select(free, 0.0, slope / whole) * sd, 0.0)
+        out[5] = select(f[0] != 0.0, damping, 0.0)
     if mode == 2:
         out[0] = energy
         out[1] = (f[0] - load) * sd
         out[2] = -f[0] * ctx[1]
         out[3] = total
         out[4] = error
-        out[5] = math.atan2(math.sqrt(u[3] * u[3] + u[4] * u[4]), par[14])
+        out[5] = slope_angle(u, par[14])
         out[6] = f[0]
         out[7] = ctx[0]
         out[8] = touching
-        out[9] = outside_table(par, error, shaft_tilt(par, u[3], u[4]))
+        out[9] = outside_table(par, error, tilt)
 
 
-KERNEL = kernel(prepare, force)
+KERNEL = kernel(prepare, force, same=SAME)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,14 +6,15 @@ same moments: int k l_j ds = b_j k_j, so a jump inside a step costs no accuracy 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from sim.core.compiled import inline, kernel
+from sim.core.choose import floor, larger, pick, select, smaller, somewhere, uniform
+from sim.core.compiled import inline
 from sim.core.elements import Element, flat
+from sim.core.kernels import kernel
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.spec import MachineSpec
@@ -21,6 +22,7 @@ from sim.core.terms import Demo, SiteContext, Term, Values
 from sim.parts.mesh_element import OUTPUTS, header, mesh_coordinates, zero_row
 from sim.parts.mesh_kernels import (
     HEADER,
+    SAME,
     backlash_growth,
     centre_error,
     flank_gap,
@@ -30,9 +32,8 @@ from sim.parts.mesh_kernels import (
     runout_error,
     runout_rate,
     sine_error,
-    sine_rate,
+    slope_angle,
     tooth_gap,
-    tooth_gap_rate,
     touch_share,
     touch_slope,
     unilateral,
@@ -46,20 +47,20 @@ GAUSS = 0.5773502691896258
 @inline
 def table_value(par, row, phase):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Bilinear stiffness, periodic in phase, N/m."""
-    points = int(par[21])
+    points = par[21]
     x = phase * points
-    cell = math.floor(x)
+    cell = floor(x)
     share = x - cell
-    r = int(row)
+    j = cell - points * floor(cell / points)
+    k = select(j + 1.0 >= points, 0.0, j + 1.0)
+    r = floor(row)
+    base = par[22] + r * points
+    low = pick(par, base + j) * (1.0 - share) + pick(par, base + k) * share
+    if uniform(par[18]) < 2:
+        return low
     high = row - r
-    base = int(par[22]) + r * points
-    j = cell % points
-    k = (cell + 1) % points
-    low_row = par[base + j] * (1.0 - share) + par[base + k] * share
-    if high <= 0.0:
-        return low_row
-    base += points
-    return low_row * (1.0 - high) + (par[base + j] * (1.0 - share) + par[base + k] * share) * high
+    base = base + points
+    return low * (1.0 - high) + (pick(par, base + j) * (1.0 - share) + pick(par, base + k) * share) * high
 
 
 @inline
@@ -86,26 +87,45 @@ def moments_to_nodes(step, s, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN
         ctx[j * 8] = (step[base] * m0 + step[base + 1] * m1 + step[base + 2] * m2) / step[3 + s + s * s + j]
 
 
+@inline
+def step_stiffness(step, s, par, row, phase0, dphase, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Node stiffness of the step, moment by moment over the cells of the table it crosses."""
+    points = par[21]
+    if somewhere((dphase <= 0.0) | (dphase * points > 64.0)):
+        for i in range(s):
+            ctx[i * 8] = table_value(par, row, ctx[i * 8 + 3])
+        return
+    for i in range(s):
+        ctx[i * 8] = 0.0
+    x0 = 0.0 * row
+    edge = floor(phase0 * points + 1e-9) + 1.0
+    while somewhere(x0 < 1.0):
+        x1 = larger(smaller((edge / points - phase0) / dphase, 1.0), x0)
+        add_moments(par, row, phase0, dphase, x0, x1, ctx)
+        x0 = x1
+        edge = edge + 1.0
+    moments_to_nodes(step, s, ctx)
+
+
 def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Node values of stiffness (moment-preserving), transmission error and its rate."""
     h = step[1]
-    s = int(step[2])
+    s = uniform(step[2])
     n = s + 1
     turn = 6.283185307179586
-    x_mid = u[1] + 0.5 * h * u[6]
-    y_mid = u[2] + 0.5 * h * u[7]
     for i in range(s):
         k = i + 1
         phi_p = shafts[k]
         om_p = shafts[n + k]
         phi_g = shafts[2 * n + k]
         om_g = shafts[3 * n + k]
-        gap = tooth_gap(par, phi_p, phi_g) if par[15] > 0.0 else 0.0
-        ctx[i * 8] = 0.0
-        ctx[i * 8 + 1] = sine_error(par, phi_p) + runout_error(par, phi_p, phi_g) + gap
-        ctx[i * 8 + 2] = sine_rate(par, phi_p, om_p) + runout_rate(par, phi_p, om_p, phi_g, om_g)
-        if par[15] > 0.0:
-            ctx[i * 8 + 2] += tooth_gap_rate(par, phi_p, om_p, phi_g, om_g)
+        error, rate = sine_error(par, phi_p, om_p)
+        ctx[i * 8 + 1] = error + runout_error(par, phi_p, phi_g)
+        ctx[i * 8 + 2] = rate + runout_rate(par, phi_p, om_p, phi_g, om_g)
+        if uniform(par[15]) > 0:
+            gap, gap_rate = tooth_gap(par, phi_p, om_p, phi_g, om_g)
+            ctx[i * 8 + 1] += gap
+            ctx[i * 8 + 2] += gap_rate
         ctx[i * 8 + 3] = par[5] * phi_p / turn
         ctx[i * 8 + 4] = phi_p
         ctx[i * 8 + 5] = phi_g
@@ -113,31 +133,19 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
         ctx[i * 8 + 7] = node_growth(par, step[3 + i] * h, u, phi_p, phi_g)
     for j in range(8):
         ctx[s * 8 + j] = ctx[(s - 1) * 8 + j]
-    error = centre_error(par, 0.5 * (shafts[0] + shafts[s]), 0.5 * (shafts[2 * n] + shafts[2 * n + s]), x_mid, y_mid)
-    row = row_position(par, error)
-    points = par[21]
+    middle_p = 0.5 * (shafts[0] + shafts[s])
+    middle_g = 0.5 * (shafts[2 * n] + shafts[2 * n + s])
+    error = centre_error(par, middle_p, middle_g, u[1] + 0.5 * h * u[6], u[2] + 0.5 * h * u[7])
     phase0 = par[5] * shafts[0] / turn
     dphase = par[5] * shafts[s] / turn - phase0
-    if dphase <= 0.0 or dphase * points > 64.0:
-        for i in range(s):
-            ctx[i * 8] = table_value(par, row, ctx[i * 8 + 3])
-        return
-    x0 = 0.0
-    edge = math.floor(phase0 * points + 1e-9) + 1.0
-    while x0 < 1.0:
-        x1 = min((edge / points - phase0) / dphase, 1.0)
-        if x1 > x0:
-            add_moments(par, row, phase0, dphase, x0, x1, ctx)
-        x0 = max(x1, x0)
-        edge += 1.0
-    moments_to_nodes(step, s, ctx)
+    step_stiffness(step, s, par, row_position(par, error), phase0, dphase, ctx)
 
 
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Mesh force on the line of action, N (resistance to positive u[0])."""
     k = ctx[0]
     growth = ctx[7]
-    error = 0.0
+    error = 0.0 * k
     if mode == 2:
         error = centre_error(par, ctx[4], ctx[5], u[1], u[2])
         k = table_value(par, row_position(par, error), ctx[3])
@@ -145,30 +153,31 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
     s = u[0] - ctx[1]
     sd = ud[0] - ctx[2]
     load = flank_gap(par, growth, s)
-    touching = 1.0 if (par[1] < 0.0 or load != 0.0) else 0.0
+    apart = (par[1] >= 0.0) & (load == 0.0)
+    touching = select(apart, 0.0, 1.0)
     damping = par[0] * touching
-    if par[1] >= 0.0:
-        damping *= touch_share(load)
+    if somewhere(par[1] >= 0.0):
+        damping = select(par[1] >= 0.0, damping * touch_share(load), damping)
     f[0] = unilateral(par[1], k * load, damping * sd)
     if mode == 1:
         for i in range(10):
             out[i] = 0.0
-        out[0] = k * touching + par[0] * touch_slope(par, load) * sd if f[0] != 0.0 else 0.0
-        out[5] = damping if f[0] != 0.0 else 0.0
+        out[0] = select(f[0] != 0.0, k * touching + par[0] * touch_slope(par, load) * sd, 0.0)
+        out[5] = select(f[0] != 0.0, damping, 0.0)
     if mode == 2:
         out[0] = 0.5 * k * load * load
         out[1] = (f[0] - k * load) * sd
         out[2] = -f[0] * ctx[2]
         out[3] = k
         out[4] = error
-        out[5] = math.atan2(math.sqrt(u[3] * u[3] + u[4] * u[4]), par[14])
+        out[5] = slope_angle(u, par[14])
         out[6] = f[0]
         out[7] = ctx[1]
         out[8] = touching
-        out[9] = outside_table(par, error, 0.0)
+        out[9] = outside_table(par, error, 0.0 * error)
 
 
-KERNEL = kernel(prepare, force)
+KERNEL = kernel(prepare, force, same=SAME)
 
 
 @dataclass(frozen=True, kw_only=True)

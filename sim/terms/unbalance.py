@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from sim.core.compiled import kernel
+from sim.core.choose import uniform
+from sim.core.elementary import sine_cosine
 from sim.core.elements import Coordinate, Element, Output, flat
+from sim.core.kernels import kernel
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.params import Param
@@ -18,12 +19,13 @@ CONTEXT = 2
 
 def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
     """Force components at the nodes, N."""
-    s = int(step[2])
+    s = uniform(step[2])
     n = s + 1
     for i in range(s):
         size = par[0] * shafts[n + i + 1] * shafts[n + i + 1]
-        ctx[2 * i] = size * math.cos(par[2] * shafts[i + 1] + par[1])
-        ctx[2 * i + 1] = size * math.sin(par[2] * shafts[i + 1] + par[1])
+        sine, cosine = sine_cosine(par[2] * shafts[i + 1] + par[1])
+        ctx[2 * i] = size * cosine
+        ctx[2 * i + 1] = size * sine
 
 
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001

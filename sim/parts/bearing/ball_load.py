@@ -102,9 +102,46 @@ def _line_search(
     return best
 
 
+def _states(
+    row: BallRow, normals: FloatArray, displacements_m: FloatArray, load_n: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Force (p, 2) N, stiffness (p, 2, 2) N/m and energy less the load's work (p,) J at p cage angles at once."""
+    squeeze = np.maximum(np.einsum("pbi,pi->pb", normals, displacements_m) - row.clearance_m, 0.0)
+    loads = row.stiffness_n_per_m15 * squeeze**EXPONENT
+    slopes = EXPONENT * row.stiffness_n_per_m15 * squeeze ** (EXPONENT - 1)
+    force = np.einsum("pb,pbi->pi", loads, normals)
+    stiffness = np.einsum("pb,pbi,pbj->pij", slopes, normals, normals)
+    energy = (loads * squeeze).sum(axis=1) / (EXPONENT + 1) - displacements_m @ load_n
+    return force, stiffness, energy
+
+
 def mean_stiffness_n_per_m(row: BallRow, load_n: FloatArray, phases: int = 16) -> FloatArray:
-    """Tangent stiffness (2, 2) N/m under a load, averaged over `phases` cage angles within one ball spacing."""
-    angles = 2 * np.pi / row.balls * np.arange(phases) / phases
-    states = [static_equilibrium(row, load_n, float(angle)) for angle in angles]
-    mean: FloatArray = np.mean([state.stiffness_n_per_m for state in states], axis=0)
-    return mean
+    """Tangent stiffness (2, 2) N/m under a load, averaged over `phases` cage angles within one ball spacing.
+
+    The Newton iteration of `static_equilibrium`, at all angles at once.
+    """
+    cage = 2 * np.pi / row.balls * np.arange(phases) / phases
+    angles = np.stack([row.angles_rad(float(angle)) for angle in cage])
+    normals = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    force = float(np.hypot(*load_n))
+    if force == 0.0:
+        return np.asarray(_states(row, normals, np.zeros((phases, 2)), load_n)[1].mean(axis=0))
+    depth_m = (force / row.stiffness_n_per_m15) ** (1 / EXPONENT)
+    at = np.tile(load_n / force * (2 * max(row.clearance_m, 0.0) + depth_m), (phases, 1))
+    floor = 1e-6 * force / depth_m * np.eye(2)
+    carried, stiffness, energy = _states(row, normals, at, load_n)
+    for _ in range(_MAX_ITERATIONS):
+        residual = load_n - carried
+        if np.all(np.hypot(*residual.T) <= _FORCE_TOLERANCE * force):
+            return np.asarray(stiffness.mean(axis=0))
+        step = np.linalg.solve(stiffness + floor, residual[..., None])[..., 0]
+        before, share = energy, np.ones(phases)
+        for _halving in range(40):
+            trial = at + share[:, None] * step
+            carried, stiffness, energy = _states(row, normals, trial, load_n)
+            worse = energy > before + 1e-14 * np.abs(before)
+            if not np.any(worse):
+                break
+            share[worse] *= 0.5
+        at = trial
+    raise ArithmeticError(f"no static equilibrium of {row} under {load_n} N within {_MAX_ITERATIONS} steps")

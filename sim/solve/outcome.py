@@ -1,0 +1,85 @@
+"""From a finished run to its response: quality, energy balance, warnings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sim.core.response import Channel, FloatArray, Quality, Response
+from sim.core.system import System
+from sim.solve.chunks import IntArray
+from sim.solve.energy import energy_balance
+from sim.solve.settings import IRREGULAR
+from sim.solve.transient import transient_end_s
+from sim.version import PHYSICS_VERSION
+
+STEP_WARNING = 1e-2
+
+
+@dataclass(frozen=True, kw_only=True)
+class Request:
+    """What was asked for: channels, output rate, base step, seed."""
+
+    channels: tuple[Channel, ...]
+    rate_hz: float
+    step_s: float
+    seed: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finished:
+    """What a run leaves: state, element work (E,) J, counts, energies and contact samples of its probe."""
+
+    z: FloatArray
+    work: FloatArray
+    counts: FloatArray | IntArray
+    energy: FloatArray
+    contact: FloatArray
+
+
+def _warnings(error: float | None, kind: str) -> tuple[str, ...]:
+    if error is None or error <= STEP_WARNING:
+        return ()
+    if kind == "irregular":
+        return ("the motion is irregular (impacts): compare spectra and statistics, not single samples",)
+    return (f"the step changes the result by {100 * error:.2g} %: ask for more steps per output sample",)
+
+
+def _contact_share(system: System, contact: FloatArray) -> dict[str, float]:
+    share = {}
+    for e, element in enumerate(system.elements):
+        if element.contact_output >= 0 and contact[e, 0] > 0:
+            share[element.name] = float(contact[e, 1] / contact[e, 0])
+    return share
+
+
+def response(
+    system: System, request: Request, finished: Finished, signals: FloatArray, error: float | None
+) -> Response:
+    """Response of a run with its signals (channels, samples); `error` from the pilot, None when unmeasured."""
+    kind = "not measured"
+    if error is not None:
+        kind = "irregular" if error > IRREGULAR else "regular"
+    duration_s = signals.shape[1] / request.rate_hz
+    period = 1.0 / max((hz for hz in system.speeds_hz.values() if hz > 0), default=20.0 / duration_s)
+    return Response(
+        machine=system.machine,
+        sampling_rate_hz=request.rate_hz,
+        channels=request.channels,
+        signals=signals,
+        bases_hz=dict(system.bases_hz),
+        derived=dict(system.derived),
+        quality=Quality(
+            step_s=request.step_s,
+            steps=int(finished.counts[1]),
+            refined_steps=int(finished.counts[2]),
+            unconverged_steps=int(finished.counts[4]),
+            step_error=error,
+            step_error_kind=kind,
+            transient_end_s=transient_end_s(signals, request.rate_hz, period),
+            energy=energy_balance(system, finished.z, finished.work, finished.energy),
+        ),
+        warnings=system.warnings + _warnings(error, kind),
+        contact_share=_contact_share(system, finished.contact),
+        seed=request.seed,
+        version=PHYSICS_VERSION,
+    )
