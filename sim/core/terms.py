@@ -62,6 +62,21 @@ class Demo:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Validation:
+    """A check of an effect against something that is not its own code.
+
+    `kind`: closed form, published table, independent calculation, or measurement. `deviation` is the largest relative
+    difference the named test allows, and it must be measured: tests compare what they find with `deviation`.
+    """
+
+    kind: Literal["closed form", "published table", "independent calculation", "measurement"]
+    source: str
+    deviation: float
+    test: str
+    """`tests/sim/terms/test_x.py::test_name`."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Term:
     """Base of all effects. Subclasses override what they need; everything is a pure function.
 
@@ -83,6 +98,7 @@ class Term:
     excludes: tuple[str, ...] = field(default=())
     """Keys that cannot act at the same site."""
     demo: Demo = field(default_factory=Demo)
+    validation: tuple[Validation, ...] = ()
 
     def values(self, given: Values, where: str) -> dict[str, float]:
         """Fill defaults and check bounds; SpecError lists every field that is wrong."""
