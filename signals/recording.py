@@ -11,7 +11,8 @@ import numpy as np
 from signals.series import FloatArray, Series, checked_rate, read_only
 from sim.core.errors import Problem, SpecError, UnknownName
 from sim.core.response import Channel, Response
-from sim.core.spec import TorqueLoad
+from sim.core.spec import OperatingSpec, TorqueLoad
+from sim.core.speed import mean_ratio, warped_times
 
 Condition = Literal["baseline", "unknown"]
 Origin = Literal["measured", "simulated"]
@@ -149,15 +150,28 @@ def _problems(channels: Sequence[Channel], samples: FloatArray) -> list[Problem]
     return problems
 
 
+def _tacho(response: Response, operating: OperatingSpec) -> Tacho | None:
+    """One pulse a revolution where the speed changes, at phi = 2 pi k; between samples the speed is linear."""
+    if operating.profile is None:
+        return None
+    t = np.arange(response.signals.shape[1]) / response.sampling_rate_hz
+    turns = operating.speed_hz * warped_times(response.speed, t)[0]
+    pulses = np.interp(np.arange(0, np.floor(turns[-1]) + 1), turns, t)
+    return Tacho(shaft=operating.shaft, pulse_times_s=pulses)
+
+
 def from_response(response: Response, *, condition: Condition = "unknown", notes: str = "") -> Recording:
     """The recording a simulation stands for: same samples, same channels, origin `simulated`."""
     machine = response.machine
     operating = None
+    tacho = None
     if machine.operating is not None:
+        ratio = mean_ratio(response.speed, 0.0, response.signals.shape[1] / response.sampling_rate_hz)
+        tacho = _tacho(response, machine.operating)
         torques = [x for x in machine.loads if isinstance(x, TorqueLoad) and x.shaft == machine.operating.shaft]
         operating = Operating(
             shaft=machine.operating.shaft,
-            speed_hz=machine.operating.speed_hz,
+            speed_hz=machine.operating.speed_hz * ratio,
             torque_nm=sum(load.torque_nm for load in torques) if torques else None,
         )
     return Recording(
@@ -165,6 +179,7 @@ def from_response(response: Response, *, condition: Condition = "unknown", notes
         channels=tuple(c if c.unit else replace(c, unit=DIMENSIONLESS) for c in response.channels),
         samples=response.signals,
         operating=operating,
+        tacho=tacho,
         condition=condition,
         origin="simulated",
         notes=notes or machine.name,

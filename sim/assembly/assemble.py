@@ -14,11 +14,13 @@ from sim.assembly.linear import Linear, linear_part
 from sim.assembly.loads import load_vector
 from sim.assembly.plausibility import implausible
 from sim.assembly.references import check_references
+from sim.assembly.run_up import run_up_elements
 from sim.core.elements import Element
 from sim.core.errors import Problem, SpecError
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.spec import MachineSpec
+from sim.core.speed import speed_table
 from sim.core.system import System
 from sim.core.terms import Registry
 from sim.terms import REGISTRY
@@ -77,7 +79,7 @@ def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGIST
     bases = slipped_bases(kin, machine, laws)
     linear = linear_part(machine, laws.supports)
     acting = _base(machine, kin, registry, seed) + extra
-    elements = _elements(acting, laws, linear.names)
+    elements = _elements(acting, laws, linear.names) + run_up_elements(machine, kin, linear)
     _check_masses(linear)
     check_held(machine, linear, elements, laws.supports)
     derived |= linear.derived
@@ -94,6 +96,7 @@ def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGIST
         load=load,
         elements=elements,
         speeds_hz={"": 0.0} | dict(kin.body_hz),
+        speed=speed_table(machine.operating.profile if machine.operating else None, seed),
         dynamic_angle=angles,
         bases_hz=bases,
         lines=_lines(acting),

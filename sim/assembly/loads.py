@@ -59,6 +59,25 @@ def _check_balance(given: dict[str, float], kin: Kinematics) -> None:
         )
 
 
+def _close_balance(
+    machine: MachineSpec,
+    kin: Kinematics,
+    torques: dict[str, float],
+    load: FloatArray,
+    place: dict[str, int],
+    derived: dict[str, str],
+) -> None:
+    """Where the shaft angle follows the torsion, take the rest of rounded torques from the last one: it would add up."""
+    if machine.operating is None or machine.operating.kinematics != "dynamic" or len(torques) < 2:
+        return
+    last = list(torques)[-1]
+    rest = sum(torque * kin.shaft_hz[shaft] for shaft, torque in torques.items()) / kin.shaft_hz[last]
+    node = _torsion_node(machine, last, list(place))
+    if rest != 0.0 and node is not None:
+        load[place[node]] -= rest
+        derived[f"{last}.torque_correction_nm"] = f"derived: {-rest:.3g} N m (closes the given balance)"
+
+
 def load_vector(
     machine: MachineSpec, kin: Kinematics, dofs: Sequence[str], mass: FloatArray, derived: dict[str, str]
 ) -> FloatArray:
@@ -73,6 +92,7 @@ def load_vector(
             raise SpecError(Problem(field=f"shafts.{shaft}", message=message, given=torque, unit="N m"))
         load[place[node]] += torque
     _check_balance(torques, kin)
+    _close_balance(machine, kin, torques, load, place, derived)
     for i, item in enumerate(machine.loads):
         if isinstance(item, ForceLoad):
             dof = f"{item.body}.{item.axis}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,6 +92,8 @@ class Response:
     """Share of the simulated time each wall or mesh was in contact, by element."""
     seed: int
     version: str
+    speed: FloatArray = field(default_factory=lambda: np.zeros(4))
+    """Table of the speed over time (`sim.core.speed`); `bases_hz` hold at its mean over the run."""
 
     def signal(self, name: str) -> FloatArray:
         """Samples of one channel, shape (samples,); KeyError names what exists."""

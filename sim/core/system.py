@@ -36,6 +36,8 @@ class System:
     load: FloatArray
     elements: tuple[Element, ...]
     speeds_hz: Mapping[str, float]
+    speed: FloatArray
+    """Table of the speed over time (`sim.core.speed`)."""
     dynamic_angle: Mapping[str, int]
     """Body name to the index of its theta DOF, when the shaft angle includes the torsional motion."""
     bases_hz: Mapping[str, float]

@@ -87,9 +87,25 @@ RUNAWAY = 1.0
 
 
 def runs_away(system: System, displacement: FloatArray) -> bool:
-    """Whether a displacement of the state (n,) is beyond bounds."""
+    """Whether a displacement of the state (n,) is beyond bounds, or a mesh has jumped a tooth.
+
+    Angles as such are free (a train may turn as a whole); teeth that are a base pitch apart are no longer the ones the
+    tables speak of.
+    """
     linear = [i for i, name in enumerate(system.dofs) if not name.endswith(".theta")]
-    return bool(np.any(np.abs(displacement[linear]) > RUNAWAY))
+    if np.any(np.abs(displacement[linear]) > RUNAWAY):
+        return True
+    place = {name: i for i, name in enumerate(system.dofs)}
+    for mesh in system.machine.meshes:
+        teeth = next(g.teeth for g in system.machine.gears if g.name == mesh.pinion)
+        for element in system.elements:
+            if element.name == mesh.name:
+                weights = element.coordinates[0].weights
+                deflection = sum(weight * displacement[place[dof]] for dof, weight in weights)
+                base_radius = next(weight for dof, weight in weights if dof == f"{mesh.pinion}.theta")
+                if abs(deflection) > 2.0 * math.pi * base_radius / teeth + (mesh.backlash_m or 0.0):
+                    return True
+    return False
 
 
 def diverged(system: System, displacement: FloatArray, time_s: float) -> Diverged:

@@ -98,7 +98,7 @@ def structure(system: System) -> Hashable:
         )
         for e in system.elements
     )
-    return system.dofs, elements, tuple(system.dynamic_angle.items()), len(system.dampers)
+    return system.dofs, elements, tuple(system.dynamic_angle.items()), len(system.dampers), system.speed.size
 
 
 def _start(systems: Sequence[System], step_s: float, names: tuple[str, ...], rtol: float) -> _Lanes:

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 
 from sim.core.compiled import call_force, call_prepare, inline, shift
+from sim.core.speed import warped
 from sim.solve.chunks import multiply
 from sim.solve.newton import solve_stiff
 
@@ -25,16 +26,19 @@ def set_shafts(plan, work, t, h):  # type: ignore[no-untyped-def]  # noqa: ANN00
     """Angles and speeds of every element's two shafts at start and nodes."""
     s = plan.stages
     n = plan.dofs
+    turned = work.newton
+    for k in range(s + 1):
+        turned[2 * k], turned[2 * k + 1] = warped(plan.speed, t if k == 0 else t + plan.nodes[k - 1] * h)
     for e in range(plan.elements):
         for side in range(2):
             hz = plan.turns[2 * e + side]
             dof = plan.angle_dof[2 * e + side]
             for k in range(s + 1):
-                tk = t if k == 0 else t + plan.nodes[k - 1] * h
-                angle = TURN * hz * tk
-                speed = TURN * hz
+                angle = TURN * hz * turned[2 * k]
+                speed = TURN * hz * turned[2 * k + 1]
                 if dof >= 0:
-                    angle += work.z[dof] + work.z[n + dof] * (tk - t)
+                    ahead = 0.0 if k == 0 else plan.nodes[k - 1] * h
+                    angle += work.z[dof] + work.z[n + dof] * ahead
                     speed += work.z[n + dof]
                 work.shafts[e * 4 * (s + 1) + 2 * side * (s + 1) + k] = angle
                 work.shafts[e * 4 * (s + 1) + (2 * side + 1) * (s + 1) + k] = speed

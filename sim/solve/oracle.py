@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from sim.core.compiled import call_force, call_prepare, doubles, integers, jit, shift
 from sim.core.elements import STAGES
 from sim.core.response import FloatArray
+from sim.core.speed import warped
 from sim.core.system import System
 from sim.solve.chunks import Chunked, chunked, multiply
 from sim.solve.plain import coordinate_rows, instant_force
@@ -62,12 +63,13 @@ def _rhs(t, y, table, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN2
         x[i] = y[i]
     multiply(integers(table[12]), 0, head[3], integers(table[13]), doubles(table[14]), x, w, 0)
     step[0] = t
+    turned, rate = warped(doubles(table[18]), t)
     for e in range(elements):
         own = 9 * e
         at, d = whole[own + 2], whole[own + 3]
         for side in range(2):
-            angle = TURN * turns[2 * e + side] * t
-            speed = TURN * turns[2 * e + side]
+            angle = TURN * turns[2 * e + side] * turned
+            speed = TURN * turns[2 * e + side] * rate
             dof = whole[own + 7 + side]
             if dof >= 0:
                 angle += x[dof]
@@ -135,6 +137,7 @@ def compiled_rhs(system: System) -> RightSide:
         np.zeros(SCRATCH),
         *(maps.pointer, maps.column, maps.value),
         *(dynamics.pointer, dynamics.column, dynamics.value),
+        system.speed,
     ]
     table = np.array([a.ctypes.data for a in arrays], dtype=np.int64)
     out = np.zeros(2 * n)

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from sim.core.response import Channel, FloatArray, Quality, Response
+from sim.core.speed import mean_ratio, warped_times
 from sim.core.system import System
 from sim.solve.chunks import IntArray
 from sim.solve.energy import energy_balance
@@ -44,6 +47,21 @@ def _warnings(error: float | None, kind: str) -> tuple[str, ...]:
     return (f"the step changes the result by {100 * error:.2g} %: ask for more steps per output sample",)
 
 
+SPEED_WARNING = 2e-3
+"""Range of the speed, relative to nominal, above which lines of a spectrum over time smear."""
+
+
+def _speed_warning(system: System, duration_s: float) -> tuple[str, ...]:
+    if system.speed[0] == 0:
+        return ()
+    _, ratios = warped_times(system.speed, np.linspace(0.0, duration_s, 1001))
+    span = float(ratios.max() - ratios.min())
+    if span <= SPEED_WARNING:
+        return ()
+    lines = "lines smear in spectra over time; orders stay sharp"
+    return (f"the speed varies by {100 * span:.2g} % of the nominal one (frequencies are those of its mean): {lines}",)
+
+
 def _contact_share(system: System, contact: FloatArray) -> dict[str, float]:
     share = {}
     for e, element in enumerate(system.elements):
@@ -60,13 +78,14 @@ def response(
     if error is not None:
         kind = "irregular" if error > IRREGULAR else "regular"
     duration_s = signals.shape[1] / request.rate_hz
+    ratio = mean_ratio(system.speed, 0.0, duration_s)
     period = 1.0 / max((hz for hz in system.speeds_hz.values() if hz > 0), default=20.0 / duration_s)
     return Response(
         machine=system.machine,
         sampling_rate_hz=request.rate_hz,
         channels=request.channels,
         signals=signals,
-        bases_hz=dict(system.bases_hz),
+        bases_hz={name: hz * ratio for name, hz in system.bases_hz.items()},
         derived=dict(system.derived),
         quality=Quality(
             step_s=request.step_s,
@@ -78,8 +97,9 @@ def response(
             transient_end_s=transient_end_s(signals, request.rate_hz, period),
             energy=energy_balance(system, finished.z, finished.work, finished.energy),
         ),
-        warnings=system.warnings + _warnings(error, kind),
+        warnings=system.warnings + _warnings(error, kind) + _speed_warning(system, duration_s),
         contact_share=_contact_share(system, finished.contact),
         seed=request.seed,
         version=PHYSICS_VERSION,
+        speed=system.speed,
     )

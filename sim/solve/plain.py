@@ -17,6 +17,7 @@ import numpy as np
 from sim.core.compiled import shift
 from sim.core.elements import OUT_ENERGY, STAGES, Element
 from sim.core.response import FloatArray
+from sim.core.speed import warped_times
 from sim.core.system import System
 from sim.solve.collocation import collocation
 
@@ -69,10 +70,11 @@ def shaft_rows(system: System, element: Element, step: FloatArray, state: FloatA
     """Angle and speed of both shafts at start and nodes, shape (4, s + 1), rad and rad/s; `state` is (q, q')."""
     s, n = int(step[2]), len(system.dofs)
     times = step[0] + step[1] * np.concatenate([[0.0], step[3 : 3 + s]])
+    turned, rate = warped_times(system.speed, times)
     rows = np.empty((4, s + 1))
     for side, body in enumerate(element.shafts):
         speed = 2.0 * np.pi * system.speeds_hz[body]
-        rows[2 * side], rows[2 * side + 1] = speed * times, speed
+        rows[2 * side], rows[2 * side + 1] = speed * turned, speed * rate
         if body in system.dynamic_angle:
             i = system.dynamic_angle[body]
             rows[2 * side] += state[i] + state[n + i] * (times - step[0])

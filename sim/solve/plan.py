@@ -60,6 +60,7 @@ class Plan(NamedTuple):
     out_count: IntArray
     flags: IntArray  # (E, 2): stiff, exact end
     turns: FloatArray  # (E, 2) revolutions per second of the two shafts
+    speed: FloatArray  # table of the speed over time
     angle_dof: IntArray  # (E, 2) theta DOF or -1
     carries: IntArray  # (U,) 1 where a coordinate carries a force
     observe_rows: FloatArray  # (U, n) all coordinates
@@ -245,6 +246,7 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
         out_count=np.array([3 + len(e.outputs) for e in elements], dtype=np.int64),
         flags=np.array([[e.stiff, e.exact_end] for e in elements], dtype=np.int64).reshape(-1, 2),
         turns=np.array([[system.speeds_hz[b] for b in e.shafts] for e in elements]).reshape(-1, 2),
+        speed=system.speed,
         angle_dof=np.array(
             [[system.dynamic_angle.get(b, -1) for b in e.shafts] for e in elements], dtype=np.int64
         ).reshape(-1, 2),

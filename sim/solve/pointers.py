@@ -75,7 +75,8 @@ PlanPointers = namedtuple(
     "elements forces_total coords rows states dofs stages levels stiff outputs base_step nodes weights predict "
     "force_predict slope "
     "pointer column value span node_load end_load row_place prepare_address force_address u_at f_at size forces "
-    "par_at par ctx_at ctx_width out_at out_count flags turns angle_dof carries observe_rows compliance stiff_rows",
+    "par_at par ctx_at ctx_width out_at out_count flags turns speed angle_dof carries observe_rows "
+    "compliance stiff_rows",
 )
 WorkPointers = namedtuple(
     "WorkPointers",
@@ -124,6 +125,7 @@ def plan_pointers(p):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
         integers(p.out_count.ctypes.data),
         integers(p.flags.ctypes.data),
         doubles(p.turns.ctypes.data),
+        doubles(p.speed.ctypes.data),
         integers(p.angle_dof.ctypes.data),
         integers(p.carries.ctypes.data),
         doubles(p.observe_rows.ctypes.data),

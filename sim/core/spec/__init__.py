@@ -4,7 +4,17 @@ from sim.core.spec.base import SCHEMA_VERSION, Name, SpecModel
 from sim.core.spec.bearings import BallGeometry, BearingSpec, ResonatorSpec, SupportSpec
 from sim.core.spec.gears import GearSpec, MeshSpec, MeshTable, TransmissionError
 from sim.core.spec.machine import MachineSpec
-from sim.core.spec.operating import ForceLoad, LoadSpec, OperatingSpec, TermSpec, TorqueLoad
+from sim.core.spec.operating import (
+    FluctuatingSpeed,
+    ForceLoad,
+    LoadSpec,
+    MeasuredSpeed,
+    OperatingSpec,
+    RampSpeed,
+    SpeedProfile,
+    TermSpec,
+    TorqueLoad,
+)
 from sim.core.spec.shafts import BodySpec, ShaftSpec
 
 __all__ = [
@@ -12,17 +22,21 @@ __all__ = [
     "BallGeometry",
     "BearingSpec",
     "BodySpec",
+    "FluctuatingSpeed",
     "ForceLoad",
     "GearSpec",
     "LoadSpec",
     "MachineSpec",
+    "MeasuredSpeed",
     "MeshSpec",
     "MeshTable",
     "Name",
     "OperatingSpec",
+    "RampSpeed",
     "ResonatorSpec",
     "ShaftSpec",
     "SpecModel",
+    "SpeedProfile",
     "SupportSpec",
     "TermSpec",
     "TorqueLoad",

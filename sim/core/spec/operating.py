@@ -9,11 +9,43 @@ from pydantic import Field
 from sim.core.spec.base import Finite, Name, SpecModel
 
 
+class RampSpeed(SpecModel):
+    """The speed goes straight from one ratio of the nominal speed to another, then stays."""
+
+    kind: Literal["ramp"] = "ramp"
+    start_ratio: Annotated[float, Field(ge=0, le=10)] = 1.0
+    end_ratio: Annotated[float, Field(ge=0, le=10)]
+    duration_s: Annotated[float, Field(ge=1e-3, le=3600)]
+
+
+class FluctuatingSpeed(SpecModel):
+    """A sine around the nominal speed, and noise with a correlation time (it repeats after 128 of them)."""
+
+    kind: Literal["fluctuating"] = "fluctuating"
+    amplitude: Annotated[float, Field(ge=0, le=0.5)] = 0.0
+    frequency_hz: Annotated[float, Field(ge=0.01, le=1000)] = 1.0
+    random_rms: Annotated[float, Field(ge=0, le=0.2)] = 0.0
+    correlation_s: Annotated[float, Field(ge=1e-2, le=100)] = 1.0
+
+
+class MeasuredSpeed(SpecModel):
+    """Ratios of the nominal speed at equal steps, linear between, the last one kept."""
+
+    kind: Literal["measured"] = "measured"
+    step_s: Annotated[float, Field(ge=1e-4, le=60)]
+    ratios: Annotated[tuple[Annotated[float, Field(ge=0, le=10)], ...], Field(min_length=2, max_length=100_000)]
+
+
+SpeedProfile = Annotated[RampSpeed | FluctuatingSpeed | MeasuredSpeed, Field(discriminator="kind")]
+
+
 class OperatingSpec(SpecModel):
     """Speed of one shaft; the others follow from the meshes."""
 
     shaft: Name
     speed_hz: Annotated[float, Field(ge=0.1, le=1000)]
+    profile: SpeedProfile | None = None
+    """How the speed changes with time; none: it is constant."""
     kinematics: Literal["prescribed", "dynamic"] = "prescribed"
     """Shaft angle phi(t): `prescribed` is the speed profile alone (the seed), `dynamic` adds the torsional motion."""
     rotation: Literal["printed", "geared"] = "geared"

@@ -56,6 +56,7 @@ class LanePlan(NamedTuple):
     out_count: IntArray
     flags: IntArray  # (E, 2): stiff, exact end
     turns: FloatArray  # (2 E, W)
+    speed: FloatArray  # (table, W)
     angle_dof: IntArray  # (2 E,)
     carries: IntArray
     observe_pointer: IntArray
@@ -179,6 +180,7 @@ def lane_plan(systems: Sequence[System], built: Sequence[Stepped], first: Plan) 
         out_count=first.out_count,
         flags=first.flags,
         turns=_by_lane([b.turns for b in built]),
+        speed=_by_lane([s.speed for s in systems]),
         angle_dof=np.ascontiguousarray(first.angle_dof.ravel()),
         carries=first.carries,
         observe_pointer=o_pointer,

@@ -10,6 +10,7 @@ import math
 from sim.core.choose import floor, larger, pick, select, size, somewhere
 from sim.core.compiled import inline
 from sim.core.lanes import call_lane_force, call_lane_prepare, lane_shift, lowest
+from sim.core.speed import warped
 from sim.solve.lanes.commit import accept
 from sim.solve.lanes.newton import solve_stiff
 from sim.solve.loop import MAX_ITERATIONS
@@ -27,15 +28,18 @@ def prepare_all(plan, work, t, h):  # type: ignore[no-untyped-def]  # noqa: ANN0
     n = plan.dofs
     work.step[0] = t
     work.step[1] = h
+    turned = work.newton
+    for k in range(s + 1):
+        turned[2 * k], turned[2 * k + 1] = warped(plan.speed, t if k == 0 else t + plan.nodes[k - 1] * h)
     for e in range(plan.elements):
         for side in range(2):
             hz = plan.turns[2 * e + side]
             dof = plan.angle_dof[2 * e + side]
             for k in range(s + 1):
-                ahead = 0.0 if k == 0 else plan.nodes[k - 1] * h
-                angle = TURN * hz * (t + ahead)
-                speed = TURN * hz
+                angle = TURN * hz * turned[2 * k]
+                speed = TURN * hz * turned[2 * k + 1]
                 if dof >= 0:
+                    ahead = 0.0 if k == 0 else plan.nodes[k - 1] * h
                     angle += work.z[dof] + work.z[n + dof] * ahead
                     speed += work.z[n + dof]
                 work.shafts[e * 4 * (s + 1) + 2 * side * (s + 1) + k] = angle

@@ -79,7 +79,7 @@ LanePlanPointers = namedtuple(
     "LanePlanPointers",
     "elements forces_total coords rows states dofs stages levels stiff outputs base_step nodes weights predict "
     "force_predict slope pointer column value first_row node_load end_load row_place prepare_address force_address "
-    "u_at f_at size forces par_at par ctx_at ctx_width out_at out_count flags turns angle_dof carries "
+    "u_at f_at size forces par_at par ctx_at ctx_width out_at out_count flags turns speed angle_dof carries "
     "observe_pointer observe_column observe_value compliance stiff_rows",
 )
 LaneWorkPointers = namedtuple(
@@ -129,6 +129,7 @@ def lane_plan_pointers(p):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN20
         integers(p.out_count.ctypes.data),
         integers(p.flags.ctypes.data),
         as_lanes(doubles(p.turns.ctypes.data)),
+        as_lanes(doubles(p.speed.ctypes.data)),
         integers(p.angle_dof.ctypes.data),
         integers(p.carries.ctypes.data),
         integers(p.observe_pointer.ctypes.data),
