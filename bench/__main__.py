@@ -11,6 +11,7 @@ import argparse  # noqa: E402
 import json  # noqa: E402
 
 from bench.cases import CHANNELS, START_S, cases  # noqa: E402
+from bench.ensemble import MEMBERS, ensemble, prices  # noqa: E402
 from bench.precision import STRETCH_S, our_rows, scipy_rows  # noqa: E402
 from bench.process import cold_first_step_s, fresh_compile_s, peak_memory_mb  # noqa: E402
 from bench.service import service_times_ms  # noqa: E402
@@ -61,6 +62,24 @@ def work_precision(which: tuple[int, ...] = (1, 3)) -> None:
             print(f"{method:12s}{row.how:>14s}{row.cost:12.3f}{row.error:12.1e}")
 
 
+def ensembles(*, with_prices: bool) -> dict[str, float | None]:
+    """Speed of many machines in one call, and what each effect costs."""
+    found = ensemble()
+    print(f"\n{MEMBERS} machines with different parameters in one call, one core (gearbox with clearance, 30 kHz):")
+    print(f"{found.factor:.1f} simulated seconds per core-second, worst error {found.error:.1e},")
+    print(f"{found.speedup:.2f} times faster than one machine at a time")
+    if with_prices:
+        print("\nPrice of an effect: cost of a run with it over one without, on the machine of its demonstration")
+        print(f"{'effect':28s}{'machine':>24s}{'alone':>8s}{'in lanes':>10s}")
+        for price in prices():
+            print(f"{price.key:28s}{price.machine:>24s}{price.single:8.2f}{price.lanes:10.2f}")
+    return {
+        "ensemble_realtime_factor_per_core": found.factor,
+        "ensemble_error": found.error,
+        "ensemble_vs_single_speedup": found.speedup,
+    }
+
+
 def processes() -> dict[str, float]:
     """Start and memory of fresh processes."""
     cold, fresh = cold_first_step_s(), fresh_compile_s()
@@ -79,6 +98,7 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help="only speed, error and ratio")
     quick = parser.parse_args().quick
     result: dict[str, float | None] = dict(singles())
+    result |= ensembles(with_prices=not quick)
     if not quick:
         work_precision()
         result |= processes()

@@ -67,7 +67,7 @@ def _close_balance(
     place: dict[str, int],
     derived: dict[str, str],
 ) -> None:
-    """Where the shaft angle follows the torsion, take the rest of rounded torques from the last one: it would add up."""
+    """Where shaft angles follow the torsion, take the rest of rounded torques from the last: it would add up."""
     if machine.operating is None or machine.operating.kinematics != "dynamic" or len(torques) < 2:
         return
     last = list(torques)[-1]

@@ -73,6 +73,9 @@ class Element:
     contact_output: int = -1
     """Index of the output that is 1 in contact and 0 in free flight; -1: none."""
 
+    range_output: int = -1
+    """Index of the output that is 1 where a table ends and its last value is used; -1: none."""
+
     linear_stiffness: FloatArray | None = None
     """Mean stiffness (forces, forces) near the working point, N/m, for natural frequencies; None: not counted."""
 

@@ -167,7 +167,7 @@ def _run_lanes(ready: Sequence[_Ready], call: _Call) -> list[Response | Sideband
             work=lanes.work.work[:, lane],
             counts=lanes.work.counts[:, lane],
             energy=lanes.probe.energy[:, lane],
-            contact=lanes.probe.contact[:, lane].reshape(-1, 2),
+            contact=lanes.probe.contact[:, lane].reshape(-1, 3),
         )
         request = Request(channels=channels, rate_hz=call.rate_hz, step_s=1.0 / rate, seed=one.member.seed)
         results.append(response(one.system, request, finished, signals[lane::WIDTH].copy(), errors[lane]))

@@ -62,6 +62,16 @@ def _speed_warning(system: System, duration_s: float) -> tuple[str, ...]:
     return (f"the speed varies by {100 * span:.2g} % of the nominal one (frequencies are those of its mean): {lines}",)
 
 
+def _range_warnings(system: System, contact: FloatArray) -> list[str]:
+    found = []
+    for e, element in enumerate(system.elements):
+        if element.range_output >= 0 and contact[e, 2] > 0:
+            share = 100.0 * contact[e, 2] / max(contact[e, 0], 1.0)
+            what = "left the range of its stiffness table"
+            found.append(f"{element.name}: {share:.2g} % of the time {what}, whose last row was used")
+    return found
+
+
 def _contact_share(system: System, contact: FloatArray) -> dict[str, float]:
     share = {}
     for e, element in enumerate(system.elements):
@@ -97,7 +107,10 @@ def response(
             transient_end_s=transient_end_s(signals, request.rate_hz, period),
             energy=energy_balance(system, finished.z, finished.work, finished.energy),
         ),
-        warnings=system.warnings + _warnings(error, kind) + _speed_warning(system, duration_s),
+        warnings=system.warnings
+        + _warnings(error, kind)
+        + _speed_warning(system, duration_s)
+        + tuple(_range_warnings(system, finished.contact)),
         contact_share=_contact_share(system, finished.contact),
         seed=request.seed,
         version=PHYSICS_VERSION,

@@ -212,7 +212,6 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
     out_at = _starts([3 + len(e.outputs) for e in elements])
     rows = stiff_rows(system, coords, f_at)
     stiff = sum(e.stiff for e in elements)
-    parameters = [e.parameters for e in elements]
     head = np.concatenate([[0.0, 0.0, float(s)], rule.c, rule.lagrange.ravel(), rule.b])
     ints = np.array([len(elements), f, u, r, z, n, s, levels, stiff, out_at[-1]], dtype=np.int64)
     plan = Plan(
@@ -238,7 +237,7 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
         size=np.array([e.size for e in elements], dtype=np.int64),
         forces=np.array([e.forces for e in elements], dtype=np.int64),
         par_at=par_at,
-        par=np.concatenate(parameters) if parameters else np.zeros(1),
+        par=np.concatenate([np.zeros(0), *(e.parameters for e in elements)]),
         ctx_at=ctx_at,
         ctx_width=np.array([e.context for e in elements], dtype=np.int64),
         ctx_size=int(ctx_at[-1]),

@@ -32,8 +32,9 @@ class Probe(NamedTuple):
     damper_value: FloatArray
     x: FloatArray
     energy: FloatArray  # 2 + 4 E: see `account`
-    contact: FloatArray  # (E, 2): samples, samples in contact
+    contact: FloatArray  # (E, 3): samples, samples in contact, samples beyond a table
     contact_output: IntArray
+    range_output: IntArray
 
 
 def probe_rows(plan: Plan, coords: Coordinates, system: System, names: tuple[str, ...]) -> list[dict[int, float]]:
@@ -96,8 +97,9 @@ def new_probe(built: Built, system: System, names: tuple[str, ...]) -> Probe:
         damper_value=np.array([d.damping for d in system.dampers], dtype=np.float64),
         x=x,
         energy=np.zeros(2 + 6 * max(count, 1)),
-        contact=np.zeros((max(count, 1), 2)),
+        contact=np.zeros((max(count, 1), 3)),
         contact_output=np.array([e.contact_output for e in system.elements], dtype=np.int64),
+        range_output=np.array([e.range_output for e in system.elements], dtype=np.int64),
     )
 
 
@@ -140,6 +142,8 @@ def account(plan, probe, weight):  # type: ignore[no-untyped-def]  # noqa: ANN00
         if probe.contact_output[e] >= 0:
             probe.contact[e, 0] += 1.0
             probe.contact[e, 1] += probe.x[base + 3 + probe.contact_output[e]]
+        if probe.range_output[e] >= 0:
+            probe.contact[e, 2] += probe.x[base + 3 + probe.range_output[e]]
 
 
 @jit

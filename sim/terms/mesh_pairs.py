@@ -169,6 +169,7 @@ class MeshPairs(Term):
                 outputs=OUTPUTS,
                 exact_end=True,
                 contact_output=5,
+                range_output=6,
                 linear_stiffness=np.array([[mean]]),
             ),
         )

@@ -206,6 +206,7 @@ class MeshTotal(Term):
                 outputs=OUTPUTS,
                 exact_end=True,
                 contact_output=5,
+                range_output=6,
                 linear_stiffness=np.array([[float(rows[zero_row(law)].mean())]]),
             ),
         )

@@ -20,7 +20,7 @@ from sim.solve.lanes.pointers import lane_plan_pointers, lane_work_pointers
 from sim.solve.memory import together
 from sim.solve.operators import coordinates
 from sim.solve.plan import Built
-from sim.solve.sampling import Probe, probe_rows
+from sim.solve.sampling import probe_rows
 
 
 class LaneProbe(NamedTuple):
@@ -35,8 +35,9 @@ class LaneProbe(NamedTuple):
     damper_value: FloatArray
     x: FloatArray
     energy: FloatArray
-    contact: FloatArray  # (2 E, W)
+    contact: FloatArray  # (3 E, W)
     contact_output: IntArray
+    range_output: IntArray
 
 
 def _dense(rows: Sequence[dict[int, float]], columns: int) -> FloatArray:
@@ -74,8 +75,9 @@ def new_lane_probe(plan: LanePlan, systems: Sequence[System], first: Built, name
         damper_value=np.array([[d.damping for d in s.dampers] for s in systems]).T.copy().reshape(-1, WIDTH),
         x=x,
         energy=np.zeros((2 + 6 * count, WIDTH)),
-        contact=np.zeros((2 * count, WIDTH)),
+        contact=np.zeros((3 * count, WIDTH)),
         contact_output=np.array([e.contact_output for e in systems[0].elements], dtype=np.int64),
+        range_output=np.array([e.range_output for e in systems[0].elements], dtype=np.int64),
     )
     return together(probe)
 
@@ -105,6 +107,7 @@ def account(plan, probe, x, energy, weight):  # type: ignore[no-untyped-def]  # 
     dof = integers(probe.damper_dof.ctypes.data)
     contact = as_lanes(doubles(probe.contact.ctypes.data))
     contact_output = integers(probe.contact_output.ctypes.data)
+    range_output = integers(probe.range_output.ctypes.data)
     power = 0.0 * x[0]
     for d in range(probe.damper_value.shape[0]):
         rate = 0.0 * power
@@ -118,8 +121,10 @@ def account(plan, probe, x, energy, weight):  # type: ignore[no-untyped-def]  # 
         energy[2 + 6 * e + 1] = energy[2 + 6 * e + 1] + x[base + 1] * weight
         energy[2 + 6 * e + 2] = energy[2 + 6 * e + 2] + x[base + 2] * weight
         if contact_output[e] >= 0:
-            contact[2 * e] = contact[2 * e] + 1.0
-            contact[2 * e + 1] = contact[2 * e + 1] + x[base + 3 + contact_output[e]]
+            contact[3 * e] = contact[3 * e] + 1.0
+            contact[3 * e + 1] = contact[3 * e + 1] + x[base + 3 + contact_output[e]]
+        if range_output[e] >= 0:
+            contact[3 * e + 2] = contact[3 * e + 2] + x[base + 3 + range_output[e]]
 
 
 @jit
@@ -163,22 +168,3 @@ def sample(plan_arrays, work_arrays, probe, first, count, rtol, last, out):  # t
         work.counts[7] = select(work.z[0] * 0.0 == 0.0, work.counts[7], 0.0)
         observe(plan, work, x)
         account(plan, probe, x, energy, plan.base_step * (0.5 if first + j + 1 == last else 1.0))
-
-
-def lane_probe(probe: LaneProbe, lane: int) -> Probe:
-    """One machine's energies and contact shares, as the single solver keeps them."""
-    empty = np.zeros(0)
-    none = np.zeros(0, dtype=np.int64)
-    return Probe(
-        pointer=none,
-        column=none,
-        value=empty,
-        damper_pointer=none,
-        damper_dof=none,
-        damper_weight=empty,
-        damper_value=empty,
-        x=probe.x[:, lane],
-        energy=probe.energy[:, lane],
-        contact=probe.contact[:, lane].reshape(-1, 2),
-        contact_output=probe.contact_output,
-    )

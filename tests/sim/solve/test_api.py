@@ -131,3 +131,17 @@ def test_cost_grows_with_duration():
     short, long = (estimate_cost(preset("paper"), duration_s=d, output_rate_hz=12_000.0) for d in (1.0, 10.0))
     assert long.steps == 10 * short.steps
     assert long.seconds > 5 * short.seconds
+
+
+def test_leaving_the_stiffness_table_is_said():
+    machine = preset("paper")
+    data = machine.model_dump()
+    small = np.linspace(-1e-9, 1e-9, 3)
+    data["meshes"][0]["table"] = {
+        "centre_distance_error_m": small.tolist(),
+        "stiffness_n_per_m": np.full((3, 64), 3.9e8).tolist(),
+    }
+    found = simulate(MachineSpec.model_validate(data), duration_s=0.02, output_rate_hz=20_000.0)
+    assert any("left the range of its stiffness table" in text for text in found.warnings)
+    inside = simulate(machine, duration_s=0.02, output_rate_hz=20_000.0)
+    assert not any("left the range" in text for text in inside.warnings)
