@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sim.core.errors import Cancelled, Diverged, SpecError, UnknownName
-from sim.core.spec import TermSpec
+from sim.core.spec import MachineSpec, TermSpec
 from sim.presets import preset
 from sim.solve.api import estimate_cost, simulate
 from sim.solve.settings import Settings
