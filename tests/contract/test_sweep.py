@@ -1,0 +1,89 @@
+"""Every effect at every legal site, at the corners of its parameters: finite signals or a refusal that says why."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+
+from sim.core.errors import Diverged, SpecError
+from sim.core.response import Response
+from sim.core.spec import MachineSpec, TermSpec
+from sim.core.terms import SiteKind, Term
+from sim.presets import preset
+from sim.solve.ensemble import Member, simulate_many
+from sim.solve.settings import Settings
+from sim.terms import REGISTRY
+
+MACHINES = ("paper-lightly-damped", "rotor", "gear-pair")
+"""A gearbox, a rotor in two bearings, gears without bearings."""
+QUICK = Settings(estimate_error=False)
+SPAN = {"duration_s": 0.01, "output_rate_hz": 20_000.0}
+DIVERGENT_SHARE = 0.05
+"""Share of all corner cases that may end in a reported divergence."""
+
+
+def sites(machine: MachineSpec) -> dict[SiteKind, tuple[str, ...]]:
+    found: dict[SiteKind, tuple[str, ...]] = {
+        "bearing": tuple(b.name for b in machine.bearings),
+        "gear": tuple(g.name for g in machine.gears),
+        "mesh": tuple(m.name for m in machine.meshes),
+        "shaft": tuple(s.name for s in machine.shafts),
+    }
+    return found | {"body": tuple(b.name for b in machine.bodies)}  # type: ignore[dict-item]
+
+
+def corners(term: Term) -> list[dict[str, float]]:
+    """Defaults; every parameter at either bound, the severity at its default and at its highest."""
+    cases: list[dict[str, float]] = [{}]
+    for p in term.params:
+        cases += [{p.name: p.low}, {p.name: p.high}]
+    top = next((p for p in term.params if p.name == term.severity), None)
+    if top is not None:
+        others = [p for p in term.params if p.name != term.severity]
+        cases += [{top.name: top.high, p.name: value} for p in others for value in (p.low, p.high)]
+    return cases
+
+
+def cases(term: Term) -> list[MachineSpec]:
+    """One machine a legal site and corner."""
+    found = []
+    for name in MACHINES:
+        machine = preset(name)
+        legal = [s for kind in term.sites for s in sites(machine).get(kind, ())]
+        others = tuple(t for t in machine.terms if t.term != term.key)
+        for site, values in itertools.product(legal, corners(term)):
+            spec = TermSpec(term=term.key, site=site, parameters=values)
+            found.append(machine.model_copy(update={"terms": (*others, spec)}))
+    return found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("key", [t.key for t in REGISTRY if t.params])
+def test_corners_end_in_signals_or_a_reason(key):
+    term = REGISTRY.get(key)
+    assert term is not None
+    machines = cases(term)
+    assert machines, f"{key} can act nowhere on {', '.join(MACHINES)}"
+    found = simulate_many([Member(machine=m) for m in machines], settings=QUICK, **SPAN)
+    assert len(found) == len(machines)
+    diverged = []
+    for machine, result in zip(machines, found, strict=True):
+        where = f"{machine.name} {machine.terms[-1]}"
+        if isinstance(result, Response):
+            assert np.all(np.isfinite(result.signals)), where
+        elif isinstance(result, Diverged):
+            diverged.append(where)
+        else:
+            assert isinstance(result, SpecError), where
+            assert all(p.message and p.field for p in result.problems), where
+    assert any(isinstance(r, Response) for r in found), f"{key} never runs"
+    assert len(diverged) <= max(1, DIVERGENT_SHARE * len(machines)), diverged
+
+
+def test_the_sweep_would_see_an_illegal_site():
+    bad = preset("rotor").model_copy(update={"terms": (TermSpec(term="eccentricity", site="nowhere", parameters={}),)})
+    (found,) = simulate_many([Member(machine=bad)], settings=QUICK, **SPAN)
+    assert isinstance(found, SpecError)
+    assert any("site" in p.field for p in found.problems)
