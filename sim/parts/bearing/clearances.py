@@ -11,12 +11,12 @@ C5_UM = (
     (30.0, 53.0),
     (40.0, 64.0),
     (50.0, 73.0),
-    (65.0, 90.0),
     (80.0, 105.0),
     (100.0, 120.0),
 )
 """Bore up to (mm) and largest radial internal clearance of class C5 (um): ISO 5753-1, deep-groove ball bearings with
-cylindrical bore, as reprinted in makers' catalogues. Larger bores are not judged."""
+cylindrical bore, as reprinted in makers' catalogues. The reprints at hand misprint the row of 50 to 65 mm: it is judged
+by the next one. Larger bores are not judged."""
 
 
 def largest_internal_clearance_m(bore_m: float) -> float | None:
