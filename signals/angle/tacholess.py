@@ -22,7 +22,8 @@ from signals.series import ComplexArray, FloatArray, Series
 
 HALF_WIDTH = 0.4
 """Half width of a band, in turns per second of the slowest speed: the sidebands of the shaft itself stay outside."""
-PASSES = 2
+PASSES = 6
+"""Each pass demodulates along the angle of the one before: what is faster than the coarse track comes in by and by."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -39,7 +39,8 @@ def lifter(series: Series, *, keep: LifterKind, cut_s: float) -> Series:
 def remove_rahmonics(series: Series, *, spacing_hz: float, half_width_s: float | None = None) -> Series:
     """The signal without its family of lines `spacing_hz` apart: the notches lie at every rahmonic.
 
-    `half_width_s` (default: 2 samples or 0.5 % of the quefrency, whichever is more) allows for a speed that varies.
+    `half_width_s` of a notch (default: 2 samples, at most a quarter of the period) allows for a speed that varies; wide
+    notches take from single lines too, whose logarithm lies in all quefrencies.
     """
     quefrency = _quefrency(series)
     period = 1 / spacing_hz if spacing_hz > 0 else np.inf
@@ -55,8 +56,8 @@ def remove_rahmonics(series: Series, *, spacing_hz: float, half_width_s: float |
             )
         )
     multiple = np.maximum(np.rint(quefrency / period), 1.0)
-    width = np.maximum(2 * step, 0.005 * multiple * period) if half_width_s is None else half_width_s
-    return _edited(series, np.abs(quefrency - multiple * period) > np.minimum(width, period / 4))
+    width = 2 * step if half_width_s is None else half_width_s
+    return _edited(series, np.abs(quefrency - multiple * period) > min(width, period / 4))
 
 
 def _quefrency(series: Series) -> FloatArray:

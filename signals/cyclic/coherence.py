@@ -25,6 +25,8 @@ from sim.core.errors import Problem, SpecError
 LONGEST_SEGMENT_S = 2.0
 """Longer records are cut into half-overlapping segments: alpha is resolved to 0.5 Hz, the time linear in the record."""
 MIN_BINS = 32
+FIRST_ALPHA = 3
+"""Bins nearer than this share the window's main lobe: they are coherent whatever the signal (Hann: exactly two)."""
 BANDS = 64
 MAX_VALUES = 8_000_000
 WINDOW = "hann"
@@ -34,7 +36,7 @@ WINDOW = "hann"
 class CyclicCoherence:
     """Mean |gamma|^2 over the segments: `values` has shape (bands, alphas), dimensionless.
 
-    Band i covers `low_hz[i]` <= f < `high_hz[i]`; `alpha_hz` (alphas,) rises in steps of `resolution_hz`, without 0.
+    Band i covers `low_hz[i]` <= f < `high_hz[i]`; `alpha_hz` (alphas,) rises in steps of `resolution_hz` from 3 of them on.
     A stationary Gaussian signal has the mean 1 / `averages` everywhere.
     """
 
@@ -82,12 +84,12 @@ def cyclic_coherence(
     win = window(WINDOW, length)
     hop = hop_length(length, 0.5)
     frames = segments(series.samples, length, hop)
-    total = np.zeros((edges.size - 1, alphas))
+    total = np.zeros((edges.size - 1, alphas - FIRST_ALPHA + 1))
     mean = float(np.mean(series.samples))
     for frame in frames:
         total += _segment(np.asarray(fft.rfft((frame - mean) * win.values)), alphas, edges)
     return CyclicCoherence(
-        alpha_hz=np.arange(1, alphas + 1, dtype=np.float64) * step,
+        alpha_hz=np.arange(FIRST_ALPHA, alphas + 1, dtype=np.float64) * step,
         low_hz=edges[:-1].astype(np.float64) * step,
         high_hz=edges[1:].astype(np.float64) * step,
         values=total / frames.shape[0],
@@ -100,18 +102,18 @@ def cyclic_coherence(
 
 
 def _segment(spectrum: ComplexArray, alphas: int, edges: IntArray) -> FloatArray:
-    """|gamma|^2 of one segment, (bands, alphas)."""
+    """|gamma|^2 of one segment, (bands, cyclic frequencies)."""
     first, last = int(edges[0]), int(edges[-1])
     starts = edges[:-1] - first
     here = spectrum[first:last]
     power = spectrum.real**2 + spectrum.imag**2
     here_power = np.add.reduceat(power[first:last], starts)
-    values = np.empty((edges.size - 1, alphas))
-    for a in range(1, alphas + 1):
+    values = np.empty((edges.size - 1, alphas - FIRST_ALPHA + 1))
+    for column, a in enumerate(range(FIRST_ALPHA, alphas + 1)):
         product = np.add.reduceat(here * spectrum[first - a : last - a].conj(), starts)
         below = here_power * np.add.reduceat(power[first - a : last - a], starts)
         size = product.real**2 + product.imag**2
-        values[:, a - 1] = np.where(below > 0, size / np.where(below > 0, below, 1.0), 0.0)
+        values[:, column] = np.where(below > 0, size / np.where(below > 0, below, 1.0), 0.0)
     return values
 
 
@@ -122,8 +124,8 @@ def _grid(
     nyquist = series.sampling_rate_hz / 2
     low, high = band_hz or (max_alpha_hz, nyquist)
     problems = []
-    if not step <= max_alpha_hz < nyquist:
-        allowed = f"{step:g} to below {nyquist:g}"
+    if not FIRST_ALPHA * step <= max_alpha_hz < nyquist:
+        allowed = f"{FIRST_ALPHA * step:g} to below {nyquist:g}"
         problems.append(_problem("max_alpha_hz", "is no cyclic frequency of this signal", max_alpha_hz, allowed))
     elif not max_alpha_hz <= low < high <= nyquist * (1 + 1e-9):
         allowed = f"{max_alpha_hz:g} (max_alpha_hz) <= low < high <= {nyquist:g}"

@@ -89,15 +89,16 @@ def synchronous_average(
                 allowed=f"at least {MIN_TURNS}",
             )
         )
+    level = float(np.mean(series.samples))  # taken out and put back: the resampling filter's gain is 1 to 7e-4 only
     total, square, seen = np.zeros(per_turn), 0.0, 0
-    for block in _turns(series, angle, known, per_turn, turns):
+    for block in _turns(series.samples - level, angle, known, per_turn, turns):
         total += np.sum(block, axis=0)
         square += float(np.sum(block**2))
         seen += block.shape[0]
     mean = total / seen
     scatter = max(square / (seen * per_turn) - float(np.mean(mean**2)), 0.0) * seen / (seen - 1)
     return SynchronousAverage(
-        samples=mean,
+        samples=mean + level,
         unit=series.unit,
         shaft=shaft,
         revolutions=seen,
@@ -123,7 +124,7 @@ def _known(angle: FloatArray, series: Series) -> slice:
     return slice(int(finite[0]), int(finite[-1]) + 1)
 
 
-def _turns(series: Series, angle: FloatArray, known: slice, per_turn: int, turns: int) -> Iterator[FloatArray]:
+def _turns(samples: FloatArray, angle: FloatArray, known: slice, per_turn: int, turns: int) -> Iterator[FloatArray]:
     """The turns in order, in blocks of shape (some, per_turn)."""
     start = angle[known.start]
     together = max(1, BLOCK_SAMPLES // per_turn)
@@ -135,5 +136,5 @@ def _turns(series: Series, angle: FloatArray, known: slice, per_turn: int, turns
         high = known.start + int(np.searchsorted(angle[known], targets[-1])) + PAD_SAMPLES
         low, high = max(low, known.start), min(high, known.stop)
         index = CubicSpline(angle[low:high], np.arange(high - low, dtype=np.float64))(targets)
-        values = samples_at(series.samples[low:high], np.asarray(index, dtype=np.float64))
+        values = samples_at(samples[low:high], np.asarray(index, dtype=np.float64))
         yield values.reshape(count, per_turn)
