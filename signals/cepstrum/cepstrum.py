@@ -76,9 +76,14 @@ def cepstrum(
 
 
 def log_amplitude(amplitude: FloatArray) -> FloatArray:
-    """Natural logarithm, held at `FLOOR` of the largest amplitude; same shape."""
+    """Natural logarithm, held at `FLOOR` of the largest amplitude; same shape.
+
+    The first bin, where the mean was taken out, gets the level of the second: a hole there would lower all quefrencies.
+    """
     largest = float(np.max(amplitude))
-    return np.log(np.maximum(amplitude, FLOOR * largest if largest > 0 else 1.0))
+    found = np.log(np.maximum(amplitude, FLOOR * largest if largest > 0 else 1.0))
+    found[0] = found[1]
+    return np.asarray(found, dtype=np.float64)
 
 
 def rahmonic(result: Cepstrum, frequency_hz: float, multiple: int = 1, reach: int = 2) -> float:

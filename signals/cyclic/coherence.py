@@ -4,9 +4,9 @@
 smoothing the cyclic periodogram X(f) X*(f - alpha) over frequency: W. A. Gardner, "Measurement of spectral
 correlation", IEEE Trans. Acoust. Speech Signal Process. 34 (1986) 1111-1123; use and significance in J. Antoni,
 "Cyclic spectral analysis in practice", Mech. Syst. Signal Process. 21 (2007) 597-630, and "Cyclostationarity by
-examples", ibid. 23 (2009) 987-1036. The fast estimator of J. Antoni, G. Xin and N. Hamzaoui, ibid. 92 (2017) 248-277, sums over time
-instead; smoothing over frequency keeps the coherence below 1 and its distribution for noise known, and costs
-(bins x cyclic frequencies) a segment, which is a second for 4 s at 30 kHz and 500 Hz.
+examples", ibid. 23 (2009) 987-1036. The fast estimator of J. Antoni, G. Xin and N. Hamzaoui, ibid. 92 (2017) 248-277,
+sums over time instead; smoothing over frequency keeps the coherence below 1 and its distribution for noise known, and
+costs (bins x cyclic frequencies) a segment.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ WINDOW = "hann"
 class CyclicCoherence:
     """Mean |gamma|^2 over the segments: `values` has shape (bands, alphas), dimensionless.
 
-    Band i covers `low_hz[i]` <= f < `high_hz[i]`; `alpha_hz` (alphas,) rises in steps of `resolution_hz` from 3 of them on.
+    Band i covers `low_hz[i]` <= f < `high_hz[i]`; `alpha_hz` (alphas,) rises by `resolution_hz` from 3 of them on.
     A stationary Gaussian signal has the mean 1 / `averages` everywhere.
     """
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import fft
+from scipy.signal.windows import tukey
 
 from signals.series import FloatArray, Series
 from signals.spectra.band import FALSE_ALARM, MIN_BAND_SAMPLES, MIN_POWER_SHARE, chance_level, tree
@@ -22,6 +23,9 @@ from signals.spectra.types import Band
 from sim.core.errors import Problem, SpecError
 
 BLOCK_SAMPLES = 2**20
+TAPER = 0.05
+"""Share of a block at each end that is faded in and out and not judged: a transform takes the jump from the last sample
+to the first for a click, which in a quiet band would be the largest there is."""
 MAX_LEVEL = 7
 RULE = "largest spectral kurtosis of the fast kurtogram's tree, among the bands above chance if there are any"
 
@@ -80,7 +84,9 @@ def kurtogram(
             size = bins // parts
             # twice the critical rate: the squared envelope of a band is twice as wide as the band
             envelope = fft.ifft(transform[: size * parts].reshape(parts, size), n=2 * size, axis=1)
-            power = envelope.real**2 + envelope.imag**2
+            edge = int(np.ceil(TAPER * envelope.shape[1]))
+            inside = envelope[:, edge : envelope.shape[1] - edge]
+            power = inside.real**2 + inside.imag**2
             second[parts] += np.mean(power, axis=1) / blocks
             fourth[parts] += np.mean(power**2, axis=1) / blocks
     alarm = FALSE_ALARM / max(1, sum(levels))
@@ -92,7 +98,7 @@ def kurtogram(
             second[parts],
             fourth[parts],
             nyquist / bins * (bins // parts),
-            chance_level((bins // parts) * blocks, alarm),
+            chance_level(int((1 - 2 * TAPER) * (bins // parts) * blocks), alarm),
         )
     ]
     return Kurtogram(cells=tuple(cells), band=_proposed(cells, nyquist), channel=series.name)
@@ -113,9 +119,10 @@ def _check(max_level: int, min_bandwidth_hz: float, nyquist: float) -> None:
 
 def _transforms(series: Series, blocks: int, length: int) -> Iterator[np.ndarray[tuple[int], np.dtype[np.complex128]]]:
     mean = float(np.mean(series.samples))
+    fade = tukey(length, 2 * TAPER)
     for i in range(blocks):
         block = series.samples[i * length : (i + 1) * length] - mean
-        yield np.asarray(fft.rfft(block), dtype=np.complex128)
+        yield np.asarray(fft.rfft(block * fade), dtype=np.complex128)
 
 
 def _cells(parts: int, second: FloatArray, fourth: FloatArray, width_hz: float, threshold: float) -> list[Cell]:

@@ -33,7 +33,7 @@ def test_an_echo_reads_its_share_at_its_delay(share: float, delay: int) -> None:
     for k in range(1, 40):
         for place in (k * delay, -k * delay):
             expected[place % x.size] -= (-share) ** k / k / 2
-    assert np.max(np.abs(added - expected[: added.size])) < 1e-5  # the mean's bin is held at the floor
+    assert np.max(np.abs(added - expected[: added.size])) < 1e-4  # one bin of 20000, the mean's, is a neighbour's
     power = cepstrum(series(x), kind="power", window_name="boxcar")
     assert np.array_equal(power.values, 2 * without)
 

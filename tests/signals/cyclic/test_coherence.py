@@ -33,12 +33,11 @@ def averaged_cyclic_periodogram(x: FloatArray, alpha_hz: float, length: int) -> 
     """|gamma|^2 by Welch's averages of the series shifted up and down by alpha / 2 (Antoni 2007), (length / 2,)."""
     t = np.arange(x.size) / RATE
     window = np.hanning(length)
-    sums = [np.zeros(length, dtype=np.complex128) for _ in range(3)]
+    sums = np.zeros((3, length), dtype=np.complex128)
     up, down = x * np.exp(-1j * np.pi * alpha_hz * t), x * np.exp(1j * np.pi * alpha_hz * t)
     for start in range(0, x.size - length + 1, length // 4):
         a, b = (np.fft.fft(window * s[start : start + length]) for s in (up, down))
-        for total, value in zip(sums, (a * b.conj(), np.abs(a) ** 2, np.abs(b) ** 2), strict=True):
-            total += value
+        sums += np.array([a * b.conj(), np.abs(a) ** 2, np.abs(b) ** 2])
     return (np.abs(sums[0]) ** 2 / (sums[1] * sums[2]).real)[: length // 2]
 
 
@@ -55,7 +54,7 @@ def test_bursts_show_their_rate_in_their_band() -> None:
 
 
 def test_modulated_noise_has_the_coherence_of_theory() -> None:
-    """x = (1 + m cos wt) e, white e: S(alpha) over S(0) is m / (1 + m^2 / 2) at w and (m^2 / 4) / (1 + m^2 / 2) at 2w."""
+    """x = (1 + m cos wt) e, white e: S(alpha) / S(0) is m / (1 + m^2 / 2) at w, (m^2 / 4) / (1 + m^2 / 2) at 2w."""
     n, m = 400_000, 0.8
     t = np.arange(n) / RATE
     found = cyclic_coherence(

@@ -62,7 +62,7 @@ def test_formulas_written_out() -> None:
     average = gear(fault=0.5)
     x = average.samples
     angle = 2 * np.pi * np.arange(M) / M
-    mesh = [k for k in range(TEETH, M // 2, TEETH)]
+    mesh = list(range(TEETH, M // 2, TEETH))
     orders = {0, 1, 2, *mesh}
     with_sidebands = orders | {k + s for k in mesh for s in (-1, 1)}
 
