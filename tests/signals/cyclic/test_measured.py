@@ -1,4 +1,4 @@
-"""Measured bearing defects in the cyclic coherence. CWRU, drive end 6205-2RS, 1797 rpm, 0.007 in (see test_measured)."""
+"""Measured bearing defects in the cyclic coherence. CWRU, drive end 6205-2RS, 1797 rpm, 0.007 in."""
 
 from pathlib import Path
 

@@ -33,7 +33,7 @@ def mesh(average: SynchronousAverage) -> float:
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "speed_hz"), [("h30hz0", 29.754), ("h30hz50", 29.676), ("b30hz80", 29.614)])
 def test_the_speed_is_that_of_the_mesh_and_the_average_gains(name: str, speed_hz: float) -> None:
-    """Speeds as read from the mesh harmonics by others; the motor's slip varies, so a constant speed smears the mesh."""
+    """Speeds as stated with the recordings; the motor's slip varies, so a constant speed smears the mesh."""
     series = record(name)
     track = tacholess_angle(series, orders=(TEETH, 2 * TEETH), low_hz=28.8, high_hz=30.2)
     mean = float(np.mean(track.speed_hz[np.isfinite(track.angle_rad)]))

@@ -52,6 +52,17 @@ def test_bands_agree_with_the_published_filters(parts: int) -> None:
     assert int(np.argmax(ours)) == int(np.argmax(other)) == int(6300 / (10_000 / parts))
 
 
+@pytest.mark.parametrize(
+    ("resonance_hz", "centre_hz", "width_hz"),
+    [(2800.0, 2812.5, 625.0), (6300.0, 6250.0, 10_000 / 12), (8400.0, 8437.5, 625.0)],
+)
+def test_the_published_program_proposes_the_same_band(resonance_hz: float, centre_hz: float, width_hz: float) -> None:
+    """Centre and width by `fast_kurtogram(x, fs, nlevel=5)` of OpenCoNMo 0.0.6, a port of Antoni's own program."""
+    band = kurtogram(impacts(noise=0.3, resonance_hz=resonance_hz), max_level=5).band
+    assert (band.low_hz + band.high_hz) / 2 == pytest.approx(centre_hz, rel=1e-3)
+    assert band.high_hz - band.low_hz == pytest.approx(width_hz, rel=1e-3)
+
+
 def test_every_band_equals_one_cut_by_hand() -> None:
     """Independent of the tree: analytic signal of each band by a full-length transform."""
     series = impacts(noise=0.3)
