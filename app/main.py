@@ -16,14 +16,14 @@ from app.guards.body import BodyGuard
 from app.guards.headers import ReplyHeaders
 from app.instruments import Instruments, Measured
 from app.recovery import RecoveryThread
-from app.routes import events, health, jobs, plots, reference, results, simulations
+from app.routes import events, health, indicators, jobs, plots, reference, results, simulations
 from app.settings import Settings
 from app.state import AppState
 from jobs.ports import Engine
 from jobs.slices import Encoder
 from store.stores import Stores, open_stores
 
-ROUTERS = tuple(module.router for module in (simulations, jobs, events, results, plots, reference, health))
+ROUTERS = tuple(module.router for module in (simulations, jobs, events, results, indicators, plots, reference, health))
 
 
 def create_app(settings: Settings, *, engine: Engine, encode: Encoder, stores: Stores | None = None) -> FastAPI:

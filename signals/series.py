@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from sim.core.errors import Problem, SpecError
 
 FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.int64]
 MIN_SAMPLES = 8

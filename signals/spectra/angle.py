@@ -72,7 +72,12 @@ def resample_in_angle(series: Series, angle_rad: FloatArray, samples_per_revolut
         raise SpecError(Problem(field="angle_rad", message=message, given=float(last - first), unit="rad"))
     targets = first + np.arange(revolutions * samples_per_revolution) * (2 * np.pi / samples_per_revolution)
     index = CubicSpline(angle_rad[known], known.astype(np.float64))(targets)
-    fine = resample_poly(series.samples, UPSAMPLING, 1, padtype="line")
+    return samples_at(series.samples, np.asarray(index, dtype=np.float64))
+
+
+def samples_at(samples: FloatArray, index: FloatArray) -> FloatArray:
+    """Values (m,) at fractional indices (m,) of samples (n,): band-limited oversampling, then a quintic."""
+    fine = resample_poly(samples, UPSAMPLING, 1, padtype="line")
     place = np.asarray(index[np.newaxis] * UPSAMPLING, dtype=np.float64)
     resampled = map_coordinates(np.asarray(fine, dtype=np.float64), place, order=5, mode="mirror")
     return np.asarray(resampled, dtype=np.float64)

@@ -60,7 +60,7 @@ def choose_band(series: Series, *, min_bandwidth_hz: float | None = None, max_le
         )
     narrowest = min_bandwidth_hz or nyquist / 2**max_level
     candidates: list[_Candidate] = []
-    for parts in _tree(max_level):
+    for parts in tree(max_level):
         # 1e-9: a width asked for as fs/2/k must not be lost to rounding
         if parts > 1 and nyquist / parts < narrowest * (1 - 1e-9):
             break
@@ -68,7 +68,7 @@ def choose_band(series: Series, *, min_bandwidth_hz: float | None = None, max_le
     return _best(candidates, nyquist)
 
 
-def _tree(max_level: int) -> list[int]:
+def tree(max_level: int) -> list[int]:
     """Numbers of bands a level splits the axis into: 1, 2, 3, 4, 6, 8, 12, ..."""
     parts = [1]
     for level in range(1, max_level + 1):
@@ -112,7 +112,7 @@ def _best(candidates: list[_Candidate], nyquist: float) -> Band:
     if not candidates:
         return Band(low_hz=0.0, high_hz=nyquist, rule="whole axis: the signal is too short or silent to choose from")
     alarm = FALSE_ALARM / len(candidates)  # Bonferroni over all bands
-    excess = {c: c.kurtosis - _chance_level(c.samples, alarm) for c in candidates}
+    excess = {c: c.kurtosis - chance_level(c.samples, alarm) for c in candidates}
     impulsive = [c for c in candidates if excess[c] > 0]
     if impulsive:
         best = max(impulsive, key=lambda c: (c.negentropy, c.high_hz - c.low_hz))
@@ -123,11 +123,11 @@ def _best(candidates: list[_Candidate], nyquist: float) -> Band:
         high_hz=best.high_hz,
         rule=RULE,
         spectral_kurtosis=best.kurtosis,
-        threshold=_chance_level(best.samples, alarm),
+        threshold=chance_level(best.samples, alarm),
     )
 
 
-def _chance_level(samples: int, alarm: float) -> float:
+def chance_level(samples: int, alarm: float) -> float:
     """Spectral kurtosis that complex Gaussian noise exceeds with probability `alarm`, by Cornish-Fisher expansion.
 
     To first order the estimate is the mean of p^2 - 4p + 2 over exponential p: its variance is 4, its skewness

@@ -27,7 +27,7 @@ def order_spectrum(
     The step in angle is chosen at the slowest speed so that nothing aliases; orders are reported up to
     the one that reaches Nyquist in time at the fastest speed. Whole revolutions only.
     """
-    angle_rad = _angle(series, rotation)
+    angle_rad = shaft_angle(series, rotation)
     speed_hz = _speed_hz(series, angle_rad)
     per_revolution = max(4, int(np.ceil(series.sampling_rate_hz / float(np.min(speed_hz)) * (1 - 1e-9))))
     samples = resample_in_angle(series, angle_rad, per_revolution)
@@ -61,7 +61,8 @@ def _speed_hz(series: Series, angle_rad: FloatArray) -> FloatArray:
     return np.asarray(speed, dtype=np.float64)
 
 
-def _angle(series: Series, rotation: float | Tacho | FloatArray) -> FloatArray:
+def shaft_angle(series: Series, rotation: float | Tacho | FloatArray) -> FloatArray:
+    """Angle at each sample (n,), rad: of a constant speed (Hz), a tacho, or as given."""
     if isinstance(rotation, Tacho):
         return tacho_angle(series, rotation)
     if isinstance(rotation, np.ndarray):

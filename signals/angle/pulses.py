@@ -1,0 +1,56 @@
+"""Pulse times of a recorded tacho channel."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signals.recording import Tacho
+from signals.series import FloatArray, Series
+from sim.core.errors import Problem, SpecError
+
+HYSTERESIS = 0.2
+"""Share of the range by which the signal must fall below the threshold before the next pulse counts."""
+
+
+def pulse_times(series: Series, *, threshold: float | None = None, hysteresis: float = HYSTERESIS) -> FloatArray:
+    """Times of the rising crossings of `threshold`, shape (pulses,), s, linear between the two samples around each.
+
+    Default threshold: half way between the 1 % and 99 % quantiles. A crossing counts once until the signal has
+    fallen `hysteresis` times that range below the threshold: noise on an edge makes no second pulse.
+    """
+    x = series.samples
+    low, high = (float(v) for v in np.quantile(x, (0.01, 0.99)))
+    if high <= low:
+        low, high = float(np.min(x)), float(np.max(x))  # pulses shorter than 1 % of the turn
+    level = (low + high) / 2 if threshold is None else threshold
+    above = x >= level
+    armed = x < level - hysteresis * (high - low)
+    rising = np.flatnonzero(above[1:] & ~above[:-1]) + 1
+    # a crossing counts if the signal was armed since the crossing that counted before it
+    arms = np.concatenate(([0], np.cumsum(armed)))
+    kept, last = [], -1
+    for i in rising:
+        if arms[i] > last:
+            kept.append(int(i))
+            last = int(arms[i])
+    found = np.array(kept, dtype=np.int64)
+    if found.size < 2:
+        raise SpecError(
+            Problem(
+                field=f"{series.name or 'tacho'}.samples",
+                message="shows fewer than two pulses",
+                given=f"{found.size} crossings of {level:.4g}",
+                allowed="a tacho channel with at least two pulses, or another threshold",
+                unit=series.unit,
+            )
+        )
+    share = (level - x[found - 1]) / (x[found] - x[found - 1])
+    return np.asarray(series.start_s + (found - 1 + share) / series.sampling_rate_hz, dtype=np.float64)
+
+
+def recorded_tacho(
+    series: Series, *, shaft: str, pulses_per_revolution: int = 1, threshold: float | None = None
+) -> Tacho:
+    """The tacho of a recorded pulse channel."""
+    times = pulse_times(series, threshold=threshold)
+    return Tacho(shaft=shaft, pulse_times_s=times, pulses_per_revolution=pulses_per_revolution)
