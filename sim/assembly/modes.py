@@ -36,3 +36,14 @@ def natural_frequencies_hz(system: System) -> FloatArray:
     floor = 1e-9 * max(float(values[-1]), 1.0) if values.size else 0.0
     result: FloatArray = np.sqrt(np.where(values > floor, values, 0.0)) / (2 * np.pi)
     return result
+
+
+def whirl_frequencies_hz(system: System) -> FloatArray:
+    """Damped natural frequencies with gyroscopic moments and contacts linearised, ascending, Hz; one a mode."""
+    n = len(system.dofs)
+    stiffness = system.stiffness + contact_stiffness(system)
+    inverse = 1.0 / system.mass[:, None]
+    a = np.block([[np.zeros((n, n)), np.eye(n)], [-stiffness * inverse, -system.damping * inverse]])
+    turning = np.linalg.eigvals(a).imag / (2 * np.pi)
+    result: FloatArray = np.sort(turning[turning > 1e-6 * np.max(np.abs(turning), initial=1.0)])
+    return result

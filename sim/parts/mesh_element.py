@@ -32,15 +32,24 @@ def rings_of(machine: MachineSpec, body: str) -> list[str]:
     return [b.name for b in machine.bearings if b.body == body]
 
 
+def bends(machine: MachineSpec, body: str) -> bool:
+    """Whether a gear sits on a flexible shaft, so that its own motion and slope are DOFs."""
+    return any(s.name == _gear(machine, body).shaft and s.segments for s in machine.shafts)
+
+
 def _centre_weights(machine: MachineSpec, body: str, axis: str, sign: float) -> list[tuple[str, float]]:
-    """Shaft centre at the gear: mean of its inner rings (seed eq. 17), else the gear itself."""
-    rings = rings_of(machine, body)
+    """Shaft centre at the gear: mean of its inner rings (seed eq. 17), else and on a flexible shaft the gear itself."""
+    rings = [] if bends(machine, body) else rings_of(machine, body)
     if rings:
         return [(f"{ring}.inner.{axis}", sign / len(rings)) for ring in rings]
     return [(f"{body}.{axis}", sign)] if _gear(machine, body).translates else []
 
 
 def _tilt_weights(machine: MachineSpec, body: str, axis: str) -> list[tuple[str, float]]:
+    if bends(machine, body):
+        return [
+            (f"{body}.slope_{axis}", next(s.length_m for s in machine.shafts if s.name == _gear(machine, body).shaft))
+        ]
     rings = rings_of(machine, body)
     if len(rings) < 2:
         return []

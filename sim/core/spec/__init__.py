@@ -5,7 +5,7 @@ from sim.core.spec.bearings import BallGeometry, BearingSpec, ResonatorSpec, Sup
 from sim.core.spec.gears import GearSpec, MeshSpec, MeshTable, TransmissionError
 from sim.core.spec.machine import MachineSpec
 from sim.core.spec.operating import ForceLoad, LoadSpec, OperatingSpec, TermSpec, TorqueLoad
-from sim.core.spec.shafts import BodySpec, ShaftSpec
+from sim.core.spec.shafts import BodySpec, ShaftSegment, ShaftSpec
 
 __all__ = [
     "SCHEMA_VERSION",
@@ -21,6 +21,7 @@ __all__ = [
     "Name",
     "OperatingSpec",
     "ResonatorSpec",
+    "ShaftSegment",
     "ShaftSpec",
     "SpecModel",
     "SupportSpec",
