@@ -55,9 +55,11 @@ def _problems(machine: MachineSpec, shaft: ShaftSpec) -> list[Problem]:
         for i, s in enumerate(shaft.segments)
         if s.bore_m >= s.diameter_m
     ]
-    for name in names:
-        if name not in shaft.seats:
-            found.append(Problem(field=f"{field}.seats.{name}", message="is needed on a segmented shaft", unit="m"))
+    found += [
+        Problem(field=f"{field}.seats.{name}", message="is needed on a segmented shaft", unit="m")
+        for name in names
+        if name not in shaft.seats
+    ]
     for name, place in shaft.seats.items():
         where = f"{field}.seats.{name}"
         if name not in names:

@@ -9,7 +9,7 @@ import numpy as np
 from sim.core.elements import Coordinate, Output
 from sim.core.laws import MeshLaw
 from sim.core.response import FloatArray
-from sim.core.spec import GearSpec, MachineSpec
+from sim.core.spec import GearSpec, MachineSpec, ShaftSpec
 from sim.parts import mesh_kernels as mk
 
 OUTPUTS = (
@@ -32,9 +32,13 @@ def rings_of(machine: MachineSpec, body: str) -> list[str]:
     return [b.name for b in machine.bearings if b.body == body]
 
 
-def bends(machine: MachineSpec, body: str) -> bool:
+def _shaft(machine: MachineSpec, gear: str) -> ShaftSpec:
+    return next(s for s in machine.shafts if s.name == _gear(machine, gear).shaft)
+
+
+def bends(machine: MachineSpec, gear: str) -> bool:
     """Whether a gear sits on a flexible shaft, so that its own motion and slope are DOFs."""
-    return any(s.name == _gear(machine, body).shaft and s.segments for s in machine.shafts)
+    return bool(_shaft(machine, gear).segments)
 
 
 def _centre_weights(machine: MachineSpec, body: str, axis: str, sign: float) -> list[tuple[str, float]]:
@@ -47,9 +51,7 @@ def _centre_weights(machine: MachineSpec, body: str, axis: str, sign: float) -> 
 
 def _tilt_weights(machine: MachineSpec, body: str, axis: str) -> list[tuple[str, float]]:
     if bends(machine, body):
-        return [
-            (f"{body}.slope_{axis}", next(s.length_m for s in machine.shafts if s.name == _gear(machine, body).shaft))
-        ]
+        return [(f"{body}.slope_{axis}", _shaft(machine, body).length_m)]
     rings = rings_of(machine, body)
     if len(rings) < 2:
         return []

@@ -3,7 +3,8 @@
 Coordinates of a node are the deflection w and the slope of the section, positive like dw/dz, in the xz and in the yz
 plane alike. The static element of Friedman & Kosmatka 1993 (Computers & Structures 47(3), 473-481), which is exact for
 end loads, is the sum of two rank-one parts:
-    K = E I/L a a' + 12 E I/(L (1 + Phi)) b b',  a = (0, -1, 0, 1),  b = (1/L, 1/2, -1/L, 1/2),  Phi = 12 E I/(kappa G A L^2)
+    K = E I/L a a' + 12 E I/(L (1 + Phi)) b b',  Phi = 12 E I/(kappa G A L^2),
+    a = (0, -1, 0, 1),  b = (1/L, 1/2, -1/L, 1/2)
 on (w1, s1, w2, s2). Masses are lumped because the machine's mass matrix is diagonal: half of rho A L and of the rotary
 inertia rho I L at each end.
 """
