@@ -29,6 +29,9 @@ BENDING_DAMPING_S = 3e-6
 SEAT_N_PER_M, SEAT_NS_PER_M = 5e8, 1e3
 """Interference fit of an inner ring on its shaft."""
 
+GEAR_NS_PER_M = 400.0
+"""Oil and ball contacts, whose law has no damping: ratio 0.02 to 0.05 for the shafts' modes on their balls."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Housing:
@@ -119,7 +122,15 @@ def bearing_rig() -> MachineSpec:
 
 
 def _gear(name: str, shaft: str, teeth: int, module_m: float, width_m: float) -> GearSpec:
-    return GearSpec(name=name, shaft=shaft, teeth=teeth, module_m=module_m, face_width_m=width_m)
+    return GearSpec(
+        name=name,
+        shaft=shaft,
+        teeth=teeth,
+        module_m=module_m,
+        face_width_m=width_m,
+        damping_x_ns_per_m=GEAR_NS_PER_M,
+        damping_y_ns_per_m=GEAR_NS_PER_M,
+    )
 
 
 def _mesh(name: str, pinion: str, gear: str, error_m: float) -> MeshSpec:
