@@ -140,7 +140,9 @@ def _torsion(builder: Builder, machine: MachineSpec) -> None:
             continue
         if shaft.segments and shaft.torsional_stiffness_nm_per_rad is None:
             for a, b, each in torsion_chain(shaft, nodes):
-                builder.derived[f"{shaft.name}.{a}.{b}"] = f"derived: {each:.6g} N m/rad (G J of the segments)"
+                between = f"{a.removesuffix('.theta')}_{b.removesuffix('.theta')}"
+                named = f"{shaft.name}.torsional_stiffness_nm_per_rad.{between}"
+                builder.derived[named] = f"derived: {each:.6g} N m/rad (G J of the segments)"
                 builder.spring(a, b, each, shaft.torsional_damping_nms_per_rad)
             continue
         computed = shaft_torsion_nm_per_rad(shaft)
