@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -77,7 +78,8 @@ def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGIST
     warnings += implausible(machine, kin)
     warnings += [text for a in extra for text in a.term.cautions(a.values, a.site)]
     bases = slipped_bases(kin, machine, laws)
-    linear = linear_part(machine, laws.supports)
+    spins = {s: 2 * math.pi * hz * kin.senses.rotors.get(s, 1.0) for s, hz in kin.shaft_hz.items()}
+    linear = linear_part(machine, laws.supports, spins)
     acting = _base(machine, kin, registry, seed) + extra
     elements = _elements(acting, laws, linear.names) + run_up_elements(machine, kin, linear)
     _check_masses(linear)

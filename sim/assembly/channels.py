@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from sim.core.elements import Element
 from sim.core.response import Channel
 
+STRAIGHT = ("x", "y")
 MOTION = (
     ("displacement", "m", "rad"),
     ("velocity", "m/s", "rad/s"),
@@ -20,8 +21,8 @@ def machine_channels(dofs: Sequence[str], elements: Sequence[Element]) -> tuple[
     for dof in dofs:
         location, axis = dof.split(".")[0], dof.rsplit(".", 1)[1]
         for quantity, straight, turning in MOTION:
-            unit = turning if axis == "theta" else straight
-            kind = f"angular_{quantity}" if axis == "theta" else quantity
+            unit = straight if axis in STRAIGHT else turning
+            kind = quantity if axis in STRAIGHT else f"angular_{quantity}"
             result.append(Channel(name=f"{dof}.{quantity}", quantity=kind, unit=unit, location=location, axis=axis))
     for element in elements:
         result.extend(

@@ -129,7 +129,7 @@ def _springs(supports: Mapping[str, SupportLaw], unborne: Mapping[str, str], mov
         bearing = name.split(".")[0]
         if bearing in supports and not supports[bearing].released and getattr(supports[bearing], field) == 0.0:
             found.append(f"bearings.{bearing}.support.{field}")
-        if name in unborne and axis != "theta":
+        if name in unborne and axis in ("x", "y"):
             found.append(f"{unborne[name]}.{name}.{field}")
     return list(dict.fromkeys(found))
 

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from sim.assembly.flexible import FlexibleShaft, flexible_shafts, torsion_chain
 from sim.core.errors import Problem, SpecError
 from sim.core.laws import SupportLaw
 from sim.core.response import FloatArray
@@ -23,7 +24,8 @@ class Builder:
 
     names: list[str] = field(default_factory=list)
     masses: list[float] = field(default_factory=list)
-    springs: list[tuple[str, str | None, float, float]] = field(default_factory=list)
+    springs: list[tuple[tuple[tuple[str, float], ...], float, float]] = field(default_factory=list)
+    gyros: list[tuple[str, str, float]] = field(default_factory=list)
     derived: dict[str, str] = field(default_factory=dict)
 
     def mass(self, name: str, value: float) -> None:
@@ -34,7 +36,17 @@ class Builder:
     def spring(self, a: str, b: str | None, stiffness: float, damping: float) -> None:
         """Add a spring and damper between two DOFs, or from one to ground."""
         if stiffness != 0.0 or damping != 0.0:
-            self.springs.append((a, b, stiffness, damping))
+            self.springs.append((((a, 1.0),) if b is None else ((a, 1.0), (b, -1.0)), stiffness, damping))
+
+    def shaft(self, beam: FlexibleShaft) -> None:
+        """Add a bending shaft: its masses to the DOFs that exist, the others new; its springs; its gyroscopes."""
+        for name, value in beam.masses.items():
+            if name in self.names:
+                self.masses[self.names.index(name)] += value
+            else:
+                self.mass(name, value)
+        self.springs += beam.springs
+        self.gyros += beam.gyros
 
     def note(self, name: str, value: float | None, derived: float, unit: str, how: str) -> float:
         """Take the given value or the derived one, and record which."""
@@ -95,12 +107,12 @@ def _bodies(builder: Builder, machine: MachineSpec) -> None:
                 builder.spring(f"{body.name}.{axis}", None, k, c)
 
 
-def _bearing(builder: Builder, bearing: BearingSpec, support: SupportLaw) -> None:
+def _bearing(builder: Builder, bearing: BearingSpec, support: SupportLaw, seat: str) -> None:
     for axis in ("x", "y"):
         inner, outer = f"{bearing.name}.inner.{axis}", f"{bearing.name}.outer.{axis}"
         builder.mass(inner, bearing.inner_mass_kg)
         builder.mass(outer, bearing.outer_mass_kg)
-        body = f"{bearing.body}.{axis}"
+        body = f"{seat}.{axis}"
         if body in builder.names:
             builder.spring(inner, body, bearing.shaft_stiffness_n_per_m, bearing.shaft_damping_ns_per_m)
         else:
@@ -126,6 +138,13 @@ def _torsion(builder: Builder, machine: MachineSpec) -> None:
             nodes.insert(0, f"{shaft.name}.theta")
         if len(nodes) < 2:
             continue
+        if shaft.segments and shaft.torsional_stiffness_nm_per_rad is None:
+            for a, b, each in torsion_chain(shaft, nodes):
+                between = f"{a.removesuffix('.theta')}_{b.removesuffix('.theta')}"
+                named = f"{shaft.name}.torsional_stiffness_nm_per_rad.{between}"
+                builder.derived[named] = f"derived: {each:.6g} N m/rad (G J of the segments)"
+                builder.spring(a, b, each, shaft.torsional_damping_nms_per_rad)
+            continue
         computed = shaft_torsion_nm_per_rad(shaft)
         stiffness = shaft.torsional_stiffness_nm_per_rad
         if stiffness is None and computed is None:
@@ -145,8 +164,11 @@ def _matrices(builder: Builder) -> Linear:
     n = len(builder.names)
     stiffness, damping = np.zeros((n, n)), np.zeros((n, n))
     dampers, holds = [], []
-    for a, b, k, c in builder.springs:
-        weights = [(place[a], 1.0)] + ([] if b is None else [(place[b], -1.0)])
+    for a, b, moment in builder.gyros:
+        damping[place[a], place[b]] += moment
+        damping[place[b], place[a]] -= moment
+    for named, k, c in builder.springs:
+        weights = [(place[name], weight) for name, weight in named]
         for i, wi in weights:
             for j, wj in weights:
                 stiffness[i, j] += k * wi * wj
@@ -169,8 +191,13 @@ def _matrices(builder: Builder) -> Linear:
     )
 
 
-def linear_part(machine: MachineSpec, supports: Mapping[str, SupportLaw]) -> Linear:
-    """Walk the machine shaft by shaft and build the linear matrices; DOF order groups what is coupled."""
+def linear_part(
+    machine: MachineSpec, supports: Mapping[str, SupportLaw], spins_rad_per_s: Mapping[str, float] | None = None
+) -> Linear:
+    """Walk the machine shaft by shaft and build the linear matrices; DOF order groups what is coupled.
+
+    `spins_rad_per_s`: signed speeds by shaft, for the gyroscopic moments of flexible shafts.
+    """
     builder = Builder()
     for shaft in machine.shafts:
         if shaft.end_inertia_kg_m2 is not None:
@@ -179,8 +206,12 @@ def linear_part(machine: MachineSpec, supports: Mapping[str, SupportLaw]) -> Lin
             if gear.shaft == shaft.name:
                 _gear(builder, gear)
     _bodies(builder, machine)
+    beams = flexible_shafts(machine, spins_rad_per_s or {})
+    for beam in beams:
+        builder.shaft(beam)
+    seats = {name: node for beam in beams for name, node in beam.seats.items()}
     for bearing in machine.bearings:
-        _bearing(builder, bearing, supports[bearing.name])
+        _bearing(builder, bearing, supports[bearing.name], seats.get(bearing.name, bearing.body))
     for resonator in machine.resonators:
         name = f"{resonator.name}.{resonator.axis}"
         builder.mass(name, resonator.mass_kg)

@@ -9,8 +9,9 @@ import numpy as np
 from sim.core.elements import Coordinate, Output
 from sim.core.laws import MeshLaw
 from sim.core.response import FloatArray
-from sim.core.spec import GearSpec, MachineSpec
+from sim.core.spec import GearSpec, MachineSpec, ShaftSpec
 from sim.parts import mesh_kernels as mk
+from sim.parts.gear.helix import base_helix_rad
 
 OUTPUTS = (
     Output(name="stiffness", quantity="stiffness", unit="N/m"),
@@ -32,15 +33,26 @@ def rings_of(machine: MachineSpec, body: str) -> list[str]:
     return [b.name for b in machine.bearings if b.body == body]
 
 
+def _shaft(machine: MachineSpec, gear: str) -> ShaftSpec:
+    return next(s for s in machine.shafts if s.name == _gear(machine, gear).shaft)
+
+
+def bends(machine: MachineSpec, gear: str) -> bool:
+    """Whether a gear sits on a flexible shaft, so that its own motion and slope are DOFs."""
+    return bool(_shaft(machine, gear).segments)
+
+
 def _centre_weights(machine: MachineSpec, body: str, axis: str, sign: float) -> list[tuple[str, float]]:
-    """Shaft centre at the gear: mean of its inner rings (seed eq. 17), else the gear itself."""
-    rings = rings_of(machine, body)
+    """Shaft centre at the gear: mean of its inner rings (seed eq. 17), else and on a flexible shaft the gear itself."""
+    rings = [] if bends(machine, body) else rings_of(machine, body)
     if rings:
         return [(f"{ring}.inner.{axis}", sign / len(rings)) for ring in rings]
     return [(f"{body}.{axis}", sign)] if _gear(machine, body).translates else []
 
 
 def _tilt_weights(machine: MachineSpec, body: str, axis: str) -> list[tuple[str, float]]:
+    if bends(machine, body):
+        return [(f"{body}.slope_{axis}", _shaft(machine, body).length_m)]
     rings = rings_of(machine, body)
     if len(rings) < 2:
         return []
@@ -72,6 +84,27 @@ def zero_row(law: MeshLaw) -> int:
     return int(np.argmin(np.abs(law.centre_errors_m)))
 
 
+def _thrust_weights(law: MeshLaw, machine: MachineSpec) -> list[tuple[str, float]]:
+    """Axial motion of the pitch point as the gears of a flexible shaft tilt, in the deflection of a helical mesh.
+
+    A force f on the line of action comes with the axial force -f tan(beta_b) sign(n . t) on a right-handed pinion, t
+    the tangent at the pitch point, and the opposite one on its gear; at the pitch radius both tilt their shafts.
+    """
+    spec = _gear(machine, law.pinion)
+    base = base_helix_rad(math.radians(spec.helix_angle_deg), math.radians(spec.pressure_angle_deg))
+    if base == 0.0:
+        return []
+    nx, ny = line_of_action(law, machine)
+    along_x, along_y = centre_line(law, machine)
+    axial = -math.copysign(math.tan(base), base * (ny * along_x - nx * along_y))
+    found = []
+    for body, radius_m in zip((law.pinion, law.gear), law.base_radii_m, strict=True):
+        if bends(machine, body):
+            arm = axial * radius_m / math.cos(law.working_angle_rad)
+            found += [(f"{body}.slope_{a}", arm * c) for a, c in (("x", along_x), ("y", along_y)) if c != 0.0]
+    return found
+
+
 def mesh_coordinates(law: MeshLaw, machine: MachineSpec) -> tuple[Coordinate, ...]:
     """Deflection along the line of action; shaft centres apart (x, y); tilt of the pinion's shaft (x, y)."""
     nx, ny = line_of_action(law, machine)
@@ -79,6 +112,7 @@ def mesh_coordinates(law: MeshLaw, machine: MachineSpec) -> tuple[Coordinate, ..
         (f"{law.pinion}.theta", law.base_radii_m[0]),
         (f"{law.gear}.theta", -law.base_radii_m[1]),
     ]
+    weights += _thrust_weights(law, machine)
     for body, sign in ((law.pinion, -1.0), (law.gear, 1.0)):
         if _gear(machine, body).translates:
             weights += [(f"{body}.{a}", sign * n) for a, n in (("x", nx), ("y", ny)) if n != 0.0]

@@ -12,6 +12,7 @@ from sim.core.laws import MeshLaw
 from sim.core.response import FloatArray
 from sim.core.spec import GearSpec, MachineSpec, MeshSpec
 from sim.parts.gear.from_spec import gear_from_spec, pair_from_spec, user_table
+from sim.parts.gear.helix import base_helix_rad
 from sim.parts.gear.pair import GearPair
 from sim.parts.gear.pair_table import build_pair_table
 from sim.parts.gear.reach import covering_errors_m, covering_tilts_rad
@@ -56,6 +57,20 @@ class MeshCurve:
 
 TOTAL_COLUMNS = 2000
 """Columns of a total curve made from pairs: an entry is smeared over 1/2000 of a mesh period."""
+
+
+HELICAL_POINTS = 257
+"""Points of a helical pair's curve, which has a corner where a slice leaves: 2e-4 of the largest stiffness (tests)."""
+MOST_PAIRS = 3.0
+"""Contact ratio up to which tooth pairs are summed in a step (four pairs)."""
+
+
+def _few_enough(ratio: float, mesh: MeshSpec) -> None:
+    if ratio > MOST_PAIRS:
+        message = "more tooth pairs touch than are summed one by one: set it to false for one total curve"
+        field = f"meshes.{mesh.name}.tooth_pairs"
+        allowed = f"total contact ratio up to {MOST_PAIRS:g}, here {ratio:.4g}"
+        raise SpecError(Problem(field=field, message=message, given=True, allowed=allowed))
 
 
 def _equal_steps(errors: FloatArray, mesh: MeshSpec) -> None:
@@ -122,7 +137,9 @@ def mesh_curve(
         tilts = covering_tilts_rad(setting.tilt_play_rad) if mesh.offset_angle else np.zeros(1)
         pair = _loaded(pair, mesh, setting.force_n, notes)
         errors = covering_errors_m(pair, setting.centre_play_m)
-        rows = build_pair_table(pair, tilts_rad=tilts, centre_distance_errors_m=errors)
+        points = 129 if pair.helix.overlap_ratio == 0.0 else HELICAL_POINTS
+        rows = build_pair_table(pair, tilts_rad=tilts, centre_distance_errors_m=errors, points=points)
+        _few_enough(float(rows.contact_ratio.max()), mesh)
         return MeshCurve(
             **common,
             centre_errors_m=rows.centre_distance_error_m,
@@ -178,6 +195,10 @@ def mesh_law(
     pinion, gear = gears[mesh.pinion], gears[mesh.gear]
     curve = mesh_curve(pinion, gear, mesh, notes, warnings, setting)
     warnings += _beyond(curve, mesh, setting)
+    base = base_helix_rad(math.radians(pinion.helix_angle_deg), math.radians(pinion.pressure_angle_deg))
+    if base != 0.0:
+        thrust = setting.force_n * math.tan(abs(base))
+        notes[f"{mesh.name}.axial_force_n"] = f"derived: {thrust:.6g} N (mean force times tan of the base helix angle)"
     middle = curve.mean_row
     return MeshLaw(
         name=mesh.name,

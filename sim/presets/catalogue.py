@@ -1,5 +1,6 @@
 """Named machines. `paper`: Tables 1-3 as written; `paper-lightly-damped`: as the reference solutions;
-`paper-demo`: lightly damped with clearance and run-out; and the smallest machines for tests and teaching.
+`paper-demo`: lightly damped with clearance and run-out; machines on flexible shafts (`rigs.py`); and the smallest
+machines for tests and teaching.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from sim.core.spec import (
     TransmissionError,
 )
 from sim.presets.gearbox import GearboxNumbers, gearbox
+from sim.presets.rigs import bearing_rig, overhung, two_stage
 
 PAPER = GearboxNumbers(
     name="paper",
@@ -143,6 +145,9 @@ PRESETS: Mapping[str, Preset] = {
         Preset(name="paper-lightly-damped", sentence="The paper's gearbox with realistic damping.", build=_light),
         Preset(name="gear-pair", sentence="Two gears on rigid supports.", build=_gear_pair),
         Preset(name="rotor", sentence="A disc in two ball bearings under its weight.", build=_rotor),
+        Preset(name="bearing-rig", sentence="A motor shaft on two 6205 bearings with a load disc.", build=bearing_rig),
+        Preset(name="two-stage", sentence="Two-stage gearbox: three flexible shafts, six bearings.", build=two_stage),
+        Preset(name="overhung", sentence="A pinion overhung beyond its two bearings.", build=overhung),
         Preset(name="oscillator", sentence="One mass on a spring.", build=_oscillator),
     )
 }

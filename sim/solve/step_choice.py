@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.assembly.modes import natural_frequencies_hz
+from sim.assembly.modes import contact_frequencies_hz
 from sim.core.system import System
 from sim.solve.settings import BASE_RATE_HZ, MAX_RATE_HZ, MESH_CELLS, POINTS_PER_PERIOD
 
@@ -23,7 +23,7 @@ class Cost:
 
 def base_rate_hz(system: System) -> float:
     """Steps per second that resolve mesh and modes."""
-    modes = natural_frequencies_hz(system)
+    modes = contact_frequencies_hz(system)
     highest = float(np.max(modes)) if modes.size else 0.0
     meshes = [hz for name, hz in system.bases_hz.items() if name.startswith("f_m")]
     wanted = max([BASE_RATE_HZ, POINTS_PER_PERIOD * highest] + [MESH_CELLS * hz for hz in meshes])

@@ -15,7 +15,7 @@ from sim.core.spec.operating import (
     TermSpec,
     TorqueLoad,
 )
-from sim.core.spec.shafts import BodySpec, ShaftSpec
+from sim.core.spec.shafts import BodySpec, ShaftSegment, ShaftSpec
 
 __all__ = [
     "SCHEMA_VERSION",
@@ -34,6 +34,7 @@ __all__ = [
     "OperatingSpec",
     "RampSpeed",
     "ResonatorSpec",
+    "ShaftSegment",
     "ShaftSpec",
     "SpecModel",
     "SpeedProfile",

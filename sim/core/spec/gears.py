@@ -10,15 +10,19 @@ from sim.core.spec.base import WHOLE, Finite, Name, SpecModel
 
 
 class GearSpec(SpecModel):
-    """A spur gear: geometry, material, and mass or the density to derive it from."""
+    """A spur or helical gear: geometry, material, and mass or the density to derive it from."""
 
     name: Name
     shaft: Name
     teeth: Annotated[int, Field(ge=6, le=2000, strict=False), WHOLE]
     module_m: Annotated[float, Field(ge=1e-4, le=0.1)]
-    """A module of 2 mm is 0.002."""
+    """A module of 2 mm is 0.002. Of a helical gear: the transverse module, normal module over cos(helix angle)."""
     pressure_angle_deg: Annotated[float, Field(ge=10, le=35)] = 20.0
+    """In the transverse section: tan of it is tan of the normal one over cos(helix angle)."""
+    helix_angle_deg: Annotated[float, Field(ge=-45, le=45)] = 0.0
+    """On the reference circle, positive right-handed; mates have opposite hands. 0: spur."""
     addendum_coefficient: Annotated[float, Field(gt=0, le=1.5)] = 1.0
+    """This and the other coefficients are in normal modules."""
     tip_clearance_coefficient: Annotated[float, Field(ge=0, le=0.6)] = 0.25
     profile_shift_coefficient: Annotated[float, Field(ge=-1, le=1.5)] = 0.0
     face_width_m: Annotated[float, Field(ge=1e-4, le=2)]

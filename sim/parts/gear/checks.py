@@ -18,6 +18,10 @@ def check_mates(pinion: GearGeometry, gear: GearGeometry) -> None:
         if not math.isclose(ours, theirs, rel_tol=1e-9):
             message = "must be the same on both gears of a mesh"
             problems.append(Problem(field=f"gear.{name}", message=message, given=theirs, allowed=f"{ours:.9g}"))
+    if not math.isclose(pinion.helix_rad, -gear.helix_rad, rel_tol=1e-9, abs_tol=1e-12):
+        message, given = "mates need equal helix angles of opposite hands", math.degrees(gear.helix_rad)
+        allowed = f"{-math.degrees(pinion.helix_rad):.9g}"
+        problems.append(Problem(field="gear.helix_angle_deg", message=message, given=given, allowed=allowed))
     if problems:
         raise SpecError(problems)
 

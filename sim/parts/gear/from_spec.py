@@ -59,19 +59,22 @@ def gear_from_spec(spec: GearSpec) -> GearFromSpec:
 
 def _geometry(spec: GearSpec) -> GearGeometry:
     bore_m = BORE_SHARE * 0.5 * spec.module_m * spec.teeth if spec.bore_radius_m is None else spec.bore_radius_m
+    helix = math.radians(spec.helix_angle_deg)
+    normal = math.cos(helix)  # normal over transverse module
     try:
         return GearGeometry(
             teeth=spec.teeth,
             module_m=spec.module_m,
             pressure_angle_rad=math.radians(spec.pressure_angle_deg),
-            addendum_coefficient=spec.addendum_coefficient,
-            tip_clearance_coefficient=spec.tip_clearance_coefficient,
-            profile_shift_coefficient=spec.profile_shift_coefficient,
+            addendum_coefficient=normal * spec.addendum_coefficient,
+            tip_clearance_coefficient=normal * spec.tip_clearance_coefficient,
+            profile_shift_coefficient=normal * spec.profile_shift_coefficient,
             face_width_m=spec.face_width_m,
             bore_radius_m=bore_m,
-            fillet_radius_coefficient=spec.fillet_radius_coefficient,
+            fillet_radius_coefficient=normal * spec.fillet_radius_coefficient,
             youngs_modulus_pa=spec.youngs_modulus_pa,
             poisson_ratio=spec.poisson_ratio,
+            helix_rad=helix,
         )
     except SpecError as error:
         raise SpecError([replace(p, field=f"gears.{spec.name}.{p.field}") for p in error.problems]) from error
@@ -94,6 +97,11 @@ def pair_from_spec(
     derived = {**parts["pinion"].derived, **parts["gear"].derived}
     how = "derived (standard)" if mesh.centre_distance_m is None else "given"
     derived[f"{mesh.name}.centre_distance_m"] = f"{how}: {pair.installed_m:.9g} m"
+    if pair.helix.overlap_ratio > 0.0:
+        transverse, overlap = pair.contact().contact_ratio, pair.helix.overlap_ratio
+        derived[f"{mesh.name}.contact_ratio"] = (
+            f"derived: {transverse + overlap:.6g} (transverse {transverse:.6g}, overlap {overlap:.6g})"
+        )
     names = {"pinion": pinion.name, "gear": gear.name}
     warnings = tuple(f"{names[w.split(':')[0]]}:{w.split(':', 1)[1]}" for w in pair.warnings)
     return PairFromSpec(pair=pair, derived=derived, warnings=warnings)

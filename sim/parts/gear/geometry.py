@@ -14,7 +14,7 @@ _NOT_NEGATIVE = ("tip_clearance_coefficient", "bore_radius_m", "fillet_radius_co
 
 @dataclass(frozen=True, kw_only=True)
 class GearGeometry:
-    """An external involute spur gear (rack-generated, ISO 53 proportions), lengths in m, angles in rad.
+    """Transverse section of an external involute gear (rack-generated, ISO 53 proportions), lengths in m, angles rad.
 
     A gear that can't exist (root radius not positive, bore through the teeth, pointed tips) raises SpecError.
     """
@@ -30,6 +30,8 @@ class GearGeometry:
     profile_shift_coefficient: float = 0.0
     fillet_radius_coefficient: float = 0.38
     poisson_ratio: float = 0.3
+    helix_rad: float = 0.0
+    """Helix angle on the reference circle, positive right-handed; coefficients are in transverse modules."""
 
     def __post_init__(self) -> None:
         """Refuse numbers that describe no gear."""

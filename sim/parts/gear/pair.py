@@ -12,6 +12,7 @@ from sim.parts.gear.checks import check_mates, check_tip_clearance, gear_warning
 from sim.parts.gear.contact import ContactGeometry, standard_centre_distance_m
 from sim.parts.gear.foundation import foundation_compliance_m_per_n
 from sim.parts.gear.geometry import GearGeometry
+from sim.parts.gear.helix import POINTS, Helix, helix_of, spread
 from sim.parts.gear.hertz import hertz_compliance_m_per_n
 from sim.parts.gear.offset import torsion_arm_m
 from sim.parts.gear.tooth import NODES, FloatArray, RootModel
@@ -53,6 +54,16 @@ class GearPair:
     def width_m(self) -> float:
         """Common face width."""
         return min(self.pinion.face_width_m, self.gear.face_width_m)
+
+    @property
+    def helix(self) -> Helix:
+        """Overlap over the common face, and the pinion's hand."""
+        p = self.pinion
+        return helix_of(p.helix_rad, p.pressure_angle_rad, p.module_m, self.width_m)
+
+    def engagement(self, centre_distance_error_m: float = 0.0) -> float:
+        """Transverse contact ratio plus overlap ratio: how long a pair carries, in base pitches."""
+        return self.contact(centre_distance_error_m).contact_ratio + self.helix.overlap_ratio
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -113,6 +124,11 @@ def pair_stiffness_n_per_m(
     """Stiffness of one pair at `position` (any shape; base pitches since it entered), N/m; 0 outside engagement."""
     contact = pair.contact(centre_distance_error_m)
     flat = np.ravel(np.asarray(position, dtype=np.float64))
+    if pair.helix.overlap_ratio > 0.0:
+        grid = np.linspace(0.0, contact.contact_ratio, POINTS)
+        arm = float(torsion_arm_m(np.array(tilt_rad), pair.width_m, pair.mean_deflection_m))
+        spur = 1 / pair_compliance(pair, contact, grid).total_m_per_n(tilt_rad, arm)
+        return spread(spur, contact.contact_ratio, pair.helix, flat).reshape(np.shape(position))
     inside = (flat >= 0) & (flat < contact.contact_ratio)
     arm_m = float(torsion_arm_m(np.array(tilt_rad), pair.width_m, pair.mean_deflection_m))
     stiffness = np.zeros_like(flat)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sim.core.errors import Problem, SpecError
+from sim.parts.gear.helix import POINTS, spread
 from sim.parts.gear.offset import torsion_arm_m
 from sim.parts.gear.pair import GearPair, pair_compliance, pair_stiffness_n_per_m
 from sim.parts.gear.tooth import FloatArray
@@ -24,7 +25,8 @@ class PairTable:
     """Linear interpolation on equal steps, clamped at the ends of tilt and centre-distance error.
 
     `stiffness_n_per_m` (T, R, N) over `tilts_rad` (T,), `centre_distance_error_m` (R,) and xi = 0..1 (N points);
-    `contact_ratio` (R,); `start_m` (R,): path coordinate of entry from the pinion's base point.
+    `contact_ratio` (R,), with the overlap of a helical pair; `start_m` (R,): path coordinate of entry from the pinion's
+    base point.
     """
 
     tilts_rad: FloatArray
@@ -112,15 +114,20 @@ def build_pair_table(
     contacts = [pair.contact(float(e)) for e in errors]
     xi = np.linspace(0.0, 1.0, points)
     arms_m = torsion_arm_m(tilts, pair.width_m, pair.mean_deflection_m)
+    helix = pair.helix
+    samples = xi if helix.overlap_ratio == 0.0 else np.linspace(0.0, 1.0, POINTS)
     stiffness = np.empty((tilts.size, errors.size, points))
     for row, contact in enumerate(contacts):
-        parts = pair_compliance(pair, contact, xi * contact.contact_ratio)
+        parts = pair_compliance(pair, contact, samples * contact.contact_ratio)
         for layer, (tilt, arm_m) in enumerate(zip(tilts, arms_m, strict=True)):
-            stiffness[layer, row] = 1 / parts.total_m_per_n(float(tilt), float(arm_m))
+            spur = 1 / parts.total_m_per_n(float(tilt), float(arm_m))
+            ratio = contact.contact_ratio
+            helical = helix.overlap_ratio > 0.0
+            stiffness[layer, row] = spread(spur, ratio, helix, xi * (ratio + helix.overlap_ratio)) if helical else spur
     return PairTable(
         tilts_rad=tilts,
         centre_distance_error_m=errors,
-        contact_ratio=np.array([c.contact_ratio for c in contacts]),
+        contact_ratio=np.array([c.contact_ratio + helix.overlap_ratio for c in contacts]),
         start_m=np.array([c.start_m for c in contacts]),
         stiffness_n_per_m=stiffness,
     )
@@ -132,10 +139,10 @@ def interpolation_error(table: PairTable, pair: GearPair) -> InterpolationError:
     xi = (np.arange(points - 1) + 0.5) / (points - 1)
     worst, ratio_worst = 0.0, 0.0
     for error_m in _middles(table.centre_distance_error_m):
-        contact = pair.contact(error_m)
-        ratio_worst = max(ratio_worst, abs(contact.contact_ratio - table.ratio_at(error_m)))
+        ratio = pair.engagement(error_m)
+        ratio_worst = max(ratio_worst, abs(ratio - table.ratio_at(error_m)))
         for tilt in _middles(table.tilts_rad):
-            exact = pair_stiffness_n_per_m(pair, xi * contact.contact_ratio, error_m, tilt)
+            exact = pair_stiffness_n_per_m(pair, xi * ratio, error_m, tilt)
             curve = table.pair_n_per_m(xi * table.ratio_at(error_m), error_m, tilt)
             worst = max(worst, float(np.max(np.abs(curve / exact - 1))))
     return InterpolationError(stiffness_relative=worst, contact_ratio_absolute=ratio_worst)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +19,11 @@ _NODES = 48
 
 def mean_stiffness_n_per_m(pair: GearPair, centre_distance_error_m: float = 0.0) -> float:
     """Mean total stiffness over a mesh cycle: the integral of one pair's stiffness over its engagement, N/m."""
-    ratio = pair.contact(centre_distance_error_m).contact_ratio
+    helix, ratio = pair.helix, pair.contact(centre_distance_error_m).contact_ratio
+    if helix.overlap_ratio > 0.0:
+        # spreading a pair's stiffness over its overlap keeps the integral
+        straight = replace(pair, pinion=replace(pair.pinion, helix_rad=0.0), gear=replace(pair.gear, helix_rad=0.0))
+        return math.cos(helix.base_angle_rad) * mean_stiffness_n_per_m(straight, centre_distance_error_m)
     x, w = np.polynomial.legendre.leggauss(_NODES)
     curve = pair_stiffness_n_per_m(pair, 0.5 * ratio * (x + 1), centre_distance_error_m)
     return float(0.5 * ratio * np.dot(w, curve))
@@ -26,7 +31,7 @@ def mean_stiffness_n_per_m(pair: GearPair, centre_distance_error_m: float = 0.0)
 
 def extreme_stiffness_n_per_m(pair: GearPair) -> tuple[float, float]:
     """Least and largest total stiffness over a mesh cycle, with both sides of every jump, N/m."""
-    jump = pair.contact().contact_ratio % 1.0
+    jump = pair.engagement() % 1.0
     # A pair enters at phase 0 and leaves at `jump`: the intervals are sampled up to just before the next event.
     phases = np.concatenate([np.linspace(0, jump, 401)[:-1], np.linspace(jump, 1, 401)[:-1], [jump, 1.0]])
     nudged = np.clip(np.concatenate([phases, phases - 1e-9, phases + 1e-9]), 0.0, 1.0 - 1e-9)
@@ -58,6 +63,7 @@ def mesh_summary(pair: GearPair) -> dict[str, object]:
     contact = pair.contact()
     return {
         "contact_ratio": contact.contact_ratio,
+        "overlap_ratio": pair.helix.overlap_ratio,
         "centre_distance_m": contact.centre_distance_m,
         "working_angle_rad": contact.working_angle_rad,
         "mean_n_per_m": mean_stiffness_n_per_m(pair),

@@ -63,7 +63,7 @@ def total_row_n_per_m(
 ) -> FloatArray:
     """Sum over all pairs at mesh phases in [0, 1) (cycles since a pair entered), calculated directly, N/m."""
     first = np.asarray(phase, dtype=np.float64)
-    count = int(np.ceil(pair.contact(centre_distance_error_m).contact_ratio))
+    count = int(np.ceil(pair.engagement(centre_distance_error_m)))
     position = first + np.arange(count).reshape(-1, *([1] * first.ndim))
     return np.asarray(pair_stiffness_n_per_m(pair, position, centre_distance_error_m, tilt_rad).sum(axis=0))
 
