@@ -1,0 +1,59 @@
+"""What a chain needs to know of the shafts: their angle, and the torque that twists them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from signals.sensors.place import Pickup
+from signals.series import FloatArray
+from sim.assembly.linear import shaft_torsion_nm_per_rad
+from sim.core.errors import Problem, SpecError
+from sim.core.spec import MachineSpec, ShaftSpec
+
+
+def shaft_named(machine: MachineSpec | None, name: str, field: str) -> tuple[int, ShaftSpec]:
+    """Place (from 1) and specification of a shaft; SpecError lists the ones there are."""
+    shafts = [] if machine is None else machine.shafts
+    for i, shaft in enumerate(shafts, start=1):
+        if shaft.name == name:
+            return i, shaft
+    allowed = ", ".join(s.name for s in shafts) or "none: nothing turns"
+    raise SpecError(Problem(field=field, message="is no shaft of this machine", given=name, allowed=allowed))
+
+
+def uniform_angle_rad(index: int, bases_hz: Mapping[str, float], time_s: FloatArray) -> FloatArray:
+    """Angle of shaft `index` at times (n,), rad: the speed profile alone, which is uniform here."""
+    angle: FloatArray = 2.0 * math.pi * bases_hz[f"f_r{index}"] * time_s
+    return angle
+
+
+def torque_pickup(machine: MachineSpec | None, name: str, known: Mapping[str, str], field: str) -> Pickup:
+    """Torque in a shaft between its end mass (motor or brake) and the first wheel, N m.
+
+    k (theta_end - theta_wheel) + c (omega_end - omega_wheel), with the stiffness and damping of the specification:
+    what strain gauges on that stretch read. Positive where the end drives.
+    """
+    _, shaft = shaft_named(machine, name, field)
+    assert machine is not None
+    turning = [g.name for g in machine.gears if g.shaft == name]
+    turning += [b.name for b in machine.bodies if b.shaft == name and b.inertia_kg_m2 is not None]
+    end, stiffness = f"{name}.theta", shaft.torsional_stiffness_nm_per_rad or shaft_torsion_nm_per_rad(shaft)
+    if shaft.end_inertia_kg_m2 is None or not turning or stiffness is None or f"{end}.displacement" not in known:
+        message = "has no elastic stretch between an end mass and a wheel, so it carries no torque that can be read"
+        raise SpecError(Problem(field=field, message=message, given=name, allowed="a shaft with `end_inertia_kg_m2`"))
+    factors: dict[str, float] = {}
+    for quantity, factor in (("displacement", stiffness), ("velocity", shaft.torsional_damping_nms_per_rad)):
+        if factor:
+            factors |= {f"{end}.{quantity}": factor, f"{turning[0]}.theta.{quantity}": -factor}
+    return Pickup(factors=factors, location=name, axis="theta")
+
+
+def torsion_channel(body: str, known: Mapping[str, str], field: str) -> str:
+    """Output with the torsional angle of a part; SpecError lists the parts that have one."""
+    name = f"{body}.theta.displacement"
+    if name not in known:
+        ending = ".theta.displacement"
+        allowed = ", ".join(k.removesuffix(ending) for k in known if k.endswith(ending)) or "none"
+        raise SpecError(Problem(field=field, message="is no part that turns", given=body, allowed=allowed))
+    return name
