@@ -29,19 +29,20 @@ class Clock(SpecModel):
     -20 log10(2 pi f jitter) dB (W. Kester (ed.), The Data Conversion Handbook, Analog Devices 2005, ch. 2)."""
 
 
-def nominal_rate_hz(clock: Clock, rate_hz: float) -> float:
+def nominal_rate_hz(clock: Clock, rate_hz: float, field: str = "sensors.clock") -> float:
     """The rate that the recording states, Hz; SpecError when the simulation's `rate_hz` cannot serve it."""
     rate = rate_hz if clock.sampling_rate_hz is None else clock.sampling_rate_hz
     problems = []
     if rate > rate_hz * (1.0 + 1e-12):
+        allowed = f"<= {rate_hz:g}"
         message = "is above the rate at which the machine is simulated, so nothing new would be seen"
         problems.append(
-            Problem(field="clock.sampling_rate_hz", message=message, given=rate, allowed=f"<= {rate_hz:g}", unit="Hz")
+            Problem(field=f"{field}.sampling_rate_hz", message=message, given=rate, allowed=allowed, unit="Hz")
         )
     if clock.jitter_rms_s > JITTER_SHARE / rate:
         problems.append(
             Problem(
-                field="clock.jitter_rms_s",
+                field=f"{field}.jitter_rms_s",
                 message="is too much of the sampling interval: samples would change places",
                 given=clock.jitter_rms_s,
                 allowed=f"<= {JITTER_SHARE / rate:.6g}",

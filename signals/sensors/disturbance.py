@@ -18,7 +18,9 @@ class Hum(SpecModel):
     mains_hz: Annotated[float, Field(ge=1, le=1000)] = 50.0
     amplitude: Annotated[float, Field(ge=0, le=1e9)]
     """Peak amplitude of the first line, in the channel's unit."""
-    harmonics: Annotated[list[Annotated[float, Field(ge=0, le=1000)]], Field(min_length=1, max_length=50)] = [1.0]
+    harmonics: Annotated[
+        list[Annotated[float, Field(ge=0, le=1000)]], Field(min_length=1, max_length=50, default_factory=lambda: [1.0])
+    ]
     """Amplitudes relative to `amplitude`, of 1, 2, 3 ... times the mains frequency."""
 
 

@@ -31,8 +31,7 @@ def settle_s(frequency_hz: float, damping_ratio: float) -> float:
 def resonance(frequency_hz: FloatArray, natural_hz: float, damping_ratio: float) -> ComplexArray:
     """1 / (1 - r^2 + 2 i zeta r), r = f / f_n: deflection of a damped mass on a spring, of unit static gain."""
     r = frequency_hz / natural_hz
-    gain: ComplexArray = 1.0 / (1.0 - r**2 + 2j * damping_ratio * r)
-    return gain
+    return np.asarray(1.0 / (1.0 - r**2 + 2j * damping_ratio * r), dtype=np.complex128)
 
 
 def butterworth(frequency_hz: FloatArray, cutoff_hz: float, order: int) -> ComplexArray:

@@ -26,7 +26,7 @@ GENERIC = "generic: round figures of its kind"
 PRESETS: Mapping[str, SensorPreset] = {
     "icp-100mv-g": SensorPreset(
         kind="accelerometer",
-        sentence="General purpose piezoelectric accelerometer with built-in amplifier, 100 mV/g, glued or stud mounted.",
+        sentence="General purpose piezoelectric accelerometer with built-in amplifier, 100 mV/g, on a stud.",
         source=GENERIC,
         values={
             "sensor": {"sensitivity_v_per_unit": 0.1 / G, "lower_corner_hz": 0.2, "limit_v": 5.0},
@@ -62,7 +62,12 @@ PRESETS: Mapping[str, SensorPreset] = {
         sentence="Moving coil with a seismic mass: 10 Hz lower corner, 20 mV per mm/s.",
         source=GENERIC,
         values={
-            "sensor": {"sensitivity_v_per_unit": 20.0, "lower_corner_hz": 10.0, "lower_order": 2, "upper_corner_hz": 2e3},
+            "sensor": {
+                "sensitivity_v_per_unit": 20.0,
+                "lower_corner_hz": 10.0,
+                "lower_order": 2,
+                "upper_corner_hz": 2e3,
+            },
             "noise": {"density_per_sqrt_hz": 2e-8},
             "converter": {"bits": 24, "range_v": 10.0},
         },

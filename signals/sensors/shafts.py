@@ -1,12 +1,10 @@
-"""What a chain needs to know of the shafts: their angle, and the torque that twists them."""
+"""What a chain needs to know of the shafts: which there are, and the torque that twists them."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
 from signals.sensors.place import Pickup
-from signals.series import FloatArray
 from sim.assembly.linear import shaft_torsion_nm_per_rad
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec, ShaftSpec
@@ -20,12 +18,6 @@ def shaft_named(machine: MachineSpec | None, name: str, field: str) -> tuple[int
             return i, shaft
     allowed = ", ".join(s.name for s in shafts) or "none: nothing turns"
     raise SpecError(Problem(field=field, message="is no shaft of this machine", given=name, allowed=allowed))
-
-
-def uniform_angle_rad(index: int, bases_hz: Mapping[str, float], time_s: FloatArray) -> FloatArray:
-    """Angle of shaft `index` at times (n,), rad: the speed profile alone, which is uniform here."""
-    angle: FloatArray = 2.0 * math.pi * bases_hz[f"f_r{index}"] * time_s
-    return angle
 
 
 def torque_pickup(machine: MachineSpec | None, name: str, known: Mapping[str, str], field: str) -> Pickup:

@@ -86,7 +86,7 @@ class ProximityProbe(_Analogue):
     UNIT: ClassVar[str] = "m"
     kind: Literal["proximity"] = "proximity"
     place: Place
-    probe: Probe = Probe()
+    probe: Probe = Probe(run_out=[])
 
 
 class TorqueSensor(_Analogue):

@@ -40,8 +40,7 @@ class Sensed:
 
 def low_pass_gain(frequency_hz: FloatArray, corner_hz: float) -> ComplexArray:
     """1 / (1 + i f / f_c)."""
-    gain: ComplexArray = 1.0 / (1.0 + 1j * frequency_hz / corner_hz)
-    return gain
+    return np.asarray(1.0 / (1.0 + 1j * frequency_hz / corner_hz), dtype=np.complex128)
 
 
 def linear_part(samples: FloatArray, rate_hz: float, sensor: Transducer) -> FloatArray:
