@@ -67,8 +67,12 @@ def edges(angle_rad: FloatArray, rate_hz: float, spec: Pulser, rng: np.random.Ge
 
 
 def pulse_times_s(found: Edges, spec: Pulser, clock_stretch: float) -> FloatArray:
-    """Rising edges as the recorder's counter reads them, s, shape (pulses,)."""
+    """Rising edges as the recorder's counter reads them, s, shape (pulses,).
+
+    Jitter may put the first one before the record; it is not counted then.
+    """
     times = found.rising_s * clock_stretch
+    times = times[times >= 0.0]
     return times if spec.counter_hz is None else np.floor(times * spec.counter_hz) / spec.counter_hz
 
 
