@@ -36,7 +36,7 @@ def resolve(request: SimulationRequest, engine: Engine, limits: Limits) -> Resol
     with told_by_key(machine.model_dump(mode="json"), request.set):
         report = report_of(machine, engine)
     check_sampling(request, report.bases_hz)
-    outputs = check_sensors(request, machine, report.channels)
+    outputs = check_sensors(request, machine, report)
     if request.channels is not None:
         _check_channels(request.channels, report.channels)
     one = with_sensors(

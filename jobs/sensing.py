@@ -8,10 +8,13 @@ from dataclasses import replace
 import numpy as np
 
 from jobs.documents import Json
+from jobs.ports import MachineReport
 from jobs.record import Cost
 from jobs.request import SimulationRequest
 from signals.sensors import SensorChain, measure, motion_of, outputs_needed, pickups, quantities_of
+from signals.sensors.analogue import longest_tail_s
 from signals.sensors.clock import nominal_rate_hz, stretch
+from signals.sensors.shafts import check_pulses, shaft_named
 from signals.sensors.spec import Tacho
 from sim.core.errors import Problem, SpecError
 from sim.core.response import Response
@@ -22,9 +25,8 @@ SENSORS = "sensors"
 LEAST_SAMPLES = 64
 SECONDS_PER_SAMPLE = 1e-6
 """Of one channel, with path, filter, noise and clock; measured, with room."""
-ARRAYS_PER_CHANNEL = 1
 WORKING_ARRAYS = 12
-"""Arrays of the simulation's length that one channel needs while it is worked on, padding and complex lines counted."""
+"""Arrays of the simulation's length with the filters' tails, that one channel needs while it is worked on."""
 
 
 def recorded_outputs(chain: SensorChain, machine: MachineSpec, known: Iterable[str]) -> list[str]:
@@ -37,7 +39,7 @@ def recorded_outputs(chain: SensorChain, machine: MachineSpec, known: Iterable[s
     return needed or names[:1]
 
 
-def check_sensors(request: SimulationRequest, machine: MachineSpec, known: Iterable[str]) -> list[str] | None:
+def check_sensors(request: SimulationRequest, machine: MachineSpec, report: MachineReport) -> list[str] | None:
     """Outputs to simulate, None for the standard set; SpecError when the sensors cannot be served."""
     chain = request.sensors
     if chain is None:
@@ -53,7 +55,14 @@ def check_sensors(request: SimulationRequest, machine: MachineSpec, known: Itera
             field="sensors.clock.sampling_rate_hz", message=message, given=rate, allowed=allowed, unit="Hz"
         )
         raise SpecError(problem)
-    return recorded_outputs(chain, machine, known)
+    outputs = recorded_outputs(chain, machine, report.channels)
+    for i, channel in enumerate(chain.channels):
+        if isinstance(channel, Tacho):
+            index, _ = shaft_named(machine, channel.shaft, f"sensors.channels.{i}.shaft")
+            per_turn = channel.pulser.pulses_per_revolution
+            pulses = report.bases_hz[f"f_r{index}"] * request.duration_s * per_turn
+            check_pulses(pulses, per_turn, f"sensors.channels.{i}.pulser.pulses_per_revolution")
+    return outputs
 
 
 def with_sensors(cost: Cost, request: SimulationRequest) -> Cost:
@@ -62,10 +71,12 @@ def with_sensors(cost: Cost, request: SimulationRequest) -> Cost:
         return cost
     samples = request.duration_s * request.sampling_rate_hz
     channels = len(request.sensors.channels)
+    tails = [longest_tail_s(c) for c in request.sensors.channels if not isinstance(c, Tacho)]
+    padded = samples + max(tails, default=0.0) * request.sampling_rate_hz
     return replace(
         cost,
         seconds=cost.seconds + SECONDS_PER_SAMPLE * samples * channels,
-        memory_bytes=cost.memory_bytes + int(8 * samples * (ARRAYS_PER_CHANNEL * channels + WORKING_ARRAYS)),
+        memory_bytes=cost.memory_bytes + int(8 * (samples * channels + WORKING_ARRAYS * padded)),
     )
 
 

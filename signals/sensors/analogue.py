@@ -9,14 +9,15 @@ import numpy as np
 
 from signals.sensors.antialias import through_filter
 from signals.sensors.disturbance import drift_over, hum_at
+from signals.sensors.linear import MAX_SETTLE_S, butterworth_settle_s, settle_s
 from signals.sensors.motion import Motion
 from signals.sensors.mounting import through_mounting
 from signals.sensors.noise import drawn
-from signals.sensors.path import through_path
+from signals.sensors.path import settling_s, through_path
 from signals.sensors.place import Pickup
 from signals.sensors.proximity import seen
 from signals.sensors.seeds import Stage
-from signals.sensors.spec import AnalogueChannel, ProximityProbe, TorqueSensor
+from signals.sensors.spec import Accelerometer, AnalogueChannel, ProximityProbe, TorqueSensor, VelocitySensor
 from signals.sensors.transducer import sensed
 from signals.series import FloatArray
 
@@ -66,6 +67,19 @@ def disturbances(
     if spec.drift is not None:
         total += drift_over(spec.drift, time_s.size, rate_hz, random(Stage.DRIFT))
     return total
+
+
+def longest_tail_s(spec: AnalogueChannel) -> float:
+    """Time in which the slowest of a channel's filters dies out, s: what each is padded with while it is applied."""
+    tails = [0.0]
+    if isinstance(spec, Accelerometer | VelocitySensor):
+        tails += [settling_s(spec.path)] if spec.path is not None else []
+        tails += (
+            [settle_s(spec.mounting.frequency_hz, spec.mounting.damping_ratio)] if spec.mounting is not None else []
+        )
+    if spec.anti_alias is not None:
+        tails.append(butterworth_settle_s(spec.anti_alias.cutoff_hz, spec.anti_alias.order))
+    return min(max(tails), MAX_SETTLE_S)
 
 
 def at_converter(

@@ -26,7 +26,7 @@ class Clock(SpecModel):
     """True over nominal rate, less one, in millionths: a line at f is then read at f / (1 + error)."""
     jitter_rms_s: Annotated[float, Field(ge=0, le=1e-3)] = 0.0
     """Standard deviation of each sampling instant. A full sine keeps a signal-to-noise ratio of
-    -20 log10(2 pi f jitter) dB (W. Kester (ed.), The Data Conversion Handbook, Analog Devices 2005, ch. 2)."""
+    -20 log10(2 pi f jitter) dB (W. Kester (ed.), The Data Conversion Handbook, Newnes 2005, ch. 2)."""
 
 
 def nominal_rate_hz(clock: Clock, rate_hz: float, field: str = "sensors.clock") -> float:

@@ -17,8 +17,9 @@ from signals.sensors.pickups import pickups
 from signals.sensors.place import Pickup
 from signals.sensors.report import ChannelReport, Measured, description
 from signals.sensors.seeds import Stage, generator
+from signals.sensors.shafts import check_pulses
 from signals.sensors.spec import AnalogueChannel, ChannelSpec, SensorChain, Tacho, TorqueSensor
-from signals.sensors.tacho import edges, pulse_times_s, square_wave
+from signals.sensors.tacho import TURN, edges, pulse_times_s, square_wave
 from signals.series import FloatArray
 from sim.core.response import Channel
 
@@ -92,6 +93,8 @@ def _pulses(run: _Run, spec: Tacho, pickup: Pickup) -> _Row:
     angle = run.motion.angle_rad(spec.shaft)
     for name in pickup.factors:
         angle = angle + run.motion.recording.series(name).samples
+    per_turn = spec.pulser.pulses_per_revolution
+    check_pulses(float(np.ptp(angle)) / TURN * per_turn, per_turn, f"{spec.name}.pulser.pulses_per_revolution")
     found = edges(angle, run.rate_hz, spec.pulser, run.random(Stage.TACHO, spec.name))
     row = _digital(run, spec, pickup, square_wave(found, spec.pulser, run.instants_s), 1.0)
     # Counters count from the recorder's first sample, but Recording.tacho is on the time axis of the samples.

@@ -9,6 +9,9 @@ from sim.assembly.linear import shaft_torsion_nm_per_rad
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec, ShaftSpec
 
+MAX_PULSES = 10_000_000
+"""Of one tacho: eight bytes each, several times over while they are made."""
+
 
 def shaft_named(machine: MachineSpec | None, name: str, field: str) -> tuple[int, ShaftSpec]:
     """Place (from 1) and specification of a shaft; SpecError lists the ones there are."""
@@ -18,6 +21,14 @@ def shaft_named(machine: MachineSpec | None, name: str, field: str) -> tuple[int
             return i, shaft
     allowed = ", ".join(s.name for s in shafts) or "none: nothing turns"
     raise SpecError(Problem(field=field, message="is no shaft of this machine", given=name, allowed=allowed))
+
+
+def check_pulses(pulses: float, per_revolution: int, field: str) -> None:
+    """SpecError when a tacho would give more pulses than MAX_PULSES."""
+    if pulses > MAX_PULSES:
+        allowed = f"<= {max(1, int(per_revolution * MAX_PULSES / pulses))} in so many turns"
+        message = f"would give {pulses:.3g} pulses, more than the {MAX_PULSES:.3g} that are kept"
+        raise SpecError(Problem(field=field, message=message, given=per_revolution, allowed=allowed))
 
 
 def torque_pickup(machine: MachineSpec | None, name: str, known: Mapping[str, str], field: str) -> Pickup:

@@ -16,7 +16,7 @@ def result_of(client: httpx.Client, sensors: dict) -> str:
     reply = client.post("/v1/simulations", json={**BODY, "sensors": sensors})
     assert reply.status_code == 202, reply.text
     address = f"/v1/jobs/{reply.json()['id']}"
-    eventually(lambda: client.get(address).json()["status"] not in ("accepted", "running"))
+    eventually(lambda: client.get(address).json()["status"] not in ("accepted", "running"), within_s=60.0)
     status = client.get(address).json()
     assert status["status"] == "successful", status
     return f"{address}/result"

@@ -121,6 +121,10 @@ def test_tachos_alone_and_a_machine_that_does_not_turn() -> None:
         ),
         (ask({**TACHO, "shaft": "motor"}), "sensors.channels.0.shaft"),
         (ask(TACHO, preset="oscillator"), "sensors.channels.0.shaft"),
+        (
+            ask({**TACHO, "pulser": {"pulses_per_revolution": 10_000}}, duration_s=100.0),
+            "sensors.channels.0.pulser.pulses_per_revolution",
+        ),
         (ask(ACC, clock={"sampling_rate_hz": 48_000.0}), "sensors.clock.sampling_rate_hz"),
         (ask(ACC, clock={"sampling_rate_hz": 100.0}), "sensors.clock.sampling_rate_hz"),
         (ask(ACC, clock={"jitter_rms_s": 1e-4}), "sensors.clock.jitter_rms_s"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 from pydantic import ValidationError
@@ -82,3 +83,10 @@ def test_nothing_of_a_chain_can_be_changed_afterwards() -> None:
     chain = SensorChain.model_validate({"channels": [channel()]})
     with pytest.raises(ValidationError):
         chain.seed = 3  # type: ignore[misc]
+
+
+def test_the_page_shows_a_chain_that_is_one_and_every_preset() -> None:
+    page = (Path(__file__).resolve().parents[3] / "docs" / "sensors.md").read_text(encoding="utf-8")
+    chain = SensorChain.model_validate(json.loads(page.split("```json")[1].split("```")[0]))
+    assert [c.name for c in chain.channels] == ["acc1", "key"]
+    assert all(f"| `{name}` | {preset.kind} |" in page for name, preset in PRESETS.items())
