@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, replace
 
+import numpy as np
+
 from jobs.documents import ResultDocuments, SpectrumDocument
 from jobs.labelling import MIN_SAMPLES, REFERENCE, Predicted, label_channel, moves, no_labels
 from signals.export import features_document
@@ -33,7 +35,10 @@ def analyse(response: Response, *, discard_transient: bool) -> ResultDocuments:
     """Everything that is kept beside the signals. Channels that are no vibration get features only."""
     start_s, notes = analysed_from(response, discard_transient)
     recording = from_response(response).select(start_s=start_s)
-    moving = [c for c in recording.channels if c.quantity in VIBRATION]
+    gaps = [c.name for c in recording.channels if not _finite(recording, c)]
+    if gaps:
+        notes = [*notes, f"not analysed, as samples are missing: {', '.join(gaps)}"]
+    moving = [c for c in recording.channels if c.quantity in VIBRATION and _finite(recording, c)]
     spectra: list[SpectrumDocument] = []
     for channel in moving:
         spectra += [_document(s) for s in channel_spectra(recording.series(channel.name), channel, response.bases_hz)]
@@ -46,10 +51,18 @@ def analyse(response: Response, *, discard_transient: bool) -> ResultDocuments:
 def _labels(response: Response, recording: Recording) -> dict[str, object]:
     """Labels of the first channel of the best quantity there is."""
     ranked = [c for quantity in LABELLED for c in recording.channels if c.quantity == quantity]
+    whole = [c for c in ranked if _finite(recording, c)]
+    if ranked and not whole:
+        return no_labels(response.bases_hz, "samples are missing in every channel that could be labelled")
     if not ranked:
         return no_labels(response.bases_hz, "no acceleration was recorded; ask for one, or for `all` channels")
     known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz)
-    return label_channel(recording.series(ranked[0].name), known)
+    return label_channel(recording.series(whole[0].name), known)
+
+
+def _finite(recording: Recording, channel: Channel) -> bool:
+    """Whether every sample is a number: a recorder may mark what it lost."""
+    return bool(np.isfinite(recording.samples[recording.names.index(channel.name)]).all())
 
 
 def analysed_from(response: Response, discard: bool) -> tuple[float, list[str]]:

@@ -11,6 +11,7 @@ from jobs.documents import Json, ResultDocuments
 from jobs.impacts import contact_outputs, impacts_document, impacts_summary, narrowed
 from jobs.ports import Engine
 from jobs.request import SimulationRequest
+from jobs.sensing import recorded_outputs, sensed_response
 from sim.core.response import Response
 from sim.core.spec import MachineSpec
 
@@ -24,6 +25,8 @@ class Outcome:
 
     response: Response
     extras: Mapping[str, Json]
+    raw: Response | None = None
+    """The outputs of the simulation before the sensors, where there are any."""
 
 
 def carry_out(
@@ -54,14 +57,33 @@ def carry_out(
         return response
 
     if not request.causes:
-        response = run(machine, request.channels)
-        return Outcome(response=response, extras=_impacts(response, response, request))
+        response = run(machine, _outputs(engine, machine, request))
+        return _outcome(response, _impacts(response, response, request), request)
     wanted, recorded = _channels(engine, machine, request)
     whole = run(machine, recorded)
     response = narrowed(whole, wanted)
     start_s, _ = analysed_from(response, request.discard_transient)
-    causes = find_causes(response, plan_causes(machine), lambda twin: run(twin, list(wanted)), start_s=start_s)
-    return Outcome(response=response, extras={CAUSES: causes, **_impacts(whole, response, request)})
+    # The same sensors with the same noise watch every machine: what differs is what the effect does.
+    causes = find_causes(
+        sensed_response(response, request)[0],
+        plan_causes(machine),
+        lambda twin: sensed_response(run(twin, list(wanted)), request)[0],
+        start_s=start_s,
+    )
+    return _outcome(response, {CAUSES: causes, **_impacts(whole, response, request)}, request)
+
+
+def _outcome(response: Response, extras: dict[str, Json], request: SimulationRequest) -> Outcome:
+    """The response as the sensors see it."""
+    seen, described = sensed_response(response, request)
+    return Outcome(response=seen, extras={**extras, **described}, raw=None if request.sensors is None else response)
+
+
+def _outputs(engine: Engine, machine: MachineSpec, request: SimulationRequest) -> list[str] | None:
+    """Outputs to simulate; None: the standard set."""
+    if request.sensors is None:
+        return request.channels
+    return recorded_outputs(request.sensors, machine, engine.report(machine).channels)
 
 
 def completed(documents: ResultDocuments, extras: Mapping[str, Json]) -> ResultDocuments:
@@ -79,7 +101,7 @@ def completed(documents: ResultDocuments, extras: Mapping[str, Json]) -> ResultD
 def _channels(engine: Engine, machine: MachineSpec, request: SimulationRequest) -> tuple[tuple[str, ...], list[str]]:
     """What was asked for, and that with the outputs of the contacts."""
     report = engine.report(machine)
-    wanted = tuple(request.channels or report.default_channels)
+    wanted = tuple(_outputs(engine, machine, request) or report.default_channels)
     return wanted, list(dict.fromkeys((*wanted, *contact_outputs(report.channels))))
 
 

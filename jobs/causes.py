@@ -133,7 +133,8 @@ def _targets(response: Response, start_s: float) -> tuple[Target, ...]:
     recording = from_response(response).select(start_s=start_s)
     known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz)
     found: list[Target] = []
-    names = [c.name for c in recording.channels if c.quantity == "acceleration"]
+    accelerations = [c.name for c in recording.channels if c.quantity == "acceleration"]
+    names = [n for n in accelerations if np.isfinite(recording.samples[recording.names.index(n)]).all()]
     for name in names[:MAX_CHANNELS]:
         sets = label_sets(recording.series(name), known)
         if sets is None:

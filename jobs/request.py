@@ -6,6 +6,7 @@ from typing import Annotated, Self
 
 from pydantic import ConfigDict, Field, model_validator
 
+from signals.sensors.spec import SensorChain
 from sim.core.spec import MachineSpec, SpecModel
 
 ChannelName = Annotated[str, Field(min_length=1, max_length=120, pattern=r"^[A-Za-z0-9_.-]+$")]
@@ -61,6 +62,9 @@ class SimulationRequest(MachineChoice):
     """Seed of everything random in the machine. Bounded so that JSON numbers carry it exactly."""
     discard_transient: bool = True
     """Whether spectra, features and labels leave out the start-up transient. The signals always keep it."""
+    sensors: SensorChain | None = None
+    """The measurement chain: what is recorded is then what its sensors show (docs/sensors.md), at the rate of its
+    clock; `sampling_rate_hz` is the rate at which the motion is handed to it, and `channels` must be left out."""
     causes: bool = False
     """Whether to show what causes each labelled line, by simulating the machine without each of its effects (and
     without each excitation of the base machine): some ten further runs, counted in the cost. Also lists the impacts in

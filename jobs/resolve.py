@@ -11,6 +11,7 @@ from jobs.overrides import apply_overrides, told_by_key
 from jobs.ports import Engine, MachineReport
 from jobs.record import Cost
 from jobs.request import MachineChoice, SimulationRequest
+from jobs.sensing import check_sensors, told_shortly, with_sensors
 from sim.core.errors import Problem, SpecError, UnknownName
 from sim.core.spec import MachineSpec
 
@@ -35,23 +36,29 @@ def resolve(request: SimulationRequest, engine: Engine, limits: Limits) -> Resol
     with told_by_key(machine.model_dump(mode="json"), request.set):
         report = report_of(machine, engine)
     check_sampling(request, report.bases_hz)
+    outputs = check_sensors(request, machine, report)
     if request.channels is not None:
         _check_channels(request.channels, report.channels)
-    one = engine.cost(
-        machine,
-        duration_s=request.duration_s,
-        sampling_rate_hz=request.sampling_rate_hz,
-        channels=request.channels,
+    one = with_sensors(
+        engine.cost(
+            machine,
+            duration_s=request.duration_s,
+            sampling_rate_hz=request.sampling_rate_hz,
+            channels=outputs,
+        ),
+        request,
     )
     runs = 1 + further_runs(machine, request)
     cost = replace(one, steps=one.steps * runs, seconds=one.seconds * runs)
-    check_cost(request, cost, len(request.channels or report.default_channels), limits)
+    check_cost(request, cost, len(outputs or report.default_channels), limits)
     source = {"preset": request.preset, "machine": machine.name, "set": dict(request.set)}
-    # a request without causes keeps the identity it had before there were any
-    absent = set() if request.causes else {"causes"}
+    # a request without causes or sensors keeps the identity it had before there were any
+    absent = {name for name in ("causes", "sensors") if not getattr(request, name)}
     settings = request.model_dump(mode="json", exclude={"preset", "machine", "set"} | absent)
     return Resolved(
-        document={"machine": machine.model_dump(mode="json"), **settings}, source={**source, **settings}, cost=cost
+        document={"machine": machine.model_dump(mode="json"), **settings},
+        source={**source, **told_shortly(settings)},
+        cost=cost,
     )
 
 

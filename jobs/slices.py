@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from jobs.documents import FloatArray
 from jobs.results import ResultReader
 from jobs.thinning import min_max
 from signals.recording import Recording
@@ -93,7 +94,7 @@ def as_json(reader: ResultReader, channels: Sequence[str], part: Window, max_poi
                 "location": about.location,
                 "axis": about.axis,
                 "t_s": x.tolist(),
-                "values": y.tolist(),
+                "values": _numbers(y),
             }
         )
     return {
@@ -103,3 +104,11 @@ def as_json(reader: ResultReader, channels: Sequence[str], part: Window, max_poi
         "thinning": "none" if max_points is None or part.samples <= max_points else "minimum and maximum",
         "channels": listed,
     }
+
+
+def _numbers(values: FloatArray) -> list[float | None]:
+    """JSON has no NaN: a sample that a recorder marked as lost is null."""
+    listed: list[float | None] = values.tolist()
+    for i in np.flatnonzero(~np.isfinite(values)):
+        listed[i] = None
+    return listed

@@ -10,7 +10,10 @@ from jobs.documents import FloatArray
 
 
 def min_max(x: FloatArray, y: FloatArray, max_points: int) -> tuple[FloatArray, FloatArray]:
-    """At most `max_points` of the points (x, y), shapes (n,): the lowest and highest of each stretch, in order."""
+    """At most `max_points` of the points (x, y), shapes (n,): the lowest and highest of each stretch, in order.
+
+    Samples that are no numbers count only where a whole stretch has no other.
+    """
     bins = max(1, max_points // 2)
     if y.size <= max_points:
         return x, y
@@ -18,7 +21,10 @@ def min_max(x: FloatArray, y: FloatArray, max_points: int) -> tuple[FloatArray, 
     keep: list[int] = []
     for low, high in itertools.pairwise(edges):
         stretch = y[low:high]
-        keep.extend(sorted({int(low + stretch.argmin()), int(low + stretch.argmax())}))
+        if np.isnan(stretch).all():
+            keep.append(int(low))
+        else:
+            keep.extend(sorted({int(low + np.nanargmin(stretch)), int(low + np.nanargmax(stretch))}))
     return x[keep], y[keep]
 
 

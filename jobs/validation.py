@@ -28,6 +28,8 @@ UNITS = (
     ("_n", "N"),
     ("_m", "m"),
     ("_s", "s"),
+    ("_v", "V"),
+    ("_ppm", "ppm"),
 )
 """Unit by the ending of a field's name, longest first."""
 

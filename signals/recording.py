@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -54,6 +54,8 @@ class Recording:
     origin: Origin = "measured"
     notes: str = ""
     start_s: float = 0.0
+    chain: Mapping[str, object] | None = None
+    """The measurement chain that made the samples from simulated ones (`signals.sensors`), ready for JSON."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "sampling_rate_hz", checked_rate(self.sampling_rate_hz))

@@ -13,8 +13,9 @@ from jobs.documents import ResultDocuments
 from sim.core.response import Response
 
 FILES = ("signals.npz", "summary.json", "labels.json", "machine.json")
-FURTHER = ("causes.json", "impacts.json")
-"""Files of a result where causes were asked for or contacts recorded."""
+RAW = "raw.npz"
+FURTHER = ("causes.json", "impacts.json", "sensors.json", RAW)
+"""Files of a result where causes or sensors were asked for or contacts recorded."""
 RESERVED = ("time_s", "sampling_rate_hz")
 
 
@@ -22,13 +23,8 @@ def write_result(
     folder: Path, response: Response, documents: ResultDocuments, *, request: Mapping[str, object], elapsed_s: float
 ) -> None:
     """Write every file whole. signals.npz: one array a channel by its name, `time_s` (samples,), `sampling_rate_hz`."""
-    arrays = {channel.name: row for channel, row in zip(response.channels, response.signals, strict=True)}
+    _write_signals(folder / "signals.npz", response)
     samples = response.signals.shape[1]
-    arrays |= {
-        "time_s": np.arange(samples) / response.sampling_rate_hz,
-        "sampling_rate_hz": np.array(response.sampling_rate_hz),
-    }
-    write(folder / "signals.npz", lambda stream: np.savez(stream, **arrays))
     summary = {
         **documents.summary,
         "request": dict(request),
@@ -44,3 +40,17 @@ def write_result(
     for name, document in documents.extras.items():
         write_text(folder / f"{name}.json", json_text(document))
     write_text(folder / "machine.json", json_text(response.machine.model_dump(mode="json")))
+
+
+def write_raw(folder: Path, response: Response) -> None:
+    """Write the motion before the sensors, as signals.npz has it, at the rate of the simulation."""
+    _write_signals(folder / RAW, response)
+
+
+def _write_signals(path: Path, response: Response) -> None:
+    arrays = {channel.name: row for channel, row in zip(response.channels, response.signals, strict=True)}
+    arrays |= {
+        "time_s": np.arange(response.signals.shape[1]) / response.sampling_rate_hz,
+        "sampling_rate_hz": np.array(response.sampling_rate_hz),
+    }
+    write(path, lambda stream: np.savez(stream, **arrays))

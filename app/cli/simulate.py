@@ -21,7 +21,8 @@ from tqdm import tqdm
 
 from app.cli.choice import add_machine_options, chosen_machine
 from app.cli.files import check_folder, whole_folder
-from app.cli.result import FILES, FURTHER, write_result
+from app.cli.result import FILES, FURTHER, RAW, write_raw, write_result
+from app.cli.sensors import add_sensor_options, chosen_sensors
 from jobs.analysis import analyse
 from jobs.carry_out import Outcome, carry_out, completed
 from jobs.causes import further_runs
@@ -62,6 +63,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="show what causes each line, by some ten further runs without each effect; lists impacts too",
     )
+    add_sensor_options(parser)
     parser.add_argument(
         "--out", metavar="DIR", type=Path, help="folder of the result (default: result-NAME, of preset or machine file)"
     )
@@ -88,14 +90,16 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.machine is not None:
         origin |= {"preset": None, "machine_file": str(arguments.machine)}
     settings = {k: v for k, v in resolved.source.items() if k not in ("preset", "machine", "set")}
+    written = {*(f"{name}.json" for name in documents.extras), *([RAW] if arguments.keep_raw else [])}
     with whole_folder(out) as folder:
         write_result(folder, response, documents, request={**origin, **settings}, elapsed_s=elapsed)
-        for stale in {*FURTHER} - {f"{name}.json" for name in documents.extras}:
+        if arguments.keep_raw and outcome.raw is not None:
+            write_raw(folder, outcome.raw)
+        for stale in {*FURTHER} - written:
             (folder / stale).unlink(missing_ok=True)
     if not arguments.quiet:
         _say(response, documents, elapsed / (1 + further_runs(machine, request)))
-        names = [*FILES, *(f"{name}.json" for name in documents.extras)]
-        print(f"wrote {', '.join(names)} to {out}/", file=sys.stderr)
+        print(f"wrote {', '.join([*FILES, *sorted(written)])} to {out}/", file=sys.stderr)
     return 0
 
 
@@ -105,7 +109,13 @@ def default_folder(arguments: argparse.Namespace) -> Path:
     return Path(f"result-{name}")
 
 
-OPTIONS = {"duration_s": "--duration", "sampling_rate_hz": "--rate", "seed": "--seed", "causes": "--causes"}
+OPTIONS = {
+    "duration_s": "--duration",
+    "sampling_rate_hz": "--rate",
+    "seed": "--seed",
+    "causes": "--causes",
+    "channels": "--channels",
+}
 
 
 @contextmanager
@@ -114,7 +124,12 @@ def _named_as_options() -> Iterator[None]:
     try:
         yield
     except SpecError as error:
-        raise SpecError([replace(p, field=OPTIONS.get(p.field, p.field)) for p in error.problems]) from error
+        raise SpecError([replace(p, field=_option(p.field)) for p in error.problems]) from error
+
+
+def _option(field: str) -> str:
+    inside = field.removeprefix("sensors.")
+    return OPTIONS.get(field, f"--sensors {inside}" if inside != field else field)
 
 
 def _request(arguments: argparse.Namespace, machine: MachineSpec, engine: PhysicsEngine) -> SimulationRequest:
@@ -129,6 +144,7 @@ def _request(arguments: argparse.Namespace, machine: MachineSpec, engine: Physic
             channels=channels,
             seed=arguments.seed,
             discard_transient=not arguments.keep_transient,
+            sensors=chosen_sensors(arguments),
             causes=arguments.causes,
         )
     except ValidationError as error:

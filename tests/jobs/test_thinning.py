@@ -26,3 +26,11 @@ def test_highest_line_stays_at_its_place(y: np.ndarray, points: int) -> None:
     x = np.arange(y.size, dtype=np.float64)
     tx, ty = highest(x, y, points)
     assert ty.size <= points and ty.max() == y.max() and np.array_equal(y[tx.astype(int)], ty)
+
+
+def test_lost_samples_do_not_hide_extremes() -> None:
+    x, y = np.arange(100.0), np.sin(np.arange(100.0))
+    y[10:40] = np.nan
+    tx, ty = min_max(x, y, 20)
+    assert (np.nanmin(ty), np.nanmax(ty)) == (np.nanmin(y), np.nanmax(y))
+    assert np.isnan(ty[(tx >= 10) & (tx < 40)]).all() and ty.size <= 20
