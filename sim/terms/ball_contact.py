@@ -148,9 +148,9 @@ def cage_ratio(law: BallLaw) -> float:
 
 
 def _profiles(law: BallLaw) -> FloatArray:
-    """Creep, spin and the tables; empty without any table."""
+    """Creep, spin and the tables; empty where every table is flat at zero."""
     races = (law.outer_profile_m, law.inner_profile_m)
-    if all(table is None for table in (*races, law.ball_profile_m)):
+    if not any(table is not None and np.any(table) for table in (*races, law.ball_profile_m)):
         return np.zeros(0)
     spin = law.ball_spin_ratio * (1.0 - law.outer_creep) * (1.0 - law.cage_slip)
     tables = [np.zeros(RACE_POINTS) if table is None else table for table in races]

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
-from sim.core.laws import RACE_POINTS, Laws
+from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.spec import MachineSpec
 from sim.core.terms import Demo, SiteContext, Term, Validation, Values
-from sim.parts.bearing.spall import added, ball_drop_m, table_angles_rad
+from sim.parts.bearing.spall import added, ball_drop_m, pit_table_m
 from sim.parts.bearing.spall_terms import (
     DEPTH,
     PITCH,
     WIDTH,
     angle_param,
     contact_of,
+    depth_m,
     pitch_values,
-    shallow,
     width_rad,
 )
 
@@ -37,11 +39,10 @@ class BallSpall(Term):
         law = laws.balls[site.site]
         outer, inner = (contact_of(law, values, site, ring) for ring in ("outer", "inner"))
         width = width_rad(values, outer.ball_m, site, self.key)
-        depth = shallow(values, outer, site, self.key)
-        pit = sum(
-            ball_drop_m(at, table_angles_rad(RACE_POINTS, values["angle"] + turn), width_rad=width, depth_m=depth)
-            for at, turn in ((outer, 0.0), (inner, 3.141592653589793))
-        )
+        depth = depth_m(values, outer, site, self.key)
+        at_outer = partial(ball_drop_m, outer, width_rad=width, depth_m=depth)
+        at_inner = partial(ball_drop_m, inner, width_rad=width, depth_m=depth)
+        pit = pit_table_m(at_outer, values["angle"]) + pit_table_m(at_inner, values["angle"] + math.pi)
         law = replace(law, ball_profile_m=added(law.ball_profile_m, pit))
         return replace(laws, balls={**laws.balls, site.site: law})
 

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
-from sim.core.laws import RACE_POINTS, Laws
+from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.spec import MachineSpec
 from sim.core.terms import Demo, SiteContext, Term, Validation, Values
-from sim.parts.bearing.spall import added, race_drop_m, table_angles_rad
+from sim.parts.bearing.spall import added, pit_table_m, race_drop_m
 from sim.parts.bearing.spall_terms import (
     DEPTH,
     PITCH,
     WIDTH,
     angle_param,
     contact_of,
+    depth_m,
     pitch_values,
-    shallow,
     width_rad,
 )
 
@@ -36,9 +37,9 @@ class OuterSpall(Term):
         """Add the pit to the outer race's profile."""
         law = laws.balls[site.site]
         at = contact_of(law, values, site, "outer")
-        spread = table_angles_rad(RACE_POINTS, values["angle"])
         width = width_rad(values, at.race_m, site, self.key)
-        pit = race_drop_m(at, spread, width_rad=width, depth_m=shallow(values, at, site, self.key))
+        depth = depth_m(values, at, site, self.key)
+        pit = pit_table_m(partial(race_drop_m, at, width_rad=width, depth_m=depth), values["angle"])
         law = replace(law, outer_profile_m=added(law.outer_profile_m, pit))
         return replace(laws, balls={**laws.balls, site.site: law})
 

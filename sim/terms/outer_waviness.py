@@ -29,9 +29,7 @@ class OuterWaviness(Term):
             return ()
         base = f"f_o{site.index}"
         found = [k for k, _ in passes(int(values["order"]), site_balls(site)) if k > 0] or [1]
-        return tuple(
-            Line(orders=((base, k),), component=site.site, mechanism=self.key, family="outer") for k in found
-        )
+        return tuple(Line(orders=((base, k),), component=site.site, mechanism=self.key, family="outer") for k in found)
 
 
 TERM = OuterWaviness(

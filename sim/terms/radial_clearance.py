@@ -76,7 +76,7 @@ TERM = RadialClearance(
     ),
     severity="change",
     order=20,
-    demo=Demo(machine="rotor", values={"change": 2e-5}),
+    demo=Demo(values={"change": 2e-5}),
     validation=(
         Validation(
             kind="published table",

@@ -152,9 +152,7 @@ TERM = SqueezeFilm(
             sentence="Damping of the centred film, pi/2 mu R (L/c)^3.",
             scale="log",
         ),
-        Param(
-            name="film", unit="m", default=1e-4, low=1e-5, high=1e-3, sentence="Radial clearance c.", scale="log"
-        ),
+        Param(name="film", unit="m", default=1e-4, low=1e-5, high=1e-3, sentence="Radial clearance c.", scale="log"),
     ),
     references=(
         "Vance, Rotordynamics of Turbomachinery, 1988 (squeeze-film dampers, circular orbit)",

@@ -38,6 +38,8 @@ PITCH = Param(
     sentence="Pitch diameter, which turns lengths to angles; the bearing's own where its geometry has one.",
     scale="log",
 )
+SAME_PITCH = 0.01
+"""Makers' pitch diameters of one designation differ that much."""
 WIDEST_RAD = 1.0
 """A pit that takes more than this of a circle is no spall: the ball would fall into a different race."""
 
@@ -59,11 +61,15 @@ def site_balls(site: SiteContext) -> int:
 
 
 def contact_of(law: BallLaw, values: Values, site: SiteContext, ring: Ring) -> Contact:
-    """Radii of the contact with a ring."""
+    """Radii of the contact with a ring; SpecError when the pitch diameter is not the bearing's."""
     bearing = next(b for b in site.machine.bearings if b.name == site.site)
     geometry = geometry_from_spec(bearing, field=f"bearings.{bearing.name}")
-    ratio_cos = law.diameter_ratio_cos
-    return contact(pitch_m=values[PITCH.name], ratio=geometry.diameter_ratio, ratio_cos=ratio_cos, ring=ring)
+    pitch, known = values[PITCH.name], geometry.pitch_diameter_m
+    if known is not None and abs(pitch - known) > SAME_PITCH * known:
+        message = "is not that of the bearing's own geometry (leave it out)"
+        field = f"{PITCH.name} of the spall at {site.site}"
+        raise SpecError(Problem(field=field, message=message, given=pitch, allowed=f"{known:.6g}", unit="m"))
+    return contact(pitch_m=pitch, ratio=geometry.diameter_ratio, ratio_cos=law.diameter_ratio_cos, ring=ring)
 
 
 def width_rad(values: Values, radius_m: float, site: SiteContext, key: str) -> float:
@@ -82,7 +88,7 @@ def width_rad(values: Values, radius_m: float, site: SiteContext, key: str) -> f
     return angle
 
 
-def shallow(values: Values, at: Contact, site: SiteContext, key: str) -> float:
+def depth_m(values: Values, at: Contact, site: SiteContext, key: str) -> float:
     """Depth, m; SpecError when the spall is deeper than half the ball's radius."""
     if values["depth"] > 0.5 * at.ball_m:
         raise SpecError(
