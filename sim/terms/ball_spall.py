@@ -66,7 +66,7 @@ class BallSpall(Term):
 TERM = BallSpall(
     key="ball_spall",
     title="Ball spall",
-    sentence="A pit in one ball: it meets a race twice in each turn of the ball, in the load zone once a turn of the cage.",
+    sentence="A pit in one ball: it meets a race twice a turn of the ball, and the load zone once a turn of the cage.",
     sites=("bearing",),
     params=(WIDTH, DEPTH, angle_param("Angle by which the ball turns until the pit faces the outer race."), PITCH),
     references=(

@@ -44,7 +44,7 @@ class InnerSpall(Term):
         return replace(laws, balls={**laws.balls, site.site: law})
 
     def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:
-        """Multiples of the inner-race frequency with sidebands of the shaft, which carries the spall through the load."""
+        """Multiples of the inner-race frequency with sidebands of the shaft, which carries the pit through the load."""
         if values["width"] == 0.0 or values["depth"] == 0.0 or not site.shaft_base:
             return ()
         base = f"f_i{site.index}"

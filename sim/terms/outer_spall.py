@@ -87,9 +87,9 @@ TERM = OuterSpall(
         ),
         Validation(
             kind="closed form",
-            source="Sawalhi & Randall 2011: entry and impact are half the spall's length apart",
-            deviation=0.15,
-            test="tests/sim/terms/test_spalls.py::test_entry_and_impact_are_half_a_spall_apart",
+            source="Sawalhi & Randall 2011: entry and impact move apart by the spall's length over the rolling speed",
+            deviation=0.05,
+            test="tests/sim/terms/test_spalls.py::test_entry_and_impact_move_apart_by_length_over_speed",
         ),
     ),
 )

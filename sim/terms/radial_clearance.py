@@ -31,7 +31,7 @@ class RadialClearance(Term):
         return replace(laws, balls={**laws.balls, site.site: law})
 
     def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:
-        """Multiples of the outer-race frequency and their sidebands of the mesh: fewer balls carry, at a smaller angle."""
+        """Multiples of the outer-race frequency and mesh sidebands: fewer balls carry, over a smaller angle."""
         if values["change"] == 0.0:
             return ()
         base = f"f_o{site.index}"
@@ -49,10 +49,8 @@ class RadialClearance(Term):
         total = 2.0 * (bearing.radial_clearance_m + values["change"])
         if most is None or values["change"] <= 0.0 or total <= most:
             return ()
-        return (
-            f"{site.site}: radial internal clearance with its change {1e6 * total:.4g} um is above {1e6 * most:g} um, "
-            "the largest of class C5 for its bore (ISO 5753-1)",
-        )
+        clearance = f"radial internal clearance with its change {1e6 * total:.4g} um"
+        return (f"{site.site}: {clearance} is above {1e6 * most:g} um, the largest of class C5 (ISO 5753-1)",)
 
 
 TERM = RadialClearance(

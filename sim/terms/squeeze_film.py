@@ -15,7 +15,7 @@ import numpy as np
 
 from sim.core.choose import larger, root, select, uniform
 from sim.core.compiled import inline
-from sim.core.elements import Coordinate, Element, Output, flat
+from sim.core.elements import Element, Output, flat
 from sim.core.kernels import kernel
 from sim.core.laws import Laws
 from sim.core.params import Param

@@ -48,10 +48,8 @@ def race_drop_m(at: Contact, spread_rad: FloatArray, *, width_rad: float, depth_
     r, race = at.ball_m, at.race_m
     span = r**2 - (race * np.sin(edge)) ** 2
     reach = np.sqrt(np.maximum(span, 0.0))
-    if at.ring == "outer":
-        drop = race * np.cos(edge) - reach - (race - r)
-    else:
-        drop = race + r - race * np.cos(edge) - reach
+    side = 1.0 if at.ring == "outer" else -1.0
+    drop = r - reach - side * race * (1.0 - np.cos(edge))
     return _capped(np.where((span > 0.0) & (edge < 0.5 * np.pi), drop, np.inf), edge, depth_m)
 
 
