@@ -30,12 +30,12 @@ KEYS = (
 
 
 def corners(term):
-    """Every combination of lowest and highest, the severity not zero; phases and angles at one value."""
+    """Defaults, and all combinations of lowest and highest: the severity not zero, phases and angles at one value."""
     ends = [
         (p.default,) if p.unit == "rad" else tuple(v for v in (p.low, p.high) if v != 0.0 or p.name != term.severity)
         for p in term.params
     ]
-    return [dict(zip([p.name for p in term.params], values, strict=True)) for values in product(*ends)]
+    return [{}, *(dict(zip([p.name for p in term.params], values, strict=True)) for values in product(*ends))]
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""Internal clearance as an effect: load distribution of the textbook, preload, and what the numbers are compared with."""
+"""Internal clearance as an effect: the load distribution of the textbook, preload, and cautions."""
 
 from __future__ import annotations
 

@@ -41,8 +41,8 @@ def test_a_ring_at_rest_sinks_as_far_as_root_finding_says(term):
     system, element = element_of(
         bearing_with((term.key, {"width": 4e-3, "depth": 5e-6, "angle": DOWN}), cage_phase_rad=DOWN)
     )
-    row = context_at(system, element, 0.0)
-    found = root(lambda um: force_at(element, row, 1e-6 * um) + [0.0, LOAD_N], [0.0, -10.0], tol=1e-13)
+    row, load = context_at(system, element, 0.0), np.array([0.0, LOAD_N])
+    found = root(lambda um: force_at(element, row, 1e-6 * um) + load, [0.0, -10.0], tol=1e-13)
     expected = rest_written_anew(element.parameters[1], 5e-6)
     off = np.hypot(*(1e-6 * found.x - expected)) / np.hypot(*expected)
     allowed = next(v.deviation for v in term.validation if "at_rest" in v.test)
