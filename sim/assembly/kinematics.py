@@ -95,15 +95,21 @@ def kinematics(machine: MachineSpec) -> Kinematics:
 
 
 def slipped_bases(kin: Kinematics, machine: MachineSpec, laws: Laws) -> dict[str, float]:
-    """Base frequencies with the cages' slip: the cage lags, the ball pass of the inner ring rises, Z f_r is kept."""
+    """Base frequencies with slip and creep: the cage lags or is dragged, the ball pass of the inner ring keeps Z f_r.
+
+    f_o stays the balls' pass over a point in space, Z f_c; f_e1 is the turning of a creeping outer ring.
+    """
     bases = dict(kin.bases_hz)
     for i, bearing in enumerate(machine.bearings, 1):
         law = laws.balls[bearing.name]
-        if law.cage_slip > 0.0 and f"f_c{i}" in bases:
-            cage = bases[f"f_c{i}"] * (1.0 - law.cage_slip)
+        if (law.cage_slip > 0.0 or law.outer_creep != 0.0) and f"f_c{i}" in bases:
             turning = kin.body_hz[bearing.body]
+            dragged = 0.5 * law.outer_creep * turning * (1.0 + law.diameter_ratio_cos)
+            cage = (bases[f"f_c{i}"] + dragged) * (1.0 - law.cage_slip)
             bases[f"f_c{i}"] = cage
             bases[f"f_o{i}"] = law.balls * cage
             bases[f"f_i{i}"] = law.balls * (turning - cage)
-            bases[f"f_b{i}"] *= 1.0 - law.cage_slip
+            bases[f"f_b{i}"] *= (1.0 - law.cage_slip) * (1.0 - law.outer_creep)
+            if law.outer_creep != 0.0:
+                bases[f"f_e{i}"] = law.outer_creep * turning
     return bases

@@ -13,6 +13,7 @@ from sim.core.errors import Problem, SpecError
 from sim.core.laws import BallLaw, Laws, MeshLaw, SupportLaw
 from sim.core.spec import BearingSpec, MachineSpec
 from sim.core.terms import Registry, SiteContext, SiteKind, Term
+from sim.parts.bearing.frequencies import bearing_speeds
 from sim.parts.bearing.from_spec import geometry_from_spec
 from sim.parts.bearing.hertz import ball_race_stiffness_n_per_m15
 from sim.parts.mesh_law import ALONE, MeshSetting, mesh_law
@@ -87,6 +88,7 @@ def _ball_law(bearing: BearingSpec, notes: dict[str, str], senses: Senses) -> Ba
         gap_m=bearing.radial_clearance_m,
         cage_phase_rad=bearing.cage_phase_rad,
         sense=senses.rings.get(bearing.body, 1.0),
+        ball_spin_ratio=bearing_speeds(geometry, inner=1.0).ball_spin,
     )
 
 

@@ -70,7 +70,9 @@ class MeshLaw:
 class BallLaw:
     """Ball contacts of one bearing before they become an element.
 
-    Profiles are extra gaps in m over the race angle, `RACE_POINTS` samples a turn; positive opens the contact.
+    Profiles are extra gaps in m over the angle, `RACE_POINTS` samples a turn; positive opens the contact. The outer
+    race's angle counts from x on the ring at t = 0, the inner's on its own ring; the ball's is that by which the first
+    ball has turned towards its outer contact, and its table holds what both of its contacts lose.
     """
 
     name: str
@@ -84,8 +86,14 @@ class BallLaw:
     sense: float = 1.0
     """Sense in which cage and inner ring turn: +1 from x to y, -1 from y to x."""
     cage_slip: float = 0.0
+    outer_creep: float = 0.0
+    """Turns of the outer ring per turn of the shaft, in its sense."""
+    ball_spin_ratio: float = 0.0
+    """Turns of a ball about its own axis per turn of the shaft, outer ring at rest."""
+    ball_phase_rad: float = 0.0
     outer_profile_m: FloatArray | None = None
     inner_profile_m: FloatArray | None = None
+    ball_profile_m: FloatArray | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,7 +1,8 @@
 """Ball-race contacts of a bearing (seed eqs 9-12): every ball a unilateral Hertz spring, F = k eps^1.5.
 
-Ball i stands at 2 pi i / Z + cage phase + sense (1 - (d/D) cos alpha) / 2 (1 - slip) phi of the shaft. Race profiles
-(gaps over the race angle) let defects enter without another kernel. Balls are padded to multiples of eight with
+Ball i stands at 2 pi i / Z + cage phase + sense (1 - (d/D) cos alpha) / 2 (1 - slip) phi of the shaft. Profiles of the
+races and of the first ball (gaps over the angle) let defects enter without another kernel; a race that creeps takes its
+profile along and drags the cage (`cage_ratio`). Balls are padded to multiples of eight with
 contacts that never close, so that one vector instruction handles eight of them.
 """
 
@@ -13,7 +14,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from sim.core.choose import floor, larger, pick, root, select, uniform
+from sim.core.choose import larger, root, select, uniform
 from sim.core.compiled import inline
 from sim.core.elementary import sine_cosine
 from sim.core.elements import Coordinate, Element, Output, flat
@@ -24,46 +25,24 @@ from sim.core.response import FloatArray
 from sim.core.spec import MachineSpec
 from sim.core.terms import SiteContext, Term, Values
 from sim.parts.bearing.ball_load import BallRow, mean_stiffness_n_per_m
+from sim.parts.bearing.profile_kernels import write_profiles
 from sim.parts.static_load import static_bearing_load_n
 from sim.parts.wall import mesh_sidebands
 
 LANES = 8
 OPEN_GAP_M = 1.0
 """Gap of a padding ball: never closes."""
-# parameters: padded, stiffness, gap, cage ratio, cage phase, has_profiles, balls, sense, cos n, sin n, gap n, profiles
-HEAD = 8
-
-
-@inline
-def profile(par, base, angle):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Periodic linear interpolation of a race profile of 2048 points, m."""
-    x = angle * (2048.0 / 6.283185307179586)
-    cell = floor(x)
-    share = x - cell
-    i = cell - 2048.0 * floor(cell * (1.0 / 2048.0))
-    j = select(i >= 2047.0, 0.0, i + 1.0)
-    return pick(par, base + i) * (1.0 - share) + pick(par, base + j) * share
-
-
-@inline
-def write_profiles(shafts, par, ctx, s, n):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Gap of every ball at every node, race profiles included."""
-    balls = uniform(par[6])
-    for row in range(s):
-        cage = par[3] * shafts[row + 1] + par[4]
-        for i in range(n):
-            ctx[row * (3 * n + 1) + 1 + 2 * n + i] = par[8 + 2 * n + i]
-        for i in range(balls):
-            angle = cage + 6.283185307179586 * i / balls
-            inner = profile(par, 8 + 3 * n + 2048, angle - par[7] * shafts[row + 1])
-            ctx[row * (3 * n + 1) + 1 + 2 * n + i] += profile(par, 8 + 3 * n, angle) + inner
+# parameters: padded, stiffness, gap, cage ratio, cage phase, profiles (1 races, 2 a ball too), balls, sense,
+# cos n, sin n, gap n, then what `sim.parts.bearing.profile_kernels` reads
 
 
 def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
-    """Cosine and sine of every ball at every node, with profiles its gap; row: [cage speed, cos n, sin n, gap n]."""
+    """Cosine and sine of every ball at every node; row: [cage speed, cos n, sin n], with profiles gap n, gap rate n."""
     s = uniform(step[2])
     n = uniform(par[0])
-    width = 3 * n + 1
+    width = 2 * n + 1
+    if uniform(par[5]) > 0:
+        width = 4 * n + 1
     s1, c1 = sine_cosine(par[3] * shafts[1] + par[4])
     s2, c2 = sine_cosine(par[3] * shafts[2] + par[4])
     s3, c3 = sine_cosine(par[3] * shafts[3] + par[4])
@@ -114,7 +93,7 @@ def ball_tangent(u, ctx, par, n, out):  # type: ignore[no-untyped-def]  # noqa: 
 
 @inline
 def ball_outputs(u, ctx, par, n, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Stored energy, work done by the turning of the balls, force and number of loaded balls."""
+    """Stored energy, work done by the rolling of the balls, force and number of loaded balls."""
     energy = 0.0 * u[0]
     power = energy
     loaded = energy
@@ -124,11 +103,13 @@ def ball_outputs(u, ctx, par, n, f, out):  # type: ignore[no-untyped-def]  # noq
         e = compression(u, ctx, par, n, i)
         p = e * root(e)
         energy += 0.4 * e * p
-        power += p * (u[1] * c - u[0] * s)
+        power += p * (u[1] * c - u[0] * s) * ctx[0]
+        if uniform(par[5]) > 0:
+            power += -1.0 * p * ctx[1 + 3 * n + i]
         loaded += select(e > 0.0, 1.0, 0.0)
     out[0] = par[1] * energy
     out[1] = 0.0
-    out[2] = par[1] * power * ctx[0]
+    out[2] = par[1] * power
     out[3] = f[0]
     out[4] = f[1]
     out[5] = loaded
@@ -160,31 +141,43 @@ OUTPUTS = (
 )
 
 
+def cage_ratio(law: BallLaw) -> float:
+    """Turns of the cage per turn of the shaft, signed; a creeping outer ring drags it, slip holds it back."""
+    rolling = 0.5 * (1.0 - law.diameter_ratio_cos) + 0.5 * law.outer_creep * (1.0 + law.diameter_ratio_cos)
+    return law.sense * rolling * (1.0 - law.cage_slip)
+
+
+def _profiles(law: BallLaw) -> FloatArray:
+    """Creep, spin and the tables; empty where every table is flat at zero."""
+    races = (law.outer_profile_m, law.inner_profile_m)
+    if not any(table is not None and np.any(table) for table in (*races, law.ball_profile_m)):
+        return np.zeros(0)
+    spin = law.ball_spin_ratio * (1.0 - law.outer_creep) * (1.0 - law.cage_slip)
+    tables = [np.zeros(RACE_POINTS) if table is None else table for table in races]
+    ball = np.zeros(0) if law.ball_profile_m is None else law.ball_profile_m
+    return flat(law.sense * law.outer_creep, spin, law.ball_phase_rad, *tables, ball)
+
+
 def ball_parameters(law: BallLaw) -> FloatArray:
     """Flat parameter array of one bearing."""
     n = -(-law.balls // LANES) * LANES
     angle = 2.0 * np.pi * np.arange(n) / law.balls
     gap = np.where(np.arange(n) < law.balls, law.gap_m, OPEN_GAP_M)
-    empty = np.zeros(RACE_POINTS)
-    profiles = law.outer_profile_m is not None or law.inner_profile_m is not None
-    head = flat(
+    profiles = _profiles(law)
+    return flat(
         float(n),
         law.stiffness_n_per_m15,
         law.gap_m,
-        law.sense * 0.5 * (1.0 - law.diameter_ratio_cos) * (1.0 - law.cage_slip),
+        cage_ratio(law),
         law.cage_phase_rad,
-        float(profiles),
+        0.0 if profiles.size == 0 else (1.0 if law.ball_profile_m is None else 2.0),
         float(law.balls),
         law.sense,
         np.cos(angle),
         np.sin(angle),
         gap,
+        profiles,
     )
-    if not profiles:
-        return head
-    outer = empty if law.outer_profile_m is None else law.outer_profile_m
-    inner = empty if law.inner_profile_m is None else law.inner_profile_m
-    return flat(head, outer, inner)
 
 
 def ring_coordinates(bearing: str) -> tuple[Coordinate, ...]:
@@ -219,6 +212,7 @@ class BallContact(Term):
         """One element a bearing."""
         law = laws.balls[site.site]
         parameters = ball_parameters(law)
+        rows = 4 if parameters[5] > 0.0 else 2
         return (
             Element(
                 name=law.name,
@@ -227,7 +221,7 @@ class BallContact(Term):
                 coordinates=ring_coordinates(law.name),
                 forces=2,
                 parameters=parameters,
-                context=3 * int(parameters[0]) + 1,
+                context=rows * int(parameters[0]) + 1,
                 shafts=(law.body, law.body),
                 outputs=OUTPUTS,
                 rates=False,

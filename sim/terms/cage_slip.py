@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from sim.core.laws import Laws
 from sim.core.params import Param
-from sim.core.terms import Demo, SiteContext, Term, Values
+from sim.core.terms import Demo, SiteContext, Term, Validation, Values
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,4 +33,12 @@ TERM = CageSlip(
     severity="share",
     order=20,
     demo=Demo(values={"share": 0.05}),
+    validation=(
+        Validation(
+            kind="closed form",
+            source="Ball pass of a bearing that rolls, Randall & Antoni 2011, eq. (1), less the share",
+            deviation=6e-3,
+            test="tests/sim/terms/test_cage_slip.py::test_the_load_passes_at_the_slipped_frequency",
+        ),
+    ),
 )

@@ -75,7 +75,7 @@ def demo_machines(term: Term) -> tuple[MachineSpec, MachineSpec]:
 def promised(term: Term, system: System, without: System) -> list[Line]:
     """The leading lines: the term's own, else those of other effects whose rate it changes."""
     own = [line for line in system.lines if line.mechanism == term.key]
-    moved = {base for base, hz in system.bases_hz.items() if hz != without.bases_hz[base]}
+    moved = {base for base, hz in system.bases_hz.items() if hz != without.bases_hz.get(base)}
     lines = own or [line for line in system.lines if moved & {base for base, _ in line.orders}]
     found = {line.label: line for line in reversed(lines) if line.component == lines[0].component}
     return list(reversed(found.values()))[: term.demo.leading]
