@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
 
 from sim.core.errors import Problem, SpecError
-from sim.core.laws import SupportLaw
+from sim.core.laws import AddedMass, SupportLaw
 from sim.core.response import FloatArray
 from sim.core.spec import BearingSpec, GearSpec, MachineSpec, ShaftSpec
 from sim.core.system import Damper
@@ -169,8 +169,29 @@ def _matrices(builder: Builder) -> Linear:
     )
 
 
-def linear_part(machine: MachineSpec, supports: Mapping[str, SupportLaw]) -> Linear:
-    """Walk the machine shaft by shaft and build the linear matrices; DOF order groups what is coupled."""
+def _added(builder: Builder, masses: Sequence[AddedMass]) -> None:
+    """Degrees of freedom of the terms, in their order; SpecError where one would hang on nothing or stand twice."""
+    for added in masses:
+        part = added.name.split(".")[0]
+        if added.name in builder.names:
+            message = "two effects add this degree of freedom; one of them must go"
+            raise SpecError(Problem(field=part, message=message, given=added.name))
+        builder.mass(added.name, added.mass)
+        for spring in added.springs:
+            for end in (spring.a, spring.b):
+                if end is not None and end not in builder.names:
+                    message = f"{added.name} would hang on {end}, which this machine does not have"
+                    raise SpecError(Problem(field=part, message=message, allowed="a body that moves there"))
+            builder.spring(spring.a, spring.b, spring.stiffness, spring.damping)
+
+
+def linear_part(
+    machine: MachineSpec, supports: Mapping[str, SupportLaw], masses: Sequence[AddedMass] = ()
+) -> Linear:
+    """Walk the machine shaft by shaft and build the linear matrices; DOF order groups what is coupled.
+
+    Masses that terms add come last, so the DOFs of the machine keep their places.
+    """
     builder = Builder()
     for shaft in machine.shafts:
         if shaft.end_inertia_kg_m2 is not None:
@@ -187,4 +208,5 @@ def linear_part(machine: MachineSpec, supports: Mapping[str, SupportLaw]) -> Lin
         ring = f"{resonator.bearing}.outer.{resonator.axis}"
         builder.spring(name, ring, resonator.stiffness_n_per_m, resonator.damping_ns_per_m)
     _torsion(builder, machine)
+    _added(builder, masses)
     return _matrices(builder)

@@ -1,0 +1,69 @@
+"""What effects on rotors share: where a shaft's ends and bodies move, what it transmits, lines at its orders."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sim.core.elements import Coordinate
+from sim.core.errors import Problem, SpecError
+from sim.core.lines import Line
+from sim.core.spec import BearingSpec, MachineSpec, TorqueLoad
+from sim.core.terms import SiteContext
+from sim.parts.gear.from_spec import shaft_stiffness_nm_per_rad
+
+
+def bodies_on(machine: MachineSpec, shaft: str) -> list[str]:
+    """Gears, then bodies, of a shaft in the order of the specification."""
+    return [g.name for g in machine.gears if g.shaft == shaft] + [b.name for b in machine.bodies if b.shaft == shaft]
+
+
+def turning_on(machine: MachineSpec, shaft: str) -> list[str]:
+    """What turns on a shaft, in the order in which its torsional springs join it: end mass, gears, bodies."""
+    found = [s.name for s in machine.shafts if s.name == shaft and s.end_inertia_kg_m2 is not None]
+    found += [g.name for g in machine.gears if g.shaft == shaft]
+    return found + [b.name for b in machine.bodies if b.shaft == shaft and b.inertia_kg_m2 is not None]
+
+
+def bearings_of(machine: MachineSpec, body: str) -> list[BearingSpec]:
+    """Bearings that carry a body."""
+    return [b for b in machine.bearings if b.body == body]
+
+
+def moves(machine: MachineSpec, body: str) -> bool:
+    """Whether a gear or body moves in x and y."""
+    if any(g.name == body and g.translates for g in machine.gears):
+        return True
+    return any(b.name == body and b.axes == "xy" for b in machine.bodies)
+
+
+def refusal(site: SiteContext, key: str, lacks: str, allowed: str) -> SpecError:
+    """The error of a term at a site that lacks what it needs."""
+    return SpecError(Problem(field=site.site, message=f"{key} cannot act here: {lacks}", given=key, allowed=allowed))
+
+
+def plane(body: str, name: str) -> tuple[Coordinate, Coordinate]:
+    """Displacement of a body in x and y, m."""
+    x, y = (Coordinate(name=f"{name}.{a}", unit="m", weights=((f"{body}.{a}", 1.0),)) for a in ("x", "y"))
+    return x, y
+
+
+def shaft_torque_nm(site: SiteContext) -> float:
+    """Mean torque in the site's shaft, N m: what is given there, else what balances the power of all others."""
+    torques: dict[str, float] = {}
+    for load in site.machine.loads:
+        if isinstance(load, TorqueLoad):
+            torques[load.shaft] = torques.get(load.shaft, 0.0) + load.torque_nm
+    if site.shaft in torques:
+        return torques[site.shaft]
+    speeds = {s.name: site.bases_hz.get(f"f_r{i}", 0.0) for i, s in enumerate(site.machine.shafts, 1)}
+    power = sum(torque * speeds.get(name, 0.0) for name, torque in torques.items())
+    return -power / site.speed_hz if site.speed_hz > 0.0 else 0.0
+
+
+def shaft_lines(site: SiteContext, key: str, orders: Sequence[int]) -> tuple[Line, ...]:
+    """Multiples of the rotation of the site's shaft."""
+    if not site.shaft_base:
+        return ()
+    return tuple(
+        Line(orders=((site.shaft_base, k),), component=site.site, mechanism=key, family="shaft") for k in orders
+    )
