@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -12,9 +11,10 @@ import numpy as np
 from sim.core.errors import Problem, SpecError
 from sim.core.laws import AddedMass, SupportLaw
 from sim.core.response import FloatArray
-from sim.core.spec import BearingSpec, GearSpec, MachineSpec, ShaftSpec
+from sim.core.spec import BearingSpec, GearSpec, MachineSpec
 from sim.core.system import Damper
 from sim.parts.gear.from_spec import gear_from_spec
+from sim.parts.rotor import shaft_torsion_nm_per_rad
 
 
 @dataclass(kw_only=True)
@@ -59,13 +59,6 @@ class Linear:
     dampers: tuple[Damper, ...]
     holds: FloatArray
     derived: Mapping[str, str]
-
-
-def shaft_torsion_nm_per_rad(shaft: ShaftSpec) -> float | None:
-    """G J / (L / 2) of a solid shaft to its middle, where the gear sits; None without a diameter."""
-    if shaft.diameter_m is None:
-        return None
-    return shaft.shear_modulus_pa * math.pi * shaft.diameter_m**4 / 32 / (0.5 * shaft.length_m)
 
 
 def _gear(builder: Builder, gear: GearSpec) -> None:

@@ -2,14 +2,36 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from sim.core.elements import Coordinate
 from sim.core.errors import Problem, SpecError
 from sim.core.lines import Line
-from sim.core.spec import BearingSpec, MachineSpec, TorqueLoad
+from sim.core.spec import BearingSpec, MachineSpec, ShaftSpec, TorqueLoad
 from sim.core.terms import SiteContext
-from sim.parts.gear.from_spec import shaft_stiffness_nm_per_rad
+
+
+def shaft_torsion_nm_per_rad(shaft: ShaftSpec) -> float | None:
+    """G J / (L / 2) of a solid shaft to its middle, where the gear sits; None without a diameter."""
+    if shaft.diameter_m is None:
+        return None
+    return shaft.shear_modulus_pa * math.pi * shaft.diameter_m**4 / 32 / (0.5 * shaft.length_m)
+
+
+def coupling_spring(site: SiteContext, key: str) -> tuple[str, str, float, float]:
+    """Both ends of the spring between a shaft's end mass and what turns next, with its stiffness and damping.
+
+    Names of what turns, N m/rad, N m s/rad. SpecError where a shaft has no end mass or nothing beside it.
+    """
+    shaft = next(s for s in site.machine.shafts if s.name == site.site)
+    turning = turning_on(site.machine, shaft.name)
+    if shaft.end_inertia_kg_m2 is None or len(turning) < 2:
+        lacks = "the coupling is the torsional spring between the shaft's end mass and the next gear or body"
+        raise refusal(site, key, lacks, "a shaft with end_inertia_kg_m2 and a gear")
+    given = shaft.torsional_stiffness_nm_per_rad
+    stiffness = shaft_torsion_nm_per_rad(shaft) if given is None else given
+    return turning[0], turning[1], stiffness or 0.0, shaft.torsional_damping_nms_per_rad
 
 
 def bodies_on(machine: MachineSpec, shaft: str) -> list[str]:

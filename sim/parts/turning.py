@@ -107,3 +107,13 @@ def turning(order: int, size: float, phase: float, sense: float, rate: float = 0
         cosine_rate=(rate * order * sine[0], rate * order * sine[1]),
         sine_rate=(-rate * order * cosine[0], -rate * order * cosine[1]),
     )
+
+
+def in_direction(order: float, along: Pair, across: Pair, angle: float) -> Harmonic:
+    """A force with (cosine, sine) parts `along` a direction and `across` it, in x and y; `angle` is counted from x."""
+    c, s = math.cos(angle), math.sin(angle)
+    return Harmonic(
+        order=order,
+        cosine=(c * along[0] - s * across[0], s * along[0] + c * across[0]),
+        sine=(c * along[1] - s * across[1], s * along[1] + c * across[1]),
+    )
