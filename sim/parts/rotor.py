@@ -58,6 +58,15 @@ def moves(machine: MachineSpec, body: str) -> bool:
     return any(b.name == body and b.axes == "xy" for b in machine.bodies)
 
 
+def outer_radius_m(machine: MachineSpec, body: str) -> float:
+    """Tip radius of a gear; of a body that of a disc of its mass and inertia, sqrt(2 I / m); without one no limit."""
+    for gear in machine.gears:
+        if gear.name == body:
+            return gear.module_m * (0.5 * gear.teeth + gear.addendum_coefficient + gear.profile_shift_coefficient)
+    found = next(b for b in machine.bodies if b.name == body)
+    return math.inf if found.inertia_kg_m2 is None else math.sqrt(2.0 * found.inertia_kg_m2 / found.mass_kg)
+
+
 def refusal(site: SiteContext, key: str, lacks: str, allowed: str) -> SpecError:
     """The error of a term at a site that lacks what it needs."""
     return SpecError(Problem(field=site.site, message=f"{key} cannot act here: {lacks}", given=key, allowed=allowed))

@@ -17,13 +17,14 @@ from sim.core.choose import larger, root, select, somewhere, uniform
 from sim.core.compiled import inline
 from sim.core.elementary import hyperbolic_tangent
 from sim.core.elements import Coordinate, Element, Output, flat
+from sim.core.errors import Problem, SpecError
 from sim.core.kernels import kernel
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.params import Param
 from sim.core.spec import MachineSpec, TermSpec
 from sim.core.terms import Demo, SiteContext, Term, Validation, Values
-from sim.parts.rotor import moves, plane, refusal, shaft_lines, turning_on
+from sim.parts.rotor import moves, outer_radius_m, plane, refusal, shaft_lines, turning_on
 
 # parameters: turning coordinate (0, 1), stiffness, gap, loss chi, friction, v_0, radius, sense
 
@@ -131,6 +132,13 @@ class Rub(Term):
         """One contact around the body."""
         if not moves(site.machine, site.site) or not site.shaft_base:
             raise refusal(site, self.key, "it does not turn and move in x and y", "a gear or body of a shaft")
+        largest = outer_radius_m(site.machine, site.site)
+        if values["radius"] > largest:
+            message = f"{site.site} does not reach that far: its outer radius is {largest:.4g} m"
+            allowed = f"0.001 to {largest:.4g}"
+            raise SpecError(
+                Problem(field=f"{self.key}.radius", message=message, given=values["radius"], allowed=allowed, unit="m")
+            )
         name = f"{site.site}.rub"
         turning = site.site in turning_on(site.machine, site.shaft)
         coordinates: tuple[Coordinate, ...] = plane(site.site, name)
@@ -169,7 +177,7 @@ TERM = Rub(
             unit="N/m",
             default=1e7,
             low=0.0,
-            high=1e9,
+            high=1e8,
             sentence="Radial stiffness of the ring that is touched.",
             scale="log",
         ),
@@ -205,7 +213,7 @@ TERM = Rub(
             unit="m",
             default=0.02,
             low=1e-3,
-            high=5.0,
+            high=1.0,
             sentence="Radius at which the rotor touches, for its surface speed and the braking torque.",
             scale="log",
         ),
