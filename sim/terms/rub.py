@@ -198,7 +198,7 @@ TERM = Rub(
             high=10.0,
             sentence="Growth of the force per speed of approach (Hunt & Crossley): 3/2 (1 - e) / v by restitution e.",
         ),
-        Param(name="friction", unit="1", default=0.1, low=0.0, high=1.0, sentence="Coulomb friction on the ring."),
+        Param(name="friction", unit="1", default=0.1, low=0.0, high=0.5, sentence="Coulomb friction on the ring."),
         Param(
             name="friction_speed",
             unit="m/s",
