@@ -178,9 +178,7 @@ def _added(builder: Builder, masses: Sequence[AddedMass]) -> None:
             builder.spring(spring.a, spring.b, spring.stiffness, spring.damping)
 
 
-def linear_part(
-    machine: MachineSpec, supports: Mapping[str, SupportLaw], masses: Sequence[AddedMass] = ()
-) -> Linear:
+def linear_part(machine: MachineSpec, supports: Mapping[str, SupportLaw], masses: Sequence[AddedMass] = ()) -> Linear:
     """Walk the machine shaft by shaft and build the linear matrices; DOF order groups what is coupled.
 
     Masses that terms add come last, so the DOFs of the machine keep their places.

@@ -3,8 +3,8 @@
 expression = term (+|- term)*;  term = factor (*|/ factor)*;  factor = -factor | power;  power = atom [^ exponent]
 atom = number | x | v | phi | pi | name(expression[, expression]) | (expression);  exponent = [-] number
 
-Whole exponents from -8 to 8 are products; others take the base as zero where it is negative. Division by less than 1e-300
-and roots of negative numbers give finite numbers, so a law never stops a run by itself.
+Whole exponents from -8 to 8 are products; others take the base as zero where it is negative. Divisors are kept 1e-150
+away from zero and roots of negative numbers are zero (`sim.parts.program_kernel`).
 """
 
 from __future__ import annotations
@@ -22,7 +22,8 @@ BINARY = {"+": 10, "-": 11, "*": 12, "/": 13, "max": 15, "min": 16}
 NUMBER, REAL_POWER, WHOLE_POWER, TABLE = 0, 30, 100, 40
 """Codes: a number, a power by a real number, powers by whole numbers n as 100 + n, the table of a law."""
 LARGEST_WHOLE = 8
-TOKEN = re.compile(r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_]\w*)|(?P<sign>[-+*/^(),]))")
+NUMBERS = r"(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
+TOKEN = re.compile(rf"\s*(?:{NUMBERS}|(?P<name>[A-Za-z_]\w*)|(?P<sign>[-+*/^(),]))", re.ASCII)
 ALLOWED = "numbers, x, v, phi, pi, + - * / ^ ( ), sin cos abs sign sqrt exp tanh max(a, b) min(a, b)"
 
 

@@ -1,8 +1,8 @@
 """Elastic law of one coordinate that a linear spring of the machine lacks: cubic, dead zone, one-sided loss.
 
-f(x) = cubic x^3 - held clamp(x, -gap, gap) - lifted max(x - start, 0). Beside a spring k x of the machine, held = k makes
-a dead zone of +- gap, lifted = share k a spring that is softer on one side. The energies of the two reductions are
-negative: together with the machine's spring they are what is stored.
+f(x) = cubic x^3 - held clamp(x, -gap, gap) - lifted max(x - start, 0). Beside a spring k x of the machine, held = k
+makes a dead zone of +- gap, lifted = share k a spring that is softer on one side. The energies of the two reductions
+are negative: together with the machine's spring they are what is stored.
 """
 
 from __future__ import annotations

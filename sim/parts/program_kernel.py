@@ -13,9 +13,6 @@ from sim.core.elementary import exponential, hyperbolic_tangent, logarithm, sine
 from sim.core.kernels import kernel
 
 CONTEXT = 25
-P_SCALE, P_TABLE, P_VALUES = 129, 130, 137
-LEAST = 1e-150
-"""Divisors are kept that far from zero."""
 
 
 def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
@@ -52,7 +49,7 @@ def unary(code, a, number):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN2
     """Value and slope of a function of one number."""
     value = -a
     slope = 0.0 * a - 1.0
-    if code == 20 or code == 21:
+    if 20 <= code <= 21:
         s, c = sine_cosine(a)
         value = s if code == 20 else c
         slope = c if code == 20 else -s
@@ -125,39 +122,41 @@ def table(x, v, phi, par):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN20
 
 
 @inline
-def binary(code, ctx, at):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Replace the two topmost places by their sum, difference, product, quotient, larger or smaller."""
-    a = ctx[at]
-    b = ctx[at + 3]
-    if code == 13:
-        b = guarded(b)
-    for k in range(2):
-        da = ctx[at + 1 + k]
-        db = ctx[at + 4 + k]
-        if code == 10:
-            ctx[at + 1 + k] = da + db
-        elif code == 11:
-            ctx[at + 1 + k] = da - db
-        elif code == 12:
-            ctx[at + 1 + k] = da * b + a * db
-        elif code == 13:
-            ctx[at + 1 + k] = (da - a / b * db) / b
-        elif code == 15:
-            ctx[at + 1 + k] = select(a < b, db, da)
-        else:
-            ctx[at + 1 + k] = select(a > b, db, da)
+def joined(code, a, b, da, db):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Derivative of the sum, difference, product, quotient, larger or smaller of two numbers by their derivatives."""
+    slope = select(a > b, db, da)
     if code == 10:
-        ctx[at] = a + b
+        slope = da + db
     elif code == 11:
-        ctx[at] = a - b
+        slope = da - db
     elif code == 12:
-        ctx[at] = a * b
+        slope = da * b + a * db
     elif code == 13:
-        ctx[at] = a / b
+        slope = (da - a / b * db) / b
     elif code == 15:
-        ctx[at] = larger(a, b)
-    else:
-        ctx[at] = smaller(a, b)
+        slope = select(a < b, db, da)
+    return slope
+
+
+@inline
+def binary(code, ctx, at):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Replace the two topmost places by what the code makes of them."""
+    a = ctx[at]
+    b = guarded(ctx[at + 3]) if code == 13 else ctx[at + 3]
+    for k in range(2):
+        ctx[at + 1 + k] = joined(code, a, b, ctx[at + 1 + k], ctx[at + 4 + k])
+    value = smaller(a, b)
+    if code == 10:
+        value = a + b
+    elif code == 11:
+        value = a - b
+    elif code == 12:
+        value = a * b
+    elif code == 13:
+        value = a / b
+    elif code == 15:
+        value = larger(a, b)
+    ctx[at] = value
 
 
 @inline

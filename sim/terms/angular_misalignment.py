@@ -16,7 +16,16 @@ from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.params import Param
 from sim.core.terms import Demo, SiteContext, Term, Validation, Values
-from sim.parts.rotor import bearings_of, bodies_on, coupling_spring, moves, refusal, shaft_lines, shaft_torque_nm, turning_on
+from sim.parts.rotor import (
+    bearings_of,
+    bodies_on,
+    coupling_spring,
+    moves,
+    refusal,
+    shaft_lines,
+    shaft_torque_nm,
+    turning_on,
+)
 from sim.parts.turning import Harmonic, in_direction, turning_element
 
 TERMS = 5
@@ -68,7 +77,9 @@ class AngularMisalignment(Term):
         ended = any(s.name == site.site and s.end_inertia_kg_m2 is not None for s in machine.shafts)
         if ended and len(turning_on(machine, site.site)) > 1:
             found.append(self._twist(values, site))
-        bearings = [b for name in bodies_on(machine, site.site) if moves(machine, name) for b in bearings_of(machine, name)]
+        bearings = [
+            b for name in bodies_on(machine, site.site) if moves(machine, name) for b in bearings_of(machine, name)
+        ]
         if len(bearings) > 1:
             found.append(self._bending(values, site, bearings[0].name, bearings[-1].name))
         if not found:

@@ -82,8 +82,10 @@ TERM = BentShaft(
         Param(name="phase", unit="rad", default=0.0, low=-6.2832, high=6.2832, sentence="Angle of the bow at t = 0."),
     ),
     references=(
-        "Nicholas, Gunter & Allaire 1976, Effect of residual shaft bow on unbalance response and balancing of a single "
-        "mass flexible rotor, part 1, J. Eng. Power 98(2)",
+        (
+            "Nicholas, Gunter & Allaire 1976, Effect of residual shaft bow on unbalance response and balancing "
+            "of a single mass flexible rotor, part 1, J. Eng. Power 98(2)"
+        ),
     ),
     severity="bow",
     order=20,

@@ -149,7 +149,7 @@ TERM = CustomForce(
     validation=(
         Validation(
             kind="closed form",
-            source="period of Duffing's free motion by the complete elliptic integral, from the expression of its force",
+            source="period of Duffing's free motion by the complete elliptic integral, from its expression",
             deviation=1e-5,
             test="tests/sim/terms/test_custom_force.py::test_period_of_a_cubic_spring",
         ),

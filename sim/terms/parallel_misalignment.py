@@ -32,12 +32,12 @@ HIGHEST = 15
 
 def along(order: int) -> float:
     """Coefficient of cos(order psi) in |cos psi| cos psi, for odd orders."""
-    return 8.0 / math.pi * (-1) ** ((order + 1) // 2) / (order * (order * order - 4))
+    return 8.0 / math.pi * (-1.0) ** ((order + 1) // 2) / (order * (order * order - 4))
 
 
 def across(order: int) -> float:
     """Coefficient of sin(order psi) in |cos psi| sin psi, for odd orders."""
-    return 4.0 / math.pi * (-1) ** ((order + 1) // 2) / (order * order - 4)
+    return 4.0 / math.pi * (-1.0) ** ((order + 1) // 2) / (order * order - 4)
 
 
 def harmonics(force: float, odd: float, direction: float, phase: float, sense: float) -> tuple[Harmonic, ...]:
@@ -127,8 +127,10 @@ TERM = ParallelMisalignment(
     ),
     references=(
         "derived on the page from elastic elements of a turning hub",
-        "Sekhar & Prabhu 1995, Effects of coupling misalignment on vibrations of rotating machinery, J. Sound Vib. "
-        "185(4) (second harmonic as its signature)",
+        (
+            "Sekhar & Prabhu 1995, Effects of coupling misalignment on vibrations of rotating machinery, J. "
+            "Sound Vib. 185(4) (second harmonic as its signature)"
+        ),
     ),
     severity="offset",
     order=20,

@@ -78,14 +78,19 @@ TERM = PedestalLooseness(
         ),
     ),
     references=(
-        "Muszynska & Goldman 1995, Chaotic responses of unbalanced rotor/bearing/stator systems with looseness or rubs, "
-        "Chaos, Solitons & Fractals 5(9)",
-        "Ehrich 1988, High order subharmonic response of high speed rotors in bearing clearance, J. Vib. Acoust. 110(1)",
+        (
+            "Muszynska & Goldman 1995, Chaotic responses of unbalanced rotor/bearing/stator systems with "
+            "looseness or rubs, Chaos, Solitons & Fractals 5(9)"
+        ),
+        (
+            "Ehrich 1988, High order subharmonic response of high speed rotors in bearing clearance, J. Vib. "
+            "Acoust. 110(1)"
+        ),
     ),
     severity="loss",
     order=30,
     excludes=("fit_clearance",),
-    demo=Demo(leading=2, values={"loss": 0.8}, prepare=_with_unbalance),
+    demo=Demo(leading=1, values={"loss": 0.8}, prepare=_with_unbalance),
     validation=(
         Validation(
             kind="closed form",

@@ -37,7 +37,7 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
 
 
 @inline
-def rub_tangent(u, ud, par, turning, state, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+def rub_tangent(par, turning, state, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Derivatives of the forces by x, y (, theta) and their rates."""
     nx, ny, r, rate, slip, depth, pushes, load, share = state
     n = 2 + turning
@@ -100,7 +100,7 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
     if turning == 1:
         f[2] = par[7] * par[6] * friction
     if mode == 1:
-        rub_tangent(u, ud, par, turning, (nx, ny, r, rate, slip, depth, pushes, load, share), out)
+        rub_tangent(par, turning, (nx, ny, r, rate, slip, depth, pushes, load, share), out)
     if mode == 2:
         out[0] = 0.5 * elastic * depth
         out[1] = (load - elastic) * rate + friction * (slip + surface)
@@ -219,13 +219,15 @@ TERM = Rub(
         ),
     ),
     references=(
-        "Muszynska 1989, Rotor-to-stationary element rub-related vibration phenomena in rotating machinery: literature "
-        "survey, Shock Vib. Dig. 21(3)",
+        (
+            "Muszynska 1989, Rotor-to-stationary element rub-related vibration phenomena in rotating machinery: "
+            "literature survey, Shock Vib. Dig. 21(3)"
+        ),
         "Hunt & Crossley 1975, Coefficient of restitution interpreted as damping in vibroimpact, J. Appl. Mech. 42(2)",
     ),
     severity="stiffness",
     order=30,
-    demo=Demo(leading=2, prepare=_with_unbalance),
+    demo=Demo(leading=1, prepare=_with_unbalance),
     validation=(
         Validation(
             kind="independent calculation",

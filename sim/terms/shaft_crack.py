@@ -1,4 +1,4 @@
-"""Breathing crack of a shaft between a bearing and its gear or disc: the spring there is softer while the crack is open.
+"""Breathing crack of a shaft between a bearing and its gear or disc: its spring is softer while the crack is open.
 
 With xi across the crack (turning with the shaft) and b = (1 + cos psi) / 2 the open share, psi the angle between the
 crack and the side that the static load stretches (Mayes & Davies), the spring k loses
@@ -122,7 +122,7 @@ class ShaftCrack(Term):
 TERM = ShaftCrack(
     key="shaft_crack",
     title="Breathing crack of a shaft",
-    sentence="A crack across the shaft opens and closes under the load in every turn, so the shaft's stiffness breathes.",
+    sentence="A crack across the shaft opens and closes under the load in each turn, so its stiffness breathes.",
     sites=("bearing",),
     params=(
         Param(
@@ -152,10 +152,15 @@ TERM = ShaftCrack(
         Param(name="phase", unit="rad", default=0.0, low=-6.2832, high=6.2832, sentence="Angle of the crack at t = 0."),
     ),
     references=(
-        "Mayes & Davies 1984, Analysis of the response of a multi-rotor-bearing system containing a transverse crack in "
-        "a rotor, J. Vib. Acoust. Stress Reliab. Des. 106(1) (cosine law)",
-        "Gasch 1993, A survey of the dynamic behaviour of a simple rotating shaft with a transverse crack, J. Sound "
-        "Vib. 160(2) (one, two and three times the rotation; resonances at 1/2 and 1/3 of the critical speed)",
+        (
+            "Mayes & Davies 1984, Analysis of the response of a multi-rotor-bearing system containing a "
+            "transverse crack in a rotor, J. Vib. Acoust. Stress Reliab. Des. 106(1) (cosine law)"
+        ),
+        (
+            "Gasch 1993, A survey of the dynamic behaviour of a simple rotating shaft with a transverse crack, "
+            "J. Sound Vib. 160(2) (one, two and three times the rotation; resonances at 1/2 and 1/3 of the "
+            "critical speed)"
+        ),
     ),
     severity="loss",
     order=30,

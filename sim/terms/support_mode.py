@@ -1,4 +1,4 @@
-"""An extra mode of the structure at a bearing: a mass on a spring and damper that hangs on its seat (cover, pipe, plate).
+"""An extra mode of the structure at a bearing: a mass on a spring and damper on its seat (cover, pipe, plate).
 
 The modal mass m and the frequency f of the part alone give its spring k = m (2 pi f)^2 and damper 2 zeta m (2 pi f).
 It adds one degree of freedom, `bearing1.mode.y`; no mass is the healthy machine.

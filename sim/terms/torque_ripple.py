@@ -17,6 +17,7 @@ from sim.parts.turning import Harmonic, turning_element
 
 OUTPUTS = (Output(name="torque", quantity="torque", unit="N*m", axis="theta"),)
 
+
 @dataclass(frozen=True, kw_only=True)
 class TorqueRipple(Term):
     """See the module."""
@@ -72,8 +73,12 @@ TERM = TorqueRipple(
             sentence="Peak of the varying part of the torque.",
             scale="log",
         ),
-        Param(name="order", unit="1", default=2.0, low=1.0, high=200.0, sentence="Periods in one turn, a whole number."),
-        Param(name="phase", unit="rad", default=0.0, low=-6.2832, high=6.2832, sentence="Angle of its cosine at t = 0."),
+        Param(
+            name="order", unit="1", default=2.0, low=1.0, high=200.0, sentence="Periods in one turn, a whole number."
+        ),
+        Param(
+            name="phase", unit="rad", default=0.0, low=-6.2832, high=6.2832, sentence="Angle of its cosine at t = 0."
+        ),
     ),
     references=(
         "Den Hartog, Mechanical Vibrations, 4th ed. 1956, ch. 5 (torque harmonics of engines by order of rotation)",

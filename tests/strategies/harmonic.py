@@ -31,7 +31,11 @@ def on(element: Element, *weights: Sequence[tuple[str, float]]) -> Element:
 
 
 def small_system(
-    dofs: Sequence[str], mass: Sequence[float], elements: tuple[Element, ...], speeds_hz: Mapping[str, float], **matrices
+    dofs: Sequence[str],
+    mass: Sequence[float],
+    elements: tuple[Element, ...],
+    speeds_hz: Mapping[str, float],
+    **matrices,
 ) -> System:
     """A system of these matrices and elements, whose shafts turn at these speeds."""
     return replace(bare_system(dofs, mass, elements=elements, **matrices), speeds_hz={"": 0.0} | dict(speeds_hz))
@@ -43,7 +47,7 @@ def steady_amplitude(mass, damping, stiffness, force, omega):
 
 
 def steady_error(system: System, force, omega: float, *, step_s: float, steps: int) -> float:
-    """Largest deviation from the steady motion under Re(force exp(i omega t)), started on it; over the largest motion."""
+    """Largest deviation from the steady motion under Re(force exp(i omega t)), begun on it, over the largest."""
     amplitude = steady_amplitude(system.mass, system.damping, system.stiffness, np.asarray(force), omega)
     start = np.concatenate([amplitude.real, (1j * omega * amplitude).real])
     states = drive(system, step_s=step_s, steps=steps, start=start).states

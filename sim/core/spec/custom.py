@@ -18,7 +18,7 @@ class ForceTable(SpecModel):
     """First and last displacement, m (rad)."""
     displacements: Annotated[int, Field(ge=2, le=256, strict=False), WHOLE]
     """Number of displacements."""
-    velocity: Annotated[list[Finite], Field(min_length=2, max_length=2)] = [-1.0, 1.0]
+    velocity: Annotated[list[Finite], Field(min_length=2, max_length=2)] = Field(default=[-1.0, 1.0])
     """First and last velocity, m/s (rad/s)."""
     velocities: Annotated[int, Field(ge=1, le=256, strict=False), WHOLE] = 1
     """Number of velocities; one: the force does not depend on it."""
@@ -41,8 +41,8 @@ class ForceTable(SpecModel):
 class CustomLaw(SpecModel):
     """A force law f between two degrees of freedom, or one and the ground; the term `custom_force` lets it act.
 
-    x = `dof` - `against` in m (rad), v its rate, phi the angle of the site's shaft in rad. The machine feels -f on `dof`
-    and +f on `against`: f = 1e6*x is a spring.
+    x = `dof` - `against` in m (rad), v its rate, phi the angle of the site's shaft in rad. The machine feels -f on
+    `dof` and +f on `against`: f = 1e6*x is a spring.
     """
 
     name: Name

@@ -41,7 +41,9 @@ def force_of(element, x, v, phi):
     plain = plain_force(element, 1, trial.u, trial.ud, row.copy())
     force, out = compiled_force(element, 1, trial.u, trial.ud, row.copy())
     scale = 1e-12 * (1.0 + np.max(np.abs([plain.force[0], plain.stiffness[0, 0], plain.damping[0, 0]])))
-    assert [force[0], *out[:2]] == pytest.approx([plain.force[0], plain.stiffness[0, 0], plain.damping[0, 0]], abs=scale)
+    assert [force[0], *out[:2]] == pytest.approx(
+        [plain.force[0], plain.stiffness[0, 0], plain.damping[0, 0]], abs=scale
+    )
     return plain.force[0], plain.stiffness[0, 0], plain.damping[0, 0]
 
 
@@ -66,7 +68,7 @@ def test_an_expression_is_what_it_says_with_its_derivatives(text):
     rng = np.random.default_rng(4)
     exact = LAWS[text]
     for _ in range(6):
-        x, v, phi = rng.uniform(-1.0, 1.0, 2).tolist() + [rng.uniform(0.0, 40.0)]
+        x, v, phi = (*rng.uniform(-1.0, 1.0, 2).tolist(), rng.uniform(0.0, 40.0))
         found = force_of(element, x, v, phi)
         h = 1e-6
         slopes = [

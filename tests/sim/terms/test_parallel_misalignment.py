@@ -37,9 +37,7 @@ def test_series_is_the_force_of_the_elements(odd, sense):
     phi = 2.0 * np.pi * np.arange(POINTS) / POINTS
     settings = {"force": 2.0, "odd": odd, "direction": 0.8, "phase": -0.3, "sense": sense}
     waves = harmonics(**settings)
-    series = sum(
-        np.outer(h.cosine, np.cos(h.order * phi)) + np.outer(h.sine, np.sin(h.order * phi)) for h in waves
-    )
+    series = sum(np.outer(h.cosine, np.cos(h.order * phi)) + np.outer(h.sine, np.sin(h.order * phi)) for h in waves)
     found = np.fft.rfft(series, axis=1)[:, :HIGHEST] / POINTS
     exact = np.fft.rfft(directly(**settings, phi=phi), axis=1)[:, :HIGHEST] / POINTS
     assert np.max(np.abs(found - exact)) < 2.0 * allowed(TERM, "test_series_is_the_force_of_the_elements")

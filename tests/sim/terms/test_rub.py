@@ -79,5 +79,5 @@ def test_friction_brakes_the_shaft_and_its_heat_comes_from_the_rotation():
 
 def test_a_radius_beyond_the_gear_is_refused():
     term = TermSpec(term="rub", site="pinion", parameters={"radius": 0.5})
-    with pytest.raises(SpecError, match="outer radius is 0.025 m"):
+    with pytest.raises(SpecError, match=r"outer radius is 0\.025 m"):
         assemble(with_terms(GEARBOX, term))
