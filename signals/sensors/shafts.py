@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from signals.sensors.place import Pickup
-from sim.assembly.linear import shaft_torsion_nm_per_rad
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec, ShaftSpec
+from sim.parts.rotor import shaft_torsion_nm_per_rad
 
 MAX_PULSES = 10_000_000
 """Of one tacho: eight bytes each, several times over while they are made."""

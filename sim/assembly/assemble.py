@@ -12,7 +12,7 @@ from sim.assembly.held import check_held
 from sim.assembly.kinematics import Kinematics, kinematics, slipped_bases
 from sim.assembly.laws import Acting, acting_terms, base_laws, machine_context, modified_laws, settings_of, site_context
 from sim.assembly.linear import Linear, linear_part
-from sim.assembly.loads import load_vector
+from sim.assembly.loads import load_vector, weight_vector
 from sim.assembly.plausibility import implausible
 from sim.assembly.references import check_references
 from sim.assembly.run_up import run_up_elements
@@ -79,13 +79,14 @@ def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGIST
     warnings += [text for a in extra for text in a.term.cautions(a.values, a.site)]
     bases = slipped_bases(kin, machine, laws)
     spins = {s: 2 * math.pi * hz * kin.senses.rotors.get(s, 1.0) for s, hz in kin.shaft_hz.items()}
-    linear = linear_part(machine, laws.supports, spins)
+    linear = linear_part(machine, laws.supports, spins, laws.masses)
     acting = _base(machine, kin, registry, seed) + extra
     elements = _elements(acting, laws, linear.names) + run_up_elements(machine, kin, linear)
     _check_masses(linear)
     check_held(machine, linear, elements, laws.supports)
     derived |= linear.derived
     load = load_vector(machine, kin, linear.names, linear.mass, derived)
+    load = load + weight_vector(laws.weights, linear.names, linear.mass)
     dynamic = machine.operating is not None and machine.operating.kinematics == "dynamic"
     angles = {n[: -len(".theta")]: i for i, n in enumerate(linear.names) if n.endswith(".theta")} if dynamic else {}
     return System(

@@ -32,6 +32,7 @@ def site_kinds(machine: MachineSpec) -> dict[str, SiteKind]:
     """Every site of a machine by name."""
     kinds: dict[str, SiteKind] = {b.name: "bearing" for b in machine.bearings}
     kinds |= {g.name: "gear" for g in machine.gears}
+    kinds |= {b.name: "body" for b in machine.bodies}
     kinds |= {m.name: "mesh" for m in machine.meshes}
     kinds |= {s.name: "shaft" for s in machine.shafts}
     return kinds
@@ -39,7 +40,7 @@ def site_kinds(machine: MachineSpec) -> dict[str, SiteKind]:
 
 def site_context(machine: MachineSpec, kin: Kinematics, site: str, seed: int) -> SiteContext:
     """Context of a site."""
-    groups = (machine.bearings, machine.gears, machine.meshes, machine.shafts)
+    groups = (machine.bearings, machine.gears, machine.bodies, machine.meshes, machine.shafts)
     names = next(group for group in ([p.name for p in g] for g in groups) if site in group)
     body = site
     for bearing in machine.bearings:
@@ -169,13 +170,16 @@ def acting_terms(machine: MachineSpec, kin: Kinematics, registry: Registry, seed
 def _conflicts(acting: Sequence[Acting]) -> list[Problem]:
     problems = []
     seen: set[tuple[str, str]] = set()
+    told: set[tuple[str, str, float]] = set()
     for a in acting:
         key = (a.term.key, a.site.site)
-        if key in seen:
+        one = (*key, 0.0 if a.term.repeats is None else a.values[a.term.repeats])
+        if one in told:
             problems.append(
                 Problem(field="terms", message=f"{a.term.key} is given twice at {a.site.site}", given=a.term.key)
             )
         seen.add(key)
+        told.add(one)
     for a in acting:
         for other in a.term.excludes:
             if (other, a.site.site) in seen:

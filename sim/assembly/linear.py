@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -11,11 +10,12 @@ import numpy as np
 
 from sim.assembly.flexible import FlexibleShaft, flexible_shafts, torsion_chain
 from sim.core.errors import Problem, SpecError
-from sim.core.laws import SupportLaw
+from sim.core.laws import AddedMass, SupportLaw
 from sim.core.response import FloatArray
-from sim.core.spec import BearingSpec, GearSpec, MachineSpec, ShaftSpec
+from sim.core.spec import BearingSpec, GearSpec, MachineSpec
 from sim.core.system import Damper
 from sim.parts.gear.from_spec import gear_from_spec
+from sim.parts.rotor import shaft_torsion_nm_per_rad
 
 
 @dataclass(kw_only=True)
@@ -71,13 +71,6 @@ class Linear:
     dampers: tuple[Damper, ...]
     holds: FloatArray
     derived: Mapping[str, str]
-
-
-def shaft_torsion_nm_per_rad(shaft: ShaftSpec) -> float | None:
-    """G J / (L / 2) of a solid shaft to its middle, where the gear sits; None without a diameter."""
-    if shaft.diameter_m is None:
-        return None
-    return shaft.shear_modulus_pa * math.pi * shaft.diameter_m**4 / 32 / (0.5 * shaft.length_m)
 
 
 def _gear(builder: Builder, gear: GearSpec) -> None:
@@ -191,12 +184,32 @@ def _matrices(builder: Builder) -> Linear:
     )
 
 
+def _added(builder: Builder, masses: Sequence[AddedMass]) -> None:
+    """Degrees of freedom of the terms, in their order; SpecError where one would hang on nothing or stand twice."""
+    for added in masses:
+        part = added.name.split(".")[0]
+        if added.name in builder.names:
+            message = "two effects add this degree of freedom; one of them must go"
+            raise SpecError(Problem(field=part, message=message, given=added.name))
+        builder.mass(added.name, added.mass)
+        for spring in added.springs:
+            for end in (spring.a, spring.b):
+                if end is not None and end not in builder.names:
+                    message = f"{added.name} would hang on {end}, which this machine does not have"
+                    raise SpecError(Problem(field=part, message=message, allowed="a body that moves there"))
+            builder.spring(spring.a, spring.b, spring.stiffness, spring.damping)
+
+
 def linear_part(
-    machine: MachineSpec, supports: Mapping[str, SupportLaw], spins_rad_per_s: Mapping[str, float] | None = None
+    machine: MachineSpec,
+    supports: Mapping[str, SupportLaw],
+    spins_rad_per_s: Mapping[str, float] | None = None,
+    masses: Sequence[AddedMass] = (),
 ) -> Linear:
     """Walk the machine shaft by shaft and build the linear matrices; DOF order groups what is coupled.
 
-    `spins_rad_per_s`: signed speeds by shaft, for the gyroscopic moments of flexible shafts.
+    `spins_rad_per_s`: signed speeds by shaft, for the gyroscopic moments of flexible shafts. Masses that terms add come
+    last, so the DOFs of the machine keep their places.
     """
     builder = Builder()
     for shaft in machine.shafts:
@@ -218,4 +231,5 @@ def linear_part(
         ring = f"{resonator.bearing}.outer.{resonator.axis}"
         builder.spring(name, ring, resonator.stiffness_n_per_m, resonator.damping_ns_per_m)
     _torsion(builder, machine)
+    _added(builder, masses)
     return _matrices(builder)

@@ -8,6 +8,7 @@ import numpy as np
 
 from sim.assembly.kinematics import Kinematics
 from sim.core.errors import Problem, SpecError
+from sim.core.laws import AddedWeight
 from sim.core.response import FloatArray
 from sim.core.spec import ForceLoad, MachineSpec, TorqueLoad
 
@@ -104,4 +105,15 @@ def load_vector(
         for i, name in enumerate(dofs):
             if name.endswith(".y"):
                 load[i] -= mass[i] * machine.gravity_m_per_s2
+    return load
+
+
+def weight_vector(weights: Sequence[AddedWeight], dofs: Sequence[str], mass: FloatArray) -> FloatArray:
+    """Forces of the accelerations that terms add, shape (n,), N."""
+    load = np.zeros(len(dofs))
+    for weight in weights:
+        for i, name in enumerate(dofs):
+            if name.split(".")[0] in weight.parts:
+                pull = {"x": weight.x_m_per_s2, "y": weight.y_m_per_s2}.get(name.rsplit(".", 1)[1], 0.0)
+                load[i] += mass[i] * pull
     return load

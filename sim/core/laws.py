@@ -111,9 +111,46 @@ class SupportLaw:
 
 
 @dataclass(frozen=True, kw_only=True)
+class AddedSpring:
+    """A spring and damper between two degrees of freedom, or from one to ground (`b` None)."""
+
+    a: str
+    b: str | None = None
+    stiffness: float = 0.0
+    """N/m between displacements, N m/rad between angles."""
+    damping: float = 0.0
+    """N s/m between displacements, N m s/rad between angles."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AddedMass:
+    """A degree of freedom that a term adds, with what joins it to the machine; `held` checks that something does.
+
+    `name` is the DOF, part first and axis last: `bearing1.mode.y`. Masses are added after all parts of the machine and
+    in the order in which terms added them; springs may join any DOF of the machine or of a mass added before.
+    """
+
+    name: str
+    mass: float
+    """kg, or kg m^2 for an angle."""
+    springs: tuple[AddedSpring, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class AddedWeight:
+    """An acceleration in m/s^2 that pulls at every displacement of the named parts: m a, constant from t = 0 on."""
+
+    parts: tuple[str, ...]
+    x_m_per_s2: float
+    y_m_per_s2: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class Laws:
     """All named laws of a machine; terms return a changed copy."""
 
     meshes: Mapping[str, MeshLaw]
     balls: Mapping[str, BallLaw]
     supports: Mapping[str, SupportLaw]
+    masses: tuple[AddedMass, ...] = ()
+    weights: tuple[AddedWeight, ...] = ()

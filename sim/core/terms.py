@@ -15,7 +15,7 @@ from sim.core.lines import Line
 from sim.core.params import Param
 from sim.core.spec import MachineSpec
 
-SiteKind = Literal["bearing", "gear", "mesh", "shaft"]
+SiteKind = Literal["bearing", "gear", "body", "mesh", "shaft"]
 Values = Mapping[str, float]
 
 
@@ -97,6 +97,8 @@ class Term:
     order: int = 100
     excludes: tuple[str, ...] = field(default=())
     """Keys that cannot act at the same site."""
+    repeats: str | None = None
+    """Parameter that tells several effects of this kind at one site apart; none: one a site."""
     demo: Demo = field(default_factory=Demo)
     validation: tuple[Validation, ...] = ()
 

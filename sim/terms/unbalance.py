@@ -12,7 +12,8 @@ from sim.core.kernels import kernel
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.params import Param
-from sim.core.terms import SiteContext, Term, Values
+from sim.core.terms import SiteContext, Term, Validation, Values
+from sim.parts.rotor import moves, refusal
 
 CONTEXT = 2
 
@@ -55,7 +56,9 @@ class Unbalance(Term):
     """See the module."""
 
     def elements(self, laws: Laws, values: Values, site: SiteContext) -> Sequence[Element]:  # noqa: ARG002
-        """A turning force on the gear's x and y, in the sense of its shaft."""
+        """A turning force on the gear's or disc's x and y, in the sense of its shaft."""
+        if not moves(site.machine, site.site) or not site.shaft_base:
+            raise refusal(site, self.key, "it does not turn and move in x and y", "a gear or body of a shaft")
         coordinates = tuple(
             Coordinate(name=f"{site.site}.unbalance.{a}", unit="m", weights=((f"{site.site}.{a}", 1.0),))
             for a in ("x", "y")
@@ -87,7 +90,7 @@ TERM = Unbalance(
     key="unbalance",
     title="Unbalance",
     sentence="The centre of mass is beside the axis, so a force turns with the shaft.",
-    sites=("gear",),
+    sites=("gear", "body"),
     params=(
         Param(
             name="moment",
@@ -103,4 +106,12 @@ TERM = Unbalance(
     references=("ISO 21940-11:2016 (balance quality)",),
     severity="moment",
     order=20,
+    validation=(
+        Validation(
+            kind="closed form",
+            source="steady state of a Jeffcott rotor below, at and above its critical speed",
+            deviation=1e-6,
+            test="tests/sim/terms/test_unbalance.py::test_steady_state_of_a_jeffcott_rotor",
+        ),
+    ),
 )

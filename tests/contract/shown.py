@@ -57,6 +57,7 @@ def sites_of(machine: MachineSpec, term: Term) -> list[str]:
     parts: Mapping[str, list[str]] = {
         "bearing": [b.name for b in machine.bearings],
         "gear": [g.name for g in machine.gears],
+        "body": [b.name for b in machine.bodies],
         "mesh": [m.name for m in machine.meshes],
         "shaft": [s.name for s in machine.shafts],
     }

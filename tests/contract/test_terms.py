@@ -11,7 +11,7 @@ import pytest
 
 from sim.assembly.assemble import assemble
 from sim.core.errors import SpecError
-from sim.core.spec import TermSpec
+from sim.core.spec import CustomLaw, TermSpec
 from sim.core.terms import Registry, Term
 from sim.presets import preset
 from sim.solve.api import simulate
@@ -22,8 +22,9 @@ from tests.strategies.kernels import trials
 from tests.strategies.systems import with_terms
 
 ROOT = Path(__file__).resolve().parents[2]
-UNITS = {"1", "m", "mm", "rad", "kg", "kg*m", "N", "N/m", "N*s/m", "m/s", "Hz", "s", "Pa", "K", "N*m", "deg"}
-MACHINE = preset("paper-lightly-damped")
+UNITS = {"1", "m", "mm", "rad", "kg", "kg*m", "N", "N/m", "N*s/m", "m/s", "Hz", "s", "Pa", "K", "N*m", "deg", "s/m"}
+LAW = CustomLaw(name="stop", dof="bearing2.outer.y", expression="1e6*max(x-1e-5,0)^1.5+20*tanh(v/0.02)*cos(phi)")
+MACHINE = preset("paper-lightly-damped").model_copy(update={"custom_laws": [LAW]})
 SITES = {"bearing": "bearing2", "gear": "pinion", "mesh": "mesh1", "shaft": "input"}
 BASE = {"mesh_total", "mesh_pairs", "ball_contact", "force_load"}
 """Effects a machine has without asking, and that cannot be asked for twice."""
@@ -96,7 +97,7 @@ def test_values_fill_defaults_and_refuse_the_rest(term):
 def test_it_changes_something_at_its_default(term):
     system, elements = added(term)
     healthy = assemble(MACHINE)
-    assert elements or system.dofs != healthy.dofs
+    assert elements or system.dofs != healthy.dofs or not np.array_equal(system.load, healthy.load)
 
 
 def awake(term: Term) -> Registry:

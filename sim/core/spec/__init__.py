@@ -2,6 +2,7 @@
 
 from sim.core.spec.base import SCHEMA_VERSION, Name, SpecModel
 from sim.core.spec.bearings import BallGeometry, BearingSpec, ResonatorSpec, SupportSpec
+from sim.core.spec.custom import CustomLaw, ForceTable
 from sim.core.spec.gears import GearSpec, MeshSpec, MeshTable, TransmissionError
 from sim.core.spec.machine import MachineSpec
 from sim.core.spec.operating import (
@@ -22,8 +23,10 @@ __all__ = [
     "BallGeometry",
     "BearingSpec",
     "BodySpec",
+    "CustomLaw",
     "FluctuatingSpeed",
     "ForceLoad",
+    "ForceTable",
     "GearSpec",
     "LoadSpec",
     "MachineSpec",

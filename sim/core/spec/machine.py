@@ -8,6 +8,7 @@ from pydantic import Field
 
 from sim.core.spec.base import MAX_ITEMS, SpecModel
 from sim.core.spec.bearings import BearingSpec, ResonatorSpec
+from sim.core.spec.custom import CustomLaw
 from sim.core.spec.gears import GearSpec, MeshSpec
 from sim.core.spec.operating import LoadSpec, OperatingSpec, TermSpec
 from sim.core.spec.shafts import BodySpec, ShaftSpec
@@ -31,3 +32,5 @@ class MachineSpec(SpecModel):
     operating: OperatingSpec | None = None
     """Needed by any machine with shafts."""
     terms: Annotated[list[TermSpec], Field(max_length=4 * MAX_ITEMS)] = Field(default_factory=list)
+    custom_laws: Annotated[list[CustomLaw], Field(max_length=MAX_ITEMS)] = Field(default_factory=list)
+    """Force laws of the user's own, numbered from 1; each acts where a term `custom_force` names its number."""

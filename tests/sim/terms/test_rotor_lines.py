@@ -1,0 +1,36 @@
+"""Lines of effects that follow a shaft are found where they are predicted, at three speeds."""
+
+from __future__ import annotations
+
+import pytest
+
+from sim.assembly.assemble import assemble
+from sim.terms import REGISTRY
+from tests.contract.shown import demo_machines, promised, shown
+
+KEYS = (
+    "unbalance",
+    "bent_shaft",
+    "parallel_misalignment",
+    "angular_misalignment",
+    "torque_ripple",
+    "shaft_crack",
+    "pedestal_looseness",
+    "rub",
+)
+
+
+def turning_at(machine, hz):
+    return machine.model_copy(update={"operating": machine.operating.model_copy(update={"speed_hz": hz})})
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("speed_hz", [22.0, 31.5, 40.0])
+@pytest.mark.parametrize("key", KEYS)
+def test_line_at_its_speed(key, speed_hz):
+    term = REGISTRY.get(key)
+    with_term, plain = (turning_at(m, speed_hz) for m in demo_machines(term))
+    lines = promised(term, assemble(with_term), assemble(plain))[:1]
+    assert lines[0].frequency_hz(assemble(with_term).bases_hz) % speed_hz == pytest.approx(0.0, abs=1e-9)
+    found = shown(term, lines, with_term, plain)
+    assert all(line.plain for line in found), found
