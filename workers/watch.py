@@ -67,6 +67,8 @@ class JobWatch:
             return Verdict.TAKEN_OVER
         if record.status is not Status.RUNNING:
             return Verdict.GO_ON  # About to claim the job, or just done with it.
+        if not self._mine(record):
+            return Verdict.GO_ON  # The ticket was there twice: this child will see it and end.
         if record.cancel_requested_at is not None:
             over = time.time() - record.cancel_requested_at > self._context.settings.cancel_grace_s
             return Verdict.CANCELLED if over else Verdict.GO_ON
@@ -86,12 +88,17 @@ class JobWatch:
         try:
             record = self._catalogue.get(job_id)
             if record.attempt == attempt and record.status is Status.RUNNING:
-                self._settle(record, status)
+                if self._mine(record):
+                    self._settle(record, status)
             elif record.attempt == attempt and record.status is Status.ACCEPTED and status != os.EX_OK:
                 # It died before it took the job: back to the outbox, handed over again by the next recovery.
                 self._catalogue.change(job_id, lambda r: transitions.refill(r, time.time()))
         except JobError as error:
             log.warning("job %s is left to its lease: %s", job_id, error)
+
+    def _mine(self, record: JobRecord) -> bool:
+        """Whether this worker's child took the job; another one has it when a ticket was delivered twice."""
+        return record.worker == self._context.name
 
     def _settle(self, record: JobRecord, status: int | None) -> None:
         if self._handing_back:

@@ -1,0 +1,85 @@
+"""What a worker concludes from the end of its child, when the job is another's."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from jobs import transitions
+from jobs.accept import Desk, accept
+from jobs.limits import Limits
+from jobs.record import JobRecord
+from jobs.request import SimulationRequest
+from jobs.status import Status
+from store.artefacts.folder import FolderStore
+from store.catalogue import engine, schema
+from store.catalogue.catalogue import SqlCatalogue
+from tests.service.fakes import FakeEngine, machine
+from workers.settings import WorkerSettings
+from workers.watch import JobWatch, Verdict
+
+
+class Queue:
+    """A broker that takes everything."""
+
+    def ping(self) -> None: ...
+    def submit(self, ticket: object) -> None: ...
+    def withdraw(self, ticket: object) -> None: ...
+    def holds(self, ticket: object) -> bool:
+        return True
+
+    def length(self) -> int:
+        return 0
+
+
+@pytest.fixture
+def desk(tmp_path: Path) -> Desk:
+    opened = engine.connect(f"sqlite:///{tmp_path / 'catalogue.db'}")
+    schema.create_schema(opened)
+    return Desk(
+        catalogue=SqlCatalogue(opened),
+        queue=Queue(),  # type: ignore[arg-type]
+        artefacts=FolderStore(tmp_path / "artefacts"),
+        engine=FakeEngine(),
+        limits=Limits(),
+        clock=time.time,
+    )
+
+
+def running(desk: Desk, worker: str) -> JobRecord:
+    request = SimulationRequest(machine=machine("calm"), duration_s=0.1)
+    record = accept(desk, request, submitter="me", scope="", key=None).record
+    return desk.catalogue.change(
+        record.id, lambda r: transitions.start(r, attempt=r.attempt, worker=worker, lease_s=30.0, now=time.time())
+    )
+
+
+def watch(desk: Desk, name: str) -> JobWatch:
+    stores = SimpleNamespace(catalogue=desk.catalogue)
+    context: Any = SimpleNamespace(name=name, stores=stores, settings=WorkerSettings(), desk=lambda: desk)
+    return JobWatch(context)
+
+
+@pytest.mark.parametrize("status", [0, 9])
+def test_the_end_of_a_second_delivery_is_not_the_end_of_the_job(desk: Desk, status: int) -> None:
+    record = running(desk, "w1")
+    other = watch(desk, "w2")
+    other.begin(record.id, record.attempt)
+    assert other.look(leaving=False) is Verdict.GO_ON
+    other.ended(status)
+    now = desk.catalogue.get(record.id)
+    assert (now.status, now.worker, now.attempt) == (Status.RUNNING, "w1", record.attempt)
+
+
+def test_the_end_of_the_workers_own_child_is(desk: Desk) -> None:
+    record = running(desk, "w1")
+    mine = watch(desk, "w1")
+    mine.begin(record.id, record.attempt)
+    mine.ended(9)
+    now = desk.catalogue.get(record.id)
+    assert now.status is Status.ACCEPTED
+    assert now.attempt == record.attempt + 1
