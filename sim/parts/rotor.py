@@ -30,6 +30,9 @@ def coupling_spring(site: SiteContext, key: str) -> tuple[str, str, float, float
         lacks = "the coupling is the torsional spring between the shaft's end mass and the next gear or body"
         raise refusal(site, key, lacks, "a shaft with end_inertia_kg_m2 and a gear")
     given = shaft.torsional_stiffness_nm_per_rad
+    if shaft.segments and given is None:
+        lacks = "the torsion of a segmented shaft is spread over its segments"
+        raise refusal(site, key, lacks, "a shaft with torsional_stiffness_nm_per_rad")
     stiffness = shaft_torsion_nm_per_rad(shaft) if given is None else given
     return turning[0], turning[1], stiffness or 0.0, shaft.torsional_damping_nms_per_rad
 
@@ -56,6 +59,11 @@ def moves(machine: MachineSpec, body: str) -> bool:
     if any(g.name == body and g.translates for g in machine.gears):
         return True
     return any(b.name == body and b.axes == "xy" for b in machine.bodies)
+
+
+def bends(machine: MachineSpec, shaft: str) -> bool:
+    """Whether a shaft is segmented, so that bodies and bearings hang on its beam and not on each other."""
+    return any(s.name == shaft and s.segments for s in machine.shafts)
 
 
 def outer_radius_m(machine: MachineSpec, body: str) -> float:

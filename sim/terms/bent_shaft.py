@@ -14,7 +14,7 @@ from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.params import Param
 from sim.core.terms import Demo, SiteContext, Term, Validation, Values
-from sim.parts.rotor import bearings_of, moves, refusal, shaft_lines
+from sim.parts.rotor import bearings_of, bends, moves, refusal, shaft_lines
 from sim.parts.turning import turning, turning_element
 
 OUTPUTS = (
@@ -33,6 +33,8 @@ class BentShaft(Term):
         if not bearings or not moves(site.machine, site.site) or not site.shaft_base:
             lacks = "the bow acts through the shaft between a body that moves in x and y and its bearings"
             raise refusal(site, self.key, lacks, "a gear or body of a shaft, carried by bearings")
+        if bends(site.machine, site.shaft):
+            raise refusal(site, self.key, "the shaft is segmented and bends itself", "a shaft without segments")
         total = sum(b.shaft_stiffness_n_per_m for b in bearings)
         coordinates = tuple(
             Coordinate(

@@ -24,7 +24,7 @@ from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.params import Param
 from sim.core.terms import Demo, SiteContext, Term, Validation, Values
-from sim.parts.rotor import moves, refusal, shaft_lines
+from sim.parts.rotor import bends, moves, refusal, shaft_lines
 
 CONTEXT = 6
 
@@ -89,6 +89,8 @@ class ShaftCrack(Term):
         if not moves(site.machine, bearing.body) or not site.shaft_base:
             lacks = f"{bearing.body} is not a body of a shaft that moves in x and y"
             raise refusal(site, self.key, lacks, "a bearing whose gear or disc translates")
+        if bends(site.machine, site.shaft):
+            raise refusal(site, self.key, "the shaft is segmented and bends itself", "a shaft without segments")
         lost = values["loss"] * bearing.shaft_stiffness_n_per_m
         coordinates = tuple(
             Coordinate(

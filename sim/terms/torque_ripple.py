@@ -69,7 +69,7 @@ TERM = TorqueRipple(
             unit="N*m",
             default=1.0,
             low=0.0,
-            high=1e5,
+            high=1e3,
             sentence="Peak of the varying part of the torque.",
             scale="log",
         ),

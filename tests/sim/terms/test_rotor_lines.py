@@ -25,7 +25,7 @@ def turning_at(machine, hz):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("speed_hz", [22.0, 31.5, 40.0])
+@pytest.mark.parametrize("speed_hz", [27.0, 31.5, 40.0])
 @pytest.mark.parametrize("key", KEYS)
 def test_line_at_its_speed(key, speed_hz):
     term = REGISTRY.get(key)
