@@ -13,9 +13,11 @@ from jobs.documents import ResultDocuments
 from sim.core.response import Response
 
 FILES = ("signals.npz", "summary.json", "labels.json", "machine.json")
+FURTHER = ("causes.json", "impacts.json")
+"""Files of a result where causes were asked for or contacts recorded."""
 RAW = "raw.npz"
-FURTHER = ("causes.json", "impacts.json", "sensors.json", RAW)
-"""Files of a result where causes or sensors were asked for or contacts recorded."""
+SENSED = ("sensors.json", RAW)
+"""Files of a result with sensors."""
 RESERVED = ("time_s", "sampling_rate_hz")
 
 

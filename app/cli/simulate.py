@@ -21,7 +21,7 @@ from tqdm import tqdm
 
 from app.cli.choice import add_machine_options, chosen_machine
 from app.cli.files import check_folder, whole_folder
-from app.cli.result import FILES, FURTHER, RAW, write_raw, write_result
+from app.cli.result import FILES, FURTHER, RAW, SENSED, write_raw, write_result
 from app.cli.sensors import add_sensor_options, chosen_sensors
 from jobs.analysis import analyse
 from jobs.carry_out import Outcome, carry_out, completed
@@ -75,7 +75,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
     machine = chosen_machine(arguments)
     out = arguments.out or default_folder(arguments)
-    check_folder(out, (*FILES, *FURTHER), force=arguments.force)
+    check_folder(out, (*FILES, *FURTHER, *SENSED), force=arguments.force)
     engine = PhysicsEngine()
     memory = int(MEMORY_SHARE * psutil.virtual_memory().available)
     with _named_as_options():
@@ -95,7 +95,7 @@ def run(arguments: argparse.Namespace) -> int:
         write_result(folder, response, documents, request={**origin, **settings}, elapsed_s=elapsed)
         if arguments.keep_raw and outcome.raw is not None:
             write_raw(folder, outcome.raw)
-        for stale in {*FURTHER} - written:
+        for stale in {*FURTHER, *SENSED} - written:
             (folder / stale).unlink(missing_ok=True)
     if not arguments.quiet:
         _say(response, documents, elapsed / (1 + further_runs(machine, request)))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from signals.sensors.place import Pickup
+from sim.assembly.flexible import torsion_chain
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec, ShaftSpec
 from sim.parts.rotor import shaft_torsion_nm_per_rad
@@ -41,15 +42,26 @@ def torque_pickup(machine: MachineSpec | None, name: str, known: Mapping[str, st
     assert machine is not None
     turning = [g.name for g in machine.gears if g.shaft == name]
     turning += [b.name for b in machine.bodies if b.shaft == name and b.inertia_kg_m2 is not None]
-    end, stiffness = f"{name}.theta", shaft.torsional_stiffness_nm_per_rad or shaft_torsion_nm_per_rad(shaft)
-    if shaft.end_inertia_kg_m2 is None or not turning or stiffness is None or f"{end}.displacement" not in known:
+    end = f"{name}.theta"
+    nodes = [end, *(f"{wheel}.theta" for wheel in turning)]
+    if shaft.end_inertia_kg_m2 is None or not turning or f"{end}.displacement" not in known:
         message = "has no elastic stretch between an end mass and a wheel, so it carries no torque that can be read"
         raise SpecError(Problem(field=field, message=message, given=name, allowed="a shaft with `end_inertia_kg_m2`"))
     factors: dict[str, float] = {}
-    for quantity, factor in (("displacement", stiffness), ("velocity", shaft.torsional_damping_nms_per_rad)):
-        if factor:
-            factors |= {f"{end}.{quantity}": factor, f"{turning[0]}.theta.{quantity}": -factor}
+    for other, stiffness in _stretches(shaft, nodes):
+        for quantity, factor in (("displacement", stiffness), ("velocity", shaft.torsional_damping_nms_per_rad)):
+            if factor:
+                factors[f"{end}.{quantity}"] = factors.get(f"{end}.{quantity}", 0.0) + factor
+                factors[f"{other}.{quantity}"] = -factor
     return Pickup(factors=factors, location=name, axis="theta")
+
+
+def _stretches(shaft: ShaftSpec, nodes: list[str]) -> list[tuple[str, float]]:
+    """Wheels next to the end mass and the stiffness between, N m/rad: as `sim.assembly.linear` couples them."""
+    if shaft.segments and shaft.torsional_stiffness_nm_per_rad is None:
+        chain = [(a, b, k) for a, b, k in torsion_chain(shaft, nodes) if nodes[0] in (a, b)]
+        return [(b if a == nodes[0] else a, k) for a, b, k in chain]
+    return [(nodes[1], shaft.torsional_stiffness_nm_per_rad or shaft_torsion_nm_per_rad(shaft) or 0.0)]
 
 
 def torsion_channel(body: str, known: Mapping[str, str], field: str) -> str:

@@ -11,6 +11,7 @@ from pydantic import ValidationError
 
 from signals.sensors import SensorChain, outputs_needed, pickups, quantities_of
 from signals.sensors.place import Place, pickup_at
+from sim.assembly.flexible import torsion_chain
 from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
 from tests.signals.sensors.motions import machine
@@ -133,3 +134,18 @@ def test_outputs_needed_once_each() -> None:
     )
     found = outputs_needed(pickups(asked, machine(), KNOWN))
     assert found == ["disc.y.acceleration", "disc.x.acceleration", "disc.theta.displacement"]
+
+
+def test_the_torque_of_a_shaft_of_segments_is_that_of_the_stretch_at_its_end() -> None:
+    flexible = machine().model_dump(mode="json")
+    flexible["shafts"][0] |= {
+        "torsional_stiffness_nm_per_rad": None,
+        "torsional_damping_nms_per_rad": 0.0,
+        "segments": [{"length_m": 0.3, "diameter_m": 0.02}],
+    }
+    flexible["shafts"][0]["seats"] = {"disc": 0.1}
+    spec = MachineSpec.model_validate(flexible)
+    (found,) = pickups(chain({"kind": "torque", "name": "t", "shaft": "input"}), spec, KNOWN)
+    shaft = spec.shafts[0]
+    ((_, _, stiffness),) = torsion_chain(shaft, ["input.theta", "disc.theta"])
+    assert found.factors == {"input.theta.displacement": stiffness, "disc.theta.displacement": -stiffness}
