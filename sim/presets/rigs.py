@@ -26,6 +26,7 @@ from sim.core.spec import (
 GRAVITY_M_PER_S2 = 9.80665
 BENDING_DAMPING_S = 3e-6
 """Damping ratio 0.01 at 1.06 kHz."""
+CLEARANCE_M = 2e-6
 SEAT_N_PER_M, SEAT_NS_PER_M = 5e8, 1e3
 """Interference fit of an inner ring on its shaft."""
 
@@ -43,13 +44,14 @@ class Housing:
 
 
 def _bearing(
-    name: str, body: str, designation: str, housing: Housing, *, inner_kg: float, clearance_m: float = 2e-6
+    name: str, body: str, designation: str, housing: Housing, *, inner_kg: float, cage_phase_rad: float = 0.0
 ) -> BearingSpec:
     return BearingSpec(
         name=name,
         body=body,
         catalogue=designation,
-        radial_clearance_m=clearance_m,
+        radial_clearance_m=CLEARANCE_M,
+        cage_phase_rad=cage_phase_rad,
         inner_mass_kg=inner_kg,
         outer_mass_kg=housing.mass_kg,
         shaft_stiffness_n_per_m=SEAT_N_PER_M,
@@ -92,7 +94,7 @@ def bearing_rig() -> MachineSpec:
     housing = Housing(stiffness_n_per_m=1e8, damping_ns_per_m=1.5e3, mass_kg=0.6)
     bearings = [
         _bearing("drive_end", "rotor", "6205", housing, inner_kg=0.05),
-        _bearing("fan_end", "rotor", "6205", housing, inner_kg=0.05),
+        _bearing("fan_end", "rotor", "6205", housing, inner_kg=0.05, cage_phase_rad=0.3),
     ]
     shaft = ShaftSpec(
         name="motor",
