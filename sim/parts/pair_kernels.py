@@ -207,12 +207,11 @@ def exact_stiffness(par, ctx, error, tilt, slot):  # type: ignore[no-untyped-def
 
 @inline
 def pair_load(par, growth, tilt, deflection, cut, k):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """(force, energy, tangent, damping share, its slope, moment) of one pair over the slices of its face.
+    """(force, energy, tangent, damping share, its slope, moment, its slope) of one pair over the slices of its face.
 
-    `deflection` is what the pair's pitch deviation leaves of the mesh deflection, m, and
-    `cut` the metal missing from its loaded flanks. Slices share the stiffness evenly, take no
-    part of each other's load (thin-slice method) and stand `tilt` (rad) times their place across the width apart; the
-    moment is taken about the middle of the face, N m.
+    `deflection` is what the pair's pitch deviation leaves of the mesh deflection, m, and `cut` the metal missing from
+    its loaded flanks. Slices share the stiffness evenly, take no part of each other's load (thin-slice method) and
+    stand `tilt` (rad) times their place across the width apart; the moment is taken about the middle of the face, N m.
     """
     slices = uniform(par[39])
     force = 0.0 * k
@@ -221,6 +220,7 @@ def pair_load(par, growth, tilt, deflection, cut, k):  # type: ignore[no-untyped
     share = force
     slope = force
     moment = force
+    lever = force
     part = k / par[39]
     unilateral = par[1] >= 0.0
     for b in range(slices):
@@ -231,9 +231,11 @@ def pair_load(par, growth, tilt, deflection, cut, k):  # type: ignore[no-untyped
         d = flank_gap(par, growth, cut, d)
         force += part * d
         energy += 0.5 * part * d * d
-        tangent += select(unilateral & (d == 0.0), 0.0, part)
+        touching = select(unilateral & (d == 0.0), 0.0, part)
+        tangent += touching
         moment += part * d * z
+        lever += touching * z
         if somewhere(unilateral):
             share += part * touch_share(d)
             slope += part * touch_slope(par, d)
-    return force, energy, tangent, share, slope, moment
+    return force, energy, tangent, share, slope, moment, lever

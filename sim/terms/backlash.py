@@ -36,7 +36,7 @@ class Backlash(Term):
 
 def lightly_loaded(machine: MachineSpec) -> MachineSpec:
     """The machine with a torque too small to keep the flanks together."""
-    loads = [TorqueLoad(shaft="input", torque_nm=2.0)]
+    loads = [TorqueLoad(shaft="input", torque_nm=0.2)]
     operating = machine.operating
     if operating is not None:
         operating = operating.model_copy(update={"speed_hz": 15.0})
