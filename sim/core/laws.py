@@ -66,6 +66,8 @@ class MeshLaw:
     """+1: the flanks on which the pinion drives carry the load; -1: those on which the gear drives."""
     gear_first_tooth: int = 0
     """Number of the gear's tooth that enters at mesh phase 0; the pinion's is tooth 0."""
+    mean_force_n: float = 0.0
+    """Magnitude of the mean force on the line of action, from the torques."""
     pinion_shape: FloatArray | None = None
     """(teeth, 2, TOOTH_POINTS) over the path of contact from entry to exit: compliance a tooth has gained, m/N, and
     metal missing from its loaded flank, m. None: every tooth is sound."""

@@ -3,8 +3,9 @@
 Every pair pushes with N where the contact stands `arm` from the pinion's base point, on a line of action of length L.
 There the pinion's flank slides on the gear's along the unit vector t (normal to the line of action, away from the pinion)
     v = t . (p' - g') - D (arm omega_p - (L - arm) omega_g),   D = +1 where the pinion drives, else -1
-and friction R = mu N tanh(v / v_0) resists v, also with the lever arms arm and L - arm on both gears. The slices of the
-face add up to a moment about its middle, which tilts the shafts.
+with the shafts' own speeds, and friction R = mu N tanh(v / v_0) resists v, also with the lever arms arm and L - arm on
+both gears. Constant torques make good the mean loss. The slices of the face add up to a moment about its middle, which
+tilts the shafts.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from sim.parts.pair_kernels import exact_stiffness, fill_pairs, pair_load
 
 CONTEXT = 28
 """The rows of `pair_kernels`, with L as the spare, then (arm, sliding speed of the turning gears) a slot."""
-E_FRICTION, E_SPEED, E_BASES, E_TANGENT_G, E_TANGENT_P, E_PITCH, E_TURNING, E_MOMENT = 0, 1, 2, 3, 4, 5, 6, 7
+E_FRICTION, E_SPEED, E_BASES, E_TANGENT_G, E_TANGENT_P, E_PITCH, E_MOMENT, E_DRIVE_P, E_DRIVE_G = 0, 1, 2, 3, 4, 5, 6, 7, 8
 
 
 def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
@@ -60,7 +61,6 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
     turn_g = error
     moment = error
     lost = error
-    one = 1.0 + error
     if mode == 2:
         error = centre_error(par, ctx[3], ctx[4], u[5], u[6])
         growth = backlash_growth(par, error)
@@ -75,7 +75,7 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
         found = pair_load(par, growth, tilt, s - ctx[9 + 3 * slot], ctx[10 + 3 * slot], k)
         arm_p = -par[33] * ctx[20 + 2 * slot]
         arm_g = par[33] * (ctx[7] - ctx[20 + 2 * slot])
-        speed = ud[0] + par[e + 6] * (arm_p * ud[1] + arm_g * ud[2]) + ctx[21 + 2 * slot]
+        speed = ud[0] + ctx[21 + 2 * slot]
         share = hyperbolic_tangent(speed / par[e + 1])
         friction = par[e] * size(found[0]) * share
         sliding += friction
@@ -89,16 +89,14 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
             out[4] += grown
             out[11] += arm_p * grown
             out[18] += arm_g * grown
-            out[25] += -par[e + 7] * found[6] / par[14]
-            for i in range(3):
-                lever = one if i == 0 else (arm_p if i == 1 else arm_g)
-                out[28 + 7 * i] += lever * drag
-                out[29 + 7 * i] += lever * drag * par[e + 6] * arm_p
-                out[30 + 7 * i] += lever * drag * par[e + 6] * arm_g
+            out[25] += -par[e + 6] * found[6] / par[14]
+            out[28] += drag
+            out[35] += arm_p * drag
+            out[42] += arm_g * drag
     f[0] = sliding
-    f[1] = turn_p
-    f[2] = turn_g
-    f[3] = -par[e + 7] * moment / par[14]
+    f[1] = turn_p - par[e + 7]
+    f[2] = turn_g - par[e + 8]
+    f[3] = -par[e + 6] * moment / par[14]
     if mode == 2:
         # the pairs' energy is the mesh element's: what the moment takes from the tilt it gives to the pairs
         out[0] = 0.0

@@ -69,9 +69,9 @@ TERM = Backlash(
     validation=(
         Validation(
             kind="closed form",
-            source="flight between the flanks: parabola s = v t + F t^2 / (2 m)",
-            deviation=1e-6,
-            test="tests/sim/terms/test_backlash.py::test_between_the_flanks_nothing_but_the_torque_acts",
+            source="piecewise linear force: drive flank, play, back flank",
+            deviation=1e-9,
+            test="tests/sim/terms/test_backlash.py::test_force_over_deflection_has_a_dead_zone",
         ),
     ),
 )

@@ -13,6 +13,7 @@ from sim.core.elements import Element
 from sim.core.laws import Laws, MeshLaw
 from sim.core.lines import Line
 from sim.core.params import Param
+from sim.core.spec import MachineSpec
 from sim.core.terms import Demo, SiteContext, Term, Validation, Values
 from sim.parts.mesh_shapes import needs_pairs
 from sim.parts.tooth_forces import Friction, tooth_force_element
@@ -62,6 +63,14 @@ class LeadMisalignment(Term):
         )
 
 
+def exact_teeth(machine: MachineSpec) -> MachineSpec:
+    """The machine without its transmission error, whose line at the mesh frequency covers all others."""
+    error = {"transmission_error": {"amplitude_m": 0.0}}
+    return MachineSpec.model_validate(
+        {**machine.model_dump(), "meshes": [{**mesh.model_dump(), **error} for mesh in machine.meshes]}
+    )
+
+
 TERM = LeadMisalignment(
     key="lead_misalignment",
     title="Lead misalignment",
@@ -92,7 +101,7 @@ TERM = LeadMisalignment(
     ),
     severity="angle",
     order=30,
-    demo=Demo(values={"angle": 1e-3}),
+    demo=Demo(values={"angle": 1e-3}, prepare=exact_teeth),
     validation=(
         Validation(
             kind="closed form",

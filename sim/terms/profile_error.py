@@ -67,12 +67,12 @@ TERM = ProfileError(
     references=("ISO 1328-1:2013 (profile slope and profile form deviation)",),
     severity="amplitude",
     order=20,
-    demo=Demo(machine="gear-pair", values={"amplitude": 2e-5}, leading=3),
+    demo=Demo(machine="gear-pair", values={"amplitude": 2e-5}, leading=1),
     validation=(
         Validation(
             kind="independent calculation",
             source="static transmission error: load balance of the pairs in contact solved by bisection with NumPy",
-            deviation=1e-6,
+            deviation=5e-3,
             test="tests/sim/terms/test_profile.py::test_static_transmission_error",
         ),
     ),

@@ -9,6 +9,7 @@ from sim.core.elements import Element
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.params import Param
+from sim.core.spec import MachineSpec
 from sim.core.terms import Demo, SiteContext, Term, Validation, Values
 from sim.parts.mesh_shapes import needs_pairs
 from sim.parts.tooth_forces import Friction, tooth_force_element
@@ -23,9 +24,15 @@ class ToothFriction(Term):
         law = laws.meshes[site.site]
         needs_pairs(law, self.key)
         friction = Friction(coefficient=values["coefficient"], speed_m_per_s=values["speed"])
-        return (
-            tooth_force_element(law, site.machine, name=f"{site.site}.friction", friction=friction, tilting=False),
+        element = tooth_force_element(
+            law,
+            site.machine,
+            name=f"{site.site}.friction",
+            friction=friction,
+            tilting=False,
+            speed_hz=site.speed_hz,
         )
+        return (element,)
 
     def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:
         """Multiples of the mesh frequency: every pair passes the pitch point once."""
@@ -35,6 +42,12 @@ class ToothFriction(Term):
         return tuple(
             Line(orders=((base, k),), component=site.site, mechanism=self.key, family="mesh") for k in range(1, 8)
         )
+
+
+def felt_along_x(machine: MachineSpec) -> MachineSpec:
+    """The machine with its sensors across the line of action, where the tooth loads themselves do not reach."""
+    turned = [r.model_copy(update={"axis": "x"}) for r in machine.resonators]
+    return machine.model_copy(update={"resonators": turned})
 
 
 TERM = ToothFriction(
@@ -67,7 +80,7 @@ TERM = ToothFriction(
     ),
     severity="coefficient",
     order=20,
-    demo=Demo(),
+    demo=Demo(prepare=felt_along_x),
     validation=(
         Validation(
             kind="closed form",
@@ -80,6 +93,12 @@ TERM = ToothFriction(
             source="loss factor pi (1/z1 + 1/z2)(1 - eps + eps1^2 + eps2^2) for equally shared load (Ohlendorf)",
             deviation=0.05,
             test="tests/sim/terms/test_tooth_friction.py::test_loss_agrees_with_the_loss_factor",
+        ),
+        Validation(
+            kind="independent calculation",
+            source="loss of a static load, shared as the pairs' stiffnesses, by quadrature over a mesh period",
+            deviation=0.01,
+            test="tests/sim/terms/test_tooth_friction.py::test_loss_agrees_with_a_quadrature_over_the_mesh_period",
         ),
     ),
 )

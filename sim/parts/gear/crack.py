@@ -28,11 +28,13 @@ from sim.parts.gear.tooth import (
 
 
 def half_root_m(gear: GearGeometry, root_model: RootModel) -> float:
-    """Half thickness of the tooth where the crack starts, m."""
+    """Half thickness of the thickest section at the root, where the crack starts, m."""
     root = root_section(gear, root_model)
+    # the involute is thickest at alpha = 0, a little above the base circle
+    bulge_m = gear.base_radius_m * gear.base_half_angle_rad if root.lowest_alpha_rad > 0.0 else 0.0
     if root_model == "clamped_at_base":
-        return float(involute_h_m(gear, np.array(root.lowest_alpha_rad)))
-    return root.half_thickness_m
+        return bulge_m
+    return max(bulge_m, float(involute_h_m(gear, np.array(root.lowest_alpha_rad))) + gear.fillet_height_m)
 
 
 def _bent_and_sheared(
@@ -57,7 +59,7 @@ def crack_compliance_m_per_n(
     *,
     depth_share: float,
     angle_rad: float,
-    nodes: int = 4 * NODES,
+    nodes: int = 16 * NODES,
 ) -> FloatArray:
     """Compliance gained by a crack through the whole width, shape of `alpha_1_rad` (K,), m/N.
 
