@@ -16,7 +16,6 @@ from sim.parts.mesh_kernels import (
     row_position,
     runout_error,
     runout_rate,
-    shaft_tilt,
     sine_error,
     tooth_number,
     touch_share,

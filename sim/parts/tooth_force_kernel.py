@@ -1,7 +1,7 @@
 """What the loads of the tooth pairs do beside the line of action: friction along the flanks, and a tilting moment.
 
 Every pair pushes with N where the contact stands `arm` from the pinion's base point, on a line of action of length L.
-There the pinion's flank slides on the gear's along the unit vector t (normal to the line of action, away from the pinion)
+There the pinion's flank slides on the gear's along t, the unit vector normal to the line of action, away from the pinion,
     v = t . (p' - g') - D (arm omega_p - (L - arm) omega_g),   D = +1 where the pinion drives, else -1
 with the shafts' own speeds, and friction R = mu N tanh(v / v_0) resists v, also with the lever arms arm and L - arm on
 both gears. Constant torques make good the mean loss. The slices of the face add up to a moment about its middle, which
@@ -18,7 +18,7 @@ from sim.parts.pair_kernels import exact_stiffness, fill_pairs, pair_load
 
 CONTEXT = 28
 """The rows of `pair_kernels`, with L as the spare, then (arm, sliding speed of the turning gears) a slot."""
-E_FRICTION, E_SPEED, E_BASES, E_TANGENT_G, E_TANGENT_P, E_PITCH, E_MOMENT, E_DRIVE_P, E_DRIVE_G = 0, 1, 2, 3, 4, 5, 6, 7, 8
+E_FRICTION, E_SPEED, E_BASES, E_TANGENT_G, E_TANGENT_P, E_PITCH, E_MOMENT, E_DRIVE_P, E_DRIVE_G = range(9)
 
 
 def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
@@ -56,11 +56,7 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
     growth = ctx[5]
     tilt = ctx[6]
     error = 0.0 * s
-    sliding = error
-    turn_p = error
-    turn_g = error
-    moment = error
-    lost = error
+    sliding = turn_p = turn_g = moment = lost = error
     if mode == 2:
         error = centre_error(par, ctx[3], ctx[4], u[5], u[6])
         growth = backlash_growth(par, error)

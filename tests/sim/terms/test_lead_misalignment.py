@@ -28,7 +28,7 @@ def misaligned(angle):
 @pytest.mark.parametrize("angle", [1e-4, -3e-4, 1e-3, 3e-3])
 @pytest.mark.parametrize("deflection", [5e-6, 2e-5])
 def test_load_of_a_wedge_on_a_bed_of_springs(angle, deflection):
-    """All touch: F = k d. In part, b = (d + |t| W/2)/|t|: F = k |t| b^2 / (2 W), which acts W/2 - b/3 off the middle."""
+    """All touch: F = k d. In part, b = (d + |t| W/2)/|t|: F = k |t| b^2 / (2 W), W/2 - b/3 off the middle."""
     system = misaligned(angle)
     u = np.array([deflection, 0.0, 0.0, 0.0, 0.0])
     found = at_phase(element_of(system, "mesh1"), 23, 0.85, u, np.zeros(5))

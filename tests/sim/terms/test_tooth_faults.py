@@ -103,7 +103,8 @@ def idler(*terms):
 def test_an_idler_is_loaded_on_either_flank_in_turn(key, both):
     """Damage of one flank acts in the mesh that loads it; a broken tooth is missed by both neighbours."""
     before = {e.name: e.parameters for e in assemble(idler()).elements}
-    changed = [e.name for e in assemble(idler(spec(key, site="b"))).elements if e.parameters.size != before[e.name].size]
+    after = assemble(idler(spec(key, site="b"))).elements
+    changed = [e.name for e in after if e.parameters.size != before[e.name].size]
     assert changed == (["mesh1", "mesh2"] if both else ["mesh1"])
 
 
