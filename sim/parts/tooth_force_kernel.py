@@ -1,7 +1,7 @@
 """What the loads of the tooth pairs do beside the line of action: friction along the flanks, and a tilting moment.
 
 Every pair pushes with N where the contact stands `arm` from the pinion's base point, on a line of action of length L.
-There the pinion's flank slides on the gear's along t, the unit vector normal to the line of action, away from the pinion,
+There the pinion's flank slides on the gear's along t, the unit normal of the line of action away from the pinion,
     v = t . (p' - g') - D (arm omega_p - (L - arm) omega_g),   D = +1 where the pinion drives, else -1
 with the shafts' own speeds, and friction R = mu N tanh(v / v_0) resists v, also with the lever arms arm and L - arm on
 both gears. Constant torques make good the mean loss. The slices of the face add up to a moment about its middle, which
