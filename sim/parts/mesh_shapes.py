@@ -12,6 +12,7 @@ from sim.core.laws import TOOTH_POINTS, Laws, MeshLaw
 from sim.core.lines import Line
 from sim.core.params import Param
 from sim.core.response import FloatArray
+from sim.core.spec import MachineSpec
 from sim.core.terms import SiteContext
 from sim.parts.gear.flank import Flank, flank_of
 
@@ -28,12 +29,17 @@ PLACE = Param(
 )
 
 
-def needs_pairs(law: MeshLaw, key: str) -> None:
-    """SpecError where a mesh is one curve, in which no single tooth can be told from the others."""
+def needs_pairs(law: MeshLaw, machine: MachineSpec, key: str) -> None:
+    """SpecError where a mesh is one curve, in which no single tooth can be told, or where contact lines are oblique."""
     if law.pair_rows is None:
         message = f"{key} acts on single tooth pairs, and this mesh is given by one total stiffness curve"
         allowed = "tooth_pairs: true and no table"
         raise SpecError(Problem(field=f"meshes.{law.name}.tooth_pairs", message=message, given=False, allowed=allowed))
+    helix = next(g.helix_angle_deg for g in machine.gears if g.name == law.pinion)
+    if helix != 0.0:
+        message = f"{key} knows the contact of spur gears only: on helical ones it runs obliquely over the flank"
+        field = f"gears.{law.pinion}.helix_angle_deg"
+        raise SpecError(Problem(field=field, message=message, given=helix, allowed="0", unit="deg"))
 
 
 def loaded_flank(law: MeshLaw, gear: str) -> float:
@@ -73,7 +79,7 @@ def with_shape(
     meshes = dict(laws.meshes)
     mine = [law for law in laws.meshes.values() if site.site in (law.pinion, law.gear)]
     for law in mine:
-        needs_pairs(law, key)
+        needs_pairs(law, site.machine, key)
         if one_flank and loaded_flank(law, site.site) != loaded_flank(mine[0], site.site):
             continue
         count = law.teeth[0] if law.pinion == site.site else law.teeth[1]

@@ -40,7 +40,7 @@ class LeadMisalignment(Term):
     def modify(self, laws: Laws, values: Values, site: SiteContext) -> Laws:
         """Cut the face into slices."""
         law = laws.meshes[site.site]
-        needs_pairs(law, self.key)
+        needs_pairs(law, site.machine, self.key)
         if values["angle"] == 0.0:
             return laws
         faces = [g.face_width_m for g in site.machine.gears if g.name in (law.pinion, law.gear)]

@@ -22,7 +22,7 @@ class ToothFriction(Term):
     def elements(self, laws: Laws, values: Values, site: SiteContext) -> Sequence[Element]:
         """Friction of every pair, on both gears."""
         law = laws.meshes[site.site]
-        needs_pairs(law, self.key)
+        needs_pairs(law, site.machine, self.key)
         friction = Friction(coefficient=values["coefficient"], speed_m_per_s=values["speed"])
         element = tooth_force_element(
             law,

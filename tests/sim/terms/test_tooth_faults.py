@@ -121,6 +121,16 @@ def test_a_mesh_of_one_curve_is_refused(key):
     assert problem.allowed
 
 
+@pytest.mark.parametrize("key", ["tooth_crack", "tip_relief", "tooth_friction", "lead_misalignment"])
+def test_helical_gears_are_refused(key):
+    hands = (10.0, -10.0)
+    gears = [g.model_copy(update={"helix_angle_deg": h}) for g, h in zip(MACHINE.gears, hands, strict=True)]
+    machine = MACHINE.model_copy(update={"gears": gears})
+    with pytest.raises(SpecError, match="spur gears only") as caught:
+        assemble(with_terms(machine, spec(key, site="pinion" if key in TEETH else "mesh1")))
+    assert caught.value.problems[0].field == "gears.pinion.helix_angle_deg"
+
+
 def everything(angle=3e-4):
     return with_terms(
         MACHINE,
