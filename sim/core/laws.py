@@ -12,6 +12,8 @@ import numpy as np
 
 from sim.core.response import FloatArray
 
+TOOTH_POINTS = 129
+"""Samples of a tooth's shape over its path of contact (0.8 %)."""
 RACE_POINTS = 2048
 """Samples of a race profile over one turn (0.18 degrees)."""
 
@@ -64,6 +66,18 @@ class MeshLaw:
     """+1: the flanks on which the pinion drives carry the load; -1: those on which the gear drives."""
     gear_first_tooth: int = 0
     """Number of the gear's tooth that enters at mesh phase 0; the pinion's is tooth 0."""
+    mean_force_n: float = 0.0
+    """Magnitude of the mean force on the line of action, from the torques."""
+    pinion_shape: FloatArray | None = None
+    """(teeth, 2, TOOTH_POINTS) over the path of contact from entry to exit: compliance a tooth has gained, m/N, and
+    metal missing from its loaded flank, m. None: every tooth is sound."""
+    gear_shape: FloatArray | None = None
+    slices: int = 1
+    """Slices of the face; more than one needs flanks that may part (backlash)."""
+    face_width_m: float = 0.0
+    """Common face width of both gears; set where there are slices."""
+    lead_rad: float = 0.0
+    """Lead misalignment in the plane of action: how much farther the flanks stand apart per metre along z."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -105,8 +105,22 @@ def _thrust_weights(law: MeshLaw, machine: MachineSpec) -> list[tuple[str, float
     return found
 
 
+def shaft_length_m(machine: MachineSpec, gear: str) -> float:
+    """Length of the shaft that carries a gear, over which its tilt is taken."""
+    return _shaft(machine, gear).length_m
+
+
+def relative_tilt(law: MeshLaw, machine: MachineSpec, axis: str) -> list[tuple[str, float]]:
+    """End-to-end displacement of the pinion's shaft; with slices minus the gear's, at the pinion's length."""
+    weights = _tilt_weights(machine, law.pinion, axis)
+    if law.slices > 1:
+        ratio = shaft_length_m(machine, law.pinion) / shaft_length_m(machine, law.gear)
+        weights = weights + [(dof, -ratio * weight) for dof, weight in _tilt_weights(machine, law.gear, axis)]
+    return weights
+
+
 def mesh_coordinates(law: MeshLaw, machine: MachineSpec) -> tuple[Coordinate, ...]:
-    """Deflection along the line of action; shaft centres apart (x, y); tilt of the pinion's shaft (x, y)."""
+    """Deflection along the line of action; shaft centres apart (x, y); tilt of the shafts (x, y)."""
     nx, ny = line_of_action(law, machine)
     weights: list[tuple[str, float]] = [
         (f"{law.pinion}.theta", law.base_radii_m[0]),
@@ -122,7 +136,7 @@ def mesh_coordinates(law: MeshLaw, machine: MachineSpec) -> tuple[Coordinate, ..
         if law.follow_gear_shaft:
             pair = pair + _centre_weights(machine, law.gear, axis, -1.0)
         centre.append(pair)
-    tilt = [_tilt_weights(machine, law.pinion, axis) for axis in ("x", "y")]
+    tilt = [relative_tilt(law, machine, axis) for axis in ("x", "y")]
     names = ("deflection", "centre_x", "centre_y", "tilt_x", "tilt_y")
     rows = (weights, *centre, *tilt)
     return tuple(
@@ -133,7 +147,6 @@ def mesh_coordinates(law: MeshLaw, machine: MachineSpec) -> tuple[Coordinate, ..
 def header(law: MeshLaw, machine: MachineSpec, *, table_at: int, points: int) -> FloatArray:
     """The parameter header of `mesh_kernels`."""
     spec = next(m for m in machine.meshes if m.name == law.name)
-    shaft = _gear(machine, law.pinion).shaft
     head = np.zeros(mk.HEADER)
     head[mk.H_DAMPING] = law.damping_ns_per_m
     head[mk.H_BACKLASH] = mk.NO_BACKLASH if law.backlash_m is None else law.backlash_m
@@ -150,7 +163,7 @@ def header(law: MeshLaw, machine: MachineSpec, *, table_at: int, points: int) ->
     head[mk.H_DRIVE] = law.drive
     head[mk.H_RUNOUT_P], head[mk.H_RUNOUT_P_PHASE] = law.runout_pinion_m, law.runout_pinion_phase_rad
     head[mk.H_RUNOUT_G], head[mk.H_RUNOUT_G_PHASE] = law.runout_gear_m, law.runout_gear_phase_rad
-    head[mk.H_LENGTH] = next(s.length_m for s in machine.shafts if s.name == shaft)
+    head[mk.H_LENGTH] = shaft_length_m(machine, law.pinion)
     head[mk.H_HAS_GAPS] = float(bool(np.any(law.pinion_tooth_gap_m) or np.any(law.gear_tooth_gap_m)))
     head[mk.H_GAPS_P] = mk.HEADER
     head[mk.H_GAPS_G] = mk.HEADER + law.pinion_tooth_gap_m.size
@@ -166,5 +179,6 @@ def header(law: MeshLaw, machine: MachineSpec, *, table_at: int, points: int) ->
         head[mk.H_TILT_STEP] = law.tilts_rad[1] - law.tilts_rad[0]
     head[mk.H_USE_TILT] = float(spec.offset_angle)
     head[mk.H_KINDS] = 1.0
-    head[mk.H_SLICES] = 1.0
+    head[mk.H_SLICES] = law.slices
+    head[mk.H_WIDTH], head[mk.H_LEAD] = law.face_width_m, law.lead_rad
     return head

@@ -20,8 +20,10 @@ H_TILTS, H_TILT0, H_TILT_STEP, H_RATIOS, H_USE_TILT = 23, 24, 25, 26, 27
 H_NORMAL_X, H_NORMAL_Y, H_SENSE_P, H_SENSE_G, H_BACKLASH_SLOPE, H_DRIVE = 28, 29, 30, 31, 32, 33
 H_KINDS, H_KINDS_P, H_KINDS_G, H_SHAPES = 35, 36, 37, 38
 H_SLICES, H_WIDTH, H_SLICE_GAPS, H_LEAD = 39, 40, 41, 42
+H_EXTRA = 43
+"""Where an element that looks at the same pairs keeps its own parameters."""
 HEADER = 44
-SAME = (H_HAS_GAPS, H_ROWS, H_POINTS, H_TABLE, H_TILTS, H_USE_TILT, H_KINDS, H_SHAPES, H_SLICES)
+SAME = (H_HAS_GAPS, H_ROWS, H_POINTS, H_TABLE, H_TILTS, H_USE_TILT, H_KINDS, H_SHAPES, H_SLICES, H_EXTRA)
 """Header entries that steer loops and tables."""
 NO_BACKLASH = -1.0
 TURN = 2.0 * math.pi
@@ -127,11 +129,15 @@ def backlash_growth(par, error):  # type: ignore[no-untyped-def]  # noqa: ANN001
 
 
 @inline
-def node_growth(par, after, u, phi_p, phi_g):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """`backlash_growth` a time `after` (s) the start of a step, the centres going on at their speed, m."""
+def node_growth(par, after, centre, phi_p, phi_g):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """`backlash_growth` a time `after` (s) the start of a step, m.
+
+    `centre`: (x, y, x', y') of the shaft centres there, which go on at their speed.
+    """
     if not somewhere(par[1] >= 0.0):
         return 0.0 * phi_p
-    return backlash_growth(par, centre_error(par, phi_p, phi_g, u[1] + after * u[6], u[2] + after * u[7]))
+    x, y, xd, yd = centre
+    return backlash_growth(par, centre_error(par, phi_p, phi_g, x + after * xd, y + after * yd))
 
 
 @inline
@@ -168,16 +174,17 @@ def unilateral(backlash, elastic, viscous):  # type: ignore[no-untyped-def]  # n
 
 
 @inline
-def flank_gap(par, growth, s):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+def flank_gap(par, growth, cut, s):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Deflection that carries load: both senses without backlash, drive or back flank with it, m.
 
-    The gap that the centre distance adds (`growth`) lies at the flanks that do not carry the load.
+    The gap that the centre distance adds (`growth`) lies at the flanks that do not carry the load, the metal that is
+    missing from the flanks (`cut`) at those that do.
     """
     driven = par[33] < 0.0
-    low = -par[1] - select(driven, 0.0, growth)
-    high = select(driven, growth, 0.0)
+    low = -par[1] - select(driven, cut, growth)
+    high = select(driven, growth, cut)
     loaded = larger(s - high, 0.0) + smaller(s - low, 0.0)
-    return select(par[1] < 0.0, s, loaded)
+    return select(par[1] < 0.0, s - par[33] * cut, loaded)
 
 
 @inline

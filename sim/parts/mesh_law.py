@@ -227,4 +227,5 @@ def mesh_law(
         flank=setting.flank,
         drive=setting.drive,
         gear_first_tooth=setting.gear_first_tooth,
+        mean_force_n=abs(setting.force_n),
     )

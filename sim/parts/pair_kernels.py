@@ -9,13 +9,23 @@ from __future__ import annotations
 
 from sim.core.choose import floor, larger, pick, select, smaller, somewhere, uniform
 from sim.core.compiled import inline
-from sim.parts.mesh_kernels import flank_gap, row_position, tooth_number, touch_share, touch_slope
+from sim.parts.mesh_kernels import (
+    centre_error,
+    flank_gap,
+    node_growth,
+    row_position,
+    runout_error,
+    runout_rate,
+    sine_error,
+    tooth_number,
+    touch_share,
+    touch_slope,
+)
 
 SLOTS = 4
 """Pairs that can touch within a step: contact ratios up to 3."""
-ROW = 16
-"""Context row: error, rate, phase, phi_p, phi_g, change of backlash, tilt, spare, then (stiffness, gap) a slot."""
-CONTEXT = 16
+CONTEXT = 20
+"""Context row: error, rate, phase, phi_p, phi_g, change of backlash, tilt, spare, then (stiffness, gap, cut) a slot."""
 GAUSS = 0.7745966692414834
 """Three-point Gauss node sqrt(3/5)."""
 SHAPE_POINTS = 129
@@ -96,20 +106,25 @@ def pair_value(par, row, tilt, x, n):  # type: ignore[no-untyped-def]  # noqa: A
 
 
 @inline
-def pair_gap(par, x, n):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Pitch and profile deviation of the teeth of pair n at normalised position x, m."""
-    gap = 0.0 * x
-    if uniform(par[15]) > 0:
-        gap = pick(par, par[16] + tooth_number(n, par[5])) + pick(par, par[17] + tooth_number(n, par[6]))
-    if uniform(par[35]) >= 2:
-        gap = gap + shape_value(par, 129.0 + shape_of(par, par[5], par[36], n), x)
-        gap = gap + shape_value(par, 129.0 + shape_of(par, par[6], par[37], n), x)
-    return gap
+def pair_gap(par, n):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """By how much the teeth of pair n stand off their places, m: both flanks of a tooth move."""
+    if uniform(par[15]) <= 0:
+        return 0.0 * n
+    return pick(par, par[16] + tooth_number(n, par[5])) + pick(par, par[17] + tooth_number(n, par[6]))
 
 
 @inline
-def pair_moments(step, s, par, where, phases, n, slot, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Node stiffness of pair n with the moments of its true stiffness over the step."""
+def pair_cut(par, x, n):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Metal missing from the loaded flanks of pair n at normalised position x, m."""
+    if uniform(par[35]) < 2:
+        return 0.0 * x
+    cut = shape_value(par, 129.0 + shape_of(par, par[5], par[36], n), x)
+    return cut + shape_value(par, 129.0 + shape_of(par, par[6], par[37], n), x)
+
+
+@inline
+def pair_moments(step, s, par, where, phases, n, at, width, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Node stiffness of pair n with the moments of its true stiffness over the step, into place `at` of each row."""
     row, tilt, ratio = where
     phase0, dphase = phases
     x0 = larger((n - phase0) / dphase, 0.0)
@@ -130,9 +145,52 @@ def pair_moments(step, s, par, where, phases, n, slot, ctx):  # type: ignore[no-
             m1 += k * x
             m2 += k * x * x
     for j in range(s):
-        at = 3 + s + j * s
-        value = (step[at] * m0 + step[at + 1] * m1 + step[at + 2] * m2) / step[3 + s + s * s + j]
-        ctx[j * 16 + 8 + 2 * slot] = value
+        k = 3 + s + j * s
+        value = (step[k] * m0 + step[k + 1] * m1 + step[k + 2] * m2) / step[3 + s + s * s + j]
+        ctx[j * width + at] = value
+
+
+@inline
+def fill_pairs(step, shafts, par, centre, tilt, width, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Rows of `width` doubles: node values of every pair's stiffness, gap and cut, transmission error and its rate.
+
+    `centre`: (x, y, x', y') of the shaft centres at the start of the step; `tilt` (rad) that of its middle.
+    """
+    h = step[1]
+    s = uniform(step[2])
+    n = s + 1
+    turn = 6.283185307179586
+    for i in range(s):
+        k = i + 1
+        phi_p = shafts[k]
+        om_p = shafts[n + k]
+        phi_g = shafts[2 * n + k]
+        om_g = shafts[3 * n + k]
+        error, rate = sine_error(par, phi_p, om_p)
+        ctx[i * width] = error + runout_error(par, phi_p, phi_g)
+        ctx[i * width + 1] = rate + runout_rate(par, phi_p, om_p, phi_g, om_g)
+        ctx[i * width + 2] = par[5] * phi_p / turn
+        ctx[i * width + 3] = phi_p
+        ctx[i * width + 4] = phi_g
+        ctx[i * width + 5] = node_growth(par, step[3 + i] * h, centre, phi_p, phi_g)
+        ctx[i * width + 6] = tilt
+    x, y, xd, yd = centre
+    middle_p = 0.5 * (shafts[0] + shafts[s])
+    middle_g = 0.5 * (shafts[2 * n] + shafts[2 * n + s])
+    error = centre_error(par, middle_p, middle_g, x + 0.5 * h * xd, y + 0.5 * h * yd)
+    row = row_position(par, error)
+    ratio = row_value(par, par[26], row)
+    phase0 = par[5] * shafts[0] / turn
+    dphase = larger(par[5] * shafts[s] / turn - phase0, 1e-12)
+    top = floor(phase0 + dphase)
+    for slot in range(4):
+        pair = top - slot
+        at = 8 + 3 * slot
+        pair_moments(step, s, par, (row, tilt_position(par, tilt), ratio), (phase0, dphase), pair, at, width, ctx)
+        for i in range(s):
+            place = smaller(larger((ctx[i * width + 2] - pair) / ratio, 0.0), 1.0)
+            ctx[i * width + at + 1] = pair_gap(par, pair)
+            ctx[i * width + at + 2] = pair_cut(par, place, pair)
 
 
 @inline
@@ -147,12 +205,12 @@ def exact_stiffness(par, ctx, error, tilt, slot):  # type: ignore[no-untyped-def
 
 
 @inline
-def pair_load(par, growth, tilt, deflection, k):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """(force, energy, tangent, damping share, its slope, moment) of one pair over the slices of its face.
+def pair_load(par, growth, tilt, deflection, cut, k):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """(force, energy, tangent, damping share, its slope, moment, its slope) of one pair over the slices of its face.
 
-    `deflection` is what the pair's own gap leaves of the mesh deflection, m. Slices share the stiffness evenly, take no
-    part of each other's load (thin-slice method) and stand `tilt` (rad) times their place across the width apart; the
-    moment is taken about the middle of the face, N m.
+    `deflection` is what the pair's pitch deviation leaves of the mesh deflection, m, and `cut` the metal missing from
+    its loaded flanks. Slices share the stiffness evenly, take no part of each other's load (thin-slice method) and
+    stand `tilt` (rad) times their place across the width apart; the moment is taken about the middle of the face, N m.
     """
     slices = uniform(par[39])
     force = 0.0 * k
@@ -161,6 +219,7 @@ def pair_load(par, growth, tilt, deflection, k):  # type: ignore[no-untyped-def]
     share = force
     slope = force
     moment = force
+    lever = force
     part = k / par[39]
     unilateral = par[1] >= 0.0
     for b in range(slices):
@@ -168,12 +227,14 @@ def pair_load(par, growth, tilt, deflection, k):  # type: ignore[no-untyped-def]
         d = deflection
         if slices > 1:
             d = deflection - pick(par, par[41] + b) - (par[42] + tilt) * z
-        d = flank_gap(par, growth, d)
+        d = flank_gap(par, growth, cut, d)
         force += part * d
         energy += 0.5 * part * d * d
-        tangent += select(unilateral & (d == 0.0), 0.0, part)
+        touching = select(unilateral & (d == 0.0), 0.0, part)
+        tangent += touching
         moment += part * d * z
+        lever += touching * z
         if somewhere(unilateral):
             share += part * touch_share(d)
             slope += part * touch_slope(par, d)
-    return force, energy, tangent, share, slope, moment
+    return force, energy, tangent, share, slope, moment, lever

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.params import Param
-from sim.core.terms import SiteContext, Term, Values
+from sim.core.terms import SiteContext, Term, Validation, Values
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,4 +72,18 @@ TERM = Eccentricity(
     references=("Randall, Vibration-based Condition Monitoring, 2nd ed. 2021, ch. 2 (gear modulation)",),
     severity="radius",
     order=20,
+    validation=(
+        Validation(
+            kind="closed form",
+            source="vectors from both axes to both base circle centres, projected on the line of action",
+            deviation=1e-12,
+            test="tests/sim/parts/test_mesh_kernels.py::test_run_out_is_projected_on_the_line_of_action",
+        ),
+        Validation(
+            kind="closed form",
+            source="line of the shaft speed in spectrum or envelope at 20, 30 and 45 Hz, within half a bin",
+            deviation=0.03,
+            test="tests/sim/terms/test_tooth_faults.py::test_the_line_found_is_the_predicted_one",
+        ),
+    ),
 )

@@ -12,76 +12,34 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.core.choose import floor, larger, select, smaller, uniform
-from sim.core.elements import Element, flat
+from sim.core.choose import select, uniform
+from sim.core.elements import Element
 from sim.core.kernels import kernel
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.terms import SiteContext, Term, Values
-from sim.parts.mesh_element import OUTPUTS, header, mesh_coordinates, zero_row
+from sim.parts.mesh_element import OUTPUTS, mesh_coordinates
 from sim.parts.mesh_kernels import (
-    HEADER,
     SAME,
     backlash_growth,
     centre_error,
-    node_growth,
     outside_table,
-    row_position,
-    runout_error,
-    runout_rate,
     shaft_tilt,
-    sine_error,
     slope_angle,
     unilateral,
 )
-from sim.parts.pair_kernels import (
-    CONTEXT,
-    exact_stiffness,
-    pair_gap,
-    pair_load,
-    pair_moments,
-    row_value,
-    tilt_position,
-)
+from sim.parts.pair_kernels import CONTEXT, exact_stiffness, fill_pairs, pair_load
+from sim.parts.pair_parameters import mean_stiffness_n_per_m, pair_parameters
 
 
 def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Node values of every pair's stiffness and gap, transmission error and its rate."""
+    """Node values of every pair's stiffness, gap and cut, transmission error and its rate."""
     h = step[1]
-    s = uniform(step[2])
-    n = s + 1
-    turn = 6.283185307179586
-    for i in range(s):
-        k = i + 1
-        phi_p = shafts[k]
-        om_p = shafts[n + k]
-        phi_g = shafts[2 * n + k]
-        om_g = shafts[3 * n + k]
-        error, rate = sine_error(par, phi_p, om_p)
-        ctx[i * 16] = error + runout_error(par, phi_p, phi_g)
-        ctx[i * 16 + 1] = rate + runout_rate(par, phi_p, om_p, phi_g, om_g)
-        ctx[i * 16 + 2] = par[5] * phi_p / turn
-        ctx[i * 16 + 3] = phi_p
-        ctx[i * 16 + 4] = phi_g
-        ctx[i * 16 + 5] = node_growth(par, step[3 + i] * h, u, phi_p, phi_g)
-    middle_p = 0.5 * (shafts[0] + shafts[s])
-    middle_g = 0.5 * (shafts[2 * n] + shafts[2 * n + s])
-    error = centre_error(par, middle_p, middle_g, u[1] + 0.5 * h * u[6], u[2] + 0.5 * h * u[7])
-    row = row_position(par, error)
     tilt = shaft_tilt(par, u[3] + 0.5 * h * u[8], u[4] + 0.5 * h * u[9])
-    ratio = row_value(par, par[26], row)
-    phase0 = par[5] * shafts[0] / turn
-    dphase = larger(par[5] * shafts[s] / turn - phase0, 1e-12)
-    top = floor(phase0 + dphase)
-    for slot in range(4):
-        pair = top - slot
-        pair_moments(step, s, par, (row, tilt_position(par, tilt), ratio), (phase0, dphase), pair, slot, ctx)
-        for i in range(s):
-            place = smaller(larger((ctx[i * 16 + 2] - pair) / ratio, 0.0), 1.0)
-            ctx[i * 16 + 9 + 2 * slot] = pair_gap(par, place, pair)
-            ctx[i * 16 + 6] = tilt
-    for j in range(16):
-        ctx[s * 16 + j] = ctx[(s - 1) * 16 + j]
+    fill_pairs(step, shafts, par, (u[1], u[2], u[6], u[7]), tilt, 20, ctx)
+    s = uniform(step[2])
+    for j in range(20):
+        ctx[s * 20 + j] = ctx[(s - 1) * 20 + j]
 
 
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
@@ -102,11 +60,11 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
         growth = backlash_growth(par, error)
         tilt = shaft_tilt(par, u[3], u[4])
     for slot in range(4):
-        k = ctx[8 + 2 * slot]
+        k = ctx[8 + 3 * slot]
         if mode == 2:
             k = exact_stiffness(par, ctx, error, tilt, slot)
         total += k
-        found = pair_load(par, growth, tilt, s - ctx[9 + 2 * slot], k)
+        found = pair_load(par, growth, tilt, s - ctx[9 + 3 * slot], ctx[10 + 3 * slot], k)
         load += found[0]
         energy += found[1]
         tangent += found[2]
@@ -146,16 +104,8 @@ class MeshPairs(Term):
     def elements(self, laws: Laws, values: Values, site: SiteContext) -> Sequence[Element]:  # noqa: ARG002
         """One element per mesh given by tooth pairs."""
         law = laws.meshes[site.site]
-        if law.pair_rows is None or law.pair_ratios is None:
+        if law.pair_rows is None:
             return ()
-        gaps = law.pinion_tooth_gap_m.size + law.gear_tooth_gap_m.size
-        ratios_at = HEADER + gaps
-        table_at = ratios_at + law.pair_ratios.size
-        head = header(law, site.machine, table_at=table_at, points=law.pair_rows.shape[2])
-        head[26] = ratios_at
-        parameters = flat(head, law.pinion_tooth_gap_m, law.gear_tooth_gap_m, law.pair_ratios, law.pair_rows)
-        middle = law.pair_rows[law.pair_rows.shape[0] // 2, zero_row(law)]
-        mean = float(middle.mean() * law.pair_ratios[zero_row(law)])
         return (
             Element(
                 name=law.name,
@@ -163,14 +113,14 @@ class MeshPairs(Term):
                 kernel=KERNEL,
                 coordinates=mesh_coordinates(law, site.machine),
                 forces=1,
-                parameters=parameters,
+                parameters=pair_parameters(law, site.machine),
                 context=CONTEXT,
                 shafts=(law.pinion, law.gear),
                 outputs=OUTPUTS,
                 exact_end=True,
                 contact_output=5,
                 range_output=6,
-                linear_stiffness=np.array([[mean]]),
+                linear_stiffness=np.array([[mean_stiffness_n_per_m(law)]]),
             ),
         )
 

@@ -130,7 +130,7 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
         ctx[i * 8 + 4] = phi_p
         ctx[i * 8 + 5] = phi_g
         ctx[i * 8 + 6] = om_p
-        ctx[i * 8 + 7] = node_growth(par, step[3 + i] * h, u, phi_p, phi_g)
+        ctx[i * 8 + 7] = node_growth(par, step[3 + i] * h, (u[1], u[2], u[6], u[7]), phi_p, phi_g)
     for j in range(8):
         ctx[s * 8 + j] = ctx[(s - 1) * 8 + j]
     middle_p = 0.5 * (shafts[0] + shafts[s])
@@ -152,7 +152,7 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
         growth = backlash_growth(par, error)
     s = u[0] - ctx[1]
     sd = ud[0] - ctx[2]
-    load = flank_gap(par, growth, s)
+    load = flank_gap(par, growth, 0.0 * s, s)
     apart = (par[1] >= 0.0) & (load == 0.0)
     touching = select(apart, 0.0, 1.0)
     damping = par[0] * touching

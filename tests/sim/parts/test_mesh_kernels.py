@@ -115,19 +115,19 @@ def test_backlash_grows_as_the_involute_says(error):
 def test_backlash_never_closes_below_nothing_and_no_backlash_stays_none():
     tight, none = (mesh_of(system_of(backlash_m=b, runout=False)) for b in (1e-5, None))
     assert call(mk.backlash_growth, tight, -1e-3) == -1e-5
-    assert call(mk.flank_gap, tight, -1e-5, 3e-6) == 3e-6
-    assert call(mk.flank_gap, tight, -1e-5, -3e-6) == -3e-6
+    assert call(mk.flank_gap, tight, -1e-5, 0.0, 3e-6) == 3e-6
+    assert call(mk.flank_gap, tight, -1e-5, 0.0, -3e-6) == -3e-6
     assert call(mk.backlash_growth, none, 1e-4) == 0.0
-    assert call(mk.flank_gap, none, 0.0, -3e-6) == -3e-6
+    assert call(mk.flank_gap, none, 0.0, 0.0, -3e-6) == -3e-6
 
 
 @given(s=st.floats(-3e-4, 3e-4), growth=st.floats(-3e-5, 1e-4))
 def test_the_added_gap_lies_at_the_flanks_without_load(s, growth):
     """Whoever drives: the same contact seen from the other gear is its negative."""
     pinion, gear = DRIVEN
-    load = call(mk.flank_gap, pinion, growth, s)
+    load = call(mk.flank_gap, pinion, growth, 0.0, s)
     assert load == pytest.approx(max(s, 0.0) + min(s + BACKLASH_M + growth, 0.0), abs=1e-18)
-    assert call(mk.flank_gap, gear, growth, -s - BACKLASH_M) == pytest.approx(-load, abs=1e-18)
+    assert call(mk.flank_gap, gear, growth, 0.0, -s - BACKLASH_M) == pytest.approx(-load, abs=1e-18)
 
 
 def test_the_damper_rises_smoothly_from_touch():
