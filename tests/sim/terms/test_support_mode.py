@@ -79,6 +79,6 @@ def test_a_mass_cannot_hang_on_what_does_not_exist(end):
     supports = base_laws(ROTOR, {}, []).supports
     added = AddedMass(name="disc.mode.y", mass=1.0, springs=(AddedSpring(a="disc.mode.y", b=end, stiffness=1e5),))
     with pytest.raises(SpecError, match="would hang on"):
-        linear_part(ROTOR, supports, (added,))
+        linear_part(ROTOR, supports, masses=(added,))
     with pytest.raises(SpecError, match="two effects add"):
-        linear_part(ROTOR, supports, (AddedMass(name="disc.mode.y", mass=1.0, springs=()),) * 2)
+        linear_part(ROTOR, supports, masses=(AddedMass(name="disc.mode.y", mass=1.0, springs=()),) * 2)
