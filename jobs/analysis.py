@@ -6,25 +6,28 @@ labelled when they are asked for (`jobs.labelling`).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import asdict, replace
 
 import numpy as np
 
 from jobs.documents import ResultDocuments, SpectrumDocument
 from jobs.labelling import MIN_SAMPLES, REFERENCE, Predicted, label_channel, moves, no_labels
+from jobs.stretch import at_stretch, turned_angle_rad
 from signals.export import features_document
 from signals.features import features
 from signals.recording import Recording, from_response
-from signals.series import Series
+from signals.series import FloatArray, Series
 from signals.spectra.amplitude import amplitude_spectrum, power_spectral_density
 from signals.spectra.envelope import envelope_spectrum
 from signals.spectra.order import order_spectrum
 from signals.spectra.types import OrderSpectrum, Spectrum
 from sim.core.errors import SpecError
 from sim.core.response import Channel, Response
+from sim.core.speed import mean_ratio, warped_times
 
 MIN_REVOLUTIONS = 2.0
+SLOWEST = 0.05
+"""Share of the nominal speed below which a changing speed has no order spectrum: its step in angle would be endless."""
 LABELLED = ("acceleration", "angular_acceleration")
 """Quantities labelled with the result, the best first."""
 VIBRATION = (*LABELLED, "velocity", "displacement", "angular_velocity", "angular_displacement")
@@ -34,6 +37,7 @@ PSD_SEGMENTS = 8
 def analyse(response: Response, *, discard_transient: bool) -> ResultDocuments:
     """Everything that is kept beside the signals. Channels that are no vibration get features only."""
     start_s, notes = analysed_from(response, discard_transient)
+    response = at_stretch(response, start_s)
     recording = from_response(response).select(start_s=start_s)
     gaps = [c.name for c in recording.channels if not _finite(recording, c)]
     if gaps:
@@ -41,7 +45,7 @@ def analyse(response: Response, *, discard_transient: bool) -> ResultDocuments:
     moving = [c for c in recording.channels if c.quantity in VIBRATION and _finite(recording, c)]
     spectra: list[SpectrumDocument] = []
     for channel in moving:
-        spectra += [_document(s) for s in channel_spectra(recording.series(channel.name), channel, response.bases_hz)]
+        spectra += [_document(s) for s in channel_spectra(recording.series(channel.name), channel, response)]
     peaks = _labels(response, recording)
     if "reason" in peaks:
         notes = [*notes, f"no labels: {peaks['reason']}"]
@@ -76,7 +80,22 @@ def analysed_from(response: Response, discard: bool) -> tuple[float, list[str]]:
     return 0.0, ["the start-up transient takes most of the record; it is analysed whole: simulate longer"]
 
 
-def channel_spectra(series: Series, channel: Channel, bases_hz: Mapping[str, float]) -> list[Spectrum | OrderSpectrum]:
+def _rotation(series: Series, response: Response) -> float | FloatArray | None:
+    """Speed of the first shaft, or its angle where the speed changes; None where it nearly stands or is too short."""
+    speed = response.bases_hz.get(REFERENCE, 0.0)
+    duration_s = series.samples.size / series.sampling_rate_hz
+    if speed * duration_s < MIN_REVOLUTIONS:
+        return None
+    if response.speed[0] == 0:
+        return speed
+    slowest = float(np.min(warped_times(response.speed, series.start_s + np.linspace(0.0, duration_s, 1001))[1]))
+    if slowest < SLOWEST:
+        return None
+    nominal = speed / mean_ratio(response.speed, series.start_s, series.start_s + duration_s)
+    return turned_angle_rad(series, response.speed, nominal)
+
+
+def channel_spectra(series: Series, channel: Channel, response: Response) -> list[Spectrum | OrderSpectrum]:
     """The spectra kept of one channel."""
     duration_s = series.samples.size / series.sampling_rate_hz
     found: list[Spectrum | OrderSpectrum] = [
@@ -85,9 +104,9 @@ def channel_spectra(series: Series, channel: Channel, bases_hz: Mapping[str, flo
     ]
     if channel.quantity in LABELLED and moves(series):
         found.append(envelope_spectrum(series))
-    speed = bases_hz.get(REFERENCE, 0.0)
-    if speed * duration_s >= MIN_REVOLUTIONS:
-        found.append(order_spectrum(series, shaft=REFERENCE, rotation=speed))
+    rotation = _rotation(series, response)
+    if rotation is not None:
+        found.append(order_spectrum(series, shaft=REFERENCE, rotation=rotation))
     return found
 
 

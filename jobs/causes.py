@@ -15,6 +15,7 @@ import numpy as np
 from jobs.counterfactuals import Effect, active_terms, base_excitations, idle_terms, without
 from jobs.labelling import Predicted, label_sets
 from jobs.request import SimulationRequest
+from jobs.stretch import at_stretch
 from signals.floor import noise_floor
 from signals.labels.cause import (
     Cause,
@@ -130,6 +131,7 @@ def find_causes(response: Response, plan: Plan, run: Run, *, start_s: float) -> 
 
 
 def _targets(response: Response, start_s: float) -> tuple[Target, ...]:
+    response = at_stretch(response, start_s)
     recording = from_response(response).select(start_s=start_s)
     known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz)
     found: list[Target] = []
@@ -154,6 +156,7 @@ def _account(
     bases_hz: Mapping[str, float] | None = None,
 ) -> None:
     """Read the targets' lines in a counterfactual run; they lie where that machine's own kinematics put them."""
+    response = at_stretch(response, start_s)
     recording = from_response(response).select(start_s=start_s)
     readings = [_read(recording, t, bases_hz or response.bases_hz) for t in ledger.targets]
     ledger.steps.append(response.quality.steps)

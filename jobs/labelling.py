@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from jobs.results import ResultReader
+from jobs.stretch import unsteady
 from signals.export import labels_document
 from signals.labels.families import kinematic_lines
 from signals.labels.machine import machine_kinematics
@@ -49,20 +50,20 @@ def no_labels(bases_hz: Mapping[str, float], reason: str) -> dict[str, object]:
     return {"frequencies": dict(bases_hz), "peaks": [], "envelope": None, "reason": reason}
 
 
-def why_unlabelled(series: Series, bases_hz: Mapping[str, float]) -> str:
+def why_unlabelled(series: Series, known: Predicted) -> str:
     """Why a channel cannot be labelled; empty when it can."""
-    if REFERENCE not in bases_hz:
+    if REFERENCE not in known.bases_hz:
         return "nothing turns in this machine, so there are no kinematic lines to look for"
     if series.samples.size < MIN_SAMPLES:
         return f"the analysed stretch has {series.samples.size} samples, labels need {MIN_SAMPLES}: simulate longer"
     if not moves(series):
         return f"{series.name} does not move"
-    return ""
+    return unsteady(series, known.machine, known.seed)
 
 
 def label_sets(series: Series, known: Predicted, max_unexplained: int = MAX_UNEXPLAINED) -> ChannelLabels | None:
     """Labels of the amplitude and of the envelope spectrum; None where there is nothing to label."""
-    if why_unlabelled(series, known.bases_hz):
+    if why_unlabelled(series, known):
         return None
     kinematics = machine_kinematics(known.machine, known.bases_hz)
     lines = [
@@ -87,7 +88,7 @@ def label_channel(series: Series, known: Predicted, max_unexplained: int = MAX_U
     """Labels of the amplitude spectrum, and of the envelope spectrum under `envelope`."""
     found = label_sets(series, known, max_unexplained)
     if found is None:
-        return no_labels(known.bases_hz, why_unlabelled(series, known.bases_hz))
+        return no_labels(known.bases_hz, why_unlabelled(series, known))
     return {**labels_document(found.amplitude), "envelope": labels_document(found.envelope)}
 
 

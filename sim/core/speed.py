@@ -31,25 +31,33 @@ def _table(ratios: FloatArray, step_s: float, *, periodic: bool) -> FloatArray:
     return np.concatenate([head, np.column_stack([integral, ratios]).ravel()])
 
 
+def _noise(t: FloatArray, period_s: float, spec: FluctuatingSpeed, seed: int) -> FloatArray:
+    """Periodic noise of a Gaussian spectrum from random phases, by an inverse transform."""
+    rng = np.random.default_rng([seed, *b"speed"])
+    steps = t.size - 1
+    k = np.arange(1, steps // 2)
+    weight = np.exp(-0.25 * (2.0 * math.pi * k / period_s * spec.correlation_s) ** 2)
+    weight *= spec.random_rms / math.sqrt(0.5 * float(weight @ weight))
+    spectrum = np.zeros(steps // 2 + 1, dtype=complex)
+    spectrum[1 : steps // 2] = 0.5 * steps * weight * np.exp(1j * rng.uniform(0.0, 2.0 * math.pi, k.size))
+    values = np.fft.irfft(spectrum, steps)
+    return np.append(values, values[0])
+
+
 def _fluctuating(spec: FluctuatingSpeed, seed: int) -> FloatArray:
-    """One sine, plus noise of a Gaussian spectrum from random phases."""
+    """One sine, plus noise; with both the table holds whole cycles of the sine."""
     period = 1.0 / spec.frequency_hz
     steps = SINE_STEPS
-    if spec.random_rms > 0.0:
-        periods = max(1, round(RANDOM_PERIODS * spec.correlation_s * spec.frequency_hz))
+    if spec.random_rms > 0.0 and spec.amplitude > 0.0:
+        cycles = max(1, round(RANDOM_PERIODS * spec.correlation_s * spec.frequency_hz))
         fine = max(64, math.ceil(RANDOM_STEPS_PER_TIME * period / spec.correlation_s))
-        steps, period = periods * fine, periods * period
+        steps, period = cycles * fine, cycles * period
+    elif spec.random_rms > 0.0:
+        steps, period = RANDOM_PERIODS * RANDOM_STEPS_PER_TIME, RANDOM_PERIODS * spec.correlation_s
     t = np.arange(steps + 1) * period / steps
     ratios = 1.0 + spec.amplitude * np.sin(2.0 * math.pi * spec.frequency_hz * t)
     if spec.random_rms > 0.0:
-        rng = np.random.default_rng([seed, *b"speed"])
-        frequencies = np.arange(1, steps // 2) / period
-        weight = np.exp(-0.25 * (2.0 * math.pi * frequencies * spec.correlation_s) ** 2)
-        weight *= spec.random_rms / math.sqrt(0.5 * float(weight @ weight))
-        used = weight > 1e-6 * weight.max()
-        phases = rng.uniform(0.0, 2.0 * math.pi, frequencies.size)[used]
-        angle = 2.0 * math.pi * np.outer(t, frequencies[used]) + phases
-        ratios = ratios + np.cos(angle) @ weight[used]
+        ratios = ratios + _noise(t, period, spec, seed)
     return _table(np.maximum(ratios, 0.0), period / steps, periodic=True)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sim.core.choose import uniform
+from sim.core.choose import select, uniform
 from sim.core.kernels import kernel
 
 
@@ -12,7 +12,7 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
     for i in range(s):
         ctx[3 * i] = shafts[i + 1]
         ctx[3 * i + 1] = shafts[s + 2 + i]
-        ctx[3 * i + 2] = (shafts[2 * s + 1] - shafts[s + 1]) / step[1]
+        ctx[3 * i + 2] = (shafts[2 * s + 1] - shafts[s + 1]) / select(step[1] > 0.0, step[1], 1.0)
 
 
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001

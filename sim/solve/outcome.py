@@ -39,6 +39,14 @@ class Finished:
     contact: FloatArray
 
 
+def _unconverged(finished: Finished) -> tuple[str, ...]:
+    count = int(finished.counts[4])
+    if count == 0:
+        return ()
+    share = 100.0 * count / max(int(finished.counts[1]), 1)
+    return (f"{count} steps ({share:.2g} %) were taken although their forces had not settled: ask for shorter steps",)
+
+
 def _warnings(error: float | None, kind: str) -> tuple[str, ...]:
     if error is None or error <= STEP_WARNING:
         return ()

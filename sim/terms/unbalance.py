@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from sim.core.choose import uniform
+from sim.core.choose import select, uniform
 from sim.core.elementary import sine_cosine
 from sim.core.elements import Coordinate, Element, Output, flat
 from sim.core.kernels import kernel
@@ -19,14 +19,16 @@ CONTEXT = 2
 
 
 def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
-    """Force components at the nodes, N."""
+    """Force components at the nodes, N: minus the moment times the second derivative of (cos, sin) of its angle."""
     s = uniform(step[2])
     n = s + 1
+    # one node of no length is a single instant: the acceleration of the shaft is not known there and left out
+    turning = par[0] * par[2] * (shafts[n + s] - shafts[n]) / select(step[1] > 0.0, step[1], 1.0)
     for i in range(s):
         size = par[0] * shafts[n + i + 1] * shafts[n + i + 1]
         sine, cosine = sine_cosine(par[2] * shafts[i + 1] + par[1])
-        ctx[2 * i] = size * cosine
-        ctx[2 * i + 1] = size * sine
+        ctx[2 * i] = size * cosine + turning * sine
+        ctx[2 * i + 1] = size * sine - turning * cosine
 
 
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field, model_validator
 
 from sim.core.spec.base import Finite, Name, SpecModel
 
@@ -18,6 +18,10 @@ class RampSpeed(SpecModel):
     duration_s: Annotated[float, Field(ge=1e-3, le=3600)]
 
 
+MOST_CYCLES = 10.0
+"""Cycles of the sine within a correlation time of the noise: bounds the table to 82 000 knots."""
+
+
 class FluctuatingSpeed(SpecModel):
     """A sine around the nominal speed, and noise with a correlation time (it repeats after 128 of them)."""
 
@@ -27,13 +31,31 @@ class FluctuatingSpeed(SpecModel):
     random_rms: Annotated[float, Field(ge=0, le=0.2)] = 0.0
     correlation_s: Annotated[float, Field(ge=1e-2, le=100)] = 1.0
 
+    @model_validator(mode="after")
+    def _bounded(self) -> FluctuatingSpeed:
+        """The noise repeats after 128 correlation times, and its table holds 64 steps of every cycle of the sine."""
+        cycles = self.correlation_s * self.frequency_hz
+        if self.random_rms > 0.0 and self.amplitude > 0.0 and cycles > MOST_CYCLES:
+            message = f"frequency times correlation time is {cycles:g} cycles; beside noise at most {MOST_CYCLES:g}"
+            raise ValueError(message)
+        return self
+
+
+def _as_tuple(value: object) -> object:
+    """Arrays of JSON arrive as lists."""
+    return tuple(value) if isinstance(value, list) else value
+
 
 class MeasuredSpeed(SpecModel):
     """Ratios of the nominal speed at equal steps, linear between, the last one kept."""
 
     kind: Literal["measured"] = "measured"
     step_s: Annotated[float, Field(ge=1e-4, le=60)]
-    ratios: Annotated[tuple[Annotated[float, Field(ge=0, le=10)], ...], Field(min_length=2, max_length=100_000)]
+    ratios: Annotated[
+        tuple[Annotated[float, Field(ge=0, le=10)], ...],
+        BeforeValidator(_as_tuple),
+        Field(min_length=2, max_length=100_000),
+    ]
 
 
 SpeedProfile = Annotated[RampSpeed | FluctuatingSpeed | MeasuredSpeed, Field(discriminator="kind")]

@@ -52,15 +52,46 @@ def entries(given: object) -> tuple[Entry, ...] | None:
     if given is None or given == []:
         return None
     items: Sequence[object]
-    if isinstance(given, Mapping):
-        items = [v for _, v in sorted(given.items())]
+    if isinstance(given, Mapping) and not set(map(str.lower, map(str, given))) <= set(_NAMES):
+        items = _in_order(given)
     else:
         items = given if isinstance(given, list | tuple) else [given]
+        names = [_named(item) for item in items]
+        if all(names) and len(items) > 1 and len(set(names)) == len(names):
+            items = _in_order(dict(zip(names, items, strict=True)))
     if len(items) not in (1, 2, BEARINGS):
         message = "needs one entry (all alike), two (input and output shaft) or four"
         raise SpecError(Problem(field="bearings", message=message, given=len(items), allowed="1, 2 or 4 entries"))
     found = [_entry(item, f"bearings.{i}") for i, item in enumerate(items)]
     return tuple(found[i * len(found) // BEARINGS] for i in range(BEARINGS))
+
+
+ORDERS = {1: ("bearings",), 2: ("input", "output"), BEARINGS: tuple(f"bearing{i}" for i in range(1, BEARINGS + 1))}
+"""Names of one, two or four entries, in the order of the machine."""
+
+
+def _named(item: object) -> str:
+    """The place an entry says it stands at; empty when it says none."""
+    if not isinstance(item, Mapping):
+        return ""
+    return next((str(value) for key, value in item.items() if _NAMES.get(str(key).lower()) == "name"), "")
+
+
+def _in_order(named: Mapping[object, object]) -> list[object]:
+    """Entries by name in the order of the machine; names that are no places are labels, and the given order stays.
+
+    SpecError names what is missing, doubled or unknown among places.
+    """
+    expected = ORDERS.get(len(named), ORDERS[BEARINGS])
+    given = [str(name) for name in named]
+    if not set(given) & {place for places in ORDERS.values() for place in places} and len(given) == len(set(given)):
+        return list(named.values())
+    if sorted(given) != sorted(expected):
+        message = "names its bearings, but not each of them once"
+        allowed = ", ".join(expected)
+        raise SpecError(Problem(field="bearings", message=message, given=", ".join(given), allowed=allowed))
+    by_name = {str(name): item for name, item in named.items()}
+    return [by_name[name] for name in expected]
 
 
 def _entry(item: object, field: str) -> Entry:
@@ -113,6 +144,7 @@ def _geometry(numbers: Mapping[str, float], field: str) -> BallGeometry:
     pitch = numbers.get("pitch_m", numbers["pitch_mm"] * 1e-3 if "pitch_mm" in numbers else None)
     ratio = numbers.get("ratio")
     balls = numbers.get("balls")
+    angle = numbers.get("angle_deg", 0.0)
     if ratio is None and ball is not None and pitch is not None:
         ratio = ball / pitch if pitch > 0 else math.nan
     checks = (
@@ -120,6 +152,7 @@ def _geometry(numbers: Mapping[str, float], field: str) -> BallGeometry:
         ("ratio", ratio, ratio is not None and 0 < ratio < 0.9, "above 0, below 0.9 (or both diameters)"),
         ("ball_diameter_m", ball, ball is None or 0 < ball <= 0.5, "above 0 to 0.5"),
         ("pitch_diameter_m", pitch, pitch is None or 0 < pitch <= 5, "above 0 to 5"),
+        ("contact_angle_deg", angle, 0 <= angle <= 50, "0 to 50"),
     )
     problems = [
         Problem(field=f"{field}.{n}", message="is missing" if v is None else "is out of bounds", given=v, allowed=a)
@@ -133,7 +166,7 @@ def _geometry(numbers: Mapping[str, float], field: str) -> BallGeometry:
         ball_diameter_m=ball,
         pitch_diameter_m=pitch,
         diameter_ratio=None if ball is not None and pitch is not None else ratio,
-        contact_angle_deg=numbers.get("angle_deg", 0.0),
+        contact_angle_deg=angle,
     )
 
 

@@ -68,6 +68,10 @@ def reference_machine(
 
 def _check_tolerance(tolerance: object) -> None:
     numbers = list(tolerance.values()) if isinstance(tolerance, Mapping) else [tolerance]
+    unknown = [str(name) for name in tolerance if name not in KEYS] if isinstance(tolerance, Mapping) else []
+    if unknown:
+        message = "is not a parameter"
+        raise SpecError([Problem(field=f"tolerance.{n}", message=message, allowed=", ".join(KEYS)) for n in unknown])
     for number in numbers:
         good = (
             isinstance(number, int | float) and not isinstance(number, bool) and math.isfinite(number) and number >= 0
