@@ -14,6 +14,7 @@ from sim.core.spec import TermSpec
 from sim.parts.pair_kernels import SHAPE_POINTS
 from sim.presets import preset
 from sim.solve.api import simulate
+from sim.solve.ensemble import Member, simulate_many
 from sim.solve.plain import plain_context, plain_force
 from sim.solve.settings import Settings
 from sim.terms import REGISTRY
@@ -202,3 +203,14 @@ def test_corners_end_in_finite_signals(key, corner):
         assert np.max(np.abs(run.signals)) < 1e6
         assert run.quality.unconverged_steps == 0
         assert run.quality.energy.relative_residual < 1e-2
+
+
+def test_lanes_equal_single_runs_with_all_of_it():
+    """Different damage side by side; eight machines of one structure."""
+    machines = [everything(angle) for angle in (1e-4, 3e-4, 8e-4)]
+    run = {"duration_s": 0.02, "output_rate_hz": 30_000.0}
+    settings = Settings(estimate_error=False, anti_alias=False, steps_per_output=2)
+    found = simulate_many([Member(machine=m) for m in machines], settings=settings, **run)
+    for machine, response in zip(machines, found, strict=True):
+        alone = simulate(machine, settings=settings, **run).signals
+        assert response.signals == pytest.approx(alone, abs=1e-9 * np.max(np.abs(alone)))
