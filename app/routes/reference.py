@@ -61,8 +61,20 @@ def preset(name: str, request: Request, state: State) -> Response:
 
 @router.get("/v1/terms", responses=problems(401))
 def terms(request: Request, state: State) -> Response:
-    """The physical effects a machine can have: parameters with units and bounds, sites, lines, literature."""
+    """The physical effects a machine can have: parameters with units and bounds, sites, lines, literature, checks.
+
+    `predicted_lines` are those on the machine of `demo`, which is `demo.machine` with the effect at `demo.site`.
+    """
     return _document(request, state, {"terms": state.engine.terms()})
+
+
+@router.get("/v1/terms/{key}", responses=problems(401, 404))
+def term(key: str, request: Request, state: State) -> Response:
+    """One physical effect."""
+    known = {str(found["key"]): found for found in state.engine.terms()}
+    if key not in known:
+        raise UnknownName("term", key, tuple(known))
+    return _document(request, state, known[key])
 
 
 @router.get("/v1/bearings", responses=problems(401))
