@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from threading import Lock
 
 from jobs.cost import Run, expected
+from jobs.example import example
 from jobs.identity import canonical_json
 from jobs.ports import MachineReport
 from jobs.record import Cost
@@ -14,6 +15,7 @@ from jobs.term_document import term_document
 from sim import presets
 from sim.assembly.assemble import assemble
 from sim.assembly.modes import natural_frequencies_hz
+from sim.core.errors import UnknownName
 from sim.core.response import Response
 from sim.core.spec import MachineSpec
 from sim.core.system import System
@@ -33,6 +35,7 @@ class PhysicsEngine:
     def __init__(self) -> None:
         self._systems: OrderedDict[str, System] = OrderedDict()
         self._lock = Lock()
+        self._examples = Lock()
 
     @property
     def version(self) -> str:
@@ -54,6 +57,15 @@ class PhysicsEngine:
     def terms(self) -> list[dict[str, object]]:
         """Every registered effect as a document."""
         return [term_document(term) for term in REGISTRY]
+
+    def example(self, key: str) -> dict[str, object]:
+        """An effect at work on its demonstration machine; raises UnknownName. Takes about half a second."""
+        term = REGISTRY.get(key)
+        if term is None:
+            raise UnknownName("term", key, REGISTRY.keys())
+        # One at a time: whoever opens many pages must not take every core from the workers.
+        with self._examples:
+            return example(term)
 
     def bearings(self) -> list[dict[str, object]]:
         """The bearing catalogue."""

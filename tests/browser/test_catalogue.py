@@ -21,7 +21,7 @@ def test_every_effect_is_listed_and_told_in_full(browser: Browser, service: Serv
     assert f"{shown['predicted_lines'][0]['frequency_hz']:.6g}" in text
     for term in terms:
         browser.run("document.querySelector(`[data-term=${arguments[0]}]`).open = true", term["key"])
-    eventually(lambda: browser.count(".effect-body:empty") == 0, what="all contents")
+    eventually(lambda: browser.count(".catalogue-body:empty") == 0, what="all contents")
     assert not browser.run("return document.querySelector('.catalogue').innerText.match(/undefined|NaN|\\[object/)")
 
 

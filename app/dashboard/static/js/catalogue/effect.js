@@ -8,7 +8,7 @@ import { formula } from "/js/plot/formula.js";
 const MOST_LINES = 12;
 
 export function effectCard(term) {
-  const body = h("div", { class: "card-body effect-body" });
+  const body = h("div", { class: "card-body catalogue-body" });
   const element = h("details", { class: "card catalogue-effect", dataset: { term: term.key } },
     h("summary", {}, h("strong", {}, term.title), h("code", {}, term.key), h("span", { class: "muted" }, prose(term.sentence))), body);
   element.addEventListener("toggle", () => {
