@@ -6,7 +6,7 @@ import numpy as np
 
 from jobs.demonstration import demonstration, predicted
 from jobs.documents import FloatArray
-from jobs.thinning import highest, min_max
+from jobs.thinning import highest
 from signals.recording import Recording, from_response
 from signals.series import Series
 from signals.spectra import amplitude_spectrum, envelope_spectrum
@@ -31,7 +31,8 @@ def example(term: Term) -> dict[str, object]:
     """The document: `signal` and `spectrum`, each `with` and `without` (None for a built-in effect), and the lines.
 
     The channel is the first acceleration of the default channels, after the start-up. Both envelopes are of the band
-    that suits the signal with the effect. Thinned to at most `MAX_POINTS` points a curve without losing a peak.
+    that suits the signal with the effect. Spectra are of the whole span; of the signal, the first `MAX_POINTS` samples
+    (0.1 s) are given, as thinning would hide the shape of impacts.
     """
     shown = demonstration(term)
     lines = predicted(term, shown)[:LEADING]
@@ -68,8 +69,8 @@ def _recorded(machine: MachineSpec) -> Recording:
 
 
 def _signal(series: Series) -> dict[str, list[float]]:
-    time_s = series.start_s + np.arange(series.samples.size) / series.sampling_rate_hz
-    return _curve(*min_max(time_s, series.samples, MAX_POINTS))
+    time_s = series.start_s + np.arange(MAX_POINTS) / series.sampling_rate_hz
+    return _curve(time_s, series.samples[:MAX_POINTS])
 
 
 def _spectrum(found: Spectrum, top_hz: float) -> dict[str, list[float]]:

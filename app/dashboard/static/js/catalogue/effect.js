@@ -3,6 +3,7 @@
 import { h } from "/js/lib/dom.js";
 import { plainNumber, prose, unit } from "/js/lib/format.js";
 import { familyInfo, familyOf } from "/js/lib/families.js";
+import { examplePart } from "/js/catalogue/example.js";
 import { formula } from "/js/plot/formula.js";
 
 const MOST_LINES = 12;
@@ -11,10 +12,14 @@ export function effectCard(term) {
   const body = h("div", { class: "card-body catalogue-body" });
   const element = h("details", { class: "card catalogue-effect", dataset: { term: term.key } },
     h("summary", {}, h("strong", {}, term.title), h("code", {}, term.key), h("span", { class: "muted" }, prose(term.sentence))), body);
+  let example = null;
   element.addEventListener("toggle", () => {
-    if (element.open && !body.childElementCount) body.append(...contents(term));
+    if (element.open && !body.childElementCount) {
+      example = examplePart(term);
+      body.append(...contents(term, example.element));
+    }
   });
-  return { term, element, text: searchable(term) };
+  return { term, element, text: searchable(term), stop: () => example?.stop() };
 }
 
 function searchable(term) {
@@ -23,7 +28,7 @@ function searchable(term) {
   return [term.key, term.title, term.sentence, ...term.sites, ...parameters, ...term.references, ...lines].join(" ").toLowerCase();
 }
 
-function contents(term) {
+function contents(term, example) {
   const facts = [
     ["Acts at", term.sites.join(", ") || "the whole machine, when there is something to act on"],
     ["Size", term.severity ? `${term.severity}${term.zero_is_healthy ? "; zero changes nothing" : ""}` : "–"],
@@ -34,6 +39,7 @@ function contents(term) {
   ];
   return [
     h("dl", { class: "catalogue-facts" }, facts.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))),
+    part("Example", example, 1),
     part("Parameters", parameterTable(term), term.parameters.length),
     part("Predicted lines", lineTable(term), term.predicted_lines.length),
     part("Checked against", checkTable(term), term.validation.length),

@@ -44,4 +44,6 @@ export function cataloguePage(main, { id }) {
     const seen = cards.filter((card) => !card.element.hidden).length;
     count.textContent = seen ? `${seen} of ${cards.length}` : "No effect has all these words.";
   }
+
+  return () => cards.forEach((card) => card.stop());
 }
