@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
 from threading import Lock
 
 from jobs.cost import Run, expected
+from jobs.example import example
 from jobs.identity import canonical_json
 from jobs.ports import MachineReport
 from jobs.record import Cost
+from jobs.term_document import term_document
 from sim import presets
 from sim.assembly.assemble import assemble
 from sim.assembly.modes import natural_frequencies_hz
+from sim.core.errors import UnknownName
 from sim.core.response import Response
 from sim.core.spec import MachineSpec
 from sim.core.system import System
-from sim.core.terms import Term
 from sim.parts.bearing.catalogue import catalogue, missing
 from sim.solve.api import default_channels, resolve_channels, simulate
 from sim.terms import REGISTRY
@@ -34,6 +35,7 @@ class PhysicsEngine:
     def __init__(self) -> None:
         self._systems: OrderedDict[str, System] = OrderedDict()
         self._lock = Lock()
+        self._examples = Lock()
 
     @property
     def version(self) -> str:
@@ -53,8 +55,17 @@ class PhysicsEngine:
         return presets.preset(name)
 
     def terms(self) -> list[dict[str, object]]:
-        """Every registered effect with its parameters."""
-        return [_term(term) for term in REGISTRY]
+        """Every registered effect as a document."""
+        return [term_document(term) for term in REGISTRY]
+
+    def example(self, key: str) -> dict[str, object]:
+        """An effect at work on its demonstration machine; raises UnknownName. Takes about half a second."""
+        term = REGISTRY.get(key)
+        if term is None:
+            raise UnknownName("term", key, REGISTRY.keys())
+        # One at a time: whoever opens many pages must not take every core from the workers.
+        with self._examples:
+            return example(term)
 
     def bearings(self) -> list[dict[str, object]]:
         """The bearing catalogue."""
@@ -120,17 +131,3 @@ class PhysicsEngine:
             while len(self._systems) > KEPT_SYSTEMS:
                 self._systems.popitem(last=False)
         return system
-
-
-def _term(term: Term) -> dict[str, object]:
-    return {
-        "key": term.key,
-        "title": term.title,
-        "sentence": term.sentence,
-        "sites": list(term.sites),
-        "severity": term.severity,
-        "zero_is_healthy": term.zero_is_healthy,
-        "excludes": list(term.excludes),
-        "references": list(term.references),
-        "parameters": [asdict(param) for param in term.params],
-    }

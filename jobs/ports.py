@@ -51,6 +51,9 @@ class Engine(Protocol):
     def terms(self) -> list[dict[str, object]]:
         """Every effect with its parameters."""
 
+    def example(self, key: str) -> dict[str, object]:
+        """An effect at work on its demonstration machine; raises UnknownName."""
+
     def bearings(self) -> list[dict[str, object]]:
         """The bearing catalogue."""
 

@@ -11,6 +11,7 @@ from app.conditional import content, etag_of, not_modified
 from app.routes.responses import problems
 from app.schemas import Reply
 from app.state import AppState, State
+from jobs.errors import UnknownArtefact
 from jobs.identity import digest
 from jobs.overrides import told_by_key
 from jobs.ports import MachineReport
@@ -61,8 +62,49 @@ def preset(name: str, request: Request, state: State) -> Response:
 
 @router.get("/v1/terms", responses=problems(401))
 def terms(request: Request, state: State) -> Response:
-    """The physical effects a machine can have: parameters with units and bounds, sites, lines, literature."""
+    """The physical effects a machine can have: parameters with units and bounds, sites, lines, literature, checks.
+
+    `predicted_lines` are those on the machine of `demo`, which is `demo.machine` with the effect at `demo.site`.
+    """
     return _document(request, state, {"terms": state.engine.terms()})
+
+
+@router.get("/v1/terms/{key}", responses=problems(401, 404))
+def term(key: str, request: Request, state: State) -> Response:
+    """One physical effect."""
+    return _document(request, state, _declared(state, key))
+
+
+@router.get("/v1/terms/{key}/example", responses=problems(401, 404, 503, 507))
+def example(key: str, request: Request, state: State) -> Response:
+    """A signal and a spectrum of the demonstration machine, with the effect and without; at most 2000 points a curve.
+
+    Made when first asked for (about half a second), then kept with the results until the physics or the effect changes.
+    """
+    about = digest({"version": state.engine.version, "term": _declared(state, key)})
+    etag = etag_of("example", about)
+    known = not_modified(request, etag)
+    if known is not None:
+        return known
+    body = state.labels.get(("example", about), lambda: _example(state, key, f"examples/{about}/{key}.json"))
+    return content(request, body, etag=etag, media_type="application/json")
+
+
+def _example(state: AppState, key: str, place: str) -> bytes:
+    try:
+        return state.stores.artefacts.read(place)
+    except UnknownArtefact:
+        body = json.dumps(state.engine.example(key), separators=(",", ":"), allow_nan=False).encode()
+    with state.stores.artefacts.write(place) as stream:
+        stream.write(body)
+    return body
+
+
+def _declared(state: AppState, key: str) -> dict[str, object]:
+    known = {str(found["key"]): found for found in state.engine.terms()}
+    if key not in known:
+        raise UnknownName("term", key, tuple(known))
+    return known[key]
 
 
 @router.get("/v1/bearings", responses=problems(401))

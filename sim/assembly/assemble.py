@@ -28,6 +28,8 @@ from sim.terms import REGISTRY
 
 BASE_TERMS = {"mesh": ("mesh_total", "mesh_pairs"), "bearing": ("ball_contact",)}
 """Effects every mesh and every bearing has without being asked for."""
+BUILT_IN = (*(key for keys in BASE_TERMS.values() for key in keys), "force_load")
+"""Keys of all effects that act without being asked for."""
 
 
 def _base(machine: MachineSpec, kin: Kinematics, registry: Registry, seed: int) -> list[Acting]:
@@ -64,6 +66,19 @@ def _check_masses(linear: Linear) -> None:
 
 def _lines(acting: Sequence[Acting]) -> tuple[Line, ...]:
     return tuple(line for a in acting for line in a.term.lines(a.values, a.site))
+
+
+def predicted_lines(
+    machine: MachineSpec, *, seed: int = 0, registry: Registry = REGISTRY
+) -> tuple[tuple[Line, ...], dict[str, float]]:
+    """Lines and base frequencies (Hz) as `assemble` gives them, without the meshes' tables, in milliseconds."""
+    check_references(machine)
+    kin = kinematics(machine)
+    acting = [a for a in acting_terms(machine, kin, registry, seed) if not a.term.idle(a.values)]
+    bearings = base_laws(machine.model_copy(update={"meshes": []}), {}, [], senses=kin.senses)
+    # Only what acts at bearings changes the speeds of their parts.
+    laws = modified_laws(bearings, [a for a in acting if a.term.sites == ("bearing",)])
+    return _lines(_base(machine, kin, registry, seed) + acting), slipped_bases(kin, machine, laws)
 
 
 def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGISTRY) -> System:

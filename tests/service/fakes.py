@@ -52,6 +52,10 @@ class FakeEngine:
     def terms(self) -> list[dict[str, object]]:
         return [{"key": "fit_clearance", "sites": ["bearing"], "parameters": []}]
 
+    def example(self, key: str) -> dict[str, object]:
+        self.examples = getattr(self, "examples", 0) + 1
+        return {"key": key, "made": self.examples}
+
     def bearings(self) -> list[dict[str, object]]:
         return [{"designation": "6203", "balls": 8}]
 

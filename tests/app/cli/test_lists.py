@@ -23,6 +23,7 @@ def test_terms(call: Call) -> None:
     assert {row["key"] for row in json.loads(call("terms", "--json")[1])} == set(REGISTRY.keys())
     one = json.loads(call("terms", "fit_clearance", "--json")[1])
     assert {p["name"]: p["unit"] for p in one["parameters"]}["gap"] == "m"
+    assert one["predicted_lines"][0]["label"] == "1*f_o1" and one["demo"]["site"]
     assert "gap" in call("terms", "fit_clearance")[1]
 
 

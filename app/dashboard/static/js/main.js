@@ -3,6 +3,7 @@
 import { ApiProblem, apiKey, getJson, setApiKey } from "/js/lib/api.js";
 import { h, icon, replace } from "/js/lib/dom.js";
 import { clearBanner, problemBox, showBanner } from "/js/lib/problem.js";
+import { cataloguePage } from "/js/catalogue/page.js";
 import { formPage } from "/js/form/page.js";
 import { overviewPage } from "/js/overview/page.js";
 import { resultPage } from "/js/result/page.js";
@@ -11,6 +12,7 @@ const HEALTH_MS = 3000;
 const ROUTES = [
   [/^\/?$/, "overview", overviewPage, "Jobs"],
   [/^\/new$/, "new", formPage, "New simulation"],
+  [/^\/catalogue(?:\/([a-z0-9_]+))?$/, "catalogue", cataloguePage, "Physical effects"],
   [/^\/jobs\/([A-Za-z0-9_-]+)$/, "result", resultPage, "Result"],
 ];
 
