@@ -23,7 +23,7 @@ from sim.core.laws import RACE_POINTS, BallLaw, Laws
 from sim.core.lines import Line
 from sim.core.response import FloatArray
 from sim.core.spec import MachineSpec
-from sim.core.terms import SiteContext, Term, Values
+from sim.core.terms import SiteContext, Term, Validation, Values
 from sim.parts.bearing.ball_load import BallRow, mean_stiffness_n_per_m
 from sim.parts.bearing.profile_kernels import write_profiles
 from sim.parts.static_load import static_bearing_load_n
@@ -248,4 +248,12 @@ TERM = BallContact(
     severity=None,
     passive=False,
     order=10,
+    validation=(
+        Validation(
+            kind="published table",
+            source="Harris & Kotzalas, 5th ed., ch. 7, worked example: largest ball load of a 209",
+            deviation=5e-3,
+            test="tests/sim/parts/bearing/test_ball_load.py::test_209_worked_example",
+        ),
+    ),
 )

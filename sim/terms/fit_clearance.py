@@ -15,7 +15,7 @@ from sim.core.elements import Element
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.spec import MachineSpec
-from sim.core.terms import SiteContext, Term, Values
+from sim.core.terms import SiteContext, Term, Validation, Values
 from sim.parts.wall import (
     CONTEXT,
     OUTPUTS,
@@ -85,4 +85,12 @@ TERM = FitClearance(
     passive=True,
     order=20,
     excludes=("fit_clearance_series",),
+    validation=(
+        Validation(
+            kind="closed form",
+            source="impact of a mass on a spring of exponent 10/9: depth (time within two steps)",
+            deviation=1e-3,
+            test="tests/sim/solve/test_impact.py::test_contact_time_and_depth_without_damping",
+        ),
+    ),
 )

@@ -12,7 +12,7 @@ from sim.core.elements import Coordinate, Element, Output, flat
 from sim.core.kernels import kernel
 from sim.core.laws import Laws
 from sim.core.spec import ForceLoad
-from sim.core.terms import SiteContext, Term, Values
+from sim.core.terms import SiteContext, Term, Validation, Values
 
 
 def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
@@ -76,4 +76,12 @@ TERM = ForceLoads(
     references=("docs/conventions.md",),
     severity=None,
     order=10,
+    validation=(
+        Validation(
+            kind="closed form",
+            source="undamped oscillator under a sine from rest",
+            deviation=1e-8,
+            test="tests/sim/solve/test_closed_forms.py::test_sinusoidal_load_from_rest",
+        ),
+    ),
 )

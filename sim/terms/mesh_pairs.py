@@ -17,7 +17,7 @@ from sim.core.elements import Element
 from sim.core.kernels import kernel
 from sim.core.laws import Laws
 from sim.core.lines import Line
-from sim.core.terms import SiteContext, Term, Values
+from sim.core.terms import SiteContext, Term, Validation, Values
 from sim.parts.mesh_element import OUTPUTS, mesh_coordinates
 from sim.parts.mesh_kernels import (
     SAME,
@@ -149,4 +149,12 @@ TERM = MeshPairs(
     ),
     severity=None,
     order=10,
+    validation=(
+        Validation(
+            kind="independent calculation",
+            source="stiffness of the same pair by another implementation of the method",
+            deviation=0.045,
+            test="tests/sim/parts/gear/test_total_table.py::test_agrees_with_the_independent_table",
+        ),
+    ),
 )

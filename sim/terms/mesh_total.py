@@ -18,7 +18,7 @@ from sim.core.kernels import kernel
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.spec import MachineSpec
-from sim.core.terms import Demo, SiteContext, Term, Values
+from sim.core.terms import Demo, SiteContext, Term, Validation, Values
 from sim.parts.mesh_element import OUTPUTS, header, mesh_coordinates, zero_row
 from sim.parts.mesh_kernels import (
     HEADER,
@@ -238,4 +238,12 @@ TERM = MeshTotal(
     severity=None,
     order=10,
     demo=Demo(prepare=one_curve),
+    validation=(
+        Validation(
+            kind="independent calculation",
+            source="accelerations of the gearbox by another code and integrator, given curve",
+            deviation=1e-3,
+            test="tests/reference/test_reference.py::test_accelerations_of_the_sensors",
+        ),
+    ),
 )
