@@ -9,11 +9,10 @@ import numpy as np
 
 from bench.cases import CHANNELS, DURATION_S, FINE, RATE_HZ, START_S, Case, cases
 from bench.single import best, settings
+from jobs.demonstration import demonstration
 from sim.core.errors import SidebandError
 from sim.core.response import FloatArray, Response
-from sim.core.spec import MachineSpec, TermSpec
-from sim.core.terms import Term
-from sim.presets import preset
+from sim.core.spec import MachineSpec
 from sim.solve.api import simulate
 from sim.solve.ensemble import Member, simulate_many
 from sim.solve.settings import Settings
@@ -101,33 +100,16 @@ class Price:
     lanes: float
 
 
-def _demo(term: Term) -> tuple[MachineSpec, MachineSpec] | None:
-    base = term.demo.prepare(preset(term.demo.machine))
-    sites = {
-        "bearing": [b.name for b in base.bearings],
-        "gear": [g.name for g in base.gears],
-        "mesh": [m.name for m in base.meshes],
-        "shaft": [s.name for s in base.shafts],
-        "body": [b.name for b in base.bodies],
-    }
-    site = term.demo.site or next((name for kind in term.sites for name in sites[kind]), None)
-    if site is None:
-        return None
-    base = base.model_copy(update={"terms": tuple(t for t in base.terms if t.term != term.key)})
-    spec = TermSpec(term=term.key, site=site, parameters=dict(term.demo.values))
-    return base, base.model_copy(update={"terms": (*base.terms, spec)})
-
-
 def prices() -> list[Price]:
     """Price of every registered effect on its own demonstration machine."""
     found = []
     chosen = Settings(estimate_error=False)
     for term in REGISTRY:
-        pair = _demo(term) if term.params else None
-        if pair is None:
+        if not term.params:
             continue
+        shown = demonstration(term)
         times = []
-        for machine in pair:
+        for machine in (shown.without, shown.machine):
             one = partial(simulate, machine, duration_s=TERM_S, output_rate_hz=20_000.0, settings=chosen)
             many = partial(
                 simulate_many,

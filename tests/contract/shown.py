@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 
+from jobs.demonstration import demonstration
 from signals.floor import FloorSettings, noise_floor
 from signals.recording import Recording, from_response
 from signals.series import Series
@@ -15,13 +15,11 @@ from signals.spectra import amplitude_spectrum, envelope_spectrum
 from signals.spectra.types import Spectrum
 from sim.assembly.assemble import assemble
 from sim.core.lines import Line
-from sim.core.spec import MachineSpec, TermSpec
+from sim.core.spec import MachineSpec
 from sim.core.system import System
 from sim.core.terms import Term
-from sim.presets import preset
 from sim.solve.api import simulate
 from sim.solve.settings import Settings
-from tests.strategies.systems import with_terms
 
 BASE = {"mesh_total", "mesh_pairs", "ball_contact", "force_load"}
 """Effects a machine has without asking: nothing else moves at their rates, so their lines need no counterfactual."""
@@ -52,25 +50,10 @@ class Shown:
         return self.over_floor_db >= OVER_FLOOR_DB and self.rise_db >= RISE_DB
 
 
-def sites_of(machine: MachineSpec, term: Term) -> list[str]:
-    """Names of the parts where the term may act, in the order of the specification."""
-    parts: Mapping[str, list[str]] = {
-        "bearing": [b.name for b in machine.bearings],
-        "gear": [g.name for g in machine.gears],
-        "body": [b.name for b in machine.bodies],
-        "mesh": [m.name for m in machine.meshes],
-        "shaft": [s.name for s in machine.shafts],
-    }
-    return [name for kind in term.sites for name in parts[kind]]
-
-
 def demo_machines(term: Term) -> tuple[MachineSpec, MachineSpec]:
     """The term's demonstration, and the same machine without the term."""
-    plain = term.demo.prepare(preset(term.demo.machine))
-    if term.key in BASE:
-        return plain, plain
-    site = term.demo.site or sites_of(plain, term)[0]
-    return with_terms(plain, TermSpec(term=term.key, site=site, parameters=dict(term.demo.values))), plain
+    shown = demonstration(term)
+    return shown.machine, shown.without
 
 
 def promised(term: Term, system: System, without: System) -> list[Line]:
