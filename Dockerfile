@@ -9,6 +9,7 @@ RUN /opt/sideband/bin/pip install --no-cache-dir -r requirements-server.lock
 COPY pyproject.toml README.md LICENSE THIRD_PARTY_NOTICES.md ./
 COPY sim sim
 COPY signals signals
+COPY reconcile reconcile
 COPY jobs jobs
 COPY store store
 COPY workers workers

@@ -1,0 +1,152 @@
+"""What a reconciliation says: typed results, ready for `report.json`. SI units throughout."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Literal
+
+Word = Literal["nothing_missing", "explained", "ambiguous", "unknown_physics", "measurement_fault", "not_decidable"]
+Level = Literal["machine", "kinematics", "driven"]
+"""What the engine could stand on: a simulated machine, frequencies of a drawing only, or a measured input."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaceWeight:
+    """A site of the machine spec and the share of the evidence that points there, 0..1."""
+
+    site: str
+    weight: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class LineChange:
+    """A line whose level differs from what was expected; `change_db` = observed - expected."""
+
+    label: str
+    frequency_hz: float
+    change_db: float
+    channel: str = ""
+    locked_to: str = ""
+    """`input`, `bearing1.cage`, `mesh1`, `mains` or empty for nothing known."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AngleWindow:
+    """Where in a revolution the residual sits: centre and half width, degrees of `shaft`."""
+
+    shaft: str
+    centre_deg: float
+    low_deg: float
+    high_deg: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Where:
+    """Location in the machine, in frequency and in angle; `limits` says what could not be told apart and why."""
+
+    sites: tuple[PlaceWeight, ...] = ()
+    lines: tuple[LineChange, ...] = ()
+    angle_window: AngleWindow | None = None
+    limits: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Severity:
+    """Size of an effect with a 90 % interval [low, high], in the unit of the term's severity parameter."""
+
+    name: str
+    value: float
+    unit: str
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cause:
+    """A candidate: a registered term at a site. `score` is its predictive log score over nothing missing.
+
+    `named` is true only when all rules for giving a name hold; `reasons` says which did not.
+    """
+
+    term: str
+    site: str
+    score: float
+    severity: Severity | None = None
+    named: bool = False
+    reasons: tuple[str, ...] = ()
+    values: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SensorFault:
+    """The mismatch is in the measurement."""
+
+    kind: str
+    channel: str
+    detail: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeldOut:
+    """Fit on data the fit never saw. `gain` = 1 - after/before with a 90 % interval; rivals as gains too."""
+
+    metric: str
+    unit: str
+    before: float
+    after: float
+    gain: float
+    gain_low: float
+    gain_high: float
+    retuned: float | None
+    black_box: float | None
+    placebo: float | None
+    held: str = ""
+    """What was held out: an unseen speed, load, a later time."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class EstimatedForce:
+    """Force nobody's law covers: samples over its arguments with band, and the simplest law that survived."""
+
+    site: str
+    samples: Mapping[str, tuple[float, ...]]
+    """`displacement_m`, `velocity_m_per_s` or `angle_rad`, with `force_n`, `low_n`, `high_n`."""
+    law: str | None
+    coefficients: Mapping[str, float] = field(default_factory=dict)
+    work_per_cycle_j: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class NextExperiment:
+    """What would decide: separation (in standard errors) now and expected after it."""
+
+    sentence: str
+    separation_now: float | None = None
+    separation_expected: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Report:
+    """The whole answer. `machine` is the revised specification, or None where there is none to revise."""
+
+    verdict: Word
+    sentence: str
+    level: Level
+    where: Where = field(default_factory=Where)
+    causes: tuple[Cause, ...] = ()
+    fault: SensorFault | None = None
+    held_out: HeldOut | None = None
+    force: EstimatedForce | None = None
+    undecidable: tuple[str, ...] = ()
+    next_experiment: NextExperiment | None = None
+    machine: Mapping[str, object] | None = None
+    stages: tuple[Mapping[str, object], ...] = ()
+    """One entry a stage: name, what it found, figures; shown in the page."""
+    pictures: Mapping[str, object] = field(default_factory=dict)
+    """Data the page draws: spectra before and after, heat maps, feature changes."""
+    provenance: Mapping[str, object] = field(default_factory=dict)
+
+    def document(self) -> dict[str, object]:
+        """JSON with the keys of the interface."""
+        return asdict(self)
