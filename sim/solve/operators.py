@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,6 +82,30 @@ def _blocks(system: System) -> list[NDArray[np.intp]]:
     return [np.flatnonzero(label == k) for k in np.unique(label)]
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Block:
+    """A block's matrices as bytes, so that machines which share a block share its exponentials."""
+
+    a: bytes
+    inputs: bytes
+    spans: bytes
+    inputs_shape: tuple[int, int]
+    halvings: int
+
+
+@lru_cache(maxsize=1024)
+def _kept_responses(block: _Block) -> tuple[tuple[FloatArray, FloatArray], ...]:
+    n, m = block.inputs_shape
+    return tuple(
+        _responses(
+            np.frombuffer(block.a).reshape(n, n),
+            np.frombuffer(block.inputs).reshape(n, m),
+            np.frombuffer(block.spans),
+            block.halvings,
+        )
+    )
+
+
 def _responses(
     a: FloatArray, inputs: FloatArray, spans: FloatArray, halvings: int
 ) -> list[tuple[FloatArray, FloatArray]]:
@@ -133,7 +158,11 @@ def step_operators(
         used = np.flatnonzero(np.any(columns[block] != 0, axis=0))
         inputs = np.zeros((2 * k, used.size))
         inputs[k:] = columns[np.ix_(block, used)]
-        for level, (e, integrals) in enumerate(_responses(a, inputs, rule.c * h, levels)):
+        spans = np.ascontiguousarray(rule.c * h)
+        kept = _Block(
+            a=a.tobytes(), inputs=inputs.tobytes(), spans=spans.tobytes(), inputs_shape=inputs.shape, halvings=levels
+        )
+        for level, (e, integrals) in enumerate(_kept_responses(kept)):
             states[level][:, both[:, None], both] = e
             polys[level][:, :, both[:, None], used] = integrals * powers[:, :, None, None]
     return tuple(_operators(coords, rule, h / 2.0**level, states[level], polys[level], f) for level in range(levels))

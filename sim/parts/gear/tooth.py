@@ -109,6 +109,7 @@ def tooth_sections(
     return ToothSections(x_m=x_m, h_m=h_m + _fillet_m(gear, x_m - root.clamp_m), dx_m=dx_m)
 
 
+@lru_cache(maxsize=8)
 def _nodes(count: int) -> tuple[FloatArray, FloatArray]:
     """Nodes v^2 and weights on [0, 1], crowded at 0, where the fillet meets the root with an infinite slope."""
     x, w = np.polynomial.legendre.leggauss(count)

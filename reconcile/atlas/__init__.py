@@ -1,0 +1,1 @@
+"""What each candidate effect would change on this machine: simulated signatures, made once and cached."""

@@ -1,0 +1,99 @@
+"""Stage 4: candidates are the registered effects at their sites; ranges come from their own declaration."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.assembly.assemble import BUILT_IN
+from sim.core.params import Param
+from sim.core.spec import MachineSpec, TermSpec
+from sim.core.terms import Registry, Term
+from sim.terms import REGISTRY
+
+BELOW = 10.0
+ABOVE = 6.0
+"""A candidate's size is sought from a tenth of the declared default to six times it, within the bounds."""
+COUNTED = 2.0
+"""Dimensionless parameters with a whole default from here on are orders: drawn whole."""
+FREE = ("custom_force",)
+"""Laws of the user's own have no prior: they enter as unknown physics."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Candidate:
+    """A registered term at a site."""
+
+    term: str
+    site: str
+
+    @property
+    def label(self) -> str:
+        """`outer_spall@bearing1`."""
+        return f"{self.term}@{self.site}"
+
+
+def _sites(machine: MachineSpec, term: Term) -> Iterator[str]:
+    groups = {
+        "bearing": [b.name for b in machine.bearings],
+        "gear": [g.name for g in machine.gears],
+        "body": [b.name for b in machine.bodies],
+        "mesh": [m.name for m in machine.meshes],
+        "shaft": [s.name for s in machine.shafts],
+    }
+    for kind in term.sites:
+        yield from groups[kind]
+
+
+def candidates(machine: MachineSpec, registry: Registry = REGISTRY) -> tuple[Candidate, ...]:
+    """Every effect this machine does not have already, wherever it may act."""
+    present = {(t.term, t.site) for t in machine.terms}
+    return tuple(
+        Candidate(term=term.key, site=site)
+        for term in registry
+        if term.key not in BUILT_IN and term.key not in FREE and term.severity is not None
+        for site in _sites(machine, term)
+        if (term.key, site) not in present
+    )
+
+
+def size_parameter(term: Term) -> Param:
+    """The parameter that measures the effect; ValueError for a term without one."""
+    for param in term.params:
+        if param.name == term.severity:
+            return param
+    raise ValueError(f"{term.key} has no size")
+
+
+def size_range(param: Param) -> tuple[float, float]:
+    """Smallest and largest size sought."""
+    high = min(param.default * ABOVE, param.high)
+    low = max(param.default / BELOW, param.low, high / 1e4)
+    return low, high
+
+
+def _other(param: Param, rng: np.random.Generator) -> float:
+    """A parameter that is not the size: angles anywhere, the rest around its default."""
+    if param.choices:
+        return float(rng.choice(param.choices))
+    if param.unit == "rad":
+        return float(rng.uniform(max(param.low, -np.pi), min(param.high, np.pi)))
+    if param.default == 0.0:
+        return 0.0
+    value = param.default * float(np.exp(rng.uniform(-0.7, 0.7)))
+    counted = param.unit == "1" and param.default >= COUNTED and float(param.default).is_integer()
+    return float(np.clip(round(value) if counted else value, param.low, param.high))
+
+
+def draw_term(candidate: Candidate, share: float, rng: np.random.Generator, registry: Registry = REGISTRY) -> TermSpec:
+    """The candidate at `share` 0..1 of its range (logarithmic), other parameters drawn."""
+    term = registry.get(candidate.term)
+    if term is None:
+        raise ValueError(f"no term {candidate.term}")
+    size = size_parameter(term)
+    low, high = size_range(size)
+    values = {p.name: _other(p, rng) for p in term.params if p.name != size.name}
+    values[size.name] = float(np.clip(np.exp(np.log(low) + share * np.log(high / low)), low, high))
+    return TermSpec(term=candidate.term, site=candidate.site, parameters=values)

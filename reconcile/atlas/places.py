@@ -1,0 +1,55 @@
+"""Where a recorded channel sits in the machine: the simulated channel that stands for it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sim.core.errors import Problem, SpecError
+from sim.core.response import Channel
+from sim.core.spec import MachineSpec
+
+
+def _on_bearing(machine: MachineSpec, name: str, axis: str) -> str:
+    for resonator in machine.resonators:
+        if resonator.bearing == name and resonator.axis == axis:
+            return f"{resonator.name}.{axis}.acceleration"
+    return f"{name}.outer.{axis}.acceleration"
+
+
+def simulated_channel(machine: MachineSpec, channel: Channel) -> str | None:
+    """Name of the acceleration that moves the sensor, or None when its location is not in the machine.
+
+    A sensor at a bearing sits on its resonator (the seed's sensor mount) where there is one on that axis, else on
+    the outer ring. Any further path to the sensor is unknown and calibrated; so is the quantity's integration.
+    """
+    axis = (channel.axis or "y").lower()
+    if axis not in ("x", "y"):
+        axis = "y"
+    location = (channel.location or "").split(".")[0]
+    if location in {b.name for b in machine.bearings}:
+        return _on_bearing(machine, location, axis)
+    for resonator in machine.resonators:
+        if location == resonator.name:
+            return f"{resonator.name}.{resonator.axis}.acceleration"
+    if location in {g.name for g in machine.gears if g.translates} | {b.name for b in machine.bodies}:
+        return f"{location}.{axis}.acceleration"
+    return None
+
+
+def simulated_channels(machine: MachineSpec, channels: Sequence[Channel]) -> tuple[str, ...]:
+    """One simulated channel a recorded one; SpecError names locations the machine does not have."""
+    found = [simulated_channel(machine, c) for c in channels]
+    known = [b.name for b in machine.bearings] + [r.name for r in machine.resonators] + [g.name for g in machine.gears]
+    problems = [
+        Problem(
+            field=f"channels.{c.name}.location",
+            message="is not a place of this machine",
+            given=c.location or "",
+            allowed=", ".join(known),
+        )
+        for c, name in zip(channels, found, strict=True)
+        if name is None
+    ]
+    if problems:
+        raise SpecError(problems)
+    return tuple(name for name in found if name is not None)

@@ -1,0 +1,96 @@
+"""Which machines an atlas simulates: healthy ones with drifted twins, and every candidate over its range."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.atlas.candidates import Candidate, draw_term
+from reconcile.calibrate.uncertain import DRIFT, Offsets, Uncertain, draw_offsets, moved
+from sim.core.errors import Problem, SpecError
+from sim.core.spec import MachineSpec, TermSpec, TorqueLoad
+from sim.solve.ensemble import Member
+
+DRAWS = 8
+"""Draws a candidate: a full set of vector lanes."""
+NULL_PAIRS = 48
+"""Healthy machines, each with a drifted twin."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Point:
+    """An operating point: drive shaft's speed, Hz, and the factor on all torques."""
+
+    speed_hz: float
+    torque_ratio: float = 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Draw:
+    """One simulated machine: healthy number `pair` (twin or not), or a candidate on healthy machine `pair`."""
+
+    pair: int
+    twin: bool = False
+    candidate: Candidate | None = None
+    term: TermSpec | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class AtlasPlan:
+    """`offsets[pair]` and `twins[pair]` move the nominal machine; `draws` lists what to simulate at each point."""
+
+    machine: MachineSpec
+    numbers: tuple[Uncertain, ...]
+    offsets: tuple[Offsets, ...]
+    twins: tuple[Offsets, ...]
+    draws: tuple[Draw, ...]
+    seed: int
+
+    def member(self, draw: Draw, point: Point) -> Member:
+        """The machine of this draw at this point."""
+        offsets = (self.twins if draw.twin else self.offsets)[draw.pair]
+        machine = at_point(moved(self.machine, self.numbers, offsets), point)
+        if draw.term is not None:
+            machine = machine.model_copy(update={"terms": [*machine.terms, draw.term]})
+        return Member(machine=machine, seed=self.seed + 1000 * draw.pair + (1 if draw.twin else 0))
+
+
+def at_point(machine: MachineSpec, point: Point) -> MachineSpec:
+    """The machine at another speed and load; SpecError for a machine that does not turn."""
+    if machine.operating is None:
+        raise SpecError(Problem(field="operating", message="the machine has no speed", allowed="shaft, speed_hz"))
+    operating = machine.operating.model_copy(update={"speed_hz": point.speed_hz, "profile": None})
+    loads = [
+        load.model_copy(update={"torque_nm": load.torque_nm * point.torque_ratio})
+        if isinstance(load, TorqueLoad)
+        else load
+        for load in machine.loads
+    ]
+    return machine.model_copy(update={"operating": operating, "loads": loads})
+
+
+def atlas_plan(
+    machine: MachineSpec,
+    numbers: tuple[Uncertain, ...],
+    chosen: Sequence[Candidate],
+    *,
+    seed: int,
+    draws: int = DRAWS,
+    pairs: int = NULL_PAIRS,
+) -> AtlasPlan:
+    """Deterministic: same machine, candidates and seed give the same plan."""
+    rng = np.random.default_rng([seed, 1])
+    offsets = tuple(draw_offsets(numbers, rng) for _ in range(pairs))
+    twins = tuple(o.mixed(draw_offsets(numbers, rng), DRIFT) for o in offsets)
+    planned = [Draw(pair=k, twin=twin) for twin in (False, True) for k in range(pairs)]
+    for candidate in chosen:
+        own = np.random.default_rng([seed, 2, *candidate.label.encode()])
+        shares = (own.permutation(draws) + own.uniform(0.1, 0.9, draws)) / draws
+        for j in range(draws):
+            term = draw_term(candidate, float(shares[j]), own)
+            planned.append(Draw(pair=j % pairs, candidate=candidate, term=term))
+    return AtlasPlan(
+        machine=machine, numbers=numbers, offsets=offsets, twins=twins, draws=tuple(planned), seed=seed
+    )

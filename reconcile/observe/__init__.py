@@ -1,0 +1,1 @@
+"""Stage 0: recordings become features that need no absolute phase and no calibrated sensor."""

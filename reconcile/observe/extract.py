@@ -1,0 +1,113 @@
+"""Samples at constant speed (true or resampled in angle) to `Statistics`."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import fft
+
+from reconcile.observe.statistics import SHAPE_BANDS_HZ, Statistics, third_octaves
+from signals.series import FloatArray
+
+HANN_NOISE_BINS = 1.5
+"""Equivalent noise bandwidth of the Hann window, bins (Harris 1978, table 1)."""
+LOBE_BINS = 2
+USABLE = 0.42
+"""Share of the sampling rate below which bands are trusted: anti-alias filters fall off above."""
+OVERSAMPLING = 2.2
+"""Samples a cycle of the band's upper edge, so that squared envelopes do not alias into what is watched."""
+MEDIAN_OF_EXPONENTIAL = float(np.log(2.0))
+
+
+def _periodogram(samples: FloatArray, rate_hz: float) -> tuple[FloatArray, float]:
+    """Mean-square spectrum (C, n//2+1) whose sum over a lobe is a line's mean square, and the bin width, Hz."""
+    n = samples.shape[1]
+    window = np.hanning(n + 1)[:-1]
+    spectrum = fft.rfft((samples - samples.mean(axis=1, keepdims=True)) * window, axis=1)
+    power = 2.0 * (spectrum.real**2 + spectrum.imag**2) / (n * np.sum(window**2))
+    return np.asarray(power), rate_hz / n
+
+
+def _line_powers(power: FloatArray, bin_hz: float, lines_hz: FloatArray, slack: FloatArray, top_hz: float) -> FloatArray:
+    """Largest lobe power within `slack` (share of the frequency) of every line, shape (C, L)."""
+    lobes = np.cumsum(np.pad(power, ((0, 0), (LOBE_BINS + 1, LOBE_BINS))), axis=1)
+    lobe = lobes[:, 2 * LOBE_BINS + 1 :] - lobes[:, : -2 * LOBE_BINS - 1]
+    found = np.full((power.shape[0], lines_hz.size), np.nan)
+    for i, hz in enumerate(lines_hz):
+        if hz > top_hz or hz < (LOBE_BINS + 1) * bin_hz:
+            continue
+        reach = max(hz * slack[i], 0.5 * bin_hz)
+        low, high = int(np.floor((hz - reach) / bin_hz + 0.5)), int(np.floor((hz + reach) / bin_hz + 0.5))
+        found[:, i] = lobe[:, max(low, 0) : high + 1].max(axis=1)
+    return found
+
+
+def _bands(power: FloatArray, bin_hz: float, top_hz: float) -> tuple[FloatArray, FloatArray]:
+    edges = third_octaves()
+    floor = np.full((power.shape[0], edges.size - 1), np.nan)
+    total = floor.copy()
+    index = np.round(edges / bin_hz).astype(int)
+    for b in range(edges.size - 1):
+        if edges[b + 1] > top_hz or index[b + 1] - index[b] < 4:
+            continue
+        part = power[:, index[b] : index[b + 1]]
+        floor[:, b] = np.median(part, axis=1) / (MEDIAN_OF_EXPONENTIAL * bin_hz)
+        total[:, b] = part.sum(axis=1)
+    return floor, total
+
+
+def _shapes(
+    samples: FloatArray, rate_hz: float, modulations_hz: FloatArray, slack: FloatArray, top_hz: float
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Mean square, modulation depths, excess kurtosis and skewness in each shape band."""
+    channels, n = samples.shape
+    spectrum = fft.rfft(samples, axis=1)
+    bin_hz = rate_hz / n
+    count = len(SHAPE_BANDS_HZ)
+    mean_square = np.full((channels, count), np.nan)
+    kurtosis, skewness = mean_square.copy(), mean_square.copy()
+    depth = np.full((channels, count, modulations_hz.size), np.nan)
+    for e, (low, high) in enumerate(SHAPE_BANDS_HZ):
+        if high > top_hz:
+            continue
+        first, last = round(low / bin_hz), round(high / bin_hz)
+        points = fft.next_fast_len(int(OVERSAMPLING * last))
+        kept = np.zeros((channels, points), dtype=complex)
+        kept[:, first:last] = 2.0 * spectrum[:, first:last] * (points / n)
+        analytic = fft.ifft(kept, axis=1)
+        x = analytic.real
+        variance = np.maximum(np.mean(x**2, axis=1), 1e-300)
+        mean_square[:, e] = variance
+        kurtosis[:, e] = np.mean(x**4, axis=1) / variance**2 - 3.0
+        skewness[:, e] = np.mean(x**3, axis=1) / variance**1.5
+        envelope = x**2 + analytic.imag**2
+        relative = envelope / np.maximum(envelope.mean(axis=1, keepdims=True), 1e-300)
+        power, _ = _periodogram(relative, points * bin_hz)
+        depth[:, e] = _line_powers(power, bin_hz, modulations_hz, slack, 0.5 * (high - low))
+    return mean_square, depth, kurtosis, skewness
+
+
+def extract(
+    samples: FloatArray,
+    rate_hz: float,
+    *,
+    lines_hz: FloatArray,
+    line_slack: FloatArray,
+    modulations_hz: FloatArray,
+    modulation_slack: FloatArray,
+) -> Statistics:
+    """`samples` (C, n) at constant speed; slack: share of its frequency by which a line may be off, per line."""
+    top = USABLE * rate_hz
+    power, bin_hz = _periodogram(samples, rate_hz)
+    floor, total = _bands(power, bin_hz, top)
+    band, depth, kurtosis, skewness = _shapes(samples, rate_hz, modulations_hz, modulation_slack, top)
+    return Statistics(
+        line=_line_powers(power, bin_hz, lines_hz, line_slack, top),
+        floor=floor,
+        total=total,
+        band=band,
+        depth=depth,
+        kurtosis=kurtosis,
+        skewness=skewness,
+        resolution_hz=HANN_NOISE_BINS * bin_hz,
+        duration_s=samples.shape[1] / rate_hz,
+    )

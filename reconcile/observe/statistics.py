@@ -1,0 +1,63 @@
+"""What one recording shows, in numbers that a smooth sensor path and independent noise change in a known way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from signals.series import FloatArray
+
+SHAPE_BANDS_HZ = ((60.0, 600.0), (600.0, 2000.0), (2000.0, 4500.0), (4500.0, 8000.0))
+"""Bands of the envelopes and of the moments: fixed in Hz, since structural resonances are."""
+LOWEST_BAND_HZ = 25.0
+HIGHEST_HZ = 8200.0
+
+
+def third_octaves() -> FloatArray:
+    """Edges of the bands, shape (bands + 1,), Hz: sixths of a decade-like grid, three an octave."""
+    count = int(np.floor(3 * np.log2(HIGHEST_HZ / LOWEST_BAND_HZ)))
+    return np.asarray(LOWEST_BAND_HZ * 2.0 ** (np.arange(count + 1) / 3.0))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Statistics:
+    """Of C channels over L watched lines, B third octaves, E shape bands and M modulations.
+
+    `line`: mean square of each line, (C, L), unit^2. `floor`: density between lines, (C, B), unit^2/Hz.
+    `total`: mean square in the band, (C, B). `band`: mean square in the shape band, (C, E).
+    `depth`: (C, E, M) squared amplitude of a modulation of the squared envelope over its mean squared.
+    `kurtosis` (excess) and `skewness`: (C, E). `resolution_hz`: noise bandwidth of one line, Hz.
+    NaN marks what the sampling rate or the duration does not cover.
+    """
+
+    line: FloatArray
+    floor: FloatArray
+    total: FloatArray
+    band: FloatArray
+    depth: FloatArray
+    kurtosis: FloatArray
+    skewness: FloatArray
+    resolution_hz: float
+    duration_s: float
+
+
+def averaged(several: list[Statistics]) -> Statistics:
+    """Mean of several recordings of the same condition; the duration adds up."""
+    if len(several) == 1:
+        return several[0]
+
+    def mean(name: str) -> FloatArray:
+        return np.asarray(np.mean([getattr(s, name) for s in several], axis=0))
+
+    return Statistics(
+        line=mean("line"),
+        floor=mean("floor"),
+        total=mean("total"),
+        band=mean("band"),
+        depth=mean("depth"),
+        kurtosis=mean("kurtosis"),
+        skewness=mean("skewness"),
+        resolution_hz=float(np.mean([s.resolution_hz for s in several])),
+        duration_s=float(sum(s.duration_s for s in several)),
+    )
