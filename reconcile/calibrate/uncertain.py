@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -100,7 +101,7 @@ def moved(machine: MachineSpec, numbers: Sequence[Uncertain], offsets: Offsets) 
     document = machine.model_dump(mode="json")
     modulus = 1.0
     for number, offset in zip(numbers, offsets.values, strict=True):
-        node = document
+        node: Any = document
         for key in number.path[:-1]:
             node = node[key]
         node[number.path[-1]] *= 1.0 + float(offset)
