@@ -77,12 +77,12 @@ def estimate_speed(
     combs = _excesses(recording)
     speeds, score = _best_speed(combs, HARMONICS, stated, search)
     best = int(np.argmax(score))
-    confidence = _confidence(combs, float(score[best]), stated, search, seed)
+    confidence = _confidence(combs, HARMONICS, float(score[best]), stated, search, seed)
     step = 1 / recording.duration_s
     if confidence < ENOUGH and orders:
-        speeds, score = _best_speed(combs, (*HARMONICS[:3], *orders), stated, search)
+        speeds, score = _best_speed(combs, orders, stated, search)
         best = int(np.argmax(score))
-        confidence = max(confidence, _lead(score))
+        confidence = max(confidence, _confidence(combs, orders, float(score[best]), stated, search, seed))
     if confidence < ENOUGH:
         low, high = stated * (1 - search), stated * (1 + search)
         return SpeedEstimate(
@@ -183,18 +183,23 @@ def _best_speed(
 def comb_score(log: FloatArray, resolution_hz: float, speeds_hz: FloatArray, orders: Sequence[float]) -> FloatArray:
     """Sum over orders of the value at order * speed (nearest bin; 0 beyond Nyquist), shape (speeds,).
 
-    Weights 1/sqrt(order): the low harmonics are the ones a shaft has, the high ones fall on anything.
+    Weights 1/sqrt(order over the lowest): low harmonics are the ones a part has, high ones fall on anything.
     """
     total = np.zeros(speeds_hz.size)
     for order in orders:
         place = np.rint(order * speeds_hz / resolution_hz).astype(np.int64)
         inside = place < log.size
-        total[inside] += log[place[inside]] / np.sqrt(max(order, 1.0))
+        total[inside] += log[place[inside]] / np.sqrt(order / min(orders))
     return total
 
 
 def _confidence(
-    combs: Sequence[tuple[FloatArray, float]], best: float, stated: float, search: float, seed: int
+    combs: Sequence[tuple[FloatArray, float]],
+    orders: Sequence[float],
+    best: float,
+    stated: float,
+    search: float,
+    seed: int,
 ) -> float:
     """Share of combs of foreign spacing whose best score in an equally wide search is lower (smoothed, Gumbel)."""
     rng = np.random.default_rng(seed)
@@ -204,18 +209,10 @@ def _confidence(
         factor = float(rng.uniform(1.1, 2.4))
         if abs(factor - round(2 * factor) / 2) < 2 * search / 3:
             continue
-        tops.append(float(np.max(_best_speed(combs, HARMONICS, stated * factor, search)[1])))
-    scale = max(float(np.std(tops)) * np.sqrt(6) / np.pi, 1e-9)
+        tops.append(float(np.max(_best_speed(combs, orders, stated * factor, search)[1])))
+    scale = max(float(np.std(tops)) * np.sqrt(6) / np.pi, 1.0)  # one unit of log power: no line, no confidence
     place = float(np.mean(tops)) - 0.5772 * scale
     return float(np.exp(-np.exp(-np.clip((best - place) / scale, -50.0, 50.0))))
-
-
-def _lead(score: FloatArray) -> float:
-    """Chance-like measure of one speed standing out from the others of the grid, 0..1."""
-    centre = float(np.median(score))
-    spread = 1.4826 * float(np.median(np.abs(score - centre))) + 1e-9
-    z = (float(np.max(score)) - centre) / spread
-    return float(np.clip(1 - score.size * np.exp(-(z**2) / 2), 0.0, 1.0)) if z < 38 else 1.0
 
 
 def _refined(
