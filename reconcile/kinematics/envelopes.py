@@ -26,6 +26,7 @@ MIN_WIDTHS = 6.0
 """A band must be this many times as wide as the highest base frequency looked for."""
 STEPS = 2.2
 """Steps a turn over the highest order."""
+KURTOSIS_BLOCKS = 5
 LOWEST_SHARE = 0.01
 """Of the sampling rate: below it the lines of shafts and meshes themselves lie."""
 
@@ -42,7 +43,8 @@ class Envelopes:
     excess: FloatArray
     depth: FloatArray
     kurtosis: FloatArray
-    """(bands,) of the complex envelope, 0 for Gaussian noise."""
+    """(bands,) excess of the complex envelope, 0 for Gaussian noise; median over blocks of time, so that a single
+    knock does not count."""
     turns: float
     angle_rad: FloatArray
     """(n,) of the reference shaft, as given."""
@@ -117,8 +119,8 @@ def squared_envelope(
     envelope = fft.ifft(padded)
     square = envelope.real**2 + envelope.imag**2
     edge = max(1, square.size // 200)
-    inside = square[edge:-edge]
-    kurtosis = float(np.mean(inside**2) / np.mean(inside) ** 2 - 2)
+    blocks = np.array_split(square[edge:-edge], KURTOSIS_BLOCKS)
+    kurtosis = float(np.median([np.mean(b**2) / max(float(np.mean(b)) ** 2, 1e-300) - 2 for b in blocks]))
     return np.asarray(square, dtype=np.float64), size * sampling_rate_hz / n, kurtosis
 
 

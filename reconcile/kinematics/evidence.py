@@ -61,15 +61,16 @@ def logs(envelopes: Envelopes, ties: Ties, *, shaft_lines: bool) -> FloatArray:
 
 def comb(family: Family, base: FloatArray) -> tuple[FloatArray, FloatArray]:
     """(orders (trials, lines), weights (lines,)) of the family's lines at base orders (trials,)."""
-    lines, weights = [], []
+    lines: list[FloatArray] = []
+    weights: list[float] = []
     for k in range(1, family.harmonics + 1):
         lines.append(k * base)
-        weights.append(1 / np.sqrt(k))
+        weights.append(float(1 / np.sqrt(k)))
         for m in range(1, family.sidebands + 1):
             for sign in (-1, 1):
                 lines.append(k * base + sign * m * family.spacing)
-                weights.append(0.5 / np.sqrt(k))
-    return np.stack(lines, axis=1), np.asarray(weights, dtype=np.float64)
+                weights.append(float(0.5 / np.sqrt(k)))
+    return np.asarray(np.stack(lines, axis=1), dtype=np.float64), np.asarray(weights, dtype=np.float64)
 
 
 def trials(family: Family, order: float, reach: float, order_step: float) -> FloatArray:
@@ -78,7 +79,7 @@ def trials(family: Family, order: float, reach: float, order_step: float) -> Flo
         return np.array([order])
     step = order_step / family.harmonics
     count = max(1, int(np.ceil(order * reach / step)))
-    return order + np.arange(-count, count + 1) * (order * reach / count)
+    return np.asarray(order + np.arange(-count, count + 1) * (order * reach / count), dtype=np.float64)
 
 
 def scores(values: FloatArray, envelopes: Envelopes, family: Family, base: FloatArray) -> FloatArray:

@@ -1,8 +1,8 @@
 """How long a spall is: a ball entering it and striking its far edge make two events, apart by its length.
 
 N. Sawalhi and R. B. Randall, "Vibration response of spalled rolling element bearings: observations, simulations and
-signal processing techniques to track the spall size", Mech. Syst. Signal Process. 25 (2011) 846-870. The autocorrelation
-of the squared envelope has the two events as a peak at their distance and as satellites around the period; random
+signal processing techniques to track the spall size", Mech. Syst. Signal Process. 25 (2011) 846-870. In the
+autocorrelation of the squared envelope the two are a peak at their distance and satellites around the period; random
 slip between balls does not smear it. The strike comes when the ball's centre is between half way (an edge it falls
 against while the other still carries it) and the whole way over the spall: the interval says so.
 """
