@@ -7,6 +7,7 @@ Rivals get the same data: the re-scaling alone, as many parameters spent on free
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,6 +21,8 @@ from reconcile.verdict import HeldOut
 from signals.series import FloatArray
 
 SEGMENTS = 5
+WIDE = ((0.02, 0.5), (0.1, 0.97), (0.5, 0.97))
+"""Bands tried besides that of the evidence, share of Nyquist."""
 MIN_SEGMENT_TURNS = 8.0
 LOWEST_ORDER = 0.25
 MOST_HARMONICS = 8
@@ -29,6 +32,16 @@ NATURAL = 20 / np.log(10) / 2
 """dB a unit of natural logarithm of power."""
 AVERAGED = 3
 """Neighbouring bins whose power is averaged: the scatter of single bins is no property of a machine."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Split:
+    """What is fitted, what is predicted, what is expected where nothing is missing (bins,), in one band."""
+
+    fit: Stretch
+    score: Stretch
+    before: FloatArray
+    held: str
 
 
 def held_out(
@@ -41,18 +54,38 @@ def held_out(
 ) -> HeldOut | None:
     """Fit on the first test recording and predict the others; with one, fit on its first half (which is weaker).
 
-    `pair`: distance of entry and exit of the spall over the period, 0 where it was not told.
+    `pair`: distance of entry and exit of the spall over the period, 0 where it was not told. The band (that of the
+    evidence or a wide one) is the one in which the comb helps most on the fitted part.
     """
     usable = [t for t in tests if evidence.channel in t.recording.names]
-    usable = [t for t in usable if evidence.band_hz[1] < t.recording.sampling_rate_hz / 2]
     if not usable:
         return None
-    values, per_turn = band_turns(usable[0], evidence.channel, evidence.band_hz)
-    if len(usable) > 1:
-        other, other_per_turn = band_turns(usable[1], evidence.channel, evidence.band_hz)
+    train = Train(family=evidence.family, order=evidence.order, pair=pair)
+    best: tuple[float, Split, FloatArray] | None = None
+    nyquist = min(t.recording.sampling_rate_hz for t in (*usable, *baselines)) / 2
+    for band in (evidence.band_hz, *((a * nyquist, b * nyquist) for a, b in WIDE)):
+        split = _split(evidence, band, usable, baselines) if band[1] < nyquist else None
+        if split is None:
+            continue
+        parameters = fitted(train, split.fit, split.before)
+        left = predicted(train, split.fit, split.before, parameters) - split.fit.log_power
+        retuned = rescaled(split.fit, split.before)[0] - split.fit.log_power
+        help_share = float(1 - np.mean(left**2) / np.mean(retuned**2))
+        if best is None or help_share > best[0]:
+            best = (help_share, split, parameters)
+    return None if best is None else _compared(train, placebo, best[1], best[2], rng)
+
+
+def _split(
+    evidence: Evidence, band_hz: tuple[float, float], tests: Sequence[Observation], baselines: Sequence[Observation]
+) -> Split | None:
+    """The two parts in one band; None where they hold too few turns."""
+    values, per_turn = band_turns(tests[0], evidence.channel, band_hz)
+    if len(tests) > 1:
+        other, other_per_turn = band_turns(tests[1], evidence.channel, band_hz)
         turns = min(values.size / per_turn, other.size / other_per_turn)
         parts = [(values, per_turn), (other, other_per_turn)]
-        held = f"another recording, at {usable[1].speed.speed_hz:.4g} Hz"
+        held = f"another recording, at {tests[1].speed.speed_hz:.4g} Hz"
     else:
         middle = values.size // 2
         turns = middle / per_turn
@@ -63,9 +96,7 @@ def held_out(
         return None
     top = min(MOST_HARMONICS * evidence.order, 0.45 * per_turn)
     fit, score = (stretch(v, p, length, top) for v, p in parts)
-    before = _before(evidence, baselines, length, top, fit)
-    train = Train(family=evidence.family, order=evidence.order, pair=pair)
-    return _compared(train, placebo, fit, score, before, held, rng)
+    return Split(fit=fit, score=score, before=_before(evidence, band_hz, baselines, length, top, fit), held=held)
 
 
 def stretch(values: FloatArray, per_turn: int, length_turns: float, top_order: float) -> Stretch:
@@ -80,13 +111,18 @@ def stretch(values: FloatArray, per_turn: int, length_turns: float, top_order: f
 
 
 def _before(
-    evidence: Evidence, baselines: Sequence[Observation], length: float, top: float, fit: Stretch
+    evidence: Evidence,
+    band_hz: tuple[float, float],
+    baselines: Sequence[Observation],
+    length: float,
+    top: float,
+    fit: Stretch,
 ) -> FloatArray:
     """Log power (bins,) expected where nothing is missing: the baseline's, else noise of the same mean depth."""
     rows = []
     for b in baselines:
-        if evidence.channel in b.recording.names and evidence.band_hz[1] < b.recording.sampling_rate_hz / 2:
-            values, per_turn = band_turns(b, evidence.channel, evidence.band_hz)
+        if evidence.channel in b.recording.names:
+            values, per_turn = band_turns(b, evidence.channel, band_hz)
             if values.size / per_turn >= length:
                 one = stretch(values, per_turn, length, top)
                 rows.append(np.interp(fit.orders, one.orders, one.log_power))
@@ -96,20 +132,15 @@ def _before(
 
 
 def _compared(
-    train: Train,
-    placebo: Family | None,
-    fit: Stretch,
-    score: Stretch,
-    before: FloatArray,
-    held: str,
-    rng: np.random.Generator,
+    train: Train, placebo: Family | None, split: Split, parameters: FloatArray, rng: np.random.Generator
 ) -> HeldOut:
     """Distances on the held-out stretch (brought to the fit's orders) of all models."""
-    actual = np.interp(fit.orders, score.orders, score.log_power)
+    fit, before = split.fit, split.before
+    actual = np.interp(fit.orders, split.score.orders, split.score.log_power)
     retuned = rescaled(fit, before)[0]
     errors = {
         "before": before - actual,
-        "after": predicted(train, fit, before, fitted(train, fit, before)) - actual,
+        "after": predicted(train, fit, before, parameters) - actual,
         "retuned": retuned - actual,
         "box": black_box(fit, retuned) - actual,
     }
@@ -130,7 +161,7 @@ def _compared(
         retuned=gain["retuned"],
         black_box=gain["box"],
         placebo=gain.get("placebo"),
-        held=held,
+        held=split.held,
     )
 
 

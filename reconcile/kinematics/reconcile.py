@@ -11,9 +11,11 @@ from reconcile.gate import Gate, inspect_measurement
 from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.contrast import band_turns
 from reconcile.kinematics.envelopes import order_depth
+from reconcile.kinematics.extent import Extent
 from reconcile.kinematics.families import Ties, ties
 from reconcile.kinematics.foreign import foreign_comb
 from reconcile.kinematics.gears import GearEvidence, gear_evidence
+from reconcile.kinematics.grown import grown_defect, old_defects
 from reconcile.kinematics.judge import Candidate, named
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.shafts import Impulsiveness, ShaftChange, impulsiveness, shaft_changes
@@ -80,11 +82,28 @@ def _judged(
         report = _with_rest(
             defect_report(chosen, tests, baselines, tie, np.random.default_rng(seed)), gears, grown, tests
         )
+    elif (growth := grown_defect(old_defects(every), tests, baselines, tie)) is not None:
+        report = _regrown(growth, tests, baselines, tie, seed)
     elif gears and gears[0].grown:
         report = gear_report(gears, tests)
     else:
         report = _without_a_part(known, tie, tests, baselines, every, grown, seed)
     return report, every
+
+
+def _regrown(
+    growth: tuple[Candidate, Extent, Extent],
+    tests: Sequence[Observation],
+    baselines: Sequence[Observation],
+    tie: Ties,
+    seed: int,
+) -> Report:
+    """A defect of the baseline that has become longer."""
+    candidate, now, before = growth
+    report = defect_report((candidate,), tests, baselines, tie, np.random.default_rng(seed))
+    was = f"{before.degrees:.1f}" if before.resolved else f"less than {before.high_deg:.1f}"
+    sentence = f"{report.sentence} The baseline has this defect too; it grew from {was} to {now.degrees:.1f} degrees."
+    return replace(report, sentence=sentence)
 
 
 def _without_a_part(
@@ -109,7 +128,7 @@ def _without_a_part(
         return impulsive_report(impacts, every, [b.name for b in known.bearings])
     if grown:
         return shaft_report(grown, tests)
-    return nothing_report(every, tests, bool(baselines))
+    return nothing_report(every, old_defects(every), tests, bool(baselines))
 
 
 def _impacts(tests: Sequence[Observation], baselines: Sequence[Observation]) -> Impulsiveness | None:

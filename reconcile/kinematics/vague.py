@@ -103,8 +103,8 @@ def impulsive_report(found: Impulsiveness, every: Sequence[Candidate], bearings:
     return Report(
         verdict="ambiguous",
         sentence=f"{found.band_hz[0]:.0f}-{found.band_hz[1]:.0f} Hz of {found.channel} became impulsive (excess "
-        f"kurtosis {found.before or 0:.1f} to {found.now:.1f}) without keeping to the order of any race: a damaged ball, which "
-        "strikes only when its spot meets a race, is likely; play or a rub can't be ruled out.",
+        f"kurtosis {found.before or 0:.1f} to {found.now:.1f}) without keeping to the order of any race: a damaged "
+        "ball, which strikes only when its spot meets a race, is likely; play or a rub can't be ruled out.",
         level="kinematics",
         where=Where(
             sites=tuple(PlaceWeight(site=b, weight=s / total) for b, s in score.items()),
@@ -126,11 +126,12 @@ def shaft_report(changes: Sequence[ShaftChange], tests: Sequence[Observation]) -
     first = changes[0]
     speed = next(t.speed.speed_hz for t in tests if t.label == first.label)
     terms = SHAFT_TERMS[first.multiple]
+    kinds = ", ".join(t.replace("_", " ") for t in terms)
     return Report(
         verdict="ambiguous",
         sentence=f"{first.multiple:g} times the speed of {first.shaft} grew by {first.growth_db:.0f} dB on "
-        f"{first.channel} ({first.median_db:.0f} dB in the middle of the channels): {', '.join(t.replace('_', ' ') for t in terms)} or "
-        "another mounting are alike at this level.",
+        f"{first.channel} ({first.median_db:.0f} dB in the middle of the channels): {kinds} or another mounting are "
+        "alike at this level.",
         level="kinematics",
         where=Where(
             sites=(PlaceWeight(site=first.shaft, weight=1.0),),
@@ -181,8 +182,13 @@ def foreign_report(found: Foreign, tests: Sequence[Observation]) -> Report:
     )
 
 
-def nothing_report(every: Sequence[Candidate], tests: Sequence[Observation], with_baseline: bool) -> Report:
-    """No family is more than a sound machine shows; without a baseline a clear but shallow one is left open."""
+def nothing_report(
+    every: Sequence[Candidate], old: Sequence[Candidate], tests: Sequence[Observation], with_baseline: bool
+) -> Report:
+    """No family is more than a sound machine shows; without a baseline a clear but shallow one is left open.
+
+    `old`: defects that the baselines have as well.
+    """
     shallow = [c for c in every if c.present and c.family.kind in DEFECTS]
     lines = tuple(line for c in shallow for line in lines_of(c, tests, 1))
     if shallow and not with_baseline:
@@ -199,7 +205,10 @@ def nothing_report(every: Sequence[Candidate], tests: Sequence[Observation], wit
     against = "than in the baseline" if with_baseline else "than sound bearings show"
     return Report(
         verdict="nothing_missing",
-        sentence=f"No family of lines is firmer {against}; what changed in level is load, speed or mounting.",
+        sentence=f"No family of lines is firmer {against}; what changed in level is load, speed or mounting."
+        + (
+            f" But {', '.join(c.family.key for c in old)} is deep in both: the baseline has that defect." if old else ""
+        ),
         level="kinematics",
         where=Where(lines=lines),
         undecidable=() if with_baseline else ("slow changes of level: there is no baseline",),
