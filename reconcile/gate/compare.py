@@ -1,0 +1,167 @@
+"""Faults that show against a baseline: gain, unit, swapped channels, a loose sensor.
+
+A gain multiplies everything a channel hears by one number, a loose mount by a smooth function of frequency, lines and
+noise alike, while the other channels hear what they heard. A defect adds: lines, modulation, impacts; it raises some
+bands more than their lines, and its neighbours hear it too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from reconcile.gate.findings import Finding
+from reconcile.gate.levels import Pair
+from signals.recording import Recording
+from signals.series import FloatArray
+
+UNIT_RATIOS = {"g against m/s^2": 9.80665, "m against mm": 1000.0, "inch against mm": 25.4, "V against mV": 1000.0}
+UNIT_TOLERANCE_DB = 0.8
+GAIN_DB = 2.0
+GAIN_SPREAD_DB = 1.0
+"""Half of all bands within this of the median change: what repetition, load and a drift of a few per cent leave."""
+QUIET_DB = 1.0
+LOOSE_DB = 6.0
+LOOSE_ROUGH_DB = 1.5
+"""RMS by which lines and floor of a loose sensor may differ in their change, and both from a smooth curve."""
+SWAP_SHARE = 0.5
+SWAP_DB = 3.0
+
+
+def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding, ...]:
+    """Findings that hold at every speed for which there is a baseline."""
+    if not pairs:
+        return ()
+    names = pairs[0].names
+    if any(p.names != names for p in pairs):
+        return ()
+    swaps = swapped(pairs, tests)
+    if swaps:
+        return swaps
+    change = [p.test - p.baseline for p in pairs]
+    found: list[Finding] = []
+    for c, name in enumerate(names):
+        gain = _gain(change, c)
+        if gain is not None:
+            found.append(_gain_finding(gain, change, c, name, len(names)))
+        elif len(names) > 1:
+            found += _loose(pairs, change, c, name)
+    # all channels by one gain is a change of load or level unless it is a unit
+    everywhere = len(found) == len(names) and len(names) > 1 and all(f.kind == "gain_change" for f in found)
+    return () if everywhere else tuple(found)
+
+
+def _gain(change: Sequence[FloatArray], c: int) -> float | None:
+    """The one gain, dB, that all bands, lines and floor, of channel `c` changed by at all speeds, or None."""
+    values = np.concatenate([d[c].ravel() for d in change])
+    middle = float(np.median(values))
+    quarter = float(np.subtract(*np.percentile(values, [75, 25]))) / 2
+    edge = float(np.max(np.abs([np.median(d[c]) - middle for d in change])))
+    tail = float(np.percentile(np.abs(values - middle), 95))
+    loud = abs(middle) > GAIN_DB and quarter < GAIN_SPREAD_DB and edge < GAIN_SPREAD_DB
+    return middle if loud and tail < max(3.0, 0.25 * abs(middle)) else None
+
+
+def _gain_finding(gain: float, change: Sequence[FloatArray], c: int, name: str, channels: int) -> Finding:
+    unit = next((k for k, r in UNIT_RATIOS.items() if abs(abs(gain) - 20 * np.log10(r)) < UNIT_TOLERANCE_DB), None)
+    if unit is not None:
+        detail = f"all bands changed by {gain:+.1f} dB, the ratio of {unit}"
+        return Finding(
+            kind="unit_mismatch",
+            channel=name,
+            recording="all tests",
+            detail=detail,
+            severity=1.0,
+            fault=True,
+            gain_db=gain,
+        )
+    others = [float(np.median(np.abs(d[k]))) for d in change for k in range(channels) if k != c]
+    quiet = bool(others) and max(others) < max(QUIET_DB, 0.3 * abs(gain))
+    detail = f"all bands changed by {gain:+.1f} dB alike" + ("" if others else "; there is no other channel to compare")
+    return Finding(
+        kind="gain_change",
+        channel=name,
+        recording="all tests",
+        detail=detail,
+        severity=float(min(1.0, abs(gain) / 20)),
+        fault=quiet,
+        gain_db=gain,
+    )
+
+
+def _loose(pairs: Sequence[Pair], change: Sequence[FloatArray], c: int, name: str) -> list[Finding]:
+    """A smooth filter on one channel: bands changed a lot, lines as the floor, the same at all speeds, others quiet."""
+    others = [np.abs(d[k]) for d in change for k in range(len(pairs[0].names)) if k != c]
+    if max(float(np.percentile(o, 80)) for o in others) > 2 * QUIET_DB:
+        return []
+    count = min(d.shape[2] for d in change)
+    curve = np.mean([_smooth(np.mean(d[c, :, :count], axis=0)) for d in change], axis=0)
+    size = float(np.ptp(curve))
+    rough = max(float(np.sqrt(np.mean((d[c, k, :count] - curve) ** 2))) for d in change for k in (0, 1))
+    if size < LOOSE_DB or rough > max(LOOSE_ROUGH_DB, 0.15 * size):
+        return []
+    top = int(np.argmax(np.abs(curve)))
+    hz = float(pairs[0].centre_hz[top])
+    detail = f"its transfer changed by up to {curve[top]:+.0f} dB around {hz:.4g} Hz, lines and noise alike; "
+    detail += "the other channels did not change"
+    return [
+        Finding(
+            kind="loose_sensor",
+            channel=name,
+            recording="all tests",
+            detail=detail,
+            severity=float(min(1.0, size / 20)),
+            where=f"{hz:.4g} Hz",
+            fault=True,
+        )
+    ]
+
+
+def _smooth(values: FloatArray) -> FloatArray:
+    """Mean over half an octave, shape (bands,)."""
+    padded = np.pad(values, 1, mode="edge")
+    return np.asarray((padded[:-2] + padded[1:-1] + padded[2:]) / 3, dtype=np.float64)
+
+
+def swapped(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding, ...]:
+    """`swapped_channels` where exchanging channels of one unit makes the tests look like the baselines."""
+    order = swap_order(pairs, tests)
+    names = pairs[0].names
+    return tuple(
+        Finding(
+            kind="swapped_channels",
+            channel=name,
+            recording="all tests",
+            detail=f"looks like the baseline's {names[order[c]]}, not like its own",
+            severity=1.0,
+            fault=True,
+        )
+        for c, name in enumerate(names)
+        if order[c] != c
+    )
+
+
+def swap_order(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[int, ...]:
+    """For each channel of the tests the channel of the baselines whose signal it carries."""
+    names = pairs[0].names
+    n = len(names)
+    same = tuple(range(n))
+    if n < 2:
+        return same
+    cost = np.zeros((n, n))
+    for p in pairs:
+        gap = p.test[:, np.newaxis] - p.baseline[np.newaxis]
+        cost += np.sqrt(np.mean(gap**2, axis=(2, 3))) / len(pairs)
+    units = [tests[0].channels[tests[0].names.index(name)].unit for name in names]
+    foreign = np.array([[a != b for b in units] for a in units])
+    rows, columns = linear_sum_assignment(np.where(foreign, 1e6, cost))
+    moved = [(i, j) for i, j in zip(rows, columns, strict=True) if i != j]
+    if not moved:
+        return same
+    now = float(np.mean([cost[i, j] for i, j in moved]))
+    before = float(np.mean([cost[i, i] for i, _ in moved]))
+    if now < SWAP_SHARE * before and now < SWAP_DB + 0.2 * before:
+        return tuple(int(j) for j in columns)
+    return same

@@ -1,0 +1,161 @@
+"""The gate itself: all checks in the order in which one spoils the next, and the cleaning."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from reconcile.gate.alias import alias_findings
+from reconcile.gate.compare import compared, swap_order
+from reconcile.gate.findings import Finding, Gate, worst
+from reconcile.gate.levels import pairs
+from reconcile.gate.mains import hum_findings, without_hum
+from reconcile.gate.samples import repaired, sample_findings
+from reconcile.gate.timing import length_findings, speed_findings, tacho_findings
+from reconcile.speed import SpeedEstimate, estimate_speed
+from signals.recording import Recording
+from signals.series import FloatArray
+from sim.core.errors import Problem, SpecError
+
+SHAFT_HARMONICS = 20
+MESH_HARMONICS = 10
+SIDEBANDS = 5
+WORSE = 3.0
+"""A defect three times as bad as in the baseline is a new one."""
+GRAVE = 0.5
+"""A baseline that is spoiled as badly is itself the answer."""
+
+
+def inspect_measurement(
+    baselines: Sequence[Recording],
+    tests: Sequence[Recording],
+    *,
+    orders: Sequence[float] = (),
+    mesh_orders: Sequence[float] = (),
+    lowest_order: float = 1.0,
+    times: Sequence[Finding] = (),
+    seed: int = 0,
+) -> Gate:
+    """Findings, cleaned recordings and the fault to answer with if nothing else is missing.
+
+    `orders`: cycles per revolution of the operating shaft at which the machine has lines (bearings, other shafts);
+    `mesh_orders`: teeth of the gears on it; `lowest_order`: of what turns slowest (a cage); `times`: what
+    `time_stamp_findings` said where the files held time stamps.
+    """
+    if not tests:
+        raise SpecError(Problem(field="tests", message="needs at least one recording", given=0, allowed="1 or more"))
+    labels = [
+        *(f"baseline {i}" for i in range(1, len(baselines) + 1)),
+        *(f"test {i}" for i in range(1, len(tests) + 1)),
+    ]
+    raw = [*baselines, *tests]
+    found: list[Finding] = list(times)
+    clean: list[Recording] = []
+    usable = True
+    for recording, label in zip(raw, labels, strict=True):
+        found += sample_findings(recording, label)
+        fixed, lost = repaired(recording)
+        usable &= len(lost) < len(recording.names)
+        clean.append(fixed)
+    if not usable:
+        cut = len(baselines)
+        shown = _only_new(found)
+        return Gate(
+            findings=shown, baselines=tuple(clean[:cut]), tests=tuple(clean[cut:]), fault=worst(shown), usable=False
+        )
+    return _analysed(clean, labels, len(baselines), found, orders, mesh_orders, lowest_order, seed)
+
+
+def _analysed(
+    clean: list[Recording],
+    labels: list[str],
+    cut: int,
+    found: list[Finding],
+    orders: Sequence[float],
+    mesh_orders: Sequence[float],
+    lowest_order: float,
+    seed: int,
+) -> Gate:
+    """Checks that need a spectrum."""
+    speeds = [_speed(r, mesh_orders, seed) for r in clean]
+    hertz = [1.0 if s is None else s.speed_hz for s in speeds]
+    for recording, label, speed in zip(clean, labels, speeds, strict=True):
+        found += tacho_findings(recording, label)
+        if speed is not None:
+            found += length_findings(recording, label, speed.speed_hz, lowest_order)
+            found += speed_findings(speed, label)
+    expected = [_expected(hz if s else 0.0, orders, mesh_orders) for hz, s in zip(hertz, speeds, strict=True)]
+    for i, recording in enumerate(clean):
+        hum = hum_findings(recording, labels[i], expected[i], clean[:cut] if i >= cut else ())
+        # hum of a baseline is subtracted and explains nothing that a test shows
+        found += hum if i >= cut else tuple(replace(f, fault=False) for f in hum)
+    hummed = {f.recording for f in found if f.kind == "mains_hum"}
+    clean = [without_hum(r, e) if label in hummed else r for r, e, label in zip(clean, expected, labels, strict=True)]
+    bases, tests = clean[:cut], clean[cut:]
+    if all(s is not None for s in speeds):
+        both = list(zip(clean, hertz, strict=True))
+        found += alias_findings(both[cut:], labels[cut:], mesh_orders, both[:cut], seed=seed)
+    matched = pairs(tests, bases, hertz[cut:], hertz[:cut])
+    differences = compared(matched, tests)
+    found += differences
+    if any(f.kind == "swapped_channels" for f in differences):
+        order = swap_order(matched, tests)
+        tests = [_unswapped(t, matched[0].names, order) for t in tests]
+    tests = [_regained(t, differences) for t in tests]
+    shown = _only_new(found)
+    return Gate(findings=shown, baselines=tuple(bases), tests=tuple(tests), fault=worst(shown), usable=True)
+
+
+def _speed(recording: Recording, mesh_orders: Sequence[float], seed: int) -> SpeedEstimate | None:
+    """Speed as far as it can be told; None where neither pulses nor a stated speed are there."""
+    try:
+        return estimate_speed(recording, orders=tuple(mesh_orders), seed=seed)
+    except SpecError:
+        return None
+
+
+def _expected(speed_hz: float, orders: Sequence[float], mesh_orders: Sequence[float]) -> FloatArray:
+    """The machine's own lines near which no hum is claimed, shape (lines,), Hz."""
+    if speed_hz <= 0:
+        return np.zeros(0)
+    lines = [float(k) for k in range(1, SHAFT_HARMONICS + 1)]
+    lines += [k * o for o in orders for k in range(1, MESH_HARMONICS + 1)]
+    lines += [
+        k * z + n for z in mesh_orders for k in range(1, MESH_HARMONICS + 1) for n in range(-SIDEBANDS, SIDEBANDS + 1)
+    ]
+    return np.asarray(sorted(set(lines)), dtype=np.float64) * speed_hz
+
+
+def _only_new(found: Sequence[Finding]) -> tuple[Finding, ...]:
+    """A small defect that a baseline's channel has as well explains no difference: it stays as a remark."""
+    before: dict[tuple[str, str], float] = {}
+    for f in found:
+        if f.recording.startswith("baseline"):
+            before[f.kind, f.channel] = max(f.severity, before.get((f.kind, f.channel), 0.0))
+    result = []
+    for f in found:
+        old = before.get((f.kind, f.channel), 0.0)
+        shared = f.recording.startswith("test") and 0 < f.severity <= WORSE * old < WORSE * GRAVE
+        result.append(replace(f, fault=f.fault and not shared))
+    return tuple(result)
+
+
+def _unswapped(recording: Recording, names: Sequence[str], order: Sequence[int]) -> Recording:
+    """Rows put back to the channels whose signals they carry."""
+    samples = recording.samples.copy()
+    for c, target in enumerate(order):
+        samples[recording.names.index(names[target])] = recording.samples[recording.names.index(names[c])]
+    return replace(recording, samples=samples)
+
+
+def _regained(recording: Recording, findings: Sequence[Finding]) -> Recording:
+    """Gains undone as measured; a loose sensor's channel is left out where others remain."""
+    samples = recording.samples.copy()
+    loose = {f.channel for f in findings if f.kind == "loose_sensor"}
+    for f in findings:
+        if f.gain_db is not None and f.fault:
+            samples[recording.names.index(f.channel)] *= 10 ** (-f.gain_db / 20)
+    kept = [i for i, name in enumerate(recording.names) if name not in loose] or list(range(len(recording.names)))
+    return replace(recording, channels=tuple(recording.channels[i] for i in kept), samples=samples[kept])

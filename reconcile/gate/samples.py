@@ -1,0 +1,136 @@
+"""Faults of the samples themselves: not finite, silent, stuck, dropped out, clipped."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from reconcile.gate.findings import Finding, Kind
+from signals.checks import Finding as Defect
+from signals.checks import inspect
+from signals.recording import Recording
+from signals.series import BoolArray, FloatArray
+
+KIND: dict[str, Kind] = {
+    "not_finite": "not_finite",
+    "constant": "silence",
+    "stuck": "stuck",
+    "dropout": "dropouts",
+    "clipping": "clipped",
+}
+MATERIAL_SHARE = 2e-4
+"""Clipped or held samples below this share change no spectrum by a tenth of a decibel."""
+REPAIRABLE_SHARE = 0.02
+QUIET_WINDOW_S = 2e-3
+QUIET_RATIO = 0.02
+"""A window whose RMS is below 2 % of the median window's: the signal was away, not weak."""
+PILE = 4.0
+"""Clipping behind which noise or a filter follows: the outermost hundredth of the range holds this many times more
+samples than the hundredth beside it; the tails of a moving signal thin out towards the ends."""
+PILE_SAMPLES = 30
+
+
+def sample_findings(recording: Recording, label: str) -> tuple[Finding, ...]:
+    """Defects of every channel as findings; `fault` where they are large enough to matter."""
+    n = recording.samples.shape[1]
+    found = [_of_defect(d, label, n) for d in inspect(recording)]
+    known = {(f.channel, f.kind) for f in found}
+    for name, samples in zip(recording.names, recording.samples, strict=True):
+        if not np.all(np.isfinite(samples)) or np.ptp(samples) == 0:
+            continue
+        if (name, "dropouts") not in known and (name, "stuck") not in known:
+            found += _absences(samples, recording, name, label)
+        if (name, "clipped") not in known:
+            found += _piles(samples, name, label)
+    return tuple(found)
+
+
+def repaired(recording: Recording) -> tuple[Recording, tuple[str, ...]]:
+    """(recording without hopeless channels and with short gaps bridged, names of the channels left out)."""
+    rows, lost = [], []
+    samples = recording.samples.copy()
+    for row, name in enumerate(recording.names):
+        bad = ~np.isfinite(samples[row])
+        good = samples[row][~bad]
+        if good.size < 8 or np.ptp(good) == 0 or np.mean(bad) > REPAIRABLE_SHARE:
+            lost.append(name)
+            continue
+        if np.any(bad):
+            place = np.arange(bad.size)
+            samples[row][bad] = np.interp(place[bad], place[~bad], good)
+        rows.append(row)
+    if not rows:
+        return recording, tuple(lost)
+    kept = tuple(recording.channels[r] for r in rows)
+    return replace(recording, channels=kept, samples=samples[rows]), tuple(lost)
+
+
+def _of_defect(defect: Defect, label: str, n: int) -> Finding:
+    share = defect.samples / n
+    first = defect.places[0]
+    where = f"{defect.count} stretches, the first at {first.start_s:.6g} to {first.stop_s:.6g} s"
+    always = defect.kind in ("not_finite", "constant", "dropout")
+    return Finding(
+        kind=KIND[defect.kind],
+        channel=defect.channel,
+        recording=label,
+        detail=f"{defect.message}: {share:.3%} of the samples",
+        severity=float(min(1.0, share * (1 if defect.kind == "constant" else 20))),
+        where=where,
+        fault=always or share > MATERIAL_SHARE,
+    )
+
+
+def _absences(samples: FloatArray, recording: Recording, name: str, label: str) -> list[Finding]:
+    """Stretches in which the signal is all but gone though not exactly constant (converter noise remains)."""
+    length = max(16, int(QUIET_WINDOW_S * recording.sampling_rate_hz))
+    count = samples.size // length
+    if count < 20:
+        return []
+    blocks = samples[: count * length].reshape(count, length)
+    size = np.std(blocks, axis=1)
+    quiet: BoolArray = np.asarray(size < QUIET_RATIO * float(np.median(size)), dtype=np.bool_)
+    # a slow strong line has quiet windows around its extremes: the level must be away from the extremes as well
+    quiet &= np.abs(np.mean(blocks, axis=1) - np.mean(samples)) < 0.5 * np.std(samples)
+    if not np.any(quiet) or np.mean(quiet) > 0.5:
+        return []
+    start = float(np.flatnonzero(quiet)[0] * length / recording.sampling_rate_hz + recording.start_s)
+    share = float(np.mean(quiet))
+    detail = f"the signal is away for {share:.2%} of the time"
+    where = f"first at {start:.6g} s"
+    return [
+        Finding(
+            kind="dropouts",
+            channel=name,
+            recording=label,
+            detail=detail,
+            severity=min(1.0, 5 * share),
+            where=where,
+            fault=True,
+        )
+    ]
+
+
+def _piles(samples: FloatArray, name: str, label: str) -> list[Finding]:
+    """Samples piled up at an end of the range."""
+    low, high = float(np.min(samples)), float(np.max(samples))
+    step = (high - low) / 100
+    for end, sign in (("upper", 1.0), ("lower", -1.0)):
+        depth = (high - samples) if sign > 0 else (samples - low)
+        outer = int(np.sum(depth < step))
+        beside = int(np.sum((depth >= step) & (depth < 3 * step))) / 2
+        # a sine has a pile too, but of a known height: 1/(pi sqrt(x(1-x))) gives 2.6 for these widths
+        if outer >= max(PILE_SAMPLES, MATERIAL_SHARE * samples.size) and outer > PILE * max(beside, 1.0):
+            share = outer / samples.size
+            return [
+                Finding(
+                    kind="clipped",
+                    channel=name,
+                    recording=label,
+                    detail=f"{share:.3%} of the samples are piled up at the {end} end of the range",
+                    severity=min(1.0, 20 * share),
+                    fault=True,
+                )
+            ]
+    return []

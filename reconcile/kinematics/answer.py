@@ -1,0 +1,182 @@
+"""Answers for bearing defects: the sentence, the lines, the size and what it predicts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from reconcile.kinematics.extent import Extent, as_severity, spall_extent
+from reconcile.kinematics.families import Family, Ties
+from reconcile.kinematics.heldout import held_out
+from reconcile.kinematics.judge import DEFECTS, Candidate
+from reconcile.kinematics.observe import Observation
+from reconcile.kinematics.sites import decided, places
+from reconcile.verdict import Cause, HeldOut, LineChange, NextExperiment, PlaceWeight, Report, Severity, Where
+
+TERMS = {"outer": "outer_spall", "inner": "inner_spall", "ball": "ball_spall"}
+PARTS = {"outer": "the outer race", "inner": "the inner race", "ball": "a ball"}
+SYMBOLS = {"outer": "BPFO", "inner": "BPFI", "ball": "2 BSF", "cage": "FTF", "turn": "shaft"}
+NO_SIZE = "how large the defect is: a size can't be given from these lines without a model of the machine"
+
+
+def defect_report(
+    chosen: Sequence[Candidate],
+    tests: Sequence[Observation],
+    baselines: Sequence[Observation],
+    ties: Ties,
+    rng: np.random.Generator,
+) -> Report:
+    """One or two bearing defects that stand."""
+    weights = [places(c, tests, ties) for c in chosen]
+    sizes = [_size(c, tests, ties) for c in chosen]
+    one_site = all(decided(w) for w in weights)
+    causes = tuple(
+        cause for c, w, s in zip(chosen, weights, sizes, strict=True) for cause in _causes(c, w, s[1], one_site)
+    )
+    held = _held(chosen[0], sizes[0][0], tests, baselines, ties, rng)
+    undecidable = tuple(_undecided(chosen, weights, sizes, baselines))
+    what = " and ".join(_phrase(c, w, s[0]) for c, w, s in zip(chosen, weights, sizes, strict=True))
+    return Report(
+        verdict="explained" if one_site else "ambiguous",
+        sentence=f"{what}.",
+        level="kinematics",
+        where=Where(
+            sites=_merged(weights),
+            lines=tuple(line for c in chosen for line in lines_of(c, tests)),
+            limits=() if one_site else ("bearings of one geometry at one speed make the same lines",),
+        ),
+        causes=causes,
+        held_out=held,
+        undecidable=undecidable,
+        next_experiment=_next(one_site, sizes, baselines),
+    )
+
+
+def lines_of(candidate: Candidate, tests: Sequence[Observation], harmonics: int = 3) -> tuple[LineChange, ...]:
+    """The family's first lines in the recording that shows it best, with the growth of its depth."""
+    e, speed = candidate.best, tests[candidate.strongest].speed.speed_hz
+    growth = candidate.contrasts[candidate.strongest].growth_db
+    depth = candidate.contrasts[candidate.strongest].depth
+    change = growth if growth is not None else 20 * np.log10(max(depth, 1e-3) / 0.02)
+    symbol = SYMBOLS[e.family.kind]
+    found = []
+    for k in range(1, harmonics + 1):
+        found.append((f"{k} {symbol}", k * e.order))
+        for m in range(1, e.family.sidebands + 1):
+            name = "shaft" if e.family.kind == "inner" else "FTF"
+            found += [
+                (f"{k} {symbol} {s}{m} {name}", k * e.order + (m if s == "+" else -m) * e.family.spacing) for s in "-+"
+            ]
+    locked = e.family.site if e.family.kind == "turn" else f"{e.family.site}.{e.family.kind}"
+    return tuple(
+        LineChange(
+            label=label, frequency_hz=float(order * speed), change_db=float(change), channel=e.channel, locked_to=locked
+        )
+        for label, order in found
+    )
+
+
+def _size(candidate: Candidate, tests: Sequence[Observation], ties: Ties) -> tuple[Extent | None, Severity | None]:
+    """Median over the recordings that resolve entry and exit; else the tightest bound."""
+    found = [x for e, t in zip(candidate.evidence, tests, strict=True) if (x := spall_extent(e, t, ties)) is not None]
+    if not found:
+        return None, None
+    resolved = sorted((x for x in found if x.resolved), key=lambda x: x.degrees)
+    chosen = resolved[len(resolved) // 2] if 2 * len(resolved) >= len(found) else min(found, key=lambda x: x.high_deg)
+    return chosen, as_severity(chosen, candidate.best, ties)
+
+
+def _causes(
+    candidate: Candidate, weights: Sequence[PlaceWeight], severity: Severity | None, named: bool
+) -> list[Cause]:
+    reasons = () if named else ("another bearing makes the same lines",)
+    e = candidate.best
+    return [
+        Cause(
+            term=TERMS[candidate.family.kind],
+            site=w.site,
+            score=float(candidate.z * w.weight),
+            severity=severity,
+            named=named and w.weight == max(x.weight for x in weights),
+            reasons=reasons,
+            values={"slip": e.slip, "depth": e.depth, "chance": candidate.chance},
+        )
+        for w in weights
+        if not named or w.weight > 0.05
+    ]
+
+
+def _held(
+    candidate: Candidate,
+    extent: Extent | None,
+    tests: Sequence[Observation],
+    baselines: Sequence[Observation],
+    ties: Ties,
+    rng: np.random.Generator,
+) -> HeldOut | None:
+    """The recording that shows it best fitted, another predicted; placebo: another family of the bearing."""
+    ranked = [tests[candidate.strongest], *(t for i, t in enumerate(tests) if i != candidate.strongest)]
+    others = [f for f in ties.families if f.site == candidate.family.site and f.kind in DEFECTS]
+    placebo: Family | None = next((f for f in others if f.kind != candidate.family.kind), None)
+    pair = 0.0
+    if extent is not None and extent.resolved:
+        pair = extent.lag_s * candidate.best.order * tests[candidate.strongest].speed.speed_hz
+    return held_out(candidate.best, placebo, ranked, baselines, rng, pair if pair < 0.5 else 0.0)
+
+
+def _phrase(candidate: Candidate, weights: Sequence[PlaceWeight], extent: Extent | None) -> str:
+    kind, e = candidate.family.kind, candidate.best
+    where = weights[0].site if decided(weights) else "one of " + ", ".join(w.site for w in weights)
+    text = (
+        f"A local defect on {PARTS[kind]} of {where}: {SYMBOLS[kind]} at order {e.order:.4g} ({e.slip:+.1%} from the "
+    )
+    text += f"drawing) modulates {e.band_hz[0]:.0f}-{e.band_hz[1]:.0f} Hz of {e.channel}"
+    growth = candidate.growth_db
+    text += f", {growth:.0f} dB deeper than in the baseline" if growth is not None else ""
+    if extent is None:
+        return text
+    if not extent.resolved:
+        return f"{text}; it covers less than {extent.high_deg:.1f} degrees of the race"
+    span = f"{extent.low_deg:.1f} to {extent.high_deg:.1f}"
+    return f"{text}; entry and exit say {extent.degrees:.1f} degrees of the race ({span})"
+
+
+def _merged(weights: Sequence[Sequence[PlaceWeight]]) -> tuple[PlaceWeight, ...]:
+    total: dict[str, float] = {}
+    for row in weights:
+        for w in row:
+            total[w.site] = total.get(w.site, 0.0) + w.weight / len(weights)
+    return tuple(PlaceWeight(site=s, weight=v) for s, v in sorted(total.items(), key=lambda item: -item[1]))
+
+
+def _undecided(
+    chosen: Sequence[Candidate],
+    weights: Sequence[Sequence[PlaceWeight]],
+    sizes: Sequence[tuple[Extent | None, Severity | None]],
+    baselines: Sequence[Observation],
+) -> list[str]:
+    found = []
+    if not all(decided(w) for w in weights):
+        found.append("which of the bearings of one geometry it is: their lines coincide")
+    if any(s[0] is None for s in sizes):
+        found.append(NO_SIZE)
+    if any(s[0] is not None and not s[0].resolved for s in sizes):
+        found.append("how large the defect is beyond an upper bound: entry and exit are not told apart")
+    if any(c.family.kind == "outer" for c in chosen):
+        found.append("where on the outer ring it sits: a rate has no angle")
+    if not baselines:
+        found.append("what of it was there before: there is no baseline")
+    return found
+
+
+def _next(
+    one_site: bool, sizes: Sequence[tuple[Extent | None, Severity | None]], baselines: Sequence[Observation]
+) -> NextExperiment | None:
+    if not one_site:
+        return NextExperiment(sentence="Record with one sensor on each of the bearings that share these lines.")
+    if not baselines:
+        return NextExperiment(sentence="Record the machine in a sound state, or each bearing on its own.")
+    if any(s[0] is None or not s[0].resolved for s in sizes):
+        return NextExperiment(sentence="Record at half the speed: entry and exit of the defect move apart in time.")
+    return None

@@ -1,0 +1,111 @@
+"""The feature-level model of a local defect: an impulse train at a fitted rate, heard through a smooth path.
+
+Harmonics fall by a power of their number, sidebands stand at one ratio, lines widen with their order as slip smears
+them; where entry and exit of a spall were told apart every impulse is a pair, and the comb has their interference.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from reconcile.kinematics.families import Family
+from signals.series import FloatArray
+
+SMOOTH = 4
+"""Coefficients of the smooth re-scaling."""
+PARAMETERS = 6
+"""Of the comb: log level, fall with harmonic, log sideband ratio, log smear, slip, share of the second impulse."""
+MAIN_LOBE = 1.1
+"""Standard deviation of an averaged Hann main lobe, bins."""
+LOW = (-30.0, -1.0, -6.0, -4.0, -0.004, 0.0)
+START = (0.0, 1.0, -1.0, -1.5, 0.0, 0.1)
+HIGH = (10.0, 6.0, 0.5, 1.0, 0.004, 0.9)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stretch:
+    """Log power (bins,) of the envelope's order spectrum, averaged over segments, and its orders."""
+
+    log_power: FloatArray
+    orders: FloatArray
+
+    @property
+    def step(self) -> float:
+        """Distance of the bins."""
+        return float(self.orders[1] - self.orders[0])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Train:
+    """A family at its order as found; `pair`: distance of the two impulses over the period, 0 for single ones."""
+
+    family: Family
+    order: float
+    pair: float = 0.0
+
+
+def comb_power(train: Train, on: Stretch, parameters: FloatArray) -> FloatArray:
+    """Power (bins,) of the comb's lines."""
+    level, fall, side, smear, slip, second = (float(p) for p in parameters)
+    family, base = train.family, train.order * (1 + slip)
+    total = np.zeros(on.orders.size)
+    for k in range(1, int(on.orders[-1] / base) + 1):
+        width = on.step * np.hypot(MAIN_LOBE, np.exp(smear) * k)
+        both = 1 + second**2 + 2 * second * np.cos(2 * np.pi * k * train.pair) if train.pair else 1.0
+        height = both * np.exp(level - fall * np.log(k)) * on.step / width
+        lines = [(k * base, height)]
+        for m in range(1, family.sidebands + 1):
+            lines += [(k * base + s * m * family.spacing, height * float(np.exp(side))) for s in (-1, 1)]
+        for place, power in lines:
+            total += power * np.exp(-0.5 * ((on.orders - place) / width) ** 2)
+    return total
+
+
+def predicted(train: Train, on: Stretch, before: FloatArray, p: FloatArray) -> FloatArray:
+    """Log power (bins,) of the expected spectrum `before`, re-scaled, with the comb added."""
+    base = np.exp(np.clip(before + basis(on.orders) @ p[PARAMETERS:], -60.0, 60.0))
+    return np.asarray(np.log(base + comb_power(train, on, p[:PARAMETERS])), dtype=np.float64)
+
+
+def fitted(train: Train, fit: Stretch, before: FloatArray) -> FloatArray:
+    """Parameters of the comb and of the re-scaling, (PARAMETERS + SMOOTH,), least squares of the log spectrum."""
+    smooth = rescaled(fit, before)[1]
+    smooth[0] -= 1.0
+    start = np.concatenate((START, smooth))
+    start[0] = float(np.max(fit.log_power))
+    low = np.concatenate((LOW, np.full(SMOOTH, -20.0)))
+    high = np.concatenate((HIGH, np.full(SMOOTH, 20.0)))
+
+    def residual(p: FloatArray) -> FloatArray:
+        return np.asarray(predicted(train, fit, before, p) - fit.log_power, dtype=np.float64)
+
+    found = least_squares(residual, np.clip(start, low + 1e-9, high - 1e-9), bounds=(low, high), max_nfev=200)
+    return np.asarray(found.x, dtype=np.float64)
+
+
+def rescaled(fit: Stretch, before: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """(`before` smoothly re-scaled to the stretch (bins,), its coefficients (SMOOTH,))."""
+    columns = basis(fit.orders)
+    smooth = np.asarray(np.linalg.lstsq(columns, fit.log_power - before, rcond=None)[0], dtype=np.float64)
+    return np.asarray(before + columns @ smooth, dtype=np.float64), smooth
+
+
+def basis(orders: FloatArray) -> FloatArray:
+    """Chebyshev polynomials over the orders, (bins, SMOOTH)."""
+    place = 2 * orders / orders[-1] - 1
+    return np.asarray(np.polynomial.chebyshev.chebvander(place, SMOOTH - 1), dtype=np.float64)
+
+
+def black_box(fit: Stretch, retuned: FloatArray) -> FloatArray:
+    """Log power (bins,) with free lines in place of the comb: the three strongest, place and height of each."""
+    values = retuned.copy()
+    residual = fit.log_power - retuned
+    for _ in range(PARAMETERS // 2):
+        peak = int(np.argmax(residual))
+        lobe = np.exp(-0.5 * ((np.arange(values.size) - peak) / MAIN_LOBE) ** 2)
+        values = np.logaddexp(values, fit.log_power[peak] + np.log(lobe + 1e-30))
+        residual[max(0, peak - 2) : peak + 3] = -np.inf
+    return np.asarray(values, dtype=np.float64)

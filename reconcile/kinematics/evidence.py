@@ -1,0 +1,201 @@
+"""How strongly each family's lines stand out, and what that is worth: the same search at orders of no part.
+
+The statistic of a family is the largest over bands and channels of its comb's standardised score. Its probability
+comes from the same search at random orders that no part of the machine has, in the same spectra: whatever makes these
+spectra lively (load, gears, other machines) makes the controls lively too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.kinematics.envelopes import Envelopes
+from reconcile.kinematics.families import Family, Ties
+from signals.series import FloatArray
+
+NOISE_LOG = 1.5
+"""Log power over the floor below which a bin counts nothing: noise passes it in 1 % of the bins."""
+LARGEST_LOG = 7.0
+CONTROLS = 300
+AWAY = 0.035
+"""Share by which a control order must differ from orders of parts, their halves and multiples."""
+SHAFT_BINS = 2.0
+TAIL = 0.1
+LEAST_CHANCE = 1e-6
+"""A tail read off 300 controls carries no further."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evidence:
+    """A family in one recording: `z` standardised score, `chance` that a foreign order reaches it."""
+
+    family: Family
+    z: float
+    chance: float
+    slip: float
+    order: float
+    """The family's base order as found."""
+    channel: str
+    band_hz: tuple[float, float]
+    depth: float
+    """Root of the summed squares of its lines in the squared envelope, over the mean of it."""
+    channel_z: dict[str, float]
+
+
+def logs(envelopes: Envelopes, ties: Ties, *, shaft_lines: bool) -> FloatArray:
+    """Log power over noise (bands, bins), clipped; lines of the shafts taken out unless `shaft_lines`."""
+    values = np.clip(np.log(np.maximum(envelopes.excess, 1e-12)) - NOISE_LOG, 0.0, LARGEST_LOG)
+    if not shaft_lines:
+        orders = np.arange(values.shape[1]) * envelopes.order_step
+        for ratio in ties.shafts.values():
+            off = np.abs(orders - np.rint(orders / ratio) * ratio)
+            values[:, off < SHAFT_BINS * envelopes.order_step] = 0.0
+    values[:, : int(np.ceil(SHAFT_BINS)) + 1] = 0.0
+    wide = values.copy()
+    wide[:, 1:-1] = np.maximum(np.maximum(values[:, :-2], values[:, 1:-1]), values[:, 2:])
+    return wide
+
+
+def comb(family: Family, base: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """(orders (trials, lines), weights (lines,)) of the family's lines at base orders (trials,)."""
+    lines: list[FloatArray] = []
+    weights: list[float] = []
+    for k in range(1, family.harmonics + 1):
+        lines.append(k * base)
+        weights.append(float(1 / np.sqrt(k)))
+        for m in range(1, family.sidebands + 1):
+            for sign in (-1, 1):
+                lines.append(k * base + sign * m * family.spacing)
+                weights.append(float(0.5 / np.sqrt(k)))
+    return np.asarray(np.stack(lines, axis=1), dtype=np.float64), np.asarray(weights, dtype=np.float64)
+
+
+def trials(family: Family, order: float, reach: float, order_step: float) -> FloatArray:
+    """Base orders to try around `order`: the highest line moves by one bin from one to the next, shape (trials,)."""
+    if reach == 0:
+        return np.array([order])
+    step = order_step / family.harmonics
+    count = max(1, int(np.ceil(order * reach / step)))
+    return np.asarray(order + np.arange(-count, count + 1) * (order * reach / count), dtype=np.float64)
+
+
+def scores(values: FloatArray, envelopes: Envelopes, family: Family, base: FloatArray) -> FloatArray:
+    """Comb scores, shape (bands, trials)."""
+    lines, weights = comb(family, base)
+    place = envelopes.place(np.abs(lines))
+    inside = (lines / envelopes.order_step < values.shape[1] - 1) & (lines > 0)
+    return np.asarray(np.einsum("btl,l->bt", values[:, place] * inside, weights), dtype=np.float64)
+
+
+def without(values: FloatArray, envelopes: Envelopes, family: Family, order: float) -> FloatArray:
+    """`values` (bands, bins) with all harmonics of a family and two pairs of sidebands put to noise."""
+    cleared = values.copy()
+    top = int(values.shape[1] * envelopes.order_step / order)
+    lines = np.arange(1, top + 1) * order
+    if family.spacing:
+        lines = (lines[:, np.newaxis] + family.spacing * np.arange(-2, 3)).ravel()
+    for shift in range(-3, 4):
+        place = np.rint(lines / envelopes.order_step).astype(np.int64) + shift
+        cleared[:, place[(place >= 0) & (place < values.shape[1])]] = 0.0
+    return cleared
+
+
+def control_orders(ties: Ties, family: Family, rng: np.random.Generator, count: int = CONTROLS) -> FloatArray:
+    """Orders no part has, between half and twice the family's, shape (count,)."""
+    known = [f.order * m for f in ties.families if f.kind != "turn" for m in (0.5, 1.0, 1.5, 2.0, 3.0)]
+    chosen: list[float] = []
+    away = AWAY
+    tries = 0
+    while len(chosen) < count:
+        order = family.order * float(2 ** rng.uniform(-1, 1))
+        tries += 1
+        if tries % (20 * count) == 0:
+            away /= 2  # many parts leave no gaps this wide
+        if all(abs(order / k - 1) > away for k in known):
+            chosen.append(order)
+    return np.asarray(chosen)
+
+
+def family_evidence(
+    channels: Sequence[Envelopes],
+    ties: Ties,
+    family: Family,
+    speed_doubt: float,
+    rng: np.random.Generator,
+    explained: Sequence[tuple[Family, float]] = (),
+) -> Evidence:
+    """Evidence of one family over all bands and channels; `speed_doubt`: relative, widens the search.
+
+    `explained`: families (with their order as found) whose lines are taken out first.
+    """
+    turn = family.kind == "turn"
+    reach = family.slip + speed_doubt if not turn else speed_doubt
+    controls = control_orders(ties, family, rng)
+    best_z, best_control = -np.inf, np.full(controls.size, -np.inf)
+    found: tuple[Envelopes, int, float] | None = None
+    by_channel: dict[str, float] = {}
+    for e in channels:
+        values = logs(e, ties, shaft_lines=turn)
+        for other, order in explained:
+            values = without(values, e, other, order)
+        base = trials(family, family.order, reach, e.order_step)
+        table = scores(values, e, family, base)
+        # were the family absent, its lines would be: the controls must not catch them
+        absent = without(values, e, family, float(base[int(np.argmax(np.max(table, axis=0)))]))
+        control = np.stack(
+            [np.max(scores(absent, e, family, trials(family, o, reach, e.order_step)), axis=1) for o in controls],
+            axis=1,
+        )
+        centre = np.median(control, axis=1, keepdims=True)
+        spread = np.maximum(1.4826 * np.median(np.abs(control - centre), axis=1, keepdims=True), 0.7)
+        z = (table - centre) / spread
+        band, trial = (int(i) for i in np.unravel_index(int(np.argmax(z)), z.shape))
+        by_channel[e.channel] = float(z[band, trial])
+        best_control = np.maximum(best_control, np.max((control - centre) / spread, axis=0))
+        if z[band, trial] > best_z:
+            best_z, found = float(z[band, trial]), (e, band, float(base[trial]))
+    assert found is not None
+    e, place, order = found
+    return Evidence(
+        family=family,
+        z=best_z,
+        chance=tail_chance(best_control, best_z),
+        slip=order / family.order - 1,
+        order=order,
+        channel=e.channel,
+        band_hz=(float(e.bands_hz[place, 0]), float(e.bands_hz[place, 1])),
+        depth=comb_depth(e, place, family, order),
+        channel_z=by_channel,
+    )
+
+
+def comb_depth(envelopes: Envelopes, band: int, family: Family, order: float) -> float:
+    """Root of the summed squared depths of the comb's lines (largest of three bins), noise subtracted."""
+    lines, _ = comb(family, np.array([order]))
+    place = envelopes.place(np.abs(lines[0]))
+    place = np.clip(place[(place > 1) & (place < envelopes.depth.shape[1] - 2)], 2, None)
+    near = np.stack([place - 1, place, place + 1])
+    pick = near[np.argmax(envelopes.depth[band][near], axis=0), np.arange(place.size)]
+    square = envelopes.depth[band][pick] ** 2
+    noise = square / np.maximum(envelopes.excess[band][pick], 1e-12)
+    return float(np.sqrt(np.sum(np.maximum(square - 2 * noise, 0.0))))
+
+
+def tail_chance(controls: FloatArray, value: float) -> float:
+    """Chance that a control reaches `value`: the rank, beyond the controls an exponential tail through their top tenth.
+
+    The tail's rate is that of maximum likelihood for the excesses, which Pickands' theorem makes a generalised Pareto
+    law; its shape is taken as 0 (the clipped scores have bounded tails, so this errs on the safe side).
+    """
+    n = controls.size
+    above = int(np.sum(controls >= value))
+    count = max(10, int(TAIL * n))
+    if above >= count // 2:
+        return (1 + above) / (1 + n)
+    top = np.sort(controls)[-count - 1 :]
+    scale = max(float(np.mean(top[1:] - top[0])), 1e-3)
+    tail = count / n * np.exp(-(value - top[0]) / scale)
+    return float(max(min((1 + above) / (1 + n), tail), LEAST_CHANCE))

@@ -1,0 +1,127 @@
+"""How long a spall is: a ball entering it and striking its far edge make two events, apart by its length.
+
+N. Sawalhi and R. B. Randall, "Vibration response of spalled rolling element bearings: observations, simulations and
+signal processing techniques to track the spall size", Mech. Syst. Signal Process. 25 (2011) 846-870. In the
+autocorrelation of the squared envelope the two are a peak at their distance and satellites around the period; random
+slip between balls does not smear it. The strike comes when the ball's centre is between half way (an edge it falls
+against while the other still carries it) and the whole way over the spall: the interval says so.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import fft
+from scipy.signal import find_peaks
+
+from reconcile.kinematics.envelopes import squared_envelope, whitened
+from reconcile.kinematics.evidence import Evidence
+from reconcile.kinematics.families import Ties
+from reconcile.kinematics.observe import Observation
+from reconcile.verdict import Severity
+from signals.series import FloatArray
+
+STRIKE = 0.75
+"""Where on the way over the spall the ball strikes: the middle of what geometry allows."""
+STRIKE_RANGE = (0.5, 1.0)
+PROMINENCE = 0.04
+"""Of a peak of the autocorrelation (1 at lag 0)."""
+FIRST_SHARE, LAST_SHARE = 0.03, 0.45
+"""Lags looked at, share of the period: nearer is ringing, at half lie second defects."""
+BANDS = ((0.02, 0.24), (0.05, 0.5), (0.01, 0.49), (0.24, 0.48))
+"""Of the sampling rate."""
+EXTREME = 0.999
+
+
+@dataclass(frozen=True, kw_only=True)
+class Extent:
+    """Angle on the race with its interval, degrees; `resolved` False: only `high_deg` is known."""
+
+    degrees: float
+    low_deg: float
+    high_deg: float
+    lag_s: float
+    resolved: bool
+
+
+def spall_extent(evidence: Evidence, test: Observation, ties: Ties) -> Extent | None:
+    """Extent of an outer or inner spall; None for other families and where the record cannot resolve anything."""
+    family = evidence.family
+    if family.kind not in ("outer", "inner") or family.site not in ties.races:
+        return None
+    race = ties.races[family.site]
+    rate_hz = evidence.order * test.speed.speed_hz
+    period = 1 / rate_hz
+    lags, curve = _autocorrelation(test, evidence.channel, 1.6 * period)
+    degrees_per_s = 360.0 * rate_hz / race.balls
+    fallen = np.flatnonzero(curve < 0.2)
+    first = max(FIRST_SHARE * period, 1.5 * float(lags[fallen[0]]) if fallen.size else period)
+    if first > LAST_SHARE * period:
+        return None
+    lag = _pair_lag(lags, curve, period, first)
+    if lag is None:
+        high = degrees_per_s * first / STRIKE_RANGE[0]
+        return Extent(degrees=high / 2, low_deg=0.0, high_deg=high, lag_s=first, resolved=False)
+    angle = degrees_per_s * lag
+    return Extent(
+        degrees=angle / STRIKE,
+        low_deg=angle / STRIKE_RANGE[1],
+        high_deg=angle / STRIKE_RANGE[0],
+        lag_s=lag,
+        resolved=True,
+    )
+
+
+def as_severity(extent: Extent, evidence: Evidence, ties: Ties) -> Severity:
+    """Arc length in m where the sizes are known (the severity parameter of the spall terms), else degrees."""
+    race = ties.races[evidence.family.site]
+    if race.pitch_m is None:
+        return Severity(name="extent", value=extent.degrees, unit="deg", low=extent.low_deg, high=extent.high_deg)
+    side = 1 + race.ratio if evidence.family.kind == "outer" else 1 - race.ratio
+    metre = race.pitch_m / 2 * side * np.pi / 180
+    return Severity(
+        name="width",
+        value=float(extent.degrees * metre),
+        unit="m",
+        low=float(extent.low_deg * metre),
+        high=float(extent.high_deg * metre),
+    )
+
+
+def _autocorrelation(test: Observation, channel: str, longest_s: float) -> tuple[FloatArray, FloatArray]:
+    """(lags in s, mean over wide bands of the squared envelope's autocorrelation), both (lags,)."""
+    series = test.recording.series(channel)
+    rate = series.sampling_rate_hz
+    white = whitened(series.samples)
+    lags = np.arange(int(longest_s * rate / 2)) * 2 / rate
+    total = np.zeros(lags.size)
+    for low, high in BANDS:
+        square, envelope_rate, _ = squared_envelope(white, low * rate, high * rate, rate)
+        centred = np.minimum(square, np.quantile(square, EXTREME))
+        centred = centred - np.mean(centred)
+        power = np.abs(fft.rfft(centred, fft.next_fast_len(2 * centred.size))) ** 2
+        curve = fft.irfft(power)[: int(longest_s * envelope_rate) + 2]
+        total += np.interp(lags, np.arange(curve.size) / envelope_rate, curve / curve[0]) / len(BANDS)
+    return lags, total
+
+
+def _pair_lag(lags: FloatArray, curve: FloatArray, period: float, first: float) -> float | None:
+    """Lag of a peak that has a satellite at the period less it, s."""
+    step = float(lags[1])
+    smooth = np.convolve(curve, np.ones(3) / 3, mode="same")
+    # ringing of the structure makes ripples: peaks closer than half the first lag are one event
+    places, facts = find_peaks(smooth, prominence=PROMINENCE, distance=max(1, int(first / 2 / step)))
+    prominence = dict(zip(places.tolist(), facts["prominences"].tolist(), strict=True))
+    best: tuple[float, float] | None = None
+    for place, height in prominence.items():
+        lag = float(lags[place])
+        if not first <= lag <= LAST_SHARE * period:
+            continue
+        mates = [p for p in prominence if abs(lags[p] - (period - lag)) < max(0.02 * period, 3 * step)]
+        if not mates:
+            continue
+        score = height + max(prominence[p] for p in mates)
+        if best is None or score > best[0]:
+            best = (score, lag)
+    return None if best is None else best[1]

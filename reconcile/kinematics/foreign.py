@@ -1,0 +1,77 @@
+"""Periodic impacts at an order no part has: something is there that the drawing does not know."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.kinematics.contrast import contrast
+from reconcile.kinematics.evidence import Evidence, family_evidence, logs, scores
+from reconcile.kinematics.families import SLIP, Family, Ties
+from reconcile.kinematics.observe import Observation
+
+LOWEST = 0.3
+LEAST_Z = 12.0
+GROWTH_DB = 10.0
+LEAST_DEPTH = 0.3
+SMALL = (1, 2, 3, 4, 5, 6)
+MOST = 12
+"""Strongest orders that are looked at before giving up."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Foreign:
+    """A comb at `order` of the reference shaft with its evidence and growth over the baseline."""
+
+    order: float
+    evidence: Evidence
+    growth_db: float
+
+
+def foreign_comb(test: Observation, baselines: Sequence[Observation], ties: Ties, seed: int) -> Foreign | None:
+    """The strongest comb that no part explains and the baseline does not have; None without a baseline."""
+    if not baselines:
+        return None
+    highest = max(f.order for f in ties.families)
+    best: tuple[float, float] | None = None
+    for e in test.channels:
+        values = logs(e, ties, shaft_lines=False)
+        probe = Family(kind="outer", site="", order=1.0, spacing=0.0, sidebands=0, slip=0.0)
+        base = np.arange(LOWEST, 1.3 * highest, e.order_step / probe.harmonics)
+        table = scores(values, e, probe, base)
+        centre = np.median(table, axis=1, keepdims=True)
+        spread = np.maximum(1.4826 * np.median(np.abs(table - centre), axis=1, keepdims=True), 0.7)
+        top = np.max((table - centre) / spread, axis=0)
+        for place in np.argsort(-top)[: 40 * MOST]:
+            if explained(float(base[place]), ties, test.doubt):
+                continue
+            if best is None or top[place] > best[0]:
+                best = (float(top[place]), float(base[place]))
+            break
+    if best is None or best[0] < LEAST_Z:
+        return None
+    family = Family(kind="outer", site="", order=best[1], spacing=0.0, sidebands=0, slip=0.002)
+    found = family_evidence(test.channels, ties, family, 0.0, np.random.default_rng((seed, 77)))
+    growth = contrast(found, test, baselines, ties)
+    if found.z < LEAST_Z or growth.growth_db is None:
+        return None
+    if growth.growth_db < GROWTH_DB or growth.depth < LEAST_DEPTH:
+        return None
+    return Foreign(order=found.order, evidence=found, growth_db=growth.growth_db)
+
+
+def explained(order: float, ties: Ties, doubt: float) -> bool:
+    """Whether an order is a small rational multiple of a part's, or such with a sideband of a shaft or cage."""
+    bases = [f.order for f in ties.families] + list(ties.mesh_orders)
+    shifts = [0.0, *ties.shafts.values(), *(f.order for f in ties.families if f.kind == "cage")]
+    for base in bases:
+        for p in SMALL:
+            for q in SMALL[:4]:
+                target = base * p / q
+                if any(
+                    abs(order - target - sign * shift) < (SLIP + doubt) * target for shift in shifts for sign in (-1, 1)
+                ):
+                    return True
+    return False

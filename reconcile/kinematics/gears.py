@@ -1,0 +1,163 @@
+"""Tooth faults against a baseline: sidebands of one shaft around the mesh grow, and the mean turn shows where.
+
+A local tooth fault modulates the mesh once a turn of its gear: sidebands at many multiples of that shaft's order rise
+(P. D. McFadden, "Detecting fatigue cracks in gears by amplitude and phase demodulation of the meshing vibration",
+J. Vib. Acoust. 108 (1986) 165-170). More load raises mesh lines too; so the sidebands must grow against the noise
+beside them and no less than the mesh lines themselves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.signal import hilbert
+
+from reconcile.kinematics.families import Ties
+from reconcile.kinematics.lines import OrderLines, growth_over_floor, matched, order_lines
+from reconcile.kinematics.observe import Observation
+from reconcile.verdict import AngleWindow
+from signals.series import FloatArray
+from signals.synchronous import separate, synchronous_average
+from sim.core.errors import SpecError
+
+MESHES = 5
+SIDEBANDS = 8
+GROWTH_DB = 8.0
+LAG_DB = 3.0
+"""By which the sidebands may grow less than their mesh lines."""
+ERRORS = 4.0
+MIN_LINES = 8
+LOCAL = 2.0
+"""A window of the mean turn is a place if it stands out this many times more than in the baseline."""
+LOCAL_LEAST = 3.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearEvidence:
+    """Growth of the sidebands of a gear's shaft around its mesh in the channel that shows it most."""
+
+    mesh: str
+    shaft: str
+    gear: str
+    channel: str
+    growth_db: float
+    error_db: float
+    mesh_growth_db: float
+    lines: int
+    window: AngleWindow | None
+    label: str
+
+    @property
+    def grown(self) -> bool:
+        """Whether the growth is that of a fault."""
+        firm = self.lines >= MIN_LINES and self.growth_db > ERRORS * self.error_db
+        return firm and self.growth_db > GROWTH_DB and self.growth_db > self.mesh_growth_db - LAG_DB
+
+
+def gear_evidence(
+    tests: Sequence[Observation], baselines: Sequence[Observation], ties: Ties
+) -> tuple[GearEvidence, ...]:
+    """One entry a mesh and shaft, the strongest growth first; empty without a baseline at the same speed."""
+    found: dict[tuple[str, str], GearEvidence] = {}
+    for test in tests:
+        base = matched(test, baselines)
+        if base is None:
+            continue
+        for channel in (n for n in test.recording.names if n in base.recording.names):
+            now, before = order_lines(test, channel), order_lines(base, channel)
+            if now is None or before is None:
+                continue
+            for mesh in ties.meshes:
+                for side in (0, 1):
+                    one = _one(test, base, channel, (now, before), mesh, side, ties)
+                    key = (one.mesh, one.shaft)
+                    if key not in found or (one.grown, one.growth_db) > (found[key].grown, found[key].growth_db):
+                        found[key] = one
+    return tuple(sorted(found.values(), key=lambda g: (-g.grown, -g.growth_db)))
+
+
+def sideband_orders(mesh_order: float, shaft: float, other: float) -> FloatArray:
+    """k z +- m of a shaft, without those that are the other shaft's (a common multiple of both), (lines,)."""
+    orders = [
+        k * mesh_order + sign * m * shaft
+        for k in range(1, MESHES + 1)
+        for m in range(1, SIDEBANDS + 1)
+        for sign in (-1, 1)
+    ]
+    values = np.asarray(orders)
+    offset = np.abs(values - np.rint(values / mesh_order) * mesh_order)
+    shared = np.abs(offset / other - np.rint(offset / other)) < 1e-6
+    return np.sort(values[(values > 0) & ~shared]) if not np.all(shared) else np.sort(values[values > 0])
+
+
+def _one(
+    test: Observation,
+    base: Observation,
+    channel: str,
+    lines: tuple[OrderLines, OrderLines],
+    mesh: tuple[str, float, tuple[str, str], tuple[str, str]],
+    side: int,
+    ties: Ties,
+) -> GearEvidence:
+    name, order, shafts, gears = mesh
+    ratio, other = ties.shafts[shafts[side]], ties.shafts[shafts[1 - side]]
+    growth, _ = growth_over_floor(*lines, sideband_orders(order, ratio, other))
+    mesh_growth, _ = growth_over_floor(*lines, np.arange(1.0, MESHES + 1.0) * order)
+    values = growth[np.isfinite(growth)]
+    mean = float(np.mean(values)) if values.size else 0.0
+    error = float(np.std(values) / np.sqrt(values.size)) if values.size > 1 else 10.0
+    teeth = round(order / ratio)
+    window = None
+    if values.size >= MIN_LINES and mean > GROWTH_DB / 2:
+        window = _window(test, base, channel, shafts[side], ratio, teeth)
+    return GearEvidence(
+        mesh=name,
+        shaft=shafts[side],
+        gear=gears[side],
+        channel=channel,
+        growth_db=mean,
+        error_db=max(error, 0.5),
+        mesh_growth_db=float(np.nanmean(mesh_growth)) if np.any(np.isfinite(mesh_growth)) else 0.0,
+        lines=int(values.size),
+        window=window,
+        label=test.label,
+    )
+
+
+def local_energy(observation: Observation, channel: str, shaft: str, ratio: float, teeth: int) -> FloatArray | None:
+    """Envelope power of the mean turn's residual in windows of two teeth over its mean, (steps,)."""
+    e = observation.channel(channel)
+    assert e is not None
+    series = observation.recording.series(channel)
+    try:
+        mean = synchronous_average(series, shaft=shaft, rotation=e.angle_rad, ratio=ratio)
+        residual = separate(mean, teeth=(teeth,)).difference
+    except SpecError:
+        return None
+    power = np.abs(hilbert(residual)) ** 2
+    width = max(3, 2 * residual.size // teeth)
+    kernel = np.zeros(residual.size)
+    kernel[:width] = 1 / width
+    smooth = np.fft.irfft(np.fft.rfft(power) * np.fft.rfft(np.roll(kernel, -(width // 2))), residual.size)
+    return np.asarray(smooth / max(float(np.mean(smooth)), 1e-300), dtype=np.float64)
+
+
+def _window(
+    test: Observation, base: Observation, channel: str, shaft: str, ratio: float, teeth: int
+) -> AngleWindow | None:
+    """Where in the turn the residual gathers, if it does so more than in the baseline."""
+    now = local_energy(test, channel, shaft, ratio, teeth)
+    before = local_energy(base, channel, shaft, ratio, teeth)
+    if now is None or before is None:
+        return None
+    top = float(np.max(now))
+    if top < LOCAL_LEAST or top < LOCAL * float(np.max(before)):
+        return None
+    centre = 360.0 * int(np.argmax(now)) / now.size
+    above = np.roll(now, now.size // 2 - int(np.argmax(now))) > top / 2
+    half = np.flatnonzero(above)
+    middle = now.size // 2
+    low, high = (float(360.0 * (edge - middle) / now.size) for edge in (half[0], half[-1]))
+    return AngleWindow(shaft=shaft, centre_deg=centre, low_deg=centre + low, high_deg=centre + high)

@@ -1,0 +1,147 @@
+"""Which families are named: firm against foreign orders in every family's search, and more than in the baseline."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import chi2
+
+from reconcile.kinematics.contrast import Contrast, contrast
+from reconcile.kinematics.evidence import Evidence, family_evidence
+from reconcile.kinematics.families import Family, Ties
+from reconcile.kinematics.observe import Observation
+
+LEVEL = 0.01
+GROWTH_DB = 6.0
+"""Depth of modulation must have doubled, and by more than two standard errors."""
+ERRORS = 2.0
+LEAST_DEPTH = 0.15
+ALONE_DEPTH = 0.5
+"""Depth that sound bearings do not show (0.34 was the most seen), asked for where there is no baseline."""
+LEAST_Z = 5.0
+"""Robust standard deviations of the controls that a named family stands above them, whatever its tail says."""
+SECOND_SHARE = 0.5
+"""Of the first family's score, for a second one to be named beside it."""
+SECOND_LEVEL = 1e-3
+SAME_ORDER = 0.5
+"""Families nearer than this share of the slip are one to the data."""
+DEFECTS = ("outer", "inner", "ball")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Candidate:
+    """A family over all test recordings. `chance` is Fisher's combination after Holm over all families."""
+
+    family: Family
+    evidence: tuple[Evidence, ...]
+    contrasts: tuple[Contrast, ...]
+    chance: float
+
+    @property
+    def strongest(self) -> int:
+        """Index of the test recording that shows it best."""
+        return int(np.argmax([e.z for e in self.evidence]))
+
+    @property
+    def z(self) -> float:
+        """Root mean square of the (positive) scores."""
+        return float(np.sqrt(np.mean([max(e.z, 0.0) ** 2 for e in self.evidence])))
+
+    @property
+    def best(self) -> Evidence:
+        """Evidence of the recording that shows it best."""
+        return self.evidence[self.strongest]
+
+    @property
+    def growth_db(self) -> float | None:
+        """Median growth of depth over the baselines."""
+        values = [c.growth_db for c in self.contrasts if c.growth_db is not None]
+        return float(np.median(values)) if values else None
+
+    @property
+    def present(self) -> bool:
+        """Whether its lines are there at all, in a sound machine or not."""
+        return self.chance < LEVEL and self.z > LEAST_Z
+
+    @property
+    def risen(self) -> bool:
+        """Whether it is more than a baseline (or, without one, than a sound bearing) shows."""
+        votes = [
+            c.depth >= ALONE_DEPTH
+            if c.growth_db is None
+            else c.depth >= LEAST_DEPTH and c.growth_db > max(GROWTH_DB, ERRORS * c.error_db)
+            for c in self.contrasts
+        ]
+        return 2 * sum(votes) > len(votes)
+
+
+def candidates(
+    tests: Sequence[Observation],
+    baselines: Sequence[Observation],
+    ties: Ties,
+    seed: int,
+    explained: Sequence[Candidate] = (),
+) -> tuple[Candidate, ...]:
+    """All families (but `explained`, whose lines are taken out), the firmest first."""
+    left = [f for f in ties.families if all(not same(f, c.family) for c in explained)]
+    rows = []
+    for f in left:
+        found = []
+        for i, t in enumerate(tests):
+            rng = np.random.default_rng((seed, i, ties.families.index(f)))
+            taken = [(c.family, c.evidence[i].order) for c in explained]
+            found.append(family_evidence(t.channels, ties, f, t.doubt, rng, taken))
+        rows.append((f, tuple(found)))
+    chances = holm([fisher([e.chance for e in found]) for _, found in rows])
+    result = [
+        Candidate(
+            family=f,
+            evidence=found,
+            contrasts=tuple(contrast(e, t, baselines, ties) for e, t in zip(found, tests, strict=True)),
+            chance=chance,
+        )
+        for (f, found), chance in zip(rows, chances, strict=True)
+    ]
+    return tuple(sorted(result, key=lambda c: (not (c.present and c.risen), -c.z)))
+
+
+def named(
+    tests: Sequence[Observation], baselines: Sequence[Observation], ties: Ties, seed: int
+) -> tuple[tuple[Candidate, ...], tuple[Candidate, ...]]:
+    """(bearing defects that stand, at most two; all candidates)."""
+    every = candidates(tests, baselines, ties, seed)
+    first = next((c for c in every if c.family.kind in DEFECTS and c.present and c.risen), None)
+    if first is None:
+        return (), every
+    second = next(
+        (
+            c
+            for c in candidates(tests, baselines, ties, seed, (first,))
+            if c.family.kind in DEFECTS and c.risen and c.chance < SECOND_LEVEL and c.z > SECOND_SHARE * first.z
+        ),
+        None,
+    )
+    return ((first,) if second is None else (first, second)), every
+
+
+def same(a: Family, b: Family) -> bool:
+    """Whether two families are one to the data (bearings of one geometry on shafts of one speed)."""
+    return abs(a.order / b.order - 1) < SAME_ORDER * max(a.slip, b.slip, 1e-6) and a.spacing == b.spacing
+
+
+def fisher(chances: Sequence[float]) -> float:
+    """Combined chance of independent tests (R. A. Fisher, Statistical Methods for Research Workers, 1932, 21.1)."""
+    return float(chi2.sf(-2 * float(np.sum(np.log(chances))), 2 * len(chances)))
+
+
+def holm(chances: Sequence[float]) -> list[float]:
+    """Adjusted chances (S. Holm, Scand. J. Statist. 6 (1979) 65-70)."""
+    order = np.argsort(chances)
+    adjusted = np.empty(len(chances))
+    running = 0.0
+    for rank, i in enumerate(order):
+        running = max(running, min(1.0, (len(chances) - rank) * chances[i]))
+        adjusted[i] = running
+    return [float(a) for a in adjusted]

@@ -1,0 +1,76 @@
+"""Lines of the raw signal over orders: shaft harmonics and mesh sidebands, and how they changed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import fft
+
+from reconcile.kinematics.observe import Observation
+from reconcile.speed.excess import EXPONENTIAL_MEDIAN, running_median
+from signals.series import FloatArray
+from signals.spectra.angle import resample_in_angle
+from sim.core.errors import SpecError
+
+SAME_SPEED = 0.03
+PRESENT_DB = 10.0
+"""A line counts in a comparison if in one of the two it stands this much over its floor."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OrderLines:
+    """`level_db` (bins,) and `floor_db` (bins,): power of the lines and of the noise beside them, over orders."""
+
+    level_db: FloatArray
+    floor_db: FloatArray
+    order_step: float
+
+    def at(self, orders: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """(largest level within a bin, floor) at orders (n,); NaN beyond the spectrum."""
+        place = np.rint(orders / self.order_step).astype(np.int64)
+        inside = (place >= 2) & (place < self.level_db.size - 2)
+        safe = np.clip(place, 2, self.level_db.size - 3)
+        top = np.max(np.stack([self.level_db[safe + k] for k in (-1, 0, 1)]), axis=0)
+        return np.where(inside, top, np.nan), np.where(inside, self.floor_db[safe], np.nan)
+
+
+def order_lines(observation: Observation, channel: str) -> OrderLines | None:
+    """Order spectrum of a channel over the reference shaft (Hann); None where the angle covers no turn."""
+    e = observation.channel(channel)
+    assert e is not None
+    series = observation.recording.series(channel)
+    per_turn = max(16, int(series.sampling_rate_hz / observation.speed.speed_hz))
+    try:
+        values = resample_in_angle(series, e.angle_rad, per_turn)
+    except SpecError:
+        return None
+    window = np.hanning(values.size)
+    power = np.abs(fft.rfft((values - np.mean(values)) * window)) ** 2 * (2 / np.sum(window)) ** 2 / 2
+    floor = running_median(power) / EXPONENTIAL_MEDIAN
+    tiny = max(float(np.max(power)) * 1e-18, np.finfo(np.float64).tiny)
+    return OrderLines(
+        level_db=10 * np.log10(power + tiny), floor_db=10 * np.log10(floor + tiny), order_step=per_turn / values.size
+    )
+
+
+def matched(test: Observation, baselines: Sequence[Observation]) -> Observation | None:
+    """The baseline nearest in speed, within 3 %: levels of lines change with speed, depths less."""
+    near = min(
+        (b for b in baselines if b.recording.sampling_rate_hz == test.recording.sampling_rate_hz),
+        key=lambda b: abs(b.speed.speed_hz / test.speed.speed_hz - 1),
+        default=None,
+    )
+    if near is None or abs(near.speed.speed_hz / test.speed.speed_hz - 1) > SAME_SPEED:
+        return None
+    return near
+
+
+def growth_over_floor(now: OrderLines, before: OrderLines, orders: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """(growth of lines against their floors, dB, NaN where neither shows the line; level over floor now), (n,)."""
+    level, floor = now.at(orders)
+    old_level, old_floor = before.at(orders)
+    over, old_over = np.maximum(level - floor, 0.0), np.maximum(old_level - old_floor, 0.0)
+    seen = (over > PRESENT_DB) | (old_over > PRESENT_DB)
+    return np.where(seen & np.isfinite(over + old_over), over - old_over, np.nan), over

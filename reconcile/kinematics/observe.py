@@ -1,0 +1,71 @@
+"""One recording as the level of kinematics sees it: speed, angle, envelopes of every channel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.kinematics.envelopes import Envelopes, envelopes
+from reconcile.kinematics.families import Family, Ties
+from reconcile.speed import SpeedEstimate, estimate_speed, shaft_angle
+from signals.recording import Recording
+from sim.core.errors import Problem, SpecError
+
+MOST_DOUBT = 0.012
+"""Share by which the search widens where the speed could not be read: wider, every comb meets every line."""
+MIN_TURNS = 12.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Observation:
+    """`doubt`: relative uncertainty of the reference shaft's speed, which widens every search."""
+
+    label: str
+    recording: Recording
+    speed: SpeedEstimate
+    doubt: float
+    channels: tuple[Envelopes, ...]
+
+    def channel(self, name: str) -> Envelopes | None:
+        """Envelopes of a channel."""
+        return next((e for e in self.channels if e.channel == name), None)
+
+
+def observe(recording: Recording, ties: Ties, label: str, *, stated_hz: float | None, seed: int) -> Observation:
+    """Speed, angle and envelopes of a recording that has passed the gate."""
+    teeth = tuple(z * k for z in ties.mesh_orders for k in (1, 2, 3))
+    nyquist = recording.sampling_rate_hz / 2
+    stated = recording.operating.speed_hz if recording.operating is not None else stated_hz
+    usable = tuple(z for z in teeth if stated is not None and z * stated * 1.1 < nyquist)
+    speed = estimate_speed(recording, shaft=ties.reference, stated_hz=stated, orders=usable, seed=seed)
+    if speed.speed_hz * recording.duration_s < MIN_TURNS:
+        raise SpecError(
+            Problem(
+                field=label,
+                message="holds too few turns of the shaft",
+                given=round(speed.speed_hz * recording.duration_s, 2),
+                allowed=f"at least {MIN_TURNS:g} turns",
+            )
+        )
+    angle = shaft_angle(recording, speed, orders=usable)
+    base, top = reach_of(ties.families)
+    if top * speed.speed_hz * 2 > recording.sampling_rate_hz:
+        allowed = f"at least {2 * top * speed.speed_hz:.5g}"
+        message = "is too low for the envelope lines of these parts"
+        given = recording.sampling_rate_hz
+        raise SpecError(
+            Problem(field=f"{label}.sampling_rate_hz", message=message, given=given, allowed=allowed, unit="Hz")
+        )
+    doubt = min((speed.high_hz - speed.low_hz) / 2 / speed.speed_hz, MOST_DOUBT)
+    found = tuple(
+        envelopes(recording, name, np.asarray(angle), highest_base=base, highest_order=top) for name in recording.names
+    )
+    return Observation(label=label, recording=recording, speed=speed, doubt=float(doubt), channels=found)
+
+
+def reach_of(families: tuple[Family, ...]) -> tuple[float, float]:
+    """(highest base order, highest order of any line that is looked at)."""
+    base = max(f.order for f in families)
+    top = max(f.order * (1 + f.slip + MOST_DOUBT) * f.harmonics + f.sidebands * f.spacing for f in families)
+    return base, 1.05 * top

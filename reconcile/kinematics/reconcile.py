@@ -1,0 +1,242 @@
+"""Reconcile a machine of which only the kinematics are known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from reconcile.gate import Gate, inspect_measurement
+from reconcile.kinematics.answer import defect_report
+from reconcile.kinematics.contrast import band_turns
+from reconcile.kinematics.envelopes import order_depth
+from reconcile.kinematics.extent import Extent
+from reconcile.kinematics.families import Ties, ties
+from reconcile.kinematics.foreign import foreign_comb
+from reconcile.kinematics.gears import GearEvidence, gear_evidence
+from reconcile.kinematics.grown import grown_defect, old_defects
+from reconcile.kinematics.judge import Candidate, named
+from reconcile.kinematics.observe import Observation, observe
+from reconcile.kinematics.shafts import Impulsiveness, ShaftChange, impulsiveness, shaft_changes
+from reconcile.kinematics.spec import KinematicSpec, of_machine
+from reconcile.kinematics.vague import (
+    foreign_report,
+    gear_report,
+    impulsive_report,
+    nothing_report,
+    shaft_report,
+    turn_report,
+)
+from reconcile.verdict import LineChange, Report
+from signals.recording import Recording
+from sim.core.errors import SpecError
+from sim.core.spec import MachineSpec
+
+PICTURE_POINTS = 1200
+
+
+def reconcile_kinematics(
+    spec: KinematicSpec | MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording], *, seed: int
+) -> Report:
+    """What the tests have that the kinematics (and the baselines) do not explain.
+
+    The sensor gate comes first; a measurement fault is the answer if the cleaned recordings show nothing missing.
+    Without baselines only what sound machines never show is named. Sizes are given only where the signal itself
+    measures them.
+    """
+    known = of_machine(spec) if isinstance(spec, MachineSpec) else spec
+    operating = tests[0].operating if tests else None
+    tie = ties(known, operating.shaft if operating else None)
+    gate = inspect_measurement(
+        baselines,
+        tests,
+        orders=tuple(f.order for f in tie.families if f.kind != "turn"),
+        mesh_orders=tie.mesh_orders,
+        lowest_order=tie.lowest_order,
+        seed=seed,
+    )
+    if not gate.usable:
+        return _finished(_fault(gate), gate, (), (), seed)
+    stated = {s.name: s.speed_hz for s in known.shafts}[tie.reference]
+    try:
+        seen = [observe(r, tie, f"test {i}", stated_hz=stated, seed=seed) for i, r in enumerate(gate.tests, 1)]
+        past = [observe(r, tie, f"baseline {i}", stated_hz=stated, seed=seed) for i, r in enumerate(gate.baselines, 1)]
+    except SpecError as error:
+        return _finished(_refused(error), gate, (), (), seed)
+    report, every = _judged(known, tie, seen, past, seed)
+    if report.verdict in ("nothing_missing", "not_decidable") and gate.fault is not None:
+        report = _fault(gate)
+    return _finished(report, gate, seen, every, seed, past)
+
+
+def _judged(
+    known: KinematicSpec, tie: Ties, tests: list[Observation], baselines: list[Observation], seed: int
+) -> tuple[Report, tuple[Candidate, ...]]:
+    """The first answer that stands: bearing defects, teeth, impacts of a turn, a foreign order, impacts, shafts."""
+    chosen, every = named(tests, baselines, tie, seed)
+    gears = gear_evidence(tests, baselines, tie)
+    changes = shaft_changes(tests, baselines, tie)
+    grown = tuple(c for c in changes if c.grown)
+    if chosen:
+        report = _with_rest(
+            defect_report(chosen, tests, baselines, tie, np.random.default_rng(seed)), gears, grown, tests
+        )
+    elif (growth := grown_defect(old_defects(every), tests, baselines, tie)) is not None:
+        report = _regrown(growth, tests, baselines, tie, seed)
+    elif gears and gears[0].grown:
+        report = gear_report(gears, tests)
+    else:
+        report = _without_a_part(known, tie, tests, baselines, every, grown, seed)
+    return report, every
+
+
+def _regrown(
+    growth: tuple[Candidate, Extent, Extent],
+    tests: Sequence[Observation],
+    baselines: Sequence[Observation],
+    tie: Ties,
+    seed: int,
+) -> Report:
+    """A defect of the baseline that has become longer."""
+    candidate, now, before = growth
+    report = defect_report((candidate,), tests, baselines, tie, np.random.default_rng(seed))
+    was = f"{before.degrees:.1f}" if before.resolved else f"less than {before.high_deg:.1f}"
+    sentence = f"{report.sentence} The baseline has this defect too; it grew from {was} to {now.degrees:.1f} degrees."
+    return replace(report, sentence=sentence)
+
+
+def _without_a_part(
+    known: KinematicSpec,
+    tie: Ties,
+    tests: list[Observation],
+    baselines: list[Observation],
+    every: Sequence[Candidate],
+    grown: Sequence[ShaftChange],
+    seed: int,
+) -> Report:
+    """Impacts of a turn, of a foreign order, of no order; shaft lines; nothing."""
+    turn = next((c for c in every if c.family.kind == "turn" and c.present and c.risen), None)
+    if turn is not None:
+        carried = [b.name for b in known.bearings if b.shaft == turn.family.site]
+        return turn_report(turn, tie, tests, carried)
+    foreign = foreign_comb(tests[0], baselines, tie, seed)
+    if foreign is not None:
+        return foreign_report(foreign, tests)
+    impacts = _impacts(tests, baselines)
+    if impacts is not None and known.bearings:
+        return impulsive_report(impacts, every, [b.name for b in known.bearings])
+    if grown:
+        return shaft_report(grown, tests)
+    return nothing_report(every, old_defects(every), tests, bool(baselines))
+
+
+def _impacts(tests: Sequence[Observation], baselines: Sequence[Observation]) -> Impulsiveness | None:
+    """Impulsiveness that grew in most of the tests."""
+    found = [x for t in tests if (x := impulsiveness(t, baselines)) is not None]
+    risen = [x for x in found if x.grown]
+    return max(risen, key=lambda x: x.now) if 2 * len(risen) > len(tests) else None
+
+
+def _with_rest(
+    report: Report, gears: Sequence[GearEvidence], grown: Sequence[ShaftChange], tests: Sequence[Observation]
+) -> Report:
+    """What changed besides the named defects is told, not explained by them."""
+    rest = [f"{c.multiple:g} x {c.shaft} grew by {c.growth_db:.0f} dB" for c in grown]
+    rest += [f"sidebands of {g.shaft} around {g.mesh} grew by {g.growth_db:.0f} dB" for g in gears if g.grown]
+    if not rest:
+        return report
+    lines = tuple(
+        LineChange(
+            label=f"{c.multiple:g} x {c.shaft}",
+            frequency_hz=c.order * next(t.speed.speed_hz for t in tests if t.label == c.label),
+            change_db=c.growth_db,
+            channel=c.channel,
+            locked_to=c.shaft,
+        )
+        for c in grown
+    )
+    note = f"not explained by the defect: {', '.join(rest)} (load, unbalance or another mounting)"
+    return replace(
+        report,
+        undecidable=(*report.undecidable, note),
+        where=replace(report.where, lines=(*report.where.lines, *lines)),
+    )
+
+
+def _fault(gate: Gate) -> Report:
+    assert gate.fault is not None
+    channel = f" on {gate.fault.channel}" if gate.fault.channel else ""
+    kind = gate.fault.kind.replace("_", " ")
+    return Report(
+        verdict="measurement_fault",
+        sentence=f"The mismatch is in the measurement: {kind}{channel} ({gate.fault.detail}).",
+        level="kinematics",
+        fault=gate.fault,
+    )
+
+
+def _refused(error: SpecError) -> Report:
+    return Report(
+        verdict="not_decidable",
+        sentence=f"The recordings can't carry these kinematics: {error}.",
+        level="kinematics",
+        undecidable=tuple(str(p) for p in error.problems),
+    )
+
+
+def _finished(
+    report: Report,
+    gate: Gate,
+    tests: Sequence[Observation],
+    every: Sequence[Candidate],
+    seed: int,
+    baselines: Sequence[Observation] = (),
+) -> Report:
+    """The report with its stages, pictures and provenance."""
+    stages: list[Mapping[str, object]] = [
+        {"name": "gate", "findings": [f"{f.recording} {f.channel}: {f.kind}, {f.detail}" for f in gate.findings]},
+        {
+            "name": "speed",
+            "found": {
+                o.label: {
+                    "speed_hz": o.speed.speed_hz,
+                    "low_hz": o.speed.low_hz,
+                    "high_hz": o.speed.high_hz,
+                    "method": o.speed.method,
+                    "confidence": o.speed.confidence,
+                }
+                for o in (*tests, *baselines)
+            },
+        },
+        {"name": "families", "table": [_row(c) for c in every]},
+    ]
+    pictures = _picture(every[0], tests, baselines) if every else {}
+    return replace(report, stages=tuple(stages), pictures=pictures, provenance={"seed": seed, "level": "kinematics"})
+
+
+def _row(c: Candidate) -> dict[str, object]:
+    return {
+        "family": c.family.key,
+        "order": c.best.order,
+        "z": c.z,
+        "chance": c.chance,
+        "channel": c.best.channel,
+        "band_hz": list(c.best.band_hz),
+        "depth": c.contrasts[c.strongest].depth,
+        "growth_db": c.growth_db,
+        "present": c.present,
+        "risen": c.risen,
+    }
+
+
+def _picture(c: Candidate, tests: Sequence[Observation], baselines: Sequence[Observation]) -> dict[str, object]:
+    """Envelope order spectrum of the firmest family's band, test and baseline."""
+    shown: dict[str, object] = {"family": c.family.key, "order": c.best.order, "band_hz": list(c.best.band_hz)}
+    for name, group in (("test", tests[c.strongest : c.strongest + 1]), ("baseline", baselines[:1])):
+        for o in group:
+            if c.best.channel in o.recording.names and c.best.band_hz[1] < o.recording.sampling_rate_hz / 2:
+                values, per_turn = band_turns(o, c.best.channel, c.best.band_hz)
+                depth, step = order_depth(values, per_turn)
+                shown[name] = {"order_step": step, "depth": [float(round(d, 5)) for d in depth[:PICTURE_POINTS]]}
+    return {"envelope": shown}

@@ -1,0 +1,133 @@
+"""Shaft orders against a baseline (unbalance, misalignment, looseness), and impulsiveness without any order."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.kinematics.families import Ties
+from reconcile.kinematics.lines import OrderLines, matched, order_lines
+from reconcile.kinematics.observe import Observation
+
+GROWTH_DB = 10.0
+MEDIAN_GROWTH_DB = 6.0
+MULTIPLES = (0.5, 1.0, 2.0, 3.0)
+PRESENT_DB = 15.0
+KURTOSIS_RATIO = 3.0
+KURTOSIS_LEAST = 1.5
+"""Excess kurtosis of a complex envelope: 0 for noise, -1 for a steady line."""
+KURTOSIS_ALLOWANCE = 0.3
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShaftChange:
+    """A multiple of a shaft's order that grew: by the channel it grew most in, and the median over channels."""
+
+    shaft: str
+    multiple: float
+    order: float
+    channel: str
+    growth_db: float
+    median_db: float
+    label: str
+
+    @property
+    def grown(self) -> bool:
+        """Whether it is more than one sensor's."""
+        return self.growth_db > GROWTH_DB and self.median_db > MEDIAN_GROWTH_DB
+
+
+@dataclass(frozen=True, kw_only=True)
+class Impulsiveness:
+    """Excess kurtosis of the most impulsive band, median over blocks of time, now and in the baseline."""
+
+    channel: str
+    now: float
+    before: float | None
+    band_hz: tuple[float, float]
+    label: str
+
+    @property
+    def grown(self) -> bool:
+        """Whether it is far above the baseline's."""
+        return self.before is not None and self.now > max(
+            KURTOSIS_LEAST, KURTOSIS_RATIO * (self.before + KURTOSIS_ALLOWANCE)
+        )
+
+
+def shaft_changes(
+    tests: Sequence[Observation], baselines: Sequence[Observation], ties: Ties
+) -> tuple[ShaftChange, ...]:
+    """Multiples 1/2, 1, 2, 3 of every shaft, each where it grew most; empty without a baseline at the same speed.
+
+    Levels are compared after the channel's own change of floor (median over the low orders) is taken off: gains and
+    scales differ between sessions.
+    """
+    found: list[ShaftChange] = []
+    for test in tests:
+        base = matched(test, baselines)
+        if base is None:
+            continue
+        spectra = _spectra(test, base)
+        for shaft, ratio in ties.shafts.items():
+            for multiple in MULTIPLES:
+                rows = _growths(spectra, multiple * ratio)
+                if rows:
+                    channel, growth = max(rows, key=lambda row: row[1])
+                    found.append(
+                        ShaftChange(
+                            shaft=shaft,
+                            multiple=multiple,
+                            order=multiple * ratio,
+                            channel=channel,
+                            growth_db=growth,
+                            median_db=float(np.median([g for _, g in rows])),
+                            label=test.label,
+                        )
+                    )
+    return tuple(sorted(found, key=lambda c: -c.growth_db))
+
+
+def _spectra(test: Observation, base: Observation) -> list[tuple[str, OrderLines, OrderLines]]:
+    """(channel, its lines now, its lines before)."""
+    rows = []
+    for channel in (n for n in test.recording.names if n in base.recording.names):
+        now, before = order_lines(test, channel), order_lines(base, channel)
+        if now is not None and before is not None:
+            rows.append((channel, now, before))
+    return rows
+
+
+def _growths(spectra: Sequence[tuple[str, OrderLines, OrderLines]], order: float) -> list[tuple[str, float]]:
+    rows = []
+    for channel, now, before in spectra:
+        level, floor = (float(x[0]) for x in now.at(np.array([order])))
+        old, old_floor = (float(x[0]) for x in before.at(np.array([order])))
+        if not np.isfinite(level + old) or level - floor < PRESENT_DB:
+            continue
+        rows.append((channel, level - max(old, old_floor) - (floor - old_floor)))
+    return rows
+
+
+def impulsiveness(test: Observation, baselines: Sequence[Observation]) -> Impulsiveness | None:
+    """The band whose kurtosis grew most."""
+    best: Impulsiveness | None = None
+    for e in test.channels:
+        now = e.kurtosis
+        before = [other.kurtosis for b in baselines if (other := b.channel(e.channel)) is not None]
+        fitting = [b for b in before if b.shape == now.shape]
+        reference = np.max(np.stack(fitting), axis=0) if fitting else None
+        score = now if reference is None else now - KURTOSIS_RATIO * reference
+        band = int(np.argmax(score))
+        one = Impulsiveness(
+            channel=e.channel,
+            now=float(now[band]),
+            before=None if reference is None else float(reference[band]),
+            band_hz=(float(e.bands_hz[band, 0]), float(e.bands_hz[band, 1])),
+            label=test.label,
+        )
+        if best is None or (one.grown, one.now) > (best.grown, best.now):
+            best = one
+    return best

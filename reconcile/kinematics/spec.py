@@ -1,0 +1,163 @@
+"""What is known of a machine of which only the drawing's frequencies are known: shafts, bearings, teeth."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, ValidationError, model_validator
+
+from sim.core.errors import Problem, SpecError
+from sim.core.spec import MachineSpec, Name, SpecModel
+from sim.core.spec.base import MAX_ITEMS, WHOLE
+
+
+class KinematicShaft(SpecModel):
+    """A shaft; its nominal speed is needed where no mesh ties it to the shaft whose speed the recording states."""
+
+    name: Name
+    speed_hz: Annotated[float, Field(gt=0, le=2000)] | None = None
+
+
+class BearingOrders(SpecModel):
+    """Cycles per revolution of the shaft, as a maker's table prints them. `bsf` is the spin, half of the ball line."""
+
+    bpfo: Annotated[float, Field(gt=0, le=200)]
+    bpfi: Annotated[float, Field(gt=0, le=200)]
+    bsf: Annotated[float, Field(gt=0, le=200)] | None = None
+    ftf: Annotated[float, Field(gt=0, lt=1)] | None = None
+
+
+class KinematicBearing(SpecModel):
+    """A rolling bearing with a fixed outer ring, known in exactly one of four ways: `catalogue`; `balls` with both
+    diameters; `balls` with their ratio; `orders`."""
+
+    name: Name
+    shaft: Name
+    catalogue: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9 ./-]{0,31}$")] | None = None
+    balls: Annotated[int, Field(ge=3, le=64, strict=False), WHOLE] | None = None
+    ball_diameter_m: Annotated[float, Field(gt=0, le=0.5)] | None = None
+    pitch_diameter_m: Annotated[float, Field(gt=0, le=5)] | None = None
+    diameter_ratio: Annotated[float, Field(gt=0, lt=0.9)] | None = None
+    contact_angle_deg: Annotated[float, Field(ge=0, le=50)] = 0.0
+    orders: BearingOrders | None = None
+
+    @model_validator(mode="after")
+    def _one_way(self) -> KinematicBearing:
+        ways = [self.catalogue is not None, self.balls is not None, self.orders is not None]
+        if sum(ways) != 1:
+            raise ValueError("give exactly one of catalogue, balls (with diameters or their ratio) and orders")
+        if self.balls is not None:
+            lengths = self.ball_diameter_m is not None and self.pitch_diameter_m is not None
+            if lengths == (self.diameter_ratio is not None):
+                raise ValueError("balls need both diameters, or diameter_ratio")
+            if lengths and float(self.ball_diameter_m or 0) >= 0.9 * float(self.pitch_diameter_m or 0):
+                raise ValueError("ball_diameter_m must be smaller than pitch_diameter_m")
+        return self
+
+
+class KinematicGear(SpecModel):
+    """A gear: its shaft and teeth."""
+
+    name: Name
+    shaft: Name
+    teeth: Annotated[int, Field(ge=3, le=2000, strict=False), WHOLE]
+
+
+class KinematicMesh(SpecModel):
+    """Two gears in mesh."""
+
+    name: Name
+    gears: Annotated[list[Name], Field(min_length=2, max_length=2)]
+
+
+class KinematicSpec(SpecModel):
+    """Shafts with what turns on them. Names are the sites of the report."""
+
+    name: Annotated[str, Field(max_length=80)] = ""
+    shafts: Annotated[list[KinematicShaft], Field(min_length=1, max_length=MAX_ITEMS)]
+    bearings: Annotated[list[KinematicBearing], Field(max_length=MAX_ITEMS)] = Field(default_factory=list)
+    gears: Annotated[list[KinematicGear], Field(max_length=MAX_ITEMS)] = Field(default_factory=list)
+    meshes: Annotated[list[KinematicMesh], Field(max_length=MAX_ITEMS)] = Field(default_factory=list)
+
+    @model_validator(mode="after")
+    def _tied(self) -> KinematicSpec:
+        shafts, gears = {s.name for s in self.shafts}, {g.name: g for g in self.gears}
+        sites = [x.name for x in self.shafts] + [x.name for x in self.bearings]
+        sites += [x.name for x in self.gears] + [x.name for x in self.meshes]
+        for name in sites:
+            if sites.count(name) > 1:
+                raise ValueError(f"{name} is used twice: sites need names of their own")
+        carried = [(b.name, b.shaft) for b in self.bearings] + [(g.name, g.shaft) for g in self.gears]
+        for name, shaft in carried:
+            if shaft not in shafts:
+                raise ValueError(f"{name} is on {shaft}, which is no shaft (known: {', '.join(shafts)})")
+        for mesh in self.meshes:
+            for name in mesh.gears:
+                if name not in gears:
+                    raise ValueError(
+                        f"{mesh.name} names {name}, which is no gear (known: {', '.join(gears) or 'none'})"
+                    )
+            a, b = (gears[name] for name in mesh.gears)
+            if a.shaft == b.shaft:
+                raise ValueError(f"{mesh.name} joins two gears of one shaft")
+        return self
+
+
+def read_kinematic_spec(document: object) -> KinematicSpec:
+    """The specification in {"kinematics": {...}}, or SpecError with every wrong field."""
+    if not isinstance(document, dict) or set(document) != {"kinematics"}:
+        given = sorted(map(str, document)) if isinstance(document, dict) else type(document).__name__
+        message = "must be an object with the one key 'kinematics'"
+        raise SpecError(Problem(field="machine", message=message, given=given))
+    try:
+        return KinematicSpec.model_validate(document["kinematics"])
+    except ValidationError as error:
+        raise SpecError(
+            [
+                Problem(
+                    field=".".join(("kinematics", *map(str, e["loc"]))),
+                    message=str(e["msg"]),
+                    given=e["input"] if isinstance(e["input"], str | int | float) else None,
+                )
+                for e in error.errors()
+            ]
+        ) from None
+
+
+def of_machine(machine: MachineSpec) -> KinematicSpec:
+    """What of a full machine specification is kinematics; bearings on bodies without a shaft are left out."""
+    carrier = {g.name: g.shaft for g in machine.gears} | {b.name: b.shaft for b in machine.bodies if b.shaft}
+    bearings = []
+    for b in machine.bearings:
+        if b.body not in carrier:
+            continue
+        if b.geometry is None:
+            bearings.append(KinematicBearing(name=b.name, shaft=carrier[b.body], catalogue=b.catalogue))
+            continue
+        g = b.geometry
+        lengths = g.ball_diameter_m is not None and g.pitch_diameter_m is not None
+        bearings.append(
+            KinematicBearing(
+                name=b.name,
+                shaft=carrier[b.body],
+                balls=g.balls,
+                ball_diameter_m=g.ball_diameter_m if lengths else None,
+                pitch_diameter_m=g.pitch_diameter_m if lengths else None,
+                diameter_ratio=None if lengths else g.diameter_ratio,
+                contact_angle_deg=g.contact_angle_deg,
+            )
+        )
+    operating = machine.operating
+    return KinematicSpec(
+        name=machine.name,
+        shafts=[
+            KinematicShaft(
+                name=s.name,
+                speed_hz=operating.speed_hz if operating is not None and operating.shaft == s.name else None,
+            )
+            for s in machine.shafts
+        ],
+        bearings=bearings,
+        gears=[KinematicGear(name=g.name, shaft=g.shaft, teeth=g.teeth) for g in machine.gears],
+        meshes=[KinematicMesh(name=m.name, gears=[m.pinion, m.gear]) for m in machine.meshes],
+    )

@@ -1,0 +1,215 @@
+"""Answers where no bearing family stands: tooth faults, shafts, impacts without an order, nothing at all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from reconcile.kinematics.answer import lines_of
+from reconcile.kinematics.families import Ties
+from reconcile.kinematics.foreign import Foreign
+from reconcile.kinematics.gears import GearEvidence
+from reconcile.kinematics.judge import DEFECTS, Candidate
+from reconcile.kinematics.observe import Observation
+from reconcile.kinematics.shafts import Impulsiveness, ShaftChange
+from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Report, Where
+
+TOOTH_TERMS = ("missing_tooth", "tooth_crack", "tooth_spall")
+SHAFT_TERMS = {
+    0.5: ("pedestal_looseness", "rub"),
+    1.0: ("unbalance", "bent_shaft", "eccentricity"),
+    2.0: ("parallel_misalignment", "angular_misalignment", "shaft_crack"),
+    3.0: ("parallel_misalignment", "pedestal_looseness"),
+}
+NEAR_DB = 3.0
+
+
+def gear_report(found: Sequence[GearEvidence], tests: Sequence[Observation]) -> Report:
+    """Sidebands of a gear's shaft grew around its mesh."""
+    first = found[0]
+    tied = [g for g in found if g.grown and g.mesh == first.mesh and first.growth_db - g.growth_db < NEAR_DB]
+    speed = next(t.speed.speed_hz for t in tests if t.label == first.label)
+    total = sum(g.growth_db for g in tied)
+    where = " or ".join(g.gear for g in tied)
+    causes = tuple(
+        Cause(
+            term=term,
+            site=g.gear,
+            score=g.growth_db / g.error_db / (1 + rank),
+            reasons=("sidebands say that one tooth differs, not how; a model of the mesh is needed to tell",),
+            values={"sideband_growth_db": g.growth_db, "mesh_growth_db": g.mesh_growth_db},
+        )
+        for g in tied
+        for rank, term in enumerate(TOOTH_TERMS)
+    )
+    return Report(
+        verdict="ambiguous",
+        sentence=f"A local tooth fault on {where}: {first.lines} sidebands of its shaft around {first.mesh} grew by "
+        f"{first.growth_db:.0f} dB (mesh lines {first.mesh_growth_db:+.0f} dB), most on {first.channel}; whether the "
+        "tooth is broken, cracked or pitted can't be told without a model.",
+        level="kinematics",
+        where=Where(
+            sites=tuple(PlaceWeight(site=g.gear, weight=g.growth_db / total) for g in tied),
+            lines=tuple(
+                LineChange(
+                    label=f"sidebands of {g.shaft} around {g.mesh}",
+                    frequency_hz=speed,
+                    change_db=g.growth_db,
+                    channel=g.channel,
+                    locked_to=g.shaft,
+                )
+                for g in tied
+            ),
+            angle_window=first.window,
+        ),
+        causes=tuple(sorted(causes, key=lambda c: -c.score)),
+        undecidable=(
+            "broken, cracked or pitted: a model of the mesh is needed",
+            "how large: a size can't be given without a model",
+        ),
+        next_experiment=NextExperiment(sentence="Add the gear data and loads to the machine to fit the tooth faults."),
+    )
+
+
+def turn_report(candidate: Candidate, ties: Ties, tests: Sequence[Observation], carried: Sequence[str]) -> Report:
+    """Impacts once a turn; `carried`: gears and bearings on that shaft."""
+    shaft = candidate.family.site
+    gears = [name for mesh in ties.meshes for s, name in zip(mesh[2], mesh[3], strict=True) if s == shaft]
+    causes = [(term, g, 1.0) for g in gears for term in TOOTH_TERMS]
+    causes += [("rub", shaft, 0.9), *(("pedestal_looseness", b, 0.8) for b in carried if b not in gears)]
+    causes += [("inner_spall", b, 0.5) for b in carried if b not in gears]
+    return Report(
+        verdict="ambiguous",
+        sentence=f"Impacts once a turn of {shaft} that no known rolling element makes: a rub, a loose part"
+        + (", a damaged tooth" if gears else "")
+        + " or a badly damaged bearing are alike at this level.",
+        level="kinematics",
+        where=Where(sites=(PlaceWeight(site=shaft, weight=1.0),), lines=lines_of(candidate, tests)),
+        causes=tuple(
+            Cause(term=t, site=s, score=candidate.z * w, reasons=("once a turn says where it turns, not what strikes",))
+            for t, s, w in causes
+        ),
+        undecidable=("what strikes once a turn", "how large: a size can't be given without a model"),
+        next_experiment=NextExperiment(sentence="Record with a tacho: the angle of the impacts tells a rub from play."),
+    )
+
+
+def impulsive_report(found: Impulsiveness, every: Sequence[Candidate], bearings: Sequence[str]) -> Report:
+    """More impulsive than the baseline, but at no order: ball faults strike irregularly as the ball turns."""
+    ball = {c.family.site: c.z for c in every if c.family.kind == "ball"}
+    score = {b: max(ball.get(b, 0.0), 0.5) for b in bearings}
+    total = sum(score.values()) or 1.0
+    causes = [Cause(term="ball_spall", site=b, score=s, reasons=(NO_ORDER,)) for b, s in score.items()]
+    causes += [Cause(term="radial_clearance", site=b, score=0.4, reasons=(NO_ORDER,)) for b in bearings]
+    return Report(
+        verdict="ambiguous",
+        sentence=f"{found.band_hz[0]:.0f}-{found.band_hz[1]:.0f} Hz of {found.channel} became impulsive (excess "
+        f"kurtosis {found.before or 0:.1f} to {found.now:.1f}) without keeping to the order of any race: a damaged "
+        "ball, which strikes only when its spot meets a race, is likely; play or a rub can't be ruled out.",
+        level="kinematics",
+        where=Where(
+            sites=tuple(PlaceWeight(site=b, weight=s / total) for b, s in score.items()),
+            limits=("impacts without an order say when, not where",),
+        ),
+        causes=tuple(sorted(causes, key=lambda c: -c.score)),
+        undecidable=("which part strikes", "how large: a size can't be given without a model"),
+        next_experiment=NextExperiment(
+            sentence="Record ten times as long: cage sidebands of a ball fault need many turns."
+        ),
+    )
+
+
+NO_ORDER = "impulsiveness grew, but no order stands out"
+
+
+def shaft_report(changes: Sequence[ShaftChange], tests: Sequence[Observation]) -> Report:
+    """Low multiples of a shaft grew on most channels."""
+    first = changes[0]
+    speed = next(t.speed.speed_hz for t in tests if t.label == first.label)
+    terms = SHAFT_TERMS[first.multiple]
+    kinds = ", ".join(t.replace("_", " ") for t in terms)
+    return Report(
+        verdict="ambiguous",
+        sentence=f"{first.multiple:g} times the speed of {first.shaft} grew by {first.growth_db:.0f} dB on "
+        f"{first.channel} ({first.median_db:.0f} dB in the middle of the channels): {kinds} or another mounting are "
+        "alike at this level.",
+        level="kinematics",
+        where=Where(
+            sites=(PlaceWeight(site=first.shaft, weight=1.0),),
+            lines=tuple(
+                LineChange(
+                    label=f"{c.multiple:g} x {c.shaft}",
+                    frequency_hz=c.order * speed,
+                    change_db=c.growth_db,
+                    channel=c.channel,
+                    locked_to=c.shaft,
+                )
+                for c in changes
+            ),
+        ),
+        causes=tuple(
+            Cause(term=t, site=first.shaft, score=first.growth_db / (1 + i), reasons=("the line alone does not tell",))
+            for i, t in enumerate(terms)
+        ),
+        undecidable=(
+            "unbalance, bow and misalignment without phases",
+            "how large: a size can't be given without a model",
+        ),
+        next_experiment=NextExperiment(sentence="Record at two more speeds: unbalance grows with the square of speed."),
+    )
+
+
+def foreign_report(found: Foreign, tests: Sequence[Observation]) -> Report:
+    """Periodic impacts at an order of no part."""
+    e, speed = found.evidence, tests[0].speed.speed_hz
+    return Report(
+        verdict="unknown_physics",
+        sentence=f"Impacts {found.order:.4g} times a turn in {e.band_hz[0]:.0f}-{e.band_hz[1]:.0f} Hz of {e.channel}, "
+        f"{found.growth_db:.0f} dB deeper than in the baseline: no part of the specification has that order.",
+        level="kinematics",
+        where=Where(
+            lines=tuple(
+                LineChange(
+                    label=f"{k} x order {found.order:.4g}",
+                    frequency_hz=k * found.order * speed,
+                    change_db=found.growth_db,
+                    channel=e.channel,
+                )
+                for k in (1, 2, 3)
+            )
+        ),
+        undecidable=("which part it is: a bearing or gear that the specification lacks, or other sizes",),
+        next_experiment=NextExperiment(sentence="Check the bearing sizes and teeth of the specification."),
+    )
+
+
+def nothing_report(
+    every: Sequence[Candidate], old: Sequence[Candidate], tests: Sequence[Observation], with_baseline: bool
+) -> Report:
+    """No family is more than a sound machine shows; without a baseline a clear but shallow one is left open.
+
+    `old`: defects that the baselines have as well.
+    """
+    shallow = [c for c in every if c.present and c.family.kind in DEFECTS]
+    lines = tuple(line for c in shallow for line in lines_of(c, tests, 1))
+    if shallow and not with_baseline:
+        keys = ", ".join(c.family.key for c in shallow)
+        return Report(
+            verdict="not_decidable",
+            sentence=f"Lines of {keys} are there but shallow, as sound bearings show them too; without a baseline it "
+            "can't be told whether anything is missing.",
+            level="kinematics",
+            where=Where(lines=lines),
+            undecidable=("whether shallow lines are a young defect or the bearing as made",),
+            next_experiment=NextExperiment(sentence="Record the same machine in a sound state as a baseline."),
+        )
+    against = "than in the baseline" if with_baseline else "than sound bearings show"
+    return Report(
+        verdict="nothing_missing",
+        sentence=f"No family of lines is firmer {against}; what changed in level is load, speed or mounting."
+        + (
+            f" But {', '.join(c.family.key for c in old)} is deep in both: the baseline has that defect." if old else ""
+        ),
+        level="kinematics",
+        where=Where(lines=lines),
+        undecidable=() if with_baseline else ("slow changes of level: there is no baseline",),
+    )

@@ -1,0 +1,243 @@
+"""Speed of a shaft from a recording: tacho, else the harmonics it makes around the speed it was said to have.
+
+Labels can be several per cent wrong (a motor slips, a file is named after the nominal speed). The score of a speed is
+the sum over its orders and over channels of the logarithm of power over the local floor, the multi-order idea of
+Q. Leclere, H. Andre and J. Antoni, Mech. Syst. Signal Process. 81 (2016) 375-386. The same search on combs of other
+spacings says what the best of so many speeds reaches by chance.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from scipy.ndimage import maximum_filter1d
+
+from reconcile.speed.excess import line_excess, mains_bins
+from signals.recording import Recording
+from signals.series import FloatArray
+from sim.core.errors import Problem, SpecError
+
+Method = Literal["tacho", "harmonics", "stated"]
+HARMONICS = tuple(float(k) for k in range(1, 9))
+SEARCH = 0.1
+LARGEST_LOG = 11.0
+"""A line counts up to this log power over what noise reaches: one strong foreign line must not outweigh a comb."""
+NOISE_LOG = 3.0
+"""Log power over the floor that one bin in 5e8 of noise exceeds (exp(-e^3)); below it nothing counts."""
+CONTROLS = 60
+USUAL_ERROR = 0.03
+"""Standard deviation of what a stated speed is wrong by: labels up to 7 % off have been met."""
+ENOUGH = 0.8
+"""Confidence from which the found speed replaces the stated one."""
+MIN_TURNS = 4.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpeedEstimate:
+    """Mean speed of `shaft` with an interval; `confidence` 0..1 that lines (or pulses) of the shaft were found."""
+
+    shaft: str
+    speed_hz: float
+    low_hz: float
+    high_hz: float
+    confidence: float
+    method: Method
+    stated_hz: float | None
+
+    @property
+    def mismatch(self) -> float | None:
+        """Relative difference from the stated speed."""
+        return None if self.stated_hz is None else self.speed_hz / self.stated_hz - 1
+
+
+def estimate_speed(
+    recording: Recording,
+    *,
+    shaft: str | None = None,
+    stated_hz: float | None = None,
+    orders: Sequence[float] = (),
+    search: float = SEARCH,
+    seed: int = 0,
+) -> SpeedEstimate:
+    """Mean speed of `shaft` (default: that of the operating point), Hz.
+
+    `stated_hz` defaults to the operating point's; `orders` are further cycles per revolution that surely belong to
+    the shaft (teeth of its gears and their multiples). Without pulses and without a clear comb the stated speed is
+    returned with its low confidence and the whole search range as interval.
+    """
+    operating = recording.operating
+    name = shaft or (operating.shaft if operating else "shaft")
+    stated = stated_hz if stated_hz is not None else (operating.speed_hz if operating else None)
+    if recording.tacho is not None and recording.tacho.shaft == name:
+        return _by_pulses(recording, name, stated)
+    stated = _checked(recording, stated, search)
+    combs = _excesses(recording)
+    speeds, score = _best_speed(combs, HARMONICS, stated, search)
+    best = int(np.argmax(score))
+    confidence = _confidence(combs, HARMONICS, float(score[best]), stated, search, seed)
+    step = 1 / recording.duration_s
+    if confidence < ENOUGH and orders:
+        speeds, score = _best_speed(combs, orders, stated, search)
+        best = int(np.argmax(score))
+        confidence = max(confidence, _confidence(combs, orders, float(score[best]), stated, search, seed))
+    if confidence < ENOUGH:
+        low, high = stated * (1 - search), stated * (1 + search)
+        return SpeedEstimate(
+            shaft=name,
+            speed_hz=stated,
+            low_hz=low,
+            high_hz=high,
+            confidence=confidence,
+            method="stated",
+            stated_hz=stated,
+        )
+    speed, half = _refined(combs, float(speeds[best]), (*HARMONICS, *orders), step)
+    return SpeedEstimate(
+        shaft=name,
+        speed_hz=speed,
+        low_hz=speed - half,
+        high_hz=speed + half,
+        confidence=confidence,
+        method="harmonics",
+        stated_hz=stated,
+    )
+
+
+def _checked(recording: Recording, stated: float | None, search: float) -> float:
+    if stated is None or not (np.isfinite(stated) and stated > 0):
+        raise SpecError(
+            Problem(
+                field="operating.speed_hz",
+                message="is needed where there is no tacho: the search starts from it",
+                given=stated,
+                allowed="above 0",
+                unit="Hz",
+            )
+        )
+    if not 0 < search <= 0.3:
+        raise SpecError(Problem(field="search", message="is out of range", given=search, allowed="above 0, up to 0.3"))
+    if stated * recording.duration_s < MIN_TURNS:
+        raise SpecError(
+            Problem(
+                field="samples",
+                message="are too short to hold the turns needed to read a speed",
+                given=recording.duration_s,
+                allowed=f"at least {MIN_TURNS / stated:.3g}",
+                unit="s",
+            )
+        )
+    return float(stated)
+
+
+def _by_pulses(recording: Recording, shaft: str, stated: float | None) -> SpeedEstimate:
+    """Mean speed of the pulses; the interval is that of the jitter of their intervals."""
+    assert recording.tacho is not None
+    pulses = np.asarray(recording.tacho.pulse_times_s, dtype=np.float64)
+    steps = np.diff(pulses)
+    if pulses.size < 3 or not np.all(steps > 0):
+        message = "must be at least three rising times"
+        raise SpecError(Problem(field="tacho.pulse_times_s", message=message, given=f"{pulses.size} pulses", unit="s"))
+    per_turn = recording.tacho.pulses_per_revolution
+    speed = (pulses.size - 1) / float(pulses[-1] - pulses[0]) / per_turn
+    half = float(np.std(steps)) / float(np.mean(steps)) * speed * 2 / (pulses.size - 1)
+    return SpeedEstimate(
+        shaft=shaft,
+        speed_hz=speed,
+        low_hz=speed - half,
+        high_hz=speed + half,
+        confidence=1.0,
+        method="tacho",
+        stated_hz=stated,
+    )
+
+
+def _excesses(recording: Recording) -> tuple[tuple[FloatArray, float], ...]:
+    """Log power over noise of each channel (0 in noise, mains lines left out) with the resolution, Hz."""
+    found = []
+    for name in recording.names:
+        ratio, resolution = line_excess(recording.series(name))
+        log = np.clip(np.log(np.maximum(ratio, 1.0)) - NOISE_LOG, 0.0, LARGEST_LOG)
+        log[mains_bins(log.size, resolution)] = 0.0
+        found.append((log, resolution))
+    return tuple(found)
+
+
+def _best_speed(
+    combs: Sequence[tuple[FloatArray, float]], orders: Sequence[float], stated: float, search: float
+) -> tuple[FloatArray, FloatArray]:
+    """Speeds of the grid and their scores, both of shape (speeds,)."""
+    resolution = combs[0][1]
+    step = resolution / (2 * max(orders))
+    speeds = stated * (1 - search) + step * np.arange(int(2 * search * stated / step) + 1, dtype=np.float64)
+    total = np.zeros(speeds.size)
+    for log, width in combs:
+        wide = maximum_filter1d(log, 3)
+        total += comb_score(wide, width, speeds, orders)
+    score = total / len(combs) - 0.5 * ((speeds / stated - 1) / USUAL_ERROR) ** 2
+    return speeds, np.asarray(score, dtype=np.float64)
+
+
+def comb_score(log: FloatArray, resolution_hz: float, speeds_hz: FloatArray, orders: Sequence[float]) -> FloatArray:
+    """Sum over orders of the value at order * speed (nearest bin; 0 beyond Nyquist), shape (speeds,).
+
+    Weights 1/sqrt(order over the lowest): low harmonics are the ones a part has, high ones fall on anything.
+    """
+    total = np.zeros(speeds_hz.size)
+    for order in orders:
+        place = np.rint(order * speeds_hz / resolution_hz).astype(np.int64)
+        inside = place < log.size
+        total[inside] += log[place[inside]] / np.sqrt(order / min(orders))
+    return total
+
+
+def _confidence(
+    combs: Sequence[tuple[FloatArray, float]],
+    orders: Sequence[float],
+    best: float,
+    stated: float,
+    search: float,
+    seed: int,
+) -> float:
+    """Share of combs of foreign spacing whose best score in an equally wide search is lower (smoothed, Gumbel)."""
+    rng = np.random.default_rng(seed)
+    tops: list[float] = []
+    while len(tops) < CONTROLS:
+        # a foreign comb: its harmonics must not be the shaft's (k j / 8 with small j would share many)
+        factor = float(rng.uniform(1.1, 2.4))
+        if abs(factor - round(2 * factor) / 2) < 2 * search / 3:
+            continue
+        tops.append(float(np.max(_best_speed(combs, orders, stated * factor, search)[1])))
+    scale = max(float(np.std(tops)) * np.sqrt(6) / np.pi, 1.0)  # one unit of log power: no line, no confidence
+    place = float(np.mean(tops)) - 0.5772 * scale
+    return float(np.exp(-np.exp(-np.clip((best - place) / scale, -50.0, 50.0))))
+
+
+def _refined(
+    combs: Sequence[tuple[FloatArray, float]], coarse: float, orders: Sequence[float], step_hz: float
+) -> tuple[float, float]:
+    """Speed refined order by order (low orders first: each narrows the range of the next) and half its interval."""
+    speed, half = coarse, step_hz
+    for order in sorted(orders):
+        estimates, weights = [], []
+        for log, resolution in combs:
+            low = int(np.floor(order * (speed - half) / resolution))
+            high = int(np.ceil(order * (speed + half) / resolution)) + 1
+            if high + 1 >= log.size or low < 1:
+                continue
+            peak = low + int(np.argmax(log[low:high]))
+            if log[peak] <= 0.0:
+                continue
+            a, b, c = log[peak - 1], log[peak], log[peak + 1]
+            curve = a - 2 * b + c
+            shift = 0.5 * (a - c) / curve if curve < 0 else 0.0
+            estimates.append((peak + float(np.clip(shift, -0.5, 0.5))) * resolution / order)
+            weights.append(float(log[peak]))
+        if estimates:
+            found = float(np.average(estimates, weights=weights))
+            new_half = 0.5 * step_hz / order
+            if abs(found - speed) <= half:
+                speed, half = found, max(min(half, 1.5 * new_half), 1e-5 * found)
+    return speed, half
