@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from signals.ingest.description import Description, read_description
 from signals.ingest.file import data_file, ingest, load_description, read_recording
-from signals.ingest.limits import Bounds
 from signals.ingest.parse import Ingested, parse
-from signals.ingest.readers import READERS, suffix_of
+from signals.readers.formats import FORMATS, suffix_of
+from signals.readers.limits import Bounds
 
 __all__ = [
-    "READERS",
+    "FORMATS",
     "Bounds",
     "Description",
     "Ingested",

@@ -6,8 +6,8 @@ import re
 from dataclasses import dataclass
 
 from signals.ingest.description import ChannelEntry, Sensitivity
-from signals.ingest.units import ELECTRICAL, Unit, find_unit, unit_of
 from signals.series import FloatArray
+from signals.units import ELECTRICAL, Unit, find_unit, unit_of
 from sim.core.errors import Problem, SpecError
 from sim.core.response import Channel
 

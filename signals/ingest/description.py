@@ -97,7 +97,7 @@ class Description(_Part):
     sampling_rate_hz: Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)] | None = None
     """May be left out only where the file itself states it (wav, flac, uff, tdms, mf4, `sampling_rate_hz` in npz and
     mat) or a `time` column gives it."""
-    channels: Annotated[tuple[ChannelEntry, ...], Field(min_length=1, max_length=MAX_CHANNELS, strict=False)]
+    channels: Annotated[tuple[ChannelEntry, ...], Field(max_length=MAX_CHANNELS, strict=False)]
     operating: OperatingEntry | None = None
     tacho: TachoEntry | None = None
     time: TimeEntry | None = None
@@ -108,6 +108,12 @@ class Description(_Part):
     notes: Annotated[str, Field(max_length=20_000)] = ""
     data: Annotated[str, Field(min_length=1, max_length=400)] | None = None
     """The file, relative to the description; default: the one beside it with the same stem."""
+
+    @model_validator(mode="after")
+    def _some_channel(self) -> Self:
+        if not self.channels:
+            raise ValueError("give at least one channel")
+        return self
 
 
 def read_description(document: object) -> Description:

@@ -7,9 +7,9 @@ import math
 from pathlib import Path
 
 from signals.ingest.description import Description, read_description
-from signals.ingest.limits import Bounds
 from signals.ingest.parse import Ingested, parse
-from signals.ingest.readers import READERS, suffix_of
+from signals.readers.formats import FORMATS, suffix_of
+from signals.readers.limits import Bounds
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
 
@@ -50,11 +50,11 @@ def data_file(path: Path, description: Description) -> Path:
     beside = sorted(
         f
         for f in path.parent.glob(f"{_escaped(path.stem)}.*")
-        if suffix_of(f) in READERS and suffix_of(f) != ".json" and f.name[: -len(suffix_of(f))] == path.stem
+        if suffix_of(f) in FORMATS and suffix_of(f) != ".json" and f.name[: -len(suffix_of(f))] == path.stem
     )
     if len(beside) == 1:
         return beside[0]
-    known = ", ".join(suffix for suffix in READERS if suffix != ".json")
+    known = ", ".join(suffix for suffix in FORMATS if suffix != ".json")
     given = ", ".join(f.name for f in beside) or None
     message = "has several data files beside it: name one as `data`" if beside else "has no data file beside it"
     raise SpecError(Problem(field=path.name, message=message, given=given, allowed=f"{path.stem} with {known}"))

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,17 +9,17 @@ from pathlib import Path
 import numpy as np
 
 from signals.ingest.calibrate import Scale, scale_of
-from signals.ingest.contents import AnyArray, Contents
 from signals.ingest.description import Description, remarks
-from signals.ingest.limits import Bounds
-from signals.ingest.pulses import tacho_of
-from signals.ingest.readers import reader_of
-from signals.ingest.select import Pick, only_array, pick, take
-from signals.ingest.stamps import TIME_NAMES, agree, check_regular, resolution, seconds
+from signals.ingest.pulses import tacho_of, tacho_wants
+from signals.ingest.stamps import RATE_TOLERANCE, TIME_NAMES, agree, check_regular, in_seconds, is_time, resolution
+from signals.readers.guard import load_carefully
+from signals.readers.limits import Bounds
+from signals.readers.load import Loaded, Loader, Stored, Want
 from signals.recording import Operating, Recording
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
 
+TIME = "time.column"
 MIN_SAMPLES = 8
 
 
@@ -39,45 +37,57 @@ class _Clock:
     start_s: float
 
 
-def parse(description: Description, path: Path, bounds: Bounds | None = None) -> Ingested:
-    """Read what the description names from the file; SpecError says which field or place is wrong."""
-    bounds = bounds or Bounds()
-    reader = reader_of(path)
-    try:
-        size = path.stat().st_size
-    except OSError as error:
-        reason = (error.strerror or "is away").lower()
-        raise SpecError(Problem(field=path.name, message=f"cannot be read: {reason}")) from error
-    bounds.check(path.name, message="is too large", given=size, allowed=bounds.file_bytes, unit="bytes")
-    try:
-        with reader(path, bounds) as contents:
-            return _parsed(description, contents, bounds)
-    except MemoryError as error:
-        message = "cannot be read: it needs more memory than there is"
-        raise SpecError(Problem(field=path.name, message=message)) from error
+def parse(
+    description: Description, path: Path, bounds: Bounds | None = None, loader: Loader = load_carefully
+) -> Ingested:
+    """Read what the description names from the file; SpecError says which field or place is wrong.
 
-
-def _parsed(description: Description, contents: Contents, bounds: Bounds) -> Ingested:
-    picks = _picks(description, contents)
-    _check_sizes(contents, picks, bounds)
+    `loader`: `signals.readers.guard.load_apart` for a stranger's file.
+    """
+    loaded = loader(path, _wants(description), () if description.time else TIME_NAMES, bounds or Bounds())
+    channels = loaded.wanted[: len(description.channels)]
+    further = {want.field: s for want, s in zip(_further(description), loaded.wanted[len(channels) :], strict=True)}
     scales = [
-        scale_of(entry, contents.entries[chosen.name].unit, f"channels.{i}")
-        for i, (entry, chosen) in enumerate(zip(description.channels, picks, strict=True))
+        scale_of(entry, stored.unit, f"channels.{i}")
+        for i, (entry, stored) in enumerate(zip(description.channels, channels, strict=True))
     ]
-    arrays = contents.load(list(dict.fromkeys(chosen.name for chosen in picks)))
-    stored = [take(arrays[c.name], c, f"channels.{i}.column") for i, c in enumerate(picks)]
-    _check_lengths(description, stored)
-    clock = _clock(description, contents, picks, stored[0].size)
-    return _recording(description, contents, clock, scales, stored)
+    _check_lengths(description, channels)
+    clock = _clock(description, loaded, further)
+    return _recording(description, clock, scales, channels, further)
+
+
+def _wants(description: Description) -> list[Want]:
+    """The channels, then whatever else the description takes from the file."""
+    alone = len(description.channels) == 1
+    channels = [
+        Want(
+            field=f"channels.{i}.column",
+            column=entry.name if entry.column is None else entry.column,
+            or_only=alone and entry.column is None,
+        )
+        for i, entry in enumerate(description.channels)
+    ]
+    return channels + _further(description)
+
+
+def _further(description: Description) -> list[Want]:
+    found = [] if description.tacho is None else tacho_wants(description.tacho, [c.name for c in description.channels])
+    if description.time is not None:
+        found.append(Want(field=TIME, column=description.time.column))
+    return found
 
 
 def _recording(
-    description: Description, contents: Contents, clock: _Clock, scales: Sequence[Scale], stored: Sequence[FloatArray]
+    description: Description,
+    clock: _Clock,
+    scales: Sequence[Scale],
+    stored: Sequence[Stored],
+    further: Mapping[str, Stored],
 ) -> Ingested:
     operating = description.operating
-    samples = np.empty((len(stored), stored[0].size))
+    samples = np.empty((len(stored), stored[0].samples.size))
     for row, scale in enumerate(scales):
-        samples[row] = scale.apply(stored[row])
+        samples[row] = scale.apply(stored[row].samples)
     plain = Recording(
         sampling_rate_hz=clock.sampling_rate_hz,
         channels=tuple(scale.channel for scale in scales),
@@ -92,37 +102,13 @@ def _recording(
     )
     if description.tacho is None:
         return Ingested(recording=plain, remarks=remarks(description))
-    by_name = dict(zip(plain.names, stored, strict=True))
-    tacho = tacho_of(description.tacho, contents, by_name, clock.sampling_rate_hz, clock.start_s)
+    by_name = dict(zip(plain.names, (s.samples for s in stored), strict=True))
+    tacho = tacho_of(description.tacho, by_name, further, clock.sampling_rate_hz, clock.start_s)
     return Ingested(recording=Recording(**{**vars(plain), "tacho": tacho}), remarks=remarks(description))
 
 
-def _picks(description: Description, contents: Contents) -> list[Pick]:
-    """What each channel is taken from; every channel that is not there is named."""
-    found: list[Pick] = []
-    problems: list[Problem] = []
-    for i, entry in enumerate(description.channels):
-        column = entry.column if entry.column is not None else entry.name
-        alone = only_array(contents)
-        if entry.column is None and len(description.channels) == 1 and alone and entry.name not in contents.entries:
-            column = alone
-        try:
-            found.append(pick(contents, column, f"channels.{i}.column"))
-        except SpecError as error:
-            problems += error.problems
-    if problems:
-        raise SpecError(problems)
-    return found
-
-
-def _check_sizes(contents: Contents, picks: Sequence[Pick], bounds: Bounds) -> None:
-    sizes = {c.name: contents.entries[c.name].shape for c in picks}
-    total = sum(math.prod(shape) for shape in sizes.values() if shape is not None)
-    bounds.check("channels", message="hold too many samples", given=total, allowed=bounds.values, unit="samples")
-
-
-def _check_lengths(description: Description, stored: Sequence[FloatArray]) -> None:
-    lengths = [row.size for row in stored]
+def _check_lengths(description: Description, stored: Sequence[Stored]) -> None:
+    lengths = [row.samples.size for row in stored]
     listed = ", ".join(f"{e.name}: {n}" for e, n in zip(description.channels, lengths, strict=True))
     if len(set(lengths)) > 1:
         message = "are of unequal length; describe channels of one length and one rate as one recording"
@@ -133,23 +119,28 @@ def _check_lengths(description: Description, stored: Sequence[FloatArray]) -> No
         raise SpecError(Problem(field="channels", message=message, given=listed[:400], allowed=allowed, unit="samples"))
 
 
-def _clock(description: Description, contents: Contents, picks: Sequence[Pick], samples: int) -> _Clock:
+def _clock(description: Description, loaded: Loaded, further: Mapping[str, Stored]) -> _Clock:
     """Sampling rate and time of the first sample: stated, in the file, or from time stamps; all must agree."""
+    channels = loaded.wanted[: len(description.channels)]
     stated, start_s = description.sampling_rate_hz, description.start_s
-    in_file = {contents.entries[c.name].rate_hz or contents.rate_hz for c in picks} - {None}
+    in_file = {s.rate_hz or loaded.rate_hz for s in channels}
     rates = sorted(rate for rate in in_file if rate is not None)
     if len(rates) > 1:
         message = "differ in sampling rate; describe channels of one rate as one recording"
         raise SpecError(Problem(field="channels", message=message, given=rates[:20], unit="Hz"))
     if stated is not None and rates:
         agree(stated, rates[0], "sampling_rate_hz", "the rate that the file itself states")
-    stamps = _stamps(description, contents, samples)
+    stamps = _stamps(description, loaded, further)
     if stamps is not None:
-        base = check_regular(*stamps)
+        times_s, rounded_s = stamps
+        base = check_regular(times_s, rounded_s)
         if "start_s" not in description.model_fields_set:
-            start_s = float(stamps[0][0])
+            start_s = float(times_s[0])
         if stated is not None or rates:
-            agree(stated or rates[0], base.sampling_rate_hz, "sampling_rate_hz", "the mean rate of the time stamps")
+            # both ends of the stretch may be off by what they were rounded to
+            tolerance = max(RATE_TOLERANCE, 2 * rounded_s / float(times_s[-1] - times_s[0]))
+            source = "the mean rate of the time stamps"
+            agree(stated or rates[0], base.sampling_rate_hz, "sampling_rate_hz", source, tolerance)
         rates.append(base.sampling_rate_hz)
     rate = stated or (rates[0] if rates else None)
     if rate is None:
@@ -158,29 +149,16 @@ def _clock(description: Description, contents: Contents, picks: Sequence[Pick], 
     return _Clock(sampling_rate_hz=rate, start_s=start_s)
 
 
-def _stamps(description: Description, contents: Contents, samples: int) -> tuple[FloatArray, float] | None:
+def _stamps(description: Description, loaded: Loaded, further: Mapping[str, Stored]) -> tuple[FloatArray, float] | None:
     """Time stamps in s and what they were rounded to; those of an unmentioned time column are only looked at."""
+    samples = loaded.wanted[0].samples.size
     if description.time is not None:
-        chosen = pick(contents, description.time.column, "time.column")
-        raw = take(contents.load([chosen.name])[chosen.name], chosen, "time.column")
-        return _in_seconds(raw, description.time.unit, samples, "time.unit")
-    for name in TIME_NAMES & set(contents.entries):
-        arrays: Mapping[str, AnyArray] = {}
-        with contextlib.suppress(SpecError):  # dates as texts are nobody's business here
-            arrays = contents.load([name])
-        if name in arrays and arrays[name].size == samples:
-            raw = np.ravel(arrays[name]).astype(np.float64)
-            unit = contents.entries[name].unit or ("s" if name.endswith("_s") else "")
-            if unit:
-                return _in_seconds(raw, unit, samples, name)
+        return in_seconds(further[TIME].samples, description.time.unit, samples, "time.unit")
+    for name, stored in loaded.optional.items():
+        raw = stored.samples
+        unit = stored.unit or ("s" if name.endswith("_s") else "")
+        if raw.size == samples and is_time(unit):
+            return in_seconds(raw, unit, samples, name)
+        if raw.size == samples:
             check_regular(raw, resolution(raw))
     return None
-
-
-def _in_seconds(raw: FloatArray, unit: str, samples: int, field: str) -> tuple[FloatArray, float]:
-    if raw.size != samples:
-        message = "has another length than the channels"
-        raise SpecError(Problem(field="time", message=message, given=raw.size, allowed=str(samples), unit="samples"))
-    times = seconds(raw, unit, field)
-    step = resolution(raw)
-    return times, step * float(times[-1] / raw[-1]) if raw[-1] else step

@@ -4,33 +4,18 @@ from __future__ import annotations
 
 import math
 import warnings
-import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 from scipy.io import loadmat, whosmat
-from scipy.io.matlab import MatReadError, MatReadWarning
+from scipy.io.matlab import MatReadWarning
 
-from signals.ingest.contents import AnyArray, Contents, Entry, numeric, refused, told
-from signals.ingest.limits import Bounds
-from signals.ingest.readers.npz import RATE
+from signals.readers.contents import AnyArray, Contents, Entry, numeric, refused, told
+from signals.readers.limits import Bounds
+from signals.readers.npz import RATE
 
-_ERRORS = (
-    ValueError,
-    TypeError,
-    KeyError,
-    IndexError,
-    EOFError,
-    OSError,
-    OverflowError,
-    NotImplementedError,
-    UnicodeDecodeError,
-    zlib.error,
-    MatReadError,
-    MatReadWarning,
-)
 _NUMBERS = {"double", "single", "int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "logical"}
 _ITEM = 8
 _VERSION_AT, _VERSION_73 = 124, 2
@@ -38,13 +23,13 @@ _VERSION_AT, _VERSION_73 = 124, 2
 
 
 @contextmanager
-def open_mat(path: Path, bounds: Bounds) -> Iterator[Contents]:
+def open_file(path: Path, bounds: Bounds) -> Iterator[Contents]:
     """Numeric matrices by name; `[n, 1]` and `[1, n]` are one channel."""
     with path.open("rb") as stream:
         header = stream.read(128)
     if len(header) == 128 and _VERSION_73 in header[_VERSION_AT : _VERSION_AT + 2] and b"7.3" in header[:116]:
         raise refused(path, "version 7.3 is HDF5 and needs the pip extra: pip install 'sideband[formats]'")
-    with told(path, *_ERRORS), warnings.catch_warnings():
+    with told(path), warnings.catch_warnings():
         warnings.simplefilter("error", MatReadWarning)
         listed = whosmat(path)
         bounds.check_members(path.name, len(listed), "arrays")
@@ -61,7 +46,7 @@ def open_mat(path: Path, bounds: Bounds) -> Iterator[Contents]:
 
 def _entry(path: Path, name: str, shape: tuple[int, ...]) -> Entry:
     def load() -> AnyArray:
-        with told(path, *_ERRORS), warnings.catch_warnings():
+        with told(path), warnings.catch_warnings():
             warnings.simplefilter("error", MatReadWarning)
             return numeric(path, name, loadmat(path, variable_names=[name])[name])
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import zipfile
+import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
@@ -10,10 +12,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from signals.ingest.limits import Bounds
+from signals.readers.limits import Bounds
 from sim.core.errors import Problem, SidebandError, SpecError
 
 AnyArray = NDArray[np.generic]
+_SPEAKING = (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error)
+"""Errors whose text says something to the person with the file."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,12 +71,16 @@ def numeric(path: Path, name: str, value: object) -> AnyArray:
 
 
 @contextmanager
-def told(path: Path, *errors: type[BaseException]) -> Iterator[None]:
-    """What a library says about a broken file, as a refusal in one line."""
+def told(path: Path) -> Iterator[None]:
+    """Whatever a library raises over a broken file, as a refusal in one line. Only calls of the library belong inside.
+
+    Parsers of binary formats fail in ways they do not document; every one of them means that the file is not read.
+    """
     try:
         yield
-    except SidebandError:
+    except (SidebandError, MemoryError):
         raise
-    except errors as error:
-        text = str(error).strip()
-        raise refused(path, f"{text.splitlines()[0][:300]}" if text else type(error).__name__) from error
+    except Exception as error:
+        text = str(error).strip() if isinstance(error, _SPEAKING) else ""
+        reason = text.splitlines()[0][:300] if text else f"it is malformed ({type(error).__name__})"
+        raise refused(path, reason) from error

@@ -9,19 +9,19 @@ from pathlib import Path
 
 import numpy as np
 
-from signals.ingest.contents import AnyArray, Contents, Entry, numeric, refused, told
-from signals.ingest.limits import Bounds
+from signals.readers.contents import AnyArray, Contents, Entry, numeric, refused, told
+from signals.readers.limits import Bounds
 
 TEXT_BYTES = 2**28
 """A parsed list takes several times the memory of its text."""
 
 
 @contextmanager
-def open_json(path: Path, bounds: Bounds) -> Iterator[Contents]:
+def open_file(path: Path, bounds: Bounds) -> Iterator[Contents]:
     """Lists of numbers by key; an entry that is null is a missing sample."""
     size = path.stat().st_size
     bounds.check(path.name, message="is too large for JSON", given=size, allowed=TEXT_BYTES, unit="bytes")
-    with told(path, ValueError, RecursionError):
+    with told(path):
         document = json.loads(path.read_text(encoding="utf-8"))
         if not isinstance(document, dict):
             raise refused(path, "is not an object whose keys hold lists of numbers")
@@ -32,7 +32,7 @@ def open_json(path: Path, bounds: Bounds) -> Iterator[Contents]:
 
 def _entry(path: Path, key: str, value: list[object]) -> Entry:
     def load() -> AnyArray:
-        with told(path, ValueError, TypeError):
+        with told(path):
             array = np.array(value)
             # a null among numbers makes the array one of objects
             return numeric(path, key, array.astype(np.float64) if array.dtype == object else array)

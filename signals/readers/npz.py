@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import zipfile
-import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,19 +12,25 @@ from typing import IO
 import numpy as np
 from numpy.lib import format as npy
 
-from signals.ingest.contents import AnyArray, Contents, Entry, refused, told
-from signals.ingest.limits import Bounds
+from signals.readers.contents import AnyArray, Contents, Entry, numeric, refused, told
+from signals.readers.limits import Bounds
 
 RATE = "sampling_rate_hz"
 """The one name under which a rate in an array file counts as stated (`signals.encode` writes it)."""
-_ERRORS = (ValueError, EOFError, KeyError, zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, OSError)
 _HEADER_CHARACTERS = 10_000
 
 
 @contextmanager
-def open_npz(path: Path, bounds: Bounds) -> Iterator[Contents]:
+def open_file(path: Path, bounds: Bounds) -> Iterator[Contents]:
     """Arrays by name. Python objects (pickle) are never loaded."""
-    with told(path, *_ERRORS), zipfile.ZipFile(path) as archive:
+    with told(path):
+        archive = zipfile.ZipFile(path)
+    with archive:
+        yield _contents(path, archive, bounds)
+
+
+def _contents(path: Path, archive: zipfile.ZipFile, bounds: Bounds) -> Contents:
+    with told(path):
         members = archive.infolist()
         bounds.check_members(path.name, len(members), "arrays")
         unpacked = sum(member.file_size for member in members)
@@ -34,7 +39,7 @@ def open_npz(path: Path, bounds: Bounds) -> Iterator[Contents]:
         entries = {m.filename.removesuffix(".npy"): _entry(path, archive, m) for m in members if _is_array(m)}
         rate = entries.get(RATE)
         stated = None if rate is None or rate.shape not in ((), (1,)) else float(rate.load().reshape(-1)[0])
-        yield Contents(entries=entries, rate_hz=stated)
+        return Contents(entries=entries, rate_hz=stated)
 
 
 def _is_array(member: zipfile.ZipInfo) -> bool:
@@ -51,12 +56,12 @@ def _entry(path: Path, archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> Ent
 
 
 def _load(path: Path, archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> AnyArray:
-    with told(path, *_ERRORS), archive.open(member) as stream:
+    with told(path), archive.open(member) as stream:
         shape, fortran, dtype = _header(stream)
         if dtype.hasobject:
             raise refused(path, f"{member.filename} holds Python objects, which are never loaded")
         values: AnyArray = np.frombuffer(stream.read(), dtype=dtype)
-        return values.reshape(shape, order="F" if fortran else "C")
+        return numeric(path, member.filename, values.reshape(shape, order="F" if fortran else "C"))
 
 
 def _header(stream: IO[bytes]) -> tuple[tuple[int, ...], bool, np.dtype[np.generic]]:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signals.ingest.contents import AnyArray, Contents
+from signals.names import matlab_name
+from signals.readers.contents import AnyArray, Contents
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
 
@@ -62,11 +63,9 @@ def _by_name(contents: Contents, column: str) -> Pick | None:
     numbered = _NUMBERED.match(column)
     if numbered and numbered["name"] in contents.entries:
         return Pick(name=numbered["name"], index=int(numbered["number"]) - 1)
-    if indexed:
-        # a heading with its unit, as `a [g]`, whose unit the reader took off
-        return None
-    bare = column.rpartition(" [")[0].strip() if column.endswith("]") else ""
-    return Pick(name=bare) if bare in contents.entries else None
+    # a heading with its unit, as `a [g]`, whose unit the reader took off; a name that MATLAB does not allow
+    bare = column.rpartition(" [")[0].strip() if column.endswith("]") and not indexed else ""
+    return next((Pick(name=name) for name in (bare, matlab_name(column)) if name in contents.entries), None)
 
 
 def _indexed(name: str, parts: list[str]) -> Pick | None:

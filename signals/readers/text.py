@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import gzip
 import io
-import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
@@ -19,15 +18,14 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.csv as pc
 
-from signals.ingest.contents import AnyArray, Contents, Entry, refused, told
-from signals.ingest.limits import Bounds
-from signals.ingest.readers.layout import BLANKS, Layout, layout_of
+from signals.readers.contents import AnyArray, Contents, Entry, refused, told
+from signals.readers.layout import BLANKS, Layout, layout_of
+from signals.readers.limits import Bounds
 from signals.series import FloatArray
 
 HEAD_BYTES = 2**16
 _BLOCK_BYTES = 2**22
 _EMPTY = ["", "NA", "N/A", "#N/A", "null", "NULL", "None"]
-_ERRORS = (pa.ArrowInvalid, pa.ArrowException, gzip.BadGzipFile, zlib.error, EOFError, ValueError, UnicodeError)
 
 
 class _Bounded(io.RawIOBase):
@@ -55,9 +53,9 @@ class _Bounded(io.RawIOBase):
 
 
 @contextmanager
-def open_text(path: Path, bounds: Bounds) -> Iterator[Contents]:
+def open_file(path: Path, bounds: Bounds) -> Iterator[Contents]:
     """Columns by name, also by number from 0; a file without names has `0`, `1` ..."""
-    with told(path, *_ERRORS, OSError), _stream(path, bounds) as stream:
+    with told(path), _stream(path, bounds) as stream:
         layout = layout_of(path, stream.read(HEAD_BYTES))
     bounds.check_members(path.name, len(layout.names), "columns")
     read = partial(_read, path, bounds, layout)
@@ -79,7 +77,7 @@ def _stream(path: Path, bounds: Bounds) -> io.BufferedReader:
 
 def _read(path: Path, bounds: Bounds, layout: Layout, names: Sequence[str]) -> Mapping[str, AnyArray]:
     wanted = [layout.names.index(name) for name in names]
-    with told(path, *_ERRORS, OSError), _stream(path, bounds) as stream:
+    with told(path), _stream(path, bounds) as stream:
         read = _by_blanks if layout.delimiter == BLANKS else _by_delimiter
         columns = read(path, bounds, layout, stream, wanted)
     return dict(zip(names, columns, strict=True))

@@ -14,30 +14,19 @@ from pathlib import Path
 import numpy as np
 from scipy.io import wavfile
 
-from signals.ingest.contents import AnyArray, Contents, Entry, told
-from signals.ingest.limits import Bounds
+from signals.readers.contents import AnyArray, Contents, Entry, told
+from signals.readers.limits import Bounds
 
-_ERRORS = (
-    ValueError,
-    TypeError,
-    EOFError,
-    struct.error,
-    OverflowError,
-    ZeroDivisionError,
-    KeyError,
-    IndexError,
-    OSError,
-)
 _COMMENT_BYTES = 2**20
 
 
 @contextmanager
-def open_wav(path: Path, bounds: Bounds) -> Iterator[Contents]:
+def open_file(path: Path, bounds: Bounds) -> Iterator[Contents]:
     """Channels `channel1`, `channel2` ... (`channel` if alone), also by number from 0.
 
     A file that `signals.encode` wrote has their names and scales in its comment, which are applied.
     """
-    with told(path, *_ERRORS), warnings.catch_warnings():
+    with told(path), warnings.catch_warnings():
         warnings.simplefilter("ignore", wavfile.WavFileWarning)  # unknown chunks are no matter
         rate, values = wavfile.read(path)
         count = int(values.size)

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from signals.ingest.contents import refused
-from signals.ingest.units import find_unit
+from signals.readers.contents import refused
+from signals.units import find_unit
 
 BLANKS = " "
 _DELIMITERS = ("\t", ";", ",", BLANKS)
@@ -76,7 +76,8 @@ def _numbers(line: str) -> tuple[list[str], str, str]:
         return [], "", "."
     for delimiter in _DELIMITERS:
         cells = _split(line, delimiter)
-        for decimal in ".," if delimiter in (";", "\t") else ".":
+        # a comma between digits of a single cell may part two columns as well
+        for decimal in ".," if delimiter in (";", "\t") and len(cells) > 1 else ".":
             if any(cells) and all(not cell or _is_number(cell, decimal) for cell in cells):
                 return cells, delimiter, decimal
     return [], "", "."
