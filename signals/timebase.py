@@ -57,15 +57,20 @@ def require_uniform(times_s: FloatArray) -> float:
     """The sampling rate of uniform time stamps, Hz; SpecError says where they are not."""
     base = read_time_base(times_s)
     if not base.uniform:
-        detail = f"{base.gaps} gaps, {base.repeated} repeated, {base.backward} backward"
-        detail += f", longest step {base.longest_step_s:.4g} s"
-        raise SpecError(
-            Problem(
-                field="time",
-                message=f"stamps are irregular from sample {base.first_place} on ({detail}); resample them first",
-                given=f"mean {base.sampling_rate_hz:.6g} Hz",
-                allowed=f"steps within {JITTER_SHARE:.0%} of their median",
-                unit="s",
-            )
-        )
+        raise irregular(base)
     return base.sampling_rate_hz
+
+
+def irregular(base: TimeBase) -> SpecError:
+    """What is told about stamps that are not uniform."""
+    detail = f"{base.gaps} gaps, {base.repeated} repeated, {base.backward} backward"
+    detail += f", longest step {base.longest_step_s:.4g} s"
+    return SpecError(
+        Problem(
+            field="time",
+            message=f"stamps are irregular from sample {base.first_place} on ({detail}); resample them first",
+            given=f"mean {base.sampling_rate_hz:.6g} Hz",
+            allowed=f"steps within {JITTER_SHARE:.0%} of their median",
+            unit="s",
+        )
+    )

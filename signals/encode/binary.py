@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import re
 import struct
 import zipfile
 
@@ -15,6 +14,7 @@ from numpy.lib.format import write_array
 from scipy.io import savemat
 
 from signals.encode.table import Table
+from signals.names import matlab_name
 from sim.core.errors import Problem, SpecError
 
 ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
@@ -22,7 +22,6 @@ ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 MAT_HEADER = b"MATLAB 5.0 MAT-file, written by Sideband"
 MAT_HEADER_BYTES = 116
 """Length of the free text in a level 5 MAT-file, which SciPy fills with platform and time."""
-MAT_NAME_CHARACTERS = 63
 WAVE_FORMAT_IEEE_FLOAT = 3
 
 
@@ -57,7 +56,7 @@ def encode_mat(data: Table) -> bytes:
         "description": data.description,
     }
     for name, column in zip(data.names, data.columns, strict=True):
-        valid = re.sub(r"^(?![A-Za-z])", "c_", re.sub(r"\W", "_", name, flags=re.ASCII))[:MAT_NAME_CHARACTERS]
+        valid = matlab_name(name)
         if valid in arrays:
             message = "gives the same MATLAB name as another; rename the channel"
             raise SpecError(Problem(field="channels", message=message, given=name))

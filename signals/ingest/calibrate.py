@@ -1,0 +1,79 @@
+"""Stored numbers into SI: by the channel's unit, and by the sensor's sensitivity where volts were stored."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from signals.ingest.description import ChannelEntry, Sensitivity
+from signals.series import FloatArray
+from signals.units import ELECTRICAL, Unit, find_unit, unit_of
+from sim.core.errors import Problem, SpecError
+from sim.core.response import Channel
+
+CHECKED = frozenset({"acceleration", "velocity", "displacement", "force", "torque", "pressure"})
+"""Quantities whose unit must be one of theirs. Volts and uncalibrated numbers may stand for any of them."""
+_FREE = frozenset({"", ELECTRICAL})
+_SENSITIVITY = re.compile(r"^\s*(?P<out>[^/\s]+)\s*(?:/|\s+per\s+)\s*(?P<per>.+?)\s*$")
+_SAME = 1e-9
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scale:
+    """SI samples are stored ones x `factor` + `offset`."""
+
+    channel: Channel
+    factor: float
+    offset: float
+
+    def apply(self, stored: FloatArray) -> FloatArray:
+        """The samples in the channel's unit, shape as given."""
+        return stored * self.factor + self.offset
+
+
+def scale_of(entry: ChannelEntry, unit_in_file: str, field: str) -> Scale:
+    """How a channel's numbers are read; SpecError for an unknown or contradicting unit."""
+    unit = unit_of(entry.unit, f"{field}.unit")
+    _check_file(entry, unit, unit_in_file, field)
+    if unit.quantity == ELECTRICAL and entry.sensitivity is not None:
+        unit = _sensed(unit, entry.sensitivity, field)
+    wanted = entry.quantity.strip().lower().replace(" ", "_")
+    if wanted in CHECKED and unit.quantity not in _FREE and unit.quantity != wanted:
+        message = f"{entry.unit} is a unit of {unit.quantity.replace('_', ' ')}, not of the quantity stated"
+        raise SpecError(Problem(field=f"{field}.quantity", message=message, given=entry.quantity))
+    channel = Channel(
+        name=entry.name,
+        quantity=wanted if wanted in CHECKED else entry.quantity or unit.quantity,
+        unit=unit.si,
+        location=entry.location,
+        axis=entry.axis,
+    )
+    return Scale(channel=channel, factor=unit.factor, offset=unit.offset)
+
+
+def _check_file(entry: ChannelEntry, unit: Unit, unit_in_file: str, field: str) -> None:
+    """The file's own unit, where it states one that is known, must be the one described."""
+    inside = find_unit(unit_in_file) if unit_in_file else None
+    # unscaled numbers may be described by what they stand for
+    if inside is None or inside.quantity == "" or unit.quantity == "":
+        return
+    if inside.si != unit.si or abs(inside.factor - unit.factor) > _SAME * abs(unit.factor):
+        message = "is not the unit that the file itself states"
+        raise SpecError(Problem(field=f"{field}.unit", message=message, given=entry.unit, allowed=unit_in_file))
+
+
+def _sensed(volts: Unit, sensitivity: Sensitivity | float, field: str) -> Unit:
+    """The unit of stored volts behind a sensor: volts / (volts per unit sensed)."""
+    form = 'as {"value": 100, "unit": "mV/g"}'
+    if not isinstance(sensitivity, Sensitivity):
+        message = "of a channel in volts must say its unit, which is never guessed"
+        raise SpecError(Problem(field=f"{field}.sensitivity", message=message, given=sensitivity, allowed=form))
+    parts = _SENSITIVITY.match(sensitivity.unit)
+    out = find_unit(parts["out"]) if parts else None
+    per = find_unit(parts["per"]) if parts else None
+    if out is None or per is None or out.quantity != ELECTRICAL or per.offset:
+        message = "is not a unit of volts per unit sensed"
+        given = sensitivity.unit
+        raise SpecError(Problem(field=f"{field}.sensitivity.unit", message=message, given=given, allowed=form))
+    factor = volts.factor / (sensitivity.value * out.factor / per.factor)
+    return Unit(si=per.si, factor=factor, quantity=per.quantity)

@@ -1,0 +1,187 @@
+"""The description of a recording: the JSON that says what the numbers in a file are."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from signals.validation import problems_of, shown
+from sim.core.errors import Problem, SpecError
+from sim.core.spec.base import WHOLE
+
+MAX_CHANNELS = 512
+MAX_PULSES = 1_000_000
+ALIKE = 0.8
+"""An unknown key this similar to a known one (difflib's ratio) is taken for a slip of the pen and refused."""
+
+Text = Annotated[str, Field(max_length=200)]
+ColumnName = Annotated[str, Field(min_length=1, max_length=200)]
+ColumnIndex = Annotated[int, Field(ge=0, lt=100_000)]
+Column = ColumnName | ColumnIndex
+Pulses = Annotated[tuple[Annotated[float, Field(allow_inf_nan=False)], ...], Field(max_length=MAX_PULSES, strict=False)]
+
+
+class _Part(BaseModel):
+    """Frozen and strict about types. Further keys are kept as a person's own remarks, unless they look like a slip."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="allow", strict=True, allow_inf_nan=False, use_attribute_docstrings=True
+    )
+
+
+class Sensitivity(_Part):
+    """What a sensor puts out per unit of what it senses, as `{"value": 10.2, "unit": "mV/(m/s^2)"}` or 100 `mV/g`."""
+
+    value: Annotated[float, Field(gt=0, allow_inf_nan=False)]
+    unit: Annotated[str, Field(min_length=3, max_length=40)]
+
+
+class ChannelEntry(_Part):
+    """One channel. `unit` is that of the stored numbers."""
+
+    name: Annotated[str, Field(min_length=1, max_length=120)]
+    column: Column | None = None
+    """Array or column of the file (default: the channel's name), with an index where an array holds several channels:
+    `data[:,0]`; a whole number counts columns from 0."""
+    quantity: Text = ""
+    """`acceleration`, `velocity`, `displacement`, `force` ...; default: what the unit measures."""
+    unit: Annotated[str, Field(min_length=1, max_length=80)]
+    """`g`, `m/s^2`, `mm/s`, `um`, `V` ...; `1`: dimensionless; `uncalibrated`: the scale is not known."""
+    location: Text = ""
+    axis: Text = ""
+    sensitivity: Sensitivity | float | None = None
+    """Of the sensor. A channel stored in volts is turned into what the sensor senses; elsewhere it is information."""
+
+
+class OperatingEntry(_Part):
+    """The operating point: the shaft's name, its speed in revolutions per second, its torque."""
+
+    shaft: Annotated[str, Field(min_length=1, max_length=80)]
+    speed_hz: Annotated[float, Field(ge=0, le=1e5, allow_inf_nan=False)]
+    torque_nm: Annotated[float, Field(allow_inf_nan=False)] | None = None
+
+
+class TachoEntry(_Part):
+    """Pulses of a shaft: a `channel` (or `column`) with the pulse signal, or their times."""
+
+    shaft: Annotated[str, Field(min_length=1, max_length=80)]
+    channel: Column | None = None
+    """Name of a channel above, else an array or column of the file."""
+    column: Column | None = None
+    pulse_times_s: Pulses | ColumnName | None = None
+    """Times on the clock of the samples, s: a list, or the name of an array in the file."""
+    pulses_per_revolution: Annotated[int, WHOLE, Field(ge=1, le=100_000, strict=False)] = 1
+    threshold: Annotated[float, Field(allow_inf_nan=False)] | None = None
+    """Level whose rising crossing is a pulse, as stored; default: half way between low and high."""
+
+    @model_validator(mode="after")
+    def _one_source(self) -> Self:
+        if sum(x is not None for x in (self.channel, self.column, self.pulse_times_s)) != 1:
+            raise ValueError("give exactly one of `channel`, `column` and `pulse_times_s`")
+        return self
+
+
+class TimeEntry(_Part):
+    """A column of time stamps."""
+
+    column: Column
+    unit: Annotated[str, Field(max_length=10)] = "s"
+
+
+class Description(_Part):
+    """What the numbers of a file are."""
+
+    sampling_rate_hz: Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)] | None = None
+    """May be left out only where the file itself states it (wav, flac, uff, tdms, mf4, `sampling_rate_hz` in npz and
+    mat) or a `time` column gives it."""
+    channels: Annotated[tuple[ChannelEntry, ...], Field(max_length=MAX_CHANNELS, strict=False)]
+    operating: OperatingEntry | None = None
+    tacho: TachoEntry | None = None
+    time: TimeEntry | None = None
+    condition: Literal["baseline", "unknown"] = "unknown"
+    origin: Literal["measured", "simulated"] = "measured"
+    start_s: Annotated[float, Field(allow_inf_nan=False)] = 0.0
+    """Time of the first sample, s."""
+    notes: Annotated[str, Field(max_length=20_000)] = ""
+    data: Annotated[str, Field(min_length=1, max_length=400)] | None = None
+    """The file, relative to the description; default: the one beside it with the same stem."""
+
+    @model_validator(mode="after")
+    def _some_channel(self) -> Self:
+        if not self.channels:
+            raise ValueError("give at least one channel")
+        return self
+
+
+def read_description(document: object) -> Description:
+    """The description in a JSON value; SpecError names every field that must change."""
+    if not isinstance(document, Mapping):
+        given = shown(document)
+        raise SpecError(Problem(field="description", message="is not an object", given=given, allowed="a JSON object"))
+    try:
+        found = Description.model_validate(document)
+    except ValidationError as error:
+        raise SpecError([*problems_of(error), *_slips(document)]) from error
+    problems = [*_slips(document), *_doubled(found)]
+    if problems:
+        raise SpecError(problems)
+    return found
+
+
+def remarks(description: Description) -> tuple[str, ...]:
+    """Keys that mean nothing here, by place: they are kept out of the recording, and this is said."""
+    return tuple(f"{place}: is not used here" for place in _unknown(description, ""))
+
+
+def _unknown(part: BaseModel, prefix: str) -> Iterator[str]:
+    for key in part.model_extra or {}:
+        yield f"{prefix}{key[:80]}"
+    for name in type(part).model_fields:
+        value = getattr(part, name)
+        members = enumerate(value) if isinstance(value, tuple) else [(None, value)]
+        for i, member in members:
+            if isinstance(member, BaseModel):
+                yield from _unknown(member, f"{prefix}{name}." if i is None else f"{prefix}{name}[{i}].")
+
+
+_PARTS: tuple[tuple[str, type[BaseModel]], ...] = (
+    ("operating", OperatingEntry),
+    ("tacho", TachoEntry),
+    ("time", TimeEntry),
+)
+
+
+def _slips(document: Mapping[str, object]) -> list[Problem]:
+    """Unknown keys that look like known ones."""
+    found = _alike(document, Description, "")
+    for name, model in _PARTS:
+        found += _alike(document.get(name), model, f"{name}.")
+    channels = document.get("channels")
+    for i, entry in enumerate(channels if isinstance(channels, list) else []):
+        found += _alike(entry, ChannelEntry, f"channels.{i}.")
+    return found
+
+
+def _alike(part: object, model: type[BaseModel], prefix: str) -> list[Problem]:
+    if not isinstance(part, Mapping):
+        return []
+    problems = []
+    for key in part:
+        if isinstance(key, str) and key not in model.model_fields:
+            near = difflib.get_close_matches(key[:80], list(model.model_fields), n=1, cutoff=ALIKE)
+            if near:
+                problems.append(Problem(field=f"{prefix}{key[:80]}", message="is not a known field", allowed=near[0]))
+    return problems
+
+
+def _doubled(description: Description) -> list[Problem]:
+    names = [entry.name for entry in description.channels]
+    message = "is the name of another channel too"
+    return [
+        Problem(field=f"channels.{i}.name", message=message, given=name)
+        for i, name in enumerate(names)
+        if names.index(name) != i
+    ]

@@ -1,0 +1,164 @@
+"""A description and a file of samples into a recording, or a refusal that names the place."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from signals.ingest.calibrate import Scale, scale_of
+from signals.ingest.description import Description, remarks
+from signals.ingest.pulses import tacho_of, tacho_wants
+from signals.ingest.stamps import RATE_TOLERANCE, TIME_NAMES, agree, check_regular, in_seconds, is_time, resolution
+from signals.readers.guard import load_carefully
+from signals.readers.limits import Bounds
+from signals.readers.load import Loaded, Loader, Stored, Want
+from signals.recording import Operating, Recording
+from signals.series import FloatArray
+from sim.core.errors import Problem, SpecError
+
+TIME = "time.column"
+MIN_SAMPLES = 8
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ingested:
+    """A recording in SI units, and what a person should know of how it was read."""
+
+    recording: Recording
+    remarks: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Clock:
+    sampling_rate_hz: float
+    start_s: float
+
+
+def parse(
+    description: Description, path: Path, bounds: Bounds | None = None, loader: Loader = load_carefully
+) -> Ingested:
+    """Read what the description names from the file; SpecError says which field or place is wrong.
+
+    `loader`: `signals.readers.guard.load_apart` for a stranger's file.
+    """
+    loaded = loader(path, _wants(description), () if description.time else TIME_NAMES, bounds or Bounds())
+    channels = loaded.wanted[: len(description.channels)]
+    further = {want.field: s for want, s in zip(_further(description), loaded.wanted[len(channels) :], strict=True)}
+    scales = [
+        scale_of(entry, stored.unit, f"channels.{i}")
+        for i, (entry, stored) in enumerate(zip(description.channels, channels, strict=True))
+    ]
+    _check_lengths(description, channels)
+    clock = _clock(description, loaded, further)
+    return _recording(description, clock, scales, channels, further)
+
+
+def _wants(description: Description) -> list[Want]:
+    """The channels, then whatever else the description takes from the file."""
+    alone = len(description.channels) == 1
+    channels = [
+        Want(
+            field=f"channels.{i}.column",
+            column=entry.name if entry.column is None else entry.column,
+            or_only=alone and entry.column is None,
+        )
+        for i, entry in enumerate(description.channels)
+    ]
+    return channels + _further(description)
+
+
+def _further(description: Description) -> list[Want]:
+    found = [] if description.tacho is None else tacho_wants(description.tacho, [c.name for c in description.channels])
+    if description.time is not None:
+        found.append(Want(field=TIME, column=description.time.column))
+    return found
+
+
+def _recording(
+    description: Description,
+    clock: _Clock,
+    scales: Sequence[Scale],
+    stored: Sequence[Stored],
+    further: Mapping[str, Stored],
+) -> Ingested:
+    operating = description.operating
+    samples = np.empty((len(stored), stored[0].samples.size))
+    for row, scale in enumerate(scales):
+        samples[row] = scale.apply(stored[row].samples)
+    plain = Recording(
+        sampling_rate_hz=clock.sampling_rate_hz,
+        channels=tuple(scale.channel for scale in scales),
+        samples=samples,
+        operating=None
+        if operating is None
+        else Operating(shaft=operating.shaft, speed_hz=operating.speed_hz, torque_nm=operating.torque_nm),
+        condition=description.condition,
+        origin=description.origin,
+        notes=description.notes,
+        start_s=clock.start_s,
+    )
+    if description.tacho is None:
+        return Ingested(recording=plain, remarks=remarks(description))
+    by_name = dict(zip(plain.names, (s.samples for s in stored), strict=True))
+    tacho = tacho_of(description.tacho, by_name, further, clock.sampling_rate_hz, clock.start_s)
+    return Ingested(recording=Recording(**{**vars(plain), "tacho": tacho}), remarks=remarks(description))
+
+
+def _check_lengths(description: Description, stored: Sequence[Stored]) -> None:
+    lengths = [row.samples.size for row in stored]
+    listed = ", ".join(f"{e.name}: {n}" for e, n in zip(description.channels, lengths, strict=True))
+    if len(set(lengths)) > 1:
+        message = "are of unequal length; describe channels of one length and one rate as one recording"
+        raise SpecError(Problem(field="channels", message=message, given=listed[:400], unit="samples"))
+    if lengths[0] < MIN_SAMPLES:
+        message = "hold too few samples"
+        allowed = f"at least {MIN_SAMPLES}"
+        raise SpecError(Problem(field="channels", message=message, given=listed[:400], allowed=allowed, unit="samples"))
+
+
+def _clock(description: Description, loaded: Loaded, further: Mapping[str, Stored]) -> _Clock:
+    """Sampling rate and time of the first sample: stated, in the file, or from time stamps; all must agree."""
+    channels = loaded.wanted[: len(description.channels)]
+    stated, start_s = description.sampling_rate_hz, description.start_s
+    in_file = {s.rate_hz or loaded.rate_hz for s in channels}
+    rates = sorted(rate for rate in in_file if rate is not None)
+    if len(rates) > 1:
+        message = "differ in sampling rate; describe channels of one rate as one recording"
+        raise SpecError(Problem(field="channels", message=message, given=rates[:20], unit="Hz"))
+    if stated is not None and rates:
+        agree(stated, rates[0], "sampling_rate_hz", "the rate that the file itself states")
+    stamps = _stamps(description, loaded, further)
+    if stamps is not None:
+        times_s, rounded_s = stamps
+        base = check_regular(times_s, rounded_s)
+        if "start_s" not in description.model_fields_set:
+            start_s = float(times_s[0])
+        if stated is not None or rates:
+            # both ends of the stretch may be off by what they were rounded to
+            tolerance = max(RATE_TOLERANCE, 2 * rounded_s / float(times_s[-1] - times_s[0]))
+            source = "the mean rate of the time stamps"
+            agree(stated or rates[0], base.sampling_rate_hz, "sampling_rate_hz", source, tolerance)
+        rates.append(base.sampling_rate_hz)
+    rate = stated or (rates[0] if rates else None)
+    if rate is None:
+        message = "is stated neither here nor in the file, and is never guessed"
+        raise SpecError(Problem(field="sampling_rate_hz", message=message, allowed="> 0", unit="Hz"))
+    return _Clock(sampling_rate_hz=rate, start_s=start_s)
+
+
+def _stamps(description: Description, loaded: Loaded, further: Mapping[str, Stored]) -> tuple[FloatArray, float] | None:
+    """Time stamps in s and what they were rounded to; those of an unmentioned time column are only looked at."""
+    samples = loaded.wanted[0].samples.size
+    if description.time is not None:
+        return in_seconds(further[TIME].samples, description.time.unit, samples, "time.unit")
+    for name, stored in loaded.optional.items():
+        raw = stored.samples
+        unit = stored.unit or ("s" if name.endswith("_s") else "")
+        if raw.size == samples and is_time(unit):
+            return in_seconds(raw, unit, samples, name)
+        if raw.size == samples:
+            check_regular(raw, resolution(raw))
+    return None

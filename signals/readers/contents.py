@@ -1,0 +1,86 @@
+"""What a file holds, as its reader sees it before anything large is loaded."""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signals.readers.limits import Bounds
+from sim.core.errors import Problem, SidebandError, SpecError
+
+AnyArray = NDArray[np.generic]
+_SPEAKING = (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error)
+"""Errors whose text says something to the person with the file."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entry:
+    """One array of a file. `load` gives it whole, 1-D or 2-D; `shape` is known before (None: not cheaply).
+
+    `rate_hz` and `unit` are what the file itself says of it.
+    """
+
+    load: Callable[[], AnyArray]
+    shape: tuple[int, ...] | None = None
+    rate_hz: float | None = None
+    unit: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Contents:
+    """Arrays by name, in the order of the file. `numbered`: an integer column counts the arrays (a table's columns).
+
+    `together`: loads several at once, where one pass over the file gives them all.
+    """
+
+    entries: Mapping[str, Entry]
+    rate_hz: float | None = None
+    numbered: bool = False
+    together: Callable[[Sequence[str]], Mapping[str, AnyArray]] | None = None
+
+    def load(self, names: Sequence[str]) -> Mapping[str, AnyArray]:
+        """The arrays named, each (n,) or (n, m)."""
+        if self.together is not None:
+            return self.together(names)
+        return {name: self.entries[name].load() for name in names}
+
+
+Reader = Callable[[Path, Bounds], AbstractContextManager[Contents]]
+"""Opens a file; the entries can be loaded until the context ends."""
+
+
+def refused(path: Path, reason: str) -> SpecError:
+    """The file cannot be read, in one line."""
+    return SpecError(Problem(field=path.name, message=f"cannot be read: {reason}"))
+
+
+def numeric(path: Path, name: str, value: object) -> AnyArray:
+    """The value as an array of real numbers; SpecError for texts, objects, complex numbers, more than two axes."""
+    array = np.asarray(value)
+    if array.dtype.kind not in "fiub":
+        kind = "complex numbers" if array.dtype.kind == "c" else "no numbers"
+        raise SpecError(Problem(field=path.name, message=f"{name}: holds {kind}", given=str(array.dtype)[:80]))
+    return array
+
+
+@contextmanager
+def told(path: Path) -> Iterator[None]:
+    """Whatever a library raises over a broken file, as a refusal in one line. Only calls of the library belong inside.
+
+    Parsers of binary formats fail in ways they do not document; every one of them means that the file is not read.
+    """
+    try:
+        yield
+    except (SidebandError, MemoryError):
+        raise
+    except Exception as error:
+        text = str(error).strip() if isinstance(error, _SPEAKING) else ""
+        reason = text.splitlines()[0][:300] if text else f"it is malformed ({type(error).__name__})"
+        raise refused(path, reason) from error

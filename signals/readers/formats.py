@@ -1,0 +1,84 @@
+"""Which reader reads which file, by the ending of its name."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+from typing import cast
+
+from signals.readers.contents import Reader
+from sim.core.errors import Problem, SpecError
+
+
+@dataclass(frozen=True, kw_only=True)
+class Format:
+    """`module` has `open_file`, a Reader. It is loaded when a file of its kind comes: several need optional packages.
+
+    `extra`: what installs its package. `fragile`: its parser is native code or known to fail badly on broken files, so
+    that even one's own files are read in a process apart.
+    """
+
+    module: str
+    fragile: bool = False
+    extra: str = ""
+
+
+_TEXT, _HDF5 = Format(module="text"), Format(module="hdf5", fragile=True, extra="formats")
+FORMATS: Mapping[str, Format] = MappingProxyType(
+    {
+        ".csv": _TEXT,
+        ".csv.gz": _TEXT,
+        ".tsv": _TEXT,
+        ".txt": _TEXT,
+        ".txt.gz": _TEXT,
+        ".dat": _TEXT,
+        ".npz": Format(module="npz"),
+        ".mat": Format(module="mat", fragile=True),
+        ".wav": Format(module="wave"),
+        ".flac": Format(module="flac", fragile=True, extra="formats"),
+        ".parquet": Format(module="parquet", fragile=True),
+        ".h5": _HDF5,
+        ".hdf5": _HDF5,
+        ".uff": Format(module="uff", extra="formats"),
+        ".unv": Format(module="uff", extra="formats"),
+        ".tdms": Format(module="tdms", extra="formats"),
+        ".mf4": Format(module="mdf", fragile=True, extra="mdf"),
+        ".json": Format(module="values"),
+    }
+)
+
+
+def suffix_of(path: Path) -> str:
+    """The ending that says the format, in lower case; `.csv.gz` is one."""
+    suffix = path.suffix.lower()
+    return path.with_suffix("").suffix.lower() + suffix if suffix == ".gz" else suffix
+
+
+def format_of(path: Path) -> Format:
+    """The format of a file; SpecError lists them."""
+    suffix = suffix_of(path)
+    if suffix not in FORMATS:
+        message = "is in no format that is read here"
+        raise SpecError(Problem(field=path.name, message=message, given=suffix or None, allowed=", ".join(FORMATS)))
+    return FORMATS[suffix]
+
+
+def reader_of(path: Path) -> Reader:
+    """The reader of a file; SpecError names the pip extra when its package is not installed."""
+    form = format_of(path)
+    try:
+        return cast(Reader, importlib.import_module(f"signals.readers.{form.module}").open_file)
+    except ModuleNotFoundError as error:
+        if not form.extra:
+            raise
+        raise needs_extra(path, form.extra, str(error.name)) from error
+
+
+def needs_extra(path: Path, extra: str, package: str) -> SpecError:
+    """The refusal of a file whose reader is an optional extra that is not there."""
+    message = f"needs the package {package}, which is not installed"
+    allowed = f"pip install 'sideband[{extra}]'"
+    return SpecError(Problem(field=path.name, message=message, given=suffix_of(path), allowed=allowed))

@@ -1,0 +1,132 @@
+"""Columns of numbers in text: csv, tsv, blanks; plain or gzipped. The layout is read off the first lines.
+
+A first line of names is used when there is one (and a line of units below it); lines before it are skipped. Between
+semicolons, a comma is the decimal sign. An empty cell is a missing sample; at a column's end, the column ends there.
+"""
+
+from __future__ import annotations
+
+import gzip
+import io
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import BinaryIO, cast
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.csv as pc
+
+from signals.readers.contents import AnyArray, Contents, Entry, refused, told
+from signals.readers.layout import BLANKS, Layout, layout_of
+from signals.readers.limits import Bounds
+from signals.series import FloatArray
+
+HEAD_BYTES = 2**16
+_BLOCK_BYTES = 2**22
+_EMPTY = ["", "NA", "N/A", "#N/A", "null", "NULL", "None"]
+
+
+class _Bounded(io.RawIOBase):
+    """A stream of at most `limit` bytes once unpacked."""
+
+    def __init__(self, path: Path, raw: BinaryIO, limit: int) -> None:
+        super().__init__()
+        self._path, self._raw, self._limit, self._seen = path, raw, limit, 0
+
+    def readable(self) -> bool:
+        return True
+
+    def readinto(self, buffer: object) -> int:
+        view = memoryview(buffer)  # type: ignore[arg-type]
+        part = self._raw.read(len(view))
+        self._seen += len(part)
+        if self._seen > self._limit:
+            raise ValueError(f"it holds more than {self._limit} bytes once unpacked")
+        view[: len(part)] = part
+        return len(part)
+
+    def close(self) -> None:
+        self._raw.close()
+        super().close()
+
+
+@contextmanager
+def open_file(path: Path, bounds: Bounds) -> Iterator[Contents]:
+    """Columns by name, also by number from 0; a file without names has `0`, `1` ..."""
+    with told(path), _stream(path, bounds) as stream:
+        layout = layout_of(path, stream.read(HEAD_BYTES))
+    bounds.check_members(path.name, len(layout.names), "columns")
+    read = partial(_read, path, bounds, layout)
+    entries = {
+        name: Entry(load=partial(_one, read, name), unit=unit)
+        for name, unit in zip(layout.names, layout.units, strict=True)
+    }
+    yield Contents(entries=entries, numbered=True, together=read)
+
+
+def _one(read: Callable[[Sequence[str]], Mapping[str, AnyArray]], name: str) -> AnyArray:
+    return read([name])[name]
+
+
+def _stream(path: Path, bounds: Bounds) -> io.BufferedReader:
+    raw = gzip.GzipFile(path, "rb") if path.suffix.lower() == ".gz" else path.open("rb")
+    return io.BufferedReader(_Bounded(path, cast(BinaryIO, raw), bounds.unpacked_bytes), _BLOCK_BYTES)
+
+
+def _read(path: Path, bounds: Bounds, layout: Layout, names: Sequence[str]) -> Mapping[str, AnyArray]:
+    wanted = [layout.names.index(name) for name in names]
+    with told(path), _stream(path, bounds) as stream:
+        read = _by_blanks if layout.delimiter == BLANKS else _by_delimiter
+        columns = read(path, bounds, layout, stream, wanted)
+    return dict(zip(names, columns, strict=True))
+
+
+def _by_delimiter(
+    path: Path, bounds: Bounds, layout: Layout, stream: io.BufferedReader, wanted: Sequence[int]
+) -> list[FloatArray]:
+    keys = [f"c{i}" for i in range(layout.columns)]
+    chosen = [keys[i] for i in wanted]
+    reader = pc.open_csv(
+        stream,
+        read_options=pc.ReadOptions(
+            use_threads=False,
+            block_size=_BLOCK_BYTES,
+            skip_rows=layout.first_row,
+            column_names=keys,
+            encoding=layout.encoding,
+        ),
+        parse_options=pc.ParseOptions(delimiter=layout.delimiter, ignore_empty_lines=True),
+        convert_options=pc.ConvertOptions(
+            include_columns=chosen,
+            column_types=dict.fromkeys(chosen, pa.float64()),
+            null_values=_EMPTY,
+            quoted_strings_can_be_null=True,
+            decimal_point=layout.decimal,
+        ),
+    )
+    pieces: list[list[FloatArray]] = [[] for _ in wanted]
+    ends, rows = [0] * len(wanted), 0
+    for batch in reader:
+        message = "holds too many samples"
+        total = (rows + batch.num_rows) * len(wanted)
+        bounds.check(path.name, message=message, given=total, allowed=bounds.values, unit="samples")
+        for i, column in enumerate(batch.columns):
+            present = np.flatnonzero(column.is_valid().to_numpy(zero_copy_only=False))
+            ends[i] = rows + int(present[-1]) + 1 if present.size else ends[i]
+            pieces[i].append(column.to_numpy(zero_copy_only=False))  # missing cells become NaN
+        rows += batch.num_rows
+    return [np.concatenate([np.empty(0), *parts])[:end] for parts, end in zip(pieces, ends, strict=True)]
+
+
+def _by_blanks(
+    path: Path, bounds: Bounds, layout: Layout, stream: io.BufferedReader, wanted: Sequence[int]
+) -> list[FloatArray]:
+    text = io.TextIOWrapper(stream, encoding=layout.encoding)
+    most = bounds.values // len(wanted) + 1
+    table = np.loadtxt(text, skiprows=layout.first_row, usecols=wanted, ndmin=2, max_rows=most, comments="#")
+    if table.size == 0:
+        raise refused(path, "holds no numbers")
+    bounds.check(path.name, message="holds too many samples", given=table.size, allowed=bounds.values, unit="samples")
+    return [np.ascontiguousarray(table[:, i]) for i in range(len(wanted))]

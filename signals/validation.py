@@ -1,0 +1,114 @@
+"""Turning pydantic's findings into field problems: which field, what was given, what is allowed, in which unit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from sim.core.errors import Problem
+
+UNITS = (
+    ("_ns_per_m", "N s/m"),
+    ("_n_per_m15", "N/m^1.5"),
+    ("_n_per_m", "N/m"),
+    ("_nms_per_rad", "N m s/rad"),
+    ("_nm_per_rad", "N m/rad"),
+    ("_kg_per_m3", "kg/m^3"),
+    ("_kg_m2", "kg m^2"),
+    ("_m_per_s2", "m/s^2"),
+    ("_kg", "kg"),
+    ("_hz", "Hz"),
+    ("_pa", "Pa"),
+    ("_deg", "deg"),
+    ("_rad", "rad"),
+    ("_nm", "N m"),
+    ("_n", "N"),
+    ("_m", "m"),
+    ("_s", "s"),
+    ("_v", "V"),
+    ("_ppm", "ppm"),
+)
+"""Unit by the ending of a field's name, longest first."""
+
+_BOUNDS = (("gt", "> {}"), ("ge", ">= {}"), ("lt", "< {}"), ("le", "<= {}"))
+_MAX_GIVEN_CHARS = 200
+
+
+def unit_of(field: str) -> str:
+    """The unit that a field's name states, or an empty string."""
+    name = field.rsplit(".", 1)[-1]
+    return next((unit for ending, unit in UNITS if name.endswith(ending)), "")
+
+
+def problems_of(error: ValidationError, prefix: str = "") -> tuple[Problem, ...]:
+    """Every finding of a pydantic validation as a field problem."""
+    return tuple(problem_of(details, prefix) for details in error.errors(include_url=False))
+
+
+def problem_of(details: ErrorDetails, prefix: str = "") -> Problem:
+    """One finding as a field problem."""
+    field = ".".join([*([prefix] if prefix else []), *(str(part) for part in details["loc"])]) or "request"
+    context: Mapping[str, object] = details.get("ctx", {})
+    given = None if details["type"] == "missing" else shown(details.get("input"))
+    unit = unit_of(field)
+    message = _message(details) + _unit_hint(details.get("input"), field, context)
+    return Problem(field=field, message=message, given=given, allowed=_allowed(details["type"], context), unit=unit)
+
+
+def shown(value: object) -> object:
+    """A value as it may be put into an error: JSON-ready, finite, short."""
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)
+    if value is None or isinstance(value, bool | int | float):
+        return value if not isinstance(value, int) or abs(value) < 10**18 else f"{str(value)[:20]}..."
+    if isinstance(value, Mapping):
+        return f"an object with the keys {', '.join(str(k) for k in list(value)[:8])}"
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return f"a list of {len(value)}"
+    text = str(value)
+    return text if len(text) <= _MAX_GIVEN_CHARS else f"{text[:_MAX_GIVEN_CHARS]}..."
+
+
+def _message(details: ErrorDetails) -> str:
+    if details["type"] == "extra_forbidden":
+        return "is not a known field"
+    if details["type"] == "missing":
+        return "is required"
+    text = details["msg"].removeprefix("Value error, ")
+    return text[:1].lower() + text[1:]
+
+
+def _allowed(kind: str, context: Mapping[str, object]) -> str:
+    if kind == "finite_number":
+        return "a finite number"
+    if "expected" in context:
+        return str(context["expected"])
+    if "pattern" in context:
+        return f"text matching {context['pattern']}"
+    bounds = [form.format(_number(context[key])) for key, form in _BOUNDS if key in context]
+    lengths = [f"{k.replace('_', ' ')} {context[k]}" for k in ("min_length", "max_length") if k in context]
+    return ", ".join([*bounds, *lengths])
+
+
+def _number(value: object) -> str:
+    return f"{value:g}" if isinstance(value, int | float) else str(value)
+
+
+def _unit_hint(value: object, field: str, context: Mapping[str, object]) -> str:
+    """Recognise rpm where a frequency is too large, millimetres and micrometres where a length in metres is."""
+    high = context.get("le", context.get("lt"))
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value) or value <= 0:
+        return ""
+    if not isinstance(high, int | float):
+        return ""
+    if field.endswith("speed_hz") and value / 60 <= high:
+        return f" (if rpm were meant: {value:g} rpm are {value / 60:g} Hz)"
+    if unit_of(field) != "m":
+        return ""
+    for factor, name in ((1e-3, "mm"), (1e-6, "um")):
+        if value * factor <= high:
+            return f" (it would fit if meant in {name}; lengths are given in m)"
+    return ""
