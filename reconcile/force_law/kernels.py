@@ -63,15 +63,18 @@ def acceleration(x, v, drive, stiffness, damping, codes, shapes, coefficients): 
 
 
 @jit
-def free_run(drive, fine, step, start, stiffness, damping, codes, shapes, coefficients, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+def free_run(drive, fine, step, start, stiffness, damping, codes, shapes, coefficients, order, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Motion of a unit mass from `start` = (x, v) under `drive` at steps of `step`, by Runge's 4th-order method.
 
-    Each Runge-Kutta step spans two of `drive`, whose middle one it needs; `out` (n,) takes every `fine`-th x.
+    Each Runge-Kutta step spans two of `drive`, whose middle one it needs; `out` (n,) takes every `fine`-th x, or its
+    derivative of `order` 1 or 2.
     """
     x, v = start[0], start[1]
     h = 2.0 * step
     for i in range(out.size):
-        out[i] = x
+        out[i] = x if order == 0 else v
+        if order == 2:
+            out[i] = acceleration(x, v, drive[i * fine], stiffness, damping, codes, shapes, coefficients)
         if i == out.size - 1:
             break
         for j in range(fine // 2):

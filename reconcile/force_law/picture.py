@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import stats
 
 from reconcile.force_law.samples import FloatArray, ForceSamples, IntArray, block_sums
 from reconcile.verdict import AngleWindow
@@ -89,7 +90,7 @@ def work_per_cycle(samples: ForceSamples, rng: np.random.Generator) -> Work:
 def firing_angle(samples: ForceSamples, shaft: str, rng: np.random.Generator) -> AngleWindow | None:
     """Where in a turn the force is strong: direction of its power's first harmonic with a 90 % interval.
 
-    None without an angle, or where the power does not favour any direction (the interval covers half a turn).
+    None without an angle, or where the power does not favour any direction (Hotelling's T^2 over blocks at 1 %).
     """
     if samples.angle_rad is None:
         return None
@@ -97,12 +98,14 @@ def firing_angle(samples: ForceSamples, shaft: str, rng: np.random.Generator) ->
     cosine = block_sums(power * np.cos(samples.angle_rad), samples.blocks, samples.count)
     sine = block_sums(power * np.sin(samples.angle_rad), samples.blocks, samples.count)
     centre = float(np.arctan2(sine.sum(), cosine.sum()))
+    pairs = np.column_stack([cosine, sine])
+    mean, spread = pairs.mean(axis=0), np.cov(pairs.T) + 1e-300 * np.eye(2)
+    if samples.count * float(mean @ np.linalg.solve(spread, mean)) < float(stats.chi2.ppf(0.99, 2)):
+        return None
     picks = rng.integers(0, samples.count, (RESAMPLES, samples.count))
     again = np.arctan2(sine[picks].sum(axis=1), cosine[picks].sum(axis=1))
     away = np.angle(np.exp(1j * (again - centre)))
     low, high = np.degrees(np.quantile(away, (0.05, 0.95)))
-    if high - low > 0.5 * FULL_TURN_DEG:
-        return None
     middle = float(np.degrees(centre)) % FULL_TURN_DEG
     ends = ((middle + float(low)) % FULL_TURN_DEG, (middle + float(high)) % FULL_TURN_DEG)
     return AngleWindow(shaft=shaft, centre_deg=middle, low_deg=ends[0], high_deg=ends[1])

@@ -37,7 +37,7 @@ class Chosen:
 
 @dataclass(frozen=True, kw_only=True)
 class SearchResult:
-    """What survived; `chosen` empty: no stable law. `share` of the force beyond linear, explained on left-out blocks."""
+    """What survived (nothing: no stable law); `share` of the force beyond linear, explained on left-out blocks."""
 
     chosen: tuple[Chosen, ...]
     linear: tuple[float, float, float]
