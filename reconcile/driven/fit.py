@@ -17,6 +17,8 @@ from reconcile.force_law.samples import even_blocks
 BLOCKS = 24
 INTERVAL = 1.645
 """Standard errors of a 90 % interval."""
+OUTPUT_OFFSET = 4
+"""Index of the output's offset among the parameters."""
 HUGE = 1e6
 """Errors of a run that flew off, in standard deviations of the output."""
 
@@ -79,26 +81,42 @@ def _scales(model: Model, run: Run) -> FloatArray:
 
 
 def fit(start: Model, run: Run, *, stretches: Sequence[Run] = ()) -> Fitted:
-    """Least squares on the free-run error of one or several stretches, from a start; damping stays positive."""
+    """Least squares on the free-run error of one or several stretches, from a start; damping stays positive.
+
+    Without laws the offsets of force and output cannot be told apart: the one of the output then stays.
+    """
     runs = (run, *stretches)
+    first = start.vector()
+    free = np.array([i for i in range(first.size) if start.laws or i != OUTPUT_OFFSET])
     scale = _scales(start, run)
     size = float(run.data.answer.std()) or 1.0
 
+    def model_of(x: FloatArray) -> Model:
+        vector = first.copy()
+        vector[free] = x * scale[free]
+        return start.of(vector)
+
     def residual(x: FloatArray) -> FloatArray:
-        model = start.of(x * scale)
+        model = model_of(x)
         found = np.concatenate([errors(model, r) for r in runs]) / size
         return np.asarray(np.clip(np.nan_to_num(found, nan=HUGE), -HUGE, HUGE))
 
-    least = np.full(scale.size, -np.inf)
+    least = np.full(free.size, -np.inf)
     least[:2] = 0.0
-    x0 = np.maximum(start.vector() / scale, least + 1e-9)
+    x0 = np.maximum(first[free] / scale[free], least + 1e-9)
     solution = least_squares(residual, x0, bounds=(least, np.inf), x_scale="jac", max_nfev=40, xtol=1e-10, ftol=1e-10)
-    found = start.of(solution.x * scale)
-    return Fitted(
-        model=found,
-        covariance=_covariance(solution.jac, solution.fun) * np.outer(scale, scale),
-        error=errors(found, run),
-    )
+    found = model_of(solution.x)
+    covariance = np.zeros((first.size, first.size))
+    inner = _covariance(np.asarray(solution.jac), solution.fun) * np.outer(scale[free], scale[free])
+    covariance[np.ix_(free, free)] = inner
+    return Fitted(model=found, covariance=covariance, error=errors(found, run))
+
+
+def best_fit(starts: Sequence[Model], run: Run, *, stretches: Sequence[Run] = ()) -> Fitted:
+    """The fit with the least error on all stretches, from several starts."""
+    found = [fit(start, run, stretches=stretches) for start in starts]
+    totals = [sum(float(np.sum(errors(f.model, r) ** 2)) for r in (run, *stretches)) for f in found]
+    return found[int(np.argmin(totals))]
 
 
 def _covariance(jacobian: FloatArray, residual: FloatArray) -> FloatArray:

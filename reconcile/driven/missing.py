@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reconcile.driven.channels import FloatArray
-from reconcile.driven.model import Model, Run, simulated
+from reconcile.driven.model import Model, Run, answer_to, simulated
 from reconcile.force_law.library import SMOOTH
 
 RESAMPLES = 399
@@ -32,21 +32,12 @@ class Missing:
     p_value: float
 
 
-def _filtered(model: Model, values: FloatArray, step_s: float, order: int) -> FloatArray:
-    """Answer of the linear model to a force per unit mass, (n,)."""
-    n = values.size
-    padded = 2 * n
-    omega = 2.0 * np.pi * np.fft.rfftfreq(padded, step_s)
-    response = (1j * omega) ** order / (model.stiffness - omega**2 + 1j * omega * model.damping)
-    return np.asarray(np.fft.irfft(np.fft.rfft(values, padded) * response, padded)[:n])
-
-
 def sensitivities(model: Model, run: Run) -> FloatArray:
     """What changes of the linear parameters do to the output, (n - skip, 5)."""
     x = simulated(model, run) - model.output_offset
     v = np.gradient(x, run.data.step_s)
     causes = (x, v, run.data.drive, np.ones(x.size))
-    found = [_filtered(model, c, run.data.step_s, run.data.order)[run.skip :] for c in causes]
+    found = [answer_to(model, c, run.data.step_s, run.data.order)[run.skip :] for c in causes]
     return np.column_stack([*found, np.ones(x.size - run.skip)])
 
 
@@ -54,7 +45,7 @@ def _signals(model: Model, run: Run) -> FloatArray:
     x = simulated(model, run) - model.output_offset
     v = np.gradient(x, run.data.step_s)
     return np.column_stack(
-        [_filtered(model, law.values(x, v), run.data.step_s, run.data.order)[run.skip :] for law in SMOOTH]
+        [answer_to(model, law.values(x, v), run.data.step_s, run.data.order)[run.skip :] for law in SMOOTH]
     )
 
 

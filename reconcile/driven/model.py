@@ -1,7 +1,7 @@
 """One mass on a spring and damper with further laws, run freely on a measured input.
 
-x'' + damping x' + stiffness x + sum of coefficient * law(x, x') = gain * input + offset, per unit of mass; the output is x
-(or its derivative) plus `output_offset`. Between samples the input is band-limited.
+x'' + damping x' + stiffness x + sum of coefficient * law(x, x') = gain * input + offset, per unit of mass; the output
+is x (or its derivative) plus `output_offset`. Between samples the input is band-limited.
 """
 
 from __future__ import annotations
@@ -108,6 +108,15 @@ def simulated(model: Model, run: Run) -> FloatArray:
         out,
     )
     return out + model.output_offset
+
+
+def answer_to(model: Model, values: FloatArray, step_s: float, order: int) -> FloatArray:
+    """Answer of the linear model to a force per unit mass, (n,)."""
+    n = values.size
+    padded = 2 * n
+    omega = 2.0 * np.pi * np.fft.rfftfreq(padded, step_s)
+    response = (1j * omega) ** order / (model.stiffness - omega**2 + 1j * omega * model.damping)
+    return np.asarray(np.fft.irfft(np.fft.rfft(values, padded) * response, padded)[:n])
 
 
 def errors(model: Model, run: Run) -> FloatArray:
