@@ -91,6 +91,4 @@ def atlas_plan(
         for j in range(draws):
             term = draw_term(candidate, float(shares[j]), own)
             planned.append(Draw(pair=j % pairs, candidate=candidate, term=term))
-    return AtlasPlan(
-        machine=machine, numbers=numbers, offsets=offsets, twins=twins, draws=tuple(planned), seed=seed
-    )
+    return AtlasPlan(machine=machine, numbers=numbers, offsets=offsets, twins=twins, draws=tuple(planned), seed=seed)

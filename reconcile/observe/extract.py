@@ -27,7 +27,9 @@ def _periodogram(samples: FloatArray, rate_hz: float) -> tuple[FloatArray, float
     return np.asarray(power), rate_hz / n
 
 
-def _line_powers(power: FloatArray, bin_hz: float, lines_hz: FloatArray, slack: FloatArray, top_hz: float) -> FloatArray:
+def _line_powers(
+    power: FloatArray, bin_hz: float, lines_hz: FloatArray, slack: FloatArray, top_hz: float
+) -> FloatArray:
     """Largest lobe power within `slack` (share of the frequency) of every line, shape (C, L)."""
     lobes = np.cumsum(np.pad(power, ((0, 0), (LOBE_BINS + 1, LOBE_BINS))), axis=1)
     lobe = lobes[:, 2 * LOBE_BINS + 1 :] - lobes[:, : -2 * LOBE_BINS - 1]

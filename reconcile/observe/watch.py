@@ -141,6 +141,4 @@ def watch_list(machine: MachineSpec) -> WatchList:
             rolling += _bearing_lines(number, shaft)
     modulations = [_watched({s: k}, "shaft") for s in shafts for k in (1, 2, 3)]
     modulations += [w for w in rolling if _modulates(w)]
-    return WatchList(
-        lines=_distinct(lines + rolling, bases, speed), modulations=_distinct(modulations, bases, speed)
-    )
+    return WatchList(lines=_distinct(lines + rolling, bases, speed), modulations=_distinct(modulations, bases, speed))

@@ -1,4 +1,4 @@
-"""A sinusoidal force on a body, as the loads of the specification list it (a shaker, a force channel)."""
+"""A sinusoidal or measured force on a body, as the loads of the specification list it (a shaker, a force channel)."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from sim.core.elementary import sine_cosine
 from sim.core.elements import Coordinate, Element, Output, flat
 from sim.core.kernels import kernel
 from sim.core.laws import Laws
-from sim.core.spec import ForceLoad
+from sim.core.spec import ForceLoad, MeasuredLoad
 from sim.core.terms import SiteContext, Term, Validation, Values
+from sim.parts.sampled_load import sampled_element
 
 
 def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
@@ -44,12 +45,14 @@ class ForceLoads(Term):
     """See the module. Acts wherever the specification's loads say; it has no site of its own."""
 
     def elements(self, laws: Laws, values: Values, site: SiteContext) -> Sequence[Element]:  # noqa: ARG002
-        """One element a sinusoidal load."""
+        """One element a sinusoidal or measured load."""
         found = []
         for i, load in enumerate(site.machine.loads):
+            name = f"load{i + 1}"
+            if isinstance(load, MeasuredLoad):
+                found.append(sampled_element(load, name, site.machine))
             if not isinstance(load, ForceLoad) or load.amplitude_n == 0.0:
                 continue
-            name = f"load{i + 1}"
             found.append(
                 Element(
                     name=name,
@@ -82,6 +85,12 @@ TERM = ForceLoads(
             source="undamped oscillator under a sine from rest",
             deviation=1e-8,
             test="tests/sim/solve/test_closed_forms.py::test_sinusoidal_load_from_rest",
+        ),
+        Validation(
+            kind="closed form",
+            source="steady response to a sine that is known by three samples a period",
+            deviation=1e-3,
+            test="tests/sim/parts/test_sampled_load.py::test_three_samples_a_period_are_enough",
         ),
     ),
 )

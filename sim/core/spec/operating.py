@@ -94,7 +94,33 @@ class ForceLoad(SpecModel):
     phase_rad: Finite = 0.0
 
 
-LoadSpec = Annotated[TorqueLoad | ForceLoad, Field(discriminator="kind")]
+MOST_SAMPLES = 1 << 18
+
+
+class MeasuredLoad(SpecModel):
+    """A measured input on a body, the first value at t = 0; before the first and after the last sample they are held.
+
+    A displacement moves the far end of the body's own spring and damper to ground: a stiff spring prescribes motion.
+    """
+
+    kind: Literal["measured"] = "measured"
+    body: Name
+    axis: Literal["x", "y"]
+    quantity: Literal["force", "displacement"] = "force"
+    step_s: Annotated[float, Field(ge=1e-6, le=10)]
+    values: Annotated[
+        tuple[Finite, ...],
+        BeforeValidator(_as_tuple),
+        Field(min_length=2, max_length=MOST_SAMPLES),
+    ]
+    """Samples at equal steps, in N or m once multiplied by `factor`."""
+    factor: Finite = 1.0
+    """N (m) per unit of the samples: an uncalibrated recording keeps its own unit."""
+    interpolation: Literal["hold", "linear", "band_limited"] = "band_limited"
+    """Between samples; `band_limited` suits inputs sampled without aliasing, with content up to 0.35 of their rate."""
+
+
+LoadSpec = Annotated[TorqueLoad | ForceLoad | MeasuredLoad, Field(discriminator="kind")]
 
 
 class TermSpec(SpecModel):

@@ -1,0 +1,170 @@
+"""The report of a driven analysis."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from reconcile.driven.forced import ALPHA, Analysis
+from reconcile.driven.judge import Judgement, judge
+from reconcile.driven.machine import driven_site, mass_kg, revised, term_key
+from reconcile.driven.model import LINEAR
+from reconcile.driven.nominate import Trial, score_nats
+from reconcile.driven.pictures import Freed, freed_force, pictures, shown_stretch
+from reconcile.verdict import (
+    Cause,
+    EstimatedForce,
+    HeldOut,
+    NextExperiment,
+    PlaceWeight,
+    Report,
+    Severity,
+    Where,
+)
+from sim.core.spec import MachineSpec
+
+
+def _law_words(found: Analysis) -> str:
+    """`odd stiffness, about cubic: exponent 2.96 (90 %: 2.94 to 2.97)`."""
+    laws = found.final.model.laws
+    said = " with ".join(f"{law.words} ({law.shown()})" for law in laws)
+    if found.power is not None:
+        p = found.power
+        said += f"; the exponent of the odd part left free is {p.value:.2f} (90 %: {p.low:.2f} to {p.high:.2f})"
+    return said
+
+
+def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
+    linear = f"{100 * found.fitted_nrmse:.2g} %"
+    if judgement.verdict == "nothing_missing":
+        return f"A linear model of {site} explains the recording up to noise (free-run error {linear})."
+    if not found.final.model.laws or judgement.reasons:
+        return f"A force on {site} is missing from the linear model, and no stable law describes it."
+    v = found.validations[0]
+    gained = f"free-run error on {v.held} falls from {100 * v.before:.2g} % to {100 * v.after:.2g} %"
+    if judgement.rivals:
+        names = " or ".join([found.final.model.laws[0].words, *(t.laws[0].words for t in judgement.rivals)])
+        return f"A force on {site} is missing: {names}; {gained}."
+    return f"What is missing at {site} is {_law_words(found)}; {gained}."
+
+
+def _cause(found: Analysis, trial: Trial, index: int | None, site: str, mass: float, why: tuple[str, ...]) -> Cause:
+    """A single law; `index` in the final model where it is part of it."""
+    linear = found.nominated.linear if found.nominated is not None else trial
+    score, _ = score_nats(linear.squares, trial.squares)
+    law = trial.laws[-1] if index is None else found.final.model.laws[index]
+    place = LINEAR if index is None else LINEAR + index
+    source = trial.fitted if index is None else found.final
+    value, low, high = (mass * x for x in source.interval(place))
+    severity = Severity(name=law.key, value=value, unit=law.unit, low=low, high=high)
+    values = {"coefficient": value} | ({"shape": law.shape} if law.shape else {})
+    named = index is not None and not why
+    return Cause(
+        term=term_key(law), site=site, score=score, severity=severity, named=named, values=values,
+        reasons=why or ((law.words,) if named else (f"{law.words}: behind the best",)),
+    )  # fmt: skip
+
+
+def _causes(found: Analysis, judgement: Judgement, site: str, mass: float) -> tuple[Cause, ...]:
+    if found.nominated is None:
+        return ()
+    laws = found.final.model.laws
+    why = judgement.reasons or (("others cannot be told from it",) if judgement.rivals else ())
+    kept = [_cause(found, found.nominated.chosen, i, site, mass, why) for i in range(len(laws))]
+    others = [t for t in found.nominated.singles if t.laws[0] not in laws]
+    return (*kept, *(_cause(found, t, None, site, mass, ()) for t in others))
+
+
+def _held_out(found: Analysis) -> HeldOut | None:
+    if not found.validations:
+        return None
+    v = found.validations[0]
+    return HeldOut(
+        metric="free-run NRMSE", unit="1", before=v.before, after=v.after, gain=v.gain[0], gain_low=v.gain[1],
+        gain_high=v.gain[2], retuned=v.retuned, black_box=v.black_box, placebo=v.placebo,
+        held=f"{v.held}, fitted on {v.fitted_on}; it goes farther than what was fitted",
+    )  # fmt: skip
+
+
+def _force(found: Analysis, freed: Freed, judgement: Judgement, site: str, mass: float) -> EstimatedForce | None:
+    if judgement.verdict == "nothing_missing":
+        return None
+    over, model = freed.over, found.final.model
+    argument = "velocity_m_per_s" if freed.rate else "displacement_m"
+    samples = {argument: over.argument, "force_n": over.force_n, "low_n": over.low_n, "high_n": over.high_n}
+    stable = bool(model.laws) and not judgement.reasons
+    named = dict(zip(model.laws, model.coefficients, strict=True))
+    return EstimatedForce(
+        site=site,
+        samples={key: tuple(float(x) for x in values) for key, values in samples.items()},
+        law=" + ".join(f"{mass * c:.4g} {law.shown()}" for law, c in named.items()) if stable else None,
+        coefficients={law.key: mass * c for law, c in named.items()} if stable else {},
+    )
+
+
+def _stages(found: Analysis, assumed: str) -> tuple[Mapping[str, object], ...]:
+    linear, left = found.linear.model, found.left
+    ranked = {law.key: share for law, _, share in reversed(found.found.ranked)}
+    stages: list[Mapping[str, object]] = [
+        {"stage": "observe", "input": found.held_run.data.drive_channel.name,
+         "output": found.held_run.data.answer_channel.name, "assumed": assumed or "nothing"},
+        {"stage": "calibrate", "natural_frequency_hz": linear.stiffness**0.5 / 6.283185307179586,
+         "damping_ratio": 0.5 * linear.damping / linear.stiffness**0.5, "gain": linear.gain,
+         "nrmse": found.fitted_nrmse},
+        {"stage": "is_anything_missing", "statistic": found.missing.statistic, "null_95": found.missing.null_95,
+         "p": found.missing.p_value},
+        {"stage": "locate", "latent_force_law": found.found.text, "share_on_left_out_blocks": found.found.share,
+         "exponent_of_latent_force": [found.exponent.value, found.exponent.low, found.exponent.high]},
+        {"stage": "nominate", "share_of_the_latent_force": ranked, "tried": found.found.tried},
+    ]  # fmt: skip
+    if found.power is not None:
+        free = [found.power.value, found.power.low, found.power.high]
+        stages.append({"stage": "fit", "exponent_by_free_run": free})
+    if left is not None:
+        stages.append({"stage": "adequacy", "share_of_the_error_still_explained": left.statistic, "p": left.p_value})
+    stages += [{"stage": "validate", **vars(v)} for v in found.validations]
+    return tuple(stages)
+
+
+def _undecidable(found: Analysis, assumed: str, calibrated: bool) -> tuple[str, ...]:
+    said = []
+    if not calibrated:
+        said.append(
+            "Without units of force and motion only ratios to the mass are known; one unit is read as 1 m, 1 N."
+        )
+    if found.left is not None and found.left.p_value < ALPHA:
+        part = 100 * found.left.statistic
+        said.append(
+            f"What is left is small but not noise: other smooth laws explain {part:.0f} % of its whitened power."
+        )
+    return (*said, assumed) if assumed else tuple(said)
+
+
+def _next(judgement: Judgement) -> NextExperiment | None:
+    if judgement.verdict in ("ambiguous", "unknown_physics") or judgement.reasons:
+        text = "Drive with about twice the amplitude over the same band: laws of different power then part."
+        return NextExperiment(sentence=text)
+    return None
+
+
+def answer(spec: MachineSpec, found: Analysis, *, seed: int, provenance: Mapping[str, object]) -> Report:
+    """Everything the interface asks for."""
+    data, judgement, site = found.held_run.data, judge(found), driven_site(spec)
+    mass = mass_kg(found.final.model, data, site)
+    shown, freed, name = shown_stretch(found), freed_force(found, mass, seed), site.body.name
+    limits = ("One degree of freedom: a force between the mass and the ground is the only place.",)
+    nothing = judgement.verdict == "nothing_missing"
+    return Report(
+        verdict=judgement.verdict,
+        sentence=_sentence(found, judgement, name),
+        level="driven",
+        where=Where(sites=() if nothing else (PlaceWeight(site=name, weight=1.0),), limits=limits),
+        causes=_causes(found, judgement, name, mass),
+        held_out=_held_out(found),
+        force=_force(found, freed, judgement, name, mass),
+        undecidable=_undecidable(found, data.assumed, data.calibrated),
+        next_experiment=_next(judgement),
+        machine=revised(spec, found.final.model, data, shown.drive).model_dump(mode="json"),
+        stages=_stages(found, data.assumed),
+        pictures=pictures(found, shown, freed),
+        provenance={**provenance, "output_offset": found.final.model.output_offset},
+    )

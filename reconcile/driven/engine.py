@@ -1,0 +1,68 @@
+"""The entry of the level `driven`."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+
+from reconcile.driven.answer import answer
+from reconcile.driven.channels import Driven, driven_of
+from reconcile.driven.forced import analyse
+from reconcile.driven.machine import driven_site
+from reconcile.driven.split import parts_of
+from reconcile.verdict import Report
+from signals.recording import Recording
+from sim.core.errors import Problem, SpecError
+from sim.core.spec import MachineSpec
+from sim.version import PHYSICS_VERSION
+
+LEAST_SAMPLES = 3000
+"""Of one recording: three parts, each with a fit and blocks of its own."""
+
+
+def _checked(spec: MachineSpec, recordings: Sequence[Recording]) -> list[Driven]:
+    if not recordings:
+        raise SpecError(
+            Problem(field="recordings", message="there is nothing to compare", given=0, allowed="1 or more")
+        )
+    found = [driven_of(r, spec) for r in recordings]
+    for i, data in enumerate(found):
+        least = LEAST_SAMPLES if len(found) == 1 else LEAST_SAMPLES // 3
+        if data.answer.size < least:
+            message = "is too short for fitting and holding out"
+            raise SpecError(
+                Problem(field=f"recordings[{i}]", message=message, given=data.answer.size, allowed=f"{least} samples")
+            )
+        for name, values in (("input", data.drive), ("output", data.answer)):
+            if values.std() == 0.0:
+                channel = data.drive_channel if name == "input" else data.answer_channel
+                message = f"the {name} does not move"
+                raise SpecError(
+                    Problem(field=f"recordings[{i}].{channel.name}", message=message, given=float(values[0]))
+                )
+        if abs(data.step_s / found[0].step_s - 1.0) > 1e-6:
+            message = "sampling rates of the recordings differ"
+            raise SpecError(Problem(field=f"recordings[{i}]", message=message, given=1.0 / data.step_s, unit="Hz"))
+    return found
+
+
+def reconcile_driven(
+    spec: MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording] = (), *, seed: int = 0
+) -> Report:
+    """Reconcile an oscillator with recordings of its input and output.
+
+    A lone recording is cut into consecutive thirds; of several, the one that goes farthest is held out. Baselines are
+    not needed (the linear model is calibrated on the recordings themselves) and only counted.
+    """
+    started = time.process_time()
+    driven_site(spec)
+    data = _checked(spec, tests)
+    found = analyse(parts_of(data), seed)
+    provenance = {
+        "physics_version": PHYSICS_VERSION,
+        "seed": seed,
+        "core_seconds": time.process_time() - started,
+        "recordings": len(tests),
+        "baselines_not_used": len(baselines),
+    }
+    return answer(spec, found, seed=seed, provenance=provenance)

@@ -1,0 +1,169 @@
+"""Pictures of a driven analysis, in the shapes of `reconcile.report.pictures`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import signal
+
+from reconcile.driven.channels import FloatArray
+from reconcile.driven.forced import Analysis
+from reconcile.driven.model import Model, ready, simulated
+from reconcile.driven.nominate import score_nats
+from reconcile.driven.split import strongest
+from reconcile.force_law.picture import Curve, curve, surface
+from reconcile.force_law.samples import ForceSamples
+
+SHOWN = 600
+"""Samples of the stretch shown."""
+FLOOR_DB = -300.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shown:
+    """A stretch of held-out data: input from rest through a warm-up, and what is shown of the output after it."""
+
+    drive: FloatArray
+    time_s: FloatArray
+    observed: FloatArray
+    before: FloatArray
+    after: FloatArray
+
+
+def shown_stretch(found: Analysis) -> Shown:
+    """The liveliest `SHOWN` samples of the held-out part, with a warm-up so that a run from rest is the same there."""
+    data = found.held_run.data
+    warm = found.held_run.skip
+    count = min(SHOWN, data.answer.size - warm)
+    first = strongest(data.answer[warm:], count)
+    part = data.part(first, first + warm + count)
+    run = ready(part, 0.0)
+
+    def run_of(model: Model) -> FloatArray:
+        return np.asarray(simulated(model, run)[warm:])
+
+    return Shown(
+        drive=part.drive,
+        time_s=np.asarray(np.arange(warm, warm + count) * data.step_s, dtype=np.float64),
+        observed=part.answer[warm:],
+        before=run_of(found.linear.model),
+        after=run_of(found.final.model),
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Freed:
+    """The latent force without the linear part that goes with the laws, and the laws over displacement alone."""
+
+    samples: ForceSamples
+    over: Curve
+    fitted: FloatArray | None
+    rate: bool
+    """Whether the picture is over velocity."""
+
+
+def freed_force(found: Analysis, mass_kg: float, seed: int) -> Freed:
+    """Force in N: latent force less the linear law that, beside the named laws, fits it best."""
+    samples = found.latent
+    z, v = samples.displacement_m, samples.velocity_m_per_s
+    model = found.final.model
+    rate = bool(model.laws) and all(law.rate for law in model.laws)
+
+    def named(x: FloatArray, y: FloatArray) -> FloatArray:
+        parts = [c * law.values(x, y) for law, c in zip(model.laws, model.coefficients, strict=True)]
+        return np.asarray(np.sum(parts, axis=0)) if parts else np.zeros(x.size)
+
+    columns = np.column_stack([np.ones(z.size), z, v])
+    scale = np.linalg.norm(columns, axis=0)
+    linear = columns / scale @ np.linalg.lstsq(columns / scale, samples.force_n - named(z, v), rcond=None)[0]
+    free = ForceSamples(
+        force_n=mass_kg * (samples.force_n - linear),
+        displacement_m=z,
+        velocity_m_per_s=v,
+        blocks=samples.blocks,
+        step_s=samples.step_s,
+    )
+    over = curve(free, v if rate else z, np.random.default_rng([seed, 11]))
+    zero = np.zeros(over.argument.size)
+    fitted = named(zero, over.argument) if rate else named(over.argument, zero)
+    return Freed(samples=free, over=over, fitted=mass_kg * fitted if model.laws else None, rate=rate)
+
+
+def _spectra(found: Analysis) -> dict[str, object]:
+    run = found.held_run
+    rate = 1.0 / run.data.step_s
+    n = min(2048, run.compared.size)
+
+    def level(values: FloatArray) -> FloatArray:
+        power = signal.welch(values[run.skip :], rate, nperseg=n)[1]
+        return np.asarray(10.0 * np.log10(np.maximum(power, 10.0 ** (FLOOR_DB / 10.0))))
+
+    frequency = np.fft.rfftfreq(n, 1.0 / rate)
+    return {
+        "channel": f"{run.data.answer_channel.name}, held-out part",
+        "frequency_hz": frequency,
+        "observed_db": level(run.data.answer),
+        "before_db": level(found.held_before),
+        "after_db": level(found.held_after),
+    }
+
+
+def _ranking(found: Analysis) -> list[dict[str, object]]:
+    if found.nominated is None:
+        return []
+    rows = []
+    for trial in found.nominated.singles:
+        score, error = score_nats(found.nominated.linear.squares, trial.squares)
+        law = trial.laws[0]
+        named = law in found.final.model.laws
+        row = {"label": f"{law.words}, {law.shown()}", "score": score, "named": named}
+        rows.append(row | {"low": score - 1.645 * error, "high": score + 1.645 * error})
+    return rows
+
+
+def pictures(found: Analysis, shown: Shown, freed: Freed) -> dict[str, object]:
+    """All pictures of the analysis."""
+    unit = found.held_run.data.answer_channel.unit
+    x_label = "velocity" if freed.rate else "displacement"
+    over = freed.over
+    plane = surface(freed.samples)
+    return {
+        "traces": [
+            {
+                "title": "Held-out stretch, free run",
+                "unit": unit,
+                "time_s": shown.time_s,
+                "observed": shown.observed,
+                "before": shown.before,
+                "after": shown.after,
+            },
+            {
+                "title": "Error of the free run",
+                "unit": unit,
+                "time_s": shown.time_s,
+                "observed": np.full(shown.observed.size, np.nan),
+                "before": shown.observed - shown.before,
+                "after": shown.observed - shown.after,
+            },
+        ],
+        "spectra": [_spectra(found)],
+        "ranking": _ranking(found),
+        "law": {
+            "x_label": f"{x_label}, {unit}{'/s' if freed.rate else ''}",
+            "y_label": "force beyond linear, N",
+            "x": over.argument,
+            "force": over.force_n,
+            "low": over.low_n,
+            "high": over.high_n,
+            "fitted": freed.fitted,
+        },
+        "force_map": {
+            "x_label": f"displacement, {unit}",
+            "y_label": f"velocity, {unit}/s",
+            "value_label": "N",
+            "x": plane.displacement_m,
+            "y": plane.velocity_m_per_s,
+            "value": plane.force_n,
+        },
+    }

@@ -1,0 +1,1 @@
+"""Figures of the page, one kind a file; each takes plain data and returns markup."""

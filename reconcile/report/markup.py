@@ -1,0 +1,63 @@
+"""Elements of a page whose text cannot become markup."""
+
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Iterable
+
+Child = object
+VOID = frozenset({"br", "meta", "line", "rect", "circle", "path", "polyline", "polygon", "hr", "col"})
+TEXT_KEYS = {"css": "class", "rule": "style"}
+
+
+class Markup(str):
+    """Text that is markup already; every other text is escaped when it is put into an element."""
+
+    __slots__ = ()
+
+
+def escaped(value: object) -> Markup:
+    """Text as markup: escaped unless it is markup, None as nothing, sequences joined."""
+    if isinstance(value, Markup):
+        return value
+    if value is None:
+        return Markup("")
+    if isinstance(value, Iterable) and not isinstance(value, str | bytes):
+        return Markup("".join(escaped(item) for item in value))
+    return Markup(html.escape(str(value), quote=True))
+
+
+def _attribute(name: str, value: object) -> str:
+    key = TEXT_KEYS.get(name, name.replace("_", "-"))
+    text = f"{value:.2f}".rstrip("0").rstrip(".") if isinstance(value, float) else str(value)
+    return f' {key}="{html.escape(text, quote=True)}"'
+
+
+def tag(name: str, /, *children: Child, **attributes: object) -> Markup:
+    """An element. Attribute `css` is `class`, underscores are hyphens, None leaves the attribute out."""
+    head = name + "".join(_attribute(k, v) for k, v in attributes.items() if v is not None)
+    body = "".join(escaped(child) for child in children)
+    return Markup(f"<{head}/>" if name in VOID and not body else f"<{head}>{body}</{name}>")
+
+
+PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+PREFIXED = frozenset({"m", "N", "s", "V", "Pa", "Hz", "J", "W", "rad", "N/m", "N*m", "N s/m", "m/s", "m/s^2"})
+"""Units before which a prefix reads well."""
+
+
+def figure_text(value: float, unit: str = "", digits: int = 3) -> str:
+    """A number for a reader: `digits` figures, plain where it can be, with its unit (`2.1e-5`, `m` -> `21 µm`)."""
+    size = abs(value)
+    if not math.isfinite(value):
+        return "–"
+    prefix = ""
+    if unit in PREFIXED and size > 0 and not 0.1 <= size < 1e4:
+        power = min(max(3 * math.floor(math.log10(size) / 3), -9), 9)
+        value, prefix = value * 10.0**-power, PREFIXES[power]
+        size = abs(value)
+    if size == 0 or 1e-3 <= size < 1e5:
+        text = f"{value:.0f}" if size >= 10**digits else f"{value:.{digits}g}"
+    else:
+        text = f"{value:.{digits - 1}e}"
+    return f"{text} {prefix}{unit}".strip() if unit not in ("", "1") else text

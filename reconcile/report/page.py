@@ -1,0 +1,126 @@
+"""The page: one HTML file with its pictures in it, nothing fetched from elsewhere, no scripts."""
+
+from __future__ import annotations
+
+import json
+
+from reconcile.report.figures.bars import changes, ranking
+from reconcile.report.figures.law import from_force, law
+from reconcile.report.figures.maps import force_map, heat
+from reconcile.report.figures.sketch import sketch
+from reconcile.report.figures.spectrum import spectrum
+from reconcile.report.figures.traces import trace
+from reconcile.report.markup import Markup, figure_text, tag
+from reconcile.report.pictures import several, text
+from reconcile.report.sections import (
+    bullets,
+    causes_table,
+    fault,
+    head,
+    held_out_table,
+    provenance,
+    section,
+    stages,
+    undecidable,
+    where_table,
+)
+from reconcile.report.strict import plain
+from reconcile.report.style import STYLE
+from reconcile.verdict import Report
+
+
+def _key(before: str = "model without it", after: str = "with it") -> Markup:
+    names = (("observed", "measured"), ("before", before), ("after", after))
+    return tag("div", *(tag("span", tag("i", css=f"k-{css}"), words) for css, words in names), css="key")
+
+
+def _where(report: Report) -> Markup:
+    machine = plain(report.machine)
+    weights = {p.site: p.weight for p in report.where.sites}
+    drawing = sketch(machine, weights) if isinstance(machine, dict) else Markup("")
+    sites = bullets(f"{p.site}: {100 * p.weight:.0f} % of the evidence" for p in report.where.sites)
+    return section("Where", drawing, sites, where_table(report.where))
+
+
+def _spectra(report: Report) -> Markup:
+    panels = [
+        Markup(tag("h3", text(p.get("channel"))) + spectrum(p, report.where.lines))
+        for p in several(report.pictures, "spectra")
+    ]
+    return section("Spectra", _key(), *panels) if panels else Markup("")
+
+
+def _maps(report: Report) -> Markup:
+    panels = [heat(p, report.where.angle_window) for p in several(report.pictures, "heat")]
+    return section("Residual over the turn of a shaft", *panels)
+
+
+def _ranking(report: Report) -> Markup:
+    drawn = several(report.pictures, "ranking")
+    return section("What explains it", ranking(drawn) if drawn else Markup(""), causes_table(report.causes))
+
+
+def _changes(report: Report) -> Markup:
+    drawn = several(report.pictures, "changes")
+    if not drawn:
+        return Markup("")
+    note = "Dot: observed. Grey: what nothing missing would give (90 %). Bar: what the answer gives."
+    return section("Features that changed", tag("p", note, css="muted"), changes(drawn))
+
+
+def _held_out(report: Report) -> Markup:
+    panels = [Markup(tag("h3", text(p.get("title"))) + trace(p)) for p in several(report.pictures, "traces")]
+    key = _key("predicted without it", "predicted with it") if panels else Markup("")
+    return section("Improvement on data never fitted", held_out_table(report.held_out), key, *panels)
+
+
+def _force(report: Report) -> Markup:
+    found = report.force
+    drawn = [law(p) for p in several(report.pictures, "law")]
+    if found is not None and not drawn and (own := from_force(found)) is not None:
+        drawn = [law(own)]
+    maps = [force_map(p) for p in several(report.pictures, "force_map")]
+    if found is None:
+        return section("Estimated force", *drawn, *maps)
+    said = f"At {found.site}: " + (f"law {found.law}." if found.law else "no stable law.")
+    terms = bullets(f"{name}: {figure_text(value, digits=4)}" for name, value in found.coefficients.items())
+    work = Markup("")
+    if found.work_per_cycle_j is not None:
+        work = tag("p", f"Work per cycle {figure_text(found.work_per_cycle_j)} J.", css="muted")
+    return section("Estimated force", tag("p", said), terms, work, *drawn, *maps)
+
+
+def _machine(report: Report) -> Markup:
+    if report.machine is None:
+        return Markup("")
+    spec = json.dumps(plain(report.machine), allow_nan=False, ensure_ascii=False, indent=1)
+    note = "Loads back into the simulator and reproduces the model with it."
+    body = tag("details", tag("summary", "Revised machine (JSON)"), tag("pre", spec))
+    return section("Revised machine", tag("p", note, css="muted"), body)
+
+
+def page(report: Report) -> str:
+    """The text of `report.html`."""
+    body = (
+        head(report),
+        fault(report),
+        _where(report),
+        _ranking(report),
+        _held_out(report),
+        _force(report),
+        _spectra(report),
+        _maps(report),
+        _changes(report),
+        undecidable(report),
+        _machine(report),
+        stages(report),
+        provenance(report),
+    )
+    top = tag(
+        "head",
+        tag("meta", charset="utf-8"),
+        tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
+        tag("title", f"Reconciliation: {report.sentence}"),
+        tag("style", Markup(STYLE)),
+    )
+    return "<!doctype html>\n" + tag("html", top, tag("body", tag("main", *body)), lang="en") + "\n"

@@ -1,0 +1,126 @@
+"""Shapes of `Report.pictures`: what the page can draw, in one place. All keys are optional; unknown ones are kept.
+
+Every list of one picture has the same length; values that are no numbers leave a gap. Levels are in dB re the unit
+the engine used throughout (it cancels in differences).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TypedDict, cast
+
+from reconcile.report.strict import Plain, plain
+
+
+class Spectrum(TypedDict):
+    """`spectra`: one panel a channel. `before_db`/`after_db`: the model without and with what was found."""
+
+    channel: str
+    frequency_hz: Sequence[float | None]
+    observed_db: Sequence[float | None]
+    before_db: Sequence[float | None]
+    after_db: Sequence[float | None]
+
+
+class Heat(TypedDict):
+    """`heat`: `value[order][angle]`, change in dB of the residual (or its strength) over a shaft's turn."""
+
+    shaft: str
+    angle_deg: Sequence[float]
+    order: Sequence[float]
+    value: Sequence[Sequence[float | None]]
+
+
+class Change(TypedDict):
+    """`changes`: a feature, its change against what was expected, the null's 90 % band, and what the answer gives."""
+
+    feature: str
+    observed_db: float
+    low: float
+    high: float
+    fitted_db: float | None
+
+
+class Ranked(TypedDict):
+    """`ranking`: predictive score of a candidate over nothing missing, with its 90 % interval."""
+
+    label: str
+    score: float
+    low: float
+    high: float
+    named: bool
+
+
+class Trace(TypedDict):
+    """`traces`: a stretch of held-out signal; `before` and `after` as predicted without and with the answer."""
+
+    title: str
+    unit: str
+    time_s: Sequence[float]
+    observed: Sequence[float | None]
+    before: Sequence[float | None]
+    after: Sequence[float | None]
+
+
+class ForceMap(TypedDict):
+    """`force_map`: mean estimated force in bins, `value[y][x]`, None where no data fell."""
+
+    x_label: str
+    y_label: str
+    value_label: str
+    x: Sequence[float]
+    y: Sequence[float]
+    value: Sequence[Sequence[float | None]]
+
+
+class Law(TypedDict):
+    """`law`: force over one argument with its 90 % band, and the named law through it (`fitted`, or None)."""
+
+    x_label: str
+    y_label: str
+    x: Sequence[float]
+    force: Sequence[float | None]
+    low: Sequence[float | None]
+    high: Sequence[float | None]
+    fitted: Sequence[float | None] | None
+
+
+class Pictures(TypedDict, total=False):
+    """`Report.pictures`."""
+
+    spectra: list[Spectrum]
+    heat: list[Heat] | Heat
+    changes: list[Change]
+    ranking: list[Ranked]
+    traces: list[Trace]
+    force_map: list[ForceMap] | ForceMap
+    law: list[Law] | Law
+
+
+def several(pictures: Mapping[str, object], key: str) -> list[dict[str, Plain]]:
+    """The pictures under a key as a list of plain mappings; a single one counts as a list of one."""
+    found = plain(pictures.get(key))
+    items = found if isinstance(found, list) else [found]
+    return [item for item in items if isinstance(item, dict)]
+
+
+def numbers(value: Plain) -> list[float]:
+    """A list of numbers, NaN where there is none."""
+    if not isinstance(value, list):
+        return []
+    return [float(cast("float", x)) if isinstance(x, int | float) else float("nan") for x in value]
+
+
+def number(value: Plain, default: float = float("nan")) -> float:
+    """A number, or the default."""
+    return float(value) if isinstance(value, int | float) else default
+
+
+def rows(value: Plain) -> list[list[float]]:
+    """A table of numbers."""
+    return [numbers(row) for row in value] if isinstance(value, list) else []
+
+
+def text(value: Plain, default: str = "") -> str:
+    """A text."""
+    return value if isinstance(value, str) else default

@@ -1,0 +1,168 @@
+"""Sections of the page that are words and tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from reconcile.report.markup import Markup, figure_text, tag
+from reconcile.report.strict import Plain, plain
+from reconcile.report.words import LEVEL, VERDICT, cause, gain, percent, severity
+from reconcile.verdict import Cause, HeldOut, Report, Where
+
+MOST_LINES = 20
+
+
+def section(title: str, *parts: Markup) -> Markup:
+    """A titled card; nothing when it would be empty."""
+    return tag("section", tag("h2", title), *parts) if any(parts) else Markup("")
+
+
+def bullets(items: Iterable[object]) -> Markup:
+    """A list; nothing when it would be empty."""
+    kept = [tag("li", item) for item in items]
+    return tag("ul", *kept) if kept else Markup("")
+
+
+def table(heads: Sequence[str], rows: Sequence[Sequence[object]], marked: Sequence[bool] = ()) -> Markup:
+    """A table; columns whose cells are numbers already formatted stay left, as names do."""
+    if not rows:
+        return Markup("")
+    flags = marked or [False] * len(rows)
+    body = [
+        tag("tr", *(tag("td", c) for c in row), css="named" if flag else None)
+        for row, flag in zip(rows, flags, strict=True)
+    ]
+    return tag("div", tag("table", tag("tr", *(tag("th", h) for h in heads)), *body), css="scroll")
+
+
+def _tile(value: str, label: str) -> Markup:
+    return tag("div", tag("b", value), tag("span", label), css="tile")
+
+
+def head(report: Report) -> Markup:
+    """Verdict, sentence, and the figures that matter."""
+    word, tone = VERDICT[report.verdict]
+    tiles = []
+    named = [c for c in report.causes if c.named]
+    if report.fault is not None:
+        tiles.append(_tile(report.fault.kind.replace("_", " "), f"on {report.fault.channel}"))
+    if report.where.sites:
+        best = max(report.where.sites, key=lambda s: s.weight)
+        tiles.append(_tile(best.site, f"most likely place, {percent(best.weight)} of the evidence"))
+    for c in named[:2]:
+        if c.severity is not None:
+            size, low, high = (
+                figure_text(v, c.severity.unit) for v in (c.severity.value, c.severity.low, c.severity.high)
+            )
+            ends = f"{low} to {high}"
+            tiles.append(_tile(size, f"{c.severity.name} of {cause(c)}, 90 %: {ends}"))
+    if report.held_out is not None:
+        tiles.append(_tile(percent(report.held_out.gain), f"less {report.held_out.metric} on data never fitted"))
+    return tag(
+        "header",
+        tag("span", word, css=f"badge {tone}"),
+        tag("h1", report.sentence),
+        tag("p", f"Recording {LEVEL[report.level]}.", css="muted"),
+        tag("div", *tiles, css="tiles") if tiles else None,
+    )
+
+
+def fault(report: Report) -> Markup:
+    """What is wrong with the measurement."""
+    if report.fault is None:
+        return Markup("")
+    said = f"{report.fault.kind.replace('_', ' ')} on channel {report.fault.channel}."
+    return section("The measurement", tag("p", said), tag("p", report.fault.detail, css="muted"))
+
+
+def where_table(where: Where) -> Markup:
+    """Changed lines as a table, and the limits of the location."""
+    rows = [
+        (x.label, f"{x.frequency_hz:.5g}", f"{x.change_db:+.1f}", x.channel or "–", x.locked_to or "nothing known")
+        for x in sorted(where.lines, key=lambda x: -abs(x.change_db))[:MOST_LINES]
+    ]
+    window = where.angle_window
+    said = Markup("")
+    if window is not None:
+        text = f"{window.centre_deg:.0f}° of {window.shaft} (from {window.low_deg:.0f}° to {window.high_deg:.0f}°)"
+        said = tag("p", f"The residual sits at {text}.")
+    limits = bullets(where.limits)
+    return Markup(
+        said
+        + table(("line", "Hz", "change, dB", "channel", "locked to"), rows)
+        + (tag("h3", "Limits") + limits if limits else "")
+    )
+
+
+def causes_table(causes: Sequence[Cause]) -> Markup:
+    """Candidates in order, why a name was or was not given."""
+    rows = [
+        (
+            cause(c),
+            f"{c.score:.3g}",
+            "–" if c.severity is None else severity(c.severity),
+            "yes" if c.named else "no",
+            "; ".join(c.reasons),
+        )
+        for c in causes
+    ]
+    return table(("candidate", "score", "severity", "named", "why"), rows, [c.named for c in causes])
+
+
+def held_out_table(found: HeldOut | None) -> Markup:
+    """Figures of the validation against the rivals."""
+    if found is None:
+        return Markup("")
+    rows = [
+        ("without it", figure_text(found.before, found.unit), "–"),
+        ("with it", figure_text(found.after, found.unit), gain(found)),
+        ("retuned parameters only", "", percent(found.retuned)),
+        ("black box with as many parameters", "", percent(found.black_box)),
+        ("placebo", "", percent(found.placebo)),
+    ]
+    said = tag("p", f"Held out: {found.held}. Measure: {found.metric}." if found.held else f"Measure: {found.metric}.")
+    return Markup(
+        said + table(("model", found.metric, "gain over without it"), rows, [False, True, False, False, False])
+    )
+
+
+def _short(value: Plain) -> str:
+    if isinstance(value, float):
+        return figure_text(value, digits=4)
+    if isinstance(value, list):
+        shown = ", ".join(_short(v) for v in value[:12])
+        return f"{shown}, … ({len(value)})" if len(value) > 12 else shown
+    if isinstance(value, dict):
+        return "; ".join(f"{k.replace('_', ' ')}: {_short(v)}" for k, v in list(value.items())[:24])
+    return "–" if value is None else str(value)
+
+
+def stages(report: Report) -> Markup:
+    """What each step found."""
+    rows = []
+    for stage in report.stages:
+        plain_stage = plain(stage)
+        if not isinstance(plain_stage, dict):
+            continue
+        name = plain_stage.pop("stage", None) or plain_stage.pop("name", "")
+        rows.append((str(name).replace("_", " "), _short(plain_stage)))
+    return section("Steps", table(("step", "what it found"), rows))
+
+
+def provenance(report: Report) -> Markup:
+    """Versions, seeds and cost."""
+    found = plain(report.provenance)
+    rows = [(k.replace("_", " "), _short(v)) for k, v in found.items()] if isinstance(found, dict) else []
+    return section("Provenance", table(("", ""), rows))
+
+
+def undecidable(report: Report) -> Markup:
+    """What could not be decided, and the experiment that would."""
+    parts = [bullets(report.undecidable)]
+    if report.next_experiment is not None:
+        parts += [tag("h3", "Next experiment"), tag("p", report.next_experiment.sentence)]
+        now, then = report.next_experiment.separation_now, report.next_experiment.separation_expected
+        if now is not None and then is not None:
+            text = f"Separation of the candidates: {now:.1f} standard errors now, {then:.1f} expected."
+            parts.append(tag("p", text, css="muted"))
+    return section("What is undecided, and what would decide it", *parts)

@@ -1,0 +1,58 @@
+"""Recordings of made-up oscillators under a measured force, by SciPy's integrator (not the engine's own)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from reconcile.driven.model import FINE, refined
+from signals.recording import Recording
+from sim.core.response import Channel
+
+RATE = 500.0
+MASS, FREQUENCY, DAMPING = 2.0, 40.0, 0.05
+
+
+def multisine(rng: np.random.Generator, n: int, size: float, highest: float = 120.0) -> np.ndarray:
+    """Random phases up to `highest` Hz, RMS `size`, fading in over the first samples."""
+    frequency = np.fft.rfftfreq(n, 1 / RATE)
+    spectrum = np.where(
+        (frequency > 1) & (frequency < highest), np.exp(2j * math.pi * rng.uniform(size=frequency.size)), 0
+    )
+    u = np.fft.irfft(spectrum, n)
+    return np.asarray(size * u / u.std() * np.clip(np.arange(n) / 50, 0, 1))
+
+
+def recording(
+    extra: Callable[[float, float], float], *, seed: int, n: int = 9000, size: float = 1.0, noise: float = 0.01
+) -> Recording:
+    """Force N and displacement m of mass x'' + c x' + k x + extra(x, v) = u, with coloured noise on the displacement.
+
+    The force's size makes the displacement about 1 mm at `size` 1.
+    """
+    rng = np.random.default_rng(seed)
+    w = 2 * math.pi * FREQUENCY
+    u = multisine(rng, n, size * MASS * w * w * 4e-4)
+    fine = refined(u)
+    step = 1 / RATE / FINE
+
+    def slope(t: float, s: np.ndarray) -> list[float]:
+        at = min(t / step, fine.size - 1.001)
+        k = int(at)
+        force = fine[k] + (at - k) * (fine[k + 1] - fine[k])
+        x, v = s
+        return [v, force / MASS - 2 * DAMPING * w * v - w * w * x - extra(x, v) / MASS]
+
+    t = np.arange(n) / RATE
+    found = solve_ivp(slope, (0, t[-1]), [0, 0], t_eval=t, rtol=1e-6, atol=1e-10, max_step=2 * step)
+    x = found.y[0]
+    dirt = np.convolve(rng.normal(size=n + 4), [0.4, 0.3, 0.2, 0.1, 0.1], mode="valid")
+    x = x + noise * x.std() * dirt / dirt.std()
+    channels = (
+        Channel(name="force", quantity="force", unit="N", location="mass", axis="y"),
+        Channel(name="displacement", quantity="displacement", unit="m", location="mass", axis="y"),
+    )
+    return Recording(sampling_rate_hz=RATE, channels=channels, samples=np.vstack([u, x]))

@@ -1,0 +1,209 @@
+"""The report as files: exact keys, strict JSON, a page whose text cannot become markup and that fetches nothing."""
+
+from __future__ import annotations
+
+import json
+import math
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reconcile.report import page, strict_json, write_report
+from reconcile.report.markup import figure_text, tag
+from reconcile.report.plot import MOST_POINTS, Frame, thinned, ticks
+from reconcile.verdict import (
+    AngleWindow,
+    Cause,
+    EstimatedForce,
+    HeldOut,
+    LineChange,
+    NextExperiment,
+    PlaceWeight,
+    Report,
+    SensorFault,
+    Severity,
+    Where,
+)
+from sim.presets import preset
+
+KEYS = {
+    "verdict", "sentence", "where", "causes", "fault", "held_out", "force", "undecidable", "next_experiment", "machine",
+    "provenance", "level", "stages", "pictures",
+}  # fmt: skip
+NASTY = '<script>alert("x")</script>&'
+VOID = {"meta", "line", "rect", "circle", "path", "polyline", "polygon", "br"}
+
+
+class Balanced(HTMLParser):
+    """Collects texts and checks that elements close in order."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.seen: list[str] = []
+        self.addresses: list[str] = []
+        self.text = ""
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.seen.append(tag)
+        self.addresses += [value or "" for name, value in attrs if name in ("src", "href", "xlink:href")]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.seen.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        self.text += data
+
+
+def full_report(text: str = "Bearing 1 is loose.") -> Report:
+    z = np.linspace(-1e-5, 1e-5, 21)
+    frequency = np.linspace(0, 2000, 400)
+    level = -40 + 10 * np.sin(frequency / 50)
+    return Report(
+        verdict="explained",
+        sentence=text,
+        level="machine",
+        where=Where(
+            sites=(PlaceWeight(site="bearing1", weight=0.86), PlaceWeight(site="mesh1", weight=0.1)),
+            lines=(LineChange(label=text, frequency_hz=322.0, change_db=14.0),),
+            angle_window=AngleWindow(shaft="input", centre_deg=350.0, low_deg=330.0, high_deg=20.0),
+            limits=(text,),
+        ),
+        causes=(
+            Cause(
+                term="fit_clearance",
+                site="bearing1",
+                score=41.0,
+                named=True,
+                severity=Severity(name="gap", value=2.1e-5, unit="m", low=1.8e-5, high=2.4e-5),
+            ),
+            Cause(term=text, site=text, score=math.nan, reasons=(text,)),
+        ),
+        held_out=HeldOut(
+            metric=text, unit="dB", before=5.0, after=2.0, gain=0.6, gain_low=0.5, gain_high=0.7, retuned=0.1,
+            black_box=None, placebo=math.nan, held=text,
+        ),
+        force=EstimatedForce(
+            site="bearing1", samples={"displacement_m": tuple(z), "force_n": tuple(1e12 * z**2)}, law=None
+        ),
+        fault=SensorFault(kind="clipped", channel=text, detail=text),
+        undecidable=(text,),
+        next_experiment=NextExperiment(sentence=text, separation_now=1.0, separation_expected=4.0),
+        machine=preset("paper-demo").model_dump(mode="json"),
+        stages=({"stage": "observe", "found": math.inf, text: text},),
+        pictures={
+            "spectra": [
+                {"channel": text, "frequency_hz": frequency, "observed_db": level, "before_db": level - 3,
+                 "after_db": np.where(frequency > 1000, np.nan, level)}
+            ],
+            "heat": {"shaft": "input", "angle_deg": np.arange(0, 360, 5.0), "order": np.arange(1, 5),
+                     "value": np.ones((4, 72))},
+            "changes": [{"feature": text, "observed_db": 3.0, "low": -1.0, "high": 1.0, "fitted_db": None}],
+            "ranking": [{"label": text, "score": 3.0, "low": 1.0, "high": 4.0, "named": True}],
+            "traces": [{"title": text, "unit": "V", "time_s": frequency, "observed": level, "before": level,
+                        "after": level}],
+            "force_map": {"x_label": text, "y_label": "v", "value_label": "N", "x": [0.0, 1.0], "y": [0.0, 1.0],
+                          "value": [[1.0, None], [-1.0, 2.0]]},
+        },
+        provenance={"seed": 1, "versions": {"physics": "1"}},
+    )  # fmt: skip
+
+
+def test_json_has_the_keys_and_no_number_that_is_none() -> None:
+    def refuse(name: str) -> float:
+        raise AssertionError(name)
+
+    found = json.loads(strict_json(full_report()), parse_constant=refuse)
+    assert set(found) == KEYS
+    assert found["held_out"]["placebo"] is None
+    assert found["stages"][0]["found"] is None
+    assert found["causes"][0]["severity"] == {
+        "name": "gap",
+        "value": 2.1e-5,
+        "unit": "m",
+        "low": 1.8e-5,
+        "high": 2.4e-5,
+    }
+    assert found["pictures"]["spectra"][0]["after_db"][-1] is None
+
+
+def test_every_text_is_escaped_and_nothing_is_fetched() -> None:
+    parser = Balanced()
+    parser.feed(page(full_report(NASTY)))
+    assert not parser.open
+    assert "script" not in parser.seen
+    assert not parser.addresses
+    assert parser.text.count(NASTY) > 10
+    assert parser.seen.count("svg") >= 8
+
+
+def test_a_report_without_anything_still_makes_a_page() -> None:
+    parser = Balanced()
+    parser.feed(page(Report(verdict="not_decidable", sentence="Too short.", level="kinematics")))
+    assert not parser.open
+    assert "Not decidable" in parser.text
+    assert "svg" not in parser.seen
+
+
+def test_a_document_that_was_read_back_gives_the_same_page_pictures(tmp_path: Path) -> None:
+    report = full_report()
+    there, shown = write_report(report, tmp_path / "deep" / "folder")
+    assert json.loads(there.read_text()) == json.loads(strict_json(report))
+    assert shown.read_text() == page(report)
+    assert {p.name for p in there.parent.iterdir()} == {"report.json", "report.html"}
+
+
+def test_an_earlier_report_survives_a_failed_one(tmp_path: Path) -> None:
+    there, _ = write_report(full_report(), tmp_path)
+    before = there.read_text()
+    broken = Report(verdict="nonsense", sentence="x", level="machine")  # type: ignore[arg-type]
+    with pytest.raises(KeyError):
+        write_report(broken, tmp_path)
+    assert there.read_text() == before
+
+
+def test_located_parts_stand_out_in_the_sketch() -> None:
+    assert page(full_report()).count('class="located"') == 1
+    assert "located-mesh" in page(full_report())
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "said"),
+    [
+        (2.1e-5, "m", "21 µm"),
+        (0.5, "1", "0.5"),
+        (1.2e7, "N/m", "12 MN/m"),
+        (math.nan, "m", "–"),
+        (12345.0, "", "12345"),
+    ],
+)
+def test_numbers_for_readers(value: float, unit: str, said: str) -> None:
+    assert figure_text(value, unit) == said
+
+
+def test_curves_keep_their_extremes_when_thinned() -> None:
+    x = np.arange(20000.0)
+    y = np.zeros(20000)
+    y[777], y[15001] = 9.0, -9.0
+    _, kept = thinned(x.tolist(), y.tolist())
+    assert len(kept) <= MOST_POINTS + 2
+    assert (max(kept), min(kept)) == (9.0, -9.0)
+
+
+def test_ticks_are_round_and_inside() -> None:
+    assert ticks(0.0, 1.0, 5) == pytest.approx([0.0, 0.2, 0.4, 0.6, 0.8, 1.0])
+    assert ticks(-3e-6, 2e-6, 5) == pytest.approx([-3e-6, -2e-6, -1e-6, 0.0, 1e-6, 2e-6])
+
+
+def test_a_gap_in_a_curve_is_a_gap() -> None:
+    frame = Frame(x=(0, 3), y=(0, 1), x_label="", y_label="")
+    drawn = frame.curve([0, 1, 2, 3], [0.5, math.nan, 0.5, 0.6], "observed")
+    assert drawn.count("M") == 2
+    assert tag("p", "a<b") == "<p>a&lt;b</p>"
