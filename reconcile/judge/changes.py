@@ -1,0 +1,150 @@
+"""Observed and simulated changes of all features at all operating points, in the same terms."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.atlas.bank import Bank
+from reconcile.atlas.plan import AtlasPlan
+from reconcile.calibrate.chain import Chain, Healthy, calibrate_chain
+from reconcile.judge.measured import measured_db
+from reconcile.observe.features import Scale, scale_of, soft_features, through
+from reconcile.observe.observation import PointData
+from reconcile.observe.statistics import Statistics
+from signals.series import FloatArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Changes:
+    """Rows of decibels, the features of all points one after the other (`starts` says where each point begins).
+
+    `observed` (F,), `halves` (2, F): the test against its reference. `measured` (F,): standard deviation.
+    `null` (n, F): healthy machines against their drifted twins (or, without baseline, against the nominal one).
+    """
+
+    observed: FloatArray
+    halves: FloatArray
+    measured: FloatArray
+    null: FloatArray
+    starts: tuple[int, ...]
+    with_baseline: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lens:
+    """Everything needed to see a simulated machine as the sensors of one point would."""
+
+    chain: Chain
+    scale: Scale
+    lines_hz: FloatArray
+    resolution_hz: float
+    nominal: FloatArray
+    """Features (C, F) of the nominal healthy machine."""
+
+    def features(self, bank: Bank) -> FloatArray:
+        """(N, C, F)."""
+        return through(self.chain, bank, self.lines_hz, self.resolution_hz).features(self.scale)
+
+
+def healthy_of(bank: Bank, plan: AtlasPlan) -> Healthy:
+    """Logarithmic means over the healthy draws."""
+    rows = [k for k, d in enumerate(plan.draws) if d.candidate is None and not d.twin and bank.alive[k]]
+    line = np.log(bank.line[rows] + 1e-300)
+    with np.errstate(invalid="ignore"):
+        floor = np.log(bank.floor[rows] + 1e-300)
+        return Healthy(
+            line=np.exp(line.mean(axis=0)),
+            line_spread_db=np.asarray(10.0 / np.log(10.0) * line.std(axis=0)),
+            floor=np.exp(floor.mean(axis=0)),
+        )
+
+
+def lenses(data: Sequence[PointData], banks: Sequence[Bank], plan: AtlasPlan) -> tuple[Lens, ...]:
+    """Calibrate the sensors' paths on the baselines, or on the tests where there are none."""
+    healthy = [healthy_of(b, plan) for b in banks]
+    recorded = [d.baseline or d.test for d in data]
+    chains = calibrate_chain(recorded, healthy, [d.lines_hz for d in data])
+    found = []
+    rows = [k for k, d in enumerate(plan.draws) if d.candidate is None and not d.twin]
+    for one, chain, bank, seen in zip(data, chains, banks, recorded, strict=True):
+        scale = scale_of(chain, one.lines_hz, seen.resolution_hz)
+        passed = through(chain, bank.at(rows, range(bank.band.shape[1])), one.lines_hz, seen.resolution_hz)
+        found.append(
+            Lens(
+                chain=chain,
+                scale=scale,
+                lines_hz=one.lines_hz,
+                resolution_hz=seen.resolution_hz,
+                nominal=np.asarray(np.median(passed.features(scale), axis=0)),
+            )
+        )
+    return tuple(found)
+
+
+def _of(seen: Statistics, lens: Lens) -> FloatArray:
+    return soft_features(
+        seen.line, seen.floor, seen.total, seen.depth, seen.kurtosis, seen.skewness, lens.scale
+    )
+
+
+def observed_changes(
+    data: Sequence[PointData], seen_through: Sequence[Lens], banks: Sequence[Bank], plan: AtlasPlan
+) -> Changes:
+    """What the recordings changed, and what healthy machines change by themselves."""
+    observed, halves, measured, null, starts = [], [], [], [], [0]
+    based = all(d.baseline is not None for d in data)
+    for one, lens, bank in zip(data, seen_through, banks, strict=True):
+        reference = _of(one.baseline, lens) if one.baseline is not None else lens.nominal
+        observed.append((_of(one.test, lens) - reference).ravel())
+        halves.append(np.stack([(_of(h, lens) - reference).ravel() for h in one.halves]))
+        spread = measured_db(one.test, lens.chain, lens.lines_hz) ** 2
+        if one.baseline is not None:
+            spread = spread + measured_db(one.baseline, lens.chain, lens.lines_hz) ** 2
+        measured.append(np.sqrt(spread).ravel())
+        null.append(_null(lens, bank, plan, based=based))
+        starts.append(starts[-1] + observed[-1].size)
+    return Changes(
+        observed=np.concatenate(observed),
+        halves=np.concatenate(halves, axis=1),
+        measured=np.concatenate(measured),
+        null=np.concatenate(null, axis=1),
+        starts=tuple(starts),
+        with_baseline=based,
+    )
+
+
+def _null(lens: Lens, bank: Bank, plan: AtlasPlan, *, based: bool) -> FloatArray:
+    first = {d.pair: k for k, d in enumerate(plan.draws) if d.candidate is None and not d.twin}
+    twin = {d.pair: k for k, d in enumerate(plan.draws) if d.candidate is None and d.twin}
+    pairs = sorted(first)
+    every = range(bank.band.shape[1])
+    before = lens.features(bank.at([first[p] for p in pairs], every))
+    if not based:
+        return np.asarray((before - lens.nominal).reshape(len(pairs), -1))
+    after = lens.features(bank.at([twin[p] for p in pairs], every))
+    return np.asarray((after - before).reshape(len(pairs), -1))
+
+
+def signatures(
+    seen_through: Sequence[Lens],
+    banks: Sequence[Bank],
+    plan: AtlasPlan,
+    rows: Sequence[int],
+    healthy_banks: Sequence[Bank],
+    healthy_plan: AtlasPlan,
+    *,
+    with_baseline: bool,
+) -> FloatArray:
+    """Changes (m, F) that the draws `rows` of a plan would show against their own healthy machines."""
+    first = {d.pair: k for k, d in enumerate(healthy_plan.draws) if d.candidate is None and not d.twin}
+    pairs = [first[plan.draws[k].pair] for k in rows]
+    found = []
+    for lens, bank, healthy in zip(seen_through, banks, healthy_banks, strict=True):
+        every = range(bank.band.shape[1])
+        effect = lens.features(bank.at(rows, every))
+        rest = lens.features(healthy.at(pairs, every)) if with_baseline else lens.nominal
+        found.append((effect - rest).reshape(len(rows), -1))
+    return np.concatenate(found, axis=1)

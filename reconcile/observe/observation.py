@@ -1,0 +1,139 @@
+"""Recordings of one machine, sorted by operating point and measured."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.atlas.plan import Point
+from reconcile.observe.extract import extract
+from reconcile.observe.slack import slack
+from reconcile.observe.statistics import Statistics, averaged
+from reconcile.observe.steady import Steady, steady
+from reconcile.observe.watch import WatchList, bases_at
+from signals.recording import Recording
+from signals.series import FloatArray
+from sim.core.errors import Problem, SpecError
+from sim.core.spec import MachineSpec, TorqueLoad
+
+SAME_SPEED = 0.015
+SAME_TORQUE = 0.1
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointData:
+    """One operating point: the test, its halves in time, and the baseline if there is one."""
+
+    point: Point
+    lines_hz: FloatArray
+    modulations_hz: FloatArray
+    test: Statistics
+    halves: tuple[Statistics, Statistics]
+    baseline: Statistics | None
+    spectra: tuple[Steady, Steady | None]
+
+
+def _torque(machine: MachineSpec) -> float | None:
+    shaft = machine.operating.shaft if machine.operating else ""
+    torques = [x.torque_nm for x in machine.loads if isinstance(x, TorqueLoad) and x.shaft == shaft]
+    return sum(torques) if torques else None
+
+
+def point_of(machine: MachineSpec, recording: Recording) -> Point:
+    """The operating point a recording states; the machine's own where it states none."""
+    if machine.operating is None:
+        raise SpecError(Problem(field="operating", message="the machine has no speed", allowed="shaft, speed_hz"))
+    stated = recording.operating
+    speed = stated.speed_hz if stated is not None else machine.operating.speed_hz
+    nominal = _torque(machine)
+    given = stated.torque_nm if stated is not None else None
+    ratio = given / nominal if given is not None and nominal else 1.0
+    return Point(speed_hz=round(speed, 2), torque_ratio=round(ratio, 2))
+
+
+def _alike(a: Point, b: Point) -> bool:
+    close = abs(a.speed_hz - b.speed_hz) <= SAME_SPEED * b.speed_hz
+    return close and abs(a.torque_ratio - b.torque_ratio) <= SAME_TORQUE * max(abs(b.torque_ratio), 0.1)
+
+
+def _measured(one: Steady, machine: MachineSpec, watched: WatchList, part: slice = slice(None)) -> Statistics:
+    bases = bases_at(machine, one.speed_hz)
+    lines, modulations = watched.line_hz(bases), watched.modulation_hz(bases)
+    return extract(
+        one.samples[:, part],
+        one.rate_hz,
+        lines_hz=lines,
+        line_slack=slack(watched.lines, lines),
+        modulations_hz=modulations,
+        modulation_slack=slack(watched.modulations, modulations),
+    )
+
+
+def _group(machine: MachineSpec, recordings: Sequence[Recording]) -> list[tuple[Point, list[Recording]]]:
+    groups: list[tuple[Point, list[Recording]]] = []
+    for recording in recordings:
+        point = point_of(machine, recording)
+        for known, members in groups:
+            if _alike(point, known):
+                members.append(recording)
+                break
+        else:
+            groups.append((point, [recording]))
+    return groups
+
+
+def observe(
+    machine: MachineSpec,
+    watched: WatchList,
+    tests: Sequence[Recording],
+    baselines: Sequence[Recording],
+    *,
+    seed: int = 0,
+) -> tuple[PointData, ...]:
+    """Every operating point of the tests; where baselines exist, only points that have one."""
+    orders = [float(n * g.teeth) for g in machine.gears for n in (1, 2) if _drives(machine, g.shaft)]
+    known = _group(machine, baselines)
+    found = []
+    for point, members in _group(machine, tests):
+        resting = next((b for p, b in known if _alike(p, point)), None)
+        if known and resting is None:
+            continue
+        now = [steady(r, orders=orders, seed=seed) for r in members]
+        before = [steady(r, orders=orders, seed=seed) for r in resting or ()]
+        bases = bases_at(machine, point.speed_hz)
+        middle = now[0].samples.shape[1] // 2
+        found.append(
+            PointData(
+                point=point,
+                lines_hz=watched.line_hz(bases),
+                modulations_hz=watched.modulation_hz(bases),
+                test=averaged([_measured(s, machine, watched) for s in now]),
+                halves=(
+                    averaged([_measured(s, machine, watched, slice(0, middle)) for s in now]),
+                    averaged([_measured(s, machine, watched, slice(middle, None)) for s in now]),
+                ),
+                baseline=averaged([_measured(s, machine, watched) for s in before]) if before else None,
+                spectra=(now[0], before[0] if before else None),
+            )
+        )
+    if not found:
+        speeds = ", ".join(f"{p.speed_hz:g}" for p, _ in known)
+        message = "no baseline was recorded at the speed and load of any test"
+        raise SpecError(Problem(field="baseline", message=message, allowed=f"speeds of the baselines: {speeds} Hz"))
+    return tuple(found)
+
+
+def _drives(machine: MachineSpec, shaft: str) -> bool:
+    return machine.operating is not None and shaft == machine.operating.shaft
+
+
+def least_turns(found: Sequence[PointData]) -> float:
+    """Revolutions of the drive shaft in the shortest test."""
+    return float(min(d.test.duration_s * d.point.speed_hz for d in found))
+
+
+def finite_channels(found: Sequence[PointData]) -> np.ndarray:
+    """Mask of channels with a signal at every point, shape (C,)."""
+    return np.asarray(np.all([np.nanmax(d.test.band, axis=1) > 0 for d in found], axis=0))

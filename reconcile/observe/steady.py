@@ -1,0 +1,44 @@
+"""A recording as samples at constant speed: resampled over the shaft's angle where that is known better than even."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from reconcile.speed import SpeedEstimate, estimate_speed, shaft_angle
+from signals.recording import Recording
+from signals.series import FloatArray
+
+EVEN_SHARE = 2e-4
+"""An angle closer to even than this share of a revolution a revolution needs no resampling."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Steady:
+    """`samples` (C, n) at `rate_hz`, as if the drive shaft had turned at `speed_hz` all the time."""
+
+    samples: FloatArray
+    rate_hz: float
+    speed_hz: float
+    estimate: SpeedEstimate
+
+
+def steady(recording: Recording, *, orders: Sequence[float], seed: int = 0) -> Steady:
+    """`orders`: cycles a revolution of the drive shaft that surely exist (teeth and their multiples)."""
+    estimate = estimate_speed(recording, orders=orders, seed=seed)
+    angle = shaft_angle(recording, estimate, orders=orders)
+    known = np.isfinite(angle)
+    samples, turns = recording.samples[:, known], angle[known] / (2 * np.pi)
+    rate = recording.sampling_rate_hz
+    speed = float((turns[-1] - turns[0]) / ((turns.size - 1) / rate))
+    time = np.arange(turns.size) / rate
+    wander = np.abs(turns - turns[0] - speed * time).max()
+    if wander < EVEN_SHARE:
+        return Steady(samples=samples, rate_hz=rate, speed_hz=speed, estimate=estimate)
+    wanted = turns[0] + speed * time
+    at = np.interp(wanted, turns, time)
+    spline = CubicSpline(time, samples, axis=1)
+    return Steady(samples=np.asarray(spline(at)), rate_hz=rate, speed_hz=speed, estimate=estimate)
