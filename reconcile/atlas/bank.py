@@ -89,10 +89,9 @@ class Task:
 def _empty(channels: int, watched: WatchList) -> Statistics:
     lines, modulations = np.full(len(watched.lines), np.nan), np.full(len(watched.modulations), np.nan)
     nothing = np.zeros((channels, round((SPAN_S) * RATE_HZ)))
-    found = extract(
+    return extract(
         nothing, RATE_HZ, lines_hz=lines, line_slack=lines, modulations_hz=modulations, modulation_slack=modulations
     )
-    return found
 
 
 def measure(response: Response, watched: WatchList, bases_hz: dict[str, float]) -> Statistics:

@@ -85,9 +85,7 @@ def lenses(data: Sequence[PointData], banks: Sequence[Bank], plan: AtlasPlan) ->
 
 
 def _of(seen: Statistics, lens: Lens) -> FloatArray:
-    return soft_features(
-        seen.line, seen.floor, seen.total, seen.depth, seen.kurtosis, seen.skewness, lens.scale
-    )
+    return soft_features(seen.line, seen.floor, seen.total, seen.depth, seen.kurtosis, seen.skewness, lens.scale)
 
 
 def observed_changes(

@@ -1,0 +1,171 @@
+"""Stages 2 and 5: all candidates against the observed change, with the chance that nothing is missing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.judge.changes import Changes
+from reconcile.judge.metric import Metric, Whitening, fit_metric, neighbour_scatter, whitening
+from reconcile.judge.paths import Paths, build_paths
+from signals.series import FloatArray
+
+NULL_COPIES = 6
+"""Noisy copies of each simulated healthy pair, of either sign: the bank of nulls."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Library:
+    """Simulated changes: `changes` (m, F), the effect each row belongs to, its logarithmic size 0..1."""
+
+    changes: FloatArray
+    groups: Mapping[str, tuple[int, ...]]
+    shares: FloatArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fitted:
+    """The space in which a reconciliation compares."""
+
+    whiten: Whitening
+    metric: Metric
+    paths: Paths
+    null: FloatArray
+    """(n, D): what healthy machines with measurement noise look like."""
+    overdispersion: float
+    """Squared distance that counts as one unit of evidence, from leaving draws out."""
+    own: FloatArray
+    """(m,): squared distance of each draw from its own effect's path without it."""
+    size: FloatArray
+    """(m,): squared length of each draw."""
+
+    def place(self, changes: FloatArray) -> FloatArray:
+        """(F,) -> (D,)."""
+        return np.asarray(self.metric(self.whiten(changes)[None])[0])
+
+
+def _left_out(points: FloatArray, groups: Mapping[str, Sequence[int]], shares: FloatArray) -> FloatArray:
+    """Squared distance of each draw from the segments its neighbours in size span, (m,)."""
+    own = np.full(points.shape[0], np.nan)
+    for members in groups.values():
+        order = sorted(members, key=lambda k: shares[k])
+        for i, k in enumerate(order):
+            others = [order[j] for j in (i - 1, i + 1) if 0 <= j < len(order)]
+            ends = [points[j] for j in others] if len(others) == 2 else [*(points[j] for j in others), 0 * points[k]]
+            along = ends[1] - ends[0]
+            t = np.clip(np.dot(points[k] - ends[0], along) / max(float(np.dot(along, along)), 1e-12), 0.0, 1.0)
+            own[k] = float(np.sum((points[k] - ends[0] - t * along) ** 2))
+    return own
+
+
+def _softness(distances: FloatArray, truth: np.ndarray) -> float:
+    """The scale at which exp(-d^2 / 2 scale), normalised over effects, is the best forecast of the true one."""
+    scales = np.geomspace(0.3, 300.0, 31)
+    best, chosen = -np.inf, 1.0
+    for scale in scales:
+        log = -0.5 * distances / scale
+        log = log - log.max(axis=1, keepdims=True)
+        forecast = log[np.arange(truth.size), truth] - np.log(np.exp(log).sum(axis=1))
+        value = float(np.mean(np.maximum(forecast, -20.0)))
+        if value > best:
+            best, chosen = value, float(scale)
+    return chosen
+
+
+def _between(points: FloatArray, paths: Paths) -> FloatArray:
+    """Least squared distance of every draw to every effect, its own without itself, (m, effects)."""
+    squared = (
+        np.sum(points**2, axis=1)[:, None] + np.sum(paths.points**2, axis=1)[None, :] - 2.0 * points @ paths.points.T
+    )
+    rows = np.arange(points.shape[0])[:, None]
+    squared[(paths.low[None, :] == rows) | (paths.high[None, :] == rows)] = np.inf
+    found = np.full((points.shape[0], len(paths.names)), np.inf)
+    for c in range(len(paths.names)):
+        found[:, c] = squared[:, paths.owner == c].min(axis=1)
+    return found
+
+
+def fit_space(changes: Changes, library: Library, *, seed: int) -> Fitted:
+    """Whiten, learn what scatters, lay out the paths and the bank of nulls."""
+    whiten = whitening(changes.observed, changes.measured, changes.null, library.changes)
+    rng = np.random.default_rng([seed, 3])
+    null = np.repeat(changes.null, NULL_COPIES, axis=0) * rng.choice(
+        [-1.0, 1.0], (changes.null.shape[0] * NULL_COPIES, 1)
+    )
+    noisy = null + rng.normal(size=null.shape) * np.nan_to_num(changes.measured)
+    drawn, resting = whiten(library.changes), whiten(noisy)
+    scatter = [neighbour_scatter(drawn[list(g)], library.shares[list(g)]) for g in library.groups.values()]
+    metric = fit_metric([*scatter, resting])
+    points = metric(drawn)
+    paths = build_paths(points, library.groups, library.shares)
+    distances = _between(points, paths)
+    names = list(library.groups)
+    truth = np.zeros(points.shape[0], dtype=int)
+    for c, name in enumerate(names):
+        truth[list(library.groups[name])] = c
+    seen = np.flatnonzero(np.sum(points**2, axis=1) > np.quantile(np.sum(metric(resting) ** 2, axis=1), 0.9))
+    soft = _softness(distances[seen], truth[seen]) if seen.size > len(names) else 10.0
+    return Fitted(
+        whiten=whiten,
+        metric=metric,
+        paths=paths,
+        null=metric(resting),
+        overdispersion=soft,
+        own=_left_out(points, library.groups, library.shares),
+        size=np.sum(points**2, axis=1),
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Screen:
+    """`evidence` (effects,): drop of the squared distance against no change, over twice the overdispersion.
+
+    `p_any`: chance of such a change in a healthy machine, by its length; `p_best`: by the best candidate's evidence.
+    `weights` sum to 1 over the effects. `misfit`: quantile of the best distance among draws of known effects.
+    """
+
+    names: tuple[str, ...]
+    evidence: FloatArray
+    weights: FloatArray
+    nearest: np.ndarray
+    p_any: float
+    p_best: float
+    misfit: float
+    length: float
+
+
+def judge(fitted: Fitted, observed: FloatArray) -> Screen:
+    """`observed` (F,) in dB against all paths."""
+    x = fitted.place(observed)
+    nothing = float(np.sum(x**2))
+    best, which = fitted.paths.nearest(fitted.paths.distances(x))
+    evidence = (nothing - best) / (2.0 * fitted.overdispersion)
+    log = evidence - evidence.max()
+    weights = np.exp(log) / np.exp(log).sum()
+    lengths = np.sum(fitted.null**2, axis=1)
+    gains = np.array([_gain(fitted, row) for row in fitted.null])
+    count = lengths.size + 1.0
+    found = float(best.min())
+    return Screen(
+        names=fitted.paths.names,
+        evidence=evidence,
+        weights=weights,
+        nearest=which,
+        p_any=float((1 + np.sum(lengths >= nothing)) / count),
+        p_best=float((1 + np.sum(gains >= nothing - found)) / count),
+        misfit=_misfit(fitted, found, nothing),
+        length=nothing,
+    )
+
+
+def _gain(fitted: Fitted, row: FloatArray) -> float:
+    return float(np.sum(row**2) - fitted.paths.distances(row).min())
+
+
+def _misfit(fitted: Fitted, found: float, length: float) -> float:
+    """Quantile of `found` among left-out draws of about the same length: near 1, no known effect looks like this."""
+    near = np.argsort(np.abs(np.log(fitted.size + 1e-9) - np.log(length + 1e-9)))[:60]
+    own = fitted.own[near] / np.maximum(fitted.size[near], 1e-9)
+    return float(np.mean(own[np.isfinite(own)] < found / max(length, 1e-9)))

@@ -1,0 +1,223 @@
+"""Stage 8: what was found becomes a report."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from reconcile.atlas.keep import ATLAS_VERSION
+from reconcile.gate.findings import Gate
+from reconcile.judge.changes import Changes
+from reconcile.machine.decide import Decision, decide, merged_weights
+from reconcile.machine.heldout import feature_frequencies, held_out
+from reconcile.machine.pictures import line_changes, ranking, spectra, turn_map
+from reconcile.machine.refine import best_draws
+from reconcile.machine.setting import Found, Setting
+from reconcile.machine.severity import estimated_severity
+from reconcile.machine.words import next_experiment, sentence
+from reconcile.observe.features import Layout
+from reconcile.observe.watch import WatchList, watch_list
+from reconcile.verdict import (
+    Cause,
+    HeldOut,
+    Level,
+    PlaceWeight,
+    Report,
+    SensorFault,
+    Severity,
+    Where,
+)
+from sim.core.spec import MachineSpec, TermSpec
+from sim.version import PHYSICS_VERSION
+
+MOST_CAUSES = 10
+ONE_SENSOR = "one sensor cannot locate a broadband force: places rest on the spectra the machine model predicts"
+NO_BASELINE = "without a baseline the machine's parameters and the sensors' paths were fitted to the test itself"
+ONE_POINT = "one operating point: the held-out data are a later time of the same record"
+
+
+def fault_answer(gate: Gate, *, level: Level) -> Report:
+    """No channel is usable."""
+    fault = gate.fault or SensorFault(kind="not_finite", channel="", detail="no usable channel")
+    return Report(
+        verdict="measurement_fault",
+        sentence=f"The mismatch is in the measurement: {fault.detail}.",
+        level=level,
+        fault=fault,
+        stages=(_gate_stage(gate),),
+    )
+
+
+def _gate_stage(gate: Gate) -> Mapping[str, object]:
+    remarks = [f"{f.recording} {f.channel}: {f.kind}, {f.detail}".strip() for f in gate.findings]
+    return {"name": "sensor gate", "findings": remarks or ["nothing wrong with the measurement"]}
+
+
+def _layout(watched: WatchList, changes: Changes, setting: Setting) -> Layout:
+    bank = setting.banks[0]
+    return Layout(
+        lines=len(watched.lines),
+        bands=bank.floor.shape[2],
+        shapes=bank.band.shape[2],
+        modulations=len(watched.modulations),
+    )
+
+
+def _causes(
+    setting: Setting, found: Found, decision: Decision, weights: Mapping[str, float], observed: np.ndarray
+) -> tuple[Cause, ...]:
+    listed = list(decision.chosen) + [n for n in weights if n not in decision.chosen]
+    causes = []
+    for name in listed[:MOST_CAUSES]:
+        term, site = name.split("@")
+        drawn = best_draws(found.fitted, found.known, name, observed, count=1)
+        causes.append(
+            Cause(
+                term=term,
+                site=site,
+                score=float(found.screen.evidence[found.screen.names.index(name)]),
+                severity=estimated_severity(found.fitted, found.known, name, observed),
+                named=decision.word == "explained" and name == decision.chosen[0],
+                reasons=decision.reasons,
+                values=dict(drawn[0].parameters) if drawn else {},
+            )
+        )
+    del setting
+    return tuple(causes)
+
+
+def revised(machine: MachineSpec, cause: Cause) -> MachineSpec:
+    """The machine with the named effect at its estimated size."""
+    values = dict(cause.values)
+    if cause.severity is not None:
+        values[cause.severity.name] = cause.severity.value
+    term = TermSpec(term=cause.term, site=cause.site, parameters=values)
+    return machine.model_copy(update={"terms": [*machine.terms, term]})
+
+
+def _sites(weights: Mapping[str, float]) -> tuple[PlaceWeight, ...]:
+    total: dict[str, float] = {}
+    for name, weight in weights.items():
+        site = name.split("@")[1]
+        total[site] = total.get(site, 0.0) + weight
+    ordered = sorted(total.items(), key=lambda item: -item[1])
+    return tuple(PlaceWeight(site=s, weight=w) for s, w in ordered if w > 0.01)
+
+
+def _limits(setting: Setting) -> tuple[str, ...]:
+    limits = []
+    if len(setting.channels) == 1:
+        limits.append(ONE_SENSOR)
+    if not setting.changes.with_baseline:
+        limits.append(NO_BASELINE)
+    if len(setting.data) == 1:
+        limits.append(ONE_POINT)
+    return tuple(limits)
+
+
+def _fitted_change(found: Found, name: str, observed: np.ndarray) -> np.ndarray:
+    squared = found.fitted.paths.distances(found.fitted.place(observed))
+    owner = found.fitted.paths.names.index(name)
+    rows = [k for k in np.argsort(squared) if found.fitted.paths.owner[k] == owner][:1]
+    first, second = int(found.fitted.paths.low[rows[0]]), int(found.fitted.paths.high[rows[0]])
+    changes = found.known.library.changes
+    return np.asarray(0.5 * (changes[max(first, 0)] + changes[second]) if first >= 0 else 0.5 * changes[second])
+
+
+def answer(setting: Setting, found: Found, gate: Gate, cost: Mapping[str, object]) -> Report:
+    """The report of a machine-level reconciliation."""
+    observed = setting.changes.observed
+    decision = decide(found.screen)
+    watched = watch_list(setting.machine)
+    layout = _layout(watched, setting.changes, setting)
+    weights = merged_weights(found.screen)
+    missing = decision.word != "nothing_missing"
+    causes = _causes(setting, found, decision, weights, observed) if missing else ()
+    held = _held(setting, found, decision, layout) if decision.chosen else None
+    fitted = _fitted_change(found, decision.chosen[0], observed) if decision.chosen else None
+    severity: Severity | None = causes[0].severity if causes else None
+    word, text, fault = decision.word, sentence(decision, severity, held), None
+    if not missing and gate.fault is not None:
+        word, fault = "measurement_fault", gate.fault
+        text = f"The mismatch is in the measurement: {gate.fault.detail}."
+    lead = _lead(found, decision)
+    named = decision.chosen[0] if decision.word == "explained" else None
+    return Report(
+        verdict=word,
+        sentence=text,
+        level="machine",
+        where=Where(
+            sites=_sites(weights) if missing else (),
+            lines=line_changes(setting.data, setting.changes, layout, watched, setting.channels) if missing else (),
+            limits=_limits(setting),
+        ),
+        causes=causes,
+        fault=fault,
+        held_out=held,
+        undecidable=tuple(decision.reasons) if decision.word in ("ambiguous", "not_decidable") else (),
+        next_experiment=next_experiment(decision.chosen, lead, len(setting.data), setting.channels),
+        machine=revised(setting.machine, causes[0]).model_dump(mode="json") if causes else None,
+        stages=_stages(setting, found, gate, decision),
+        pictures={
+            "spectra": spectra(setting.data, setting.seen_through, setting.changes, fitted, layout, setting.channels),
+            "ranking": ranking(found.screen, max(lead, 1.0), named) if missing else [],
+            "heat": turn_map(setting.data, setting.channels),
+        },
+        provenance=_provenance(setting, cost),
+    )
+
+
+def _lead(found: Found, decision: Decision) -> float:
+    if len(decision.chosen) < 2:
+        return 0.0
+    names = found.screen.names
+    first, second = (float(found.screen.evidence[names.index(c)]) for c in decision.chosen[:2])
+    return abs(first - second)
+
+
+def _held(setting: Setting, found: Found, decision: Decision, layout: Layout) -> HeldOut:
+    lines = [d.lines_hz for d in setting.data]
+    count = len(setting.channels)
+    return held_out(
+        setting.changes,
+        found.known,
+        decision.chosen[0],
+        layout=layout,
+        frequency=feature_frequencies(layout, lines, count),
+        channels=count,
+        seed=setting.seed,
+    )
+
+
+def _stages(setting: Setting, found: Found, gate: Gate, decision: Decision) -> tuple[Mapping[str, object], ...]:
+    speeds: Sequence[str] = [
+        f"{d.point.speed_hz:g} Hz stated, {d.spectra[0].speed_hz:.3f} Hz found ({d.spectra[0].estimate.method})"
+        for d in setting.data
+    ]
+    gains = [float(np.median(lens.chain.gain_db)) for lens in setting.seen_through[:1]]
+    return (
+        _gate_stage(gate),
+        {"name": "observe", "speeds": speeds, "features": int(found.fitted.whiten.used.sum())},
+        {"name": "calibrate", "median_gain_db": gains, "mode": "A" if setting.changes.with_baseline else "B"},
+        {
+            "name": "is anything missing",
+            "length": found.screen.length,
+            "null_median": float(np.median(np.sum(found.fitted.null**2, axis=1))),
+            "p_any": found.screen.p_any,
+            "p_best": found.screen.p_best,
+            "p": decision.p,
+        },
+        {"name": "nominate", "candidates": len(found.screen.names), "draws": len(found.known.terms)},
+        {"name": "judge", "misfit": found.screen.misfit, "overdispersion": found.fitted.overdispersion},
+    )
+
+
+def _provenance(setting: Setting, cost: Mapping[str, object]) -> Mapping[str, object]:
+    return {
+        "physics_version": PHYSICS_VERSION,
+        "atlas_version": ATLAS_VERSION,
+        "seed": setting.seed,
+        "draws": len(setting.plan.draws),
+        "cost": dict(cost),
+    }

@@ -1,0 +1,94 @@
+"""The verdict, and whether a name may be given: all rules in one place, with the thresholds frozen by the proof."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.judge.screen import Screen
+from reconcile.verdict import Word
+from sim.terms import REGISTRY
+
+DETECT_P = 0.01
+STRANGE = 0.97
+"""Quantile of the misfit among known effects above which no known effect is adequate."""
+SET_WEIGHT = 0.9
+"""The answer is the smallest set of candidates that carries this weight."""
+LEAST_EVIDENCE = 3.0
+"""Log evidence a named cause needs over nothing missing."""
+MOST_NAMED = 6
+"""A set larger than this says nothing: the place or the mechanism is then not decidable."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Decision:
+    """The verdict with the candidates that carry it, the best first (`effect@site`)."""
+
+    word: Word
+    chosen: tuple[str, ...]
+    p: float
+    reasons: tuple[str, ...]
+
+
+def variants(first: str, second: str) -> bool:
+    """Whether two labels are forms of one effect at one site: their terms exclude each other there."""
+    (a, here), (b, there) = first.split("@"), second.split("@")
+    one, other = REGISTRY.get(a), REGISTRY.get(b)
+    if here != there or one is None or other is None or a == b:
+        return False
+    return b in one.excludes or a in other.excludes
+
+
+def merged_weights(screen: Screen) -> dict[str, float]:
+    """Weight of each effect; forms of one effect at one site count together under the stronger."""
+    order = np.argsort(-screen.weights)
+    merged: dict[str, float] = {}
+    for k in order:
+        name = screen.names[int(k)]
+        twin = next((m for m in merged if variants(m, name)), None)
+        if twin is None:
+            merged[name] = float(screen.weights[k])
+        else:
+            merged[twin] += float(screen.weights[k])
+    return dict(sorted(merged.items(), key=lambda item: -item[1]))
+
+
+def credible_set(weights: dict[str, float], level: float = SET_WEIGHT) -> tuple[str, ...]:
+    """The smallest set of effects that carries `level` of the weight."""
+    total, chosen = 0.0, []
+    for name, weight in weights.items():
+        chosen.append(name)
+        total += weight
+        if total >= level:
+            break
+    return tuple(chosen)
+
+
+def decide(screen: Screen, *, strange: float = STRANGE) -> Decision:
+    """Nothing missing, one name, a set, or none of the known."""
+    p = min(1.0, 2.0 * min(screen.p_any, screen.p_best))
+    if p > DETECT_P:
+        reason = f"a healthy machine of this kind shows as much with p = {p:.3f}"
+        return Decision(word="nothing_missing", chosen=(), p=p, reasons=(reason,))
+    weights = merged_weights(screen)
+    chosen = credible_set(weights)
+    evidence = {name: float(screen.evidence[screen.names.index(name)]) for name in chosen}
+    if screen.misfit > strange or evidence[chosen[0]] < LEAST_EVIDENCE:
+        reason = f"the best known effect fits worse than {screen.misfit:.0%} of simulated ones do"
+        return Decision(word="unknown_physics", chosen=chosen[:3], p=p, reasons=(reason,))
+    if len(chosen) == 1:
+        return Decision(word="explained", chosen=chosen, p=p, reasons=())
+    if len(chosen) <= MOST_NAMED:
+        return Decision(word="ambiguous", chosen=chosen, p=p, reasons=(_why(chosen),))
+    return Decision(word="not_decidable", chosen=chosen, p=p, reasons=(f"{len(chosen)} effects look alike",))
+
+
+def _why(chosen: Sequence[str]) -> str:
+    terms, sites = {c.split("@")[0] for c in chosen}, {c.split("@")[1] for c in chosen}
+    if len(terms) == 1:
+        return "the place is not decided by these sensors"
+    if len(sites) == 1:
+        return "the mechanism is not decided by these recordings"
+    return "several effects at several places look alike in these recordings"

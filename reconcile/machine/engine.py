@@ -1,0 +1,157 @@
+"""All stages where the machine can be simulated: observe, calibrate, compare, nominate, refine, judge, validate."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from reconcile.atlas.bank import Mapper, make_bank
+from reconcile.atlas.candidates import candidates
+from reconcile.atlas.keep import Forgetful, Keeper, kept_bank
+from reconcile.atlas.places import simulated_channels
+from reconcile.atlas.plan import NULL_PAIRS, atlas_plan
+from reconcile.calibrate.uncertain import uncertain_numbers
+from reconcile.gate import inspect_measurement
+from reconcile.gate.findings import Gate
+from reconcile.judge.changes import lenses, observed_changes
+from reconcile.judge.screen import fit_space, judge
+from reconcile.machine.answer import answer, fault_answer
+from reconcile.machine.decide import credible_set, merged_weights
+from reconcile.machine.library import Catalogued, catalogued, joined
+from reconcile.machine.refine import best_draws, refined_plan
+from reconcile.machine.setting import Found, Setting
+from reconcile.observe.observation import observe
+from reconcile.observe.watch import watch_list
+from reconcile.verdict import Report
+from signals.recording import Recording
+from sim.core.spec import MachineSpec
+
+Progress = Callable[[float, str], None]
+REFINED_DRAWS = 8
+
+
+@dataclass(frozen=True, kw_only=True)
+class Budget:
+    """How much is simulated beyond the atlas: `effects` best candidates in each of `rounds`."""
+
+    name: Literal["quick", "full"]
+    effects: int
+    rounds: int
+
+
+QUICK = Budget(name="quick", effects=5, rounds=1)
+FULL = Budget(name="full", effects=8, rounds=2)
+BUDGETS = {"quick": QUICK, "full": FULL}
+
+
+def _silent(_share: float, _stage: str) -> None:
+    return None
+
+
+def reconcile_machine(
+    machine: MachineSpec,
+    tests: Sequence[Recording],
+    baselines: Sequence[Recording] = (),
+    *,
+    budget: Budget = QUICK,
+    keeper: Keeper | None = None,
+    mapper: Mapper = map,
+    seed: int = 0,
+    progress: Progress = _silent,
+) -> Report:
+    """Reconcile recordings with a machine; SpecError says what cannot be done and why."""
+    started = time.process_time()
+    progress(0.0, "sensor gate")
+    gate = _gate(machine, tests, baselines, seed)
+    if not gate.usable:
+        return fault_answer(gate, level="machine")
+    setting = _setting(machine, gate, keeper or Forgetful(), mapper, seed, progress)
+    atlas_s = time.process_time() - started
+    progress(0.6, "candidates")
+    found = _screened(setting)
+    for turn in range(budget.rounds):
+        progress(0.7 + 0.2 * turn / budget.rounds, "refining the best candidates")
+        if found.screen.p_any > 0.05 and found.screen.p_best > 0.05:
+            break
+        found = _refined(setting, found, budget, mapper, turn)
+    progress(0.9, "held-out data")
+    cost = {"atlas_and_observation_core_s": atlas_s, "core_s": time.process_time() - started, "budget": budget.name}
+    report = answer(setting, found, gate, cost)
+    progress(1.0, "done")
+    return report
+
+
+def _gate(machine: MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording], seed: int) -> Gate:
+    shaft = machine.operating.shaft if machine.operating else ""
+    teeth = [float(g.teeth) for g in machine.gears if g.shaft == shaft]
+    return inspect_measurement(baselines, tests, mesh_orders=teeth, lowest_order=0.3, seed=seed)
+
+
+def _setting(
+    machine: MachineSpec, gate: Gate, keeper: Keeper, mapper: Mapper, seed: int, progress: Progress
+) -> Setting:
+    watched = watch_list(machine)
+    progress(0.05, "speed and features")
+    data = observe(machine, watched, gate.tests, gate.baselines, seed=seed)
+    recorded = gate.tests[0].channels
+    simulated = simulated_channels(machine, recorded)
+    distinct = tuple(sorted(set(simulated)))
+    plan = atlas_plan(machine, uncertain_numbers(machine), candidates(machine), seed=seed)
+    banks = []
+    for k, one in enumerate(data):
+        progress(0.1 + 0.5 * k / len(data), f"atlas at {one.point.speed_hz:g} Hz")
+        bank = kept_bank(plan, one.point, distinct, keeper=keeper, mapper=mapper)
+        banks.append(bank.at(range(len(plan.draws)), [distinct.index(s) for s in simulated]))
+    seen = lenses(data, banks, plan)
+    return Setting(
+        machine=machine,
+        data=data,
+        channels=tuple(c.name for c in recorded),
+        simulated=simulated,
+        plan=plan,
+        banks=tuple(banks),
+        seen_through=seen,
+        changes=observed_changes(data, seen, banks, plan),
+        seed=seed,
+    )
+
+
+def _fit(setting: Setting, known: Catalogued) -> Found:
+    fitted = fit_space(setting.changes, known.library, seed=setting.seed)
+    return Found(known=known, fitted=fitted, screen=judge(fitted, setting.changes.observed))
+
+
+def _screened(setting: Setting) -> Found:
+    known = catalogued(
+        setting.plan,
+        setting.banks,
+        setting.seen_through,
+        setting.plan,
+        setting.banks,
+        with_baseline=setting.changes.with_baseline,
+    )
+    return _fit(setting, known)
+
+
+def _refined(setting: Setting, found: Found, budget: Budget, mapper: Mapper, turn: int) -> Found:
+    """Simulate the leading candidates again near their best draws, and judge with both libraries."""
+    weights = merged_weights(found.screen)
+    leading = list(weights)[: budget.effects]
+    if len(credible_set(weights, 0.999)) == 1:
+        leading = leading[:2]
+    around = [(name, best_draws(found.fitted, found.known, name, setting.changes.observed)) for name in leading]
+    plan = refined_plan(setting.plan, around, draws=REFINED_DRAWS, pairs=NULL_PAIRS, seed=setting.seed + turn)
+    distinct = tuple(sorted(set(setting.simulated)))
+    places = [distinct.index(s) for s in setting.simulated]
+    banks = [make_bank(plan, one.point, distinct, mapper).at(range(len(plan.draws)), places) for one in setting.data]
+    more = catalogued(
+        plan,
+        banks,
+        setting.seen_through,
+        setting.plan,
+        setting.banks,
+        with_baseline=setting.changes.with_baseline,
+    )
+    return _fit(setting, joined(found.known, more))

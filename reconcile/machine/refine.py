@@ -1,0 +1,84 @@
+"""Stage 5: the best candidates simulated again, near what fitted best, with all their parameters free."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from reconcile.atlas.candidates import Candidate, size_parameter
+from reconcile.atlas.plan import AtlasPlan, Draw
+from reconcile.judge.screen import Fitted
+from reconcile.machine.library import Catalogued
+from signals.series import FloatArray
+from sim.core.params import Param
+from sim.core.spec import TermSpec
+from sim.terms import REGISTRY
+
+NEAR_SIZE = 0.35
+"""Standard deviation of the logarithm of the size around the best draws."""
+NEAR_ANGLE_RAD = 0.5
+NEAR = 0.25
+
+
+def _moved(param: Param, value: float, rng: np.random.Generator) -> float:
+    if param.choices or value == 0.0:
+        return value
+    if param.unit == "rad" and param.scale == "linear":
+        moved = value + rng.normal(0.0, NEAR_ANGLE_RAD)
+    elif param.unit == "1" and float(value).is_integer() and value >= 2.0:
+        moved = value
+    else:
+        moved = value * float(np.exp(rng.normal(0.0, NEAR)))
+    return float(np.clip(moved, param.low, param.high))
+
+
+def _near(term: TermSpec, rng: np.random.Generator) -> TermSpec:
+    known = REGISTRY.get(term.term)
+    if known is None:
+        raise ValueError(f"no term {term.term}")
+    size = size_parameter(known)
+    values = {p.name: _moved(p, term.parameters[p.name], rng) for p in known.params if p.name in term.parameters}
+    grown = term.parameters[size.name] * float(np.exp(rng.normal(0.0, NEAR_SIZE)))
+    values[size.name] = float(np.clip(grown, size.low, size.high))
+    return term.model_copy(update={"parameters": values})
+
+
+def best_draws(fitted: Fitted, known: Catalogued, name: str, observed: FloatArray, count: int = 3) -> list[TermSpec]:
+    """The draws of one effect nearest to what was observed."""
+    squared = fitted.paths.distances(fitted.place(observed))
+    owner = fitted.paths.names.index(name)
+    rows = [k for k in np.argsort(squared) if fitted.paths.owner[k] == owner]
+    chosen: list[int] = []
+    for k in rows:
+        for row in (int(fitted.paths.high[k]), int(fitted.paths.low[k])):
+            if row >= 0 and row not in chosen:
+                chosen.append(row)
+    return [known.terms[k] for k in chosen[:count]]
+
+
+def refined_plan(
+    plan: AtlasPlan,
+    around: Sequence[tuple[str, Sequence[TermSpec]]],
+    *,
+    draws: int,
+    pairs: int,
+    seed: int,
+) -> AtlasPlan:
+    """`draws` machines an effect, spread over its best draws; the machine's own offsets are the atlas'."""
+    planned = []
+    for name, terms in around:
+        term, site = name.split("@")
+        rng = np.random.default_rng([seed, 4, *name.encode()])
+        candidate = Candidate(term=term, site=site)
+        for j in range(draws):
+            start = terms[j % len(terms)]
+            planned.append(Draw(pair=(j + 8) % pairs, candidate=candidate, term=_near(start, rng)))
+    return AtlasPlan(
+        machine=plan.machine,
+        numbers=plan.numbers,
+        offsets=plan.offsets,
+        twins=plan.twins,
+        draws=tuple(planned),
+        seed=plan.seed + 7919,
+    )

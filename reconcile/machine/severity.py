@@ -1,0 +1,56 @@
+"""How large the effect is: the sizes of the draws near the observation, weighted by how near they are."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from reconcile.atlas.candidates import size_parameter
+from reconcile.judge.screen import Fitted
+from reconcile.machine.library import Catalogued
+from reconcile.verdict import Severity
+from signals.series import FloatArray
+from sim.terms import REGISTRY
+
+LEAST_SPREAD = 0.08
+"""Standard deviation of the logarithm below which no size is claimed: what other machines of the kind differ by."""
+COVER = 1.645
+"""Normal quantile of a 90 % interval."""
+
+
+def _weights(squared: FloatArray, scale: float) -> FloatArray:
+    log = -0.5 * (squared - squared.min()) / scale
+    weights = np.exp(log)
+    return np.asarray(weights / weights.sum())
+
+
+def estimated_severity(fitted: Fitted, known: Catalogued, name: str, observed: FloatArray) -> Severity:
+    """Weighted mean and 90 % interval of the logarithm of the size over the points of the effect's path."""
+    term = REGISTRY.get(name.split("@", maxsplit=1)[0])
+    if term is None:
+        raise ValueError(name)
+    size = size_parameter(term)
+    owner = fitted.paths.names.index(name)
+    rows = np.flatnonzero((fitted.paths.owner == owner) & (fitted.paths.low >= 0))
+    squared = fitted.paths.distances(fitted.place(observed))[rows]
+    values = np.array([_size(known, fitted, int(k), size.name) for k in rows])
+    logs = np.log(np.maximum(values, 1e-300))
+    scale = max(fitted.overdispersion, float(np.partition(squared, min(2, squared.size - 1))[:3].mean()) * 0.1)
+    weights = _weights(squared, scale)
+    mean = float(weights @ logs)
+    steps = np.diff(np.sort(logs))
+    grid = float(np.median(steps)) if steps.size else 0.3
+    spread = np.sqrt(weights @ (logs - mean) ** 2 + LEAST_SPREAD**2 + (0.5 * grid) ** 2)
+    low, high = np.exp(mean - COVER * spread), np.exp(mean + COVER * spread)
+    return Severity(
+        name=size.name,
+        value=float(np.exp(mean)),
+        unit=size.unit,
+        low=float(max(low, size.low)),
+        high=float(min(high, size.high)),
+    )
+
+
+def _size(known: Catalogued, fitted: Fitted, point: int, name: str) -> float:
+    first, second = int(fitted.paths.low[point]), int(fitted.paths.high[point])
+    sizes = [abs(known.terms[k].parameters[name]) for k in (first, second)]
+    return float(np.sqrt(max(sizes[0] * sizes[1], 1e-300)))

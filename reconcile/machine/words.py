@@ -1,0 +1,52 @@
+"""Sentences a maintenance engineer can read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from reconcile.machine.decide import Decision
+from reconcile.verdict import HeldOut, NextExperiment, Severity
+from sim.terms import REGISTRY
+
+
+def title(label: str) -> str:
+    """`Outer-race spall at bearing1`."""
+    key, site = label.split("@")
+    term = REGISTRY.get(key)
+    return f"{term.title if term else key} at {site}"
+
+
+def _size(severity: Severity | None) -> str:
+    if severity is None:
+        return ""
+    unit = "" if severity.unit == "1" else f" {severity.unit}"
+    return f", {severity.name} {severity.value:.3g}{unit} (90 %: {severity.low:.2g} to {severity.high:.2g})"
+
+
+def sentence(decision: Decision, severity: Severity | None, held: HeldOut | None) -> str:
+    """The verdict in one sentence."""
+    if decision.word == "nothing_missing":
+        return f"Nothing is missing: {decision.reasons[0]}."
+    if decision.word == "explained":
+        gain = "" if held is None else f"; it takes {held.gain:.0%} off the spectral distance on data not fitted"
+        return f"{title(decision.chosen[0])}{_size(severity)}{gain}."
+    if decision.word == "unknown_physics":
+        return f"Something is missing that no known effect explains: {decision.reasons[0]}."
+    listed = ", or ".join(title(c).lower() for c in decision.chosen[:4])
+    more = "" if len(decision.chosen) <= 4 else f" and {len(decision.chosen) - 4} more"
+    return f"Something is missing (p = {decision.p:.3f}), but {decision.reasons[0]}: {listed}{more}."
+
+
+def next_experiment(chosen: Sequence[str], lead: float, points: int, sensors: Sequence[str]) -> NextExperiment | None:
+    """What would tell the leading candidates apart, and by how much if evidence grows as it did so far."""
+    if len(chosen) < 2:
+        return None
+    sites = list(dict.fromkeys(c.split("@")[1] for c in chosen))
+    missing = [s for s in sites if not any(name.startswith(s) for name in sensors)]
+    if len(sites) > 1 and missing:
+        grown = lead * (len(sensors) + 1) / max(len(sensors), 1)
+        text = f"An accelerometer at {' or '.join(missing[:2])} would tell these places apart best."
+    else:
+        grown = lead * (points + 1) / points
+        text = "A recording at one more speed or load would tell these effects apart best."
+    return NextExperiment(sentence=text, separation_now=lead, separation_expected=grown)
