@@ -27,6 +27,9 @@ COMMANDS = {
     "mesh": Command(module="app.cli.mesh", sentence="contact ratio and stiffness of a gear mesh"),
     "verify": Command(module="app.cli.verify", sentence="compare with reference solutions in a folder"),
     "analyse": Command(module="app.cli.analyse", sentence="indicators of a result or recording, as JSON"),
+    "reconcile": Command(
+        module="app.cli.reconcile", sentence="find what a machine's model lacks against recordings, and name it"
+    ),
     "presets": Command(module="app.cli.presets", sentence="list the ready machines, or print one"),
     "terms": Command(module="app.cli.terms", sentence="list the physical effects and their parameters"),
     "bearings": Command(module="app.cli.bearings", sentence="list the bearing catalogue"),

@@ -87,13 +87,20 @@ def _other(param: Param, rng: np.random.Generator) -> float:
     return float(np.clip(round(value) if counted else value, param.low, param.high))
 
 
-def draw_term(candidate: Candidate, share: float, rng: np.random.Generator, registry: Registry = REGISTRY) -> TermSpec:
-    """The candidate at `share` 0..1 of its range (logarithmic), other parameters drawn."""
+def draw_term(
+    candidate: Candidate,
+    share: float,
+    rng: np.random.Generator,
+    machine: MachineSpec,
+    registry: Registry = REGISTRY,
+) -> TermSpec:
+    """The candidate at `share` 0..1 of its range (logarithmic); others drawn, but for what the machine itself gives."""
     term = registry.get(candidate.term)
     if term is None:
         raise ValueError(f"no term {candidate.term}")
     size = size_parameter(term)
     low, high = size_range(size)
-    values = {p.name: _other(p, rng) for p in term.params if p.name != size.name}
+    given = term.machine_values(machine, candidate.site)
+    values = {p.name: _other(p, rng) for p in term.params if p.name != size.name and p.name not in given}
     values[size.name] = float(np.clip(np.exp(np.log(low) + share * np.log(high / low)), low, high))
     return TermSpec(term=candidate.term, site=candidate.site, parameters=values)

@@ -57,6 +57,16 @@ class AtlasPlan:
         return Member(machine=machine, seed=self.seed + 1000 * draw.pair + (1 if draw.twin else 0))
 
 
+def with_tooth_pairs(machine: MachineSpec) -> MachineSpec:
+    """A mesh given by one total curve is simulated by its tooth pairs, so that single teeth can differ.
+
+    A table of another origin differs from the potential-energy method by some percent: the machine's uncertainty
+    (10 % of the modulus) covers that.
+    """
+    meshes = [m.model_copy(update={"table": None, "tooth_pairs": True}) for m in machine.meshes]
+    return machine.model_copy(update={"meshes": meshes})
+
+
 def at_point(machine: MachineSpec, point: Point) -> MachineSpec:
     """The machine at another speed and load; SpecError for a machine that does not turn."""
     if machine.operating is None:
@@ -89,6 +99,6 @@ def atlas_plan(
         own = np.random.default_rng([seed, 2, *candidate.label.encode()])
         shares = (own.permutation(draws) + own.uniform(0.1, 0.9, draws)) / draws
         for j in range(draws):
-            term = draw_term(candidate, float(shares[j]), own)
+            term = draw_term(candidate, float(shares[j]), own, machine)
             planned.append(Draw(pair=j % pairs, candidate=candidate, term=term))
     return AtlasPlan(machine=machine, numbers=numbers, offsets=offsets, twins=twins, draws=tuple(planned), seed=seed)

@@ -53,7 +53,7 @@ def _left_out(points: FloatArray, groups: Mapping[str, Sequence[int]], shares: F
         order = sorted(members, key=lambda k: shares[k])
         for i, k in enumerate(order):
             others = [order[j] for j in (i - 1, i + 1) if 0 <= j < len(order)]
-            ends = [points[j] for j in others] if len(others) == 2 else [*(points[j] for j in others), 0 * points[k]]
+            ends = ([points[j] for j in others] + [0 * points[k], 0 * points[k]])[:2]
             along = ends[1] - ends[0]
             t = np.clip(np.dot(points[k] - ends[0], along) / max(float(np.dot(along, along)), 1e-12), 0.0, 1.0)
             own[k] = float(np.sum((points[k] - ends[0] - t * along) ** 2))
@@ -91,9 +91,8 @@ def fit_space(changes: Changes, library: Library, *, seed: int) -> Fitted:
     """Whiten, learn what scatters, lay out the paths and the bank of nulls."""
     whiten = whitening(changes.observed, changes.measured, changes.null, library.changes)
     rng = np.random.default_rng([seed, 3])
-    null = np.repeat(changes.null, NULL_COPIES, axis=0) * rng.choice(
-        [-1.0, 1.0], (changes.null.shape[0] * NULL_COPIES, 1)
-    )
+    copies = changes.null.shape[0] * NULL_COPIES
+    null = np.repeat(changes.null, NULL_COPIES, axis=0) * rng.choice([-1.0, 1.0], (copies, 1))
     noisy = null + rng.normal(size=null.shape) * np.nan_to_num(changes.measured)
     drawn, resting = whiten(library.changes), whiten(noisy)
     scatter = [neighbour_scatter(drawn[list(g)], library.shares[list(g)]) for g in library.groups.values()]

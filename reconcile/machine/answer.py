@@ -8,7 +8,6 @@ import numpy as np
 
 from reconcile.atlas.keep import ATLAS_VERSION
 from reconcile.gate.findings import Gate
-from reconcile.judge.changes import Changes
 from reconcile.machine.decide import Decision, decide, merged_weights
 from reconcile.machine.heldout import feature_frequencies, held_out
 from reconcile.machine.pictures import line_changes, ranking, spectra, turn_map
@@ -54,7 +53,7 @@ def _gate_stage(gate: Gate) -> Mapping[str, object]:
     return {"name": "sensor gate", "findings": remarks or ["nothing wrong with the measurement"]}
 
 
-def _layout(watched: WatchList, changes: Changes, setting: Setting) -> Layout:
+def _layout(watched: WatchList, setting: Setting) -> Layout:
     bank = setting.banks[0]
     return Layout(
         lines=len(watched.lines),
@@ -64,9 +63,7 @@ def _layout(watched: WatchList, changes: Changes, setting: Setting) -> Layout:
     )
 
 
-def _causes(
-    setting: Setting, found: Found, decision: Decision, weights: Mapping[str, float], observed: np.ndarray
-) -> tuple[Cause, ...]:
+def _causes(found: Found, decision: Decision, weights: Mapping[str, float], observed: np.ndarray) -> tuple[Cause, ...]:
     listed = list(decision.chosen) + [n for n in weights if n not in decision.chosen]
     causes = []
     for name in listed[:MOST_CAUSES]:
@@ -83,7 +80,6 @@ def _causes(
                 values=dict(drawn[0].parameters) if drawn else {},
             )
         )
-    del setting
     return tuple(causes)
 
 
@@ -130,10 +126,10 @@ def answer(setting: Setting, found: Found, gate: Gate, cost: Mapping[str, object
     observed = setting.changes.observed
     decision = decide(found.screen)
     watched = watch_list(setting.machine)
-    layout = _layout(watched, setting.changes, setting)
+    layout = _layout(watched, setting)
     weights = merged_weights(found.screen)
     missing = decision.word != "nothing_missing"
-    causes = _causes(setting, found, decision, weights, observed) if missing else ()
+    causes = _causes(found, decision, weights, observed) if missing else ()
     held = _held(setting, found, decision, layout) if decision.chosen else None
     fitted = _fitted_change(found, decision.chosen[0], observed) if decision.chosen else None
     severity: Severity | None = causes[0].severity if causes else None
@@ -160,7 +156,7 @@ def answer(setting: Setting, found: Found, gate: Gate, cost: Mapping[str, object
         machine=revised(setting.machine, causes[0]).model_dump(mode="json") if causes else None,
         stages=_stages(setting, found, gate, decision),
         pictures={
-            "spectra": spectra(setting.data, setting.seen_through, setting.changes, fitted, layout, setting.channels),
+            "spectra": spectra(setting.data, setting.seen_through, fitted, layout, setting.channels),
             "ranking": ranking(found.screen, max(lead, 1.0), named) if missing else [],
             "heat": turn_map(setting.data, setting.channels),
         },

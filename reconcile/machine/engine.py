@@ -11,7 +11,7 @@ from reconcile.atlas.bank import Mapper, make_bank
 from reconcile.atlas.candidates import candidates
 from reconcile.atlas.keep import Forgetful, Keeper, kept_bank
 from reconcile.atlas.places import simulated_channels
-from reconcile.atlas.plan import NULL_PAIRS, atlas_plan
+from reconcile.atlas.plan import NULL_PAIRS, atlas_plan, with_tooth_pairs
 from reconcile.calibrate.uncertain import uncertain_numbers
 from reconcile.gate import inspect_measurement
 from reconcile.gate.findings import Gate
@@ -98,7 +98,8 @@ def _setting(
     recorded = gate.tests[0].channels
     simulated = simulated_channels(machine, recorded)
     distinct = tuple(sorted(set(simulated)))
-    plan = atlas_plan(machine, uncertain_numbers(machine), candidates(machine), seed=seed)
+    paired = with_tooth_pairs(machine)
+    plan = atlas_plan(paired, uncertain_numbers(paired), candidates(paired), seed=seed)
     banks = []
     for k, one in enumerate(data):
         progress(0.1 + 0.5 * k / len(data), f"atlas at {one.point.speed_hz:g} Hz")

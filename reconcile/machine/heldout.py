@@ -19,6 +19,7 @@ NEAREST = 3
 BLOCKS = 40
 COPIES = 300
 RETUNE_RIDGE = 3.0
+LATER = "a later time of the same record"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,10 +37,8 @@ def splits(changes: Changes, spectral: np.ndarray) -> tuple[tuple[Split, ...], s
     and bands, which the distance is taken over."""
     points = len(changes.starts) - 1
     if points == 1:
-        split = Split(
-            fit=np.isfinite(changes.halves[0]), score=spectral, fitted=changes.halves[0], scored=changes.halves[1]
-        )
-        return (split,), "a later time of the same record"
+        early, late = changes.halves
+        return (Split(fit=np.isfinite(early), score=spectral, fitted=early, scored=late),), LATER
     found = []
     for p in range(points):
         held = np.zeros(changes.observed.size, dtype=bool)
@@ -59,12 +58,13 @@ def spectral_mask(layout: Layout, channels: int, points: int) -> np.ndarray:
 
 def _prediction(changes: FloatArray, rows: Sequence[int], split: Split, sigma: FloatArray) -> FloatArray:
     """Mean change of the draws that fit best on the fitted part, (F,)."""
-    part = split.fit & np.isfinite(split.fitted) & np.isfinite(changes[list(rows)]).all(axis=0)
-    away = (changes[np.ix_(list(rows), np.flatnonzero(part))] - split.fitted[part]) / sigma[part]
+    drawn = changes[np.asarray(rows)]
+    part = split.fit & np.isfinite(split.fitted) & np.isfinite(drawn).all(axis=0)
+    away = (drawn[:, part] - split.fitted[part]) / sigma[part]
     distance = np.mean(np.log1p(np.abs(away)) ** 2, axis=1)
     best = np.argsort(distance)[:NEAREST]
     weights = 1.0 / np.maximum(distance[best], 1e-6)
-    return np.asarray(weights @ changes[np.asarray(rows)[best]] / weights.sum())
+    return np.asarray(weights @ drawn[best] / weights.sum())
 
 
 def _retuned(null: FloatArray, split: Split, sigma: FloatArray) -> FloatArray:
@@ -124,9 +124,8 @@ def held_out(
         retuned.append(_distance(way.scored, _retuned(changes.null, way, sigma), way))
         box.append(_distance(way.scored, _black_box(way, frequency, parameters), way))
         for k, other in enumerate(wrong):
-            placebos[k].append(
-                _distance(way.scored, _prediction(known.library.changes, groups[other], way, sigma), way)
-            )
+            guess = _prediction(known.library.changes, groups[other], way, sigma)
+            placebos[k].append(_distance(way.scored, guess, way))
     first = np.concatenate(before)
     low, high = _interval(before, after, np.random.default_rng([seed, 5]))
     gains = [_gain(first, np.concatenate(p)) for p in placebos if np.concatenate(p).size == first.size]

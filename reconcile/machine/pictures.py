@@ -18,18 +18,25 @@ from signals.series import FloatArray
 MOST_LINES = 15
 STANDS_OUT = 3.0
 TURN_BINS = 72
+FOLLOWS = {
+    "f_o": "outer ring of bearing",
+    "f_i": "inner ring of bearing",
+    "f_b": "balls of bearing",
+    "f_c": "cage of bearing",
+    "f_m": "mesh",
+    "f_r": "shaft",
+}
 
 
 def _reference(one: PointData, lens: Lens, channel: int, part: slice) -> FloatArray:
     if one.baseline is not None:
-        return 10.0 * np.log10(np.maximum(one.baseline.total[channel], 1e-300))
-    return lens.nominal[channel, part]
+        return np.asarray(10.0 * np.log10(np.maximum(one.baseline.total[channel], 1e-300)))
+    return np.asarray(lens.nominal[channel, part])
 
 
 def spectra(
     data: Sequence[PointData],
     lens: Sequence[Lens],
-    changes: Changes,
     fitted_db: FloatArray | None,
     layout: Layout,
     channels: Sequence[str],
@@ -81,15 +88,7 @@ def line_changes(
 def locked_to(orders: object) -> str:
     """What a line's frequency follows: `mesh`, `bearing N`, or a shaft."""
     bases = list(orders) if isinstance(orders, dict) else []
-    for prefix, word in (
-        ("f_o", "outer ring of bearing"),
-        ("f_i", "inner ring of bearing"),
-        ("f_b", "balls of bearing"),
-    ):
-        for base in bases:
-            if base.startswith(prefix):
-                return f"{word} {base[3:]}"
-    for prefix, word in (("f_c", "cage of bearing"), ("f_m", "mesh"), ("f_r", "shaft")):
+    for prefix, word in FOLLOWS.items():
         for base in bases:
             if base.startswith(prefix):
                 return f"{word} {base[3:]}".strip()
@@ -117,9 +116,8 @@ def turn_map(data: Sequence[PointData], channels: Sequence[str]) -> dict[str, ob
     rows = []
     for c in range(len(channels)):
         fold = _folded(now.samples[c], now.rate_hz, now.speed_hz)
-        level = 10.0 * np.log10(
-            fold / np.mean(_folded(before.samples[c], before.rate_hz, before.speed_hz) if before else fold)
-        )
+        rest = _folded(before.samples[c], before.rate_hz, before.speed_hz) if before else fold
+        level = 10.0 * np.log10(fold / rest.mean())
         rows.append(level.tolist())
     angle = (np.arange(TURN_BINS) + 0.5) * 360.0 / TURN_BINS
     return {

@@ -1,0 +1,91 @@
+"""Reconcile recordings with a machine: where they differ, which physics was left out, and the fit with it.
+
+R.json is the description of a recording (the data file beside it, same stem). Several recordings at different speeds
+and loads decide more than one; baselines are recordings of the same machine when it was sound. Writes report.json and
+report.html; exit code 0 with any verdict.
+
+Example: sideband reconcile --machine M.json --baseline b1.json b2.json --recording t1.json t2.json --out report
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import nullcontext
+from multiprocessing import get_context
+from pathlib import Path
+
+from app.cli.choice import read_machine
+from app.cli.files import read_json
+from app.cli.parameters import read_parameters
+from reconcile.entry import reconcile_recordings
+from reconcile.machine.engine import BUDGETS
+from reconcile.kinematics import KinematicSpec, read_kinematic_spec
+from reconcile.report import write_report
+from signals.ingest import read_recording
+from sim.core.errors import Problem, SpecError
+from sim.core.spec import MachineSpec
+from sim.presets.reference import KEYS
+from store.atlas import AtlasFolder, default_atlas_folder
+
+MOST_FOREIGN = 5
+"""A flat document with more reference names than this is a parameter file."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("--machine", metavar="FILE", type=Path, required=True, help="machine, parameters or kinematics")
+    parser.add_argument("--baseline", metavar="R.json", type=Path, nargs="+", default=[], action="extend")
+    parser.add_argument("--recording", metavar="R.json", type=Path, nargs="+", required=True, action="extend")
+    parser.add_argument("--budget", choices=sorted(BUDGETS), default="quick", help="how much is simulated anew")
+    parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for report.json, report.html")
+    parser.add_argument("--seed", type=int, default=0, help="seed of the atlas and of the bootstrap")
+    parser.add_argument("--jobs", metavar="N", type=int, default=2, help="processes that simulate the atlas")
+    parser.add_argument("--atlas", metavar="DIR", type=Path, default=None, help="where atlases are kept between runs")
+    parser.add_argument("--json", action="store_true", help="print report.json too")
+
+
+def _machine(path: Path) -> MachineSpec | KinematicSpec:
+    """Any of the three forms: a specification, a parameter file, or kinematics alone."""
+    document = read_json(path)
+    if "kinematics" in document:
+        return read_kinematic_spec(document)
+    if "parameters" in document or len(set(document) & set(KEYS)) > MOST_FOREIGN:
+        return read_parameters(path).machine
+    return read_machine(path)
+
+
+def _progress(share: float, stage: str) -> None:
+    if sys.stderr.isatty():
+        print(f"\r{share:4.0%} {stage:<40}", end="\n" if share >= 1.0 else "", file=sys.stderr, flush=True)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the command."""
+    if not 1 <= arguments.jobs <= 64:
+        raise SpecError(Problem(field="--jobs", message="must fit", given=arguments.jobs, allowed="1 to 64"))
+    machine = _machine(arguments.machine)
+    tests = [read_recording(path) for path in arguments.recording]
+    baselines = [read_recording(path) for path in arguments.baseline]
+    keeper = AtlasFolder(arguments.atlas or default_atlas_folder())
+    several = arguments.jobs > 1
+    pool = ProcessPoolExecutor(arguments.jobs, mp_context=get_context("spawn")) if several else nullcontext()
+    with pool as workers:
+        report = reconcile_recordings(
+            machine,
+            tests,
+            baselines,
+            budget=BUDGETS[arguments.budget],
+            keeper=keeper,
+            mapper=workers.map if workers is not None else map,
+            seed=arguments.seed,
+            progress=_progress,
+        )
+    written = write_report(report, arguments.out)
+    if arguments.json:
+        print(written[0].read_text(encoding="utf-8"))
+    else:
+        print(f"{report.verdict}: {report.sentence}")
+    print("wrote " + ", ".join(str(path) for path in written), file=sys.stderr)
+    return 0

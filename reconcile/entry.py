@@ -1,0 +1,112 @@
+"""One door for all levels: what the machine's description and the channels allow decides which engine answers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from reconcile.atlas.bank import Mapper
+from reconcile.atlas.keep import Keeper
+from reconcile.driven import reconcile_driven
+from reconcile.kinematics import KinematicSpec, reconcile_kinematics
+from reconcile.machine.engine import QUICK, Budget, Progress, reconcile_machine
+from reconcile.verdict import Report
+from signals.recording import Recording
+from sim.core.errors import Problem, SpecError
+from sim.core.spec import MachineSpec
+
+MOST_RECORDINGS = 24
+"""Of each kind: bounds time and memory of a request."""
+MOST_SAMPLES = 40_000_000
+"""All channels of all recordings together."""
+
+
+def _nothing(_share: float, _stage: str) -> None:
+    return None
+
+
+def check_size(tests: Sequence[Recording], baselines: Sequence[Recording]) -> None:
+    """SpecError for nothing at all and for more than a request may ask."""
+    problems = []
+    if not tests:
+        problems.append(
+            Problem(field="recording", message="needs at least one recording", given=0, allowed="1 or more")
+        )
+    for name, several in (("recording", tests), ("baseline", baselines)):
+        if len(several) > MOST_RECORDINGS:
+            problems.append(
+                Problem(field=name, message="too many", given=len(several), allowed=f"at most {MOST_RECORDINGS}")
+            )
+    samples = sum(r.samples.size for r in (*tests, *baselines))
+    if samples > MOST_SAMPLES:
+        message = "the recordings are too long together"
+        problems.append(
+            Problem(field="recording", message=message, given=samples, allowed=f"at most {MOST_SAMPLES} samples")
+        )
+    if problems:
+        raise SpecError(problems)
+
+
+def check_channels(tests: Sequence[Recording], baselines: Sequence[Recording]) -> None:
+    """Channels, units and rates must agree between all recordings: nothing is matched by guess."""
+    first = tests[0]
+    problems = []
+    for kind, several in (("recording", tests), ("baseline", baselines)):
+        for k, other in enumerate(several):
+            for c, (a, b) in enumerate(zip(first.channels, other.channels, strict=False)):
+                if (a.location, a.axis, a.quantity, a.unit) != (b.location, b.axis, b.quantity, b.unit):
+                    problems.append(
+                        Problem(
+                            field=f"{kind}[{k}].channels[{c}]",
+                            message="differs from the first recording's channel",
+                            given=f"{b.location} {b.axis} {b.quantity} {b.unit}",
+                            allowed=f"{a.location} {a.axis} {a.quantity} {a.unit}",
+                        )
+                    )
+            if len(other.channels) != len(first.channels):
+                problems.append(
+                    Problem(
+                        field=f"{kind}[{k}].channels",
+                        message="has another number of channels than the first recording",
+                        given=len(other.channels),
+                        allowed=str(len(first.channels)),
+                    )
+                )
+            if abs(other.sampling_rate_hz / first.sampling_rate_hz - 1.0) > 1e-6:
+                problems.append(
+                    Problem(
+                        field=f"{kind}[{k}].sampling_rate_hz",
+                        message="differs from the first recording's",
+                        given=other.sampling_rate_hz,
+                        allowed=f"{first.sampling_rate_hz:g}",
+                        unit="Hz",
+                    )
+                )
+    if problems:
+        raise SpecError(problems)
+
+
+def reconcile_recordings(
+    machine: MachineSpec | KinematicSpec,
+    tests: Sequence[Recording],
+    baselines: Sequence[Recording] = (),
+    *,
+    budget: Budget = QUICK,
+    keeper: Keeper | None = None,
+    mapper: Mapper = map,
+    seed: int = 0,
+    progress: Progress = _nothing,
+) -> Report:
+    """Reconcile recordings with what is known of their machine.
+
+    A machine without shafts is driven by a measured input; kinematics alone allow names and feature-level gains; a
+    machine that can be simulated allows all stages. SpecError says what cannot be reconciled and why.
+    """
+    check_size(tests, baselines)
+    if isinstance(machine, MachineSpec) and not machine.shafts:
+        return reconcile_driven(machine, tests, baselines, seed=seed)
+    check_channels(tests, baselines)
+    if isinstance(machine, KinematicSpec):
+        return reconcile_kinematics(machine, tests, baselines, seed=seed)
+    return reconcile_machine(
+        machine, tests, baselines, budget=budget, keeper=keeper, mapper=mapper, seed=seed, progress=progress
+    )
