@@ -230,6 +230,7 @@ def test_a_missing_package_is_named_with_its_extra(
     importlib.invalidate_caches()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [*WRITERS, "r.flac", "plain.mat", "packed.mat"])
 def test_damaged_files_are_read_or_refused_and_nothing_else(tmp_path, name: str) -> None:
     """Apart, as strangers' files are: a parser may break down, the process that asks may not."""

@@ -58,10 +58,11 @@ def test_a_parser_that_breaks_down_is_a_refusal(tmp_path, loader) -> None:
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.slow
 def test_memory_is_bounded(tmp_path) -> None:
     # compressed zeros that claim to be small enough to be tried
     savemat(tmp_path / "r.mat", {"a": np.zeros(30_000_000)}, do_compression=True)
-    bounds = Bounds(memory_bytes=700 * 2**20)
+    bounds = Bounds(memory_bytes=350 * 2**20)
     with pytest.raises(SpecError, match="memory"):
         parse(ABOUT, tmp_path / "r.mat", bounds, load_apart)
 
