@@ -8,6 +8,7 @@ from __future__ import annotations
 from signals.ingest.description import Description, read_description
 from signals.ingest.file import data_file, ingest, load_description, read_recording
 from signals.ingest.parse import Ingested, parse
+from signals.ingest.report import report
 from signals.readers.formats import FORMATS, suffix_of
 from signals.readers.limits import Bounds
 
@@ -22,5 +23,6 @@ __all__ = [
     "parse",
     "read_description",
     "read_recording",
+    "report",
     "suffix_of",
 ]
