@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from signals.ingest.description import Description, read_description
 from signals.ingest.file import data_file, ingest, load_description, read_recording
-from signals.ingest.parse import Ingested, parse
+from signals.ingest.parse import Ingested, check_units, parse
 from signals.ingest.report import report
 from signals.readers.formats import FORMATS, suffix_of
 from signals.readers.limits import Bounds
@@ -17,6 +17,7 @@ __all__ = [
     "Bounds",
     "Description",
     "Ingested",
+    "check_units",
     "data_file",
     "ingest",
     "load_description",

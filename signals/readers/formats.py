@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePath
 from types import MappingProxyType
 from typing import cast
 
@@ -51,7 +51,7 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
 )
 
 
-def suffix_of(path: Path) -> str:
+def suffix_of(path: PurePath) -> str:
     """The ending that says the format, in lower case; `.csv.gz` is one."""
     suffix = path.suffix.lower()
     return path.with_suffix("").suffix.lower() + suffix if suffix == ".gz" else suffix
