@@ -54,7 +54,9 @@ def test_data_files_are_installed_with_their_package():
         assert any(fnmatch(rest, pattern) for pattern in chosen), f"{name} would not be installed"
 
 
-@pytest.mark.parametrize(("lock", "extras"), [(RUN, ()), (SERVER, SERVER_EXTRAS), (DEV, (*SERVER_EXTRAS, "mdf", "dev"))])
+@pytest.mark.parametrize(
+    ("lock", "extras"), [(RUN, ()), (SERVER, SERVER_EXTRAS), (DEV, (*SERVER_EXTRAS, "mdf", "dev"))]
+)
 def test_every_declared_dependency_is_locked_to_one_allowed_version(lock, extras):
     pins = locked(lock)
     for wanted in _declared(*extras):
