@@ -71,11 +71,11 @@ openapi: dev  ## write openapi/openapi.json
 	$(BIN)/python -m app.openapi
 
 LOCK = $(BIN)/pip-compile --quiet -c constraints.txt --no-emit-index-url --no-emit-find-links --strip-extras --no-header $(UPGRADE)
-SERVER = --extra postgres --extra s3
+SERVER = --extra postgres --extra s3 --extra formats
 lock: dev  ## new lock files from pyproject.toml (keeps what is locked; add UPGRADE=--upgrade to renew)
 	$(LOCK) -o requirements.lock pyproject.toml
 	$(LOCK) $(SERVER) -o requirements-server.lock pyproject.toml
-	$(LOCK) $(SERVER) --extra dev -o requirements-dev.lock pyproject.toml
+	$(LOCK) $(SERVER) --extra mdf --extra dev -o requirements-dev.lock pyproject.toml
 
 clean:  ## remove what the doors made in this folder (not the kernel cache, not data)
 	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build *.egg-info

@@ -9,6 +9,7 @@ from fastapi.openapi.utils import get_openapi
 
 from app.problems import ProblemDocument
 from app.version import VERSION
+from signals.ingest import Description
 
 DESCRIPTION = (
     "Simulates gear-rotor-bearing machines and serves signals, spectra and labelled peaks. "
@@ -41,6 +42,10 @@ def build(app: FastAPI) -> dict[str, Any]:
     problem = ProblemDocument.model_json_schema(ref_template=_TEMPLATE)
     schemas.update(problem.pop("$defs", {}))
     schemas["ProblemDocument"] = problem
+    # sent as a part of a form, so that no route's signature names it
+    sent = Description.model_json_schema(ref_template=_TEMPLATE)
+    schemas.update(sent.pop("$defs"))
+    schemas["Description"] = sent
     reference = {"schema": {"$ref": "#/components/schemas/ProblemDocument"}}
     for operations in document["paths"].values():
         for operation in operations.values():

@@ -10,6 +10,7 @@ from starlette.exceptions import HTTPException
 from starlette.responses import Response
 
 from app import problems
+from app.guards.upload import UploadRefused
 from sim.core.errors import SidebandError
 
 log = logging.getLogger(__name__)
@@ -24,6 +25,7 @@ _SLUGS = {400: "bad-request", 404: "not-found", 405: "method-not-allowed", 422: 
 def install(app: FastAPI) -> None:
     """Register the handlers."""
     app.add_exception_handler(SidebandError, _ours)
+    app.add_exception_handler(UploadRefused, _upload)
     app.add_exception_handler(RequestValidationError, _invalid)
     app.add_exception_handler(HTTPException, _http)
     app.add_exception_handler(Exception, _unexpected)
@@ -32,6 +34,11 @@ def install(app: FastAPI) -> None:
 async def _ours(request: Request, error: Exception) -> Response:
     assert isinstance(error, SidebandError)
     return problems.response(problems.told(error), request.url.path)
+
+
+async def _upload(request: Request, error: Exception) -> Response:
+    assert isinstance(error, UploadRefused)
+    return problems.response(error.told, request.url.path)
 
 
 async def _invalid(request: Request, error: Exception) -> Response:

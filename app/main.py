@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import time
 from collections.abc import AsyncIterator
+from functools import partial
 
 from fastapi import FastAPI
 from starlette.staticfiles import StaticFiles
@@ -14,16 +15,19 @@ from app.document import describe
 from app.guards.access import AccessGuard
 from app.guards.body import BodyGuard
 from app.guards.headers import ReplyHeaders
+from app.guards.upload import UploadGuard
 from app.instruments import Instruments, Measured
 from app.recovery import RecoveryThread
-from app.routes import events, health, indicators, jobs, plots, reference, results, simulations
+from app.routes import events, health, indicators, jobs, plots, recordings, reference, results, simulations
 from app.settings import Settings
 from app.state import AppState
 from jobs.ports import Engine
 from jobs.slices import Encoder
 from store.stores import Stores, open_stores
 
-ROUTERS = tuple(module.router for module in (simulations, jobs, events, results, indicators, plots, reference, health))
+ROUTERS = tuple(
+    module.router for module in (simulations, jobs, events, results, indicators, plots, recordings, reference, health)
+)
 
 
 def create_app(settings: Settings, *, engine: Engine, encode: Encoder, stores: Stores | None = None) -> FastAPI:
@@ -63,10 +67,16 @@ def _guard(app: FastAPI, state: AppState) -> None:
     """Guards, the innermost first."""
     settings = state.settings
     app.add_middleware(
-        BodyGuard,
-        max_bytes=settings.max_body_bytes,
-        max_depth=settings.max_json_depth,
-        timeout_s=settings.body_timeout_s,
+        UploadGuard,
+        max_bytes=settings.max_upload_bytes,
+        piece_timeout_s=settings.body_timeout_s,
+        timeout_s=settings.upload_timeout_s,
+        other=partial(
+            BodyGuard,
+            max_bytes=settings.max_body_bytes,
+            max_depth=settings.max_json_depth,
+            timeout_s=settings.body_timeout_s,
+        ),
     )
     app.add_middleware(AccessGuard, settings=settings)
     app.add_middleware(Measured, instruments=state.instruments)

@@ -26,6 +26,9 @@ class Settings:
     """Names under which a server without keys may be called, besides loopback ones. With keys any name will do."""
     limits: Limits = field(default_factory=Limits)
     max_body_bytes: int = 8 * 2**20
+    max_upload_bytes: int = 512 * 2**20
+    """Of a recording that is sent in."""
+    upload_timeout_s: float = 900.0
     max_json_depth: int = 32
     body_timeout_s: float = 30.0
     heartbeat_s: float = 15.0
@@ -57,7 +60,7 @@ class Settings:
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> Settings:
         """`SIDEBAND_HOST`, `SIDEBAND_PORT`, `SIDEBAND_API_KEYS` (`name:sha256,...`), `SIDEBAND_ALLOWED_HOSTS`; limits:
         `SIDEBAND_MAX_DURATION_S`, `SIDEBAND_MAX_MEMORY_BYTES`, `SIDEBAND_MAX_STEPS`, `SIDEBAND_MAX_SECONDS`,
-        `SIDEBAND_MAX_WAITING`."""
+        `SIDEBAND_MAX_WAITING`, `SIDEBAND_MAX_UPLOAD_BYTES`."""
         env = os.environ if environment is None else environment
         base = Limits()
         limits = Limits(
@@ -74,6 +77,7 @@ class Settings:
             api_keys=parse_keys(env.get("SIDEBAND_API_KEYS", "")),
             allowed_hosts=tuple(h.strip() for h in env.get("SIDEBAND_ALLOWED_HOSTS", "").split(",") if h.strip()),
             limits=limits,
+            max_upload_bytes=int(number(env, "SIDEBAND_MAX_UPLOAD_BYTES", cls.max_upload_bytes)),
         )
 
 

@@ -58,7 +58,7 @@ def accept(desk: Desk, request: SimulationRequest, *, submitter: str, scope: str
             return earlier
     resolved = resolve(request, desk.engine, desk.limits)
     identifier = job_id(KIND, resolved.document, desk.engine.version)
-    if _needs_work(desk.catalogue, identifier):
+    if needs_work(desk.catalogue, identifier):
         _check_room(desk, resolved)
     now = desk.clock()
     if key is not None:
@@ -111,7 +111,8 @@ def _reserve(desk: Desk, scope: str, key: str, body: str, identifier: str) -> No
         raise IdempotencyConflict(key)
 
 
-def _needs_work(catalogue: JobCatalogue, identifier: str) -> bool:
+def needs_work(catalogue: JobCatalogue, identifier: str) -> bool:
+    """Whether asking for the job starts an attempt."""
     try:
         record = catalogue.get(identifier)
     except UnknownJob:
@@ -119,11 +120,16 @@ def _needs_work(catalogue: JobCatalogue, identifier: str) -> bool:
     return record.gone is not None or record.status in (Status.FAILED, Status.DISMISSED)
 
 
-def _check_room(desk: Desk, resolved: Resolved) -> None:
+def check_queue(desk: Desk) -> None:
+    """Raise BrokerAway or QueueFull when no further work can be taken."""
     desk.queue.ping()
     waiting = desk.catalogue.waiting()
     if waiting >= desk.limits.waiting_jobs:
         raise QueueFull(waiting, desk.limits.waiting_jobs, retry_after_s=30)
+
+
+def _check_room(desk: Desk, resolved: Resolved) -> None:
+    check_queue(desk)
     needed = result_bytes(resolved.document) + RESERVED_BYTES
     free = desk.artefacts.free_bytes()
     if free is not None and free < needed:

@@ -12,6 +12,7 @@ JobError
  +- StoreAway              the catalogue or the artefact store cannot be reached
  |   +- StoreFull          no space left
  +- UnknownArtefact        the result has no such part
+ +- RecordingRefused       what was sent is no recording; carries field problems
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from jobs.status import Status
-from sim.core.errors import SidebandError
+from sim.core.errors import Problem, SidebandError
 
 
 class JobError(SidebandError):
@@ -93,3 +94,11 @@ class UnknownArtefact(JobError):
     def __init__(self, kind: str, name: str, known: Sequence[str]) -> None:
         self.kind, self.name, self.known = kind, name, tuple(known)
         super().__init__(f"the result has no {kind} {name!r}; it has: {', '.join(self.known) or 'none'}")
+
+
+class RecordingRefused(JobError):
+    """A recording that was sent in cannot be read as it is described; `problems` say which field or place is wrong."""
+
+    def __init__(self, problems: Sequence[Problem]) -> None:
+        self.problems = tuple(problems)
+        super().__init__("; ".join(str(p) for p in self.problems))

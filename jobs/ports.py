@@ -131,6 +131,9 @@ class JobQuery:
 
     statuses: tuple[Status, ...] = ()
     preset: str | None = None
+    kind: str | None = None
+    other_than: str | None = None
+    """A kind that is left out."""
     sort: str = "created_at"
     descending: bool = True
     limit: int = 50

@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 
 import numpy as np
@@ -85,12 +85,15 @@ def write_result(
     """Write every file, the manifest last; the same response gives the same bytes."""
     signals = np.ascontiguousarray(response.signals, dtype="<f8")
     files = {
-        "signals.f64": _put(store, f"{prefix}/signals.f64", [row.tobytes() for row in signals]),
-        "spectra.f64": _put(store, f"{prefix}/spectra.f64", [_pair(s) for s in documents.spectra]),
-        "summary.json": _put(store, f"{prefix}/summary.json", [_json(documents.summary)]),
-        "peaks.json": _put(store, f"{prefix}/peaks.json", [_json(documents.peaks)]),
+        "signals.f64": put_file(store, f"{prefix}/signals.f64", [row.tobytes() for row in signals]),
+        "spectra.f64": put_file(store, f"{prefix}/spectra.f64", [_pair(s) for s in documents.spectra]),
+        "summary.json": put_file(store, f"{prefix}/summary.json", [json_bytes(documents.summary)]),
+        "peaks.json": put_file(store, f"{prefix}/peaks.json", [json_bytes(documents.peaks)]),
     }
-    files |= {f"{name}.json": _put(store, f"{prefix}/{name}.json", [_json(d)]) for name, d in documents.extras.items()}
+    files |= {
+        f"{name}.json": put_file(store, f"{prefix}/{name}.json", [json_bytes(d)])
+        for name, d in documents.extras.items()
+    }
     manifest = Manifest(
         physics_version=response.version,
         seed=response.seed,
@@ -100,12 +103,13 @@ def write_result(
         spectra=_entries(documents.spectra),
         files=files,
     )
-    table = _put(store, f"{prefix}/manifest.json", [_json(manifest.model_dump(mode="json"))])
+    table = put_file(store, f"{prefix}/manifest.json", [json_bytes(manifest.model_dump(mode="json"))])
     size = table.bytes + sum(entry.bytes for entry in files.values())
     return ResultRef(attempt=attempt, size_bytes=size, sha256=table.sha256, expires_at=expires_at)
 
 
-def _put(store: ArtefactStore, key: str, parts: list[bytes]) -> FileEntry:
+def put_file(store: ArtefactStore, key: str, parts: Iterable[bytes]) -> FileEntry:
+    """Write one file; its size and digest."""
     digest, size = hashlib.sha256(), 0
     with store.write(key) as stream:
         for part in parts:
@@ -115,7 +119,8 @@ def _put(store: ArtefactStore, key: str, parts: list[bytes]) -> FileEntry:
     return FileEntry(bytes=size, sha256=digest.hexdigest())
 
 
-def _json(document: Mapping[str, object]) -> bytes:
+def json_bytes(document: Mapping[str, object]) -> bytes:
+    """A document as it is stored: one text for one meaning."""
     return canonical_json(plain(document)).encode()
 
 

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from jobs import transitions
+from jobs.accept import KIND
 from jobs.carry_out import carry_out, completed
-from jobs.errors import StaleAttempt, StoreAway, StoreFull
+from jobs.errors import RecordingRefused, StaleAttempt, StoreAway, StoreFull
 from jobs.ports import Analyser, ArtefactStore, Clock, Engine, JobCatalogue
-from jobs.record import Failure, JobRecord
+from jobs.record import Failure, JobRecord, ResultRef
+from jobs.recordings.read import read_upload
+from jobs.recordings.words import RECORDING
 from jobs.reporter import Reporter
 from jobs.resolve import restored
 from jobs.results import write_result
@@ -43,24 +47,28 @@ def run(bench: Bench, job_id: str, attempt: int, worker: str) -> JobRecord | Non
     """
     try:
         now = bench.clock()
-        bench.catalogue.change(
+        record = bench.catalogue.change(
             job_id, lambda r: transitions.start(r, attempt=attempt, worker=worker, lease_s=bench.lease_s, now=now)
         )
     except StaleAttempt as error:
         log.info("ticket ignored: %s", error)
         return None
     try:
-        return _work(bench, job_id, attempt)
+        return _work(bench, record)
     except StaleAttempt as error:
         log.warning("attempt given up: %s", error)
         return None
 
 
-def _work(bench: Bench, job_id: str, attempt: int) -> JobRecord:
+def _work(bench: Bench, record: JobRecord) -> JobRecord:
+    job_id, attempt = record.id, record.attempt
     reporter = Reporter(bench.catalogue, bench.clock, job_id=job_id, attempt=attempt, lease_s=bench.lease_s)
     now = bench.clock
     try:
-        return _result(bench, reporter, job_id, attempt)
+        reference = _KINDS[record.kind](bench, reporter, job_id, attempt)
+        return bench.catalogue.change(
+            job_id, lambda r: transitions.succeed(r, attempt=attempt, result=reference, now=now())
+        )
     except StaleAttempt:
         raise
     except Cancelled:
@@ -83,7 +91,7 @@ def _work(bench: Bench, job_id: str, attempt: int) -> JobRecord:
         )
 
 
-def _result(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> JobRecord:
+def _simulated(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> ResultRef:
     machine, request = restored(bench.catalogue.request_of(job_id))
     outcome = carry_out(bench.engine, machine, request, progress=reporter.simulating, cancelled=reporter.cancelled)
     response = outcome.response
@@ -92,7 +100,7 @@ def _result(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> JobR
     documents = completed(documents, outcome.extras)
     reporter.stage("storing", 0.95)
     finished = bench.clock()
-    reference = write_result(
+    return write_result(
         bench.artefacts,
         f"{job_id}/{attempt}",
         attempt=attempt,
@@ -100,9 +108,14 @@ def _result(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> JobR
         documents=documents,
         expires_at=None if bench.keep_s is None else finished + bench.keep_s,
     )
-    return bench.catalogue.change(
-        job_id, lambda r: transitions.succeed(r, attempt=attempt, result=reference, now=bench.clock())
-    )
+
+
+def _recorded(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> ResultRef:
+    return read_upload(bench.artefacts, reporter, bench.catalogue.request_of(job_id), job_id, attempt)
+
+
+_KINDS: Mapping[str, Callable[[Bench, Reporter, str, int], ResultRef]] = {KIND: _simulated, RECORDING: _recorded}
+"""How each kind of job comes to its result."""
 
 
 def failure_of(error: BaseException, timeouts: tuple[type[BaseException], ...]) -> Failure:
@@ -110,11 +123,12 @@ def failure_of(error: BaseException, timeouts: tuple[type[BaseException], ...]) 
     if isinstance(error, Diverged):
         detail: dict[str, object] = {"time_s": error.time_s, "dof": error.dof}
         return Failure(code="diverged", message=str(error), advice=error.advice, detail=detail)
-    if isinstance(error, SpecError):
+    if isinstance(error, SpecError | RecordingRefused):
+        refused = isinstance(error, RecordingRefused)
         return Failure(
-            code="invalid-machine",
+            code="refused" if refused else "invalid-machine",
             message=str(error),
-            advice="change the fields named",
+            advice="change the fields named, or send a sound file" if refused else "change the fields named",
             detail={"errors": [problem.to_dict() for problem in error.problems]},
         )
     if isinstance(error, MemoryError):

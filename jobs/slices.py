@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from jobs.documents import FloatArray
+from jobs.recordings.stored import stored_recording
+from jobs.recordings.words import RECORDING
 from jobs.results import ResultReader
 from jobs.thinning import min_max
 from signals.recording import Recording
@@ -51,6 +53,8 @@ def window(reader: ResultReader, start_s: float | None, end_s: float | None) -> 
 
 def recording(reader: ResultReader, channels: Sequence[str], part: Window) -> Recording:
     """The stretch as a recording."""
+    if reader.has(RECORDING):
+        return stored_recording(reader, channels, start=part.start, stop=part.stop)
     rows = np.array([reader.signal(name, part.start, part.stop) for name in channels])
     rate = reader.manifest.sampling_rate_hz
     return Recording(

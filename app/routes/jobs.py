@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import base64
-import json
 from typing import Annotated, Literal
 
 from fastapi import APIRouter, Path, Query, Request, Response
 from pydantic import Field
-from starlette.datastructures import URL
 
+from app.paging import cursor_of, read_cursor, relative
 from app.routes.responses import problems
 from app.routes.simulations import SubmitterName, named
 from app.schemas import JobPage, JobView, Reply, job_view
@@ -17,9 +15,8 @@ from app.state import Principal, State
 from jobs.control import Caller, cancel, delete
 from jobs.errors import JobGone
 from jobs.ports import JobQuery
-from jobs.record import JobRecord
+from jobs.recordings.words import RECORDING
 from jobs.status import Status
-from sim.core.errors import Problem, SpecError
 
 router = APIRouter(tags=["jobs"])
 
@@ -41,24 +38,30 @@ def list_jobs(
     state: State,
     status: Annotated[list[Status] | None, Query()] = None,
     preset: Annotated[str | None, Query(max_length=80)] = None,
+    kind: Annotated[str | None, Query(max_length=40)] = None,
     sort: Annotated[Sort, Query()] = "-created_at",
     limit: Annotated[int, Query(ge=1, le=200)] = 50,
     cursor: Annotated[str | None, Query(max_length=300)] = None,
 ) -> JobPage:
-    """Jobs, filtered and sorted, a page at a time; `next` is the address of the following page."""
+    """Jobs, filtered and sorted, a page at a time; `next` is the address of the following page.
+
+    Recordings that were sent in have a list of their own and are here only with `kind=recording`.
+    """
     field = sort.removeprefix("-")
     query = JobQuery(
         statuses=tuple(status or ()),
         preset=preset,
+        kind=kind,
+        other_than=RECORDING if kind is None else None,
         sort=field,
         descending=sort.startswith("-"),
         limit=limit,
-        after=None if cursor is None else _read_cursor(cursor),
+        after=None if cursor is None else read_cursor(cursor),
     )
     records, total = state.stores.catalogue.query(query)
     following = None
     if len(records) == limit:
-        following = _relative(request.url.include_query_params(cursor=_cursor(records[-1], field)))
+        following = relative(request.url.include_query_params(cursor=cursor_of(records[-1], field)))
         response.headers["Link"] = f'<{following}>; rel="next"'
     return JobPage(jobs=[job_view(record) for record in records], total=total, next=following)
 
@@ -107,22 +110,3 @@ def delete_job(job_id: JobId, state: State) -> Response:
         raise JobGone(job_id, record.gone)
     delete(state.stores.catalogue, state.stores.artefacts, state.desk().clock, job_id)
     return Response(status_code=204)
-
-
-def _cursor(record: JobRecord, field: str) -> str:
-    text = json.dumps([getattr(record, field), record.id])
-    return base64.urlsafe_b64encode(text.encode()).decode().rstrip("=")
-
-
-def _read_cursor(cursor: str) -> tuple[float, str]:
-    try:
-        padded = cursor + "=" * (-len(cursor) % 4)
-        value, job_id = json.loads(base64.urlsafe_b64decode(padded))
-        return float(value), str(job_id)
-    except (ValueError, TypeError) as error:
-        message = "is not a cursor of this list"
-        raise SpecError(Problem(field="cursor", message=message, given=cursor, allowed="as in `next`")) from error
-
-
-def _relative(url: URL) -> str:
-    return f"{url.path}?{url.query}"

@@ -13,7 +13,7 @@ _WORDS = {
     409: "The job's state does not allow this (yet).",
     410: "The result expired or was deleted.",
     413: "The body is too large.",
-    415: "The body is not JSON.",
+    415: "The body is of another media type.",
     416: "The range lies outside the content.",
     422: "Fields must change; each is named in `errors`.",
     429: "Too much is waiting.",

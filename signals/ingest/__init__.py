@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from signals.ingest.description import Description, read_description
 from signals.ingest.file import data_file, ingest, load_description, read_recording
-from signals.ingest.parse import Ingested, parse
+from signals.ingest.parse import Ingested, check_units, parse
+from signals.ingest.report import report
 from signals.readers.formats import FORMATS, suffix_of
 from signals.readers.limits import Bounds
 
@@ -16,11 +17,13 @@ __all__ = [
     "Bounds",
     "Description",
     "Ingested",
+    "check_units",
     "data_file",
     "ingest",
     "load_description",
     "parse",
     "read_description",
     "read_recording",
+    "report",
     "suffix_of",
 ]

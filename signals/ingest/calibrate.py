@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from signals.ingest.description import ChannelEntry, Sensitivity
@@ -29,6 +30,20 @@ class Scale:
     def apply(self, stored: FloatArray) -> FloatArray:
         """The samples in the channel's unit, shape as given."""
         return stored * self.factor + self.offset
+
+
+def scales_of(entries: Sequence[ChannelEntry], units_in_file: Sequence[str]) -> list[Scale]:
+    """How each channel's numbers are read; SpecError names every channel with an unknown or contradicting unit."""
+    found: list[Scale] = []
+    problems: list[Problem] = []
+    for i, (entry, unit) in enumerate(zip(entries, units_in_file, strict=True)):
+        try:
+            found.append(scale_of(entry, unit, f"channels.{i}"))
+        except SpecError as error:
+            problems += error.problems
+    if problems:
+        raise SpecError(problems)
+    return found
 
 
 def scale_of(entry: ChannelEntry, unit_in_file: str, field: str) -> Scale:

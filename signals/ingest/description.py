@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from signals.validation import problems_of, shown
 from sim.core.errors import Problem, SpecError
@@ -109,11 +109,12 @@ class Description(_Part):
     data: Annotated[str, Field(min_length=1, max_length=400)] | None = None
     """The file, relative to the description; default: the one beside it with the same stem."""
 
-    @model_validator(mode="after")
-    def _some_channel(self) -> Self:
-        if not self.channels:
+    @field_validator("channels")
+    @classmethod
+    def _some(cls, channels: tuple[ChannelEntry, ...]) -> tuple[ChannelEntry, ...]:
+        if not channels:
             raise ValueError("give at least one channel")
-        return self
+        return channels
 
 
 def read_description(document: object) -> Description:

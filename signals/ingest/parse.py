@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from signals.ingest.calibrate import Scale, scale_of
+from signals.ingest.calibrate import Scale, scales_of
 from signals.ingest.description import Description, remarks
 from signals.ingest.pulses import tacho_of, tacho_wants
 from signals.ingest.stamps import RATE_TOLERANCE, TIME_NAMES, agree, check_regular, in_seconds, is_time, resolution
@@ -44,16 +44,19 @@ def parse(
 
     `loader`: `signals.readers.guard.load_apart` for a stranger's file.
     """
+    check_units(description)
     loaded = loader(path, _wants(description), () if description.time else TIME_NAMES, bounds or Bounds())
     channels = loaded.wanted[: len(description.channels)]
     further = {want.field: s for want, s in zip(_further(description), loaded.wanted[len(channels) :], strict=True)}
-    scales = [
-        scale_of(entry, stored.unit, f"channels.{i}")
-        for i, (entry, stored) in enumerate(zip(description.channels, channels, strict=True))
-    ]
+    scales = scales_of(description.channels, [stored.unit for stored in channels])
     _check_lengths(description, channels)
     clock = _clock(description, loaded, further)
     return _recording(description, clock, scales, channels, further)
+
+
+def check_units(description: Description) -> None:
+    """Refuse, before any file is looked at, units that are unknown or not those of the quantity."""
+    scales_of(description.channels, [""] * len(description.channels))
 
 
 def _wants(description: Description) -> list[Want]:

@@ -6,7 +6,7 @@ import zipfile
 import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +16,8 @@ from signals.readers.limits import Bounds
 from sim.core.errors import Problem, SidebandError, SpecError
 
 AnyArray = NDArray[np.generic]
+RATE = "sampling_rate_hz"
+"""The one name under which a rate in a file of arrays counts as stated (`signals.encode` writes it)."""
 _SPEAKING = (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error)
 """Errors whose text says something to the person with the file."""
 
@@ -37,12 +39,13 @@ class Entry:
 class Contents:
     """Arrays by name, in the order of the file. `numbered`: an integer column counts the arrays (a table's columns).
 
-    `together`: loads several at once, where one pass over the file gives them all.
+    `aliases`: other names of arrays. `together`: loads several at once, where one pass over the file gives them all.
     """
 
     entries: Mapping[str, Entry]
     rate_hz: float | None = None
     numbered: bool = False
+    aliases: Mapping[str, str] = field(default_factory=dict)
     together: Callable[[Sequence[str]], Mapping[str, AnyArray]] | None = None
 
     def load(self, names: Sequence[str]) -> Mapping[str, AnyArray]:

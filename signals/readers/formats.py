@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePath
 from types import MappingProxyType
 from typing import cast
 
@@ -42,19 +42,33 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
         ".parquet": Format(module="parquet", fragile=True),
         ".h5": _HDF5,
         ".hdf5": _HDF5,
-        ".uff": Format(module="uff", extra="formats"),
-        ".unv": Format(module="uff", extra="formats"),
-        ".tdms": Format(module="tdms", extra="formats"),
+        ".uff": Format(module="uff", fragile=True, extra="formats"),
+        ".unv": Format(module="uff", fragile=True, extra="formats"),
+        ".tdms": Format(module="tdms", fragile=True, extra="formats"),
         ".mf4": Format(module="mdf", fragile=True, extra="mdf"),
         ".json": Format(module="values"),
     }
 )
 
 
-def suffix_of(path: Path) -> str:
+def suffix_of(path: PurePath) -> str:
     """The ending that says the format, in lower case; `.csv.gz` is one."""
     suffix = path.suffix.lower()
     return path.with_suffix("").suffix.lower() + suffix if suffix == ".gz" else suffix
+
+
+_HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
+_SIGNATURE_AT = (0, 512)
+"""HDF5 File Format Specification 3.0, II.A: at 0, or after a user block; MATLAB's has 512 bytes."""
+
+
+def _is_hdf5(path: Path) -> bool:
+    try:
+        with path.open("rb") as stream:
+            head = stream.read(1024)
+    except OSError:
+        return False
+    return any(head[at : at + len(_HDF5_SIGNATURE)] == _HDF5_SIGNATURE for at in _SIGNATURE_AT)
 
 
 def format_of(path: Path) -> Format:
@@ -63,7 +77,7 @@ def format_of(path: Path) -> Format:
     if suffix not in FORMATS:
         message = "is in no format that is read here"
         raise SpecError(Problem(field=path.name, message=message, given=suffix or None, allowed=", ".join(FORMATS)))
-    return FORMATS[suffix]
+    return _HDF5 if suffix == ".mat" and _is_hdf5(path) else FORMATS[suffix]
 
 
 def reader_of(path: Path) -> Reader:

@@ -1,4 +1,4 @@
-"""MATLAB files: level 5 by SciPy; version 7.3 is HDF5 with another ending."""
+"""MATLAB files of level 4 and 5 by SciPy. Those of version 7.3 are HDF5, where `signals.readers.formats` sends them."""
 
 from __future__ import annotations
 
@@ -12,23 +12,16 @@ import numpy as np
 from scipy.io import loadmat, whosmat
 from scipy.io.matlab import MatReadWarning
 
-from signals.readers.contents import AnyArray, Contents, Entry, numeric, refused, told
+from signals.readers.contents import RATE, AnyArray, Contents, Entry, numeric, told
 from signals.readers.limits import Bounds
-from signals.readers.npz import RATE
 
 _NUMBERS = {"double", "single", "int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "logical"}
 _ITEM = 8
-_VERSION_AT, _VERSION_73 = 124, 2
-"""Bytes 125-126 of the header are the version, 0x0100 for level 5, 0x0200 for 7.3 (MathWorks, "MAT-File Format")."""
 
 
 @contextmanager
 def open_file(path: Path, bounds: Bounds) -> Iterator[Contents]:
     """Numeric matrices by name; `[n, 1]` and `[1, n]` are one channel."""
-    with path.open("rb") as stream:
-        header = stream.read(128)
-    if len(header) == 128 and _VERSION_73 in header[_VERSION_AT : _VERSION_AT + 2] and b"7.3" in header[:116]:
-        raise refused(path, "version 7.3 is HDF5 and needs the pip extra: pip install 'sideband[formats]'")
     with told(path), warnings.catch_warnings():
         warnings.simplefilter("error", MatReadWarning)
         listed = whosmat(path)

@@ -12,11 +12,9 @@ from typing import IO
 import numpy as np
 from numpy.lib import format as npy
 
-from signals.readers.contents import AnyArray, Contents, Entry, numeric, refused, told
+from signals.readers.contents import RATE, AnyArray, Contents, Entry, numeric, refused, told
 from signals.readers.limits import Bounds
 
-RATE = "sampling_rate_hz"
-"""The one name under which a rate in an array file counts as stated (`signals.encode` writes it)."""
 _HEADER_CHARACTERS = 10_000
 
 

@@ -55,6 +55,7 @@ def _by_number(contents: Contents, column: int) -> Pick | None:
 
 
 def _by_name(contents: Contents, column: str) -> Pick | None:
+    column = contents.aliases.get(column, column)
     if column in contents.entries:
         return Pick(name=column)
     indexed = _INDEXED.match(column)

@@ -97,6 +97,10 @@ class SqlCatalogue:
             matching.append(table.status.in_([status.value for status in query.statuses]))
         if query.preset is not None:
             matching.append(table.preset == query.preset)
+        if query.kind is not None:
+            matching.append(table.kind == query.kind)
+        if query.other_than is not None:
+            matching.append(table.kind != query.other_than)
         key = table[query.sort]
         page = select(*_LIGHT).where(*matching).limit(query.limit)
         page = page.order_by(*((key.desc(), table.id.desc()) if query.descending else (key.asc(), table.id.asc())))

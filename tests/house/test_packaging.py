@@ -16,8 +16,8 @@ from tests.house.project import ROOT, configuration, tracked
 
 LOCKS = ("requirements.lock", "requirements-server.lock", "requirements-dev.lock")
 RUN, SERVER, DEV = LOCKS
-SERVER_EXTRAS = ("postgres", "s3")
-"""What the image installs besides: other stores than the folder and SQLite."""
+SERVER_EXTRAS = ("postgres", "s3", "formats")
+"""What the image installs besides: other stores than the folder and SQLite, further formats of recordings."""
 COPYLEFT = re.compile(r"\bA?GPL|GNU (?:Affero )?General Public", re.IGNORECASE)
 
 
@@ -54,7 +54,9 @@ def test_data_files_are_installed_with_their_package():
         assert any(fnmatch(rest, pattern) for pattern in chosen), f"{name} would not be installed"
 
 
-@pytest.mark.parametrize(("lock", "extras"), [(RUN, ()), (SERVER, SERVER_EXTRAS), (DEV, (*SERVER_EXTRAS, "dev"))])
+@pytest.mark.parametrize(
+    ("lock", "extras"), [(RUN, ()), (SERVER, SERVER_EXTRAS), (DEV, (*SERVER_EXTRAS, "mdf", "dev"))]
+)
 def test_every_declared_dependency_is_locked_to_one_allowed_version(lock, extras):
     pins = locked(lock)
     for wanted in _declared(*extras):

@@ -129,19 +129,20 @@ def npz(path: Path) -> None:
     np.savez_compressed(path, a=X)
 
 
-def mat(path: Path) -> None:
-    savemat(path, {"a": X, "b": {"c": "d"}}, do_compression=True)
+def values(path: Path) -> None:
+    path.write_text(json.dumps({"a": X.tolist()}))
 
 
-def plain_mat(path: Path) -> None:
-    savemat(path, {"a": X})
+def text(path: Path) -> None:
+    path.write_text("a,b\n" + "".join(f"{x},{x}\n" for x in X))
 
 
 def wav(path: Path) -> None:
     wavfile.write(path, 1000, X.astype(np.float32))
 
 
-WRITERS: dict[str, Callable[[Path], None]] = {"r.npz": npz, "r.mat": mat, "plain.mat": plain_mat, "r.wav": wav}
+WRITERS: dict[str, Callable[[Path], None]] = {"r.npz": npz, "r.wav": wav, "r.json": values, "r.csv": text}
+"""Formats that are read in this process; the others are in test_further_formats.py."""
 
 
 @pytest.mark.parametrize("name", WRITERS)
