@@ -110,7 +110,11 @@ def whitened(samples: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.complex1
 
 
 def squared_envelope(
-    white: np.ndarray[tuple[int], np.dtype[np.complex128]], low_hz: float, high_hz: float, sampling_rate_hz: float
+    white: np.ndarray[tuple[int], np.dtype[np.complex128]],
+    low_hz: float,
+    high_hz: float,
+    sampling_rate_hz: float,
+    limit: float = KNOCK_LIMIT,
 ) -> tuple[FloatArray, float, float]:
     """(squared envelope over time, limited; its rate in Hz; kurtosis of the complex envelope) of a band."""
     n = 2 * (white.size - 1)
@@ -123,7 +127,7 @@ def squared_envelope(
     edge = max(1, square.size // 200)
     blocks = np.array_split(square[edge:-edge], KURTOSIS_BLOCKS)
     kurtosis = float(np.median([np.mean(b**2) / max(float(np.mean(b)) ** 2, 1e-300) - 2 for b in blocks]))
-    limited = np.minimum(square, KNOCK_LIMIT * float(np.mean(square)))
+    limited = np.minimum(square, limit * float(np.mean(square)))
     return np.asarray(limited, dtype=np.float64), size * sampling_rate_hz / n, kurtosis
 
 

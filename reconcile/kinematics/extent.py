@@ -32,6 +32,8 @@ FIRST_SHARE, LAST_SHARE = 0.03, 0.45
 BANDS = ((0.02, 0.24), (0.05, 0.5), (0.01, 0.49), (0.24, 0.48))
 """Of the sampling rate."""
 EXTREME = 0.999
+TIGHT_DEG = 6.0
+"""An upper bound below this is worth giving as a size."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,7 +99,7 @@ def _autocorrelation(test: Observation, channel: str, longest_s: float) -> tuple
     lags = np.arange(int(longest_s * rate / 2)) * 2 / rate
     total = np.zeros(lags.size)
     for low, high in BANDS:
-        square, envelope_rate, _ = squared_envelope(white, low * rate, high * rate, rate)
+        square, envelope_rate, _ = squared_envelope(white, low * rate, high * rate, rate, np.inf)
         centred = np.minimum(square, np.quantile(square, EXTREME))
         centred = centred - np.mean(centred)
         power = np.abs(fft.rfft(centred, fft.next_fast_len(2 * centred.size))) ** 2

@@ -27,6 +27,11 @@ class OrderLines:
     floor_db: FloatArray
     order_step: float
 
+    def strongest(self, highest_order: float) -> float:
+        """Level of the strongest line up to an order, dB."""
+        top = max(3, int(highest_order / self.order_step))
+        return float(np.max(self.level_db[2:top]))
+
     def at(self, orders: FloatArray) -> tuple[FloatArray, FloatArray]:
         """(largest level within a bin, floor) at orders (n,); NaN beyond the spectrum."""
         place = np.rint(orders / self.order_step).astype(np.int64)
