@@ -44,8 +44,8 @@ def gear_report(found: Sequence[GearEvidence], tests: Sequence[Observation]) -> 
     return Report(
         verdict="ambiguous",
         sentence=f"A local tooth fault on {where}: {first.lines} sidebands of its shaft around {first.mesh} grew by "
-        f"{first.growth_db:.0f} dB (mesh lines {first.mesh_growth_db:+.0f} dB), most on {first.channel}; whether the "
-        "tooth is broken, cracked or pitted can't be told without a model.",
+        f"{first.growth_db:.0f} dB against it (the mesh itself {first.mesh_growth_db:+.0f} dB), most on "
+        f"{first.channel}; whether the tooth is broken, cracked or pitted can't be told without a model.",
         level="kinematics",
         where=Where(
             sites=tuple(PlaceWeight(site=g.gear, weight=g.growth_db / total) for g in tied),
