@@ -26,6 +26,8 @@ QUIET_DB = 1.0
 LOOSE_DB = 6.0
 LOOSE_ROUGH_DB = 1.5
 """RMS by which lines and floor of a loose sensor may differ in their change, and both from a smooth curve."""
+OTHERS_SHARE = 0.3
+"""By which, of its change, other channels may have changed for it to be remarked; a fault needs them quiet."""
 SWAP_SHARE = 0.5
 SWAP_DB = 3.0
 
@@ -94,18 +96,18 @@ def _gain_finding(gain: float, change: Sequence[FloatArray], c: int, name: str, 
 def _loose(pairs: Sequence[Pair], change: Sequence[FloatArray], c: int, name: str) -> list[Finding]:
     """A smooth filter on one channel: bands changed a lot, lines as the floor, the same at all speeds, others quiet."""
     others = [np.abs(d[k]) for d in change for k in range(len(pairs[0].names)) if k != c]
-    if max(float(np.percentile(o, 80)) for o in others) > 2 * QUIET_DB:
-        return []
+    loudest = max(float(np.percentile(o, 80)) for o in others)
     count = min(d.shape[2] for d in change)
     curve = np.mean([_smooth(np.mean(d[c, :, :count], axis=0)) for d in change], axis=0)
     size = float(np.ptp(curve))
     rough = max(float(np.sqrt(np.mean((d[c, k, :count] - curve) ** 2))) for d in change for k in (0, 1))
-    if size < LOOSE_DB or rough > max(LOOSE_ROUGH_DB, 0.15 * size):
+    if loudest > OTHERS_SHARE * size or size < LOOSE_DB or rough > max(LOOSE_ROUGH_DB, 0.15 * size):
         return []
     top = int(np.argmax(np.abs(curve)))
     hz = float(pairs[0].centre_hz[top])
     detail = f"its transfer changed by up to {curve[top]:+.0f} dB around {hz:.4g} Hz, lines and noise alike; "
-    detail += "the other channels did not change"
+    quiet = loudest <= 2 * QUIET_DB
+    detail += f"the other channels changed by {loudest:.1f} dB at most"
     return [
         Finding(
             kind="loose_sensor",
@@ -114,7 +116,7 @@ def _loose(pairs: Sequence[Pair], change: Sequence[FloatArray], c: int, name: st
             detail=detail,
             severity=float(min(1.0, size / 20)),
             where=f"{hz:.4g} Hz",
-            fault=True,
+            fault=quiet,
         )
     ]
 

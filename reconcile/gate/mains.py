@@ -20,6 +20,8 @@ PRESENT_DB = 15.0
 GROWN_DB = 6.0
 MATERIAL_SHARE = 0.01
 """Of the channel's power, where there is no baseline to tell whether the hum is new."""
+LEAST_SHARE = 0.002
+"""Of the channel's power that new hum must hold to explain anything."""
 TOLERANCE = 0.002
 
 
@@ -36,7 +38,7 @@ def hum_findings(
         share = power / max(float(np.var(recording.series(name).samples)), 1e-300)
         before = [_power(b, name, [hz for hz, _ in lines]) for b in baselines if name in b.names]
         grown = None if not before else 10 * np.log10(power / max(*before, 1e-300))
-        fault = share > MATERIAL_SHARE if grown is None else bool(grown > GROWN_DB)
+        fault = share > MATERIAL_SHARE if grown is None else bool(grown > GROWN_DB and share > LEAST_SHARE)
         change = "" if grown is None else f", {grown:+.0f} dB against the baseline"
         places = ", ".join(f"{hz:.5g}" for hz, _ in lines)
         found.append(

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reconcile.kinematics.extent import Extent, as_severity, spall_extent
+from reconcile.kinematics.extent import TIGHT_DEG, Extent, as_severity, spall_extent
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.heldout import held_out
 from reconcile.kinematics.judge import DEFECTS, Candidate
@@ -84,7 +84,8 @@ def _size(candidate: Candidate, tests: Sequence[Observation], ties: Ties) -> tup
         return None, None
     resolved = sorted((x for x in found if x.resolved), key=lambda x: x.degrees)
     chosen = resolved[len(resolved) // 2] if 2 * len(resolved) >= len(found) else min(found, key=lambda x: x.high_deg)
-    return chosen, as_severity(chosen, candidate.best, ties)
+    tight = chosen.resolved or chosen.high_deg <= TIGHT_DEG
+    return chosen, as_severity(chosen, candidate.best, ties) if tight else None
 
 
 def _causes(
@@ -159,9 +160,9 @@ def _undecided(
     found = []
     if not all(decided(w) for w in weights):
         found.append("which of the bearings of one geometry it is: their lines coincide")
-    if any(s[0] is None for s in sizes):
+    if any(s[1] is None for s in sizes):
         found.append(NO_SIZE)
-    if any(s[0] is not None and not s[0].resolved for s in sizes):
+    if any(s[0] is not None and s[1] is not None and not s[0].resolved for s in sizes):
         found.append("how large the defect is beyond an upper bound: entry and exit are not told apart")
     if any(c.family.kind == "outer" for c in chosen):
         found.append("where on the outer ring it sits: a rate has no angle")

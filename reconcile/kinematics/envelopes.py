@@ -27,6 +27,8 @@ MIN_WIDTHS = 6.0
 STEPS = 2.2
 """Steps a turn over the highest order."""
 KURTOSIS_BLOCKS = 5
+KNOCK_LIMIT = 10.0
+"""Largest squared envelope over its mean: a few knocks must not outweigh hundreds of periods."""
 LOWEST_SHARE = 0.01
 """Of the sampling rate: below it the lines of shafts and meshes themselves lie."""
 
@@ -108,9 +110,13 @@ def whitened(samples: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.complex1
 
 
 def squared_envelope(
-    white: np.ndarray[tuple[int], np.dtype[np.complex128]], low_hz: float, high_hz: float, sampling_rate_hz: float
+    white: np.ndarray[tuple[int], np.dtype[np.complex128]],
+    low_hz: float,
+    high_hz: float,
+    sampling_rate_hz: float,
+    limit: float = KNOCK_LIMIT,
 ) -> tuple[FloatArray, float, float]:
-    """(squared envelope over time, its rate in Hz, kurtosis of the complex envelope) of a band."""
+    """(squared envelope over time, limited; its rate in Hz; kurtosis of the complex envelope) of a band."""
     n = 2 * (white.size - 1)
     a, b = int(np.ceil(low_hz * n / sampling_rate_hz)), int(np.floor(high_hz * n / sampling_rate_hz))
     size = fft.next_fast_len(2 * (b - a))
@@ -121,7 +127,8 @@ def squared_envelope(
     edge = max(1, square.size // 200)
     blocks = np.array_split(square[edge:-edge], KURTOSIS_BLOCKS)
     kurtosis = float(np.median([np.mean(b**2) / max(float(np.mean(b)) ** 2, 1e-300) - 2 for b in blocks]))
-    return np.asarray(square, dtype=np.float64), size * sampling_rate_hz / n, kurtosis
+    limited = np.minimum(square, limit * float(np.mean(square)))
+    return np.asarray(limited, dtype=np.float64), size * sampling_rate_hz / n, kurtosis
 
 
 def at_equal_angles(

@@ -90,13 +90,12 @@ def scores(values: FloatArray, envelopes: Envelopes, family: Family, base: Float
     return np.asarray(np.einsum("btl,l->bt", values[:, place] * inside, weights), dtype=np.float64)
 
 
-def without(values: FloatArray, envelopes: Envelopes, family: Family, order: float) -> FloatArray:
-    """`values` (bands, bins) with all harmonics of a family and two pairs of sidebands put to noise."""
+def without(values: FloatArray, envelopes: Envelopes, spacings: Sequence[float], order: float) -> FloatArray:
+    """`values` (bands, bins) with all harmonics of an order and two pairs of sidebands of each spacing put to noise."""
     cleared = values.copy()
     top = int(values.shape[1] * envelopes.order_step / order)
-    lines = np.arange(1, top + 1) * order
-    if family.spacing:
-        lines = (lines[:, np.newaxis] + family.spacing * np.arange(-2, 3)).ravel()
+    shifts = np.unique([0.0, *(m * s for s in spacings for m in (-2, -1, 1, 2))])
+    lines = (np.arange(1, top + 1)[:, np.newaxis] * order + shifts).ravel()
     for shift in range(-3, 4):
         place = np.rint(lines / envelopes.order_step).astype(np.int64) + shift
         cleared[:, place[(place >= 0) & (place < values.shape[1])]] = 0.0
@@ -140,11 +139,13 @@ def family_evidence(
     for e in channels:
         values = logs(e, ties, shaft_lines=turn)
         for other, order in explained:
-            values = without(values, e, other, order)
+            # load and shaft modulate any defect: with Z balls BPFO + 2 shafts may come to lie on BPFI
+            around = [*ties.shafts.values(), *(f.order for f in ties.families if f.key == f"{other.site}.cage")]
+            values = without(values, e, around, order)
         base = trials(family, family.order, reach, e.order_step)
         table = scores(values, e, family, base)
         # were the family absent, its lines would be: the controls must not catch them
-        absent = without(values, e, family, float(base[int(np.argmax(np.max(table, axis=0)))]))
+        absent = without(values, e, [family.spacing], float(base[int(np.argmax(np.max(table, axis=0)))]))
         control = np.stack(
             [np.max(scores(absent, e, family, trials(family, o, reach, e.order_step)), axis=1) for o in controls],
             axis=1,

@@ -25,13 +25,18 @@ from signals.series import FloatArray
 STRIKE = 0.75
 """Where on the way over the spall the ball strikes: the middle of what geometry allows."""
 STRIKE_RANGE = (0.5, 1.0)
-PROMINENCE = 0.04
-"""Of a peak of the autocorrelation (1 at lag 0)."""
+PROMINENCE = 0.1
+"""Of a peak of the autocorrelation, over the height of the peak at the period."""
+NOISE_TIMES = 6.0
+LEAST_PERIOD = 0.03
+"""Height of the peak at the period (1 at lag 0) without which a second event would not be seen either."""
 FIRST_SHARE, LAST_SHARE = 0.03, 0.45
 """Lags looked at, share of the period: nearer is ringing, at half lie second defects."""
 BANDS = ((0.02, 0.24), (0.05, 0.5), (0.01, 0.49), (0.24, 0.48))
 """Of the sampling rate."""
 EXTREME = 0.999
+TIGHT_DEG = 6.0
+"""An upper bound below this is worth giving as a size."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,13 +58,17 @@ def spall_extent(evidence: Evidence, test: Observation, ties: Ties) -> Extent | 
     race = ties.races[family.site]
     rate_hz = evidence.order * test.speed.speed_hz
     period = 1 / rate_hz
-    lags, curve = _autocorrelation(test, evidence.channel, 1.6 * period)
+    lags, curve = _autocorrelation(test, evidence, 1.6 * period)
     degrees_per_s = 360.0 * rate_hz / race.balls
     fallen = np.flatnonzero(curve < 0.2)
     first = max(FIRST_SHARE * period, 1.5 * float(lags[fallen[0]]) if fallen.size else period)
     if first > LAST_SHARE * period:
         return None
-    lag = _pair_lag(lags, curve, period, first)
+    near = curve[np.abs(lags / period - 1) < 0.05]
+    height = float(np.max(near) - np.median(curve))
+    if height < LEAST_PERIOD:
+        return None
+    lag = _pair_lag(lags, curve, period, first, PROMINENCE * height)
     if lag is None:
         high = degrees_per_s * first / STRIKE_RANGE[0]
         return Extent(degrees=high / 2, low_deg=0.0, high_deg=high, lag_s=first, resolved=False)
@@ -89,29 +98,32 @@ def as_severity(extent: Extent, evidence: Evidence, ties: Ties) -> Severity:
     )
 
 
-def _autocorrelation(test: Observation, channel: str, longest_s: float) -> tuple[FloatArray, FloatArray]:
-    """(lags in s, mean over wide bands of the squared envelope's autocorrelation), both (lags,)."""
-    series = test.recording.series(channel)
+def _autocorrelation(test: Observation, evidence: Evidence, longest_s: float) -> tuple[FloatArray, FloatArray]:
+    """(lags in s, mean over bands of the squared envelope's autocorrelation), both (lags,): wide ones and its own."""
+    series = test.recording.series(evidence.channel)
     rate = series.sampling_rate_hz
     white = whitened(series.samples)
     lags = np.arange(int(longest_s * rate / 2)) * 2 / rate
     total = np.zeros(lags.size)
-    for low, high in BANDS:
-        square, envelope_rate, _ = squared_envelope(white, low * rate, high * rate, rate)
+    bands = [*((low * rate, high * rate) for low, high in BANDS), evidence.band_hz]
+    for low, high in bands:
+        square, envelope_rate, _ = squared_envelope(white, low, high, rate, np.inf)
         centred = np.minimum(square, np.quantile(square, EXTREME))
         centred = centred - np.mean(centred)
         power = np.abs(fft.rfft(centred, fft.next_fast_len(2 * centred.size))) ** 2
         curve = fft.irfft(power)[: int(longest_s * envelope_rate) + 2]
-        total += np.interp(lags, np.arange(curve.size) / envelope_rate, curve / curve[0]) / len(BANDS)
+        total += np.interp(lags, np.arange(curve.size) / envelope_rate, curve / curve[0]) / len(bands)
     return lags, total
 
 
-def _pair_lag(lags: FloatArray, curve: FloatArray, period: float, first: float) -> float | None:
+def _pair_lag(lags: FloatArray, curve: FloatArray, period: float, first: float, least: float) -> float | None:
     """Lag of a peak that has a satellite at the period less it, s."""
     step = float(lags[1])
     smooth = np.convolve(curve, np.ones(3) / 3, mode="same")
     # ringing of the structure makes ripples: peaks closer than half the first lag are one event
-    places, facts = find_peaks(smooth, prominence=PROMINENCE, distance=max(1, int(first / 2 / step)))
+    noise = 1.4826 * float(np.median(np.abs(np.diff(smooth[lags > 0.3 * period])))) / np.sqrt(2)
+    least = max(least, NOISE_TIMES * noise)
+    places, facts = find_peaks(smooth, prominence=least, distance=max(1, int(first / 2 / step)))
     prominence = dict(zip(places.tolist(), facts["prominences"].tolist(), strict=True))
     best: tuple[float, float] | None = None
     for place, height in prominence.items():

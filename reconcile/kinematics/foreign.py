@@ -9,14 +9,14 @@ import numpy as np
 
 from reconcile.kinematics.contrast import contrast
 from reconcile.kinematics.evidence import Evidence, family_evidence, logs, scores
-from reconcile.kinematics.families import SLIP, Family, Ties
+from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.observe import Observation
 
 LOWEST = 0.3
 LEAST_Z = 12.0
 GROWTH_DB = 10.0
 LEAST_DEPTH = 0.3
-SMALL = (1, 2, 3, 4, 5, 6)
+MULTIPLES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
 MOST = 12
 """Strongest orders that are looked at before giving up."""
 
@@ -63,15 +63,14 @@ def foreign_comb(test: Observation, baselines: Sequence[Observation], ties: Ties
 
 
 def explained(order: float, ties: Ties, doubt: float) -> bool:
-    """Whether an order is a small rational multiple of a part's, or such with a sideband of a shaft or cage."""
-    bases = [f.order for f in ties.families] + list(ties.mesh_orders)
-    shifts = [0.0, *ties.shafts.values(), *(f.order for f in ties.families if f.kind == "cage")]
-    for base in bases:
-        for p in SMALL:
-            for q in SMALL[:4]:
-                target = base * p / q
-                if any(
-                    abs(order - target - sign * shift) < (SLIP + doubt) * target for shift in shifts for sign in (-1, 1)
-                ):
+    """Whether an order is a multiple or a half of a part's, or such with a sideband of the family or of a shaft."""
+    rows = [(f.order, f.spacing, f.slip) for f in ties.families]
+    rows += [(order_of_mesh, 0.0, 0.0) for order_of_mesh in ties.mesh_orders]
+    for base, spacing, slip in rows:
+        for multiple in MULTIPLES:
+            target = base * multiple
+            width = (slip + doubt + 0.003) * target
+            for shift in (0.0, spacing, *ties.shafts.values()):
+                if min(abs(order - target - shift), abs(order - target + shift)) < width:
                     return True
     return False

@@ -19,7 +19,10 @@ GROWTH_DB = 6.0
 ERRORS = 2.0
 LEAST_DEPTH = 0.15
 ALONE_DEPTH = 0.5
-"""Depth that sound bearings do not show (0.34 was the most seen), asked for where there is no baseline."""
+"""Depth that sound bearings do not show (0.34 was the most seen): asked for where there is no baseline, and of a
+defect that is named: shallower ones have risen, but a damaged ball raises the lines of both races as well."""
+TURN_ALONE_DEPTH = 1.0
+"""Sound shafts modulate too; only impacts reach this."""
 LEAST_Z = 5.0
 """Robust standard deviations of the controls that a named family stands above them, whatever its tail says."""
 SECOND_SHARE = 0.5
@@ -66,10 +69,16 @@ class Candidate:
         return self.chance < LEVEL and self.z > LEAST_Z
 
     @property
+    def deep(self) -> bool:
+        """Whether it is as deep as a defect of its own makes it."""
+        return float(np.median([c.depth for c in self.contrasts])) >= ALONE_DEPTH
+
+    @property
     def risen(self) -> bool:
-        """Whether it is more than a baseline (or, without one, than a sound bearing) shows."""
+        """Whether it is more than a baseline (or, without one, than a sound machine) shows."""
+        alone = TURN_ALONE_DEPTH if self.family.kind == "turn" else ALONE_DEPTH
         votes = [
-            c.depth >= ALONE_DEPTH
+            c.depth >= alone
             if c.growth_db is None
             else c.depth >= LEAST_DEPTH and c.growth_db > max(GROWTH_DB, ERRORS * c.error_db)
             for c in self.contrasts
@@ -85,7 +94,10 @@ def candidates(
     explained: Sequence[Candidate] = (),
 ) -> tuple[Candidate, ...]:
     """All families (but `explained`, whose lines are taken out), the firmest first."""
-    left = [f for f in ties.families if all(not same(f, c.family) for c in explained)]
+    left: list[Family] = []
+    for f in ties.families:
+        if not any(same(f, g) and f.kind == g.kind for g in (*left, *(c.family for c in explained))):
+            left.append(f)
     rows = []
     for f in left:
         found = []
@@ -112,14 +124,18 @@ def named(
 ) -> tuple[tuple[Candidate, ...], tuple[Candidate, ...]]:
     """(bearing defects that stand, at most two; all candidates)."""
     every = candidates(tests, baselines, ties, seed)
-    first = next((c for c in every if c.family.kind in DEFECTS and c.present and c.risen), None)
+    first = next((c for c in every if c.family.kind in DEFECTS and c.present and c.risen and c.deep), None)
     if first is None:
         return (), every
     second = next(
         (
             c
             for c in candidates(tests, baselines, ties, seed, (first,))
-            if c.family.kind in DEFECTS and c.risen and c.chance < SECOND_LEVEL and c.z > SECOND_SHARE * first.z
+            if c.family.kind in DEFECTS
+            and c.risen
+            and c.deep
+            and c.chance < SECOND_LEVEL
+            and c.z > SECOND_SHARE * first.z
         ),
         None,
     )

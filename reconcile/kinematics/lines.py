@@ -15,8 +15,8 @@ from signals.spectra.angle import resample_in_angle
 from sim.core.errors import SpecError
 
 SAME_SPEED = 0.03
-PRESENT_DB = 10.0
-"""A line counts in a comparison if in one of the two it stands this much over its floor."""
+PRESENT_DB = 6.0
+"""A line is there if it holds this much more power than the floor under it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,6 +26,23 @@ class OrderLines:
     level_db: FloatArray
     floor_db: FloatArray
     order_step: float
+
+    def within(self, orders: FloatArray, half_width: float) -> tuple[FloatArray, FloatArray]:
+        """(power, floor power) within `half_width` of orders (n,); NaN beyond the spectrum."""
+        reach = max(1, round(half_width / self.order_step))
+        place = np.rint(orders / self.order_step).astype(np.int64)
+        inside = (place > reach) & (place < self.level_db.size - reach - 1)
+        safe = np.clip(place, reach, self.level_db.size - reach - 1)
+        found = []
+        for values in (self.level_db, self.floor_db):
+            total = np.concatenate(([0.0], np.cumsum(10 ** (values / 10))))
+            found.append(np.where(inside, total[safe + reach + 1] - total[safe - reach], np.nan))
+        return found[0], found[1]
+
+    def strongest(self, highest_order: float) -> float:
+        """Level of the strongest line up to an order, dB."""
+        top = max(3, int(highest_order / self.order_step))
+        return float(np.max(self.level_db[2:top]))
 
     def at(self, orders: FloatArray) -> tuple[FloatArray, FloatArray]:
         """(largest level within a bin, floor) at orders (n,); NaN beyond the spectrum."""
@@ -67,10 +84,11 @@ def matched(test: Observation, baselines: Sequence[Observation]) -> Observation 
     return near
 
 
-def growth_over_floor(now: OrderLines, before: OrderLines, orders: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """(growth of lines against their floors, dB, NaN where neither shows the line; level over floor now), (n,)."""
-    level, floor = now.at(orders)
-    old_level, old_floor = before.at(orders)
-    over, old_over = np.maximum(level - floor, 0.0), np.maximum(old_level - old_floor, 0.0)
-    seen = (over > PRESENT_DB) | (old_over > PRESENT_DB)
-    return np.where(seen & np.isfinite(over + old_over), over - old_over, np.nan), over
+def level_changes(now: OrderLines, before: OrderLines, orders: FloatArray, half_width: float) -> FloatArray:
+    """Change of the power within `half_width` of each order, dB, (n,); NaN where the line is not there now.
+
+    Power over a width, not the peak: a speed that wanders more spreads every line without weakening it.
+    """
+    power, floor = now.within(orders, half_width)
+    old, _ = before.within(orders, half_width)
+    return np.where(power > floor * 10 ** (PRESENT_DB / 10), 10 * np.log10(power / old), np.nan)

@@ -12,18 +12,18 @@ from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.contrast import band_turns
 from reconcile.kinematics.envelopes import order_depth
 from reconcile.kinematics.extent import Extent
+from reconcile.kinematics.faint import impulsive_report, shallow_report
 from reconcile.kinematics.families import Ties, ties
 from reconcile.kinematics.foreign import foreign_comb
 from reconcile.kinematics.gears import GearEvidence, gear_evidence
 from reconcile.kinematics.grown import grown_defect, old_defects
-from reconcile.kinematics.judge import Candidate, named
+from reconcile.kinematics.judge import DEFECTS, Candidate, named
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.shafts import Impulsiveness, ShaftChange, impulsiveness, shaft_changes
 from reconcile.kinematics.spec import KinematicSpec, of_machine
 from reconcile.kinematics.vague import (
     foreign_report,
     gear_report,
-    impulsive_report,
     nothing_report,
     shaft_report,
     turn_report,
@@ -116,6 +116,9 @@ def _without_a_part(
     seed: int,
 ) -> Report:
     """Impacts of a turn, of a foreign order, of no order; shaft lines; nothing."""
+    risen = [c for c in every if c.family.kind in DEFECTS and c.present and c.risen]
+    if risen:
+        return shallow_report(risen, every, tests)
     turn = next((c for c in every if c.family.kind == "turn" and c.present and c.risen), None)
     if turn is not None:
         carried = [b.name for b in known.bearings if b.shaft == turn.family.site]

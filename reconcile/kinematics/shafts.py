@@ -15,6 +15,9 @@ GROWTH_DB = 10.0
 MEDIAN_GROWTH_DB = 6.0
 MULTIPLES = (0.5, 1.0, 2.0, 3.0)
 PRESENT_DB = 15.0
+STRONGEST_TO = 10.0
+MATERIAL_DB = 6.0
+"""A shaft line that has grown counts if it is among the strongest up to order 10: a weak one wanders with load."""
 KURTOSIS_RATIO = 3.0
 KURTOSIS_LEAST = 1.5
 """Excess kurtosis of a complex envelope: 0 for noise, -1 for a steady line."""
@@ -106,6 +109,8 @@ def _growths(spectra: Sequence[tuple[str, OrderLines, OrderLines]], order: float
         level, floor = (float(x[0]) for x in now.at(np.array([order])))
         old, old_floor = (float(x[0]) for x in before.at(np.array([order])))
         if not np.isfinite(level + old) or level - floor < PRESENT_DB:
+            continue
+        if level < now.strongest(STRONGEST_TO) - MATERIAL_DB:
             continue
         rows.append((channel, level - max(old, old_floor) - (floor - old_floor)))
     return rows

@@ -1,4 +1,4 @@
-"""Answers where no bearing family stands: tooth faults, shafts, impacts without an order, nothing at all."""
+"""Answers where no bearing family stands: tooth faults, shafts, foreign orders, nothing at all."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from reconcile.kinematics.foreign import Foreign
 from reconcile.kinematics.gears import GearEvidence
 from reconcile.kinematics.judge import DEFECTS, Candidate
 from reconcile.kinematics.observe import Observation
-from reconcile.kinematics.shafts import Impulsiveness, ShaftChange
+from reconcile.kinematics.shafts import ShaftChange
 from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Report, Where
 
 TOOTH_TERMS = ("missing_tooth", "tooth_crack", "tooth_spall")
@@ -44,8 +44,8 @@ def gear_report(found: Sequence[GearEvidence], tests: Sequence[Observation]) -> 
     return Report(
         verdict="ambiguous",
         sentence=f"A local tooth fault on {where}: {first.lines} sidebands of its shaft around {first.mesh} grew by "
-        f"{first.growth_db:.0f} dB (mesh lines {first.mesh_growth_db:+.0f} dB), most on {first.channel}; whether the "
-        "tooth is broken, cracked or pitted can't be told without a model.",
+        f"{first.growth_db:.0f} dB against it (the mesh itself {first.mesh_growth_db:+.0f} dB), most on "
+        f"{first.channel}; whether the tooth is broken, cracked or pitted can't be told without a model.",
         level="kinematics",
         where=Where(
             sites=tuple(PlaceWeight(site=g.gear, weight=g.growth_db / total) for g in tied),
@@ -75,7 +75,11 @@ def turn_report(candidate: Candidate, ties: Ties, tests: Sequence[Observation], 
     shaft = candidate.family.site
     gears = [name for mesh in ties.meshes for s, name in zip(mesh[2], mesh[3], strict=True) if s == shaft]
     causes = [(term, g, 1.0) for g in gears for term in TOOTH_TERMS]
-    causes += [("rub", shaft, 0.9), *(("pedestal_looseness", b, 0.8) for b in carried if b not in gears)]
+    causes += [
+        ("rub", shaft, 0.9),
+        ("pedestal_looseness", shaft, 0.85),
+        *(("pedestal_looseness", b, 0.8) for b in carried if b not in gears),
+    ]
     causes += [("inner_spall", b, 0.5) for b in carried if b not in gears]
     return Report(
         verdict="ambiguous",
@@ -91,34 +95,6 @@ def turn_report(candidate: Candidate, ties: Ties, tests: Sequence[Observation], 
         undecidable=("what strikes once a turn", "how large: a size can't be given without a model"),
         next_experiment=NextExperiment(sentence="Record with a tacho: the angle of the impacts tells a rub from play."),
     )
-
-
-def impulsive_report(found: Impulsiveness, every: Sequence[Candidate], bearings: Sequence[str]) -> Report:
-    """More impulsive than the baseline, but at no order: ball faults strike irregularly as the ball turns."""
-    ball = {c.family.site: c.z for c in every if c.family.kind == "ball"}
-    score = {b: max(ball.get(b, 0.0), 0.5) for b in bearings}
-    total = sum(score.values()) or 1.0
-    causes = [Cause(term="ball_spall", site=b, score=s, reasons=(NO_ORDER,)) for b, s in score.items()]
-    causes += [Cause(term="radial_clearance", site=b, score=0.4, reasons=(NO_ORDER,)) for b in bearings]
-    return Report(
-        verdict="ambiguous",
-        sentence=f"{found.band_hz[0]:.0f}-{found.band_hz[1]:.0f} Hz of {found.channel} became impulsive (excess "
-        f"kurtosis {found.before or 0:.1f} to {found.now:.1f}) without keeping to the order of any race: a damaged "
-        "ball, which strikes only when its spot meets a race, is likely; play or a rub can't be ruled out.",
-        level="kinematics",
-        where=Where(
-            sites=tuple(PlaceWeight(site=b, weight=s / total) for b, s in score.items()),
-            limits=("impacts without an order say when, not where",),
-        ),
-        causes=tuple(sorted(causes, key=lambda c: -c.score)),
-        undecidable=("which part strikes", "how large: a size can't be given without a model"),
-        next_experiment=NextExperiment(
-            sentence="Record ten times as long: cage sidebands of a ball fault need many turns."
-        ),
-    )
-
-
-NO_ORDER = "impulsiveness grew, but no order stands out"
 
 
 def shaft_report(changes: Sequence[ShaftChange], tests: Sequence[Observation]) -> Report:

@@ -1,0 +1,82 @@
+"""Answers where a bearing is the likely place but no part of it is certain: shallow lines, impacts without an order."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from reconcile.kinematics.answer import TERMS, lines_of
+from reconcile.kinematics.judge import Candidate
+from reconcile.kinematics.observe import Observation
+from reconcile.kinematics.shafts import Impulsiveness
+from reconcile.verdict import Cause, NextExperiment, PlaceWeight, Report, Where
+
+NO_SIZE = "a size can't be given without a model"
+NO_ORDER = "impulsiveness grew, but no order stands out"
+
+
+def impulsive_report(found: Impulsiveness, every: Sequence[Candidate], bearings: Sequence[str]) -> Report:
+    """More impulsive than the baseline, but at no order: ball faults strike irregularly as the ball turns."""
+    ball = {c.family.site: c.z for c in every if c.family.kind == "ball"}
+    score = {b: max(ball.get(b, 0.0), 0.5) for b in bearings}
+    total = sum(score.values()) or 1.0
+    causes = [Cause(term="ball_spall", site=b, score=s, reasons=(NO_ORDER,)) for b, s in score.items()]
+    causes += [Cause(term="radial_clearance", site=b, score=0.4, reasons=(NO_ORDER,)) for b in bearings]
+    return Report(
+        verdict="ambiguous",
+        sentence=f"{found.band_hz[0]:.0f}-{found.band_hz[1]:.0f} Hz of {found.channel} became impulsive (excess "
+        f"kurtosis {found.before or 0:.1f} to {found.now:.1f}) without keeping to the order of any race: a damaged "
+        "ball, which strikes only when its spot meets a race, is likely; play or a rub can't be ruled out.",
+        level="kinematics",
+        where=Where(
+            sites=tuple(PlaceWeight(site=b, weight=s / total) for b, s in score.items()),
+            limits=("impacts without an order say when, not where",),
+        ),
+        causes=tuple(sorted(causes, key=lambda c: -c.score)),
+        undecidable=("which part strikes", "how large: a size can't be given without a model"),
+        next_experiment=NextExperiment(
+            sentence="Record ten times as long: cage sidebands of a ball fault need many turns."
+        ),
+    )
+
+
+def shallow_report(risen: Sequence[Candidate], every: Sequence[Candidate], tests: Sequence[Observation]) -> Report:
+    """Bearing lines rose, but stay shallower than a defect of that race makes them: the set is the answer."""
+    sites = list(dict.fromkeys(c.family.site for c in risen))
+    cage = {c.family.site: c for c in every if c.family.kind == "cage"}
+    causes = [
+        Cause(
+            term=TERMS[c.family.kind],
+            site=c.family.site,
+            score=c.z,
+            reasons=("its lines rose, but are shallower than a defect of that part alone makes them",),
+            values={"depth": c.best.depth, "slip": c.best.slip},
+        )
+        for c in risen
+    ]
+    for site in sites:
+        if not any(c.term == "ball_spall" and c.site == site for c in causes):
+            modulated = site in cage and cage[site].risen and cage[site].deep
+            top = max(c.score for c in causes if c.site == site)
+            reason = "impacts come and go with the cage" if modulated else "a damaged ball strikes both races"
+            causes.append(
+                Cause(term="ball_spall", site=site, score=top * (1.2 if modulated else 0.8), reasons=(reason,))
+            )
+    causes.sort(key=lambda c: -c.score)
+    keys = ", ".join(f"{c.family.key} ({c.growth_db or 0:+.0f} dB)" for c in risen)
+    total = sum(c.score for c in causes)
+    return Report(
+        verdict="ambiguous",
+        sentence=f"Bearing lines rose over the baseline, {keys}, but stay shallow (depth "
+        f"{max(c.best.depth for c in risen):.2f}): a young race defect or a damaged ball; most likely "
+        f"{causes[0].term.replace('_', ' ')} of {causes[0].site}.",
+        level="kinematics",
+        where=Where(
+            sites=tuple(PlaceWeight(site=s, weight=sum(c.score for c in causes if c.site == s) / total) for s in sites),
+            lines=tuple(line for c in risen for line in lines_of(c, tests, 2)),
+        ),
+        causes=tuple(causes),
+        undecidable=("which part of the bearing: shallow lines of several are alike", "how large: " + NO_SIZE),
+        next_experiment=NextExperiment(
+            sentence="Record ten times as long, or under more load: lines of a race deepen."
+        ),
+    )

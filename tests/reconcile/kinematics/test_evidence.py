@@ -1,0 +1,123 @@
+"""Chances mean what they say; rivals and helpers against closed forms."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reconcile.kinematics import read_kinematic_spec
+from reconcile.kinematics.combs import Stretch, Train, comb_power, fitted, predicted
+from reconcile.kinematics.envelopes import envelopes
+from reconcile.kinematics.evidence import family_evidence, tail_chance
+from reconcile.kinematics.families import ties
+from reconcile.kinematics.gears import gear_evidence
+from reconcile.kinematics.judge import fisher, holm
+from reconcile.kinematics.observe import observe
+from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, train
+
+SPEC = read_kinematic_spec(
+    {"kinematics": {"shafts": [{"name": "shaft"}], "bearings": [{"name": "b", "shaft": "shaft", "catalogue": "6205"}]}}
+)
+TIES = ties(SPEC)
+SHORT = N // 3
+
+
+def seen(samples):  # type: ignore[no-untyped-def]
+    recording = recorded(samples)
+    angle = 2 * np.pi * SPEED_HZ * np.arange(samples.size) / RATE_HZ
+    return [envelopes(recording, "a0", angle, highest_base=6.0, highest_order=26.0)]
+
+
+@pytest.mark.slow
+def test_chances_of_noise_are_uniform() -> None:
+    rng = np.random.default_rng(0)
+    chances = []
+    for _ in range(25):
+        channels = seen(rng.standard_normal(SHORT))
+        chances += [family_evidence(channels, TIES, f, 0.0, rng).chance for f in TIES.families if f.kind != "turn"]
+    found = np.asarray(chances)
+    assert found.size == 100
+    # two standard deviations of a binomial share around what uniform chances give
+    assert np.mean(found < 0.05) <= 0.05 + 2 * np.sqrt(0.05 * 0.95 / 100)
+    assert np.mean(found < 0.5) == pytest.approx(0.5, abs=2.5 * np.sqrt(0.25 / 100))
+
+
+def test_evidence_grows_with_the_defect_and_finds_the_slip() -> None:
+    noise = np.random.default_rng(1).standard_normal(N)
+    z = []
+    for height in (0.5, 1.0, 2.0):
+        hits = train(np.random.default_rng(2), 3.5848 * 0.985, height)
+        found = family_evidence(seen(0.3 * noise + hits), TIES, TIES.families[0], 0.0, np.random.default_rng(3))
+        z.append(found.z)
+    assert z[0] < z[1] < z[2]
+    assert found.slip == pytest.approx(-0.015, abs=0.002)
+    assert found.band_hz[0] < 4200 < found.band_hz[1] or found.band_hz[1] > 3000
+
+
+def test_tail_chance_follows_an_exponential_tail() -> None:
+    controls = np.random.default_rng(4).exponential(size=300)
+    for value in (1.0, 4.0, 8.0):
+        assert np.log(tail_chance(controls, value)) == pytest.approx(-value, abs=0.35 + 0.12 * value)
+    assert tail_chance(controls, 1e3) == 1e-6
+
+
+def test_fisher_and_holm() -> None:
+    assert fisher([0.03]) == pytest.approx(0.03)
+    # chi-square with 4 degrees: exp(-s/2) (1 + s/2) with s/2 = -ln(p1 p2)
+    half = -np.log(0.1 * 0.2)
+    assert fisher([0.1, 0.2]) == pytest.approx(np.exp(-half) * (1 + half))
+    assert holm([0.01, 0.04, 0.03]) == pytest.approx([0.03, 0.06, 0.06])
+
+
+def test_a_comb_is_fitted_back() -> None:
+    orders = np.arange(0.3, 25.0, 0.05)
+    on = Stretch(log_power=np.zeros(orders.size), orders=orders)
+    outer = Train(family=TIES.families[0], order=3.58, pair=0.15)
+    truth = np.array([-2.0, 1.5, -1.0, -2.0, 0.001, 0.6])
+    before = np.full(orders.size, -8.0)
+    rng = np.random.default_rng(5)
+    power = np.exp(before) + comb_power(outer, on, truth)
+    fit = Stretch(log_power=np.log(power * rng.gamma(20, 1 / 20, orders.size)), orders=orders)
+    p = fitted(outer, fit, before)
+    assert p[0] == pytest.approx(-2.0, abs=0.4) and p[5] == pytest.approx(0.6, abs=0.1)
+    assert np.sqrt(np.mean((predicted(outer, fit, before, p) - np.log(power)) ** 2)) < 0.15
+
+
+GEARBOX = read_kinematic_spec(
+    {
+        "kinematics": {
+            "shafts": [{"name": "shaft"}, {"name": "out"}],
+            "gears": [{"name": "pinion", "shaft": "shaft", "teeth": 23}, {"name": "gear", "shaft": "out", "teeth": 61}],
+            "meshes": [{"name": "mesh1", "gears": ["pinion", "gear"]}],
+        }
+    }
+)
+
+
+def geared(seed: int, *, fault: float = 0.0, load: float = 1.0):  # type: ignore[no-untyped-def]
+    """Mesh with weak runout of both shafts; `fault` deepens one tooth of the gear (a dip 3 % of its turn wide)."""
+    rng = np.random.default_rng(seed)
+    angle = 2 * np.pi * SPEED_HZ * np.arange(N) / RATE_HZ
+    out = angle * 23 / 61
+    dip = np.exp(-0.5 * ((np.mod(out, 2 * np.pi) - 2.0) / 0.1) ** 2)
+    # runout of several orders: a machine has some sidebands to begin with
+    wobble = 1 + sum(0.01 * np.cos(m * angle + m) + 0.01 * np.cos(m * out - m) for m in range(1, 9)) - fault * dip
+    mesh = sum(a * np.cos(k * 23 * angle + k) for k, a in ((1, 1.0), (2, 0.5), (3, 0.3)))
+    return load * wobble * mesh + 0.05 * rng.standard_normal(N)
+
+
+@pytest.mark.slow
+def test_a_tooth_fault_is_told_from_load() -> None:
+    tie = ties(GEARBOX, "shaft")
+    base, same, loaded, broken = (
+        observe(replace(recorded(x)), tie, "r", stated_hz=None, seed=0)
+        for x in (geared(1), geared(2), geared(3, load=2.5), geared(4, fault=0.8))
+    )
+    assert not any(g.grown for g in gear_evidence([same], [base], tie))
+    assert not any(g.grown for g in gear_evidence([loaded], [base], tie))
+    first = gear_evidence([broken], [base], tie)[0]
+    assert first.grown and first.gear == "gear"
+    assert first.window is not None and first.window.shaft == "out"
+    assert first.window.centre_deg == pytest.approx(np.degrees(2.0), abs=8.0)

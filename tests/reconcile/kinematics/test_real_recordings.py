@@ -1,0 +1,115 @@
+"""Real recordings: the rig the method was tuned on, and the verdicts on others (labels are in this file only)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import scipy.io
+
+from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from signals.recording import Operating, Recording
+from sim.core.response import Channel
+
+DATA = Path(__file__).parents[3].parent / "shared" / "recordings"
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not DATA.exists(), reason="the real recordings are not beside this project"),
+]
+
+
+def bearings(**designations: str):  # type: ignore[no-untyped-def]
+    parts = [{"name": name, "shaft": "shaft", "catalogue": c} for name, c in designations.items()]
+    return read_kinematic_spec({"kinematics": {"shafts": [{"name": "shaft"}], "bearings": parts}})
+
+
+def recording(rows, rate_hz: float, speed_hz: float) -> Recording:  # type: ignore[no-untyped-def]
+    samples = np.atleast_2d(np.asarray(rows, dtype=np.float64))
+    return Recording(
+        sampling_rate_hz=rate_hz,
+        channels=tuple(
+            Channel(name=f"c{i}", quantity="acceleration", unit="m/s^2", location="", axis="")
+            for i in range(samples.shape[0])
+        ),
+        samples=samples,
+        operating=Operating(shaft="shaft", speed_hz=speed_hz),
+    )
+
+
+def hit(name: str) -> Recording:
+    content = scipy.io.loadmat(DATA / "hit_sm_mfs" / f"hit_mfs_{name}.mat")
+    key = next(k for k in content if not k.startswith("__"))
+    return recording(content[key].ravel(), 51200.0, 10.0 if name.endswith("_600") else 20.0)
+
+
+def cwru(name: str) -> Recording:
+    content = np.load(DATA / "cwru" / f"cwru_1797rpm_{name}.npz")
+    return recording([content["DE"].ravel(), content["FE"].ravel()], 48000.0, 1797 / 60)
+
+
+def uestc(letter: str) -> Recording:
+    return recording(scipy.io.loadmat(DATA / "uestc" / f"{letter}_1000_1.mat")["Data"].ravel(), 20000.0, 1000 / 60)
+
+
+HIT = bearings(bearing1="6205")
+CWRU = bearings(drive_end="6205", fan_end="6203")
+UESTC = bearings(bearing1="UC204")
+
+
+@pytest.mark.parametrize(
+    ("name", "baseline", "term", "degrees"),
+    [
+        ("OR2_1200", "Normal_1200", "outer_spall", 2.0),
+        ("OR8_1200", "Normal_1200", "outer_spall", 8.0),
+        ("IR2_1200", "Normal_1200", "inner_spall", 2.0),
+        ("IR8_1200", "Normal_1200", "inner_spall", 8.0),
+        ("OR5_600", "Normal_600", "outer_spall", 5.0),
+    ],
+)
+def test_the_tuning_rig_with_size(name: str, baseline: str, term: str, degrees: float) -> None:
+    report = reconcile_kinematics(HIT, [hit(name)], [hit(baseline)], seed=0)
+    first = report.causes[0]
+    assert (report.verdict, first.term, first.named) == ("explained", term, True)
+    side = 1.2034 if term == "outer_spall" else 0.7966
+    size = first.severity
+    assert size is not None
+    arc_m = np.radians(degrees) * 0.0390398 / 2 * side
+    assert size.low <= arc_m <= size.high
+    assert report.held_out is not None
+    assert report.held_out.gain > max(report.held_out.black_box or 0, report.held_out.placebo or 0)
+
+
+@pytest.mark.parametrize(
+    ("name", "term"), [("outerrace_007in_6oclock", "outer_spall"), ("innerrace_007in", "inner_spall")]
+)
+def test_race_defects_of_another_rig(name: str, term: str) -> None:
+    report = reconcile_kinematics(CWRU, [cwru(name)], [cwru("normal_first_half")], seed=0)
+    assert (report.verdict, report.causes[0].term, report.causes[0].site) == ("explained", term, "drive_end")
+
+
+def test_ball_defects_end_in_a_set_with_the_ball() -> None:
+    pairs = [(CWRU, cwru("ball_007in"), cwru("normal_first_half")), (UESTC, uestc("B"), uestc("N"))]
+    for spec, test, baseline in pairs:
+        report = reconcile_kinematics(spec, [test], [baseline], seed=0)
+        assert report.verdict == "ambiguous"
+        assert "ball_spall" in {c.term for c in report.causes}
+
+
+@pytest.mark.parametrize(("letter", "term"), [("O", "outer_spall"), ("I", "inner_spall")])
+def test_wrong_speed_labels_and_slip(letter: str, term: str) -> None:
+    report = reconcile_kinematics(UESTC, [uestc(letter)], [uestc("N")], seed=0)
+    assert (report.verdict, [c.term for c in report.causes]) == ("explained", [term])
+
+
+def test_sound_machines_have_nothing_missing() -> None:
+    for spec, whole in ((HIT, hit("Normal_1200")), (CWRU, cwru("normal_first_half")), (UESTC, uestc("N"))):
+        half = whole.duration_s / 2
+        report = reconcile_kinematics(spec, [whole.select(start_s=half)], [whole.select(end_s=half)], seed=0)
+        assert report.verdict == "nothing_missing", report.sentence
+    ims = [
+        recording(np.loadtxt(DATA / "ims_healthy" / f"2003.10.22.12.{minute}.13.txt").T, 20480.0, 2000 / 60)
+        for minute in ("09", "39")
+    ]
+    spec = bearings(bearing1="ZA-2115", bearing2="ZA-2115", bearing3="ZA-2115", bearing4="ZA-2115")
+    assert reconcile_kinematics(spec, ims[1:], ims[:1], seed=0).verdict == "nothing_missing"

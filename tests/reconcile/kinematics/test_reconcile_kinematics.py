@@ -1,0 +1,169 @@
+"""Made defects are named with place and size, sound machines are left alone, vague cases stay vague."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from sim.core.errors import SpecError
+from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, shaft_lines, sound, train
+
+SHAFT = {"name": "shaft"}
+BEARING = {"name": "bearing1", "shaft": "shaft", "catalogue": "6205"}
+SPEC = read_kinematic_spec({"kinematics": {"shafts": [SHAFT], "bearings": [BEARING]}})
+ORDERS = {"outer_spall": 3.5848, "inner_spall": 5.4152, "ball_spall": 4.7135}
+
+
+def defect(term: str, seed: int, *, slip: float = -0.008, **how: float):  # type: ignore[no-untyped-def]
+    rng = np.random.default_rng(seed)
+    usual = {"outer_spall": {}, "inner_spall": {"load": 0.8}, "ball_spall": {"cage": 0.8}}[term]
+    return sound(seed) + train(rng, ORDERS[term] * (1 + slip), 1.0, **{**usual, **how})
+
+
+BASELINE = recorded(sound(1))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("term", sorted(ORDERS))
+@pytest.mark.parametrize("with_baseline", [True, False])
+def test_a_defect_is_named_at_its_place(term: str, with_baseline: bool) -> None:
+    report = reconcile_kinematics(SPEC, [recorded(defect(term, 2))], [BASELINE] if with_baseline else [], seed=3)
+    assert report.verdict == "explained"
+    assert [(c.term, c.site, c.named) for c in report.causes] == [(term, "bearing1", True)]
+    assert report.causes[0].values["slip"] == pytest.approx(-0.008, abs=0.002)
+    line = report.where.lines[0]
+    assert line.frequency_hz == pytest.approx(ORDERS[term] * 0.992 * SPEED_HZ, rel=0.003)
+    assert report.held_out is not None
+    held = report.held_out
+    assert held.gain_low > 0
+    assert held.gain > max(held.retuned or 0, held.black_box or 0, held.placebo or 0)
+    json.dumps(report.document())
+
+
+def test_a_sound_machine_has_nothing_missing() -> None:
+    for seed in (5, 6):
+        assert reconcile_kinematics(SPEC, [recorded(sound(seed))], [BASELINE], seed=1).verdict == "nothing_missing"
+    assert reconcile_kinematics(SPEC, [recorded(sound(7))], [], seed=1).verdict == "nothing_missing"
+
+
+@pytest.mark.slow
+def test_false_alarms_on_noise_stay_rare() -> None:
+    wrong = 0
+    for seed in range(20):
+        noise = np.random.default_rng(100 + seed).standard_normal(N // 2)
+        other = np.random.default_rng(200 + seed).standard_normal(N // 2)
+        wrong += (
+            reconcile_kinematics(SPEC, [recorded(noise)], [recorded(other)], seed=seed).verdict != "nothing_missing"
+        )
+    assert wrong == 0
+
+
+@pytest.mark.slow
+def test_louder_and_dirtier_is_no_defect() -> None:
+    rng = np.random.default_rng(4)
+    test = 2.5 * (1.8 * shaft_lines(rng) + 0.3 * rng.standard_normal(N))
+    assert reconcile_kinematics(SPEC, [recorded(test)], [BASELINE], seed=0).verdict == "nothing_missing"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("degrees", [5.0, 9.0])
+def test_entry_and_exit_give_the_extent(degrees: float) -> None:
+    cage_hz = 0.3983 * SPEED_HZ
+    pair = 0.75 * degrees / 360 / cage_hz
+    report = reconcile_kinematics(SPEC, [recorded(defect("outer_spall", 3, pair_s=pair))], [BASELINE], seed=0)
+    size = report.causes[0].severity
+    assert size is not None and size.name == "width" and size.unit == "m"
+    race_m = 0.0390398 / 2 * (1 + 7.94004 / 39.0398)
+    assert size.value == pytest.approx(np.radians(degrees) * race_m, rel=0.1)
+    assert size.low <= np.radians(degrees) * race_m <= size.high
+
+
+@pytest.mark.slow
+def test_a_defect_of_the_baseline_that_grew() -> None:
+    small, large = (0.75 * d / 360 / (0.3983 * SPEED_HZ) for d in (4.0, 8.0))
+    before = recorded(defect("outer_spall", 3, pair_s=small))
+    same = reconcile_kinematics(SPEC, [recorded(defect("outer_spall", 4, pair_s=small))], [before], seed=0)
+    assert same.verdict == "nothing_missing" and "deep in both" in same.sentence
+    grown = reconcile_kinematics(SPEC, [recorded(defect("outer_spall", 4, pair_s=large))], [before], seed=0)
+    assert grown.verdict == "explained" and "grew from" in grown.sentence
+
+
+@pytest.mark.slow
+def test_bearings_alike_make_a_set_unless_a_sensor_tells() -> None:
+    two = [BEARING, {**BEARING, "name": "bearing2"}]
+    spec = read_kinematic_spec({"kinematics": {"shafts": [SHAFT], "bearings": two}})
+    hit = defect("outer_spall", 2)
+    report = reconcile_kinematics(spec, [recorded(hit)], [BASELINE], seed=0)
+    assert report.verdict == "ambiguous"
+    assert {c.site for c in report.causes} == {"bearing1", "bearing2"} and not any(c.named for c in report.causes)
+    far = sound(9) + 0.08 * (hit - sound(2))
+    both = reconcile_kinematics(spec, [recorded([far, hit])], [recorded([sound(10), sound(11)])], seed=0)
+    assert both.where.sites[0].site == "bearing2"
+
+
+@pytest.mark.slow
+def test_impacts_at_an_order_of_no_part() -> None:
+    test = sound(2) + train(np.random.default_rng(2), 3.15, 1.0, jitter=0.001)
+    report = reconcile_kinematics(SPEC, [recorded(test)], [BASELINE], seed=0)
+    assert report.verdict == "unknown_physics"
+    assert report.where.lines[0].frequency_hz == pytest.approx(3.15 * SPEED_HZ, rel=0.003)
+
+
+@pytest.mark.slow
+def test_impacts_without_an_order_are_ambiguous() -> None:
+    rng = np.random.default_rng(6)
+    force = train(rng, 1.7, 3.0, jitter=0.6)
+    report = reconcile_kinematics(SPEC, [recorded(sound(2) + force)], [BASELINE], seed=0)
+    assert report.verdict == "ambiguous"
+    assert "ball_spall" in {c.term for c in report.causes}
+
+
+@pytest.mark.slow
+def test_unbalance_is_one_of_a_set() -> None:
+    t = np.arange(N) / RATE_HZ
+    test = sound(2) + 4 * np.sin(2 * np.pi * SPEED_HZ * t)
+    report = reconcile_kinematics(SPEC, [recorded(test)], [BASELINE], seed=0)
+    assert report.verdict == "ambiguous" and report.causes[0].term == "unbalance"
+
+
+def test_a_sensor_fault_is_the_answer_when_nothing_else_is() -> None:
+    rows = sound(8)
+    rows[2000:2400] = 0.0
+    report = reconcile_kinematics(SPEC, [recorded(rows)], [BASELINE], seed=0)
+    assert report.verdict == "measurement_fault"
+    assert report.fault is not None and report.fault.kind == "dropouts"
+
+
+@pytest.mark.slow
+def test_a_defect_behind_a_bad_sensor_is_still_found() -> None:
+    rows = defect("outer_spall", 2)
+    rows[2000:2400] = 0.0
+    report = reconcile_kinematics(SPEC, [recorded(rows)], [BASELINE], seed=0)
+    assert report.verdict == "explained" and report.causes[0].term == "outer_spall"
+
+
+def test_what_cannot_carry_the_kinematics_is_said() -> None:
+    short = recorded(sound(1)).select(end_s=0.3)
+    report = reconcile_kinematics(SPEC, [short], [], seed=0)
+    assert report.verdict == "not_decidable" and "turns" in report.sentence
+    slow = recorded(sound(1), speed_hz=600.0)
+    assert reconcile_kinematics(SPEC, [slow], [], seed=0).verdict == "not_decidable"
+
+
+def test_a_foreign_shaft_is_refused() -> None:
+    spec = read_kinematic_spec(
+        {"kinematics": {"shafts": [{"name": "a", "speed_hz": 10.0}, {"name": "b", "speed_hz": 5.0}]}}
+    )
+    with pytest.raises(SpecError, match="is no shaft"):
+        reconcile_kinematics(spec, [recorded(sound(1))], [], seed=0)
+
+
+@pytest.mark.slow
+def test_the_same_seed_gives_the_same_report() -> None:
+    test = replace(recorded(defect("inner_spall", 2)))
+    one, two = (reconcile_kinematics(SPEC, [test], [BASELINE], seed=5).document() for _ in range(2))
+    assert one == two

@@ -1,0 +1,85 @@
+"""What is read, refused and derived of a specification that is kinematics only."""
+
+from __future__ import annotations
+
+import pytest
+
+from reconcile.kinematics import of_machine, read_kinematic_spec
+from reconcile.kinematics.families import ties
+from sim.core.errors import SpecError
+from sim.presets import preset
+
+
+def spec(**parts):  # type: ignore[no-untyped-def]
+    return {"kinematics": {"shafts": [{"name": "shaft"}], **parts}}
+
+
+def bearing(**how):  # type: ignore[no-untyped-def]
+    return {"name": "b1", "shaft": "shaft", **how}
+
+
+def test_four_ways_to_say_a_bearing_agree() -> None:
+    ways = [
+        {"catalogue": "6205"},
+        {"balls": 9, "ball_diameter_m": 0.00794004, "pitch_diameter_m": 0.0390398},
+        {"balls": 9, "diameter_ratio": 0.00794004 / 0.0390398},
+        {"orders": {"bpfo": 3.58483, "bpfi": 5.41517}},
+    ]
+    for way in ways:
+        found = {f.kind: f.order for f in ties(read_kinematic_spec(spec(bearings=[bearing(**way)]))).families}
+        # the orders the CWRU data center prints for this bearing
+        assert found["outer"] == pytest.approx(3.5848, abs=1e-3)
+        assert found["inner"] == pytest.approx(5.4152, abs=1e-3)
+        assert found["ball"] == pytest.approx(4.7135, abs=2e-3)
+        assert found["cage"] == pytest.approx(0.39828, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("document", "word"),
+    [
+        ({}, "kinematics"),
+        ({"kinematics": {"shafts": []}}, "shafts"),
+        (spec(bearings=[bearing()]), "exactly one"),
+        (spec(bearings=[bearing(catalogue="6205", balls=9, diameter_ratio=0.2)]), "exactly one"),
+        (spec(bearings=[bearing(balls=9)]), "diameter"),
+        (spec(bearings=[bearing(balls=9, ball_diameter_m=0.04, pitch_diameter_m=0.039)]), "smaller"),
+        (spec(bearings=[bearing(balls="9", diameter_ratio=0.2)]), "whole number"),
+        (spec(bearings=[{**bearing(catalogue="6205"), "shaft": "other"}]), "no shaft"),
+        (spec(bearings=[{**bearing(catalogue="6205"), "name": "shaft"}]), "twice"),
+        (spec(meshes=[{"name": "m", "gears": ["x", "y"]}]), "no gear"),
+        (spec(extra=1), "extra"),
+    ],
+)
+def test_wrong_fields_are_named(document, word: str) -> None:  # type: ignore[no-untyped-def]
+    with pytest.raises(SpecError) as caught:
+        read_kinematic_spec(document)
+    assert word in str(caught.value)
+
+
+def test_shafts_are_tied_by_teeth_or_speeds() -> None:
+    gears = [{"name": "p", "shaft": "shaft", "teeth": 20}, {"name": "g", "shaft": "out", "teeth": 50}]
+    document = {
+        "kinematics": {
+            "shafts": [{"name": "shaft", "speed_hz": 30.0}, {"name": "out"}, {"name": "fan", "speed_hz": 45.0}],
+            "gears": gears,
+            "meshes": [{"name": "m", "gears": ["p", "g"]}],
+        }
+    }
+    tie = ties(read_kinematic_spec(document))
+    assert tie.shafts == {"shaft": 1.0, "out": pytest.approx(0.4), "fan": pytest.approx(1.5)}
+    assert tie.mesh_orders == (20.0,)
+    del document["kinematics"]["shafts"][2]["speed_hz"]
+    with pytest.raises(SpecError, match="fan"):
+        ties(read_kinematic_spec(document))
+
+
+def test_an_unknown_designation_is_refused() -> None:
+    with pytest.raises(Exception, match="6999"):
+        ties(read_kinematic_spec(spec(bearings=[bearing(catalogue="6999")])))
+
+
+def test_a_full_machine_is_read_as_kinematics() -> None:
+    found = of_machine(preset("paper"))
+    tie = ties(found, "input")
+    assert {f.kind for f in tie.families} >= {"outer", "inner", "ball", "cage", "turn"}
+    assert len(tie.meshes) == 1
