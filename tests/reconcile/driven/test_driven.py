@@ -48,7 +48,7 @@ def reproduced(report: Report) -> float:
 
 
 def test_linear_model_is_found_from_any_start() -> None:
-    data = driven_of(recording(lambda x, v: 0.0, seed=3), SPEC)
+    data = driven_of(recording(None, seed=3), SPEC)
     start = first_guess(data)
     run = ready(data, start.memory_s)
     found = fit(start, run)
@@ -62,7 +62,7 @@ def test_linear_model_is_found_from_any_start() -> None:
 
 def test_free_run_is_its_closed_form() -> None:
     """A step of force on a damped oscillator."""
-    data = driven_of(recording(lambda x, v: 0.0, seed=3, n=3000), SPEC)
+    data = driven_of(recording(None, seed=3, n=3000), SPEC)
     run = ready(replace(data, drive=np.ones(3000)), 0.0)
     w, c = 2 * np.pi * FREQUENCY, 30.0
     found = simulated(Model(stiffness=w * w, damping=c, gain=w * w), run)
@@ -84,7 +84,7 @@ def test_a_linear_system_has_nothing_missing() -> None:
     """20 linear systems with coloured noise: at a level of 1 % two alarms or more have a probability of 2 %."""
     alarms = 0
     for seed in range(20):
-        data = driven_of(recording(lambda x, v: 0.0, seed=100 + seed, n=4000, noise=0.02), SPEC)
+        data = driven_of(recording(None, seed=100 + seed, n=4000, noise=0.02), SPEC)
         run = ready(data, 0.2)
         found = fit(first_guess(data), run)
         alarms += anything_missing(found.model, run, found.error, np.random.default_rng(seed)).p_value < 0.01
@@ -116,7 +116,7 @@ def test_a_hidden_law_is_named_and_the_machine_reproduces_it(key: str, law: obje
 
 @pytest.mark.slow
 def test_a_linear_recording_gets_no_name() -> None:
-    report = reconcile_driven(SPEC, [recording(lambda x, v: 0.0, seed=21)], seed=2)
+    report = reconcile_driven(SPEC, [recording(None, seed=21)], seed=2)
     assert report.verdict == "nothing_missing"
     assert not report.causes
     assert not report.where.sites
@@ -151,7 +151,7 @@ def test_a_measured_duffing_circuit() -> None:
 
 
 def test_roles_come_from_quantities_locations_or_are_stated() -> None:
-    made = recording(lambda x, v: 0.0, seed=1, n=600)
+    made = recording(None, seed=1, n=600)
     flipped = made.select(channels=["displacement", "force"])
     assert driven_of(flipped, SPEC).drive_channel.name == "force"
     volts = replace(made, channels=tuple(replace(c, quantity="voltage", unit="V") for c in made.channels))
@@ -163,7 +163,7 @@ def test_roles_come_from_quantities_locations_or_are_stated() -> None:
 
 
 def test_bad_input_is_refused_with_its_place() -> None:
-    made = recording(lambda x, v: 0.0, seed=1, n=3200)
+    made = recording(None, seed=1, n=3200)
     with pytest.raises(SpecError, match="one mass on a spring"):
         reconcile_driven(preset("rotor"), [made])
     with pytest.raises(SpecError, match="too short"):
@@ -182,7 +182,7 @@ def test_bad_input_is_refused_with_its_place() -> None:
 
 
 def test_parts_of_one_and_of_several_recordings() -> None:
-    data = driven_of(recording(lambda x, v: 0.0, seed=1, n=600), SPEC)
+    data = driven_of(recording(None, seed=1, n=600), SPEC)
     assert [p.data.answer.size for p in parts_of([data])] == [200, 200, 200]
     assert [p.name for p in parts_of([data, data])] == ["recording 1", "recording 2"]
     values = np.zeros(100)
@@ -191,7 +191,7 @@ def test_parts_of_one_and_of_several_recordings() -> None:
 
 
 def test_error_is_relative_to_the_spread() -> None:
-    data = driven_of(recording(lambda x, v: 0.0, seed=1, n=600), SPEC)
+    data = driven_of(recording(None, seed=1, n=600), SPEC)
     run = ready(data, 0.0)
     silent = Model(stiffness=1e4, damping=10.0, gain=0.0)
     assert nrmse(errors(silent, run), run.compared) == pytest.approx(1.0, rel=0.05)
