@@ -70,8 +70,8 @@ def _causes(found: Analysis, judgement: Judgement, site: str, mass: float) -> tu
     laws = found.final.model.laws
     why = judgement.reasons or (("others cannot be told from it",) if judgement.rivals else ())
     kept = [_cause(found, found.nominated.chosen, i, site, mass, why) for i in range(len(laws))]
-    others = [t for t in found.nominated.singles if t.laws[0] not in laws]
-    return (*kept, *(_cause(found, t, None, site, mass, ()) for t in others))
+    others = [_cause(found, t, None, site, mass, ()) for t in found.nominated.singles if t.laws[0] not in laws]
+    return (*kept, *sorted(others, key=lambda c: -c.score))
 
 
 def _held_out(found: Analysis) -> HeldOut | None:
