@@ -2,8 +2,8 @@
 
 The path with memory is, from the moving part to the ground: play of width `backlash` (in which a weak spring `slack`
 acts), a spring `elastic`, and a slider that gives way at the friction. The stretch d of play and spring follows the
-motion and is held where the slider slips: d += dx, clipped to the stretch at which the force is the friction (the element of
-Jenkins 1962, J. Appl. Mech. 29, 95-105, with play in series). Without play it is Jenkins' element.
+motion and is held where the slider slips: d += dx, clipped to the stretch at which the force is the friction. Without
+play it is what the literature calls Jenkins' element.
 """
 
 from __future__ import annotations
