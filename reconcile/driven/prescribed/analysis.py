@@ -69,6 +69,10 @@ class Outcome:
     """Friction of the held-out run (its first third) over that of the fitted one."""
     squares: tuple[FloatArray, FloatArray]
     """Linear and chosen, in blocks, as `transfers` says."""
+    before: FloatArray
+    """Linear prediction of the run that was scored, N, (n,)."""
+    used: Resisting
+    """The chosen structure as it was scored: with the fitted friction level where that transfers."""
 
     @property
     def transfers(self) -> bool:
@@ -179,6 +183,8 @@ def outcome(fitted: Setup, held: Setup, linear: Resisting, chosen: Resisting, rn
         placebo=(min(p[0] for p in placebos), min(p[1] for p in placebos)),
         level=level,
         squares=(squares_in_blocks(before[third:]), squares_in_blocks(after[third:])),
+        before=held.force - before,
+        used=levelled if adapts else chosen,
     )
 
 

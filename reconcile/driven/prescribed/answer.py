@@ -22,6 +22,7 @@ from sim.terms import REGISTRY
 
 PARTS_OF_A_PATH = {"backlash": "backlash", "friction": "coulomb_friction", "cubic": "cubic_support"}
 """Registered effects by the parameter that is their size."""
+SIZES = ("backlash", "friction", "drag", "cubic")
 
 
 def _term(parameter: str) -> str:
@@ -53,10 +54,8 @@ def _held_out(o: Outcome, seed: int) -> HeldOut:
 
 def _reasons(found: Findings) -> tuple[str, ...]:
     best = found.chosen.structure
-    failed = []
-    for name in ("backlash", "friction", "drag", "cubic"):
-        if name in found.chosen.values and found.chosen.intervals[name][0] <= 0 <= found.chosen.intervals[name][1]:
-            failed.append(f"the interval of {name} includes zero")
+    ends = {name: found.chosen.intervals[name] for name in SIZES if name in found.chosen.values}
+    failed = [f"the interval of {name} includes zero" for name, (low, high) in ends.items() if low <= 0 <= high]
     drop = found.linear_squares - found.trials[0][1]
     if float(drop.mean()) <= 2 * float(drop.std(ddof=1)) / drop.size**0.5:
         failed.append(f"{best.words} is not better than a spring and damper on the stretch kept for choosing")
@@ -110,7 +109,7 @@ def _causes(found: Findings, verdict: Word, reasons: tuple[str, ...], site: str)
         score, _ = score_nats(found.linear_squares, squares)
         best = rank == 0
         shown = found.chosen if best else trial
-        sizes = [n for n in ("backlash", "friction", "drag", "cubic") if n in shown.values]
+        sizes = [n for n in SIZES if n in shown.values]
         for name in sizes if best else sizes[:1]:
             why = reasons if best and reasons else (trial.structure.words,)
             causes.append(
@@ -133,7 +132,7 @@ def _stages(found: Findings) -> tuple[Mapping[str, object], ...]:
     if found.travel is not None:
         stages.append({"stage": "locate", "travel_after_reversal": vars(found.travel)})
     for o in found.outcomes:
-        told = {k: v for k, v in vars(o).items() if k != "squares"}
+        told = {k: v for k, v in vars(o).items() if k not in ("squares", "before", "used")}
         stages.append({"stage": "validate", **told, "friction_transfers": o.transfers})
     return tuple(stages)
 
@@ -161,7 +160,7 @@ def _force(found: Findings, verdict: Word, site: str) -> EstimatedForce | None:
     run = found.fitted
     step = run.motion.step_s
     late = slice(run.skip, None)
-    turns = np.count_nonzero(np.diff(np.sign(run.motion.displacement[late])) > 0)
+    turns = int(np.count_nonzero(np.diff(np.sign(run.motion.displacement[late])) > 0))
     work = float(np.sum(run.force[late] * run.motion.velocity[late]) * step) / max(turns, 1)
     stable = verdict in ("explained", "ambiguous")
     return EstimatedForce(
@@ -172,7 +171,7 @@ def _force(found: Findings, verdict: Word, site: str) -> EstimatedForce | None:
 
 def _built(spec: MachineSpec, site: Site, found: Findings) -> Built:
     n = min(int(SHOWN_CYCLES_S / found.held.motion.step_s), found.held.force.size)
-    return built(site, spec, found.chosen, found.fitted.motion, found.held.motion.displacement[:n])
+    return built(site, spec, found.outcomes[0].used, found.fitted.motion, found.held.motion.displacement[:n])
 
 
 def reconcile_prescribed(

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from reconcile.driven.channels import FloatArray
-from reconcile.driven.machine import Site
+from reconcile.driven.machine import Site, registered
 from reconcile.driven.prescribed.fitting import Resisting
 from reconcile.driven.prescribed.resistance import CUBIC, DRAG, DRY, DRY_SPEED_SHARE, Motion
+from reconcile.force_law.library import FRICTION
 from sim.core.spec import BodySpec, CustomLaw, ForceLoad, MachineSpec, MeasuredLoad, TermSpec
 
 DRIVER = 2e3
@@ -59,16 +60,33 @@ def _path(found: Resisting, damping: float) -> str:
     return text + f"+{_number(v.get('slack', 0.0))}*max(min(x,{half:.9g}),-{half:.9g})" if half > 0 else text
 
 
-def _slider(found: Resisting, axis: str, fastest: float) -> tuple[BodySpec, str, float]:
-    """Slider, its friction as a formula, and the time in which that stops it, s."""
+@dataclass(frozen=True, kw_only=True)
+class _Slider:
+    """A light body, what rubs on it (a registered effect or a formula), a constant force N, and the longest step s."""
+
+    body: BodySpec
+    term: TermSpec | None
+    formula: str
+    constant_n: float
+    longest_step_s: float
+
+
+def _slider(found: Resisting, axis: str, fastest: float) -> _Slider:
+    """Dry friction as the registered effect (solved within the step) where it is there and allows this force."""
     v = found.values
     mass = max(v["elastic"] / (2 * math.pi * SLIDER_HZ) ** 2, 1e-6)
     spring = {f"stiffness_{axis}_n_per_m": HOLD * v["elastic"]}
     speed = DRY_SPEED_SHARE * fastest
-    lean = v.get("asymmetry", 0.0)
-    friction = f"{v['friction']:.9g}*(max(min(v/{speed:.9g},1),-1)+{_number(lean)})"
     body = BodySpec.model_validate({"name": SLIDER, "mass_kg": mass, "axes": axis, **spring})
-    return body, friction, mass * speed / max(v["friction"], 1e-12)
+    term = registered(replace(FRICTION, shape=speed), v["friction"], Site(body=body, axis=axis))
+    stopping = mass * speed / max(v["friction"], 1e-12)
+    return _Slider(
+        body=body,
+        term=term,
+        formula=f"{v['friction']:.9g}*max(min(v/{speed:.9g},1),-1)",
+        constant_n=-v["friction"] * v.get("asymmetry", 0.0),
+        longest_step_s=STEP_SHARE * stopping if term is None else math.inf,
+    )
 
 
 def built(site: Site, spec: MachineSpec, found: Resisting, motion: Motion, displacement: FloatArray) -> Built:
@@ -80,28 +98,32 @@ def built(site: Site, spec: MachineSpec, found: Resisting, motion: Motion, displ
     mount = {f"stiffness_{axis}_n_per_m": stiff, f"damping_{axis}_ns_per_m": math.sqrt(stiff * site.body.mass_kg)}
     bodies = [BodySpec.model_validate({"name": name, "mass_kg": site.body.mass_kg, "axes": axis, **mount})]
     laws = [CustomLaw(name="direct", dof=site.dof, expression=_direct(found, fastest))]
+    terms = [_own(name, 1)]
+    loads: list[MeasuredLoad | ForceLoad] = []
     longest = math.inf
     if with_slider:
-        slider, friction, longest = _slider(found, axis, fastest)
-        damping = 2 * SLIDER_DAMPING * math.sqrt(found.values["elastic"] * slider.mass_kg)
-        bodies.append(slider)
-        laws.append(CustomLaw(name="path", dof=site.dof, against=f"{SLIDER}.{axis}", expression=_path(found, damping)))
-        laws.append(CustomLaw(name="friction", dof=f"{SLIDER}.{axis}", expression=friction))
+        slider = _slider(found, axis, fastest)
+        longest = slider.longest_step_s
+        damping = 2 * SLIDER_DAMPING * math.sqrt(found.values["elastic"] * slider.body.mass_kg)
+        other = f"{SLIDER}.{axis}"
+        bodies.append(slider.body)
+        laws.append(CustomLaw(name="path", dof=site.dof, against=other, expression=_path(found, damping)))
+        if slider.term is None:
+            laws.append(CustomLaw(name="friction", dof=other, expression=slider.formula))
+        terms += [_own(name, 2), slider.term or _own(SLIDER, 3)]
+        loads.append(ForceLoad.model_validate({"body": SLIDER, "axis": axis, "constant_n": slider.constant_n}))
     load = MeasuredLoad.model_validate(
         {
             "body": name, "axis": axis, "quantity": "displacement", "step_s": motion.step_s,
             "values": tuple(float(x) for x in displacement),
         }
     )  # fmt: skip
-    sites = [name, name, SLIDER][: len(laws)]
-    terms = [TermSpec(term="custom_force", site=s, parameters={"law": float(i)}) for i, s in enumerate(sites, 1)]
     machine = MachineSpec(
-        name=spec.name, notes=spec.notes, bodies=bodies, loads=[load, *_others(spec)], custom_laws=laws, terms=terms
+        name=spec.name, notes=spec.notes, bodies=bodies, loads=[load, *loads], custom_laws=laws, terms=terms
     )
     channels = (f"{name}.custom.direct.force", *((f"{name}.custom.path.force",) if with_slider else ()))
     return Built(machine=machine, channels=channels, longest_step_s=STEP_SHARE * longest)
 
 
-def _others(spec: MachineSpec) -> list[ForceLoad]:
-    """Nothing but the motion drives the body: constant loads of an example machine do not belong to it."""
-    return [x for x in spec.loads if isinstance(x, ForceLoad) and x.amplitude_n != 0.0]
+def _own(site: str, number: int) -> TermSpec:
+    return TermSpec(term="custom_force", site=site, parameters={"law": float(number)})

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from reconcile.driven.channels import FloatArray
 from reconcile.driven.nominate import score_nats
 from reconcile.driven.prescribed.analysis import Findings
 from reconcile.force_law.picture import curve, surface
@@ -74,13 +73,13 @@ def pictures(found: Findings) -> dict[str, object]:
         ends = {"low": score - 1.645 * error, "high": score + 1.645 * error}
         rows.append({"label": trial.structure.words, "score": score, "named": k == 0, **ends})
     plane = surface(_samples(found))
-    time: FloatArray = np.arange(n) * held.motion.step_s
+    time = np.arange(n) * held.motion.step_s
     return {
         "traces": [
             {
-                "title": f"Force on {held.name}, nothing of it fitted", "unit": "N", "time_s": time,
-                "observed": held.force[:n], "before": found.linear.on(held.motion)[:n],
-                "after": found.chosen.on(held.motion)[:n],
+                "title": f"Force on {held.name}, held out", "unit": "N", "time_s": time,
+                "observed": held.force[:n], "before": found.outcomes[0].before[:n],
+                "after": found.outcomes[0].used.on(held.motion)[:n],
             }
         ],
         "ranking": rows,
