@@ -65,7 +65,7 @@ def first_guess(data: Driven) -> Model:
     a, b, c = np.linalg.lstsq(columns / size, side * scale, rcond=None)[0] / size
     gain = 1.0 / b if b != 0 else 1.0
     stiffness = abs(a * gain)
-    damping = min(max(c * gain, 0.002 * math.sqrt(stiffness)), math.sqrt(stiffness))
+    damping = min(max(c * gain, 0.002 * math.sqrt(stiffness)), 8.0 * math.sqrt(stiffness))
     return Model(stiffness=stiffness, damping=damping, gain=gain)
 
 
