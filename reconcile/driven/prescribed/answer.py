@@ -175,7 +175,7 @@ def _built(spec: MachineSpec, site: Site, found: Findings) -> Built:
 
 
 def reconcile_prescribed(
-    spec: MachineSpec, parts: Sequence[Part], *, seed: int, provenance: Mapping[str, object]
+    spec: MachineSpec, parts: Sequence[Part], *, seed: int, provenance: Mapping[str, object], assumed: str = ""
 ) -> Report:
     """All steps and the report."""
     site = driven_site(spec)
@@ -194,7 +194,7 @@ def reconcile_prescribed(
         causes=_causes(found, verdict, reasons, name) if something else (),
         held_out=_held_out(found.outcomes[0], seed) if something else None,
         force=_force(found, verdict, name),
-        undecidable=_undecidable(found) if something else (),
+        undecidable=(*(_undecidable(found) if something else ()), *((assumed,) if assumed else ())),
         next_experiment=NextExperiment(
             sentence="Move it slowly, well below the play and then just beyond it: play and spring then part."
         )

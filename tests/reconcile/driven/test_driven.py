@@ -11,6 +11,7 @@ from scipy.io import loadmat
 
 from reconcile.driven import reconcile_driven
 from reconcile.driven.channels import driven_of
+from reconcile.driven.direction import directed
 from reconcile.driven.fit import first_guess, fit
 from reconcile.driven.missing import anything_missing
 from reconcile.driven.model import Model, errors, nrmse, ready, refined, simulated
@@ -20,7 +21,7 @@ from reconcile.verdict import Report
 from signals.recording import Recording
 from sim.core.errors import SpecError
 from sim.core.response import Channel
-from sim.core.spec import MachineSpec
+from sim.core.spec import MachineSpec, MeasuredLoad
 from sim.presets import preset
 from sim.solve.api import simulate
 from sim.terms import REGISTRY
@@ -160,6 +161,21 @@ def test_roles_come_from_quantities_locations_or_are_stated() -> None:
         volts, channels=(replace(volts.channels[0], location="output"), replace(volts.channels[1], location="input"))
     )
     assert driven_of(told, SPEC).drive_channel.name == "displacement"
+
+
+def test_direction_is_told_by_the_purer_sine() -> None:
+    made = recording(None, seed=1, n=4000)
+    forced = directed(made, SPEC)
+    assert forced.drive_channel.name == "force"
+    assert "is taken to drive" in forced.assumed
+    t = np.arange(4000) / RATE
+    x = 1e-2 * np.sin(2 * np.pi * t) * (1 + 0.3 * np.sin(0.7 * t))
+    force = 1e5 * x + 800.0 * np.tanh(np.gradient(x, 1 / RATE) / 1e-3)
+    moved = directed(replace(made, samples=np.vstack([force, x])), SPEC)
+    assert moved.prescribed
+    assert moved.drive_channel.name == "displacement"
+    load = MeasuredLoad(body="mass", axis="y", step_s=0.1, values=(0.0, 1.0))
+    assert directed(made, SPEC.model_copy(update={"loads": [load]})).assumed == ""
 
 
 def test_bad_input_is_refused_with_its_place() -> None:
