@@ -8,7 +8,7 @@ import numpy as np
 
 from reconcile.driven.forced import ALPHA, gain_interval
 from reconcile.driven.machine import OWN_LAW, Site, driven_site
-from reconcile.driven.nominate import score_nats
+from reconcile.driven.nominate import leads, score_nats
 from reconcile.driven.prescribed.analysis import Findings, Outcome, investigate
 from reconcile.driven.prescribed.fitting import Resisting
 from reconcile.driven.prescribed.machine import Built, built
@@ -56,8 +56,7 @@ def _reasons(found: Findings) -> tuple[str, ...]:
     best = found.chosen.structure
     ends = {name: found.chosen.intervals[name] for name in SIZES if name in found.chosen.values}
     failed = [f"the interval of {name} includes zero" for name, (low, high) in ends.items() if low <= 0 <= high]
-    drop = found.linear_squares - found.trials[0][1]
-    if float(drop.mean()) <= 2 * float(drop.std(ddof=1)) / drop.size**0.5:
+    if not leads(found.linear_squares, found.trials[0][1]):
         failed.append(f"{best.words} is not better than a spring and damper on the stretch kept for choosing")
     for o in found.outcomes:
         before, after, _, placebo = _used(o)
@@ -71,8 +70,7 @@ def _verdict(found: Findings, reasons: Sequence[str]) -> Word:
         return "nothing_missing"
     if reasons:
         return "unknown_physics"
-    gap = found.trials[1][1] - found.trials[0][1]
-    if float(gap.mean()) <= 2 * float(gap.std(ddof=1)) / gap.size**0.5:
+    if not leads(found.trials[1][1], found.trials[0][1]):
         return "ambiguous"
     return (
         "explained"
