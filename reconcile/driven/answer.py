@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from reconcile.driven.ceiling import Ceiling, ceilings
 from reconcile.driven.forced import ALPHA, Analysis
 from reconcile.driven.judge import Judgement, judge
 from reconcile.driven.machine import driven_site, mass_kg, revised, term_key
@@ -33,12 +34,23 @@ def _law_words(found: Analysis) -> str:
     return said
 
 
+def _saturation(found: Analysis) -> tuple[str, ...]:
+    """Ends at which the output stands, in the fitted or the held-out part."""
+    data = (found.fitted_run.data, found.held_run.data)
+    longest: dict[bool, Ceiling] = {}
+    for c in (c for d in data for c in ceilings(d.answer)):
+        if c.upper not in longest or c.samples > longest[c.upper].samples:
+            longest[c.upper] = c
+    return tuple(c.words(data[0].answer_channel.unit) for c in longest.values())
+
+
 def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
     linear = f"{100 * found.fitted_nrmse:.2g} %"
     if judgement.verdict == "nothing_missing":
         return f"A linear model of {site} explains the recording up to noise (free-run error {linear})."
     if not found.final.model.laws or judgement.reasons:
-        return f"A force on {site} is missing from the linear model, and no stable law describes it."
+        said = f"A force on {site} is missing from the linear model, and no stable law describes it"
+        return "; ".join([said, *_saturation(found)]) + "."
     v = found.validations[0]
     gained = f"free-run error on {v.held} falls from {100 * v.before:.2g} % to {100 * v.after:.2g} %"
     if judgement.rivals:
@@ -70,8 +82,8 @@ def _causes(found: Analysis, judgement: Judgement, site: str, mass: float) -> tu
     laws = found.final.model.laws
     why = judgement.reasons or (("others cannot be told from it",) if judgement.rivals else ())
     kept = [_cause(found, found.nominated.chosen, i, site, mass, why) for i in range(len(laws))]
-    others = [t for t in found.nominated.singles if t.laws[0] not in laws]
-    return (*kept, *(_cause(found, t, None, site, mass, ()) for t in others))
+    others = [_cause(found, t, None, site, mass, ()) for t in found.nominated.singles if t.laws[0] not in laws]
+    return (*kept, *sorted(others, key=lambda c: -c.score))
 
 
 def _held_out(found: Analysis) -> HeldOut | None:
@@ -136,6 +148,7 @@ def _undecidable(found: Analysis, assumed: str, calibrated: bool) -> tuple[str, 
         said.append(
             f"What is left is small but not noise: other smooth laws explain {part:.0f} % of its whitened power."
         )
+    said += _saturation(found)
     return (*said, assumed) if assumed else tuple(said)
 
 

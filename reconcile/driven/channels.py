@@ -83,10 +83,18 @@ def _roles(channels: tuple[Channel, ...], prescribed: bool) -> tuple[int, int, s
     raise SpecError(Problem(field="channels", message=message, given=names, allowed="one force and one motion, or two"))
 
 
-def driven_of(recording: Recording, spec: MachineSpec) -> Driven:
+def undirected(recording: Recording, spec: MachineSpec) -> bool:
+    """Whether nothing says which of force and motion drives: no measured load of the machine, no input channel."""
+    told = any(isinstance(x, MeasuredLoad) for x in spec.loads)
+    kinds = {c.quantity for c in recording.channels}
+    both = bool(kinds & FORCES) and bool(kinds & set(MOTIONS))
+    return both and not told and not any(_told(c, INPUT_WORDS) for c in recording.channels)
+
+
+def driven_of(recording: Recording, spec: MachineSpec, *, motion_drives: bool = False) -> Driven:
     """Input and output of a recording. The machine says by a measured displacement load that motion is prescribed."""
     loads = [x for x in spec.loads if isinstance(x, MeasuredLoad)]
-    prescribed = any(x.quantity == "displacement" for x in loads)
+    prescribed = motion_drives or any(x.quantity == "displacement" for x in loads)
     drive, answer, assumed = _roles(recording.channels, prescribed)
     samples = recording.samples[[drive, answer]]
     if not np.all(np.isfinite(samples)):

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 
 from reconcile.driven.answer import answer
 from reconcile.driven.channels import Driven, driven_of
+from reconcile.driven.direction import directed
 from reconcile.driven.forced import analyse
 from reconcile.driven.machine import driven_site
+from reconcile.driven.prescribed.answer import reconcile_prescribed
 from reconcile.driven.split import parts_of
 from reconcile.verdict import Report
 from signals.recording import Recording
@@ -25,7 +28,9 @@ def _checked(spec: MachineSpec, recordings: Sequence[Recording]) -> list[Driven]
         raise SpecError(
             Problem(field="recordings", message="there is nothing to compare", given=0, allowed="1 or more")
         )
-    found = [driven_of(r, spec) for r in recordings]
+    first = directed(recordings[0], spec)
+    rest = [driven_of(r, spec, motion_drives=first.prescribed) for r in recordings[1:]]
+    found = [first, *rest]
     for i, data in enumerate(found):
         least = LEAST_SAMPLES if len(found) == 1 else LEAST_SAMPLES // 3
         if data.answer.size < least:
@@ -57,12 +62,15 @@ def reconcile_driven(
     started = time.process_time()
     driven_site(spec)
     data = _checked(spec, tests)
-    found = analyse(parts_of(data), seed)
-    provenance = {
+    provenance: dict[str, object] = {
         "physics_version": PHYSICS_VERSION,
         "seed": seed,
-        "core_seconds": time.process_time() - started,
         "recordings": len(tests),
         "baselines_not_used": len(baselines),
     }
-    return answer(spec, found, seed=seed, provenance=provenance)
+    if data[0].prescribed:
+        report = reconcile_prescribed(spec, parts_of(data), seed=seed, provenance=provenance, assumed=data[0].assumed)
+    else:
+        report = answer(spec, analyse(parts_of(data), seed), seed=seed, provenance=provenance)
+    cost = {"core_seconds": time.process_time() - started}
+    return replace(report, provenance={**report.provenance, **cost})

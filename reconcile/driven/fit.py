@@ -65,7 +65,7 @@ def first_guess(data: Driven) -> Model:
     a, b, c = np.linalg.lstsq(columns / size, side * scale, rcond=None)[0] / size
     gain = 1.0 / b if b != 0 else 1.0
     stiffness = abs(a * gain)
-    damping = min(max(c * gain, 0.002 * math.sqrt(stiffness)), math.sqrt(stiffness))
+    damping = min(max(c * gain, 0.002 * math.sqrt(stiffness)), 8.0 * math.sqrt(stiffness))
     return Model(stiffness=stiffness, damping=damping, gain=gain)
 
 
@@ -107,7 +107,7 @@ def fit(start: Model, run: Run, *, stretches: Sequence[Run] = ()) -> Fitted:
     solution = least_squares(residual, x0, bounds=(least, np.inf), x_scale="jac", max_nfev=40, xtol=1e-10, ftol=1e-10)
     found = model_of(solution.x)
     covariance = np.zeros((first.size, first.size))
-    inner = _covariance(np.asarray(solution.jac), solution.fun) * np.outer(scale[free], scale[free])
+    inner = block_covariance(np.asarray(solution.jac), solution.fun) * np.outer(scale[free], scale[free])
     covariance[np.ix_(free, free)] = inner
     return Fitted(model=found, covariance=covariance, error=errors(found, run))
 
@@ -119,7 +119,7 @@ def best_fit(starts: Sequence[Model], run: Run, *, stretches: Sequence[Run] = ()
     return found[int(np.argmin(totals))]
 
 
-def _covariance(jacobian: FloatArray, residual: FloatArray) -> FloatArray:
+def block_covariance(jacobian: FloatArray, residual: FloatArray) -> FloatArray:
     """(J'J)^-1 (sum of block scores) (J'J)^-1: errors may be coloured within a block."""
     size = np.linalg.norm(jacobian, axis=0)
     size = np.where(size > 0, size, 1.0)

@@ -62,8 +62,8 @@ class Analysis:
     """Simulated output on the first held-out part, (n,)."""
 
 
-def _gain(before: FloatArray, after: FloatArray, rng: np.random.Generator) -> tuple[float, float, float]:
-    a, b = squares_in_blocks(before), squares_in_blocks(after)
+def gain_interval(a: FloatArray, b: FloatArray, rng: np.random.Generator) -> tuple[float, float, float]:
+    """1 - after / before of root mean squares by block (blocks,), with a 90 % interval over resampled blocks."""
     picks = rng.integers(0, a.size, (RESAMPLES, a.size))
     again = 1.0 - np.sqrt(b[picks].mean(axis=1) / a[picks].mean(axis=1))
     low, high = np.quantile(again, (0.05, 0.95))
@@ -86,7 +86,7 @@ def validate(linear: Fitted, final: Fitted, run: Run, held: Run, names: tuple[st
         held=names[1],
         before=nrmse(before, held.compared),
         after=nrmse(after, held.compared),
-        gain=_gain(before, after, rng),
+        gain=gain_interval(squares_in_blocks(before), squares_in_blocks(after), rng),
         retuned=_fraction(retuned.error, before),
         black_box=_fraction(black_box_error(box, held), before),
         placebo=max(_fraction(wrong, before), _fraction(scrambled, before)),

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from reconcile.driven.forced import ALPHA, Analysis
 from reconcile.driven.machine import OWN_LAW, term_key
 from reconcile.driven.model import LINEAR
-from reconcile.driven.nominate import Trial
+from reconcile.driven.nominate import Trial, leads
 from reconcile.verdict import Word
 
-LEAD = 2.0
-"""Standard errors by which the best law must lead."""
 PLACEBO_SHARE = 0.25
 """A placebo may reach this share of the gain at most."""
 
@@ -31,13 +28,7 @@ def _rivals(found: Analysis) -> tuple[Trial, ...]:
     if found.nominated is None or not found.nominated.chosen.laws:
         return ()
     best = found.nominated.singles[0]
-    kept = []
-    for other in found.nominated.singles[1:]:
-        behind = other.squares - best.squares
-        error = float(behind.std(ddof=1)) / math.sqrt(behind.size)
-        if float(behind.mean()) <= LEAD * error:
-            kept.append(other)
-    return tuple(kept)
+    return tuple(other for other in found.nominated.singles[1:] if not leads(other.squares, best.squares))
 
 
 def _reasons(found: Analysis) -> tuple[str, ...]:

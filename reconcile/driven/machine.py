@@ -57,7 +57,7 @@ def term_key(law: Law) -> str:
     return key if REGISTRY.get(key) is not None else OWN_LAW
 
 
-def _term(law: Law, coefficient: float, site: Site) -> TermSpec | None:
+def registered(law: Law, coefficient: float, site: Site) -> TermSpec | None:
     """The registered effect with this coefficient; None where there is none or its bounds forbid it."""
     key = term_key(law)
     term = REGISTRY.get(key)
@@ -98,7 +98,7 @@ def revised(spec: MachineSpec, model: Model, data: Driven, drive: FloatArray) ->
     terms: list[TermSpec] = list(spec.terms)
     laws: list[CustomLaw] = list(spec.custom_laws)
     for law, coefficient in zip(model.laws, model.coefficients, strict=True):
-        found = _term(law, mass * coefficient, site)
+        found = registered(law, mass * coefficient, site)
         if found is None:
             laws.append(CustomLaw(name=law.key, dof=site.dof, expression=law.expression(mass * coefficient)))
             found = TermSpec(term=OWN_LAW, site=body.name, parameters={"law": float(len(laws))})

@@ -67,17 +67,16 @@ def _frame(columns: FloatArray) -> FloatArray:
     return np.asarray(left[:, sizes > 1e-9 * sizes[0]])
 
 
-def anything_missing(model: Model, run: Run, error: FloatArray, rng: np.random.Generator) -> Missing:
-    """Test the error (n - skip,) that a fitted model left on a stretch."""
+def score_test(error: FloatArray, retuning: FloatArray, causes: FloatArray, rng: np.random.Generator) -> Missing:
+    """Test an error (n,) against signals of candidate causes (n, k), free of what retuning explains (n, m)."""
     factors = _whitener(error)
-    retuning = _frame(_white(sensitivities(model, run), factors))
-    signals = _white(_signals(model, run), factors)
-    frame = _frame(signals - retuning @ (retuning.T @ signals))
+    held = _frame(_white(retuning, factors))
+    signals = _white(causes, factors)
+    frame = _frame(signals - held @ (held.T @ signals))
 
     def share(candidate: FloatArray) -> float:
-        # The whitener belongs to the candidate: it would be estimated from it.
         white = _white(candidate[:, None], factors)[:, 0]
-        rest = white - retuning @ (retuning.T @ white)
+        rest = white - held @ (held.T @ white)
         return float(np.sum((frame.T @ rest) ** 2) / max(float(rest @ rest), 1e-300))
 
     lines = np.abs(np.fft.rfft(error))
@@ -88,3 +87,8 @@ def anything_missing(model: Model, run: Run, error: FloatArray, rng: np.random.G
         null.append(share(np.fft.irfft(turned, error.size)))
     p = (1 + sum(value >= found for value in null)) / (RESAMPLES + 1)
     return Missing(statistic=found, null_95=float(np.quantile(null, 0.95)), p_value=float(p))
+
+
+def anything_missing(model: Model, run: Run, error: FloatArray, rng: np.random.Generator) -> Missing:
+    """Test the error (n - skip,) that a fitted model left on a stretch."""
+    return score_test(error, sensitivities(model, run), _signals(model, run), rng)

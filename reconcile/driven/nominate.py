@@ -20,6 +20,8 @@ MOST_LAWS = 3
 LEAST_GAIN = 0.05
 """Fall of the mean square error that is worth another law."""
 BLOCKS = 20
+LEAD = 2.0
+"""Standard errors by which a law must lead another."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,6 +52,12 @@ def score_nats(before: FloatArray, after: FloatArray) -> tuple[float, float]:
     return float(each.sum()), float(each.std(ddof=1) * math.sqrt(each.size))
 
 
+def leads(before: FloatArray, after: FloatArray) -> bool:
+    """Whether `after` scores two standard errors above `before` (squares in blocks): one odd block cannot decide."""
+    score, error = score_nats(before, after)
+    return score > LEAD * error
+
+
 def trial(base: Model, laws: Sequence[Law], run: Run, other: Run, start: Sequence[float] | None = None) -> Trial:
     """Fit with these laws from the base's linear part."""
     first = tuple(start) if start is not None else (0.0,) * len(laws)
@@ -75,9 +83,7 @@ class Nominated:
 
 
 def _earns(before: Trial, after: Trial) -> bool:
-    drop = before.squares - after.squares
-    error = float(drop.std(ddof=1)) / math.sqrt(drop.size)
-    return float(drop.mean()) > 2.0 * error and after.mean_square < (1.0 - LEAST_GAIN) * before.mean_square
+    return leads(before.squares, after.squares) and after.mean_square < (1.0 - LEAST_GAIN) * before.mean_square
 
 
 def nominate(linear: Fitted, found: SearchResult, run: Run, other: Run) -> Nominated:

@@ -58,7 +58,9 @@ class Law:
         base = "(m/s)" if self.rate and self.key != "van_der_pol" else "m"
         if self.key == "van_der_pol":
             return "N*s/m^3"
-        return {0: "N", 1: f"N/{base}"}.get(self.power, f"N/{base}^{self.power:.3g}")
+        if self.power == 0:
+            return "N"
+        return f"N/{base}" if self.power == 1 else f"N/{base}^{self.power:.3g}"
 
 
 QUADRATIC = Law(key="quadratic", code=0, words="even stiffness", formula="x^2", text="z²", power=2)

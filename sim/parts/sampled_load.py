@@ -1,7 +1,7 @@
 """A sampled input on one coordinate: a force, or the motion of a spring's far end, interpolated between its samples.
 
 s(t) = sum of weights(fraction) * samples around t. The weights come from a table over the fraction of a step: held,
-linear, or a sinc under a Kaiser window (Oppenheim & Schafer, Discrete-Time Signal Processing, 2nd ed., sec. 7.4.1),
+linear, or a sinc under a Kaiser window (Oppenheim & Schafer, Discrete-Time Signal Processing, 2nd ed., ch. 7),
 each row scaled to sum 1 so that a constant stays one. A row lookup is linear in the fraction.
 """
 

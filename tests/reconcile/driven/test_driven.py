@@ -11,6 +11,7 @@ from scipy.io import loadmat
 
 from reconcile.driven import reconcile_driven
 from reconcile.driven.channels import driven_of
+from reconcile.driven.direction import directed
 from reconcile.driven.fit import first_guess, fit
 from reconcile.driven.missing import anything_missing
 from reconcile.driven.model import Model, errors, nrmse, ready, refined, simulated
@@ -20,7 +21,7 @@ from reconcile.verdict import Report
 from signals.recording import Recording
 from sim.core.errors import SpecError
 from sim.core.response import Channel
-from sim.core.spec import MachineSpec
+from sim.core.spec import MachineSpec, MeasuredLoad
 from sim.presets import preset
 from sim.solve.api import simulate
 from sim.terms import REGISTRY
@@ -48,7 +49,7 @@ def reproduced(report: Report) -> float:
 
 
 def test_linear_model_is_found_from_any_start() -> None:
-    data = driven_of(recording(lambda x, v: 0.0, seed=3), SPEC)
+    data = driven_of(recording(None, seed=3), SPEC)
     start = first_guess(data)
     run = ready(data, start.memory_s)
     found = fit(start, run)
@@ -62,7 +63,7 @@ def test_linear_model_is_found_from_any_start() -> None:
 
 def test_free_run_is_its_closed_form() -> None:
     """A step of force on a damped oscillator."""
-    data = driven_of(recording(lambda x, v: 0.0, seed=3, n=3000), SPEC)
+    data = driven_of(recording(None, seed=3, n=3000), SPEC)
     run = ready(replace(data, drive=np.ones(3000)), 0.0)
     w, c = 2 * np.pi * FREQUENCY, 30.0
     found = simulated(Model(stiffness=w * w, damping=c, gain=w * w), run)
@@ -84,7 +85,7 @@ def test_a_linear_system_has_nothing_missing() -> None:
     """20 linear systems with coloured noise: at a level of 1 % two alarms or more have a probability of 2 %."""
     alarms = 0
     for seed in range(20):
-        data = driven_of(recording(lambda x, v: 0.0, seed=100 + seed, n=4000, noise=0.02), SPEC)
+        data = driven_of(recording(None, seed=100 + seed, n=4000, noise=0.02), SPEC)
         run = ready(data, 0.2)
         found = fit(first_guess(data), run)
         alarms += anything_missing(found.model, run, found.error, np.random.default_rng(seed)).p_value < 0.01
@@ -116,7 +117,7 @@ def test_a_hidden_law_is_named_and_the_machine_reproduces_it(key: str, law: obje
 
 @pytest.mark.slow
 def test_a_linear_recording_gets_no_name() -> None:
-    report = reconcile_driven(SPEC, [recording(lambda x, v: 0.0, seed=21)], seed=2)
+    report = reconcile_driven(SPEC, [recording(None, seed=21)], seed=2)
     assert report.verdict == "nothing_missing"
     assert not report.causes
     assert not report.where.sites
@@ -151,7 +152,7 @@ def test_a_measured_duffing_circuit() -> None:
 
 
 def test_roles_come_from_quantities_locations_or_are_stated() -> None:
-    made = recording(lambda x, v: 0.0, seed=1, n=600)
+    made = recording(None, seed=1, n=600)
     flipped = made.select(channels=["displacement", "force"])
     assert driven_of(flipped, SPEC).drive_channel.name == "force"
     volts = replace(made, channels=tuple(replace(c, quantity="voltage", unit="V") for c in made.channels))
@@ -162,8 +163,23 @@ def test_roles_come_from_quantities_locations_or_are_stated() -> None:
     assert driven_of(told, SPEC).drive_channel.name == "displacement"
 
 
+def test_direction_is_told_by_the_purer_sine() -> None:
+    made = recording(None, seed=1, n=4000)
+    forced = directed(made, SPEC)
+    assert forced.drive_channel.name == "force"
+    assert "is taken to drive" in forced.assumed
+    t = np.arange(4000) / RATE
+    x = 1e-2 * np.sin(2 * np.pi * t) * (1 + 0.3 * np.sin(0.7 * t))
+    force = 1e5 * x + 800.0 * np.tanh(np.gradient(x, 1 / RATE) / 1e-3)
+    moved = directed(replace(made, samples=np.vstack([force, x])), SPEC)
+    assert moved.prescribed
+    assert moved.drive_channel.name == "displacement"
+    load = MeasuredLoad(body="mass", axis="y", step_s=0.1, values=(0.0, 1.0))
+    assert directed(made, SPEC.model_copy(update={"loads": [load]})).assumed == ""
+
+
 def test_bad_input_is_refused_with_its_place() -> None:
-    made = recording(lambda x, v: 0.0, seed=1, n=3200)
+    made = recording(None, seed=1, n=3200)
     with pytest.raises(SpecError, match="one mass on a spring"):
         reconcile_driven(preset("rotor"), [made])
     with pytest.raises(SpecError, match="too short"):
@@ -182,7 +198,7 @@ def test_bad_input_is_refused_with_its_place() -> None:
 
 
 def test_parts_of_one_and_of_several_recordings() -> None:
-    data = driven_of(recording(lambda x, v: 0.0, seed=1, n=600), SPEC)
+    data = driven_of(recording(None, seed=1, n=600), SPEC)
     assert [p.data.answer.size for p in parts_of([data])] == [200, 200, 200]
     assert [p.name for p in parts_of([data, data])] == ["recording 1", "recording 2"]
     values = np.zeros(100)
@@ -191,7 +207,7 @@ def test_parts_of_one_and_of_several_recordings() -> None:
 
 
 def test_error_is_relative_to_the_spread() -> None:
-    data = driven_of(recording(lambda x, v: 0.0, seed=1, n=600), SPEC)
+    data = driven_of(recording(None, seed=1, n=600), SPEC)
     run = ready(data, 0.0)
     silent = Model(stiffness=1e4, damping=10.0, gain=0.0)
     assert nrmse(errors(silent, run), run.compared) == pytest.approx(1.0, rel=0.05)

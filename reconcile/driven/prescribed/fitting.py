@@ -1,0 +1,97 @@
+"""Fit a resistance to a measured force, from several starts, with block-robust intervals."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from reconcile.driven.channels import FloatArray
+from reconcile.driven.fit import INTERVAL, block_covariance
+from reconcile.driven.prescribed.resistance import LINEAR, Motion, Structure, resistance
+
+POSITIVE = frozenset({"friction", "elastic", "backlash", "slack"})
+MOST_LEAN = 0.5
+PLAYS = (0.05, 0.2, 0.4)
+"""Starts of the play, as shares of the motion's amplitude."""
+ELASTICS = (5.0, 20.0)
+"""Starts of the spring: friction over this share of the amplitude."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Resisting:
+    """A fitted resistance: parameters with 90 % intervals, and the error left, (n,)."""
+
+    structure: Structure
+    values: Mapping[str, float]
+    intervals: Mapping[str, tuple[float, float]]
+    error: FloatArray
+
+    def on(self, motion: Motion) -> FloatArray:
+        """Force it predicts for a motion, N."""
+        return resistance(self.structure, dict(self.values), motion)
+
+
+def _scales(names: tuple[str, ...], motion: Motion, force: FloatArray) -> FloatArray:
+    size = float(np.std(force)) or 1.0
+    x = float(np.max(np.abs(motion.displacement - motion.displacement.mean()))) or 1.0
+    v = float(np.max(np.abs(motion.velocity))) or 1.0
+    known = {
+        "stiffness": size / x, "damping": size / v, "offset": size, "friction": size, "elastic": size / x,
+        "asymmetry": 1.0, "backlash": x, "slack": size / x, "drag": size / v**2, "cubic": size / x**3,
+    }  # fmt: skip
+    return np.array([known[name] for name in names])
+
+
+def _starts(structure: Structure) -> list[dict[str, float]]:
+    """In units of the scales."""
+    plain = dict.fromkeys((*LINEAR, *structure.names), 0.0)
+    if "friction" in plain:
+        plain["friction"] = 1.0
+    if "elastic" not in plain:
+        return [plain]
+    plays = PLAYS if "backlash" in plain else (0.0,)
+    return [plain | {"elastic": e} | ({"backlash": p, "slack": 0.3} if p else {}) for e, p in product(ELASTICS, plays)]
+
+
+def fit_resistance(structure: Structure, motion: Motion, force: FloatArray, skip: int) -> Resisting:
+    """Least squares on the force after the first `skip` samples, where the memory's start no longer counts."""
+    names = (*LINEAR, *structure.names)
+    scale = _scales(names, motion, force)
+    size = float(np.std(force)) or 1.0
+    low = np.array([1e-4 if n == "elastic" else 0.0 if n in POSITIVE else -np.inf for n in names])
+    low = np.where(np.array(names) == "asymmetry", -MOST_LEAN, low)
+    high = np.where(np.array(names) == "asymmetry", MOST_LEAN, np.inf)
+
+    def residual(p: FloatArray) -> FloatArray:
+        values = dict(zip(names, (p * scale).tolist(), strict=True))
+        return np.asarray((force - resistance(structure, values, motion))[skip:] / size)
+
+    best = None
+    for start in _starts(structure):
+        first = np.clip(np.array([start[n] for n in names]), low + 1e-6, high - 1e-6)
+        # The slip makes the error kinked: steps of the derivative must be larger than rounding asks.
+        found = least_squares(
+            residual, first, bounds=(low, high), x_scale="jac", diff_step=np.full(first.size, 1e-4), max_nfev=60
+        )
+        best = found if best is None or found.cost < best.cost else best
+    assert best is not None
+    values = dict(zip(names, (best.x * scale).tolist(), strict=True))
+    spread = np.sqrt(np.maximum(np.diag(block_covariance(np.asarray(best.jac), best.fun)), 0.0)) * scale
+    ends = {
+        n: (values[n] - INTERVAL * float(s), values[n] + INTERVAL * float(s))
+        for n, s in zip(names, spread, strict=True)
+    }
+    return Resisting(
+        structure=structure, values=values, intervals=ends, error=force - resistance(structure, values, motion)
+    )
+
+
+def in_standard_errors(found: Resisting, name: str) -> float:
+    """Parameter over its standard error."""
+    low, high = found.intervals[name]
+    return found.values[name] / max((high - low) / (2 * INTERVAL), 1e-300) if math.isfinite(high - low) else 0.0
