@@ -11,10 +11,11 @@ import numpy as np
 
 from proof.chain import Noise, random_noise, random_path, sampled, through
 from proof.chain import Path as Way
+from proof.effects import Choice
 from proof.machine import NOMINAL, Arrays, FloatArray, arrays_of, document, hidden_machine
 from proof.model.layout import B
 from proof.plan import Case, Hiding
-from proof.run_up import OVERSAMPLING, RATE_HZ, X_DOFS, Y_DOFS, Diverged, Speed, accelerations, wandering
+from proof.run_up import OVERSAMPLING, RATE_HZ, X_DOFS, Y_DOFS, Speed, accelerations, wandering
 from proof.sensor_faults import Place, spoil
 
 DURATION_S = 1.2
@@ -31,10 +32,9 @@ def make(case: Case, folder: Path, truth_folder: Path) -> None:
         return
     target.mkdir(parents=True, exist_ok=True)
     truth_folder.mkdir(parents=True, exist_ok=True)
-    effects, recordings = _recordings(case)
-    for name, (speed_hz, samples) in recordings.items():
+    for name, (speed_hz, samples) in recordings(case).items():
         write_recording(target / name, case, speed_hz, samples)
-    truth.write_text(canonical(truth_of(case, effects)), encoding="utf-8")
+    truth.write_text(canonical(truth_of(case)), encoding="utf-8")
     (target / "machine.json").write_text(canonical(document(_told(case))), encoding="utf-8")
 
 
@@ -43,10 +43,10 @@ def canonical(found: Mapping[str, object]) -> str:
     return json.dumps(found, sort_keys=True, indent=1) + "\n"
 
 
-def truth_of(case: Case, effects: tuple[Hiding, ...]) -> dict[str, object]:
+def truth_of(case: Case) -> dict[str, object]:
     """What is hidden in the case."""
     rows = []
-    for hiding in effects:
+    for hiding in case.effects:
         law = hiding.about()
         sites = (hiding.site, *(law.also_at or {}).get(hiding.site, ()))
         severity = {"name": law.severity, "value": hiding.value, "unit": law.unit, "sized": law.sized}
@@ -71,22 +71,8 @@ def _told(case: Case) -> dict[str, float]:
     return told
 
 
-def _recordings(case: Case) -> tuple[tuple[Hiding, ...], dict[str, tuple[float, FloatArray]]]:
-    """Effects as they are after all, and samples (channels, n) by file name. Too strong an effect is halved."""
-    effects = case.effects
-    for _ in range(4):
-        try:
-            return effects, _measured(case, effects)
-        except Diverged:
-            effects = tuple(_milder(hiding) for hiding in effects)
-    raise Diverged(f"case {case.name} does not run at any severity")
-
-
-def _milder(hiding: Hiding) -> Hiding:
-    return Hiding(law=hiding.law, site=hiding.site, value=0.5 * hiding.value, variant=hiding.variant)
-
-
-def _measured(case: Case, effects: tuple[Hiding, ...]) -> dict[str, tuple[float, FloatArray]]:
+def recordings(case: Case) -> dict[str, tuple[float, FloatArray]]:
+    """Stated speed and samples (channels, n) by file name."""
     base = hidden_machine(case.rng(MACHINE))
     later = base.drifted(case.rng(DRIFT))
     found: dict[str, tuple[float, FloatArray, Speed, float]] = {}
@@ -94,7 +80,7 @@ def _measured(case: Case, effects: tuple[Hiding, ...]) -> dict[str, tuple[float,
         for kind, hidden in (("baseline", base), ("test", later)):
             if kind == "baseline" and not case.baseline:
                 continue
-            machine = changed(arrays_of(hidden), effects if kind == "test" else (), case)
+            machine = changed(arrays_of(hidden), case.effects if kind == "test" else (), case)
             speed, start = _operation(case, machine, k, kind)
             samples = _motion(case, machine, speed, start)
             found[f"{kind}_{k}"] = (speed_hz, samples, speed, start)
@@ -110,7 +96,9 @@ def changed(machine: Arrays, effects: tuple[Hiding, ...], case: Case) -> Arrays:
     """The machine with its hidden effects (the arrays are changed in place)."""
     for number, hiding in enumerate(effects):
         law = hiding.about()
-        law.apply(machine, law.sites.index(hiding.site), hiding.value, hiding.variant, case.rng(EFFECT, number))
+        site = law.sites.index(hiding.site)
+        rng = case.rng(EFFECT, number)
+        law.apply(machine, Choice(site=site, value=hiding.value, variant=hiding.variant, rng=rng))
     return machine
 
 
@@ -180,4 +168,3 @@ def write_recording(path: Path, case: Case, speed_hz: float, samples: FloatArray
     with path.with_suffix(".npz").open("wb") as stream:
         np.savez(stream, allow_pickle=False, **columns)
     path.with_suffix(".json").write_text(canonical(about), encoding="utf-8")
-

@@ -38,7 +38,8 @@ def peak_section(centre_hz: float, gain_db: float, quality: float) -> FloatArray
     alpha = math.sin(w) / (2.0 * quality)
     b = np.array([1.0 + alpha * a, -2.0 * math.cos(w), 1.0 - alpha * a])
     d = np.array([1.0 + alpha / a, -2.0 * math.cos(w), 1.0 - alpha / a])
-    return np.concatenate([b, d]) / d[0]
+    found: FloatArray = np.concatenate([b, d]) / d[0]
+    return found
 
 
 def sampled(fine: FloatArray, oversampling: int) -> FloatArray:
@@ -70,7 +71,9 @@ class Noise:
         spectrum = np.fft.rfft(rng.standard_normal(n))
         f = np.fft.rfftfreq(n, 1.0 / RATE_HZ)
         f[0] = f[1]
-        tilt = (1.0 + (self.corner_hz / f) ** self.slope) if self.reddened else (1.0 + (f / self.corner_hz) ** self.slope)
+        tilt = (
+            (1.0 + (self.corner_hz / f) ** self.slope) if self.reddened else (1.0 + (f / self.corner_hz) ** self.slope)
+        )
         weight = np.sqrt(np.minimum(tilt, 30.0))
         weight[0] = 0.0
         shaped = np.fft.irfft(spectrum * weight, n)

@@ -12,16 +12,20 @@ from typing import Literal
 
 import numpy as np
 
-from proof.effects import CLOSED, Law
+from proof.effects import Law
+from proof.library import CLOSED
 from proof.unknown import OPEN
 
 Split = Literal["dev", "sealed"]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {"dev": 20_240_611, "sealed": 7_310_552_903}
 COUNTS = {
-    "dev": {"null": 8, "misset": 3, "sensor": 5, "single": 26, "double": 6, "open": 8, "no_baseline": 3, "ambiguous": 3},
+    "dev": {
+        "null": 8, "misset": 3, "sensor": 5, "single": 26, "double": 6, "open": 8, "no_baseline": 3, "ambiguous": 3,
+    },
     "sealed": {
-        "null": 26, "misset": 8, "sensor": 16, "single": 80, "double": 22, "open": 24, "no_baseline": 14, "ambiguous": 12,
+        "null": 26, "misset": 8, "sensor": 16, "single": 80, "double": 22, "open": 24, "no_baseline": 14,
+        "ambiguous": 12,
     },
 }  # fmt: skip
 SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS = (3, 1, 8), (20.0, 30.0, 10.0), (3, 1, 5)
@@ -123,7 +127,7 @@ def _case(name: str, index: int, seed: int, group: Group, number: int) -> Case:
     least = {"single": 0, "ambiguous": 2}.get(group, 1)
     level = max(least, (2, 1, 3, 0, 2, 1, 3)[number % 7])
     effects = _effects(group, number, level, rng)
-    chosen = _sensors(sensors, effects, number)
+    chosen = _sensors(sensors, number)
     causes: tuple[tuple[str, str], ...] = ()
     if group == "ambiguous":
         alike = LOOKALIKES[number % len(LOOKALIKES)]
@@ -176,7 +180,7 @@ def _hiding(name: str, number: int, level: int, rng: np.random.Generator) -> Hid
     return Hiding(law=name, site=site, value=float(f"{value:.4g}"), variant=number % law.variants)
 
 
-def _sensors(count: int, effects: tuple[Hiding, ...], number: int) -> tuple[str, ...]:
+def _sensors(count: int, number: int) -> tuple[str, ...]:
     if count == 8:
         return tuple(f"bearing{j}.{axis}" for j in range(1, 5) for axis in "yx")
     if count == 1:

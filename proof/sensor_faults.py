@@ -26,7 +26,7 @@ class Place:
 Fault = Callable[[FloatArray, Place, np.random.Generator], None]
 
 
-def _clipping(x: FloatArray, at: Place, rng: np.random.Generator) -> None:
+def _clipping(x: FloatArray, at: Place, _rng: np.random.Generator) -> None:
     row = x[at.channel]
     limit = float(np.quantile(np.abs(row), 0.9))
     np.clip(row, -limit, limit, out=row)
@@ -47,14 +47,16 @@ def _hum(x: FloatArray, at: Place, rng: np.random.Generator) -> None:
 
 def _loose_sensor(x: FloatArray, at: Place, rng: np.random.Generator) -> None:
     centre = rng.uniform(2500.0, 5000.0)
-    x[at.channel] = sosfilt(Path(gain=1.0, sections=np.array([peak_section(centre, 22.0, 9.0)])).sections, x[at.channel])
+    x[at.channel] = sosfilt(
+        Path(gain=1.0, sections=np.array([peak_section(centre, 22.0, 9.0)])).sections, x[at.channel]
+    )
 
 
-def _stuck(x: FloatArray, at: Place, rng: np.random.Generator) -> None:
+def _stuck(x: FloatArray, at: Place, _rng: np.random.Generator) -> None:
     x[at.channel] = float(x[at.channel, 0])
 
 
-def _swapped(x: FloatArray, at: Place, rng: np.random.Generator) -> None:
+def _swapped(x: FloatArray, at: Place, _rng: np.random.Generator) -> None:
     x[[at.channel, at.other]] = x[[at.other, at.channel]]
 
 
@@ -62,7 +64,7 @@ def _gain(x: FloatArray, at: Place, rng: np.random.Generator) -> None:
     x[at.channel] *= 0.5 if rng.random() < 0.5 else 2.0
 
 
-def _aliasing(x: FloatArray, at: Place, rng: np.random.Generator) -> None:
+def _aliasing(x: FloatArray, at: Place, _rng: np.random.Generator) -> None:
     # a line above half the sampling rate that no filter removed: its image falls as the speed rises
     mean_hz = (at.phi[-1] - at.phi[0]) / (2.0 * math.pi) * RATE_HZ / at.phi.size
     order = round(0.75 * RATE_HZ / mean_hz)

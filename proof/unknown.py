@@ -4,56 +4,52 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import numpy as np
-
-from proof.effects import BEARINGS, GEARS, SHAFTS, Apply, Law
+from proof.effects import BEARINGS, GEARS, SHAFTS, Apply, Choice, Law
 from proof.machine import Arrays
 from proof.model.layout import B, X
 
 
-def _pull(a: Arrays, site: int, value: float, variant: int, rng: np.random.Generator) -> None:
-    a.x[X.PULL], a.x[X.PULL_SWING], a.x[X.PULL_AT] = value, rng.uniform(0.5, 0.9), float(site)
+def _pull(a: Arrays, c: Choice) -> None:
+    a.x[X.PULL], a.x[X.PULL_SWING], a.x[X.PULL_AT] = c.value, c.rng.uniform(0.5, 0.9), float(c.site)
 
 
-def _belt(a: Arrays, site: int, value: float, variant: int, rng: np.random.Generator) -> None:
-    a.x[X.BELT_SHARE], a.x[X.BELT_RATIO] = value, rng.uniform(0.28, 0.43)
-    a.x[X.BELT_FORCE] = 2000.0 * value
+def _belt(a: Arrays, c: Choice) -> None:
+    a.x[X.BELT_SHARE], a.x[X.BELT_RATIO] = c.value, c.rng.uniform(0.28, 0.43)
+    a.x[X.BELT_FORCE] = 2000.0 * c.value
 
 
-def _mains(a: Arrays, site: int, value: float, variant: int, rng: np.random.Generator) -> None:
-    a.x[X.MAINS_TORQUE], a.x[X.MAINS_PHASE] = value, rng.uniform(-3.0, 3.0)
+def _mains(a: Arrays, c: Choice) -> None:
+    a.x[X.MAINS_TORQUE], a.x[X.MAINS_PHASE] = c.value, c.rng.uniform(-3.0, 3.0)
 
 
+def _bouc(a: Arrays, c: Choice) -> None:
+    b = a.bearings[c.site]
+    b[B.BOUC_K], b[B.BOUC_AT], b[B.BOUC_SIGN] = c.value, c.rng.uniform(1.5e-6, 4e-6), 1.0
 
 
-def _bouc(a: Arrays, site: int, value: float, variant: int, rng: np.random.Generator) -> None:
-    b = a.bearings[site]
-    b[B.BOUC_K], b[B.BOUC_AT], b[B.BOUC_SIGN] = value, rng.uniform(1.5e-6, 4e-6), 1.0
+def _drag(a: Arrays, c: Choice) -> None:
+    a.bearings[c.site][B.DRAG2], a.bearings[c.site][B.DRAG2_FROM] = c.value, 5e-3
 
 
-def _drag(a: Arrays, site: int, value: float, variant: int, rng: np.random.Generator) -> None:
-    a.bearings[site][B.DRAG2], a.bearings[site][B.DRAG2_FROM] = value, 5e-3
+def _dead(a: Arrays, c: Choice) -> None:
+    b = a.bearings[c.site]
+    b[B.DEAD_K], b[B.DEAD_WIDTH], b[B.DEAD_LAG] = c.value, c.rng.uniform(8e-6, 1.2e-5), c.rng.uniform(5e-5, 1.5e-4)
 
 
-def _dead(a: Arrays, site: int, value: float, variant: int, rng: np.random.Generator) -> None:
-    b = a.bearings[site]
-    b[B.DEAD_K], b[B.DEAD_WIDTH], b[B.DEAD_LAG] = value, rng.uniform(8e-6, 1.2e-5), rng.uniform(5e-5, 1.5e-4)
+def _knock(a: Arrays, c: Choice) -> None:
+    b = a.bearings[c.site]
+    b[B.KNOCK], b[B.KNOCK_HZ], b[B.KNOCK_S] = c.value, c.rng.uniform(9.0, 16.0), 4e-4
+    b[B.KNOCK_PHASE] = c.rng.uniform(0.0, 1.0)
 
 
-def _knock(a: Arrays, site: int, value: float, variant: int, rng: np.random.Generator) -> None:
-    b = a.bearings[site]
-    b[B.KNOCK], b[B.KNOCK_HZ], b[B.KNOCK_S] = value, rng.uniform(9.0, 16.0), 4e-4
-    b[B.KNOCK_PHASE] = rng.uniform(0.0, 1.0)
+def _whip(a: Arrays, c: Choice) -> None:
+    a.bearings[c.site][B.WHIP], a.bearings[c.site][B.WHIP_AT] = c.value, 4e-5
 
 
-def _whip(a: Arrays, site: int, value: float, variant: int, rng: np.random.Generator) -> None:
-    a.bearings[site][B.WHIP], a.bearings[site][B.WHIP_AT] = value, 4e-5
-
-
-def _quintic(a: Arrays, site: int, value: float, variant: int, rng: np.random.Generator) -> None:
-    b = a.bearings[site]
+def _quintic(a: Arrays, c: Choice) -> None:
+    b = a.bearings[c.site]
     at = 1e-5
-    b[B.CUBIC], b[B.QUINTIC] = -1.5 * value / at**2, 1.2 * value / at**4
+    b[B.CUBIC], b[B.QUINTIC] = -1.5 * c.value / at**2, 1.2 * c.value / at**4
 
 
 def _law(sites: tuple[str, ...], unit: str, levels: tuple[float, float, float, float], apply: Apply) -> Law:

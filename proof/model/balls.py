@@ -34,7 +34,7 @@ def pit(off, width, depth, radius, curvature, b):  # type: ignore[no-untyped-def
 
 
 @njit(error_model="numpy")
-def race_gap(b, theta, phi, first, cage):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+def race_gap(b, theta, phi, first):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """What the races' defects add to the gap of the ball at angle theta, m. phi: turn of the inner ring."""
     gap = 0.0
     r = 0.5 * b[B.PITCH]
@@ -76,7 +76,7 @@ def defective(b):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
 
 @njit(error_model="numpy")
 def ball_force(b, spread, phi, dx, dy, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Force on the inner ring is -out (x, y; N). dx, dy: inner minus outer ring, m. spread: balls' angles, (balls, 3)."""
+    """Force on the inner ring is -out (x, y; N). dx, dy: inner minus outer ring, m. spread: (balls, 3)."""
     cage = b[B.CAGE] + 0.5 * phi * ((1.0 - b[B.RATIO]) * (1.0 - b[B.SLIP]) + b[B.CREEP] * (1.0 + b[B.RATIO]))
     c0 = math.cos(cage)
     s0 = math.sin(cage)
@@ -87,7 +87,7 @@ def ball_force(b, spread, phi, dx, dy, out):  # type: ignore[no-untyped-def]  # 
         s = s0 * spread[i, 1] + c0 * spread[i, 2]
         pressed = dx * c + dy * s - b[B.C0]
         if faulty and pressed > -1e-4:
-            pressed -= race_gap(b, cage + spread[i, 0], phi, i == 0, cage)
+            pressed -= race_gap(b, cage + spread[i, 0], phi, i == 0)
         if pressed > 0.0:
             f = b[B.KRE] * pressed * math.sqrt(pressed)
             fx += f * c

@@ -111,7 +111,7 @@ def rub(x, side, omega, q, v, wheel, acc):  # type: ignore[no-untyped-def]  # no
 
 @njit(error_model="numpy")
 def drives_of_no_library(x, t, phi, q, acc):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Magnetic pull on a shaft (negative stiffness that swings at twice the line) and a belt that pulls the input shaft."""
+    """Magnetic pull on a shaft (negative stiffness swinging at twice the line), and a belt on the input shaft."""
     if x[X.PULL] > 0.0:
         wheel = PINION if x[X.PULL_AT] == 0.0 else GEAR
         k = x[X.PULL] * (1.0 + x[X.PULL_SWING] * math.cos(4.0 * math.pi * LINE_HZ * t))

@@ -1,8 +1,8 @@
 """Tooth pairs as springs over the path of contact.
 
-Stiffness of a sound pair: a polynomial in x = 2 s / eps - 1 (s: base pitches since the tooth entered, eps: contact ratio),
-fitted by least squares to the healthy row of the reference solutions' table (largest deviation 0.65e6 N/m, 0.2 %);
-a new pair takes its load over 2 % of a base pitch. A larger centre distance a lowers it by `SLOPE` a metre.
+Stiffness of a sound pair: a polynomial in x = 2 s / eps - 1 (s: base pitches since the tooth entered, eps: contact
+ratio), fitted by least squares to the healthy row of the reference solutions' table (largest deviation 0.65e6 N/m,
+0.2 %); a new pair takes its load over 2 % of a base pitch. A larger centre distance a lowers it by `SLOPE` a metre.
 """
 
 from __future__ import annotations

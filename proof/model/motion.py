@@ -37,7 +37,7 @@ FloatArray = np.ndarray[Any, np.dtype[np.float64]]
 
 
 @njit(error_model="numpy")
-def gears(g, mesh, teeth, x, phi, omega, q, v, acc, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+def gears(g, mesh, teeth, phi, omega, q, v, acc, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """The mesh with its transmission error and run-out."""
     ratio = g[G.Z1] / g[G.Z2]
     angle = g[G.Z1] * phi + g[G.PHI]
@@ -91,7 +91,7 @@ def ring_seat(b, j, r, t, q, v, z, acc, dz, out):  # type: ignore[no-untyped-def
     support(b, q[held], q[held + 1], v[held], v[held + 1], out)
     acc[held] -= out[0]
     acc[held + 1] -= out[1]
-    unusual(b, t, q[held], q[held + 1], v[held], v[held + 1], z[BOUC + j], z[LAG + j], out)
+    unusual(b, t, q[held + 1], v[held + 1], z[BOUC + j], z[LAG + j], out)
     acc[held] -= out[0]
     acc[held + 1] -= out[1]
     dz[BOUC + j] = out[2]
@@ -159,7 +159,7 @@ def rates(g, bearings, mesh, x, teeth, spread, t, phi, omega, q, v, z, acc, dz, 
     phi2 = ratio * phi
     omega2 = ratio * omega
     torsion(g, x, q, v, phi, phi2, omega, omega2, acc, t)
-    gears(g, mesh, teeth, x, phi, omega, q, v, acc, out)
+    gears(g, mesh, teeth, phi, omega, q, v, acc, out)
     b1, b2, b3, b4 = BEARING_BASE
     turning(x, 0, phi, omega, 1.0, b1, b2, PINION, acc, g[G.T])
     turning(x, 1, phi2, omega2, -1.0, b3, b4, GEAR, acc, g[G.TOUT])
@@ -198,7 +198,7 @@ def _digest() -> int:
 
 
 def _marching(stamp: int) -> Callable[..., int]:
-    @njit(cache=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})  # type: ignore[untyped-decorator]
+    @njit(cache=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
     def march(g, bearings, mesh, x, teeth, spread, h, phi, omega, q, v, z, watched, kept):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202
         """Integrate in place; row n of `kept` gets the watched accelerations at step n. Returns the steps done.
 

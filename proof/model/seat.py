@@ -50,7 +50,7 @@ def support(b, x, y, vx, vy, out):  # type: ignore[no-untyped-def]  # noqa: ANN0
 def bore(b, x, y, vx, vy, zx, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Force (N) of the bore on a loose ring's motion in it: out = resistance x, y and the bristle's rate.
 
-    Hunt and Crossley's contact K p^n (1 + c p') and Dahl's friction whose bristle bends by `FIT_PRESLIDE` before it slides.
+    Hunt and Crossley's contact K p^n (1 + c p'); Dahl's friction, its bristle bends by `FIT_PRESLIDE` before it slides.
     """
     r = math.sqrt(x * x + y * y)
     out[0] = out[1] = 0.0
@@ -69,7 +69,7 @@ def bore(b, x, y, vx, vy, zx, out):  # type: ignore[no-untyped-def]  # noqa: ANN
 
 
 @njit(error_model="numpy")
-def unusual(b, t, x, y, vx, vy, z, lag, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+def unusual(b, t, y, vy, z, lag, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Supports outside the library: hysteresis, late dead band, knocks. out: resistance x, y, rates of z and lag."""
     out[0] = out[1] = out[2] = out[3] = 0.0
     if b[B.BOUC_K] > 0.0:
