@@ -35,7 +35,7 @@ def make(case: Case, folder: Path, truth_folder: Path) -> None:
     for name, (speed_hz, samples) in recordings(case).items():
         write_recording(target / name, case, speed_hz, samples)
     truth.write_text(canonical(truth_of(case)), encoding="utf-8")
-    (target / "machine.json").write_text(canonical(document(_told(case))), encoding="utf-8")
+    (target / "machine.json").write_text(canonical(document(told(case))), encoding="utf-8")
 
 
 def canonical(found: Mapping[str, object]) -> str:
@@ -62,13 +62,14 @@ def fault_place(case: Case) -> tuple[int, int]:
     return channel, (channel + 1) % n
 
 
-def _told(case: Case) -> dict[str, float]:
-    told = dict(NOMINAL) | {"fr1": case.speeds_hz[len(case.speeds_hz) // 2]}
+def told(case: Case) -> dict[str, float]:
+    """Parameters as the engine is told them: nominal, and wrong where the case is about that."""
+    parameters = dict(NOMINAL) | {"fr1": case.speeds_hz[len(case.speeds_hz) // 2]}
     if case.group == "misset":
         rng = case.rng(MISSED)
         for name in rng.choice(MISSET, 2, replace=False):
-            told[str(name)] *= 1.0 + float(rng.choice([-1.0, 1.0]) * rng.uniform(0.2, 0.3))
-    return told
+            parameters[str(name)] *= 1.0 + float(rng.choice([-1.0, 1.0]) * rng.uniform(0.2, 0.3))
+    return parameters
 
 
 def recordings(case: Case) -> dict[str, tuple[float, FloatArray]]:

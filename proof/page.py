@@ -46,9 +46,9 @@ METHOD = """# Proof: concealed cases
 come from a simulator that shares no code with `sim/` (an import rule checks it): classical Runge-Kutta with a fixed
 step, its own tooth-pair stiffness, Hunt-Crossley contact with Dahl friction in a loose fit, trapezoid pits met by
 single balls, raised-cosine tooth cracks, supports with rounded corners. Its healthy machine is checked against the
-reference solutions. Every case has its own hidden parameters (within 10 %), a drift between baseline and test (0.15 of
-that spread), speed that wanders by 0.1 to 0.5 % and is up to 0.5 % off the stated one, cage slip up to 2 %, a transfer path
-and gain for every sensor, and coloured noise.
+reference solutions. Every case has its own hidden parameters (within 10 %), a drift between baseline and test
+(0.15 of that spread), speed that wanders by 0.1 to 0.5 % and is up to 0.5 % off the stated one, cage slip up to 2 %, a
+transfer path and gain for every sensor, and coloured noise.
 
 The engine is called by its command line on an anonymised copy: nominal machine, recordings, nothing else. The labels'
 salted hashes were committed (`proof/seals`) before the run. A seal shows that no label was changed; who has the seed

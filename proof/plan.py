@@ -28,6 +28,8 @@ COUNTS = {
         "ambiguous": 12,
     },
 }  # fmt: skip
+EXTRA: dict[str, tuple[tuple[Group, int], ...]] = {"dev": (("sensor", 5), ("sensor", 6), ("sensor", 7)), "sealed": ()}
+"""Cases behind the shuffled ones: the faults that the first five leave out."""
 SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS = (3, 1, 8), (20.0, 30.0, 10.0), (3, 1, 5)
 TARGET = (0, 0, 0)
 ORTHOGONAL = tuple((a, b, (a + b) % 3) for a in range(3) for b in range(3))
@@ -116,6 +118,8 @@ def plan(split: Split) -> tuple[Case, ...]:
     for place, index in enumerate(order):
         group, number = groups[int(index)]
         cases.append(_case(f"{split[0]}{place + 1:03d}", int(index), SEEDS[split], group, number))
+    for group, number in EXTRA[split]:
+        cases.append(_case(f"{split[0]}{len(cases) + 1:03d}", len(cases), SEEDS[split], group, number))
     return tuple(cases)
 
 

@@ -13,6 +13,9 @@ from proof.chain import Path, peak_section
 from proof.machine import FloatArray
 from proof.run_up import RATE_HZ
 
+ALIASED_ORDER = 560
+"""Above half the sampling rate from 18 Hz on."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Place:
@@ -66,9 +69,7 @@ def _gain(x: FloatArray, at: Place, rng: np.random.Generator) -> None:
 
 def _aliasing(x: FloatArray, at: Place, _rng: np.random.Generator) -> None:
     # a line above half the sampling rate that no filter removed: its image falls as the speed rises
-    mean_hz = (at.phi[-1] - at.phi[0]) / (2.0 * math.pi) * RATE_HZ / at.phi.size
-    order = round(0.75 * RATE_HZ / mean_hz)
-    x[at.channel] += 1.2 * float(np.std(x[at.channel])) * np.sin(order * at.phi + 1.0)
+    x[at.channel] += 1.2 * float(np.std(x[at.channel])) * np.sin(ALIASED_ORDER * at.phi + 1.0)
 
 
 FAULTS: Mapping[str, Fault] = {
