@@ -64,7 +64,7 @@ def fault_place(case: Case) -> tuple[int, int]:
 
 def told(case: Case) -> dict[str, float]:
     """Parameters as the engine is told them: nominal, and wrong where the case is about that."""
-    parameters = dict(NOMINAL) | {"fr1": case.speeds_hz[len(case.speeds_hz) // 2]}
+    parameters = dict(NOMINAL) | {"fr1": case.speeds_hz[len(case.speeds_hz) // 2], "T": case.torque_nm}
     if case.group == "misset":
         rng = case.rng(MISSED)
         for name in rng.choice(MISSET, 2, replace=False):
@@ -81,7 +81,9 @@ def recordings(case: Case) -> dict[str, tuple[float, FloatArray]]:
         for kind, hidden in (("baseline", base), ("test", later)):
             if kind == "baseline" and not case.baseline:
                 continue
-            machine = changed(arrays_of(hidden), case.effects if kind == "test" else (), case)
+            machine = changed(
+                arrays_of(hidden, dict(NOMINAL) | {"T": case.torque_nm}), case.effects if kind == "test" else (), case
+            )
             speed, start = _operation(case, machine, k, kind)
             samples = _motion(case, machine, speed, start)
             found[f"{kind}_{k}"] = (speed_hz, samples, speed, start)
@@ -161,7 +163,7 @@ def write_recording(path: Path, case: Case, speed_hz: float, samples: FloatArray
     about = {
         "sampling_rate_hz": RATE_HZ,
         "channels": channels,
-        "operating": {"shaft": "input", "speed_hz": speed_hz, "torque_nm": NOMINAL["T"]},
+        "operating": {"shaft": "input", "speed_hz": speed_hz, "torque_nm": case.torque_nm},
         "condition": "baseline" if path.name.startswith("baseline") else "unknown",
         "notes": "",
     }

@@ -47,6 +47,8 @@ class Law:
     variants: int = 1
     also_at: Mapping[str, tuple[str, ...]] | None = None
     """Other names of a site that count as the right place."""
+    torque_nm: float = 25.0
+    """Load at which the effect can be seen."""
     sized: bool = True
     """Whether the severity means the same in the product's term."""
 

@@ -52,7 +52,7 @@ CLOSED: Mapping[str, Law] = {
         apply=race(B.BALL_WIDTH, B.BALL_DEPTH, B.BALL_ANGLE), variants=2,
     ),
     "root_crack": Law(
-        sites=GEARS, terms=("tooth_crack",), severity="stiffness_loss", unit="1", levels=(0.02, 0.04, 0.07, 0.1),
+        sites=GEARS, terms=("tooth_crack",), severity="stiffness_loss", unit="1", levels=(0.04, 0.06, 0.085, 0.105),
         apply=tooth(crack), variants=2,
     ),
     "flank_pit": Law(
@@ -63,20 +63,21 @@ CLOSED: Mapping[str, Law] = {
         sites=GEARS, terms=("missing_tooth",), severity="width", unit="1", levels=(0.2, 0.4, 0.7, 1.0),
         apply=tooth(missing),
     ),
+    # bearings 1, 2 only: the tooth force presses the others so hard on their seats that these never lift
     "loose_seat": Law(
-        sites=BEARINGS, terms=("pedestal_looseness",), severity="loss", unit="1", levels=(0.2, 0.35, 0.5, 0.7),
+        sites=BEARINGS[:2], terms=("pedestal_looseness",), severity="loss", unit="1", levels=(0.2, 0.35, 0.5, 0.7),
         apply=loose, variants=2,
     ),
     "imbalance": Law(
-        sites=GEARS, terms=("unbalance",), severity="moment", unit="kg*m", levels=(3e-3, 6e-3, 1.2e-2, 2.4e-2),
+        sites=GEARS, terms=("unbalance",), severity="moment", unit="kg*m", levels=(1e-3, 3e-3, 6e-3, 1.2e-2),
         apply=turning(X.UNBALANCE, X.UNBALANCE_PHASE),
     ),
     "run_out": Law(
-        sites=GEARS, terms=("eccentricity",), severity="radius", unit="m", levels=(5e-6, 1e-5, 2e-5, 4e-5),
+        sites=GEARS, terms=("eccentricity",), severity="radius", unit="m", levels=(1e-5, 2e-5, 4e-5, 8e-5),
         apply=eccentric,
     ),
     "bow": Law(
-        sites=GEARS, terms=("bent_shaft",), severity="bow", unit="m", levels=(2e-5, 5e-5, 1e-4, 2e-4),
+        sites=GEARS, terms=("bent_shaft",), severity="bow", unit="m", levels=(5e-5, 1e-4, 2e-4, 4e-4),
         apply=turning(X.BOW, X.BOW_PHASE),
     ),
     "parallel_offset": Law(
@@ -98,6 +99,7 @@ CLOSED: Mapping[str, Law] = {
     "play": Law(
         sites=MESH, terms=("backlash",), severity="width", unit="m", levels=(2e-5, 5e-5, 1e-4, 2e-4),
         apply=mesh(M.BACKLASH), sized=False,
+        torque_nm=4.0,
     ),
     "flank_friction": Law(
         sites=MESH, terms=("tooth_friction",), severity="coefficient", unit="1", levels=(0.03, 0.06, 0.1, 0.15),
@@ -116,11 +118,11 @@ CLOSED: Mapping[str, Law] = {
         apply=bearing(B.C0, add=True),
     ),
     "outer_waves": Law(
-        sites=BEARINGS, terms=("outer_waviness",), severity="amplitude", unit="m", levels=(3e-7, 7e-7, 1.5e-6, 3e-6),
+        sites=BEARINGS, terms=("outer_waviness",), severity="amplitude", unit="m", levels=(7e-7, 1.5e-6, 3e-6, 6e-6),
         apply=wave(B.OUTER_WAVE, B.OUTER_ORDER),
     ),
     "inner_waves": Law(
-        sites=BEARINGS, terms=("inner_waviness",), severity="amplitude", unit="m", levels=(3e-7, 7e-7, 1.5e-6, 3e-6),
+        sites=BEARINGS, terms=("inner_waviness",), severity="amplitude", unit="m", levels=(7e-7, 1.5e-6, 3e-6, 6e-6),
         apply=wave(B.INNER_WAVE, B.INNER_ORDER),
     ),
     "extra_mode": Law(

@@ -44,7 +44,7 @@ METHOD = """# Proof: concealed cases
 
 `python -m proof page` writes this page from the stored results; `python -m proof run` and `score` make those. The cases
 come from a simulator that shares no code with `sim/` (an import rule checks it): classical Runge-Kutta with a fixed
-step, its own tooth-pair stiffness, Hunt-Crossley contact with Dahl friction in a loose fit, trapezoid pits met by
+step, its own tooth-pair stiffness, Hunt-Crossley contact with LuGre friction in a loose fit, trapezoid pits met by
 single balls, raised-cosine tooth cracks, supports with rounded corners. Its healthy machine is checked against the
 reference solutions. Every case has its own hidden parameters (within 10 %), a drift between baseline and test
 (0.15 of that spread), speed that wanders by 0.1 to 0.5 % and is up to 0.5 % off the stated one, cage slip up to 2 %, a

@@ -86,6 +86,11 @@ class Case:
     fault: str | None = None
     causes: tuple[tuple[str, str], ...] = ()
 
+    @property
+    def torque_nm(self) -> float:
+        """Stated torque on the input shaft."""
+        return min((hiding.about().torque_nm for hiding in self.effects), default=25.0)
+
     def rng(self, *purpose: int) -> np.random.Generator:
         """Random numbers of this case for one purpose."""
         return np.random.default_rng([self.seed, self.index, *purpose])

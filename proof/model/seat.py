@@ -8,6 +8,9 @@ from numba import njit
 
 from proof.model.layout import B
 
+BRISTLE_DAMPING, BRISTLE_DAMPING_S = 1500.0, 4e-5
+"""Damping of the bristles, N s/m, and its most over their stiffness, s."""
+
 
 @njit(error_model="numpy")
 def softened(y, scale):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
@@ -50,7 +53,8 @@ def support(b, x, y, vx, vy, out):  # type: ignore[no-untyped-def]  # noqa: ANN0
 def bore(b, x, y, vx, vy, zx, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Force (N) of the bore on a loose ring's motion in it: out = resistance x, y and the bristle's rate.
 
-    Hunt and Crossley's contact K p^n (1 + c p'); Dahl's friction, its bristle bends by `FIT_PRESLIDE` before it slides.
+    Hunt and Crossley's contact K p^n (1 + c p'); LuGre friction, its bristle bends by `FIT_PRESLIDE`
+    before it slides.
     """
     r = math.sqrt(x * x + y * y)
     out[0] = out[1] = 0.0
@@ -63,7 +67,8 @@ def bore(b, x, y, vx, vy, zx, out):  # type: ignore[no-untyped-def]  # noqa: ANN
     normal = b[B.FIT_K] * pressed ** b[B.FIT_N] * max(0.0, 1.0 + b[B.FIT_LOSS] * (vx * nx + vy * ny))
     slide = -vx * ny + vy * nx
     out[2] = slide - abs(slide) * zx / b[B.FIT_PRESLIDE]
-    rubbed = b[B.FIT_MU] * normal * zx / b[B.FIT_PRESLIDE]
+    stiffness = b[B.FIT_MU] * normal / b[B.FIT_PRESLIDE]
+    rubbed = stiffness * zx + min(BRISTLE_DAMPING, BRISTLE_DAMPING_S * stiffness) * out[2]
     out[0] = normal * nx - rubbed * ny
     out[1] = normal * ny + rubbed * nx
 

@@ -71,7 +71,7 @@ def test_no_file_for_the_engine_tells_what_is_hidden(short, tmp_path):
 
 
 def test_the_registry_knows_every_term_of_a_truth():
-    known = {term.key for term in REGISTRY.values()}
+    known = set(REGISTRY.keys())
     for case in (*plan("dev"), *plan("sealed")):
         for effect in made.truth_of(case)["effects"]:
             assert set(effect["terms"]) <= known
