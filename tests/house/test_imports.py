@@ -20,6 +20,7 @@ PLANTED = {
     "jobs/limits.py": "import rq",
     "workers/settings.py": "import app.settings",
     "sideband_client/errors.py": "import sim.core.errors",
+    "proof/machine.py": "import sim.core.errors",
 }
 """One forbidden import for each contract, in the order they are declared below."""
 BROKEN_BY = {
@@ -30,6 +31,7 @@ BROKEN_BY = {
     "no-web-below": "jobs/limits.py",
     "rooms": "workers/settings.py",
     "client": "sideband_client/errors.py",
+    "proof": "proof/machine.py",
 }
 
 

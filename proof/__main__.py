@@ -1,0 +1,143 @@
+"""`python -m proof`: generate concealed cases, seal their labels, run the engine, score it, write the page."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+
+from tqdm import tqdm
+
+from proof.case import make
+from proof.page import write_page
+from proof.plan import COUNTS, Case, plan
+from proof.run import Engine, run_case
+from proof.score.one import Score, score
+from proof.score.rates import summary
+from proof.score.table import table
+from proof.seal import broken, seals_of, write_manifest
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent
+
+
+def parser() -> argparse.ArgumentParser:
+    """The commands and their options."""
+    found = argparse.ArgumentParser(prog="proof", description=__doc__)
+    commands = found.add_subparsers(dest="command", required=True)
+    for name, sentence in (
+        ("generate", "make cases; what is there is left alone"),
+        ("seal", "write the hashes of a split's truths into proof/seals"),
+        ("run", "run the engine on cases, one stored JSON each; what is stored is not run again"),
+        ("score", "score stored results against the truth"),
+        ("page", "write docs/proof.md from the stored summaries"),
+    ):
+        command = commands.add_parser(name, help=sentence, description=sentence)
+        if name != "page":
+            command.add_argument("--split", choices=tuple(COUNTS), required=name != "score", default="dev")
+            command.add_argument("--cases", default="", help="names, comma-separated; or a number: the first so many")
+        if name in {"run", "score"}:
+            command.add_argument("--data", type=Path, help="folder of the cases (default .cache/proof/SPLIT)")
+            command.add_argument("--reports", type=Path, help="folder of results (default .cache/proof/SPLIT-results)")
+        if name in {"generate", "score"}:
+            command.add_argument("--truth", type=Path, help="folder of the truths (default .cache/proof/SPLIT-truth)")
+        if name == "generate":
+            command.add_argument("--out", type=Path, help="folder of the cases (default .cache/proof/SPLIT)")
+        if name == "run":
+            command.add_argument("--budget", choices=("quick", "full"), default="quick")
+            command.add_argument("--fresh", action="store_true", help="run again what is stored")
+        if name == "score":
+            command.add_argument("--keep", action="store_true", help="store the summary in proof/results")
+        if name == "page":
+            command.add_argument("--docs", type=Path, default=ROOT / "docs")
+    return found
+
+
+def chosen(given: argparse.Namespace) -> list[Case]:
+    """The cases asked for."""
+    cases = list(plan(given.split))
+    if given.cases.isdigit():
+        return cases[: int(given.cases)]
+    wanted = [name for name in given.cases.split(",") if name]
+    unknown = sorted(set(wanted) - {case.name for case in cases})
+    if unknown:
+        raise SystemExit(f"no such case in split {given.split}: {', '.join(unknown)}")
+    return [case for case in cases if not wanted or case.name in wanted]
+
+
+def _folder(given: argparse.Namespace, name: str) -> Path:
+    value: Path | None = getattr(given, name, None)
+    defaults = {
+        "out": ROOT / ".cache" / "proof" / given.split,
+        "data": ROOT / ".cache" / "proof" / given.split,
+        "truth": ROOT / ".cache" / "proof" / f"{given.split}-truth",
+        "reports": ROOT / ".cache" / "proof" / f"{given.split}-results",
+    }
+    return value or defaults[name]
+
+
+def generate(given: argparse.Namespace) -> None:
+    """Make cases."""
+    for case in tqdm(chosen(given), desc="cases"):
+        make(case, _folder(given, "out"), _folder(given, "truth"))
+
+
+def seal(given: argparse.Namespace) -> None:
+    """Write the seals."""
+    sys.stdout.write(f"{write_manifest(given.split, plan(given.split))}\n")
+
+
+def run(given: argparse.Namespace) -> None:
+    """Run the engine."""
+    engine = Engine(budget=given.budget)
+    for case in tqdm(chosen(given), desc="engine"):
+        run_case(engine, _folder(given, "data") / case.name, _folder(given, "reports"), fresh=given.fresh)
+
+
+def scored(cases: Sequence[Case], truths: Path, reports: Path) -> list[Score]:
+    """Scores of the cases that have a stored result."""
+    found = []
+    for case in cases:
+        stored = reports / f"{case.name}.json"
+        if not stored.exists():
+            continue
+        truth = json.loads((truths / f"{case.name}.json").read_text(encoding="utf-8"))
+        found.append(score(truth, json.loads(stored.read_text(encoding="utf-8"))["report"]))
+    return found
+
+
+def score_all(given: argparse.Namespace) -> None:
+    """Score what is stored, after the seals are checked."""
+    truths, reports = _folder(given, "truth"), _folder(given, "reports")
+    cases = [case for case in chosen(given) if (reports / f"{case.name}.json").exists()]
+    if not cases:
+        raise SystemExit(f"no results in {reports}")
+    changed = broken(cases, truths, seals_of(given.split))
+    if changed:
+        raise SystemExit(f"these truths are not those that were sealed: {', '.join(changed)}")
+    scores = scored(cases, truths, reports)
+    document = {"split": given.split, **summary(scores), "scores": [asdict(s) for s in scores]}
+    sys.stderr.write(table(scores))
+    if given.keep:
+        path = HERE / "results" / f"{given.split}.json"
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(json.dumps(document, sort_keys=True, indent=1) + "\n", encoding="utf-8")
+    sys.stdout.write(json.dumps(document, sort_keys=True) + "\n")
+
+
+def page(given: argparse.Namespace) -> None:
+    """Write the page."""
+    sys.stdout.write(f"{write_page(given.docs, HERE / 'results')}\n")
+
+
+def main() -> None:
+    """Run a command."""
+    given = parser().parse_args()
+    {"generate": generate, "seal": seal, "run": run, "score": score_all, "page": page}[given.command](given)
+
+
+if __name__ == "__main__":
+    main()

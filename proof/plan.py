@@ -1,0 +1,197 @@
+"""The plan: which cases there are. A stated fraction of the full crossing, the same for the same split every time.
+
+Every second case stands at the target condition (3 sensors, 20 dB, 3 speeds, baseline); the others run through the nine
+rows of an orthogonal array of sensors x noise x speeds, so each pair of levels occurs equally often. Laws, sites,
+severities and variants go round in cycles of different length.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from proof.effects import Law
+from proof.library import CLOSED
+from proof.unknown import OPEN
+
+Split = Literal["dev", "sealed"]
+Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
+SEEDS = {"dev": 20_240_611, "sealed": 7_310_552_903}
+COUNTS = {
+    "dev": {
+        "null": 8, "misset": 3, "sensor": 5, "single": 26, "double": 6, "open": 8, "no_baseline": 3, "ambiguous": 3,
+    },
+    "sealed": {
+        "null": 26, "misset": 8, "sensor": 16, "single": 80, "double": 22, "open": 24, "no_baseline": 14,
+        "ambiguous": 12,
+    },
+}  # fmt: skip
+EXTRA: dict[str, tuple[tuple[Group, int], ...]] = {"dev": (("sensor", 5), ("sensor", 6), ("sensor", 7)), "sealed": ()}
+"""Cases behind the shuffled ones: the faults that the first five leave out."""
+SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS = (3, 1, 8), (20.0, 30.0, 10.0), (3, 1, 5)
+TARGET = (0, 0, 0)
+ORTHOGONAL = tuple((a, b, (a + b) % 3) for a in range(3) for b in range(3))
+SPEED_SHARES = {1: (1.0,), 3: (0.75, 1.0, 1.3), 5: (0.6, 0.8, 1.0, 1.2, 1.4)}
+FIRST = ("loose_fit", "outer_pit", "root_crack", "loose_seat", "inner_pit", "imbalance")
+"""Laws that occur in every cycle of singles; the others take turns in two further places."""
+OTHERS = tuple(name for name in CLOSED if name not in FIRST)
+PAIRS = (
+    ("loose_fit", "root_crack"), ("outer_pit", "loose_seat"), ("outer_pit", "root_crack"), ("inner_pit", "run_out"),
+    ("loose_seat", "imbalance"), ("loose_fit", "outer_pit"), ("root_crack", "run_out"), ("inner_pit", "loose_fit"),
+    ("play", "root_crack"), ("wider_clearance", "run_out"), ("outer_pit", "inner_pit"),
+)  # fmt: skip
+FAULTS = ("clipping", "dropouts", "mains_hum", "loose_sensor", "stuck", "swapped", "gain_change", "aliasing")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hiding:
+    """One hidden effect: law of `CLOSED` or `OPEN`, site, severity, variant of the law."""
+
+    law: str
+    site: str
+    value: float
+    variant: int
+
+    def about(self) -> Law:
+        """What the law is."""
+        return CLOSED[self.law] if self.law in CLOSED else OPEN[self.law]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lookalike:
+    """A case that its sensors and speeds cannot decide: sensors (names), speeds, and the causes that look alike."""
+
+    law: str
+    sensors: tuple[str, ...]
+    speeds: int
+    causes: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """One case. `sensors`: `bearing1.y` and so on; `level`: 0 (faint) to 3, -1 without effect."""
+
+    name: str
+    index: int
+    seed: int
+    group: Group
+    effects: tuple[Hiding, ...]
+    level: int
+    sensors: tuple[str, ...]
+    snr_db: float
+    speeds_hz: tuple[float, ...]
+    baseline: bool
+    fault: str | None = None
+    causes: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def torque_nm(self) -> float:
+        """Stated torque on the input shaft."""
+        return min((hiding.about().torque_nm for hiding in self.effects), default=25.0)
+
+    def rng(self, *purpose: int) -> np.random.Generator:
+        """Random numbers of this case for one purpose."""
+        return np.random.default_rng([self.seed, self.index, *purpose])
+
+
+LOOKALIKES = (
+    Lookalike(
+        law="outer_pit", sensors=("bearing3.y",), speeds=3,
+        causes=(("outer_spall", "bearing1"), ("outer_spall", "bearing2")),
+    ),
+    Lookalike(
+        law="imbalance", sensors=("bearing1.y",), speeds=1, causes=(("unbalance", "pinion"), ("bent_shaft", "pinion")),
+    ),
+    Lookalike(
+        law="inner_pit", sensors=("bearing4.y",), speeds=3,
+        causes=(("inner_spall", "bearing1"), ("inner_spall", "bearing2")),
+    ),
+    Lookalike(
+        law="root_crack", sensors=("bearing3.y",), speeds=1,
+        causes=(("tooth_crack", "pinion"), ("missing_tooth", "pinion"), ("tooth_spall", "pinion")),
+    ),
+)  # fmt: skip
+
+
+def plan(split: Split) -> tuple[Case, ...]:
+    """All cases of a split in the order of their names, which say nothing."""
+    groups: list[tuple[Group, int]] = [(g, i) for g, n in COUNTS[split].items() for i in range(n)]  # type: ignore[misc]
+    order = np.random.default_rng(SEEDS[split]).permutation(len(groups))
+    cases = []
+    for place, index in enumerate(order):
+        group, number = groups[int(index)]
+        cases.append(_case(f"{split[0]}{place + 1:03d}", int(index), SEEDS[split], group, number))
+    for group, number in EXTRA[split]:
+        cases.append(_case(f"{split[0]}{len(cases) + 1:03d}", len(cases), SEEDS[split], group, number))
+    return tuple(cases)
+
+
+def _case(name: str, index: int, seed: int, group: Group, number: int) -> Case:
+    rng = np.random.default_rng([seed, index, 0])
+    turn = number // 8 if group == "single" else 0  # so that each law meets both kinds of condition
+    row = TARGET if (number + turn) % 2 == 0 else ORTHOGONAL[(number // 2) % 9]
+    sensors, snr, speeds = SENSOR_COUNTS[row[0]], SNRS_DB[row[1]], SPEED_COUNTS[row[2]]
+    least = {"single": 0, "ambiguous": 2}.get(group, 1)
+    level = max(least, (2, 1, 3, 0, 2, 1, 3)[number % 7])
+    effects = _effects(group, number, level, rng)
+    chosen = _sensors(sensors, number)
+    causes: tuple[tuple[str, str], ...] = ()
+    if group == "ambiguous":
+        alike = LOOKALIKES[number % len(LOOKALIKES)]
+        chosen, speeds, causes = alike.sensors, alike.speeds, alike.causes
+        snr = 20.0
+    centre = float(np.round(rng.uniform(26.0, 34.0), 1))
+    return Case(
+        name=name,
+        index=index,
+        seed=seed,
+        group=group,
+        effects=effects,
+        level=level if effects else -1,
+        sensors=chosen,
+        snr_db=snr,
+        speeds_hz=tuple(round(centre * share, 2) for share in SPEED_SHARES[speeds]),
+        baseline=group != "no_baseline",
+        fault=FAULTS[number % len(FAULTS)] if group == "sensor" else None,
+        causes=causes,
+    )
+
+
+def _effects(group: Group, number: int, level: int, rng: np.random.Generator) -> tuple[Hiding, ...]:
+    if group in {"null", "misset", "sensor"}:
+        return ()
+    if group == "open":
+        return (_hiding(tuple(OPEN)[number % len(OPEN)], number, level, rng),)
+    if group == "double":
+        return tuple(_hiding(law, number + i, level, rng) for i, law in enumerate(PAIRS[number % len(PAIRS)]))
+    if group == "ambiguous":
+        alike = LOOKALIKES[number % len(LOOKALIKES)]
+        site = alike.causes[0][1]
+        law = CLOSED[alike.law]
+        return (Hiding(law=alike.law, site=site, value=law.levels[level], variant=number % law.variants),)
+    if group == "no_baseline":
+        return (_hiding(FIRST[number % len(FIRST)], number, level, rng),)
+    turn, place = divmod(number, 8)
+    name = FIRST[place] if place < 6 else OTHERS[(2 * turn + place - 6) % len(OTHERS)]
+    return (_hiding(name, turn + place, level, rng),)
+
+
+def _hiding(name: str, number: int, level: int, rng: np.random.Generator) -> Hiding:
+    law = CLOSED[name] if name in CLOSED else OPEN[name]
+    site = law.sites[int(rng.integers(0, len(law.sites)))]
+    if name == "loose_fit" and rng.random() < 0.5:
+        site = "bearing1"  # the paper's
+    value = law.levels[level] * float(np.exp(rng.uniform(-0.15, 0.15)))
+    if law.unit == "1":
+        value = min(value, law.levels[3])
+    return Hiding(law=name, site=site, value=float(f"{value:.4g}"), variant=number % law.variants)
+
+
+def _sensors(count: int, number: int) -> tuple[str, ...]:
+    if count == 8:
+        return tuple(f"bearing{j}.{axis}" for j in range(1, 5) for axis in "yx")
+    if count == 1:
+        return (f"bearing{1 + number % 4}.y",)
+    return (("bearing1.y", "bearing2.y", "bearing3.y"), ("bearing1.y", "bearing1.x", "bearing4.y"))[number % 4 // 2]

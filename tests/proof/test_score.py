@@ -1,0 +1,209 @@
+"""Scores of made-up reports whose worth is plain, and the intervals of rates."""
+
+from __future__ import annotations
+
+import json
+import sys
+
+import numpy as np
+import pytest
+
+from proof import __main__ as commands
+from proof.case import truth_of
+from proof.page import write_page
+from proof.plan import plan
+from proof.run import Engine, run_case, slim
+from proof.score.one import channel_name, score
+from proof.score.rates import Rate, at_target, summary, wilson
+from proof.score.table import table
+
+
+def truth(group, law=None):
+    cases = (*plan("dev"), *plan("sealed"))
+    found = next(c for c in cases if c.group == group and (law is None or any(e.law == law for e in c.effects)))
+    return json.loads(json.dumps(truth_of(found)))
+
+
+def cause(term, site, value=None, *, named=True, name="gap", low=0.0, high=1.0):
+    severity = None if value is None else {"name": name, "value": value, "unit": "m", "low": low, "high": high}
+    return {"term": term, "site": site, "severity": severity, "named": named, "score": 1.0}
+
+
+def right(case):
+    """The report of an engine that knows everything."""
+    if case["group"] in {"null", "misset"}:
+        return {"verdict": "nothing_missing"}
+    if case["group"] == "sensor":
+        channel = channel_name(case["sensors"][case["fault_channel"]])
+        return {"verdict": "measurement_fault", "fault": {"kind": case["fault"], "channel": channel}}
+    if case["group"] == "open":
+        return {"verdict": "unknown_physics", "where": {"sites": [{"site": case["effects"][0]["site"], "weight": 0.9}]}}
+    if case["group"] == "ambiguous":
+        return {"verdict": "ambiguous", "causes": [cause(t, s, named=False) for t, s in case["causes"]]}
+    causes = [cause(e["terms"][0], e["sites"][0], e["value"], name=e["severity"]["name"]) for e in case["effects"]]
+    held = {"gain": 0.7, "gain_low": 0.6, "retuned": 0.3, "black_box": 0.5, "placebo": 0.01}
+    return {"verdict": "explained", "causes": causes, "held_out": held, "provenance": {"core_seconds": 50.0}}
+
+
+@pytest.mark.parametrize("split", ["dev", "sealed"])
+def test_an_engine_that_knows_everything_is_right_in_everything(split):
+    scores = [score(t, right(t)) for t in (json.loads(json.dumps(truth_of(c))) for c in plan(split))]
+    assert all(s.verdict_right for s in scores)
+    for name in ("mechanism", "place", "top_three", "both", "unknown_flagged", "cannot_tell", "fault_kind"):
+        assert {getattr(s, name) for s in scores} == {True, None}, name
+    assert not any(s.alarm for s in scores if s.group in {"null", "misset"})
+    assert not any(s.false_unknown for s in scores)
+    errors = [s.severity_error for s in scores if s.severity_error is not None and s.laws[0] != "root_crack"]
+    assert errors
+    assert max(errors) < 1e-12
+    assert "wrong:\n" in table(scores)
+    assert table(scores).endswith("wrong:\n")
+
+
+def test_undetected_and_failed_cases_stay_in_the_denominator():
+    case = truth("single", "loose_fit")
+    for report in (
+        None,
+        {"verdict": "nothing_missing"},
+        {"verdict": "not_decidable"},
+        {"verdict": "measurement_fault"},
+    ):
+        found = score(case, report)
+        assert (found.mechanism, found.place, found.top_three, found.alarm) == (False, False, False, False)
+        assert not found.verdict_right
+        assert found.failed == (report is None)
+
+
+def test_either_form_of_the_clearance_is_right_and_another_bearing_is_not():
+    case = truth("single", "loose_fit")
+    site = case["effects"][0]["site"]
+    other = "bearing4" if site != "bearing4" else "bearing1"
+    for term, place, told in (
+        ("fit_clearance", site, (True, True)),
+        ("fit_clearance_series", site, (True, True)),
+        ("fit_clearance_series", other, (True, False)),
+        ("pedestal_looseness", site, (False, False)),
+    ):
+        found = score(case, {"verdict": "explained", "causes": [cause(term, place)]})
+        assert (found.mechanism, found.place) == told
+
+
+def test_a_guess_further_down_counts_for_the_first_three_only():
+    case = truth("single", "outer_pit")
+    site = case["effects"][0]["site"]
+    causes = [cause("unbalance", "gear"), cause("outer_spall", site, named=False)]
+    found = score(case, {"verdict": "explained", "causes": causes})
+    assert (found.mechanism, found.top_three) == (False, True)
+
+
+def test_severity_is_compared_in_one_measure():
+    case = truth("single", "root_crack")
+    case["effects"][0]["severity"]["value"] = 0.039
+    site = case["effects"][0]["site"]
+    told = cause("tooth_crack", site, 0.3, name="depth", low=0.25, high=0.35)
+    found = score(case, {"verdict": "explained", "causes": [told]})
+    assert found.severity_error == pytest.approx(0.0, abs=1e-12)
+    assert found.severity_covered is True
+
+
+def test_a_closed_effect_called_unknown_is_a_false_unknown():
+    found = score(truth("single", "inner_pit"), {"verdict": "unknown_physics"})
+    assert found.false_unknown is True
+    assert found.alarm is True
+    assert found.mechanism is False
+
+
+def test_a_name_for_an_unknown_effect_is_wrong():
+    found = score(truth("open"), {"verdict": "explained", "causes": [cause("unbalance", "gear")]})
+    assert (found.verdict_right, found.unknown_flagged, found.alarm) == (False, False, True)
+
+
+def test_wilson_agrees_with_its_definition():
+    low, high = wilson(8, 10, 1.959963984540054)
+    assert (low, high) == pytest.approx((0.4901625, 0.9433178), abs=1e-6)
+    for edge in (low, high):  # the ends are where the share is z standard errors away
+        assert abs(0.8 - edge) == pytest.approx(1.959963984540054 * np.sqrt(edge * (1 - edge) / 10))
+    assert wilson(0, 0) == (0.0, 1.0)
+    assert Rate(hits=0, n=20).interval[0] == 0.0
+
+
+def test_the_page_is_written_from_a_summary(tmp_path):
+    scores = [score(t, right(t)) for t in (json.loads(json.dumps(truth_of(c))) for c in plan("dev"))]
+    scores.append(score(truth("single", "loose_fit"), None))
+    document = {**summary(scores), "scores": [vars(s) for s in scores]}
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results" / "dev.json").write_text(json.dumps(document))
+    page = write_page(tmp_path / "docs", tmp_path / "results")
+    text = page.read_text()
+    assert "Not run yet" in text
+    assert "said failed" in text
+    assert (tmp_path / "docs" / "proof" / "dev.svg").exists()
+    assert any(map(at_target, scores))
+
+
+ENGINE = """
+import json, pathlib, sys
+a = sys.argv
+out = pathlib.Path(a[a.index("--out") + 1])
+if a[1] == "machine":
+    out.write_text("{}")
+else:
+    out.mkdir()
+    seen = {"verdict": "nothing_missing", "pictures": [1], "given": a, "force": {"law": None, "samples": [1]}}
+    (out / "report.json").write_text(json.dumps(seen))
+"""
+
+
+def made_case(folder):
+    case = folder / "d001"
+    case.mkdir()
+    for name in ("machine", "baseline_1", "baseline_2", "test_1", "test_2"):
+        (case / f"{name}.json").write_text("{}")
+    return case
+
+
+def test_the_engine_gets_a_copy_without_the_name_and_is_run_once(tmp_path):
+    script = tmp_path / "engine.py"
+    script.write_text(ENGINE)
+    engine = Engine(command=(sys.executable, str(script)))
+    case = made_case(tmp_path)
+    result = run_case(engine, case, tmp_path / "results")
+    assert result["error"] is None
+    given = result["report"]["given"]
+    assert not [word for word in given if "d001" in word]
+    assert given.count("--baseline") == given.count("--recording") == 1
+    assert sum(word.endswith("_1.json") for word in given) == 2
+    assert "pictures" not in result["report"]
+    assert result["report"]["force"] == {"law": None}
+    script.write_text("raise SystemExit(3)")
+    assert run_case(engine, case, tmp_path / "results") == result
+    failed = run_case(engine, case, tmp_path / "results", fresh=True)
+    assert failed["report"] is None
+    assert "exit code 3" in failed["error"]
+
+
+def test_an_engine_that_does_not_answer_is_a_failure(tmp_path):
+    script = tmp_path / "engine.py"
+    script.write_text("import time; time.sleep(60)")
+    engine = Engine(command=(sys.executable, str(script)), timeout_s=0.2)
+    result = run_case(engine, made_case(tmp_path), tmp_path / "results")
+    assert "no answer" in result["error"]
+
+
+def test_slim_keeps_what_is_scored():
+    assert slim({"verdict": "explained", "machine": {}, "stages": [], "causes": []}) == {
+        "verdict": "explained",
+        "causes": [],
+    }
+
+
+def test_unknown_cases_are_named(monkeypatch, tmp_path):
+    given = commands.parser().parse_args(["run", "--split", "dev", "--cases", "d001,zzz", "--data", str(tmp_path)])
+    with pytest.raises(SystemExit, match="zzz"):
+        commands.chosen(given)
+    assert [
+        c.name for c in commands.chosen(commands.parser().parse_args(["run", "--split", "dev", "--cases", "2"]))
+    ] == [
+        "d001",
+        "d002",
+    ]
