@@ -6,14 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from reconcile.atlas.bank import Bank
 from reconcile.atlas.plan import AtlasPlan
 from reconcile.calibrate.chain import Chain, Healthy, calibrate_chain
-from reconcile.judge.measured import measured_db
+from reconcile.judge.measured import measured_db, unsteady_db, wander_patterns
 from reconcile.observe.features import Scale, scale_of, soft_features, through
 from reconcile.observe.observation import PointData
 from reconcile.observe.statistics import Statistics
+from reconcile.observe.watch import watch_list
 from signals.series import FloatArray
 
 
@@ -31,6 +33,8 @@ class Changes:
     null: FloatArray
     starts: tuple[int, ...]
     with_baseline: bool
+    wander: FloatArray
+    """(k, F): changes that speed wander brings about, one deviation each; signs and sizes are free."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,6 +97,8 @@ def observed_changes(
 ) -> Changes:
     """What the recordings changed, and what healthy machines change by themselves."""
     observed, halves, measured, null, starts = [], [], [], [], [0]
+    wander: list[FloatArray] = []
+    watched = watch_list(plan.machine)
     based = all(d.baseline is not None for d in data)
     for one, lens, bank in zip(data, seen_through, banks, strict=True):
         reference = _of(one.baseline, lens) if one.baseline is not None else lens.nominal
@@ -101,7 +107,9 @@ def observed_changes(
         spread = measured_db(one.test, lens.chain, lens.lines_hz) ** 2
         if one.baseline is not None:
             spread = spread + measured_db(one.baseline, lens.chain, lens.lines_hz) ** 2
-        measured.append(np.sqrt(spread).ravel())
+        steady = unsteady_db(one.test)
+        measured.append(np.sqrt(spread + steady**2).ravel())
+        wander.append(np.tile(wander_patterns(watched, steady.size), spread.shape[0]))
         null.append(_null(lens, bank, plan, based=based))
         starts.append(starts[-1] + observed[-1].size)
     return Changes(
@@ -111,6 +119,7 @@ def observed_changes(
         null=np.concatenate(null, axis=1),
         starts=tuple(starts),
         with_baseline=based,
+        wander=block_diag(*wander),
     )
 
 

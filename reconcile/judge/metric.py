@@ -70,8 +70,8 @@ def neighbour_scatter(points: FloatArray, shares: FloatArray) -> FloatArray:
 
 def fit_metric(scatter: Sequence[FloatArray]) -> Metric:
     """From rows of scatter (n_i, D)."""
-    rows = np.concatenate([np.asarray(s, dtype=np.float64) for s in scatter])
-    values, vectors = np.linalg.eigh(rows @ rows.T / rows.shape[0])
+    rows = np.concatenate([np.asarray(s, dtype=np.float32) for s in scatter])
+    values, vectors = np.linalg.eigh((rows @ rows.T / rows.shape[0]).astype(np.float64))
     kept = values > KEPT * values[-1]
     values, vectors = values[kept], vectors[:, kept]
     basis = rows.T @ vectors / np.sqrt(values * rows.shape[0])
