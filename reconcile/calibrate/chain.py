@@ -13,8 +13,12 @@ import numpy as np
 from reconcile.observe.statistics import SHAPE_BANDS_HZ, Statistics, third_octaves
 from signals.series import FloatArray
 
-STANDS_OUT = 4.0
+STANDS_OUT = 25.0
 """A line this many times its floor tells about the gain."""
+LEADING = 0.03
+"""Weaker lines tell little: in the model they may be rounding, in the recording a neighbour's leakage."""
+FARTHEST_DB = 20.0
+"""The gain stays within this of its median: what a mount's resonance can do."""
 SMOOTH_OCTAVES = 0.4
 """Width of the smoothing kernel: a sensor mount's resonance is about that wide."""
 PRIOR_DB = 12.0
@@ -88,6 +92,14 @@ def _filled(bands: FloatArray) -> FloatArray:
     return filled
 
 
+def _leading(power: FloatArray, hz: FloatArray) -> np.ndarray:
+    """Lines that are no weaker than `LEADING` of the strongest within half an octave either way, (L,)."""
+    octaves = np.log2(np.maximum(hz, 1e-3))
+    near = np.abs(octaves[:, None] - octaves[None, :]) <= 0.5
+    known = np.nan_to_num(power)
+    return np.asarray((known > 0) & (known >= LEADING * np.where(near, known[None, :], 0.0).max(axis=1)))
+
+
 def _smooth_gain(hz: FloatArray, ratio_db: FloatArray, weight: FloatArray) -> FloatArray:
     """Kernel smooth of one channel's ratios at the band centres, pulled to their median where little is seen."""
     good = np.isfinite(ratio_db) & (weight > 0)
@@ -99,7 +111,7 @@ def _smooth_gain(hz: FloatArray, ratio_db: FloatArray, weight: FloatArray) -> Fl
     kernel = np.exp(-0.5 * distance**2) * weight[good]
     pull = 1.0 / PRIOR_DB**2
     offset = kernel @ (ratio_db[good] - median) / (kernel.sum(axis=1) + pull)
-    return median + np.asarray(offset)
+    return median + np.clip(offset, -FARTHEST_DB, FARTHEST_DB)
 
 
 def calibrate_chain(
@@ -113,7 +125,7 @@ def calibrate_chain(
         for seen, model, hz in zip(recorded, healthy, lines_hz, strict=True):
             noise = np.interp(np.log(hz), np.log(band_centres_hz()), _filled(seen.floor)[c]) * seen.resolution_hz
             power = seen.line[c]
-            out = (power > STANDS_OUT * noise) & (model.line[c] > 0)
+            out = (power > STANDS_OUT * noise) & _leading(power, hz) & _leading(model.line[c], hz)
             with np.errstate(invalid="ignore", divide="ignore"):
                 ratio = 10.0 * np.log10((power - noise) / model.line[c])
             ratios.append(np.where(out, ratio, np.nan))

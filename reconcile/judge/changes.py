@@ -12,7 +12,8 @@ from reconcile.atlas.bank import Bank
 from reconcile.atlas.plan import AtlasPlan
 from reconcile.calibrate.chain import Chain, Healthy, calibrate_chain
 from reconcile.judge.measured import measured_db, unsteady_db, wander_patterns
-from reconcile.observe.features import Scale, scale_of, soft_features, through
+from reconcile.judge.pooled import Pooling, pooling
+from reconcile.observe.features import Layout, Scale, scale_of, soft_features, through
 from reconcile.observe.observation import PointData
 from reconcile.observe.statistics import Statistics
 from reconcile.observe.watch import watch_list
@@ -33,6 +34,9 @@ class Changes:
     null: FloatArray
     starts: tuple[int, ...]
     with_baseline: bool
+    groups: np.ndarray
+    """(F,): number of the group a feature belongs to: one point, one channel, one part."""
+    pooling: Pooling
     wander: FloatArray
     """(k, F): changes that speed wander brings about, one deviation each; signs and sizes are free."""
 
@@ -99,6 +103,7 @@ def observed_changes(
     observed, halves, measured, null, starts = [], [], [], [], [0]
     wander: list[FloatArray] = []
     watched = watch_list(plan.machine)
+    groups: list[np.ndarray] = []
     based = all(d.baseline is not None for d in data)
     for one, lens, bank in zip(data, seen_through, banks, strict=True):
         reference = _of(one.baseline, lens) if one.baseline is not None else lens.nominal
@@ -107,9 +112,10 @@ def observed_changes(
         spread = measured_db(one.test, lens.chain, lens.lines_hz) ** 2
         if one.baseline is not None:
             spread = spread + measured_db(one.baseline, lens.chain, lens.lines_hz) ** 2
-        steady = unsteady_db(one.test)
+        steady = unsteady_db(one.test, watched)
         measured.append(np.sqrt(spread + steady**2).ravel())
         wander.append(np.tile(wander_patterns(watched, steady.size), spread.shape[0]))
+        groups.append(_groups(one.test) + (groups[-1].max() + 1 if groups else 0))
         null.append(_null(lens, bank, plan, based=based))
         starts.append(starts[-1] + observed[-1].size)
     return Changes(
@@ -119,8 +125,28 @@ def observed_changes(
         null=np.concatenate(null, axis=1),
         starts=tuple(starts),
         with_baseline=based,
+        groups=np.concatenate(groups),
+        pooling=pooling(watched, _layout(data[0].test), points=len(data), channels=data[0].test.line.shape[0]),
         wander=block_diag(*wander),
     )
+
+
+def _layout(seen: Statistics) -> Layout:
+    return Layout(
+        lines=seen.line.shape[1],
+        bands=seen.floor.shape[1],
+        shapes=seen.band.shape[1],
+        modulations=seen.depth.shape[2],
+    )
+
+
+def _groups(seen: Statistics) -> np.ndarray:
+    """(C * F,): channel and part of each feature of a point, counted from 0."""
+    channels = seen.line.shape[0]
+    sizes = [seen.line.shape[1], seen.floor.shape[1], seen.total.shape[1]]
+    sizes += [seen.depth.shape[1] * seen.depth.shape[2], seen.kurtosis.shape[1], seen.skewness.shape[1]]
+    one = np.repeat(np.arange(len(sizes)), sizes)
+    return np.concatenate([one + len(sizes) * c for c in range(channels)])
 
 
 def _null(lens: Lens, bank: Bank, plan: AtlasPlan, *, based: bool) -> FloatArray:

@@ -10,9 +10,10 @@ from reconcile.observe.statistics import SHAPE_BANDS_HZ, Statistics, third_octav
 from reconcile.observe.watch import WatchList
 from signals.series import FloatArray
 
-UNSTEADY_DB = {"line": 2.0, "floor": 1.0, "total": 1.0, "depth": 1.5, "kurtosis": 5.0, "skewness": 4.0}
+UNSTEADY_DB = {"line": 1.0, "floor": 0.7, "total": 0.7, "depth": 1.0, "kurtosis": 5.0, "skewness": 4.0}
 """What repeated recordings of a sound machine differ by beside noise and drift: speed wander left after tracking,
 phases of balls, which moments of few impacts feel most. Set on the development nulls."""
+SIDEBAND_DB = 4.0
 WANDER_DB = 4.0
 """Sidebands of the mesh at a shaft's multiples rise and fall together with slow wander of the speed."""
 DB = 10.0 / np.log(10.0)
@@ -35,8 +36,9 @@ def measured_db(seen: Statistics, chain: Chain, lines_hz: FloatArray) -> FloatAr
     return np.concatenate(parts, axis=-1)
 
 
-def unsteady_db(seen: Statistics) -> FloatArray:
+def unsteady_db(seen: Statistics, watched: WatchList) -> FloatArray:
     """(F,): deviation of one channel's features between repeated recordings, beside noise and drift."""
+    sidebands = np.array([w.family == "sideband" for w in watched.lines])
     sizes = {
         "line": seen.line.shape[1],
         "floor": seen.floor.shape[1],
@@ -45,7 +47,9 @@ def unsteady_db(seen: Statistics) -> FloatArray:
         "kurtosis": seen.kurtosis.shape[1],
         "skewness": seen.skewness.shape[1],
     }
-    return np.concatenate([np.full(n, UNSTEADY_DB[name]) for name, n in sizes.items()])
+    rows = {name: np.full(n, UNSTEADY_DB[name]) for name, n in sizes.items()}
+    rows["line"][sidebands] = SIDEBAND_DB
+    return np.concatenate(list(rows.values()))
 
 
 def wander_patterns(watched: WatchList, features: int) -> FloatArray:

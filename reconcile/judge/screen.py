@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from reconcile.judge.changes import Changes
 from reconcile.judge.metric import Metric, Whitening, fit_metric, neighbour_scatter, whitening
 from reconcile.judge.paths import Paths, build_paths
+from reconcile.judge.pooled import Pooling
 from signals.series import FloatArray
 
 NULL_COPIES = 6
@@ -30,10 +31,14 @@ class Fitted:
     """The space in which a reconciliation compares."""
 
     whiten: Whitening
+    pool: Pooling
     metric: Metric
     paths: Paths
     null: FloatArray
     """(n, D): what healthy machines with measurement noise look like."""
+    resting: FloatArray
+    """(n, groups): lengths of the same, group by group, before the metric."""
+    groups: np.ndarray
     overdispersion: float
     """Squared distance that counts as one unit of evidence, from leaving draws out."""
     own: FloatArray
@@ -43,21 +48,7 @@ class Fitted:
 
     def place(self, changes: FloatArray) -> FloatArray:
         """(F,) -> (D,)."""
-        return np.asarray(self.metric(self.whiten(changes)[None])[0])
-
-
-def _left_out(points: FloatArray, groups: Mapping[str, Sequence[int]], shares: FloatArray) -> FloatArray:
-    """Squared distance of each draw from the segments its neighbours in size span, (m,)."""
-    own = np.full(points.shape[0], np.nan)
-    for members in groups.values():
-        order = sorted(members, key=lambda k: shares[k])
-        for i, k in enumerate(order):
-            others = [order[j] for j in (i - 1, i + 1) if 0 <= j < len(order)]
-            ends = ([points[j] for j in others] + [0 * points[k], 0 * points[k]])[:2]
-            along = ends[1] - ends[0]
-            t = np.clip(np.dot(points[k] - ends[0], along) / max(float(np.dot(along, along)), 1e-12), 0.0, 1.0)
-            own[k] = float(np.sum((points[k] - ends[0] - t * along) ** 2))
-    return own
+        return np.asarray(self.metric(self.pool(self.whiten(changes)[None]))[0])
 
 
 def _softness(distances: FloatArray, truth: np.ndarray) -> float:
@@ -92,34 +83,58 @@ def _between(points: FloatArray, paths: Paths) -> FloatArray:
     return found
 
 
+def _resting(changes: Changes, rng: np.random.Generator) -> FloatArray:
+    """Healthy pairs with noise and wander of their own, (n, F): one set to learn from, another to compare with."""
+    copies = changes.null.shape[0] * NULL_COPIES
+    drift = np.repeat(changes.null, NULL_COPIES, axis=0) * rng.choice([-1.0, 1.0], (copies, 1))
+    noise = rng.normal(size=drift.shape) * np.nan_to_num(changes.measured)
+    return np.asarray(drift + noise + rng.normal(size=(copies, changes.wander.shape[0])) @ changes.wander)
+
+
+def _group_lengths(z: FloatArray, groups: np.ndarray) -> FloatArray:
+    """(n, F) -> (n, groups): squared length of the compressed features of each group."""
+    compressed = np.log1p(np.abs(z))
+    count = int(groups.max()) + 1
+    return np.stack([np.sum(compressed[:, groups == g] ** 2, axis=1) for g in range(count)], axis=1)
+
+
+def _largest(lengths: FloatArray, resting: FloatArray) -> FloatArray:
+    """Largest standardised group length of each row."""
+    spread = np.maximum(resting.std(axis=0), 1e-9)
+    return np.asarray(((lengths - resting.mean(axis=0)) / spread).max(axis=1))
+
+
 def fit_space(changes: Changes, library: Library, *, seed: int) -> Fitted:
     """Whiten, learn what scatters, lay out the paths and the bank of nulls."""
     whiten = whitening(changes.observed, changes.measured, changes.null, library.changes)
+    pool = changes.pooling
     rng = np.random.default_rng([seed, 3])
-    copies = changes.null.shape[0] * NULL_COPIES
-    null = np.repeat(changes.null, NULL_COPIES, axis=0) * rng.choice([-1.0, 1.0], (copies, 1))
-    noisy = null + rng.normal(size=null.shape) * np.nan_to_num(changes.measured)
-    noisy = noisy + rng.normal(size=(copies, changes.wander.shape[0])) @ changes.wander
-    drawn, resting = whiten(library.changes), whiten(noisy)
+    learned, fresh = _resting(changes, rng), _resting(changes, rng)
+    noise = rng.normal(size=library.changes.shape) * np.nan_to_num(changes.measured)
+    drawn, resting = pool(whiten(library.changes + noise)), pool(whiten(learned))
+    centre = resting.mean(axis=0)
     scatter = [neighbour_scatter(drawn[list(g)], library.shares[list(g)]) for g in library.groups.values()]
-    metric = fit_metric([*scatter, resting])
-    points = metric(drawn)
+    metric = fit_metric(centre, [*scatter, resting - centre])
+    points, null = metric(drawn), metric(pool(whiten(fresh)))
     paths = build_paths(points, library.groups, library.shares)
     distances = _between(points, paths)
-    names = list(library.groups)
     truth = np.zeros(points.shape[0], dtype=int)
-    for c, name in enumerate(names):
-        truth[list(library.groups[name])] = c
-    seen = np.flatnonzero(np.sum(points**2, axis=1) > np.quantile(np.sum(metric(resting) ** 2, axis=1), 0.9))
-    soft = _softness(distances[seen], truth[seen]) if seen.size > len(names) else 10.0
+    for c, members in enumerate(library.groups.values()):
+        truth[list(members)] = c
+    size = np.sum(points**2, axis=1)
+    seen = np.flatnonzero(size > np.quantile(np.sum(null**2, axis=1), 0.95))
+    groups = np.where(np.isfinite(whiten.sigma), changes.groups, -1)
     return Fitted(
         whiten=whiten,
+        pool=pool,
         metric=metric,
         paths=paths,
-        null=metric(resting),
-        overdispersion=soft,
-        own=_left_out(points, library.groups, library.shares),
-        size=np.sum(points**2, axis=1),
+        null=null,
+        resting=_group_lengths(whiten(fresh), groups),
+        groups=groups,
+        overdispersion=_softness(distances[seen], truth[seen]) if seen.size else 10.0,
+        own=distances[np.arange(truth.size), truth],
+        size=size,
     )
 
 
@@ -127,7 +142,8 @@ def fit_space(changes: Changes, library: Library, *, seed: int) -> Fitted:
 class Screen:
     """`evidence` (effects,): drop of the squared distance against no change, over twice the overdispersion.
 
-    `p_any`: chance of such a change in a healthy machine, by its length; `p_best`: by the best candidate's evidence.
+    `p_any`: chance of such a change in a healthy machine, by the most changed group of features (one point, channel
+    and kind), `strongest` in standard deviations; `p_best`: by the best candidate's evidence.
     `weights` sum to 1 over the effects. `misfit`: quantile of the best distance among draws of known effects.
     """
 
@@ -136,6 +152,7 @@ class Screen:
     weights: FloatArray
     nearest: np.ndarray
     p_any: float
+    strongest: float
     p_best: float
     misfit: float
     length: float
@@ -152,13 +169,16 @@ def judge(fitted: Fitted, observed: FloatArray) -> Screen:
     lengths = np.sum(fitted.null**2, axis=1)
     gains = lengths - _squared(fitted.null, fitted.paths.points).min(axis=1)
     count = lengths.size + 1.0
+    own = _group_lengths(fitted.whiten(observed)[None], fitted.groups)
+    strongest = float(_largest(own, fitted.resting)[0])
     found = float(best.min())
     return Screen(
         names=fitted.paths.names,
         evidence=evidence,
         weights=weights,
         nearest=which,
-        p_any=float((1 + np.sum(lengths >= nothing)) / count),
+        p_any=float((1 + np.sum(_largest(fitted.resting, fitted.resting) >= strongest)) / count),
+        strongest=strongest,
         p_best=float((1 + np.sum(gains >= nothing - found)) / count),
         misfit=_misfit(fitted, found, nothing),
         length=nothing,

@@ -194,7 +194,7 @@ def _stages(setting: Setting, found: Found, gate: Gate, decision: Decision) -> t
     gains = [float(np.median(lens.chain.gain_db)) for lens in setting.seen_through[:1]]
     return (
         _gate_stage(gate),
-        {"name": "observe", "speeds": speeds, "features": int(found.fitted.whiten.used.sum())},
+        {"name": "observe", "speeds": speeds, "features": int(np.isfinite(found.fitted.whiten.sigma).sum())},
         {"name": "calibrate", "median_gain_db": gains, "mode": "A" if setting.changes.with_baseline else "B"},
         {
             "name": "is anything missing",

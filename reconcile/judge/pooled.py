@@ -1,0 +1,78 @@
+"""Features pooled over what belongs together: a family of lines, an octave or so of spectrum, a kind of modulation.
+
+An effect moves whole families (all ball-pass lines of a bearing, all sidebands of a shaft), and which member moves most
+depends on resonances that differ from machine to machine. Pooled over members and operating points, signatures of one
+effect on different machines come close to each other, and few simulations suffice to tell effects apart.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.observe.features import Layout
+from reconcile.observe.watch import Watched, WatchList
+from signals.series import FloatArray
+
+BANDS_TOGETHER = 4
+DEAD = 2.0
+"""Changes below this many deviations are noise: how large the noise is exactly must not matter."""
+LOW_MESH = 2
+"""Mesh harmonics up to here are one family, higher ones another: tooth shapes act on the higher ones."""
+
+
+def _line_family(line: Watched) -> str:
+    if line.family == "mesh":
+        return "mesh low" if max(line.orders.values()) <= LOW_MESH else "mesh high"
+    if line.family == "sideband":
+        return "sidebands " + next(b for b in line.orders if b.startswith("f_r"))
+    if line.family in ("shaft", "subharmonic"):
+        base, order = next(iter(line.orders.items()))
+        if order % 1:
+            return f"{base} fractions"
+        return f"{base} x{order:g}" if order <= LOW_MESH else f"{base} harmonics"
+    return line.family + " " + next(b for b in line.orders if not b.startswith("f_r"))
+
+
+def _modulation_family(line: Watched) -> str:
+    return next((b for b in line.orders if not b.startswith("f_r")), next(iter(line.orders)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pooling:
+    """`family` (F,) of one channel's features, names of the families, and the points and channels of a change."""
+
+    family: np.ndarray
+    names: tuple[str, ...]
+    points: int
+    channels: int
+
+    def __call__(self, z: FloatArray) -> FloatArray:
+        """Whitened changes (n, P * C * F) -> (n, 3 * C * families): common rise, size, and size where it is largest.
+
+        The common rise is the mean times the root of the number of members, so that noise keeps unit variance.
+        """
+        cube = np.nan_to_num(z).reshape(z.shape[0], self.points, self.channels, self.family.size)
+        found = []
+        for k in range(len(self.names)):
+            members = cube[..., self.family == k]
+            rise = members.mean(axis=-1) * np.sqrt(members.shape[-1])
+            size = np.sqrt(np.mean(np.maximum(np.abs(members) - DEAD, 0.0) ** 2, axis=-1))
+            found += [rise.mean(axis=1), size.mean(axis=1), size.max(axis=1)]
+        pooled = np.concatenate(found, axis=1)
+        return np.asarray(np.sign(pooled) * np.log1p(np.abs(pooled)))
+
+
+def pooling(watched: WatchList, layout: Layout, *, points: int, channels: int) -> Pooling:
+    """Families of this machine's watch list."""
+    labels = [_line_family(line) for line in watched.lines]
+    for kind in ("floor", "total"):
+        labels += [f"{kind} {b // BANDS_TOGETHER}" for b in range(layout.bands)]
+    for shape in range(layout.shapes):
+        half = "low" if shape < layout.shapes // 2 else "high"
+        labels += [f"modulation {half} {_modulation_family(line)}" for line in watched.modulations]
+    labels += [f"{kind} {shape}" for kind in ("kurtosis", "skewness") for shape in range(layout.shapes)]
+    names = tuple(sorted(set(labels)))
+    place = {name: k for k, name in enumerate(names)}
+    return Pooling(family=np.array([place[label] for label in labels]), names=names, points=points, channels=channels)
