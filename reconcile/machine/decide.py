@@ -12,7 +12,12 @@ from reconcile.verdict import Word
 from sim.terms import REGISTRY
 
 DETECT_P = 0.01
-STRANGE = 0.97
+ALSO_P = 0.05
+"""A pattern counts only if the whole change is unusual too."""
+GLARING = 15.0
+"""Deviations of the most changed group of features from which a change needs no known pattern: beyond what mis-set
+parameters did on the development nulls."""
+STRANGE = 0.9
 """Quantile of the misfit among known effects above which no known effect is adequate."""
 SET_WEIGHT = 0.9
 """The answer is the smallest set of candidates that carries this weight."""
@@ -66,12 +71,20 @@ def credible_set(weights: dict[str, float], level: float = SET_WEIGHT) -> tuple[
     return tuple(chosen)
 
 
+def chance(screen: Screen) -> float:
+    """Chance that a healthy machine shows as much: by a known effect's pattern, or by any change that is glaring."""
+    pattern = screen.p_best if screen.p_any <= ALSO_P else 1.0
+    glaring = screen.p_any if screen.strongest > GLARING else 1.0
+    return min(1.0, 2.0 * min(pattern, glaring))
+
+
 def decide(screen: Screen, *, strange: float = STRANGE) -> Decision:
     """Nothing missing, one name, a set, or none of the known."""
-    p = min(1.0, 2.0 * min(screen.p_any, screen.p_best))
+    p = chance(screen)
     if p > DETECT_P:
-        reason = f"a healthy machine of this kind shows as much with p = {p:.3f}"
-        return Decision(word="nothing_missing", chosen=(), p=p, reasons=(reason,))
+        shown = max(p, 2.0 * min(screen.p_best, 0.5))
+        reason = f"a healthy machine of this kind shows as much with p = {min(shown, 1.0):.2g}"
+        return Decision(word="nothing_missing", chosen=(), p=min(shown, 1.0), reasons=(reason,))
     weights = merged_weights(screen)
     chosen = credible_set(weights)
     evidence = {name: float(screen.evidence[screen.names.index(name)]) for name in chosen}
