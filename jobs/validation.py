@@ -1,7 +1,7 @@
-"""Findings of request models as field problems: `signals.validation`, under the name the doors know."""
+"""Turning pydantic's findings into field problems; see `signals.validation`."""
 
 from __future__ import annotations
 
-from signals.validation import UNITS, problem_of, problems_of, shown, unit_of
+from signals.validation import UNITS, Findings, problem_of, problems_of, shown, unit_of
 
-__all__ = ["UNITS", "problem_of", "problems_of", "shown", "unit_of"]
+__all__ = ["UNITS", "Findings", "problem_of", "problems_of", "shown", "unit_of"]
