@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, Self
 
-from pydantic import ConfigDict, Field, JsonValue, model_validator
+from pydantic import BeforeValidator, ConfigDict, Field, JsonValue, model_validator
 
 from signals.sensors.spec import SensorChain
 from sim.core.spec import MachineSpec, SpecModel
@@ -39,6 +39,14 @@ class MachineChoice(SpecModel):
         return self
 
 
+ALL = ["all"]
+Channels = Annotated[list[ChannelName], Field(min_length=1, max_length=MAX_CHANNELS)]
+OneWord = BeforeValidator(
+    lambda given: ALL if given == "all" else given, json_schema_input_type=Channels | Literal["all"] | None
+)
+"""`all` alone stands for every output."""
+
+
 class SimulationRequest(MachineChoice):
     """A simulation: a machine, how long, how finely, which outputs."""
 
@@ -59,7 +67,7 @@ class SimulationRequest(MachineChoice):
     """Simulated time, s. A tighter bound may be set by the server."""
     sampling_rate_hz: Annotated[float, Field(ge=100, le=500_000)] = DEFAULT_RATE_HZ
     """Output rate, Hz; the signals are low-pass filtered before they are thinned to it."""
-    channels: Annotated[list[ChannelName], Field(min_length=1, max_length=MAX_CHANNELS)] | Literal["all"] | None = None
+    channels: Annotated[Channels | None, OneWord] = None
     """Names of the outputs, or `all`; none: the engine's standard set."""
     seed: Annotated[int, Field(ge=0, le=2**53 - 1)] = 0
     """Seed of everything random in the machine. Bounded so that JSON numbers carry it exactly."""
@@ -76,4 +84,4 @@ class SimulationRequest(MachineChoice):
     @property
     def outputs(self) -> list[str] | None:
         """`channels` by name; None: the standard set. `all` has its names once the request was resolved."""
-        return None if self.channels == "all" else self.channels
+        return None if self.channels == ALL else self.channels

@@ -10,7 +10,7 @@ from jobs.limits import Limits, check_cost, check_request, check_sampling
 from jobs.overrides import apply_overrides, told_by_key
 from jobs.ports import Engine, MachineReport
 from jobs.record import Cost
-from jobs.request import MAX_CHANNELS, MachineChoice, SimulationRequest
+from jobs.request import ALL, MAX_CHANNELS, MachineChoice, SimulationRequest
 from jobs.sensing import check_sensors, told_shortly, with_sensors
 from jobs.validation import Findings, shown
 from sim.core.errors import Problem, SpecError, UnknownName
@@ -134,10 +134,10 @@ def _named(request: SimulationRequest, known: tuple[str, ...]) -> SimulationRequ
     wanted = request.channels
     if wanted is None or request.sensors is not None:
         return request
-    if wanted == "all":
+    if wanted == ALL:
         if len(known) > MAX_CHANNELS:
             message = f"are too many ({len(known)}) to be recorded together"
-            raise SpecError(Problem(field="channels", message=message, given=wanted, allowed=f"<= {MAX_CHANNELS}"))
+            raise SpecError(Problem(field="channels", message=message, given="all", allowed=f"<= {MAX_CHANNELS}"))
         return request.model_copy(update={"channels": list(known)})
     problems = [
         Problem(field=f"channels.{i}", message="is not an output of this machine", given=name, allowed=", ".join(known))
