@@ -98,13 +98,10 @@ def _places(document: Mapping[str, Any], key: str) -> Iterator[str]:
     """Fields by which validation and assembly may call what `key` names: by number, and by name."""
     if key in TORQUE:
         torques = [i for i, load in enumerate(document["loads"]) if load["kind"] == "torque"]
-        yield from (f"loads.{i}.torque.torque_nm" for i in torques)
+        yield from (f"loads.{i}.torque_nm" for i in torques)
         return
     if "@" not in key:
         path = path_of(key)
-        for part in OBJECTS:
-            if path.startswith(part):
-                yield from _places_in(document, part, path.removeprefix(part))
         yield path
         yield ".".join(_numbered(document, path.split(".")))
         return
@@ -115,15 +112,6 @@ def _places(document: Mapping[str, Any], key: str) -> Iterator[str]:
             yield f"terms.{i}.parameters.{parameter}"
             # Of a term's name and site only what was given here can be wrong: presets are checked.
             yield from (f"terms.{i}.term", f"terms.{i}.site", f"terms.{i}")
-
-
-def _places_in(document: Mapping[str, Any], part: str, rest: str) -> Iterator[str]:
-    """Inside a part of one of several kinds, whose kind validation puts into the path."""
-    node: Any = document
-    for name in part.split("."):
-        node = node.get(name) if isinstance(node, dict) else None
-    if isinstance(node, dict):
-        yield f"{part}.{shown(node.get('kind'))}{rest}"
 
 
 def _numbered(node: Any, parts: list[str]) -> list[str]:  # noqa: ANN401 - a JSON document

@@ -1,4 +1,4 @@
-"""Turning pydantic's findings into field problems; see `signals.validation`."""
+"""Findings of request models as field problems: `signals.validation`, under the name the doors know."""
 
 from __future__ import annotations
 

@@ -38,6 +38,12 @@ _BOUNDS = (("gt", "> {}"), ("ge", ">= {}"), ("lt", "< {}"), ("le", "<= {}"))
 _MAX_GIVEN_CHARS = 200
 TAGS = {"union_tag_not_found": "is required: it says which kind this is", "union_tag_invalid": "is not a known kind"}
 """Of parts that come in several kinds."""
+KINDS = (
+    *("ramp", "fluctuating", "measured", "torque", "force", "modes", "impulse_response"),
+    *("accelerometer", "velocity", "proximity", "tacho"),
+)
+OF_KINDS = ("profile", "path")
+"""Parts of several kinds beside those that stand in lists."""
 
 
 def unit_of(field: str) -> str:
@@ -53,7 +59,7 @@ def problems_of(error: ValidationError, prefix: str = "") -> tuple[Problem, ...]
 
 def problem_of(details: ErrorDetails, prefix: str = "") -> Problem:
     """One finding as a field problem."""
-    parts = [*([prefix] if prefix else []), *(str(part) for part in details["loc"])]
+    parts = [*([prefix] if prefix else []), *_place(details["loc"])]
     context: Mapping[str, object] = details.get("ctx", {})
     given = None if details["type"] == "missing" else shown(details.get("input"))
     if details["type"] in TAGS:
@@ -63,6 +69,13 @@ def problem_of(details: ErrorDetails, prefix: str = "") -> Problem:
     unit = unit_of(field)
     message = _message(details) + _unit_hint(details.get("input"), field, context)
     return Problem(field=field, message=message, given=given, allowed=_allowed(details["type"], context), unit=unit)
+
+
+def _place(loc: Sequence[int | str]) -> Iterator[str]:
+    """The path as it was written: without the kind that validation puts behind a part of several kinds."""
+    for i, part in enumerate(loc):
+        if not (i and part in KINDS and (isinstance(loc[i - 1], int) or loc[i - 1] in OF_KINDS)):
+            yield str(part)
 
 
 def shown(value: object) -> object:
