@@ -18,8 +18,8 @@ from jobs.status import Status
 from store.artefacts.folder import FolderStore
 from store.catalogue import engine, schema
 from store.catalogue.catalogue import SqlCatalogue
+from store.worker_settings import WorkerSettings
 from tests.service.fakes import FakeEngine, machine
-from workers.settings import WorkerSettings
 from workers.watch import JobWatch, Verdict
 
 
