@@ -105,7 +105,7 @@ def run(service: Service) -> int:
         threading.Thread(target=_greet, args=(service, server, listener, stop), daemon=True).start()
         if not stop.is_set():
             server.run(sockets=[listener])
-            _say("stopping workers and broker; what was running is handed back and starts again with the service")
+            _say("stopping workers and broker; jobs not done yet begin anew when the service starts again")
         return 0 if stop.is_set() else 1
 
 
