@@ -89,7 +89,7 @@ def test_pairs_that_cannot_work(
 
 @pytest.mark.parametrize(("z1", "z2"), [(23, 81), (30, 30), (18, 60)])
 def test_the_distances_that_work_are_told_and_work(z1: int, z2: int) -> None:
-    """Just within the bounds the pair is legal, a micrometre beyond it is not; the message has them, rounded inwards."""
+    """Within the bounds the pair is legal, a micrometre beyond it is not; the message has them, rounded inwards."""
     one, two = gear(z1), gear(z2)
     least, most = centre_distances_m(one, two)
     assert least < standard_centre_distance_m(one, two) < most
