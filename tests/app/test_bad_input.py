@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 from typing import Any
 
 import httpx
@@ -187,34 +186,6 @@ def test_addresses_and_queries(client: httpx.Client, method: str, path: str, sta
         assert reply.headers["Allow"]
     if status == 422:
         assert body["errors"][0]["location"] in ("query", "body") and body["errors"][0]["allowed"]
-
-
-@pytest.mark.parametrize(
-    ("path", "name", "allowed"),
-    [
-        ("/v1/jobs?status=failed&stat=1", "stat", "status, preset, sort, limit, cursor"),
-        ("/v1/jobs/0123/result/signals?channels=a", "channels", "channel, start_s, end_s, max_points, format"),
-        ("/v1/jobs/0123/result/peaks?max_unexplaned=3", "max_unexplaned", "channel, max_unexplained"),
-        ("/v1/presets?name=paper", "name", "none: this address has no query parameters"),
-        ("/healthz?x=1", "x", "none: this address has no query parameters"),
-    ],
-)
-def test_unknown_query_parameters_are_named(client: httpx.Client, path: str, name: str, allowed: str) -> None:
-    (error,) = problem(client.get(path), 422)["errors"]
-    assert (error["field"], error["location"], error["allowed"]) == (name, "query", allowed)
-    assert "is not a query parameter" in error["message"]
-
-
-def test_no_route_ignores_a_query_parameter(client: httpx.Client) -> None:
-    """Every route there is, in every method: the refusal comes from the application, not from each route."""
-    paths = client.get("/openapi.json").json()["paths"]
-    assert len(paths) > 20
-    for template, operations in paths.items():
-        path = re.sub(r"\{[^}]*\}", "x", template)
-        for method in operations:
-            reply = client.request(method.upper(), path, params={"nonsense_a": 1, "nonsense_b": 2})
-            fields = [error["field"] for error in problem(reply, 422)["errors"]]
-            assert fields[:2] == ["nonsense_a", "nonsense_b"], (method, path)
 
 
 def test_results_not_ready_say_so_and_when_to_come_back(client: httpx.Client) -> None:

@@ -140,30 +140,6 @@ def test_a_result_that_will_never_be_is_told_at_once(client: Client) -> None:
         waiting.result()
 
 
-def test_sensors_and_indicators(client: Client, done: Job) -> None:
-    found = client.sensors()
-    assert "icp-magnet" in {preset["name"] for preset in found["presets"]}
-    place = {"location": "mass", "direction_deg": 90}
-    chain = {"channels": [{"kind": "accelerometer", "name": "acc", "preset": "icp-magnet", "place": place}]}
-    result = client.simulate("oscillator", duration_s=0.1, sensors=chain).wait().result()
-    assert [channel.name for channel in result.channels] == ["acc"]
-    cepstrum = done.result().indicators("cepstrum", start_s=0.1, end_s=0.4)
-    assert (cepstrum["kind"], cepstrum["duration_s"]) == ("cepstrum", pytest.approx(0.3))
-    with pytest.raises(errors.InvalidRequest, match="max_alpha_hz"):
-        done.result().indicators("cyclic", max_alpha_hz=1e6)
-
-
-def test_one_word_for_changes_and_for_every_output(client: Client) -> None:
-    heavy = {"bodies.mass.mass_kg": 2.0}
-    for given in (client.check("oscillator", set=heavy), client.check("oscillator", overrides=heavy)):
-        assert given["machine"]["bodies"][0]["mass_kg"] == 2.0
-    with pytest.raises(ValueError, match="not both"):
-        client.check("oscillator", set=heavy, overrides=heavy)
-    job = client.simulate("oscillator", duration_s=0.1, channels="all", set=heavy, seed=33)
-    assert job.state.request["channels"] == ["mass.y.displacement", "mass.y.acceleration"]
-    assert job.state.request["set"] == heavy
-
-
 def test_cancel_withdraws_this_submission_only(client: Client) -> None:
     first = client.simulate(spec("sleep=30"), seed=4)
     second = client.simulate(spec("sleep=30"), seed=4)
