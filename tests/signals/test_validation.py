@@ -6,9 +6,9 @@ import pytest
 from pydantic import ValidationError
 
 from jobs.request import SimulationRequest
-from signals.validation import KINDS, Findings, problems_of
 from signals.sensors.path import MeasuredPath, ModalPath
 from signals.sensors.spec import Accelerometer, ProximityProbe, Tacho, TorqueSensor, VelocitySensor
+from signals.validation import KINDS, Findings, problems_of
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import FluctuatingSpeed, ForceLoad, MeasuredSpeed, RampSpeed, TorqueLoad
 
