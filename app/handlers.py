@@ -33,7 +33,9 @@ def install(app: FastAPI) -> None:
 
 async def _ours(request: Request, error: Exception) -> Response:
     assert isinstance(error, SidebandError)
-    return problems.response(problems.told(error), request.url.path)
+    # Reading has no body: what is wrong was in the query.
+    location = "query" if request.method in ("GET", "HEAD") else "body"
+    return problems.response(problems.told(error, location), request.url.path)
 
 
 async def _upload(request: Request, error: Exception) -> Response:

@@ -7,7 +7,7 @@ import time
 from collections.abc import AsyncIterator
 from functools import partial
 
-from fastapi import FastAPI
+from fastapi import Depends, FastAPI
 from starlette.staticfiles import StaticFiles
 
 from app import handlers
@@ -17,6 +17,7 @@ from app.guards.body import BodyGuard
 from app.guards.headers import ReplyHeaders
 from app.guards.upload import UploadGuard
 from app.instruments import Instruments, Measured
+from app.query import only_known_query
 from app.recovery import RecoveryThread
 from app.routes import events, health, indicators, jobs, plots, recordings, reference, results, simulations
 from app.settings import Settings
@@ -50,7 +51,13 @@ def create_app(settings: Settings, *, engine: Engine, encode: Encoder, stores: S
         recovery.stop()
         state.stores.close()
 
-    app = FastAPI(lifespan=lifespan, docs_url=None, redoc_url=None, redirect_slashes=False)
+    app = FastAPI(
+        lifespan=lifespan,
+        dependencies=[Depends(only_known_query)],
+        docs_url=None,
+        redoc_url=None,
+        redirect_slashes=False,
+    )
     app.state.sideband = state
     app.state.streams = set()
     for router in ROUTERS:

@@ -71,10 +71,16 @@ _CLASSES: tuple[tuple[type[SidebandError], str, int], ...] = (
 )
 
 
-def told(error: SidebandError) -> Told:
-    """How one of our own errors is told."""
+def told(error: SidebandError, location: str = "body") -> Told:
+    """How one of our own errors is told. `location`: where the fields of a SpecError were given."""
     slug, status = next(((s, code) for kind, s, code in _CLASSES if isinstance(error, kind)), ("error", 500))
-    return Told(slug=slug, status=status, detail=_detail(error), fields=_fields(error), headers=_headers(error, status))
+    return Told(
+        slug=slug,
+        status=status,
+        detail=_detail(error),
+        fields=_fields(error, location),
+        headers=_headers(error, status),
+    )
 
 
 def _detail(error: SidebandError) -> str:
@@ -84,9 +90,9 @@ def _detail(error: SidebandError) -> str:
     return str(error)
 
 
-def _fields(error: SidebandError) -> Sequence[FieldError]:
+def _fields(error: SidebandError, location: str) -> Sequence[FieldError]:
     if isinstance(error, SpecError):
-        return [field_error(problem) for problem in error.problems]
+        return [field_error(problem, location) for problem in error.problems]
     if isinstance(error, UnknownName):
         return [_choice(error.kind, error.name, error.known)]
     if isinstance(error, errors.UnknownArtefact) and error.known:

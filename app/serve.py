@@ -22,7 +22,7 @@ import uvicorn
 from fastapi import FastAPI
 
 from app.demo import submit_demo, wait_for_demo
-from app.settings import Settings
+from app.settings import Settings, settings_for_everything
 from app.supervise import Supervisor
 from app.wiring import application
 from sim.core.errors import Problem, SidebandError, SpecError
@@ -70,7 +70,7 @@ def serve(
     demo: bool = False,
 ) -> int:
     """Serve until SIGINT or SIGTERM; what is not given comes from the environment. Returns the exit code."""
-    base = Settings.from_environment()
+    base = settings_for_everything()
     stores = base.stores if data_dir is None else replace(base.stores, data_dir=data_dir.absolute())
     settings = replace(base, host=host, port=port, stores=stores)
     return run(Service(settings=settings, workers=workers or default_workers(), open_browser=open_browser, demo=demo))
@@ -105,7 +105,7 @@ def run(service: Service) -> int:
         threading.Thread(target=_greet, args=(service, server, listener, stop), daemon=True).start()
         if not stop.is_set():
             server.run(sockets=[listener])
-            _say("stopping workers and broker; what was running is handed back and starts again with the service")
+            _say("stopping workers and broker; jobs not done yet begin anew when the service starts again")
         return 0 if stop.is_set() else 1
 
 

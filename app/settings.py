@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ipaddress
-import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -11,7 +10,9 @@ from pathlib import Path
 
 from jobs.limits import Limits
 from sim.core.errors import Problem, SpecError
+from store.environment import Numbers
 from store.settings import StoreSettings
+from store.worker_settings import WorkerSettings
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,18 +63,20 @@ class Settings:
         `SIDEBAND_MAX_DURATION_S`, `SIDEBAND_MAX_MEMORY_BYTES`, `SIDEBAND_MAX_STEPS`, `SIDEBAND_MAX_SECONDS`,
         `SIDEBAND_MAX_WAITING`, `SIDEBAND_MAX_UPLOAD_BYTES`."""
         env = os.environ if environment is None else environment
-        base = Limits()
+        read, base = Numbers(env), Limits()
         limits = Limits(
-            duration_s=number(env, "SIDEBAND_MAX_DURATION_S", base.duration_s),
-            steps=int(number(env, "SIDEBAND_MAX_STEPS", base.steps)),
-            memory_bytes=int(number(env, "SIDEBAND_MAX_MEMORY_BYTES", base.memory_bytes)),
-            seconds=number(env, "SIDEBAND_MAX_SECONDS", base.seconds),
-            waiting_jobs=int(number(env, "SIDEBAND_MAX_WAITING", base.waiting_jobs)),
+            duration_s=read.number("SIDEBAND_MAX_DURATION_S", base.duration_s, unit="s"),
+            steps=read.whole("SIDEBAND_MAX_STEPS", base.steps),
+            memory_bytes=read.whole("SIDEBAND_MAX_MEMORY_BYTES", base.memory_bytes, unit="bytes"),
+            seconds=read.number("SIDEBAND_MAX_SECONDS", base.seconds, unit="s"),
+            waiting_jobs=read.whole("SIDEBAND_MAX_WAITING", base.waiting_jobs),
         )
+        port = read.whole("SIDEBAND_PORT", cls.port, most=65535)
+        read.settle()
         return cls(
             stores=StoreSettings.from_environment(env),
             host=env.get("SIDEBAND_HOST", cls.host),
-            port=int(number(env, "SIDEBAND_PORT", cls.port, most=65535)),
+            port=port,
             api_keys=parse_keys(env.get("SIDEBAND_API_KEYS", "")),
             allowed_hosts=tuple(h.strip() for h in env.get("SIDEBAND_ALLOWED_HOSTS", "").split(",") if h.strip()),
             limits=limits,
@@ -81,19 +84,20 @@ class Settings:
         )
 
 
-def number(env: Mapping[str, str], name: str, default: float, *, most: float = math.inf) -> float:
-    """A number from 0 to `most` in the environment; SpecError names the variable. An empty text is the default."""
-    text = env.get(name, "").strip()
-    if not text:
-        return default
-    try:
-        found = float(text)
-    except ValueError:
-        found = math.nan
-    if not 0 <= found <= most or math.isinf(found):
-        allowed = f"0 to {most:g}" if math.isfinite(most) else "a number, 0 or more"
-        raise SpecError(Problem(field=name, message="is not usable", given=text, allowed=allowed))
-    return found
+def settings_for_everything() -> Settings:
+    """From the environment, with that of the workers checked: else only each worker would find it wrong, over and over.
+
+    SpecError names every variable that cannot be used.
+    """
+    problems: list[Problem] = []
+    for settings in (Settings, WorkerSettings):
+        try:
+            settings.from_environment()
+        except SpecError as error:
+            problems += error.problems
+    if problems:
+        raise SpecError(problems)
+    return Settings.from_environment()
 
 
 def parse_keys(text: str) -> dict[str, str]:

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from jobs import recover
+from jobs.record import Failure
 from sim.core.errors import SidebandError
 from store.catalogue import workers as registry
 from store.stores import Stores
@@ -82,8 +83,9 @@ class Supervisor:
             log.warning("%s ended with code %s; it is started again", place.name, place.process.returncode)
             place.failures = 0 if now - place.started_at > STEADY_S else place.failures + 1
             place.not_before = now + min(LONGEST_PAUSE_S, 0.2 * 2**place.failures if place.failures else 0.0)
+            failure = recover.died("the worker that ran the job", place.process.returncode)
             place.process = None
-            self._settle(place.name, lost=True)
+            self._settle(place.name, failure)
         if place.process is None and now >= place.not_before:
             self._begin(place)
 
@@ -96,8 +98,8 @@ class Supervisor:
             start_new_session=True,
         )
 
-    def _settle(self, name: str, *, lost: bool) -> None:
-        recover.release_worker(self._stores.catalogue, time.time, name, lost=lost, max_losses=self._max_losses)
+    def _settle(self, name: str, failure: Failure | None) -> None:
+        recover.release_worker(self._stores.catalogue, time.time, name, failure=failure, max_losses=self._max_losses)
         registry.forget(self._stores.catalogue.engine, name=name)
 
     def _end(self) -> None:
@@ -114,6 +116,6 @@ class Supervisor:
                 place.process.kill()
                 place.process.wait()
             try:
-                self._settle(place.name, lost=False)
+                self._settle(place.name, None)
             except SidebandError as error:
                 log.warning("%s: %s", place.name, error)

@@ -82,7 +82,7 @@ def _outcome(response: Response, extras: dict[str, Json], request: SimulationReq
 def _outputs(engine: Engine, machine: MachineSpec, request: SimulationRequest) -> list[str] | None:
     """Outputs to simulate; None: the standard set."""
     if request.sensors is None:
-        return request.channels
+        return request.outputs
     return recorded_outputs(request.sensors, machine, engine.report(machine).channels)
 
 

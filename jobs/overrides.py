@@ -11,35 +11,60 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from jobs.validation import problems_of
+from jobs.shorthand import LONG, NAMES, TORQUE, path_of, set_torque
+from jobs.validation import problems_of, shown
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec
 
 RPM_NAMES = ("rpm", "speed_rpm", "n_rpm", "revolutions", "rev_per_min")
 MANY_NAMES = 8
-SYNTAX = "`term@site.parameter`, or a dotted path into the machine such as `operating.speed_hz`"
+THE_MACHINE = "the machine"
+SYNTAX = (
+    "`term@site.parameter`, a short name (speed_hz, torque_nm, profile, gravity), "
+    "or a dotted path such as `gears.pinion.teeth`"
+)
+OBJECTS = ("operating.profile",)
+"""Parts that a machine may lack and that are made from single values, `profile.kind`, `profile.end_ratio` ..."""
 
 
 def apply_overrides(machine: MachineSpec, overrides: Mapping[str, object]) -> MachineSpec:
     """Return the machine with each named value changed; every wrong name or value is reported at once.
 
-    A term that the machine does not have yet at that site is added. Items of lists are found by their `name`.
+    A term that the machine does not have yet at that site is added. Items of lists are found by their `name`. A part
+    that is an object, or none, takes an object: `{"operating.profile": {"kind": "ramp", "end_ratio": 2, ...}}`.
     """
     if not overrides:
         return machine
     document: dict[str, Any] = copy.deepcopy(machine.model_dump(mode="json"))
-    problems: list[Problem] = []
-    for key, value in overrides.items():
-        problem = _set_term(document, key, value) if "@" in key else _set_path(document, key, value)
+    problems = _twice(overrides)
+    # The torque comes last: it is that of the driven shaft, which may be changed too.
+    for key, value in sorted(overrides.items(), key=lambda item: item[0] in TORQUE):
+        problem = _set(document, key, value)
         if problem is not None:
             problems.append(problem)
-    if problems:
-        raise SpecError(problems)
     with told_by_key(document, overrides):
         try:
-            return MachineSpec.model_validate(document)
+            changed = MachineSpec.model_validate(document)
         except ValidationError as error:
-            raise SpecError(problems_of(error)) from error
+            raise SpecError([*problems, *problems_of(error)]) from error
+        if problems:
+            raise SpecError(problems)
+        return changed
+
+
+def _set(document: dict[str, Any], key: str, value: object) -> Problem | None:
+    if key in TORQUE:
+        return set_torque(document, key, value)
+    return _set_term(document, key, value) if "@" in key else _set_path(document, key, value)
+
+
+def _twice(overrides: Mapping[str, object]) -> list[Problem]:
+    paths = [path_of(key) for key in overrides]
+    return [
+        Problem(field=f"set.{key}", message=f"is given twice: {key} stands for {path_of(key)}")
+        for key in overrides
+        if path_of(key) != key and paths.count(path_of(key)) > 1
+    ]
 
 
 @contextmanager
@@ -56,19 +81,29 @@ def told_by_key(document: Mapping[str, Any], overrides: Mapping[str, object]) ->
 
 
 def _renamed(problem: Problem, places: Mapping[str, str]) -> Problem:
-    key = places.get(problem.field.removeprefix("machine."))
+    place = problem.field.removeprefix("machine.")
+    key, rest = places.get(place), ""
     if key is None:
-        return problem
+        # Inside an object that was given whole.
+        above = next((p for p in places if place.startswith(f"{p}.")), None)
+        if above is None or problem.field.startswith("set."):
+            return problem
+        key, rest = places[above], place.removeprefix(above)
     near = difflib.get_close_matches(str(problem.given), problem.allowed.split(", "), n=1)
     hint = f" (did you mean {near[0]}?)" if near and isinstance(problem.given, str) else ""
-    return replace(problem, field=f"set.{key}", message=problem.message + hint)
+    return replace(problem, field=f"set.{key}{rest}", message=problem.message + hint)
 
 
 def _places(document: Mapping[str, Any], key: str) -> Iterator[str]:
     """Fields by which validation and assembly may call what `key` names: by number, and by name."""
+    if key in TORQUE:
+        torques = [i for i, load in enumerate(document["loads"]) if load["kind"] == "torque"]
+        yield from (f"loads.{i}.torque_nm" for i in torques)
+        return
     if "@" not in key:
-        yield key
-        yield ".".join(_numbered(document, key.split(".")))
+        path = path_of(key)
+        yield path
+        yield ".".join(_numbered(document, path.split(".")))
         return
     term, _, place = key.partition("@")
     site, _, parameter = place.partition(".")
@@ -98,7 +133,7 @@ def _set_term(document: dict[str, Any], key: str, value: object) -> Problem | No
     if not (term and site and parameter):
         return Problem(field=f"set.{key}", message="is not a parameter of a term", given=key, allowed=SYNTAX)
     if isinstance(value, bool) or not isinstance(value, int | float):
-        return Problem(field=f"set.{key}", message="must be a number", given=value, allowed="a finite number")
+        return Problem(field=f"set.{key}", message="must be a number", given=shown(value), allowed="a finite number")
     terms: list[dict[str, Any]] = document["terms"]
     for spec in terms:
         if spec["term"] == term and spec["site"] == site:
@@ -110,20 +145,32 @@ def _set_term(document: dict[str, Any], key: str, value: object) -> Problem | No
 
 def _set_path(document: dict[str, Any], key: str, value: object) -> Problem | None:
     node: Any = document
-    parts = key.split(".")
+    parts = path_of(key).split(".")
     for depth, part in enumerate(parts):
+        if ".".join(parts[:depth]) in OBJECTS and isinstance(node, dict):
+            node.setdefault(part, None)
         names = _names(node)
         if part not in names:
             near = _near(node, part)
             whole = [".".join([*parts[:depth], path]) for path in near]
-            return _unknown(key, value, part, ".".join(parts[:depth]) or "the machine", names, whole)
+            return _unknown(key, value, part, ".".join(parts[:depth]) or THE_MACHINE, names, whole)
         if depth == len(parts) - 1:
             break
+        if isinstance(node, dict) and node[part] is None and ".".join(parts[: depth + 1]) in OBJECTS:
+            node[part] = {}
         node = node[part] if isinstance(node, dict) else next(item for item in node if item.get("name") == part)
-    if not isinstance(node, dict) or isinstance(node[parts[-1]], list | dict):
-        return Problem(field=f"set.{key}", message="names a part, not a single value", given=key, allowed=SYNTAX)
-    node[parts[-1]] = value
+    if not isinstance(node, dict) or not _fits(node[parts[-1]], value):
+        message = "names a part, not a single value"
+        return Problem(field=f"set.{key}", message=message, given=shown(value), allowed=SYNTAX)
+    node[parts[-1]] = copy.deepcopy(value)
     return None
+
+
+def _fits(present: object, value: object) -> bool:
+    """Lists of parts stay; an object takes an object or nothing."""
+    return not isinstance(present, list | dict) or (
+        isinstance(present, dict) and (value is None or isinstance(value, Mapping))
+    )
 
 
 def _names(node: object) -> list[str]:
@@ -156,10 +203,13 @@ def _leaves(node: object, path: str = "") -> Iterator[str]:
 
 
 def _unknown(key: str, value: object, part: str, where: str, names: list[str], near: list[str]) -> Problem:
+    near = [LONG.get(path, path) for path in near]
+    if where == THE_MACHINE:
+        near += [n for n in difflib.get_close_matches(part, NAMES, n=1, cutoff=0.7) if n not in near]
     hint = f" (did you mean {' or '.join(near)}?)" if near else ""
     if part.lower() in RPM_NAMES:
         hertz = f"={value / 60:g}" if isinstance(value, int | float) and not isinstance(value, bool) else ""
-        hint = f" (speeds are given in Hz, rpm / 60: operating.speed_hz{hertz})"
+        hint = f" (speeds are given in Hz, rpm / 60: speed_hz{hertz})"
     # A dozen names of which one is suggested already would hide the suggestion.
     allowed = SYNTAX if hint and len(names) > MANY_NAMES else ", ".join(names) or SYNTAX
-    return Problem(field=f"set.{key}", message=f"{where} has no {part!r}{hint}", given=value, allowed=allowed)
+    return Problem(field=f"set.{key}", message=f"{where} has no {part!r}{hint}", given=shown(value), allowed=allowed)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import signal
 from dataclasses import dataclass
 
 from jobs import transitions
@@ -15,11 +16,32 @@ from jobs.record import Failure, JobRecord
 log = logging.getLogger(__name__)
 
 BATCH = 500
-LOST = Failure(
-    code="worker-lost",
-    message="the worker process died while it ran the job",
-    advice="submit again; if it repeats, shorten the run: the process may have been killed for its memory",
-)
+ADVICE = "submit again; if it repeats, shorten the run: the process may have been killed for its memory"
+
+
+def died(who: str, exit_code: int | None) -> Failure:
+    """A process that ended without a word. `exit_code` as `subprocess` has it: negative is a signal."""
+    if exit_code is not None and exit_code < 0:
+        how = f"was killed by signal {_signal_name(-exit_code)}"
+    else:
+        how = "ended without a word" + (f" (exit code {exit_code})" if exit_code else "")
+    return Failure(code="worker-lost", message=f"{who} {how}", advice=ADVICE)
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return str(number)
+
+
+def silent(record: JobRecord) -> Failure:
+    """A worker that was not heard of for longer than its lease; what became of it nobody saw."""
+    message = (
+        f"the worker {record.worker} that ran the job was not heard of any more: it was killed from outside, its "
+        "machine stopped, or it cannot reach the catalogue"
+    )
+    return Failure(code="worker-lost", message=message, advice=ADVICE)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,7 +87,7 @@ def reclaim(catalogue: JobCatalogue, clock: Clock, *, max_losses: int) -> int:
     now = clock()
 
     def lapsed(record: JobRecord) -> JobRecord:
-        return transitions.lapse(record, attempt=record.attempt, failure=LOST, max_losses=max_losses, now=now)
+        return transitions.lapse(record, attempt=record.attempt, failure=silent(record), max_losses=max_losses, now=now)
 
     return sum(_changed(catalogue, record, lapsed) for record in catalogue.lapsed(now, BATCH))
 
@@ -83,15 +105,19 @@ def give_up(catalogue: JobCatalogue, clock: Clock, record: JobRecord, failure: F
 
 
 def hand_back(catalogue: JobCatalogue, clock: Clock, record: JobRecord) -> bool:
-    """The worker shuts down before the attempt is done: it waits again, and this is not counted against it."""
+    """The worker shuts down before the attempt is done: the job waits for another; this does not count as a loss."""
     now = clock()
     return _changed(catalogue, record, lambda r: transitions.release(r, attempt=record.attempt, now=now))
 
 
-def release_worker(catalogue: JobCatalogue, clock: Clock, worker: str, *, lost: bool, max_losses: int) -> int:
-    """Take back the jobs of a worker that is known to be gone: shut down (`lost` False) or dead."""
+def release_worker(
+    catalogue: JobCatalogue, clock: Clock, worker: str, *, failure: Failure | None, max_losses: int
+) -> int:
+    """Take back the jobs of a worker that is known to be gone: dead of `failure`, or shut down (None)."""
     return sum(
-        give_up(catalogue, clock, record, LOST, max_losses=max_losses) if lost else hand_back(catalogue, clock, record)
+        hand_back(catalogue, clock, record)
+        if failure is None
+        else give_up(catalogue, clock, record, failure, max_losses=max_losses)
         for record in catalogue.running_on(worker)
     )
 

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Self
+from typing import Annotated, Literal, Self
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import BeforeValidator, ConfigDict, Field, JsonValue, model_validator
 
 from signals.sensors.spec import SensorChain
 from sim.core.spec import MachineSpec, SpecModel
 
 ChannelName = Annotated[str, Field(min_length=1, max_length=120, pattern=r"^[A-Za-z0-9_.-]+$")]
 OverrideKey = Annotated[str, Field(min_length=1, max_length=200)]
-OverrideValue = bool | float | str | None
+OverrideValue = bool | float | str | dict[str, JsonValue] | None
 
 
+MAX_CHANNELS = 512
 DEFAULT_RATE_HZ = 30_000.0
 """One default for every way in. Labels reach 11.7 kHz at it: 17 mesh harmonics of the paper's machine."""
 
@@ -26,14 +27,24 @@ class MachineChoice(SpecModel):
     machine: MachineSpec | None = None
     """A whole machine specification. Give either this or `preset`."""
     set: Annotated[dict[OverrideKey, OverrideValue], Field(max_length=200, default_factory=dict)]
-    """Changes: `term@site.parameter` for a term, or a dotted path such as `operating.speed_hz` or
-    `bearings.bearing1.radial_clearance_m`. SI units."""
+    """Changes, SI units: `term@site.parameter` for an effect; a dotted path such as
+    `bearings.bearing1.radial_clearance_m`; or a short name: `speed_hz`, `torque_nm` (of the driven shaft), `gravity`,
+    `profile` (`{"kind": "ramp", "end_ratio": 2, "duration_s": 1}`, or `profile.kind`, `profile.end_ratio` ... each).
+    A part that is an object takes an object, null takes it away."""
 
     @model_validator(mode="after")
     def _one_machine(self) -> Self:
         if (self.preset is None) == (self.machine is None):
             raise ValueError("give exactly one of `preset` and `machine`")
         return self
+
+
+ALL = ["all"]
+Channels = Annotated[list[ChannelName], Field(min_length=1, max_length=MAX_CHANNELS)]
+OneWord = BeforeValidator(
+    lambda given: ALL if given == "all" else given, json_schema_input_type=Channels | Literal["all"] | None
+)
+"""`all` alone stands for every output."""
 
 
 class SimulationRequest(MachineChoice):
@@ -44,7 +55,7 @@ class SimulationRequest(MachineChoice):
             "examples": [
                 {
                     "preset": "paper-demo",
-                    "set": {"fit_clearance@bearing1.gap": 2e-5},
+                    "set": {"fit_clearance@bearing1.gap": 2e-5, "speed_hz": 25.0},
                     "duration_s": 1.0,
                     "sampling_rate_hz": 20000,
                 }
@@ -56,8 +67,8 @@ class SimulationRequest(MachineChoice):
     """Simulated time, s. A tighter bound may be set by the server."""
     sampling_rate_hz: Annotated[float, Field(ge=100, le=500_000)] = DEFAULT_RATE_HZ
     """Output rate, Hz; the signals are low-pass filtered before they are thinned to it."""
-    channels: Annotated[list[ChannelName], Field(min_length=1, max_length=512)] | None = None
-    """Names of the outputs; none: the engine's standard set."""
+    channels: Annotated[Channels | None, OneWord] = None
+    """Names of the outputs, or `all`; none: the engine's standard set."""
     seed: Annotated[int, Field(ge=0, le=2**53 - 1)] = 0
     """Seed of everything random in the machine. Bounded so that JSON numbers carry it exactly."""
     discard_transient: bool = True
@@ -69,3 +80,8 @@ class SimulationRequest(MachineChoice):
     """Whether to show what causes each labelled line, by simulating the machine without each of its effects (and
     without each excitation of the base machine): some ten further runs, counted in the cost. Also lists the impacts in
     every contact."""
+
+    @property
+    def outputs(self) -> list[str] | None:
+        """`channels` by name; None: the standard set. `all` has its names once the request was resolved."""
+        return None if self.channels == ALL else self.channels

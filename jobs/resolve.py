@@ -10,8 +10,9 @@ from jobs.limits import Limits, check_cost, check_request, check_sampling
 from jobs.overrides import apply_overrides, told_by_key
 from jobs.ports import Engine, MachineReport
 from jobs.record import Cost
-from jobs.request import MachineChoice, SimulationRequest
+from jobs.request import ALL, MAX_CHANNELS, MachineChoice, SimulationRequest
 from jobs.sensing import check_sensors, told_shortly, with_sensors
+from jobs.validation import Findings, shown
 from sim.core.errors import Problem, SpecError, UnknownName
 from sim.core.spec import MachineSpec
 
@@ -27,18 +28,25 @@ class Resolved:
     document: Mapping[str, object]
     source: Mapping[str, object]
     cost: Cost
+    request: SimulationRequest
+    """With its outputs by name."""
 
 
 def resolve(request: SimulationRequest, engine: Engine, limits: Limits) -> Resolved:
-    """Build the machine, check every reference and bound, estimate the cost; raises SpecError."""
-    check_request(request, limits)
-    machine = machine_of(request, engine)
-    with told_by_key(machine.model_dump(mode="json"), request.set):
-        report = report_of(machine, engine)
-    check_sampling(request, report.bases_hz)
-    outputs = check_sensors(request, machine, report)
-    if request.channels is not None:
-        _check_channels(request.channels, report.channels)
+    """Build the machine, check every reference and bound, estimate the cost; SpecError with all that was found."""
+    findings = Findings()
+    with findings.step():
+        check_request(request, limits)
+    with findings.step():
+        machine, report = _assembled(request, engine)
+    findings.settle()
+    with findings.step():
+        check_sampling(request, report.bases_hz)
+    with findings.step():
+        request = _named(request, report.channels)
+    with findings.step():
+        outputs = check_sensors(request, machine, report)
+    findings.settle()
     one = with_sensors(
         engine.cost(
             machine,
@@ -51,7 +59,7 @@ def resolve(request: SimulationRequest, engine: Engine, limits: Limits) -> Resol
     runs = 1 + further_runs(machine, request)
     cost = replace(one, steps=one.steps * runs, seconds=one.seconds * runs)
     check_cost(request, cost, len(outputs or report.default_channels), limits)
-    source = {"preset": request.preset, "machine": machine.name, "set": dict(request.set)}
+    source = {"preset": request.preset, "machine": machine.name, "set": set_shortly(request.set)}
     # a request without causes or sensors keeps the identity it had before there were any
     absent = {name for name in ("causes", "sensors") if not getattr(request, name)}
     settings = request.model_dump(mode="json", exclude={"preset", "machine", "set"} | absent)
@@ -59,7 +67,31 @@ def resolve(request: SimulationRequest, engine: Engine, limits: Limits) -> Resol
         document={"machine": machine.model_dump(mode="json"), **settings},
         source={**source, **told_shortly(settings)},
         cost=cost,
+        request=request,
     )
+
+
+def _assembled(request: SimulationRequest, engine: Engine) -> tuple[MachineSpec, MachineReport]:
+    machine = machine_of(request, engine)
+    with told_by_key(machine.model_dump(mode="json"), request.set):
+        return machine, report_of(machine, engine)
+
+
+LONGEST_SHOWN = 32
+
+
+def set_shortly(changes: Mapping[str, object]) -> dict[str, object]:
+    """Changes as a list of jobs shows them: of a measured speed the length, not its thousands of values."""
+    return {
+        key: {name: shown(item) if _long(item) else item for name, item in value.items()}
+        if isinstance(value, Mapping)
+        else value
+        for key, value in changes.items()
+    }
+
+
+def _long(value: object) -> bool:
+    return isinstance(value, list) and len(value) > LONGEST_SHOWN
 
 
 def machine_of(choice: MachineChoice, engine: Engine) -> MachineSpec:
@@ -97,7 +129,16 @@ def restored(document: Mapping[str, object]) -> tuple[MachineSpec, SimulationReq
     return request.machine, request
 
 
-def _check_channels(wanted: list[str], known: tuple[str, ...]) -> None:
+def _named(request: SimulationRequest, known: tuple[str, ...]) -> SimulationRequest:
+    """The request with its outputs by name; SpecError for names that the machine does not have."""
+    wanted = request.channels
+    if wanted is None or request.sensors is not None:
+        return request
+    if wanted == ALL:
+        if len(known) > MAX_CHANNELS:
+            message = f"are too many ({len(known)}) to be recorded together"
+            raise SpecError(Problem(field="channels", message=message, given="all", allowed=f"<= {MAX_CHANNELS}"))
+        return request.model_copy(update={"channels": list(known)})
     problems = [
         Problem(field=f"channels.{i}", message="is not an output of this machine", given=name, allowed=", ".join(known))
         for i, name in enumerate(wanted)
@@ -109,3 +150,4 @@ def _check_channels(wanted: list[str], known: tuple[str, ...]) -> None:
         )
     if problems:
         raise SpecError(problems)
+    return request

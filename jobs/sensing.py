@@ -43,7 +43,7 @@ def check_sensors(request: SimulationRequest, machine: MachineSpec, report: Mach
     """Outputs to simulate, None for the standard set; SpecError when the sensors cannot be served."""
     chain = request.sensors
     if chain is None:
-        return request.channels
+        return request.outputs
     if request.channels is not None:
         message = "names outputs of the simulation; with `sensors` the chain says what is recorded"
         raise SpecError(Problem(field="channels", message=message, given=request.channels, allowed="leave it out"))

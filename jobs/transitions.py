@@ -144,7 +144,7 @@ def lose(
         return _ended(own, Status.DISMISSED, now)
     losses = own.losses + 1
     if losses > max_losses:
-        told = replace(failure, message=f"{failure.message} ({losses} attempts)")
+        told = replace(failure, message=f"{failure.message} ({losses} attempt{'' if losses == 1 else 's'})")
         return replace(_ended(own, Status.FAILED, now), failure=told, losses=losses)
     return replace(_waiting(own, now, not_before=now + delay_s if delay_s else None), losses=losses)
 

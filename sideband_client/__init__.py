@@ -3,7 +3,7 @@
     import sideband_client
 
     with sideband_client.connect("http://127.0.0.1:8000") as client:
-        job = client.simulate("paper-demo", overrides={"fit_clearance@bearing1.gap": 2e-5}, duration_s=2.0)
+        job = client.simulate("paper-demo", set={"fit_clearance@bearing1.gap": 2e-5}, duration_s=2.0)
         result = job.wait(progress=print).result()
         signals = result.signals()
 

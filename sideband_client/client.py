@@ -5,7 +5,7 @@ from __future__ import annotations
 import uuid
 from collections.abc import Iterator, Mapping, Sequence
 from types import TracebackType
-from typing import Any, Self
+from typing import Any, Literal, Self
 from urllib.parse import urlsplit
 
 import httpx
@@ -16,6 +16,8 @@ from sideband_client.state import JobState, state_of
 from sideband_client.transport import Timing, Transport
 
 PAGE = 100
+Changes = Mapping[str, bool | float | str | Mapping[str, Any] | None]
+"""`term@site.parameter`, a short name (`speed_hz`, `torque_nm`, `profile`, `gravity`) or a dotted path; SI units."""
 
 
 def connect(url: str, *, api_key: str | None = None, timing: Timing | None = None) -> Client:
@@ -51,25 +53,34 @@ class Client:
         self,
         machine: str | Mapping[str, Any],
         *,
-        overrides: Mapping[str, bool | float | str | None] | None = None,
+        set: Changes | None = None,
         duration_s: float = 1.0,
         sampling_rate_hz: float = 30_000.0,
-        channels: Sequence[str] | None = None,
+        channels: Sequence[str] | Literal["all"] | None = None,
         seed: int = 0,
         discard_transient: bool = True,
+        sensors: Mapping[str, Any] | None = None,
+        causes: bool = False,
         idempotency_key: str | None = None,
+        overrides: Changes | None = None,
     ) -> Job:
         """Ask for a simulation of a preset (its name) or of a whole machine specification.
 
-        `overrides`: `term@site.parameter` or a dotted path to a value in SI units. The same request shares one job and
-        one result. Repeated after a lost reply under the same key, it makes no second job; the key is made here unless
-        given. Raises InvalidRequest with the fields to change, Busy, ServiceAway, StorageFull, Unreachable.
+        `set`: what to change in it (`overrides` is its older name). `sensors`: a measurement chain (docs/sensors.md)
+        whose channels are recorded in place of `channels`. `causes`: show what causes each line. The same request
+        shares one job and one result. Repeated after a lost reply under the same key, it makes no second job; the key
+        is made here unless given. Raises InvalidRequest with the fields to change, Busy, ServiceAway, StorageFull,
+        Unreachable.
         """
-        body: dict[str, Any] = {"preset": machine} if isinstance(machine, str) else {"machine": dict(machine)}
+        body = _choice(machine, set, overrides)
         body |= {"duration_s": duration_s, "sampling_rate_hz": sampling_rate_hz, "seed": seed}
-        body |= {"discard_transient": discard_transient, "set": dict(overrides or {})}
+        body |= {"discard_transient": discard_transient}
         if channels is not None:
-            body["channels"] = list(channels)
+            body["channels"] = channels if isinstance(channels, str) else list(channels)
+        if sensors is not None:
+            body["sensors"] = dict(sensors)
+        if causes:
+            body["causes"] = True
         # A name of its own for every submission: cancelling this job withdraws this submission and no other.
         submitter = f"client-{uuid.uuid4().hex[:16]}"
         headers = {"Idempotency-Key": idempotency_key or uuid.uuid4().hex, "X-Submitter": submitter}
@@ -77,11 +88,14 @@ class Client:
         return Job(self._transport, state_of(document), submitter=submitter)
 
     def check(
-        self, machine: str | Mapping[str, Any], *, overrides: Mapping[str, bool | float | str | None] | None = None
+        self,
+        machine: str | Mapping[str, Any],
+        *,
+        set: Changes | None = None,
+        overrides: Changes | None = None,
     ) -> dict[str, Any]:
         """What assembly says of a machine (frequencies, channels, warnings); nothing is simulated."""
-        body: dict[str, Any] = {"preset": machine} if isinstance(machine, str) else {"machine": dict(machine)}
-        return self._transport.json("POST", "/v1/machines/check", body={**body, "set": dict(overrides or {})})
+        return self._transport.json("POST", "/v1/machines/check", body=_choice(machine, set, overrides))
 
     def job(self, job_id: str) -> Job:
         """A job by its id; raises NotFound, Gone."""
@@ -114,13 +128,28 @@ class Client:
         """The physical effects a machine can have, with parameters, units and bounds."""
         return list(self._transport.json("GET", "/v1/terms")["terms"])
 
+    def sensors(self) -> dict[str, Any]:
+        """What a measurement chain can be made of: `kinds` of channels, `presets` by name, the JSON `schema`."""
+        return self._transport.json("GET", "/v1/sensors")
+
     def bearings(self) -> list[dict[str, Any]]:
         """The bearing catalogue."""
         return list(self._transport.json("GET", "/v1/bearings")["bearings"])
 
     def health(self) -> dict[str, Any]:
-        """How the service and each part of it is; `status` is ok, degraded or away."""
-        return self._transport.json("GET", "/v1/health")
+        """How the service and each part of it is; `status` is ok, degraded or away.
+
+        Asked once: a server that is not there is told (Unreachable) within `Timing.probe_connect_s`.
+        """
+        return self._transport.json("GET", "/v1/health", probe=True)
+
+
+def _choice(machine: str | Mapping[str, Any], changes: Changes | None, older_name: Changes | None) -> dict[str, Any]:
+    """A machine and its changes as the server takes them."""
+    if changes is not None and older_name is not None:
+        raise ValueError("give `set` or its older name `overrides`, not both")
+    body: dict[str, Any] = {"preset": machine} if isinstance(machine, str) else {"machine": dict(machine)}
+    return {**body, "set": dict(changes or older_name or {})}
 
 
 def _segment(text: str) -> str:

@@ -20,6 +20,7 @@ ClientError
  +- JobFailed              the job ended as failed: code, advice, detail
  +- JobDismissed           the job was cancelled
  +- WaitedTooLong          the job did not end in the time given (also a TimeoutError)
+ +- AlreadyThere           a file would be overwritten (also a FileExistsError)
 """
 
 from __future__ import annotations
@@ -40,7 +41,8 @@ class FieldProblem:
     unit: str = ""
 
     def __str__(self) -> str:
-        bounds = f"; allowed: {self.allowed}{f' {self.unit}' if self.unit else ''}" if self.allowed else ""
+        unit = f" {self.unit}" if self.unit not in ("", "1") else ""
+        bounds = f"; allowed: {self.allowed}{unit}" if self.allowed else ""
         return f"{self.field} {self.message} (given: {self.given!r}{bounds})"
 
 
@@ -139,3 +141,7 @@ class JobDismissed(ClientError):
 
 class WaitedTooLong(ClientError, TimeoutError):
     """The job has not ended in the time given; it goes on."""
+
+
+class AlreadyThere(ClientError, FileExistsError):
+    """A file of that name exists; nothing was written. `overwrite=True` replaces it."""

@@ -9,6 +9,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO, cast
 
+from sideband_client.errors import AlreadyThere
+
+
+def check_free(*targets: Path) -> None:
+    """Raise AlreadyThere when one of the files exists."""
+    there = [str(target) for target in targets if target.exists()]
+    if there:
+        raise AlreadyThere(f"already there: {', '.join(there)}; overwrite=True replaces them")
+
 
 @contextmanager
 def whole_file(target: Path) -> Iterator[BinaryIO]:

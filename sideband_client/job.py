@@ -11,8 +11,10 @@ import httpx
 from sideband_client.errors import (
     BadReply,
     Busy,
+    Gone,
     JobDismissed,
     JobFailed,
+    NotReady,
     ServerFault,
     ServiceAway,
     Unreachable,
@@ -72,10 +74,19 @@ class Job:
             self._transport.sleep(min(poll_s, self._left(end)))
         if progress is not None:
             progress(self.state.progress)
-        return self._successful()
+        self._raise_if_over()
+        return self
 
     def result(self) -> Result:
-        """The result; raises NotReady before the job is successful, Gone when it is not kept any more."""
+        """The result, at once: JobFailed, JobDismissed, NotReady (under way) or Gone say why there is none."""
+        state = self.state if self.state.ended else self.refresh()
+        if state.gone is not None:
+            message = f"the result of job {self.id} is {state.gone}; submitting again makes it again"
+            raise Gone(message, status=410, problem="gone")
+        self._raise_if_over()
+        if not state.ended:
+            message = f"job {self.id} is {state.status} and has no result yet; wait() for it"
+            raise NotReady(message, status=409, problem="not-ready", retry_after_s=POLL_S)
         return Result(self._transport, self.id)
 
     def cancel(self, *, everyone: bool = False) -> JobState:
@@ -123,7 +134,8 @@ class Job:
             self._last_event = event.id or self._last_event
             yield _progress(event.data)
 
-    def _successful(self) -> Self:
+    def _raise_if_over(self) -> None:
+        """JobDismissed or JobFailed when the job ended so."""
         if self.state.status == "dismissed":
             raise JobDismissed(f"job {self.id} was cancelled")
         if self.state.status == "failed":
@@ -135,7 +147,6 @@ class Job:
                 str(failure.get("advice", "")),
                 failure.get("detail"),
             )
-        return self
 
 
 def _progress(text: str) -> Progress:

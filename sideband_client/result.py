@@ -15,10 +15,12 @@ import numpy as np
 
 from sideband_client.data import Channel, Signals, Spectrum
 from sideband_client.errors import BadReply, NotFound
-from sideband_client.files import whole_file
+from sideband_client.files import check_free, whole_file
 from sideband_client.transport import Transport
 
 SpectrumKind = Literal["amplitude", "psd", "envelope", "order"]
+IndicatorKind = Literal["gear", "average", "cepstrum", "kurtogram", "cyclic"]
+SAVED = ("signals.npz", "summary.json", "peaks.json")
 
 
 class Result:
@@ -78,12 +80,40 @@ class Result:
         """Labelled peaks of a channel (default: the first acceleration): `frequencies` in Hz, `peaks`, `envelope`."""
         return self._transport.json("GET", f"{self._path}/peaks", query={"channel": channel})
 
-    def save(self, folder: str | Path) -> Path:
-        """Write signals.npz, summary.json and peaks.json, each whole or not at all.
+    def indicators(
+        self,
+        kind: IndicatorKind,
+        *,
+        channel: str | None = None,
+        shaft: str | None = None,
+        rotation: Literal["known", "tacholess"] = "known",
+        earlier: Sequence[str] = (),
+        max_alpha_hz: float | None = None,
+        start_s: float | None = None,
+        end_s: float | None = None,
+    ) -> Mapping[str, Any]:
+        """Gear indicators, mean turn, cepstrum, kurtogram or cyclic coherence of a channel (docs/indicators.md).
+
+        `channel` is the first acceleration unless given; `earlier`: ids of jobs, the former runs of NA4 and NB4.
+        Raises InvalidRequest with the bound when the record is too long.
+        """
+        query: dict[str, Any] = {
+            "channel": channel,
+            "shaft": shaft,
+            "rotation": rotation,
+            "earlier": list(earlier) or None,
+        }
+        query |= {"max_alpha_hz": max_alpha_hz, "start_s": start_s, "end_s": end_s}
+        return self._transport.json("GET", f"{self._path}/indicators/{kind}", query=query)
+
+    def save(self, folder: str | Path, *, overwrite: bool = False) -> Path:
+        """Write signals.npz, summary.json and peaks.json, each whole or not at all; AlreadyThere when one exists.
 
         The first holds an array for each channel under its name, `sampling_rate_hz`, `start_s` and `description`.
         """
         target = Path(folder)
+        if not overwrite:
+            check_free(*(target / name for name in SAVED))
         target.mkdir(parents=True, exist_ok=True)
         with (
             self._transport.stream(f"{self._path}/signals?format=npz") as reply,
@@ -96,8 +126,13 @@ class Result:
                 stream.write(json.dumps(document, indent=2, ensure_ascii=False).encode())
         return target
 
-    def download(self, name: str, path: str | Path) -> Path:
-        """Write a stored file (`signals.f64` ...) as it lies on the server; its SHA-256 is checked on the way."""
+    def download(self, name: str, path: str | Path, *, overwrite: bool = False) -> Path:
+        """Write a stored file (`signals.f64` ...) as it lies on the server; its SHA-256 is checked on the way.
+
+        Raises AlreadyThere when the file exists.
+        """
+        if not overwrite:
+            check_free(Path(path))
         files = self.summary["files"]
         if name not in files:
             known = ", ".join(files)

@@ -27,6 +27,10 @@ class Timing:
     retry_for_s: float = 60.0
     heartbeat_s: float = 45.0
     """Longest silence of an event stream; the server speaks every 15 s."""
+    first_contact_s: float = 3.0
+    """As `retry_for_s`, where nobody listens and nothing was ever heard of the server: a wrong address, mostly."""
+    probe_connect_s: float = 2.5
+    """To be connected when asked how the service is; that question is never repeated."""
 
 
 class Transport:
@@ -41,6 +45,7 @@ class Transport:
         monotonic: Callable[[], float] = time.monotonic,
     ) -> None:
         self._http, self.timing, self.sleep, self.monotonic = http, timing, sleep, monotonic
+        self._heard_of = False
 
     def close(self) -> None:
         """Give back the connections."""
@@ -55,9 +60,13 @@ class Transport:
         body: object = None,
         headers: Mapping[str, str] | None = None,
         repeatable: bool = True,
+        probe: bool = False,
     ) -> dict[str, Any]:
-        """The reply's JSON object. `repeatable`: a second arrival of the request changes nothing."""
-        reply = self.send(method, path, query=query, body=body, headers=headers, repeatable=repeatable)
+        """The reply's JSON object. `repeatable`: a second arrival of the request changes nothing.
+
+        `probe`: the answer tells how things stand now, so the question is put once and quickly.
+        """
+        reply = self.send(method, path, query=query, body=body, headers=headers, repeatable=repeatable, probe=probe)
         try:
             document = reply.json()
         except ValueError as error:
@@ -75,17 +84,27 @@ class Transport:
         body: object = None,
         headers: Mapping[str, str] | None = None,
         repeatable: bool = True,
+        probe: bool = False,
     ) -> httpx.Response:
         """The whole reply."""
-        request = self._http.build_request(method, path, params=_given(query), json=body, headers=headers)
+        request = self._http.build_request(
+            method, path, params=_given(query), json=body, headers=headers, timeout=self._timeout(probe)
+        )
 
         def once() -> httpx.Response:
-            reply = self._http.send(request)
-            if not reply.is_success:
-                raise refusal(reply)
-            return reply
+            with _translated():
+                reply = self._http.send(request)
+                self._heard_of = True
+                if not reply.is_success:
+                    raise refusal(reply)
+                return reply
 
-        return self._repeated(once, repeatable)
+        return once() if probe else self._repeated(once, repeatable)
+
+    def _timeout(self, probe: bool) -> httpx.Timeout:
+        timing = self.timing
+        connect_s = min(timing.connect_s, timing.probe_connect_s) if probe else timing.connect_s
+        return httpx.Timeout(connect_s, read=timing.read_s, write=timing.read_s)
 
     @contextmanager
     def stream(
@@ -107,14 +126,16 @@ class Transport:
         left, pause = self.timing.retry_for_s, FIRST_PAUSE_S
         while True:
             try:
-                with _translated():
-                    return once()
+                return once()
             except (ServiceAway, Busy) as error:
                 failure: ClientError = error
                 wait = max(pause, error.retry_after_s or 0.0)
             except Unreachable as error:
-                if not repeatable and not isinstance(error.__cause__, httpx.ConnectError | httpx.ConnectTimeout):
+                never_left = isinstance(error.__cause__, httpx.ConnectError | httpx.ConnectTimeout)
+                if not repeatable and not never_left:
                     raise
+                if never_left and not self._heard_of:
+                    left = min(left, self.timing.first_contact_s)
                 failure, wait = error, pause
             if wait > left:
                 raise failure
@@ -131,9 +152,16 @@ def _translated() -> Iterator[None]:
     except httpx.DecodingError as error:
         raise BadReply(f"the reply cannot be decoded: {error}") from error
     except httpx.TransportError as error:
-        raise Unreachable(f"the server does not answer: {_words(error)}") from error
+        raise Unreachable(f"the server does not answer{_where(error)}: {_words(error)}") from error
     except (httpx.HTTPError, httpx.InvalidURL) as error:
         raise BadReply(f"the exchange failed: {_words(error)}") from error
+
+
+def _where(error: httpx.TransportError) -> str:
+    try:
+        return f" at {error.request.url.copy_with(path='/', query=None)}"
+    except RuntimeError:  # httpx: the request is not known
+        return ""
 
 
 def _words(error: Exception) -> str:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from sim.core.errors import Problem
+from sim.core.errors import Problem, SpecError
 
 UNITS = (
     ("_ns_per_m", "N s/m"),
@@ -35,6 +36,14 @@ UNITS = (
 
 _BOUNDS = (("gt", "> {}"), ("ge", ">= {}"), ("lt", "< {}"), ("le", "<= {}"))
 _MAX_GIVEN_CHARS = 200
+TAGS = {"union_tag_not_found": "is required: it says which kind this is", "union_tag_invalid": "is not a known kind"}
+"""Of parts that come in several kinds."""
+KINDS = (
+    *("ramp", "fluctuating", "measured", "torque", "force", "modes", "impulse_response"),
+    *("accelerometer", "velocity", "proximity", "tacho"),
+)
+OF_KINDS = ("profile", "path")
+"""Parts of several kinds beside those that stand in lists."""
 
 
 def unit_of(field: str) -> str:
@@ -50,12 +59,23 @@ def problems_of(error: ValidationError, prefix: str = "") -> tuple[Problem, ...]
 
 def problem_of(details: ErrorDetails, prefix: str = "") -> Problem:
     """One finding as a field problem."""
-    field = ".".join([*([prefix] if prefix else []), *(str(part) for part in details["loc"])]) or "request"
+    parts = [*([prefix] if prefix else []), *_place(details["loc"])]
     context: Mapping[str, object] = details.get("ctx", {})
     given = None if details["type"] == "missing" else shown(details.get("input"))
+    if details["type"] in TAGS:
+        parts.append(str(context["discriminator"]).strip("'"))
+        given = context.get("tag")
+    field = ".".join(parts) or "request"
     unit = unit_of(field)
     message = _message(details) + _unit_hint(details.get("input"), field, context)
     return Problem(field=field, message=message, given=given, allowed=_allowed(details["type"], context), unit=unit)
+
+
+def _place(loc: Sequence[int | str]) -> Iterator[str]:
+    """The path as it was written: without the kind that validation puts behind a part of several kinds."""
+    for i, part in enumerate(loc):
+        if not (i and part in KINDS and (isinstance(loc[i - 1], int) or loc[i - 1] in OF_KINDS)):
+            yield str(part)
 
 
 def shown(value: object) -> object:
@@ -65,7 +85,7 @@ def shown(value: object) -> object:
     if value is None or isinstance(value, bool | int | float):
         return value if not isinstance(value, int) or abs(value) < 10**18 else f"{str(value)[:20]}..."
     if isinstance(value, Mapping):
-        return f"an object with the keys {', '.join(str(k) for k in list(value)[:8])}"
+        return f"an object with the keys {', '.join(str(k) for k in list(value)[:8])}" if value else "an empty object"
     if isinstance(value, Sequence) and not isinstance(value, str):
         return f"a list of {len(value)}"
     text = str(value)
@@ -77,6 +97,8 @@ def _message(details: ErrorDetails) -> str:
         return "is not a known field"
     if details["type"] == "missing":
         return "is required"
+    if details["type"] in TAGS:
+        return TAGS[details["type"]]
     text = details["msg"].removeprefix("Value error, ")
     return text[:1].lower() + text[1:]
 
@@ -84,8 +106,9 @@ def _message(details: ErrorDetails) -> str:
 def _allowed(kind: str, context: Mapping[str, object]) -> str:
     if kind == "finite_number":
         return "a finite number"
-    if "expected" in context:
-        return str(context["expected"])
+    for key in ("expected", "expected_tags"):
+        if key in context:
+            return str(context[key])
     if "pattern" in context:
         return f"text matching {context['pattern']}"
     bounds = [form.format(_number(context[key])) for key, form in _BOUNDS if key in context]
@@ -112,3 +135,23 @@ def _unit_hint(value: object, field: str, context: Mapping[str, object]) -> str:
         if value * factor <= high:
             return f" (it would fit if meant in {name}; lengths are given in m)"
     return ""
+
+
+class Findings:
+    """Problems of several steps that do not need each other, so that they can be told together."""
+
+    def __init__(self) -> None:
+        self._problems: list[Problem] = []
+
+    @contextmanager
+    def step(self) -> Iterator[None]:
+        """Keep the problems raised inside and go on."""
+        try:
+            yield
+        except SpecError as error:
+            self._problems += [problem for problem in error.problems if problem not in self._problems]
+
+    def settle(self) -> None:
+        """Raise what was kept, if anything."""
+        if self._problems:
+            raise SpecError(self._problems)

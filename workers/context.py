@@ -13,7 +13,7 @@ from jobs.ports import Analyser, Engine
 from jobs.run import Bench
 from store.settings import StoreSettings
 from store.stores import Stores, open_stores
-from workers.settings import WorkerSettings
+from store.worker_settings import WorkerSettings
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 from jobs.ports import Analyser, Engine
 from store.settings import StoreSettings
+from store.worker_settings import WorkerSettings
 from workers import context
 from workers.process import die_with_parent
-from workers.settings import WorkerSettings
 from workers.worker import SidebandWorker
 
 log = logging.getLogger(__name__)

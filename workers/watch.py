@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import os
-import signal
 import socket
 import time
 from enum import Enum
@@ -105,7 +104,7 @@ class JobWatch:
             recover.hand_back(self._catalogue, time.time, record)
         else:
             recover.give_up(
-                self._catalogue, time.time, record, _death(status), max_losses=self._context.settings.max_losses
+                self._catalogue, time.time, record, death(status), max_losses=self._context.settings.max_losses
             )
         self.recover()
 
@@ -144,8 +143,7 @@ class JobWatch:
             log.warning("the catalogue does not answer: %s", error)
 
 
-def _death(status: int | None) -> Failure:
-    killed = os.WTERMSIG(status) if status is not None and os.WIFSIGNALED(status) else None
-    how = f"was killed by signal {signal.Signals(killed).name}" if killed else "ended without a word"
-    advice = "submit again; if it repeats, shorten the run: the process may have been killed for its memory"
-    return Failure(code="worker-lost", message=f"the process that ran the job {how}", advice=advice)
+def death(status: int | None) -> Failure:
+    """What the status of a child that was waited for says of its end."""
+    code = None if status is None else os.waitstatus_to_exitcode(status)
+    return recover.died("the process that ran the job", code)

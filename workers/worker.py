@@ -21,7 +21,7 @@ from rq.worker.base import WorkerStatus
 from jobs.errors import JobError
 from workers.context import Context
 from workers.process import die_with_parent
-from workers.watch import JobWatch, Verdict
+from workers.watch import JobWatch, Verdict, death
 
 log = logging.getLogger(__name__)
 
@@ -105,7 +105,7 @@ class SidebandWorker(Worker):
 
     def _tell_broker(self, job: Job, queue: Queue, status: int | None) -> None:
         try:
-            self.handle_job_failure(job, queue=queue, exc_string=f"the work process ended with status {status}")
+            self.handle_job_failure(job, queue=queue, exc_string=death(status).message)
         except RedisError as error:
             log.warning("the broker does not answer: %s", error)
 

@@ -33,6 +33,7 @@ COMMANDS = {
     "recording": Command(module="app.cli.recording", sentence="read a recording by its description; say what is in it"),
     "presets": Command(module="app.cli.presets", sentence="list the ready machines, or print one"),
     "terms": Command(module="app.cli.terms", sentence="list the physical effects and their parameters"),
+    "sensors": Command(module="app.cli.sensor_list", sentence="list the sensors that --sensors knows by name"),
     "bearings": Command(module="app.cli.bearings", sentence="list the bearing catalogue"),
     "serve": Command(module="app.cli.serve", sentence="start the service: broker, workers, HTTP, dashboard"),
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
@@ -30,17 +31,31 @@ UNEVEN_RATE_HZ = 120_000.0
 """Output rate from which instants off any grid are interpolated."""
 
 
-def compare(case: Case, tolerance: float, step_rate_hz: float | None = None) -> tuple[Figure, ...]:
-    """Figures of a case; the first is the sample-by-sample error."""
+NO_GRAVITY = "gravity is in the file but not in the equations of the reference solutions: it is left out"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Comparison:
+    """Figures of a case, the first the sample-by-sample error; `warnings` about its parameters."""
+
+    figures: tuple[Figure, ...]
+    warnings: tuple[str, ...]
+
+
+def compare(case: Case, tolerance: float, step_rate_hz: float | None = None) -> Comparison:
+    """Simulate a case by the equations of the reference solutions and compare."""
     built = machine_of(case.parameters, case.mesh, name=case.name)
-    signals = at_instants(built.machine, case.t, step_rate_hz or STEP_RATE_HZ)
+    machine, warnings = built.machine, built.warnings
+    if machine.gravity_m_per_s2:
+        machine, warnings = machine.model_copy(update={"gravity_m_per_s2": 0.0}), (*warnings, NO_GRAVITY)
+    signals = at_instants(machine, case.t, step_rate_hz or STEP_RATE_HZ)
     if not case.irregular:
-        return regular(signals[:4], case.a, case.t, tolerance)
-    gap = next((t.parameters["gap"] for t in built.machine.terms if t.term == "fit_clearance"), None)
+        return Comparison(figures=regular(signals[:4], case.a, case.t, tolerance), warnings=warnings)
+    gap = next((t.parameters["gap"] for t in machine.terms if t.term == "fit_clearance"), None)
     flights = None
     if gap is not None and case.ring is not None:
         flights = (_flies(signals[4:6], gap), _flies(case.ring, gap))
-    return irregular(signals[:4], case.a, case.t, flights)
+    return Comparison(figures=irregular(signals[:4], case.a, case.t, flights), warnings=warnings)
 
 
 def _flies(ring: FloatArray, gap_m: float) -> FloatArray:

@@ -11,7 +11,7 @@ import argparse
 from pathlib import Path
 
 from app.serve import serve
-from app.settings import Settings
+from app.settings import settings_for_everything
 from sim.core.errors import Problem, SpecError
 
 MAX_WORKERS = 256
@@ -29,7 +29,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
-    settings = Settings.from_environment()
+    settings = settings_for_everything()
     port = settings.port if arguments.port is None else arguments.port
     workers = 1 if arguments.workers is None else arguments.workers
     checks = (

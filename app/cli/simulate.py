@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import argparse
 import difflib
+import shlex
 import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import psutil
 from pydantic import ValidationError
@@ -21,19 +21,18 @@ from tqdm import tqdm
 
 from app.cli.choice import add_machine_options, chosen_machine
 from app.cli.files import check_folder, whole_folder
+from app.cli.lines import print_result
 from app.cli.result import FILES, FURTHER, RAW, SENSED, write_raw, write_result
 from app.cli.sensors import add_sensor_options, chosen_sensors
 from jobs.analysis import analyse
 from jobs.carry_out import Outcome, carry_out, completed
 from jobs.causes import further_runs
-from jobs.documents import ResultDocuments
 from jobs.limits import Limits
 from jobs.physics import PhysicsEngine
-from jobs.request import DEFAULT_RATE_HZ, SimulationRequest
+from jobs.request import ALL, DEFAULT_RATE_HZ, SimulationRequest
 from jobs.resolve import resolve
-from jobs.validation import problems_of
+from jobs.validation import Findings, problems_of
 from sim.core.errors import Problem, SpecError
-from sim.core.response import Response
 from sim.core.spec import MachineSpec
 
 DEFAULT_PRESET = "paper-demo"
@@ -73,34 +72,69 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
-    machine = chosen_machine(arguments)
     out = arguments.out or default_folder(arguments)
-    check_folder(out, (*FILES, *FURTHER, *SENSED), force=arguments.force)
+    findings = Findings()
+    with findings.step():
+        check_folder(out, (*FILES, *FURTHER, *SENSED), force=arguments.force)
+    with findings.step(), _named_as_options():
+        asked = _request(arguments)
+    with findings.step():
+        machine = chosen_machine(arguments)
+    findings.settle()
     engine = PhysicsEngine()
     memory = int(MEMORY_SHARE * psutil.virtual_memory().available)
     with _named_as_options():
-        request = _request(arguments, machine, engine)
+        _check_names(asked.channels, engine.report(machine).channels)
+        request = asked.model_copy(update={"preset": None, "machine": machine})
         resolved = resolve(request, engine, Limits(**{**vars(LOCAL_LIMITS), "memory_bytes": memory}))
+    request = resolved.request
     engine.warm()
     started = time.perf_counter()
     outcome = _simulated(engine, machine, request, show=not arguments.quiet)
     response, elapsed = outcome.response, time.perf_counter() - started
     documents = completed(analyse(response, discard_transient=request.discard_transient), outcome.extras)
-    origin = {"preset": arguments.preset or arguments.default_preset, "machine_file": None, "set": arguments.set}
-    if arguments.machine is not None:
-        origin |= {"preset": None, "machine_file": str(arguments.machine)}
-    settings = {k: v for k, v in resolved.source.items() if k not in ("preset", "machine", "set")}
+    told = {**_origin(arguments), **_settings(resolved.source), "repeat": repeating(arguments, request, out)}
     written = {*(f"{name}.json" for name in documents.extras), *([RAW] if arguments.keep_raw else [])}
     with whole_folder(out) as folder:
-        write_result(folder, response, documents, request={**origin, **settings}, elapsed_s=elapsed)
+        write_result(folder, response, documents, request=told, elapsed_s=elapsed)
         if arguments.keep_raw and outcome.raw is not None:
             write_raw(folder, outcome.raw)
         for stale in {*FURTHER, *SENSED} - written:
             (folder / stale).unlink(missing_ok=True)
     if not arguments.quiet:
-        _say(response, documents, elapsed / (1 + further_runs(machine, request)))
+        print_result(
+            response,
+            documents,
+            duration_s=request.duration_s,
+            runs=1 + further_runs(machine, request),
+            elapsed_s=elapsed,
+        )
         print(f"wrote {', '.join([*FILES, *sorted(written)])} to {out}/", file=sys.stderr)
+        print(f"repeat with: {told['repeat']}", file=sys.stderr)
     return 0
+
+
+def _origin(arguments: argparse.Namespace) -> dict[str, object]:
+    if arguments.machine is not None:
+        return {"preset": None, "machine_file": str(arguments.machine), "set": arguments.set}
+    return {"preset": arguments.preset or arguments.default_preset, "machine_file": None, "set": arguments.set}
+
+
+def _settings(source: Mapping[str, object]) -> dict[str, object]:
+    return {k: v for k, v in source.items() if k not in ("preset", "machine", "set")}
+
+
+def repeating(arguments: argparse.Namespace, request: SimulationRequest, out: Path) -> str:
+    """The command that makes this result again from the machine written in it, beside it."""
+    words = ["sideband", "simulate", "--machine", str(out / "machine.json")]
+    words += ["--duration", repr(request.duration_s), "--rate", repr(request.sampling_rate_hz)]
+    words += ["--seed", str(request.seed)]
+    words += ["--channels", ",".join(arguments.channels)] if arguments.channels else []
+    words += ["--keep-transient"] if arguments.keep_transient else []
+    words += ["--sensors", str(arguments.sensors)] if arguments.sensors else []
+    words += ["--keep-raw"] if arguments.keep_raw else []
+    words += ["--causes"] if request.causes else []
+    return shlex.join([*words, "--out", f"{out}-again"])
 
 
 def default_folder(arguments: argparse.Namespace) -> Path:
@@ -132,16 +166,15 @@ def _option(field: str) -> str:
     return OPTIONS.get(field, f"--sensors {inside}" if inside != field else field)
 
 
-def _request(arguments: argparse.Namespace, machine: MachineSpec, engine: PhysicsEngine) -> SimulationRequest:
-    """The same request the service would take."""
-    channels = _channels(arguments.channels, machine, engine)
+def _request(arguments: argparse.Namespace) -> SimulationRequest:
+    """The same request the service would take; the machine is put in later, so that wrong options are told with it."""
     try:
         return SimulationRequest(
-            machine=machine,
+            preset=arguments.default_preset,
             set={},
             duration_s=arguments.duration,
             sampling_rate_hz=arguments.rate,
-            channels=channels,
+            channels=_names(arguments.channels),
             seed=arguments.seed,
             discard_transient=not arguments.keep_transient,
             sensors=chosen_sensors(arguments),
@@ -151,17 +184,16 @@ def _request(arguments: argparse.Namespace, machine: MachineSpec, engine: Physic
         raise SpecError(problems_of(error)) from error
 
 
-def _channels(given: Sequence[str] | None, machine: MachineSpec, engine: PhysicsEngine) -> list[str] | None:
-    if given is None:
-        return None
-    names = list(dict.fromkeys(name for item in given for name in item.split(",") if name))
-    known = engine.report(machine).channels
-    if names == ["all"]:
-        return list(known)
-    problems = [_no_channel(name, known) for name in names if name not in known]
-    if problems:
+def _names(given: Sequence[str] | None) -> list[str] | None:
+    """Names apart from each other, by spaces or commas, each once."""
+    return None if given is None else list(dict.fromkeys(name for item in given for name in item.split(",") if name))
+
+
+def _check_names(wanted: Sequence[str] | None, known: Sequence[str]) -> None:
+    """Like the service's own check, with the names that are near instead of all."""
+    problems = [_no_channel(name, known) for name in wanted or () if name not in known]
+    if problems and wanted != ALL:
         raise SpecError(problems)
-    return names
 
 
 def _no_channel(name: str, known: Sequence[str]) -> Problem:
@@ -189,31 +221,3 @@ def _simulated(engine: PhysicsEngine, machine: MachineSpec, request: SimulationR
 
 def _show(bar: tqdm, seconds: float) -> None:  # type: ignore[type-arg]
     bar.update(min(seconds, float(bar.total or 0.0)) - bar.n)
-
-
-STRONGEST = 12
-
-
-def _causes(peak: Mapping[str, Any]) -> str:
-    """The shares that make up most of a line, where causes were asked for."""
-    told = [f"{100 * c['share']:.0f} % {c['term']}@{c['site']}" for c in peak.get("causes", ()) if c["share"] >= 0.1]
-    return f"   {', '.join(told)}".replace("base_machine@", "base machine") if told else ""
-
-
-def _say(response: Response, documents: ResultDocuments, elapsed_s: float) -> None:
-    """The strongest labelled lines and the quality of the run."""
-    listed, warnings = documents.peaks["peaks"], documents.summary["warnings"]
-    assert isinstance(listed, list) and isinstance(warnings, list)
-    found = [p for p in listed if p["status"] in ("present", "ambiguous")]
-    for peak in sorted(found, key=lambda p: -p["amplitude"])[:STRONGEST]:
-        line = f"{peak['label']:<20} {peak['frequency_hz']:>10.2f} Hz {peak['amplitude']:>12.4g} {peak['unit']}"
-        print(f"{line}{_causes(peak)}")
-    quality, speed = response.quality, response.signals.shape[1] / response.sampling_rate_hz / elapsed_s
-    error = "not measured" if quality.step_error is None else f"{quality.step_error:.1e}"
-    print(
-        f"step error {error} ({quality.step_error_kind}), energy residual {quality.energy.relative_residual:.1e}, "
-        f"{speed:.2g} times real time",
-        file=sys.stderr,
-    )
-    for warning in warnings:
-        print(f"warning: {warning}", file=sys.stderr)

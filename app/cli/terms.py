@@ -44,7 +44,8 @@ def _explained(term: Term) -> str:
     lines = [f"{term.key}: {term.title}", f"  {term.sentence}", f"  acts at: {', '.join(term.sites) or 'the machine'}"]
     for p in term.params:
         bounds = f"{p.low:g} to {p.high:g}"
-        lines.append(f"  {p.name:<16} default {p.default:g}, {bounds} {p.unit}: {p.sentence}")
+        unit = "" if p.unit == "1" else f" {p.unit}"
+        lines.append(f"  {p.name:<16} default {p.default:g}, {bounds}{unit}: {p.sentence}")
     lines += [f"  cannot act together with: {', '.join(term.excludes)}"] if term.excludes else []
     lines += [f"  source: {reference}" for reference in term.references]
     return "\n".join(lines)

@@ -47,6 +47,7 @@ class Outcome:
 
     name: str
     figures: tuple[Figure, ...] = ()
+    warnings: tuple[str, ...] = ()
     problem: str = ""
 
     @property
@@ -76,6 +77,8 @@ def run(arguments: argparse.Namespace) -> int:
         outcomes.append(outcome)
         if not arguments.json:
             tqdm.write(_line(outcome), file=sys.stdout)
+        for text in outcome.warnings:
+            tqdm.write(f"warning: {outcome.name}: {text}", file=sys.stderr)
         if outcome.problem:
             tqdm.write(f"error: {outcome.name}: {outcome.problem}", file=sys.stderr)
     if arguments.json:
@@ -87,7 +90,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _outcome(path: Path, tolerance: float, step_rate_hz: float | None) -> Outcome:
     try:
-        return Outcome(name=path.stem, figures=compare(read_case(path), tolerance, step_rate_hz))
+        found = compare(read_case(path), tolerance, step_rate_hz)
+        return Outcome(name=path.stem, figures=found.figures, warnings=found.warnings)
     except (SidebandError, OSError) as error:
         return Outcome(name=path.stem, problem=str(error))
 
@@ -107,6 +111,7 @@ def _document(outcomes: list[Outcome], tolerance: float) -> dict[str, object]:
             "error": o.worst,
             "passed": o.passed,
             "figures": {f.name: {"error": f.error, "tolerance": f.tolerance, "passed": f.passed} for f in o.figures},
+            **({"warnings": list(o.warnings)} if o.warnings else {}),
             **({"problem": o.problem} if o.problem else {}),
         }
         for o in outcomes

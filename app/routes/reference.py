@@ -17,6 +17,7 @@ from jobs.overrides import told_by_key
 from jobs.ports import MachineReport
 from jobs.request import MachineChoice
 from jobs.resolve import machine_of, report_of
+from jobs.sensor_document import sensor_document, sensor_preset
 from sim.core.errors import UnknownName
 
 router = APIRouter(tags=["reference"])
@@ -112,6 +113,22 @@ def bearings(request: Request, state: State) -> Response:
     """The bearing catalogue, every row with its source; and the sizes left out, with the reason."""
     document = {"bearings": state.engine.bearings(), "missing": state.engine.missing_bearings()}
     return _document(request, state, document)
+
+
+@router.get("/v1/sensors", responses=problems(401))
+def sensors(request: Request, state: State) -> Response:
+    """What a measurement chain (`sensors` of a simulation) can be made of.
+
+    `kinds` of channels with their stages and unit, `presets` by name with the stages they fill in and their source, and
+    the JSON `schema` of the whole chain.
+    """
+    return _document(request, state, sensor_document())
+
+
+@router.get("/v1/sensors/{name}", responses=problems(401, 404))
+def sensor(name: str, request: Request, state: State) -> Response:
+    """One sensor by name."""
+    return _document(request, state, sensor_preset(name))
 
 
 @router.post("/v1/machines/check", response_model=MachineCheck, responses=problems(400, 401, 413, 415, 422))

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from jobs.documents import FloatArray
+from jobs.indicators.bounds import usual_alpha_hz
 from jobs.indicators.subject import Rotation, Subject, without_tacho
 from jobs.thinning import highest, min_max
 from signals.cepstrum import cepstrum
@@ -160,9 +161,8 @@ def _kurtogram(subject: Subject, _asked: _Asked) -> Document:
 
 def _cyclic(subject: Subject, asked: _Asked) -> Document:
     series = subject.series
-    slow = [hz for base, hz in subject.bases_hz.items() if not base.startswith("f_m")]
-    usual = min(3.2 * max(slow), 1000.0) if slow else 500.0
-    most = asked.max_alpha_hz if asked.max_alpha_hz is not None else min(usual, series.sampling_rate_hz / 8)
+    usual = usual_alpha_hz(subject.bases_hz, series.sampling_rate_hz)
+    most = asked.max_alpha_hz if asked.max_alpha_hz is not None else usual
     found = enhanced_envelope(cyclic_coherence(series, max_alpha_hz=most))
     alpha, values = _curve(found.alpha_hz, found.values)
     return {

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from jobs.results import ResultReader
+from jobs.slices import Window, window
 from signals.angle import tacholess_angle
 from signals.labels.machine import machine_kinematics
 from signals.recording import Recording, Tacho
@@ -60,22 +61,33 @@ class Subject:
         raise UnknownName("shaft", name, tuple(self.shafts))
 
 
-def of_result(reader: ResultReader, channel: str, machine: MachineSpec) -> Subject:
-    """A channel of a stored result from where its analysis begins; its angle is that of the specified speed."""
-    about, summary = reader.channel(channel), reader.document("summary")
-    bases, start_s = summary.get("frequencies", {}), summary.get("analysed_from_s", 0.0)
-    assert isinstance(bases, dict) and isinstance(start_s, int | float)
+def stretch_of(reader: ResultReader, start_s: float | None, end_s: float | None) -> Window:
+    """The samples that indicators of a stored result are made of: from where its analysis begins, unless told."""
+    begins = reader.document("summary").get("analysed_from_s", 0.0)
+    assert isinstance(begins, int | float)
+    return window(reader, begins if start_s is None else start_s, end_s)
+
+
+def of_result(reader: ResultReader, channel: str, machine: MachineSpec, part: Window) -> Subject:
+    """A stretch of a channel of a stored result; its angle is that of the specified speed."""
+    about, bases = reader.channel(channel), bases_of(reader)
     rate = reader.manifest.sampling_rate_hz
-    first = round(start_s * rate)
     series = Series(
-        samples=reader.signal(channel, first, reader.manifest.samples),
+        samples=reader.signal(channel, part.start, part.stop),
         sampling_rate_hz=rate,
         unit=about.unit,
         name=channel,
         quantity=about.quantity,
-        start_s=first / rate,
+        start_s=part.start / rate,
     )
     return of_simulation(series, machine, bases, reader.manifest.seed)
+
+
+def bases_of(reader: ResultReader) -> Mapping[str, float]:
+    """Base frequencies of a stored result, Hz."""
+    bases = reader.document("summary").get("frequencies", {})
+    assert isinstance(bases, dict)
+    return bases
 
 
 def of_simulation(series: Series, machine: MachineSpec, bases_hz: Mapping[str, float], seed: int) -> Subject:

@@ -30,7 +30,8 @@ class Problem:
     def __str__(self) -> str:
         given = "" if self.given is None else f" (given {self.given!r})"
         allowed = f"; allowed: {self.allowed}" if self.allowed else ""
-        unit = f" {self.unit}" if self.unit and self.allowed else ""
+        # The unit 1 of pure numbers is nothing to read.
+        unit = f" {self.unit}" if self.unit not in ("", "1") and self.allowed else ""
         return f"{self.field}: {self.message}{given}{allowed}{unit}"
 
 

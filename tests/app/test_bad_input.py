@@ -73,6 +73,21 @@ def test_gear_with_five_teeth_names_the_bound(client: httpx.Client) -> None:
     assert "if meant in mm" in module["message"]
 
 
+@pytest.mark.parametrize(
+    ("part", "field", "unit"),
+    [
+        ({"shafts": [{"name": "a", "length_m": 1e-320}]}, "machine.shafts.0.length_m", "m"),
+        ({"shafts": [{"name": "a", "torsional_stiffness_nm_per_rad": 1e-300}]}, "", "N m/rad"),
+        ({"meshes": [{"name": "a", "pinion": "p", "gear": "g", "centre_distance_m": 1e-320}]}, "", "m"),
+        ({"resonators": [{"name": "a", "bearing": "b", "mass_kg": 1, "stiffness_n_per_m": 1e-320}]}, "", "N/m"),
+    ],
+)
+def test_absurdly_small_sizes_are_refused(client: httpx.Client, part: dict, field: str, unit: str) -> None:
+    (error,) = problem(post(client, {"machine": machine() | part}), 422)["errors"]
+    assert error["field"].endswith(field) and error["unit"] == unit
+    assert error["allowed"].startswith(">= 1e-0") or error["allowed"].startswith(">= 0.0")
+
+
 def test_neither_or_both_of_preset_and_machine(client: httpx.Client) -> None:
     for body in ({}, {"preset": "oscillator", "machine": machine()}):
         assert "exactly one" in problem(post(client, body), 422)["errors"][0]["message"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import httpx
 import pytest
 
+from jobs.indicators import bounds
 from tests.service.parts import eventually
 
 
@@ -44,3 +45,34 @@ def test_requests_that_do_not_fit_are_problems_with_the_field(client: httpx.Clie
         assert reply.headers["content-type"].startswith("application/problem+json")
         if field is not None:
             assert field in {error["field"].split(".")[0] for error in reply.json()["errors"]}, reply.text
+
+
+def test_a_stretch_is_analysed_when_it_is_asked_for(client: httpx.Client, result: str) -> None:
+    part = client.get(f"{result}/cepstrum", params={"start_s": 0.1, "end_s": 0.4}).json()
+    assert (part["start_s"], part["duration_s"]) == (pytest.approx(0.1), pytest.approx(0.3))
+    wrong = client.get(f"{result}/cepstrum", params={"start_s": 0.4, "end_s": 0.1}).json()["errors"][0]
+    assert (wrong["field"], wrong["location"], wrong["unit"]) == ("end_s", "query", "s")
+
+
+def test_records_too_long_are_refused_with_the_bound(
+    client: httpx.Client, result: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(bounds, "MAX_SAMPLES", 9_000)
+    reply = client.get(f"{result}/kurtogram", params={"start_s": 0})
+    assert reply.status_code == 422
+    error = reply.json()["errors"][0]
+    assert (error["field"], error["given"], error["allowed"], error["unit"]) == ("end_s", 10_000, "<= 9000", "samples")
+    assert client.get(f"{result}/kurtogram", params={"start_s": 0, "end_s": 0.4}).status_code == 200
+    monkeypatch.setattr(bounds, "MAX_SAMPLES", 15_000)
+    earlier = client.get(f"{result}/kurtogram", params={"start_s": 0, "earlier": result.split("/")[3]}).json()
+    assert earlier["errors"][0]["given"] == 20_000, "earlier runs count"
+
+
+def test_work_too_long_is_refused_with_the_bound(
+    client: httpx.Client, result: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(bounds, "MAX_SECONDS", 0.01)
+    assert client.get(f"{result}/cyclic", params={"max_alpha_hz": 100}).status_code == 200
+    error = client.get(f"{result}/cyclic", params={"max_alpha_hz": 4000}).json()["errors"][0]
+    assert (error["field"], error["allowed"], error["unit"]) == ("max_alpha_hz", "<= 0.01", "s")
+    assert error["given"] > 0.01 and "smaller max_alpha_hz" in error["message"]

@@ -22,3 +22,17 @@ def test_an_example_is_made_once(client: httpx.Client) -> None:
     known = client.get("/v1/terms/fit_clearance/example", headers={"If-None-Match": first.headers["ETag"]})
     assert known.status_code == 304
     assert client.get("/v1/terms/nothing/example").status_code == 404
+
+
+def test_sensors_and_what_a_chain_is_made_of(client: httpx.Client) -> None:
+    found = client.get("/v1/sensors").json()
+    kinds = {kind["kind"]: kind for kind in found["kinds"]}
+    assert set(kinds) == {"accelerometer", "velocity", "proximity", "torque", "tacho"}
+    stages = ["place", "path", "mounting", "sensor", "noise", "hum", "drift", "anti_alias", "converter", "dropouts"]
+    assert (kinds["accelerometer"]["unit"], kinds["accelerometer"]["stages"]) == ("m/s^2", stages)
+    magnet = next(preset for preset in found["presets"] if preset["name"] == "icp-magnet")
+    assert magnet["kind"] == "accelerometer" and magnet["stages"]["mounting"]["frequency_hz"] == 7000.0
+    assert client.get("/v1/sensors/icp-magnet").json() == magnet
+    assert found["schema"]["required"] == ["channels"]
+    unknown = client.get("/v1/sensors/icp-magnt")
+    assert unknown.status_code == 404 and "icp-magnet" in unknown.json()["errors"][0]["allowed"]

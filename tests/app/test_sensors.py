@@ -43,8 +43,8 @@ def test_measured_channels_their_chain_and_their_files(client: httpx.Client) -> 
     ("sensors", "field"),
     [
         ({"channels": [{**CHANNEL, "place": {"location": "case"}}]}, "sensors.channels.0.place.location"),
-        ({"channels": [{**CHANNEL, "kind": "microphone"}]}, "sensors.channels.0"),
-        ({"channels": [{**CHANNEL, "preset": "none"}]}, "sensors.channels.0.accelerometer"),
+        ({"channels": [{**CHANNEL, "kind": "microphone"}]}, "sensors.channels.0.kind"),
+        ({"channels": [{**CHANNEL, "preset": "none"}]}, "sensors.channels.0"),
         ({"channels": [CHANNEL] * 2}, "sensors"),
         ({"channels": [CHANNEL], "clock": {"jitter_rms_s": 1.0}}, "sensors.clock.jitter_rms_s"),
     ],

@@ -33,10 +33,64 @@ def refused(change: dict[str, object], **body: object) -> list[Problem]:
         {"bearings.bearing3.radial_clearance_m": 5.0},
         {"operating.speed_hz": 1800.0},
         {"gears.pinon.teeth": 30},
+        {"speed_hz": 1800.0},
+        {"torque_nm": 1e9},
+        {"torque": "much"},
+        {"profile": 3},
+        {"profile.kind": "ramp", "profile.duration_s": -1.0, "profile.end_ratio": 20.0},
     ],
 )
 def test_a_problem_names_the_key_that_brought_it(change: dict[str, object]) -> None:
-    assert [problem.field for problem in refused(change)] == [f"set.{key}" for key in change]
+    wrong = {f"set.{key}" for key in change if key != "profile.kind"}
+    assert {problem.field for problem in refused(change)} == wrong
+
+
+@pytest.mark.parametrize(
+    ("profile", "field", "allowed"),
+    [
+        ({"kind": "ramp", "end_ratio": 20, "duration_s": 1}, "set.profile.end_ratio", "<= 10"),
+        ({"kind": "rmp"}, "set.profile.kind", "'ramp', 'fluctuating', 'measured'"),
+        ({}, "set.profile.kind", ""),
+        ({"kind": "measured", "step_s": 0.1, "ratios": [1, -1]}, "set.profile.ratios.1", ">= 0"),
+    ],
+)
+def test_problems_inside_an_object_name_their_place_in_it(profile: object, field: str, allowed: str) -> None:
+    assert [(p.field, p.allowed) for p in refused({"profile": profile})] == [(field, allowed)]
+
+
+def test_problems_of_separate_steps_are_told_together() -> None:
+    """Request, unknown path, wrong value: none hides another."""
+    change = {"gears.pinon.teeth": 30, "gears.gear.teeth": 3}
+    fields = {problem.field for problem in refused(change, duration_s=1e-5)}
+    assert fields == {"duration_s", "set.gears.pinon.teeth", "set.gears.gear.teeth"}
+    fields = {problem.field for problem in refused({}, sampling_rate_hz=200, channels=["nose"])}
+    assert fields == {"sampling_rate_hz", "channels.0"}
+
+
+def test_short_names_are_paths() -> None:
+    paths = {"operating.speed_hz": 20.0, "operating.profile": {"kind": "ramp", "end_ratio": 2.0, "duration_s": 1.0}}
+    short = {key.removeprefix("operating."): value for key, value in paths.items()}
+    assert apply_overrides(preset("paper"), short) == apply_overrides(preset("paper"), paths)
+    still = apply_overrides(apply_overrides(preset("paper"), short), {"profile": None, "gravity": 9.81})
+    assert still.operating is not None and still.operating.profile is None
+    assert still.gravity_m_per_s2 == 9.81
+
+
+def test_all_outputs_are_asked_for_by_one_word() -> None:
+    def resolved(**body: object) -> object:
+        request = SimulationRequest.model_validate({"preset": "oscillator", **body})
+        return resolve(request, ENGINE, Limits()).document
+
+    names = list(ENGINE.report(preset("oscillator")).channels)
+    assert resolved(channels="all") == resolved(channels=names)
+
+
+def test_a_long_profile_is_shown_by_its_length() -> None:
+    profile = {"kind": "measured", "step_s": 0.01, "ratios": [1.0] * 1000}
+    request = SimulationRequest.model_validate({"preset": "paper", "set": {"profile": profile}})
+    resolved = resolve(request, ENGINE, Limits())
+    assert resolved.source["set"] == {"profile": {"kind": "measured", "step_s": 0.01, "ratios": "a list of 1000"}}
+    assert len(resolved.document["machine"]["operating"]["profile"]["ratios"]) == 1000  # type: ignore[index]
 
 
 def test_every_wrong_key_is_told_at_once() -> None:
@@ -47,9 +101,11 @@ def test_every_wrong_key_is_told_at_once() -> None:
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        ({"speed": 20.0}, "did you mean operating.speed_hz?"),
+        ({"speed": 20.0}, "did you mean speed_hz?"),
         ({"teeth": 20.0}, "gears.pinion.teeth or gears.gear.teeth"),
-        ({"rpm": 1800.0}, "operating.speed_hz=30"),
+        ({"rpm": 1800.0}, "speed_hz=30"),
+        ({"profil": 1.0}, "did you mean profile?"),
+        ({"gears.pinion": 3.0}, "names a part"),
         ({"operating.speed_hz": 1800.0}, "1800 rpm are 30 Hz"),
         ({"fit_clearence@bearing1.gap": 2e-5}, "did you mean fit_clearance?"),
         ({"gears.pinion.teth": 30}, "did you mean gears.pinion.teeth?"),

@@ -10,9 +10,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 from store.settings import StoreSettings
+from store.worker_settings import WorkerSettings
 from tests.service.fakes import FakeEngine, analyse
 from workers.main import Start, run_worker
-from workers.settings import WorkerSettings
 
 if __name__ == "__main__":
     logging.basicConfig(level=logging.INFO)

@@ -72,6 +72,20 @@ def test_saved_files_hold_the_result(done: Job, tmp_path: Path) -> None:
     assert json.loads((folder / "summary.json").read_text())["job"] == done.id
 
 
+def test_nothing_is_overwritten_unless_told_to(done: Job, tmp_path: Path) -> None:
+    result = done.result()
+    (tmp_path / "summary.json").write_text("mine")
+    with pytest.raises(FileExistsError, match=r"summary\.json.*overwrite=True") as caught:
+        result.save(tmp_path)
+    assert isinstance(caught.value, errors.AlreadyThere)
+    assert [p.name for p in tmp_path.iterdir()] == ["summary.json"], "nothing is written beside it either"
+    result.save(tmp_path, overwrite=True)
+    assert json.loads((tmp_path / "summary.json").read_text())["job"] == done.id
+    with pytest.raises(errors.AlreadyThere):
+        result.download("signals.f64", tmp_path / "signals.npz")
+    result.download("signals.f64", tmp_path / "signals.npz", overwrite=True)
+
+
 def test_stored_file_is_checked_on_the_way(done: Job, tmp_path: Path) -> None:
     result = done.result()
     raw = np.fromfile(result.download("signals.f64", tmp_path / "raw"), dtype="<f8").reshape(2, -1)
@@ -107,6 +121,23 @@ def test_failed_job_says_why(client: Client) -> None:
         client.simulate(spec("diverge"), seed=3).wait()
     assert (caught.value.code, caught.value.detail["dof"]) == ("diverged", "mass.y")
     assert "smaller step" in caught.value.advice
+
+
+def test_a_result_that_will_never_be_is_told_at_once(client: Client) -> None:
+    failed = client.simulate(spec("diverge"), seed=31)
+    with pytest.raises(errors.JobFailed):
+        failed.wait()
+    for job in (failed, client.job(failed.id)):
+        with pytest.raises(errors.JobFailed, match="diverged"):
+            job.result()
+    waiting = client.simulate(spec("sleep=30"), seed=32)
+    with pytest.raises(errors.NotReady, match="wait"):
+        waiting.result()
+    waiting.cancel()
+    with pytest.raises(errors.JobDismissed):
+        waiting.wait(timeout_s=30)
+    with pytest.raises(errors.JobDismissed, match="cancelled"):
+        waiting.result()
 
 
 def test_cancel_withdraws_this_submission_only(client: Client) -> None:

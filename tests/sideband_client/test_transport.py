@@ -68,6 +68,32 @@ def test_time_for_retries_is_bounded(script: Script, scripted: Make) -> None:
     assert caught.value.retry_after_s == 30.0 and len(script.requests) == 1
 
 
+def test_nobody_ever_heard_of_is_given_up_soon(script: Script, scripted: Make) -> None:
+    script.answers = [httpx.ConnectError("refused") for _ in range(50)]
+    client = scripted()
+    with pytest.raises(errors.Unreachable):
+        client.presets()
+    assert sum(script.pauses) <= 3.0 and len(script.requests) == 4
+    script.pauses.clear()
+    script.answers = [httpx.Response(200, json={"presets": []}), *(httpx.ConnectError("refused") for _ in range(50))]
+    client.presets()
+    with pytest.raises(errors.Unreachable):
+        client.presets()
+    assert 30.0 < sum(script.pauses) <= 60.0, "one that answered once may be starting again"
+
+
+def test_health_is_asked_once(script: Script, scripted: Make) -> None:
+    for answered, kind in (
+        (httpx.ConnectError("refused"), errors.Unreachable),
+        (problem(503, "x"), errors.ServiceAway),
+    ):
+        script.answers = [answered]
+        with pytest.raises(kind):
+            scripted().health()
+    assert script.pauses == [] and len(script.requests) == 2
+    assert {request.extensions["timeout"]["connect"] for request in script.requests} == {2.5}
+
+
 def test_what_a_repetition_could_harm_is_not_repeated_unless_it_never_left(script: Script, scripted: Make) -> None:
     running = Job(scripted()._transport, state_of(job("running")))
     script.answers = [httpx.ReadTimeout("silent")]
@@ -134,7 +160,7 @@ def test_nobody_there() -> None:
     timing = sideband_client.Timing(retry_for_s=0.0)
     with (
         sideband_client.connect("http://127.0.0.1:9", timing=timing) as client,
-        pytest.raises(errors.Unreachable, match="does not answer"),
+        pytest.raises(errors.Unreachable, match=r"does not answer at http://127\.0\.0\.1:9/"),
     ):
         client.presets()
 

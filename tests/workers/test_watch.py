@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import time
 from pathlib import Path
 from types import SimpleNamespace
@@ -9,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from jobs import transitions
+from jobs import recover, transitions
 from jobs.accept import Desk, accept
 from jobs.limits import Limits
 from jobs.record import JobRecord
@@ -18,9 +19,9 @@ from jobs.status import Status
 from store.artefacts.folder import FolderStore
 from store.catalogue import engine, schema
 from store.catalogue.catalogue import SqlCatalogue
+from store.worker_settings import WorkerSettings
 from tests.service.fakes import FakeEngine, machine
-from workers.settings import WorkerSettings
-from workers.watch import JobWatch, Verdict
+from workers.watch import JobWatch, Verdict, death
 
 
 class Queue:
@@ -83,3 +84,53 @@ def test_the_end_of_the_workers_own_child_is(desk: Desk) -> None:
     now = desk.catalogue.get(record.id)
     assert now.status is Status.ACCEPTED
     assert now.attempt == record.attempt + 1
+
+
+def test_the_signal_is_told_whoever_saw_the_end(desk: Desk) -> None:
+    """The worker sees its child die, the supervisor the worker; a lease that lapses has no witness and says so."""
+
+    def ended(record: JobRecord) -> None:
+        mine = watch(desk, "w1")
+        mine.begin(record.id, record.attempt)
+        mine.ended(signal.SIGKILL)
+
+    def released(_: JobRecord) -> None:
+        failure = recover.died("the worker that ran the job", -signal.SIGSEGV)
+        assert recover.release_worker(desk.catalogue, time.time, "w1", failure=failure, max_losses=0) == 1
+
+    def lapsed(_: JobRecord) -> None:
+        assert recover.reclaim(desk.catalogue, lambda: time.time() + 60, max_losses=0) == 1
+
+    told = {}
+    for losses, end in ((2, ended), (0, released), (0, lapsed)):
+        for _ in range(losses + 1):
+            record = running(desk, "w1")
+            end(record)
+        now = desk.catalogue.get(record.id)
+        assert now.status is Status.FAILED and now.failure is not None and now.failure.code == "worker-lost"
+        told[end.__name__] = now.failure.message
+    assert told["ended"] == "the process that ran the job was killed by signal SIGKILL (3 attempts)"
+    assert told["released"] == "the worker that ran the job was killed by signal SIGSEGV (1 attempt)"
+    assert "the worker w1 that ran the job was not heard of any more" in told["lapsed"]
+
+
+@pytest.mark.parametrize(
+    ("status", "told"),
+    [
+        (signal.SIGKILL, "was killed by signal SIGKILL"),
+        (signal.SIGKILL | 0x80, "was killed by signal SIGKILL"),  # with a core dump
+        (60, "was killed by signal 60"),
+        (1 << 8, "ended without a word (exit code 1)"),
+        (0, "ended without a word"),
+        (None, "ended without a word"),
+    ],
+)
+def test_what_a_status_says(status: int | None, told: str) -> None:
+    assert death(status).message == f"the process that ran the job {told}"
+
+
+def test_a_worker_that_leaves_puts_its_job_back_without_a_loss(desk: Desk) -> None:
+    record = running(desk, "w1")
+    assert recover.release_worker(desk.catalogue, time.time, "w1", failure=None, max_losses=0) == 1
+    now = desk.catalogue.get(record.id)
+    assert (now.status, now.losses, now.attempt) == (Status.ACCEPTED, 0, record.attempt + 1)

@@ -21,7 +21,7 @@ class GearSpec(SpecModel):
     """In the transverse section: tan of it is tan of the normal one over cos(helix angle)."""
     helix_angle_deg: Annotated[float, Field(ge=-45, le=45)] = 0.0
     """On the reference circle, positive right-handed; mates have opposite hands. 0: spur."""
-    addendum_coefficient: Annotated[float, Field(gt=0, le=1.5)] = 1.0
+    addendum_coefficient: Annotated[float, Field(ge=1e-2, le=1.5)] = 1.0
     """This and the other coefficients are in normal modules."""
     tip_clearance_coefficient: Annotated[float, Field(ge=0, le=0.6)] = 0.25
     profile_shift_coefficient: Annotated[float, Field(ge=-1, le=1.5)] = 0.0
@@ -55,9 +55,9 @@ class TransmissionError(SpecModel):
 class MeshTable(SpecModel):
     """A total mesh stiffness of the user's own: rows over centre-distance error, columns over mesh phase j/n."""
 
-    centre_distance_error_m: Annotated[list[Finite], Field(min_length=1, max_length=201)]
+    centre_distance_error_m: Annotated[list[Annotated[float, Field(ge=-1, le=1)]], Field(min_length=1, max_length=201)]
     stiffness_n_per_m: Annotated[
-        list[Annotated[list[Annotated[float, Field(gt=0, le=1e13)]], Field(min_length=2, max_length=8192)]],
+        list[Annotated[list[Annotated[float, Field(ge=1e-3, le=1e13)]], Field(min_length=2, max_length=8192)]],
         Field(min_length=1, max_length=201),
     ]
 
@@ -74,7 +74,7 @@ class MeshSpec(SpecModel):
     backlash_m: Annotated[float, Field(ge=0, le=5e-3)] | None = None
     """Total backlash on the line of action at the installed centre distance; none: the flanks never part (the seed)."""
     transmission_error: TransmissionError = TransmissionError()
-    centre_distance_m: Annotated[float, Field(gt=0, le=50)] | None = None
+    centre_distance_m: Annotated[float, Field(ge=1e-4, le=50)] | None = None
     """Installed centre distance; none: the standard one."""
     centre_distance_form: Literal["printed", "true"] = "printed"
     """`printed`: seed eq. (17); `true`: centre line tilted by the working pressure angle from the line of action."""

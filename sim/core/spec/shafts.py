@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from sim.core.spec.base import Name, NonNegative, Positive, SpecModel
+from sim.core.spec.base import Name, Positive, SpecModel
 
 
 class ShaftSegment(SpecModel):
@@ -27,12 +27,12 @@ class ShaftSpec(SpecModel):
     name: Name
     end_inertia_kg_m2: Annotated[float, Field(ge=1e-12, le=1e4)] | None = None
     """Inertia at the driving or driven end; none: the shaft has no torsional end mass."""
-    torsional_stiffness_nm_per_rad: Annotated[float, Field(gt=0, le=1e10)] | None = None
+    torsional_stiffness_nm_per_rad: Annotated[float, Field(ge=1e-6, le=1e10)] | None = None
     torsional_damping_nms_per_rad: Annotated[float, Field(ge=0, le=1e8)] = 0.0
-    length_m: Annotated[float, Field(gt=0, le=20)] = 0.26
-    diameter_m: Annotated[float, Field(gt=0, le=2)] | None = None
+    length_m: Annotated[float, Field(ge=1e-4, le=20)] = 0.26
+    diameter_m: Annotated[float, Field(ge=1e-4, le=2)] | None = None
     """Used to derive stiffness that is not given."""
-    shear_modulus_pa: Annotated[float, Field(gt=0, le=1e12)] = 8.0e10
+    shear_modulus_pa: Annotated[float, Field(ge=1e5, le=1e12)] = 8.0e10
     segments: Annotated[list[ShaftSegment], Field(max_length=32)] = Field(default_factory=list)
     """From one end to the other along z: the shaft then bends (Timoshenko beam elements). None: rigid."""
     seats: Annotated[dict[Name, Annotated[float, Field(ge=0, le=20)]], Field(max_length=64)] = Field(
@@ -60,11 +60,11 @@ class BodySpec(SpecModel):
     diametral_inertia_kg_m2: Annotated[float, Field(ge=1e-12, le=1e5)] | None = None
     """Against tilting, on a segmented shaft; none: half of the polar inertia."""
     axes: Literal["x", "y", "xy"] = "xy"
-    stiffness_x_n_per_m: NonNegative = 0.0
+    stiffness_x_n_per_m: Annotated[float, Field(ge=0, le=1e13)] = 0.0
     """Spring to ground."""
-    stiffness_y_n_per_m: NonNegative = 0.0
-    damping_x_ns_per_m: NonNegative = 0.0
-    damping_y_ns_per_m: NonNegative = 0.0
+    stiffness_y_n_per_m: Annotated[float, Field(ge=0, le=1e13)] = 0.0
+    damping_x_ns_per_m: Annotated[float, Field(ge=0, le=1e9)] = 0.0
+    damping_y_ns_per_m: Annotated[float, Field(ge=0, le=1e9)] = 0.0
 
 
 __all__ = ["BodySpec", "Positive", "ShaftSegment", "ShaftSpec"]

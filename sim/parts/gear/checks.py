@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from sim.core.errors import Problem, SpecError
+from sim.parts.gear.contact import centre_distances_m
 from sim.parts.gear.foundation import FIT_RATIO, FIT_THETA_RAD, body_ratio
 from sim.parts.gear.geometry import GearGeometry
 from sim.parts.gear.tooth import RootModel, root_section
@@ -24,6 +25,32 @@ def check_mates(pinion: GearGeometry, gear: GearGeometry) -> None:
         problems.append(Problem(field="gear.helix_angle_deg", message=message, given=given, allowed=allowed))
     if problems:
         raise SpecError(problems)
+
+
+def check_centre_distance(pinion: GearGeometry, gear: GearGeometry, centre_distance_m: float) -> None:
+    """SpecError with the distances that work, when the teeth work at some but not at this one."""
+    least_m, most_m = centre_distances_m(pinion, gear)
+    # The tolerance absorbs the rounding of radii: the bounds themselves are legal.
+    good = least_m * (1 - 1e-12) <= centre_distance_m <= most_m * (1 + 1e-12)
+    if good or least_m > most_m:
+        return
+    why = (
+        "too small: the teeth reach into each other"
+        if centre_distance_m < least_m
+        else ("too large: a pair of teeth leaves before the next one enters (contact ratio below 1)")
+    )
+    message, allowed = f"the centre distance is {why}", f"{_up(least_m)} to {_down(most_m)}"
+    raise SpecError(
+        Problem(field="centre_distance_m", message=message, given=centre_distance_m, allowed=allowed, unit="m")
+    )
+
+
+def _up(length_m: float) -> str:
+    return f"{math.ceil(length_m * 1e7) * 1e-7:.7f}"
+
+
+def _down(length_m: float) -> str:
+    return f"{math.floor(length_m * 1e7) * 1e-7:.7f}"
 
 
 def check_tip_clearance(pinion: GearGeometry, gear: GearGeometry, centre_distance_m: float) -> None:

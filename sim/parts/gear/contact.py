@@ -93,6 +93,20 @@ class ContactGeometry:
         return found
 
 
+def centre_distances_m(pinion: GearGeometry, gear: GearGeometry) -> tuple[float, float]:
+    """Least and largest centre distance at which the teeth work, m; the first is the larger one where none does.
+
+    Below, a tip reaches past the mate's base circle or into its root; above, the contact ratio falls below 1. The
+    length of the line of action, sqrt(a^2 - (Rb1 + Rb2)^2), is at least each tip's tangent length, and at most what the
+    two cover together less a base pitch.
+    """
+    base_m = pinion.base_radius_m + gear.base_radius_m
+    reaches_m = _tangent_length_m(pinion), _tangent_length_m(gear)
+    tips_m = max(pinion.tip_radius_m + gear.root_radius_m, gear.tip_radius_m + pinion.root_radius_m)
+    least_m = max(math.hypot(base_m, max(reaches_m)), tips_m)
+    return least_m, math.hypot(base_m, max(0.0, sum(reaches_m) - pinion.base_pitch_m))
+
+
 def _tangent_length_m(gear: GearGeometry) -> float:
     """Length of the tangent from the tip circle to the base circle, m."""
     return math.sqrt(max(0.0, gear.tip_radius_m**2 - gear.base_radius_m**2))

@@ -8,7 +8,7 @@ import numpy as np
 
 from sim.core.errors import Problem, SpecError
 from sim.parts.gear.beam import beam_compliance
-from sim.parts.gear.checks import check_mates, check_tip_clearance, gear_warnings
+from sim.parts.gear.checks import check_centre_distance, check_mates, check_tip_clearance, gear_warnings
 from sim.parts.gear.contact import ContactGeometry, standard_centre_distance_m
 from sim.parts.gear.foundation import foundation_compliance_m_per_n
 from sim.parts.gear.geometry import GearGeometry
@@ -41,6 +41,8 @@ class GearPair:
             given, message = self.mean_deflection_m, "must be a finite number"
             raise SpecError(Problem(field="mean_deflection_m", message=message, given=given, allowed="> 0", unit="m"))
         check_mates(self.pinion, self.gear)
+        if self.centre_distance_m is not None:
+            check_centre_distance(self.pinion, self.gear, self.centre_distance_m)
         self.contact()
         check_tip_clearance(self.pinion, self.gear, self.installed_m)
 

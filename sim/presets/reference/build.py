@@ -11,7 +11,13 @@ from sim.core.response import FloatArray
 from sim.core.spec import MachineSpec, MeshTable, TermSpec
 from sim.presets.gearbox import GearboxNumbers, gearbox
 from sim.presets.reference.bearings import Entry, entries, merged
-from sim.presets.reference.derive import derived_table, given_table, kinematic_values, mesh_damping
+from sim.presets.reference.derive import (
+    check_a0,
+    derived_table,
+    given_table,
+    kinematic_values,
+    mesh_damping,
+)
 from sim.presets.reference.names import KEYS, checked
 
 
@@ -49,7 +55,8 @@ def reference_machine(
     given = checked(parameters)
     notes: dict[str, str] = {}
     warnings: list[str] = []
-    values = given | kinematic_values(given, notes)
+    values = given | kinematic_values(given, notes, warnings)
+    check_a0(given)
     rolling = _rolling(given, entries(bearings), warnings)
     source = derived_table(given) if table is None or errors is None else given_table(table, errors)
     notes["mesh_table"] = source.said

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from sim.core.errors import Problem, SpecError
 from sim.core.response import FloatArray
 from sim.core.spec import MeshTable
 from sim.parts.gear import GearGeometry, GearPair, total_table
+from sim.parts.gear.checks import check_centre_distance
 from sim.parts.gear.from_spec import BORE_SHARE
 
 YOUNGS_MODULUS_PA = 2.16e11
@@ -33,8 +34,12 @@ class Table:
     warning: str = ""
 
 
-def kinematic_values(p: Mapping[str, float], notes: dict[str, str]) -> dict[str, float]:
-    """fm, fr2, Rb_pin, Rb_ge, a0 and Tout; refused where the file contradicts its own teeth, module and speed."""
+def kinematic_values(p: Mapping[str, float], notes: dict[str, str], warnings: list[str]) -> dict[str, float]:
+    """fm, fr2, Rb_pin, Rb_ge, a0 and Tout; refused where the file contradicts its own teeth, module and speed.
+
+    The equations of the reference solutions have T on the input and -T Rb_ge / Rb_pin on the output, so Tout is no
+    input of its own: one that says something else is warned of, and the balance is what acts.
+    """
     cosine = math.cos(math.radians(p["al"]))
     rules = {
         "fm": (p["z1"] * p["fr1"], "z1 fr1", "Hz"),
@@ -57,10 +62,25 @@ def kinematic_values(p: Mapping[str, float], notes: dict[str, str]) -> dict[str,
     balance = p["T"] * p["z2"] / p["z1"]
     if "Tout" not in p:
         notes["Tout"] = f"derived: {balance:.9g} N m (T Rb_ge / Rb_pin, in balance)"
+    elif abs(p["Tout"] - balance) > AGREEMENT * max(abs(balance), abs(p["Tout"])):
+        warnings.append(
+            f"Tout = {p['Tout']:g} N m is not T Rb_ge / Rb_pin = {balance:.9g} N m; the latter acts on the output "
+            "shaft, as in the equations of the reference solutions"
+        )
     standard = 0.5 * p["m"] * (p["z1"] + p["z2"])
     if "a0" not in p:
         notes["a0"] = f"derived: {standard:.9g} m (m (z1 + z2) / 2)"
-    return values | {"Tout": p.get("Tout", balance), "a0": p.get("a0", standard)}
+    return values | {"Tout": balance, "a0": p.get("a0", standard)}
+
+
+def check_a0(p: Mapping[str, float]) -> None:
+    """SpecError names a0 and the distances at which the teeth work, where a given one is none of them."""
+    if "a0" not in p:
+        return
+    try:
+        check_centre_distance(_geometry(p, "z1"), _geometry(p, "z2"), p["a0"])
+    except SpecError as error:
+        raise SpecError([replace(problem, field="parameters.a0") for problem in error.problems]) from error
 
 
 def _geometry(p: Mapping[str, float], teeth: str) -> GearGeometry:

@@ -8,7 +8,7 @@ import pytest
 
 from app.cli.choice import changed, parse_set, read_machine
 from sim.core.errors import SpecError
-from sim.core.spec import TorqueLoad
+from sim.core.spec import RampSpeed, TorqueLoad
 from sim.presets import preset
 
 
@@ -19,7 +19,19 @@ def test_values_are_json_or_text() -> None:
         "d": "printed",
         "e": None,
     }
-    assert parse_set(["speed_hz=20"]) == {"operating.speed_hz": 20}
+    assert parse_set(['profile={"kind": "ramp", "end_ratio": 2}']) == {"profile": {"kind": "ramp", "end_ratio": 2}}
+
+
+def test_a_broken_object_is_told_where_it_breaks() -> None:
+    with pytest.raises(SpecError, match=r"--set profile: is not readable JSON.*line 1"):
+        parse_set(['profile={"kind": "ramp"'])
+
+
+def test_a_speed_profile_is_given_as_plainly_as_any_value() -> None:
+    whole = changed(preset("paper"), parse_set(['profile={"kind": "ramp", "end_ratio": 2, "duration_s": 1}']))
+    single = parse_set(["profile.kind=ramp", "profile.end_ratio=2", "profile.duration_s=1"])
+    assert changed(preset("paper"), single) == whole
+    assert whole.operating is not None and whole.operating.profile == RampSpeed(end_ratio=2.0, duration_s=1.0)
 
 
 @pytest.mark.parametrize("text", ["gap", "=3", ""])
@@ -28,9 +40,12 @@ def test_what_is_not_key_value_is_refused(text: str) -> None:
         parse_set([text])
 
 
-def test_a_key_given_twice_is_refused() -> None:
-    with pytest.raises(SpecError, match="twice"):
-        parse_set(["speed_hz=20", "operating.speed_hz=30"])
+@pytest.mark.parametrize(
+    "items", [("speed_hz=20", "operating.speed_hz=30"), ("speed_hz=20", "speed_hz=20"), ("torque=3", "torque_nm=3")]
+)
+def test_a_key_given_twice_is_refused(items: tuple[str, ...]) -> None:
+    with pytest.raises(SpecError, match=r"--set (speed_hz|torque): is given twice"):
+        changed(preset("paper"), parse_set(items))
 
 
 def test_a_term_is_changed_or_added() -> None:
@@ -41,15 +56,18 @@ def test_a_term_is_changed_or_added() -> None:
     assert found["unbalance", "gear"] == {"moment": 1e-4}
 
 
-def test_torque_is_the_driven_shafts_and_scales_a_given_output() -> None:
+@pytest.mark.parametrize("name", ["torque_nm", "torque"])
+def test_torque_is_the_driven_shafts_and_scales_a_given_output(name: str) -> None:
     machine = preset("paper").model_copy(
         update={"loads": [TorqueLoad(shaft="input", torque_nm=23.0), TorqueLoad(shaft="output", torque_nm=-81.0)]}
     )
-    loads = changed(machine, {"torque": 46.0}).loads
+    loads = changed(machine, {name: 46.0}).loads
     assert [load.torque_nm for load in loads if isinstance(load, TorqueLoad)] == [46.0, -162.0]
 
 
-@pytest.mark.parametrize(("key", "value"), [("torque", "x"), ("torque", 1e9), ("speed", 3), ("operating.speed_hz", -1)])
+@pytest.mark.parametrize(
+    ("key", "value"), [("torque", "x"), ("torque_nm", 1e9), ("speed", 3), ("operating.speed_hz", -1)]
+)
 def test_wrong_changes_are_refused(key: str, value: object) -> None:
     with pytest.raises(SpecError):
         changed(preset("paper"), {key: value})

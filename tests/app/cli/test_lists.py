@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 
+from signals.sensors import PRESETS
 from sim.core.spec import MachineSpec
 from sim.parts.bearing import catalogue
 from sim.presets import names, preset
@@ -36,6 +37,16 @@ def test_bearings(call: Call) -> None:
     # Case Western Reserve University prints 3.5848 for this bearing.
     assert abs(one["orders"]["bpfo"] - 3.5848) < 1e-3
     assert "source" in call("bearings", "6205")[1]
+
+
+def test_sensors(call: Call) -> None:
+    listed = json.loads(call("sensors", "--json")[1])
+    assert [row["name"] for row in listed["presets"]] == list(PRESETS)
+    assert all(name in call("sensors")[1] for name in PRESETS)
+    assert json.loads(call("sensors", "icp-magnet", "--json")[1])["stages"]["converter"]["bits"] == 24
+    assert "mounting" in call("sensors", "icp-magnet")[1] and "source" in call("sensors", "icp-magnet")[1]
+    code, _, error = call("sensors", "nose")
+    assert code == 2 and "icp-magnet" in error
 
 
 def test_mesh_of_the_paper(call: Call) -> None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import argparse
 import json
+import shlex
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -11,6 +13,7 @@ import numpy as np
 import pytest
 
 from app.cli.result import FILES, FURTHER
+from app.cli.simulate import configure, repeating
 from jobs.physics import PhysicsEngine
 from jobs.request import DEFAULT_RATE_HZ, SimulationRequest
 
@@ -71,6 +74,45 @@ def test_the_written_machine_gives_the_same_signals(call: Call, tmp_path: Path) 
     with np.load(tmp_path / "a" / "signals.npz") as a, np.load(tmp_path / "b" / "signals.npz") as b:
         assert set(a.files) == {"pinion.y.displacement", "mesh1.force", "time_s", "sampling_rate_hz"}
         np.testing.assert_array_equal(a["mesh1.force"], b["mesh1.force"])
+
+
+def test_the_command_told_at_the_end_repeats_everything(call: Call, tmp_path: Path) -> None:
+    """Duration, rate, seed, channels, transient, sensors: the machine's file alone does not have them."""
+    chain = {"channels": [{"kind": "accelerometer", "name": "acc", "preset": "icp-magnet"}]}
+    chain["channels"][0]["place"] = {"location": "mass", "direction_deg": 90}  # type: ignore[assignment]
+    (tmp_path / "my chain.json").write_text(json.dumps(chain))
+    own = ("--duration", "0.07", "--rate", "25000", "--seed", "5", "--keep-transient")
+    own += ("--sensors", tmp_path / "my chain.json", "--keep-raw", "--set", "bodies.mass.mass_kg=2")
+    code, _, error = call("simulate", "--preset", "oscillator", *own, "--out", tmp_path / "a b")
+    assert code == 0, error
+    (line,) = (line for line in error.splitlines() if line.startswith("repeat with: "))
+    program, *words = shlex.split(line.removeprefix("repeat with: "))
+    assert program == "sideband"
+    assert json.loads((tmp_path / "a b" / "summary.json").read_text())["request"]["repeat"] in line
+    assert call(*words, "--quiet")[0] == 0
+    for name in ("signals.npz", "raw.npz"):
+        with np.load(tmp_path / "a b" / name) as one, np.load(tmp_path / "a b-again" / name) as other:
+            assert one.files == other.files
+            for key in one.files:
+                np.testing.assert_array_equal(one[key], other[key])
+
+
+def test_channels_and_causes_are_in_the_command(tmp_path: Path) -> None:
+    parser = argparse.ArgumentParser()
+    configure(parser)
+    given = ["--channels", "pinion.y.displacement,mesh1.force", "gear.y.displacement", "--causes", "--duration", "0.1"]
+    request = SimulationRequest(preset="paper", causes=True, duration_s=0.1)
+    words = shlex.split(repeating(parser.parse_args(given), request, tmp_path))
+    assert words[words.index("--channels") + 1] == "pinion.y.displacement,mesh1.force,gear.y.displacement"
+    assert "--causes" in words and words[words.index("--duration") + 1] == "0.1"
+
+
+def test_all_wrong_options_are_told_together(call: Call, tmp_path: Path) -> None:
+    wrong = ("--duration", "-1", "--seed", "-1", "--set", "gears.pinion.teeth=3", "--set", "gears.pinon.teeth=30")
+    code, _, error = call("simulate", *wrong, "--out", tmp_path / "r")
+    named = ("--duration", "--seed", "--set gears.pinion.teeth", "--set gears.pinon.teeth")
+    assert code == 2 and error.count("\n") == 4
+    assert all(f"error: {name}: " in error for name in named)
 
 
 def test_nothing_is_overwritten_without_force(call: Call, tmp_path: Path) -> None:

@@ -58,6 +58,21 @@ def test_a_wrong_parameter_is_found(call: Call, reference: Path, tmp_path: Path)
     assert call("verify", tmp_path)[0] == 1
 
 
+def test_torques_are_those_of_the_reference_equations(call: Call, reference: Path, tmp_path: Path) -> None:
+    """Tout repeats T Rb_ge / Rb_pin: another T is another machine, another Tout is a warning."""
+    path = _copy(reference, tmp_path, HEALTHY)
+    parameters = json.loads(path.read_text())
+    path.write_text(json.dumps(parameters | {"Tout": 0.5 * parameters["Tout"], "gravity": 9.81}))
+    code, out, error = call("verify", tmp_path, "--json")
+    assert code == 0, out + error
+    assert "warning: lightly_damped_healthy: Tout = " in error and "gravity is in the file but not in" in error
+    assert len(json.loads(out)["files"][0]["warnings"]) == 2
+    path.write_text(json.dumps(parameters | {"T": 2.0 * parameters["T"]}))
+    code, out, error = call("verify", tmp_path, "--json")
+    assert code == 1 and json.loads(out)["files"][0]["error"] > 0.1, "the solution is that of half this torque"
+    assert "is not T Rb_ge / Rb_pin" in error and "error" not in error
+
+
 def test_other_names_in_the_file_are_the_same_machine(call: Call, reference: Path, tmp_path: Path) -> None:
     """The wrapped form, and without the values that follow from the others."""
     path = _copy(reference, tmp_path, HEALTHY)

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from sim.core.errors import SpecError
 from sim.parts.gear import ContactGeometry, GearGeometry, GearPair, standard_centre_distance_m
+from sim.parts.gear.contact import centre_distances_m
 
 
 def gear(teeth: int, shift: float = 0.0, addendum: float = 1.0) -> GearGeometry:
@@ -74,9 +75,8 @@ def test_standard_distance_with_profile_shift() -> None:
         (gear(80), gear(12), None, "interference: the tip of the pinion"),
         (gear(30, addendum=0.4), gear(30, addendum=0.4), None, "contact ratio below 1"),
         (gear(30), gear(30), 0.0640, "contact ratio below 1"),
-        (gear(30), gear(30), 0.05, "base circles overlap"),
-        (gear(30), gear(30), 0.0594, "reaches into the mate's root circle"),
-        (gear(30), gear(30), float("nan"), "base circles overlap"),
+        (gear(30), gear(30), 0.05, "too small: the teeth reach into each other"),
+        (gear(30), gear(30), 0.0594, "too small: the teeth reach into each other"),
     ],
 )
 def test_pairs_that_cannot_work(
@@ -85,6 +85,24 @@ def test_pairs_that_cannot_work(
     """Interference, contact ratio below 1, impossible distances."""
     with pytest.raises(SpecError, match=message):
         GearPair(pinion=pinion, gear=wheel, centre_distance_m=distance_m)
+
+
+@pytest.mark.parametrize(("z1", "z2"), [(23, 81), (30, 30), (18, 60)])
+def test_the_distances_that_work_are_told_and_work(z1: int, z2: int) -> None:
+    """Within the bounds the pair is legal, a micrometre beyond it is not; the message has them, rounded inwards."""
+    one, two = gear(z1), gear(z2)
+    least, most = centre_distances_m(one, two)
+    assert least < standard_centre_distance_m(one, two) < most
+    widest = GearPair(pinion=one, gear=two, centre_distance_m=most - 1e-9)
+    assert widest.contact().contact_ratio == pytest.approx(1.0, abs=1e-5)
+    GearPair(pinion=one, gear=two, centre_distance_m=least + 1e-9)
+    for distance in (least - 1e-6, most + 1e-6, 1e-320, 1.0):
+        with pytest.raises(SpecError) as caught:
+            GearPair(pinion=one, gear=two, centre_distance_m=distance)
+        (problem,) = caught.value.problems
+        low, high = map(float, problem.allowed.split(" to "))
+        assert (problem.field, problem.unit) == ("centre_distance_m", "m")
+        assert least <= low <= least + 1e-7 and most - 1e-7 <= high <= most
 
 
 def test_unequal_modules_are_refused() -> None:

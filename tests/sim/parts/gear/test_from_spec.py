@@ -40,7 +40,7 @@ def test_pair_with_its_distance() -> None:
         (PINION.model_copy(update={"profile_shift_coefficient": 1.5}), MESH, "gears.sun.profile_shift_coefficient"),
         (PINION.model_copy(update={"bore_radius_m": 0.5}), MESH, "gears.sun.bore_radius_m"),
         (PINION.model_copy(update={"module_m": 3e-3}), MESH, "gears.wheel.module_m"),
-        (PINION, MESH.model_copy(update={"centre_distance_m": 0.5}), "meshes.mesh1.contact_ratio"),
+        (PINION, MESH.model_copy(update={"centre_distance_m": 0.5}), "meshes.mesh1.centre_distance_m"),
         (PINION, MESH.model_copy(update={"centre_distance_m": 0.09}), "meshes.mesh1.centre_distance_m"),
         (PINION.model_copy(update={"teeth": 10}), MESH, "gears.wheel.teeth"),
     ],

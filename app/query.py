@@ -1,0 +1,51 @@
+"""Query parameters that an address does not have are refused: a misspelled one would silently change nothing."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator
+
+from fastapi import Request
+from fastapi.dependencies.models import Dependant
+from fastapi.exceptions import RequestValidationError
+from fastapi.routing import APIRoute
+
+NONE = "none: this address has no query parameters"
+
+
+async def only_known_query(request: Request) -> None:
+    """Raise RequestValidationError (422) naming each unknown query parameter and those there are.
+
+    A dependency of the whole application: what a route knows is read from its own declaration.
+    """
+    if not request.query_params:
+        return
+    known = query_names(request.scope.get("route"))
+    unknown = [name for name in dict.fromkeys(request.query_params) if name not in known]
+    if unknown:
+        raise RequestValidationError([_told(name, known, request.query_params[name]) for name in unknown])
+
+
+def query_names(route: object) -> tuple[str, ...]:
+    """Names of the query parameters that a route declares."""
+    if not isinstance(route, APIRoute):
+        return ()
+    return tuple(_declared(route.dependant))
+
+
+def _declared(dependant: Dependant) -> Iterator[str]:
+    yield from (field.alias for field in dependant.query_params)
+    for inner in dependant.dependencies:
+        yield from _declared(inner)
+
+
+def _told(name: str, known: tuple[str, ...], given: str) -> dict[str, object]:
+    near = difflib.get_close_matches(name, known, n=1)
+    hint = f" (did you mean {near[0]}?)" if near else ""
+    return {
+        "type": "unknown_query",
+        "loc": ("query", name[:120]),
+        "msg": f"is not a query parameter of this address{hint}",
+        "input": given,
+        "ctx": {"expected": ", ".join(known) or NONE},
+    }
