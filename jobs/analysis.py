@@ -11,7 +11,7 @@ from dataclasses import asdict, replace
 import numpy as np
 
 from jobs.documents import ResultDocuments, SpectrumDocument
-from jobs.labelling import MIN_SAMPLES, REFERENCE, Predicted, label_channel, moves, no_labels
+from jobs.labelling import LABELLED, MIN_SAMPLES, REFERENCE, Predicted, label_channel, moves, no_labels
 from jobs.stretch import at_stretch, turned_angle_rad
 from signals.export import features_document
 from signals.features import features
@@ -28,8 +28,6 @@ from sim.core.speed import mean_ratio, warped_times
 MIN_REVOLUTIONS = 2.0
 SLOWEST = 0.05
 """Share of the nominal speed below which a changing speed has no order spectrum: its step in angle would be endless."""
-LABELLED = ("acceleration", "angular_acceleration")
-"""Quantities labelled with the result, the best first."""
 VIBRATION = (*LABELLED, "velocity", "displacement", "angular_velocity", "angular_displacement")
 PSD_SEGMENTS = 8
 

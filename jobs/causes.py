@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from jobs.counterfactuals import Effect, active_terms, base_excitations, idle_terms, without
-from jobs.labelling import Predicted, label_sets
+from jobs.labelling import LABELLED, Predicted, label_sets
 from jobs.request import SimulationRequest
 from jobs.stretch import at_stretch
 from signals.floor import noise_floor
@@ -135,8 +135,8 @@ def _targets(response: Response, start_s: float) -> tuple[Target, ...]:
     recording = from_response(response).select(start_s=start_s)
     known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz)
     found: list[Target] = []
-    accelerations = [c.name for c in recording.channels if c.quantity == "acceleration"]
-    names = [n for n in accelerations if np.isfinite(recording.samples[recording.names.index(n)]).all()]
+    ranked = [c.name for quantity in LABELLED for c in recording.channels if c.quantity == quantity]
+    names = [n for n in ranked if np.isfinite(recording.samples[recording.names.index(n)]).all()]
     for name in names[:MAX_CHANNELS]:
         sets = label_sets(recording.series(name), known)
         if sets is None:

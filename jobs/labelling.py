@@ -20,6 +20,8 @@ from sim.assembly.assemble import assemble
 from sim.core.spec import MachineSpec
 
 REFERENCE = "f_r1"
+LABELLED = ("acceleration", "angular_acceleration")
+"""Quantities whose lines are labelled, the best first."""
 MIN_SAMPLES = 256
 
 
