@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from jobs.analysis import analysed_from
-from jobs.causes import find_causes, further_runs, plan_causes, with_causes
+from jobs.cause_plan import further_runs, plan_causes
+from jobs.causes import find_causes, with_causes
 from jobs.documents import Json, ResultDocuments
 from jobs.impacts import contact_outputs, impacts_document, impacts_summary, narrowed
 from jobs.ports import Engine
