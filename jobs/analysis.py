@@ -44,6 +44,7 @@ def analyse(response: Response, *, discard_transient: bool) -> ResultDocuments:
     spectra: list[SpectrumDocument] = []
     for channel in moving:
         spectra += [_document(s) for s in channel_spectra(recording.series(channel.name), channel, response)]
+    notes = [*notes, *_open_contacts(response)]
     peaks = _labels(response, recording)
     if "reason" in peaks:
         notes = [*notes, f"no labels: {peaks['reason']}"]
@@ -60,6 +61,12 @@ def _labels(response: Response, recording: Recording) -> dict[str, object]:
         return no_labels(response.bases_hz, "no acceleration was recorded; ask for one, or for `all` channels")
     known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz)
     return label_channel(recording.series(whole[0].name), known)
+
+
+def _open_contacts(response: Response) -> list[str]:
+    """A sentence for each contact that stayed open: what it was put in for did not happen."""
+    advice = "a smaller gap, more load or more vibration would close it"
+    return [f"{name} was never in contact: {advice}" for name, share in response.contact_share.items() if share == 0]
 
 
 def _finite(recording: Recording, channel: Channel) -> bool:
