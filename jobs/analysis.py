@@ -59,7 +59,8 @@ def _labels(response: Response, recording: Recording) -> dict[str, object]:
         return no_labels(response.bases_hz, "samples are missing in every channel that could be labelled")
     if not ranked:
         return no_labels(response.bases_hz, "no acceleration was recorded; ask for one, or for `all` channels")
-    known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz)
+    step_s = response.quality.step_s
+    known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz, step_s=step_s)
     return label_channel(recording.series(whole[0].name), known)
 
 

@@ -27,6 +27,7 @@ from signals.labels.cause import (
     shares,
     split,
 )
+from signals.labels.images import FAMILY as NUMERICAL
 from signals.labels.types import LabelledPeak, LabelSet
 from signals.recording import Recording, from_response
 from signals.series import FloatArray
@@ -90,7 +91,8 @@ def find_causes(response: Response, plan: Plan, run: Run, *, start_s: float) -> 
 def _targets(response: Response, start_s: float) -> tuple[Target, ...]:
     response = at_stretch(response, start_s)
     recording = from_response(response).select(start_s=start_s)
-    known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz)
+    step_s = response.quality.step_s
+    known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz, step_s=step_s)
     found: list[Target] = []
     ranked = [c.name for quantity in LABELLED for c in recording.channels if c.quantity == quantity]
     names = [n for n in ranked if np.isfinite(recording.samples[recording.names.index(n)]).all()]
@@ -99,7 +101,7 @@ def _targets(response: Response, start_s: float) -> tuple[Target, ...]:
         if sets is None:
             continue
         for spectrum, labels in (("amplitude", sets.amplitude), ("envelope", sets.envelope)):
-            peaks = tuple(p for p in labels.peaks if p.label and p.amplitude)
+            peaks = tuple(p for p in labels.peaks if p.label and p.amplitude and p.family != NUMERICAL)
             found.append(Target(channel=name, spectrum=spectrum, labels=labels, peaks=peaks))
     return tuple(found)
 
