@@ -153,10 +153,13 @@ def carriers(
     sites: dict[int, list[tuple[str, str]]] = {}
     for bearing in kinematics.bearings:
         base = bearing.base("o")
-        if base in bases_hz and frozenset({base}) in told:
+        if base in bases_hz:
             sites.setdefault(round(bases_hz[base] * 1e6), []).append((base, bearing.site))
-    balls = tuple(made(found[0][0], tuple(site for _, site in found), "outer") for found in sites.values())
-    return meshes, balls
+    balls = []
+    for found in sites.values():
+        known = [base for base, _ in found if frozenset({base}) in told]
+        balls += [made(known[0], tuple(site for _, site in found), "outer")] if known else []
+    return meshes, tuple(balls)
 
 
 def _grid(carrier: Carrier | None, chosen: tuple[Modulator, ...], bases_hz: Mapping[str, float], top_hz: float) -> Grid:

@@ -16,7 +16,7 @@ from signals.labels.combinations import RANK_STEP, Carrier, Grid, Modulator
 STEP_BASE = "f_s"
 FAMILY = "numerical"
 MECHANISM = "step_image"
-MAX_FOLDS = 12
+MAX_FOLDS = 24
 """Largest multiple of the step rate looked at."""
 RANK = 3 * RANK_STEP
 """Beyond all combinations: a line of the machine is the simpler explanation."""

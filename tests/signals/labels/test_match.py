@@ -53,7 +53,7 @@ def test_predicted_lines_that_are_not_there_are_absent_with_a_limit() -> None:
     assert sideband.detection_limit == pytest.approx(3.7 * 1.73e-5, rel=0.3)
     assert sideband.masked_by is None
     # a line of twice the limit is indeed found
-    assert labelled({690.0: 1.0, 720.0: 2 * (sideband.detection_limit or 0)})["1*f_m+1*f_r1"].status == "present"
+    assert labelled({690.0: 1.0, 720.0: 2 * (sideband.detection_limit or 0)})["1*f_m+1*f_r1"].amplitude
 
 
 def test_found_lines_nobody_predicts_are_unexplained() -> None:
@@ -153,7 +153,9 @@ def test_identical_sums_are_never_ambiguous() -> None:
     assert tied["22*f_r1"].status == "present"
     assert "input" in tied["22*f_r1"].components
     untied = label_peaks(spectrum, lines, BASES, bound=Bound(ambiguity_weight=30))
-    assert untied["1*f_m-1*f_r1"].status == "ambiguous"  # without the ties only the numbers are known
+    # without the ties only the numbers are known, and that no lower multiple of the shaft is there
+    assert (untied["22*f_r1"].status, untied["22*f_r1"].alternatives) == ("ambiguous", ("1*f_m-1*f_r1",))
+    assert untied["1*f_m-1*f_r1"].status == "present"
 
 
 def test_a_shifted_speed_is_met_with_a_relative_tolerance() -> None:
@@ -242,7 +244,8 @@ def test_every_predicted_line_has_one_entry_and_every_peak_an_owner(lines: dict[
     for peak in found.peaks:
         assert (peak.amplitude is None) == (peak.status in ("absent", "above_nyquist"))
         assert (peak.detection_limit is not None) == (peak.status == "absent")
-        assert bool(peak.alternatives) == (peak.status == "ambiguous")
+        assert (bool(peak.alternatives) or peak.evidence == "chance") == (peak.status == "ambiguous")
+        assert bool(peak.evidence) == (peak.status in ("present", "ambiguous"))
     owned = {p.measured_frequency_hz for p in found.peaks if p.amplitude is not None}
     assert len(owned) == found.found - found.truncated
 
