@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from signals.floor import FloorSettings
 from signals.labels.canonical import Candidate, inside, merge_lines
 from signals.labels.entries import Scene, labelled
 from signals.labels.evidence import Evidence, Word
@@ -22,10 +23,11 @@ from signals.series import BoolArray
 
 @dataclass(frozen=True, kw_only=True)
 class Setting:
-    """What decides whether a sum explains a peak."""
+    """What decides whether there is a peak and whether a sum explains it."""
 
     matching: Matching
     bound: Bound
+    floor: FloorSettings
 
 
 @dataclass(frozen=True, kw_only=True)

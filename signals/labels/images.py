@@ -23,12 +23,18 @@ RANK = 3 * RANK_STEP
 
 
 def image_grids(
-    carriers: Sequence[Carrier], bases_hz: Mapping[str, float], *, step_hz: float, top_hz: float
+    carriers: Sequence[Carrier], bases_hz: Mapping[str, float], *, step_hz: float, top_hz: float, resolution_hz: float
 ) -> Iterator[Grid]:
-    """Images of every carrier's harmonics below `top_hz`, at the step rate `step_hz`."""
+    """Images of every carrier's harmonics below `top_hz`, at the step rate `step_hz`.
+
+    Every multiple of the step rate adds two images a carrier's frequency; beyond one in four bins they prove nothing.
+    """
     for carrier in carriers:
         hz = bases_hz[carrier.base]
-        folds = [m * step_hz for m in range(1, MAX_FOLDS + 1)]
+        most = min(MAX_FOLDS, int(hz / (8 * resolution_hz)))
+        if most == 0:
+            continue
+        folds = [m * step_hz for m in range(1, most + 1)]
         numbers = [np.arange(np.ceil((f - top_hz) / hz), np.floor((f + top_hz) / hz) + 1) for f in folds]
         rows = [np.stack([n, np.full_like(n, -m)], axis=1) for m, n in enumerate(numbers, start=1)]
         orders = np.concatenate(rows).astype(np.int64)

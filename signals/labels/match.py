@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from signals.floor import Floor, FloorSettings, noise_floor
+from signals.floor import FloorSettings, noise_floor
 from signals.labels.canonical import Candidate, inside, merge_lines
 from signals.labels.combinations import Grid, carriers, grids
 from signals.labels.entries import Scene, above_nyquist, labelled, unexplained
@@ -51,24 +51,18 @@ def label_peaks(
     """
     spectrum.amplitude_factor("peak")  # refuses densities
     _check_bases(lines, bases_hz, reference)
-    settings = floor or FloorSettings()
-    setting = Setting(matching=matching or Matching(), bound=bound or Bound())
+    setting = Setting(matching=matching or Matching(), bound=bound or Bound(), floor=floor or FloorSettings())
     every = merge_lines(lines, bases_hz, kinematics)
-    candidates = inside(every, spectrum)
-    noise = noise_floor(spectrum, settings, np.array([c.frequency_hz for c in candidates]))
-    if step_hz is not None:
-        bases_hz = {**bases_hz, STEP_BASE: step_hz}
-    known = Known(lines=lines, bases_hz=bases_hz, kinematics=kinematics)
-    scene = _scene(spectrum, noise, candidates, bases_hz[reference], setting, known)
-    further = _further(scene, known, setting)
-    scene, entries = further.scene, further.entries
-    entries += [labelled(scene, i, candidate) for i, candidate in enumerate(candidates)]
-    entries += [above_nyquist(scene, candidate) for candidate in _beyond(every, spectrum)]
+    known = _known(lines, bases_hz, kinematics, step_hz, spectrum)
+    further = _further(_scene(spectrum, inside(every, spectrum), bases_hz[reference], setting, known), known, setting)
+    scene = further.scene
     rest = scene.found.part(further.nameless)
     strangers = _strangers(scene, rest, max_unexplained)
-    entries += strangers
+    entries = [*further.entries, *strangers]
+    entries += [labelled(scene, i, candidate) for i, candidate in enumerate(scene.meeting.candidates)]
+    entries += [above_nyquist(scene, candidate) for candidate in _beyond(every, spectrum)]
     return LabelSet(
-        frequencies_hz=dict(bases_hz),
+        frequencies_hz=dict(known.bases_hz),
         reference=reference,
         peaks=tuple(sorted(entries, key=lambda p: (p.frequency_hz, p.label))),
         channel=spectrum.channel,
@@ -79,7 +73,7 @@ def label_peaks(
         resolution_hz=spectrum.resolution_hz,
         bound=setting.bound,
         matching=setting.matching,
-        floor=settings,
+        floor=setting.floor,
         found=scene.found.amplitude.size,
         unexplained=rest.amplitude.size,
         truncated=rest.amplitude.size - len(strangers),
@@ -95,29 +89,34 @@ class Known:
     lines: Sequence[Line]
     bases_hz: Mapping[str, float]
     kinematics: Kinematics | None
+    images: Sequence[Grid] = ()
+    """Lines that the steps of the simulation make, if it is one."""
 
-    def images(self, top_hz: float) -> Sequence[Grid]:
-        """Lines that the steps of the simulation make, if it is one."""
-        if self.kinematics is None or STEP_BASE not in self.bases_hz:
-            return ()
-        meshes, balls = carriers(self.kinematics, self.bases_hz, self.lines)
-        step_hz = self.bases_hz[STEP_BASE]
-        return tuple(image_grids((*meshes, *balls), self.bases_hz, step_hz=step_hz, top_hz=top_hz))
+
+def _known(
+    lines: Sequence[Line],
+    bases_hz: Mapping[str, float],
+    kinematics: Kinematics | None,
+    step_hz: float | None,
+    spectrum: Spectrum,
+) -> Known:
+    if kinematics is None or step_hz is None:
+        return Known(lines=lines, bases_hz=bases_hz, kinematics=kinematics)
+    meshes, balls = carriers(kinematics, bases_hz, lines)
+    top, resolution = float(spectrum.frequency_hz[-1]), spectrum.resolution_hz
+    images = tuple(image_grids((*meshes, *balls), bases_hz, step_hz=step_hz, top_hz=top, resolution_hz=resolution))
+    return Known(lines=lines, bases_hz={**bases_hz, STEP_BASE: step_hz}, kinematics=kinematics, images=images)
 
 
 def _scene(
-    spectrum: Spectrum,
-    noise: Floor,
-    candidates: tuple[Candidate, ...],
-    unit_hz: float,
-    setting: Setting,
-    known: Known,
+    spectrum: Spectrum, candidates: tuple[Candidate, ...], unit_hz: float, setting: Setting, known: Known
 ) -> Scene:
     """The peaks of a spectrum, the lines they meet, and what speaks for each."""
+    noise = noise_floor(spectrum, setting.floor, np.array([c.frequency_hz for c in candidates]))
     found, step, near = find_peaks(spectrum, noise), spectrum.resolution_hz, setting.matching
     meeting = meet(candidates, found, step, near, setting.bound)
     reach, top = reach_hz(found, step, near), float(spectrum.frequency_hz[-1])
-    folded = gather(known.images(top))
+    folded = gather(known.images)
     owners, _ = explained_by(folded, found.frequency_hz, reach, resolution_hz=step, max_chance=near.max_chance)
     doubtful = np.array([bool(o) for o in owners], dtype=np.bool_)
     evidence = weigh(meeting, found, reach, resolution_hz=step, top_hz=top, matching=near, doubtful=doubtful)
@@ -132,7 +131,7 @@ def _further(scene: Scene, known: Known, setting: Setting) -> Further:
         return Further(entries=[], scene=scene, nameless=nameless, present=0.0, named=0.0)
     top = float(scene.spectrum.frequency_hz[-1])
     products = grids(kinematics, bases_hz, known.lines, top_hz=top, bound=setting.bound)
-    return combine(scene, gather([*products, *known.images(top)]), kinematics, bases_hz, setting)
+    return combine(scene, gather([*products, *known.images]), kinematics, bases_hz, setting)
 
 
 def _false_match(scene: Scene, further: Further, near: Matching) -> FalseMatch:
