@@ -11,7 +11,7 @@ from dataclasses import asdict, replace
 import numpy as np
 
 from jobs.documents import ResultDocuments, SpectrumDocument
-from jobs.labelling import MIN_SAMPLES, REFERENCE, Predicted, label_channel, moves, no_labels
+from jobs.labelling import LABELLED, MIN_SAMPLES, REFERENCE, Predicted, label_channel, moves, no_labels
 from jobs.stretch import at_stretch, turned_angle_rad
 from signals.export import features_document
 from signals.features import features
@@ -28,8 +28,6 @@ from sim.core.speed import mean_ratio, warped_times
 MIN_REVOLUTIONS = 2.0
 SLOWEST = 0.05
 """Share of the nominal speed below which a changing speed has no order spectrum: its step in angle would be endless."""
-LABELLED = ("acceleration", "angular_acceleration")
-"""Quantities labelled with the result, the best first."""
 VIBRATION = (*LABELLED, "velocity", "displacement", "angular_velocity", "angular_displacement")
 PSD_SEGMENTS = 8
 
@@ -46,6 +44,7 @@ def analyse(response: Response, *, discard_transient: bool) -> ResultDocuments:
     spectra: list[SpectrumDocument] = []
     for channel in moving:
         spectra += [_document(s) for s in channel_spectra(recording.series(channel.name), channel, response)]
+    notes = [*notes, *_open_contacts(response)]
     peaks = _labels(response, recording)
     if "reason" in peaks:
         notes = [*notes, f"no labels: {peaks['reason']}"]
@@ -60,8 +59,15 @@ def _labels(response: Response, recording: Recording) -> dict[str, object]:
         return no_labels(response.bases_hz, "samples are missing in every channel that could be labelled")
     if not ranked:
         return no_labels(response.bases_hz, "no acceleration was recorded; ask for one, or for `all` channels")
-    known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz)
+    step_s = response.quality.step_s
+    known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz, step_s=step_s)
     return label_channel(recording.series(whole[0].name), known)
+
+
+def _open_contacts(response: Response) -> list[str]:
+    """A sentence for each contact that stayed open: what it was put in for did not happen."""
+    advice = "a smaller gap, more load or more vibration would close it"
+    return [f"{name} was never in contact: {advice}" for name, share in response.contact_share.items() if share == 0]
 
 
 def _finite(recording: Recording, channel: Channel) -> bool:

@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from jobs.analysis import analysed_from
-from jobs.causes import find_causes, further_runs, plan_causes, with_causes
+from jobs.cause_plan import further_runs, plan_causes
+from jobs.causes import find_causes, with_causes
 from jobs.documents import Json, ResultDocuments
 from jobs.impacts import contact_outputs, impacts_document, impacts_summary, narrowed
 from jobs.ports import Engine
@@ -41,7 +42,7 @@ def carry_out(
     total = 1 + further_runs(machine, request)
     done = 0
 
-    def run(variant: MachineSpec, channels: list[str] | None) -> Response:
+    def run(variant: MachineSpec, channels: list[str] | None, *, twin: bool = False) -> Response:
         nonlocal done
         first = done
         response = engine.simulate(
@@ -52,6 +53,8 @@ def carry_out(
             seed=request.seed,
             progress=lambda share: progress((first + share) / total),
             cancelled=cancelled,
+            # the run itself says how good the step is; its twins have the same
+            estimate_error=not twin,
         )
         done += 1
         return response
@@ -67,7 +70,7 @@ def carry_out(
     causes = find_causes(
         sensed_response(response, request)[0],
         plan_causes(machine),
-        lambda twin: sensed_response(run(twin, list(wanted)), request)[0],
+        lambda twin: sensed_response(run(twin, list(wanted), twin=True), request)[0],
         start_s=start_s,
     )
     return _outcome(response, {CAUSES: causes, **_impacts(whole, response, request)}, request)

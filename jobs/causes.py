@@ -12,56 +12,37 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from jobs.counterfactuals import Effect, active_terms, base_excitations, idle_terms, without
-from jobs.labelling import Predicted, label_sets
-from jobs.request import SimulationRequest
+from jobs.cause_plan import Plan
+from jobs.counterfactuals import PREDICTED, Effect, predicted_part, without
+from jobs.labelling import LABELLED, Predicted, label_sets
 from jobs.stretch import at_stretch
 from signals.floor import noise_floor
 from signals.labels.cause import (
     Cause,
     Coalition,
     Reading,
-    Rule,
-    coalitions,
     places_hz,
     read_lines,
     removed_db,
     shares,
     split,
 )
+from signals.labels.images import FAMILY as NUMERICAL
 from signals.labels.types import LabelledPeak, LabelSet
 from signals.recording import Recording, from_response
 from signals.series import FloatArray
 from signals.spectra.amplitude import amplitude_spectrum
 from signals.spectra.envelope import envelope_spectrum
-from sim.core.errors import Problem, SpecError
 from sim.core.response import Response
 from sim.core.spec import MachineSpec
 
 Run = Callable[[MachineSpec], Response]
 Spectrum = str
-MAX_RUNS = 32
 MAX_CHANNELS = 12
+SHOWN = 0.5
+"""Share from which an effect is called the mechanism of a line."""
 LEAST_SHARE = 0.005
 """Parts of the base machine below this are not listed; terms always are."""
-BASE = Effect(term="base_machine", site="", counterfactual="removed")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Plan:
-    """What has to be run. `left_out`: excitations of the base machine there is no room for."""
-
-    effects: tuple[Effect, ...]
-    idle: tuple[Effect, ...]
-    rule: Rule
-    coalitions: tuple[Coalition, ...]
-    excitations: tuple[Effect, ...]
-    left_out: tuple[Effect, ...]
-
-    @property
-    def runs(self) -> int:
-        """Counterfactual runs, beside the run itself."""
-        return len(self.coalitions) + len(self.excitations)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,36 +62,12 @@ class Target:
 
 @dataclass(kw_only=True)
 class _Ledger:
-    """What the runs gave, by target: amplitudes of coalitions and of the base machine without each excitation."""
+    """What the runs gave, by target: amplitudes of coalitions and of the base machine without some excitations."""
 
     targets: tuple[Target, ...]
     acting: dict[Coalition, list[Reading]] = field(default_factory=dict)
-    lacking: list[list[Reading]] = field(default_factory=list)
+    lacking: dict[Coalition, list[Reading]] = field(default_factory=dict)
     steps: list[int] = field(default_factory=list)
-
-
-def plan_causes(machine: MachineSpec) -> Plan:
-    """Runs that a machine's causes take; SpecError when its terms need more than `MAX_RUNS`."""
-    effects = active_terms(machine)
-    rule, groups = coalitions(len(effects))
-    if len(groups) > MAX_RUNS:
-        message = f"needs {len(groups)} further runs, one for each effect of the machine and one without any"
-        raise SpecError(Problem(field="causes", message=message, given=True, allowed=f"<= {MAX_RUNS} runs"))
-    own = base_excitations(machine)
-    room = MAX_RUNS - len(groups)
-    return Plan(
-        effects=effects,
-        idle=idle_terms(machine),
-        rule=rule,
-        coalitions=groups,
-        excitations=own[:room],
-        left_out=own[room:],
-    )
-
-
-def further_runs(machine: MachineSpec, request: SimulationRequest) -> int:
-    """Runs a request takes beside the one it asks for; SpecError when they are too many."""
-    return plan_causes(machine).runs if request.causes else 0
 
 
 def find_causes(response: Response, plan: Plan, run: Run, *, start_s: float) -> dict[str, object]:
@@ -122,27 +79,29 @@ def find_causes(response: Response, plan: Plan, run: Run, *, start_s: float) -> 
     ]
     for acting in plan.coalitions:
         missing = [plan.effects[i] for i in sorted(everyone - acting)]
-        _account(ledger, run(without(response.machine, missing)), start_s, into=acting)
+        ledger.acting[acting] = _account(ledger, run(without(response.machine, missing)), start_s)
     base = without(response.machine, plan.effects)
-    for excitation in plan.excitations:
-        kept = response.bases_hz if excitation.keeps_bases else None
-        _account(ledger, run(without(base, [excitation])), start_s, bases_hz=kept)
+    for removed in plan.removals:
+        taken = [plan.excitations[i] for i in sorted(removed)]
+        kept = response.bases_hz if any(e.keeps_bases for e in taken) else None
+        ledger.lacking[removed] = _account(ledger, run(without(base, taken)), start_s, bases_hz=kept)
     return _document(plan, ledger, response)
 
 
 def _targets(response: Response, start_s: float) -> tuple[Target, ...]:
     response = at_stretch(response, start_s)
     recording = from_response(response).select(start_s=start_s)
-    known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz)
+    step_s = response.quality.step_s
+    known = Predicted(machine=response.machine, seed=response.seed, bases_hz=response.bases_hz, step_s=step_s)
     found: list[Target] = []
-    accelerations = [c.name for c in recording.channels if c.quantity == "acceleration"]
-    names = [n for n in accelerations if np.isfinite(recording.samples[recording.names.index(n)]).all()]
+    ranked = [c.name for quantity in LABELLED for c in recording.channels if c.quantity == quantity]
+    names = [n for n in ranked if np.isfinite(recording.samples[recording.names.index(n)]).all()]
     for name in names[:MAX_CHANNELS]:
         sets = label_sets(recording.series(name), known)
         if sets is None:
             continue
         for spectrum, labels in (("amplitude", sets.amplitude), ("envelope", sets.envelope)):
-            peaks = tuple(p for p in labels.peaks if p.label and p.amplitude)
+            peaks = tuple(p for p in labels.peaks if p.label and p.amplitude and p.family != NUMERICAL)
             found.append(Target(channel=name, spectrum=spectrum, labels=labels, peaks=peaks))
     return tuple(found)
 
@@ -152,18 +111,14 @@ def _account(
     response: Response,
     start_s: float,
     *,
-    into: Coalition | None = None,
     bases_hz: Mapping[str, float] | None = None,
-) -> None:
+) -> list[Reading]:
     """Read the targets' lines in a counterfactual run; they lie where that machine's own kinematics put them."""
     response = at_stretch(response, start_s)
     recording = from_response(response).select(start_s=start_s)
     readings = [_read(recording, t, bases_hz or response.bases_hz) for t in ledger.targets]
     ledger.steps.append(response.quality.steps)
-    if into is None:
-        ledger.lacking.append(readings)
-    else:
-        ledger.acting[into] = readings
+    return readings
 
 
 def _read(recording: Recording, target: Target, bases_hz: Mapping[str, float]) -> Reading:
@@ -177,7 +132,7 @@ def _read(recording: Recording, target: Target, bases_hz: Mapping[str, float]) -
 def _document(plan: Plan, ledger: _Ledger, response: Response) -> dict[str, object]:
     channels: dict[str, dict[str, dict[str, object]]] = {}
     for i, target in enumerate(ledger.targets):
-        found = _causes(plan, ledger, i)
+        found = _causes(plan, ledger, i, response.machine)
         table: dict[str, object] = {
             peak.label: [_plain(cause) for cause in causes] for peak, causes in zip(target.peaks, found, strict=True)
         }
@@ -194,26 +149,36 @@ def _document(plan: Plan, ledger: _Ledger, response: Response) -> dict[str, obje
     }
 
 
-def _causes(plan: Plan, ledger: _Ledger, i: int) -> list[list[Cause]]:
+def _causes(plan: Plan, ledger: _Ledger, i: int, machine: MachineSpec) -> list[list[Cause]]:
     """Causes of each line of target `i`, the largest share first."""
     acting = {group: readings[i] for group, readings in ledger.acting.items()}
-    lacking = [readings[i] for readings in ledger.lacking]
+    lacking = {removed: readings[i] for removed, readings in ledger.lacking.items()}
     count = len(plan.effects)
     everyone = frozenset(range(count))
     present, base = acting[everyone].amplitude, acting[frozenset()]
     parts = shares({group: reading.amplitude**2 for group, reading in acting.items()}, count, plan.rule)
-    own = split(base.amplitude**2, [reading.amplitude**2 for reading in lacking]) * parts[-1]
+    power = {removed: reading.amplitude**2 for removed, reading in lacking.items()}
+    own = split(base.amplitude**2, power, len(plan.excitations)) * parts[-1]
     columns = [_column(effect, present, acting[everyone - {k}], parts[k]) for k, effect in enumerate(plan.effects)]
     nothing = np.zeros_like(present)
     columns += [_column(effect, present, acting[everyone], nothing) for effect in plan.idle]
     terms = len(columns)
     columns += [
-        _column(effect, base.amplitude, reading, own[k])
-        for k, (effect, reading) in enumerate(zip(plan.excitations, lacking, strict=True))
+        _column(effect, base.amplitude, lacking[frozenset({k})], own[k]) for k, effect in enumerate(plan.excitations)
     ]
-    columns.append([Cause(**_named(BASE), removed_db=0.0, at_least=False, share=float(x)) for x in own[-1]])
     rows = [[c for k, c in enumerate(row) if k < terms or c.share >= LEAST_SHARE] for row in zip(*columns, strict=True)]
+    peaks = ledger.targets[i].peaks
+    rows = [row + _rest(peak, float(x), machine) for row, peak, x in zip(rows, peaks, own[-1], strict=True)]
     return [sorted(row, key=lambda c: (-c.share, c.term, c.site)) for row in rows]
+
+
+def _rest(peak: LabelledPeak, share: float, machine: MachineSpec) -> list[Cause]:
+    """What no run took away, in equal parts for the parts of the base machine that the line is predicted of."""
+    if share < LEAST_SHARE:
+        return []
+    parts = dict.fromkeys(predicted_part(component, machine) for component in peak.components or ("",))
+    each = share / len(parts)
+    return [Cause(**_named(part), removed_db=0.0, at_least=False, share=each) for part in parts]
 
 
 def _column(effect: Effect, present: FloatArray, reading: Reading, share: FloatArray) -> list[Cause]:
@@ -232,10 +197,6 @@ def _named(effect: Effect) -> dict[str, str]:
 def _plain(cause: Cause) -> dict[str, object]:
     # adding zero turns -0.0 into 0.0
     return {**vars(cause), "removed_db": round(cause.removed_db, 2) + 0.0, "share": round(cause.share, 4)}
-
-
-SHOWN = 0.5
-"""Share from which an effect is called the mechanism of a line."""
 
 
 def with_causes(labels: Mapping[str, object], document: Mapping[str, object], channel: str) -> dict[str, object]:
@@ -260,6 +221,7 @@ def _decided(peak: Mapping[str, object], causes: Sequence[Mapping[str, object]])
     """The peak with its causes; one with half the line's power or more is its mechanism, and its site the component."""
     told = {**peak, "causes": list(causes)}
     if causes and isinstance(share := causes[0]["share"], float) and share >= SHOWN:
-        told |= {"mechanism": causes[0]["term"], "mechanism_basis": "counterfactual"}
+        basis = PREDICTED if causes[0]["counterfactual"] == PREDICTED else "counterfactual"
+        told |= {"mechanism": causes[0]["term"], "mechanism_basis": basis}
         told |= {"component": causes[0]["site"]} if causes[0]["site"] else {}
     return told

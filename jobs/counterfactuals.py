@@ -17,7 +17,9 @@ from sim.core.laws import MeshLaw
 from sim.core.spec import BallGeometry, MachineSpec, MeshTable, TermSpec
 from sim.terms import REGISTRY
 
-Twin = Literal["severity_zero", "removed", "frozen_at_mean", "amplitude_zero", "many_balls"]
+Twin = Literal["severity_zero", "removed", "frozen_at_mean", "amplitude_zero", "many_balls", "predicted"]
+PREDICTED: Twin = "predicted"
+"""No machine stands for "without": the line is that part's by its frequency alone."""
 MAX_ROWS = 201
 MANY_BALLS = 64
 MANY_RATIO = 0.04
@@ -60,6 +62,21 @@ def base_excitations(machine: MachineSpec) -> tuple[Effect, ...]:
         for b in machine.bearings
     ]
     return tuple(found)
+
+
+def predicted_part(component: str, machine: MachineSpec) -> Effect:
+    """What of the base machine excites a line of `component`: a mesh, the balls of a bearing, else the shaft's turning.
+
+    Without a component: the machine as a whole, whose start or rounding it may be.
+    """
+    meshing = {part: m.name for m in machine.meshes for part in (m.name, m.pinion, m.gear)}
+    if component in meshing:
+        return Effect(term="mesh_excitation", site=meshing[component], counterfactual=PREDICTED)
+    if component in {b.name for b in machine.bearings}:
+        term = "ball_contact"
+    else:
+        term = "rotation" if component else "base_machine"
+    return Effect(term=term, site=component, counterfactual=PREDICTED)
 
 
 def without(machine: MachineSpec, effects: Sequence[Effect]) -> MachineSpec:

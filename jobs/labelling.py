@@ -20,6 +20,8 @@ from sim.assembly.assemble import assemble
 from sim.core.spec import MachineSpec
 
 REFERENCE = "f_r1"
+LABELLED = ("acceleration", "angular_acceleration")
+"""Quantities whose lines are labelled, the best first."""
 MIN_SAMPLES = 256
 
 
@@ -30,6 +32,8 @@ class Predicted:
     machine: MachineSpec
     seed: int
     bases_hz: Mapping[str, float]
+    step_s: float | None = None
+    """Step of the simulation, if it is known."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,6 +82,7 @@ def label_sets(series: Series, known: Predicted, max_unexplained: int = MAX_UNEX
             kinematics=kinematics,
             reference=REFERENCE,
             max_unexplained=max_unexplained,
+            step_hz=1.0 / known.step_s if known.step_s else None,
         )
         for spectrum in (amplitude_spectrum(series), envelope_spectrum(series))
     )
@@ -110,5 +115,12 @@ def label_stored(
         quantity=about.quantity,
         start_s=first / rate,
     )
-    known = Predicted(machine=machine, seed=reader.manifest.seed, bases_hz=bases)
+    quality = summary.get("quality")
+    step_s = quality.get("step_s") if isinstance(quality, Mapping) else None
+    known = Predicted(
+        machine=machine,
+        seed=reader.manifest.seed,
+        bases_hz=bases,
+        step_s=step_s if isinstance(step_s, float) else None,
+    )
     return label_channel(series, known, max_unexplained)

@@ -21,6 +21,7 @@ from sim.core.spec import MachineSpec
 from sim.core.system import System
 from sim.parts.bearing.catalogue import catalogue, missing
 from sim.solve.api import default_channels, resolve_channels, simulate
+from sim.solve.settings import Settings
 from sim.terms import REGISTRY
 from sim.version import PHYSICS_VERSION
 
@@ -106,6 +107,7 @@ class PhysicsEngine:
         seed: int,
         progress: Callable[[float], None],
         cancelled: Callable[[], bool],
+        estimate_error: bool = True,
     ) -> Response:
         """Simulate from rest."""
         return simulate(
@@ -116,6 +118,7 @@ class PhysicsEngine:
             seed=seed,
             progress=progress,
             cancelled=cancelled,
+            settings=Settings(estimate_error=estimate_error),
         )
 
     def _assembled(self, machine: MachineSpec) -> System:

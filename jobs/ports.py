@@ -78,8 +78,9 @@ class Engine(Protocol):
         seed: int,
         progress: Callable[[float], None],
         cancelled: Callable[[], bool],
+        estimate_error: bool = True,
     ) -> Response:
-        """Simulate; raises Diverged, Cancelled."""
+        """Simulate; raises Diverged, Cancelled. `estimate_error`: compare the step with half of it on a short run."""
 
 
 class Analyser(Protocol):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from jobs.causes import further_runs
+from jobs.cause_plan import further_runs
 from jobs.limits import Limits, check_cost, check_request, check_sampling
 from jobs.overrides import apply_overrides, told_by_key
 from jobs.ports import Engine, MachineReport

@@ -26,7 +26,7 @@ from app.cli.result import FILES, FURTHER, RAW, SENSED, write_raw, write_result
 from app.cli.sensors import add_sensor_options, chosen_sensors
 from jobs.analysis import analyse
 from jobs.carry_out import Outcome, carry_out, completed
-from jobs.causes import further_runs
+from jobs.cause_plan import further_runs
 from jobs.limits import Limits
 from jobs.physics import PhysicsEngine
 from jobs.request import ALL, DEFAULT_RATE_HZ, SimulationRequest

@@ -4,21 +4,29 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from signals.labels.families import MECHANISM
 from signals.labels.identity import VectorKey, base_vectors, vector_key
 from signals.labels.kinematics import Kinematics
+from signals.spectra.types import Spectrum
+from signals.windows import MAIN_LOBE_BINS
 from sim.core.lines import Line
 
 FAMILY_ORDER = ("f_m", "f_o", "f_i", "f_b", "f_c", "f_r")
 """Order of the bases in a label (carriers before what modulates them), and of preference between equal weights."""
+Series = frozenset[str]
+"""The bases of a line: its family of multiples and sidebands."""
 _BASE = re.compile(r"^(?P<family>[a-z]_[a-z])(?P<index>\d*)$")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Candidate:
-    """A canonical line: one frequency, every form, component and mechanism it may come from (simplest first)."""
+    """A canonical line: one frequency, every form, component and mechanism it may come from (simplest first).
+
+    `predicted`: a term of the physics predicts this very line. `families`: component and first base of each of its
+    forms, as (`bearing1`, `f_i1`): what has to be found together where nothing predicts it.
+    """
 
     label: str
     orders: tuple[tuple[str, int], ...]
@@ -28,6 +36,8 @@ class Candidate:
     components: tuple[str, ...]
     mechanisms: tuple[str, ...]
     aliases: tuple[str, ...]
+    predicted: bool
+    families: tuple[tuple[str, str], ...]
 
     @property
     def weight(self) -> int:
@@ -35,10 +45,32 @@ class Candidate:
         return sum(abs(n) for _, n in self.orders)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Told:
+    """What terms say of the lines made of some bases: their mechanisms and the family they count to."""
+
+    mechanisms: tuple[str, ...]
+    family: str
+
+
+def told_series(lines: Iterable[Line]) -> dict[Series, Told]:
+    """By bases: a term that predicts some multiples speaks for all, so that harmonics of one family read alike."""
+    found: dict[Series, Told] = {}
+    for line in lines:
+        if line.mechanism != MECHANISM:
+            series = frozenset(base for base, n in line.orders if n)
+            known = found.get(series, Told(mechanisms=(), family=line.family))
+            mechanisms = tuple(dict.fromkeys((*known.mechanisms, line.mechanism)))
+            found[series] = replace(known, mechanisms=mechanisms)
+    return found
+
+
 def merge_lines(
     lines: Iterable[Line], bases_hz: Mapping[str, float], kinematics: Kinematics | None = None
 ) -> tuple[Candidate, ...]:
     """Canonical candidates sorted by frequency. A sum that is zero by construction is no line."""
+    lines = list(lines)
+    told = told_series(lines)
     vectors = base_vectors(kinematics or Kinematics())
     groups: dict[VectorKey, list[Line]] = {}
     for line in lines:
@@ -47,8 +79,15 @@ def merge_lines(
         if key:
             # a sum and its negative are one line: the frequency folds
             groups.setdefault(min(key, tuple((symbol, -share) for symbol, share in key)), []).append(ordered)
-    merged = [_candidate(group, bases_hz) for group in groups.values()]
+    merged = [_candidate(group, bases_hz, told) for group in groups.values()]
     return tuple(sorted(merged, key=lambda c: (c.frequency_hz, c.label)))
+
+
+def inside(candidates: Sequence[Candidate], spectrum: Spectrum) -> tuple[Candidate, ...]:
+    """Candidates a main lobe away from zero frequency and from the end of the axis."""
+    lobe = MAIN_LOBE_BINS[spectrum.window] * spectrum.resolution_hz
+    top = float(spectrum.frequency_hz[-1])
+    return tuple(c for c in candidates if lobe <= c.frequency_hz <= top - lobe)
 
 
 def simplicity(orders: Sequence[tuple[str, int]]) -> tuple[int, int, tuple[tuple[int, int, str], ...]]:
@@ -67,21 +106,29 @@ def _ordered(line: Line) -> Line:
     return Line(orders=orders, component=line.component, mechanism=line.mechanism, family=line.family)
 
 
-def _candidate(group: Sequence[Line], bases_hz: Mapping[str, float]) -> Candidate:
+def _candidate(group: Sequence[Line], bases_hz: Mapping[str, float], told: Mapping[Series, Told]) -> Candidate:
     # A term's own prediction names the line before the mere kinematics do; the form stays the simplest.
     ordered = sorted(group, key=lambda x: (simplicity(x.orders), x.mechanism == MECHANISM))
     first = ordered[0]
     labels = tuple(dict.fromkeys(x.label for x in ordered))
+    known = [told[series] for x in ordered if (series := _series(x)) in told]
+    mechanisms = tuple(dict.fromkeys(m for t in known for m in t.mechanisms)) or (MECHANISM,)
     return Candidate(
         label=first.label,
         orders=first.orders,
         frequency_hz=first.frequency_hz(bases_hz),
-        family=first.family,
-        mechanism=first.mechanism,
+        family=told[_series(first)].family if _series(first) in told else first.family,
+        mechanism=mechanisms[0],
         components=tuple(dict.fromkeys(x.component for x in ordered)),
-        mechanisms=tuple(dict.fromkeys(x.mechanism for x in ordered)),
+        mechanisms=mechanisms,
         aliases=labels[1:],
+        predicted=any(x.mechanism != MECHANISM for x in group),
+        families=tuple(dict.fromkeys((x.component, x.orders[0][0]) for x in ordered)),
     )
+
+
+def _series(line: Line) -> Series:
+    return frozenset(base for base, _ in line.orders)
 
 
 def _rank(base: str) -> tuple[int, int, str]:

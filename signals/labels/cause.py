@@ -126,14 +126,26 @@ def _shapley(power: Mapping[Coalition, FloatArray], everyone: Coalition, effect:
     return total
 
 
-def split(base: FloatArray, without: Sequence[FloatArray]) -> FloatArray:
+def split(base: FloatArray, lacking: Mapping[Coalition, FloatArray], count: int) -> FloatArray:
     """Parts 0..1 of the base machine's power that each of its own excitations explains, and in the last row the rest.
 
-    `base` (lines,) is the base machine's power, `without` that of the machine lacking one excitation each. Together
-    they explain no more than all: beyond that they are scaled. Shape (len(without) + 1, lines).
+    `base` (lines,) is the base machine's power, `lacking` that of the machine without the excitations of a set: every
+    single one, and pairs of them. A single excitation explains what goes away with it; one of a pair its Shapley value
+    in the game of the two, so that two that each suffice, or that weaken each other, share what goes away with both.
+    Together they explain no more than all: beyond that they are scaled. Shape (count + 1, lines).
     """
-    lost = [np.maximum(base - rest, 0.0) for rest in without]
+    lost = [np.maximum(_explained(base, lacking, i), 0.0) for i in range(count)]
     rows = np.array(lost) if lost else np.zeros((0, base.size))
     total = np.maximum(rows.sum(axis=0), base)
     parts = np.divide(rows, total, out=np.zeros_like(rows), where=total > 0)
     return np.vstack([parts, np.maximum(1 - parts.sum(axis=0), 0.0)])
+
+
+def _explained(base: FloatArray, lacking: Mapping[Coalition, FloatArray], i: int) -> FloatArray:
+    """What goes away with excitation `i`: by itself, or as one of its pairs, their mean."""
+    alone = base - lacking[frozenset({i})]
+    pairs = [pair for pair in lacking if i in pair and len(pair) > 1]
+    if not pairs:
+        return np.asarray(alone)
+    found = [0.5 * (alone + lacking[pair - {i}] - lacking[pair]) for pair in pairs]
+    return np.asarray(np.mean(found, axis=0), dtype=np.float64)

@@ -14,6 +14,7 @@ from itertools import combinations as pairs
 
 import numpy as np
 
+from signals.labels.canonical import Told, told_series
 from signals.labels.families import MECHANISM, Bound
 from signals.labels.kinematics import Kinematics
 from signals.series import FloatArray, IntArray
@@ -38,25 +39,46 @@ class Modulator:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Grid:
-    """All sums of one mesh and its modulators: `orders` shape (sums, bases), frequencies and ranks (sums,)."""
+class Carrier:
+    """A base whose harmonics go on without bound, and what they are called: a mesh, or the balls of a bearing that a
+    term makes felt (each ball that enters or leaves the load zone makes a kink).
+    """
 
-    carrier: str
-    component: str
+    base: str
+    components: tuple[str, ...]
+    mechanisms: tuple[str, ...]
+    family: str
+    strong: bool
+    """Whether the order is free, as that of a mesh; the passing of balls is weak and ranks as a modulation does."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Grid:
+    """All sums of a carrier and its modulators: `orders` shape (sums, bases), frequencies and ranks (sums,).
+
+    `mechanism`, `family`: what modulated sums are called.
+    """
+
+    carrier: Carrier | None
     modulators: tuple[Modulator, ...]
     orders: IntArray
     frequency_hz: FloatArray
     rank: IntArray
+    mechanism: str = INTERMODULATION
+    family: str = FAMILY
 
     def lines(self, row: int) -> Iterator[Line]:
         """The sum with each component that takes part, so that merging collects them."""
         numbers = self.orders[row].tolist()
-        bases = [*([self.carrier] if self.carrier else []), *(m.base for m in self.modulators)]
+        bases = [*([self.carrier.base] if self.carrier else []), *(m.base for m in self.modulators)]
         kept = tuple((base, n) for base, n in zip(bases, numbers, strict=True) if n)
-        # the mesh is the carrier: it counts as a component only where nothing modulates it
-        names = [c for m in self.modulators for c in m.components] or [self.component]
-        for name in names:
-            yield Line(orders=kept, component=name, mechanism=INTERMODULATION, family=FAMILY)
+        if self.carrier and not self.modulators:
+            for name in self.carrier.components:
+                for mechanism in self.carrier.mechanisms:
+                    yield Line(orders=kept, component=name, mechanism=mechanism, family=self.carrier.family)
+        # the carrier counts as a component only where nothing modulates it
+        for name in (c for m in self.modulators for c in m.components):
+            yield Line(orders=kept, component=name, mechanism=self.mechanism, family=self.family)
 
 
 def rank_of(orders: Sequence[tuple[str, int]], carriers: Sequence[str]) -> int:
@@ -96,15 +118,17 @@ def modulators(
 def grids(
     kinematics: Kinematics, bases_hz: Mapping[str, float], lines: Sequence[Line], *, top_hz: float, bound: Bound
 ) -> tuple[Grid, ...]:
-    """Sums of every mesh with none, one and two modulators below `top_hz`; without a mesh, of the modulators alone."""
+    """Harmonics of every carrier below `top_hz`, then sums of every mesh with one and two modulators; without a mesh,
+    of the modulators alone.
+    """
     available = modulators(kinematics, bases_hz, lines, bound)
-    carriers = [(m.base, m.component) for m in kinematics.meshes if m.base in bases_hz] or [("", "")]
+    meshes, balls = carriers(kinematics, bases_hz, lines)
     sets: list[tuple[Modulator, ...]] = [(), *((m,) for m in available), *pairs(available, 2)]
     result: list[Grid] = []
     total = 0
     for chosen in sets:
-        for carrier, component in carriers:
-            grid = _grid(carrier, component, chosen, bases_hz, top_hz)
+        for carrier in (*meshes, *balls) if not chosen else (meshes or (None,)):
+            grid = _grid(carrier, chosen, bases_hz, top_hz)
             total += grid.rank.size
             if total > MAX_SUMS:
                 return tuple(result)
@@ -113,16 +137,39 @@ def grids(
     return tuple(result)
 
 
-def _grid(
-    carrier: str, component: str, chosen: tuple[Modulator, ...], bases_hz: Mapping[str, float], top_hz: float
-) -> Grid:
+def carriers(
+    kinematics: Kinematics, bases_hz: Mapping[str, float], lines: Sequence[Line]
+) -> tuple[tuple[Carrier, ...], tuple[Carrier, ...]]:
+    """Meshes, and ball passes that a term predicts; bearings of one frequency are one."""
+    told = told_series(lines)
+
+    def made(base: str, components: tuple[str, ...], family: str) -> Carrier:
+        known = told.get(frozenset({base}), Told(mechanisms=(MECHANISM,), family=family))
+        return Carrier(
+            base=base, components=components, mechanisms=known.mechanisms, family=known.family, strong=family == "mesh"
+        )
+
+    meshes = tuple(made(m.base, (m.component,), "mesh") for m in kinematics.meshes if m.base in bases_hz)
+    sites: dict[int, list[tuple[str, str]]] = {}
+    for bearing in kinematics.bearings:
+        base = bearing.base("o")
+        if base in bases_hz:
+            sites.setdefault(round(bases_hz[base] * 1e6), []).append((base, bearing.site))
+    balls = []
+    for found in sites.values():
+        known = [base for base, _ in found if frozenset({base}) in told]
+        balls += [made(known[0], tuple(site for _, site in found), "outer")] if known else []
+    return meshes, tuple(balls)
+
+
+def _grid(carrier: Carrier | None, chosen: tuple[Modulator, ...], bases_hz: Mapping[str, float], top_hz: float) -> Grid:
     axes = [_both(m.reach) for m in chosen]
     hz = [m.frequency_hz for m in chosen]
     if carrier:
         # modulation may fold harmonics beyond the axis back into it
         over = sum(m.reach * m.frequency_hz for m in chosen)
-        axes.insert(0, np.arange(int((top_hz + over) / bases_hz[carrier]) + 1))
-        hz.insert(0, bases_hz[carrier])
+        axes.insert(0, np.arange(int((top_hz + over) / bases_hz[carrier.base]) + 1))
+        hz.insert(0, bases_hz[carrier.base])
     if not axes:
         orders = np.zeros((0, 0), dtype=np.int64)
     else:
@@ -130,15 +177,17 @@ def _grid(
     signed = orders @ np.array(hz) if axes else np.zeros(0)
     frequency = np.abs(signed)
     modulating = np.abs(orders[:, 1:] if carrier else orders)
+    rank = RANK_STEP * len(chosen) + modulating.sum(axis=1)
+    if carrier and not carrier.strong:
+        rank = rank + RANK_STEP + np.abs(orders[:, 0])
     # a sum that is zero by construction comes out as rounding
     kept = (frequency > 1e-6 * min(hz, default=1.0)) & (frequency <= top_hz)
     return Grid(
         carrier=carrier,
-        component=component,
         modulators=chosen,
         orders=orders[kept],
         frequency_hz=frequency[kept],
-        rank=np.asarray(RANK_STEP * len(chosen) + modulating.sum(axis=1), dtype=np.int64)[kept],
+        rank=np.asarray(rank, dtype=np.int64)[kept],
     )
 
 

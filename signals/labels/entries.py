@@ -8,6 +8,9 @@ import numpy as np
 
 from signals.floor import Floor
 from signals.labels.canonical import Candidate
+from signals.labels.combinations import INTERMODULATION
+from signals.labels.evidence import Evidence
+from signals.labels.families import MECHANISM
 from signals.labels.rivals import Meeting
 from signals.labels.types import LabelledPeak
 from signals.peaks import FoundPeaks
@@ -23,6 +26,7 @@ class Scene:
     found: FoundPeaks
     noise: Floor
     meeting: Meeting
+    evidence: Evidence
     unit_hz: float
 
 
@@ -35,14 +39,24 @@ def labelled(scene: Scene, i: int, candidate: Candidate) -> LabelledPeak:
         reach_hz = MAIN_LOBE_BINS[spectrum.window] * spectrum.resolution_hz
         limit = _detection_limit(scene, candidate.frequency_hz)
         return replace(label, detection_limit=limit, masked_by=meeting.masked_by(i, reach_hz))
+    word = scene.evidence.words[i]
+    # what nothing speaks for does not put in doubt what something speaks for
+    alternatives = tuple(
+        label for label in meeting.alternatives[i] if word == "chance" or label not in scene.evidence.doubted
+    )
+    of_its_own = word in ("sum", "chance")
+    if word == "sum" and candidate.mechanism == MECHANISM:
+        # nothing excites the family, the sum of what is excited does
+        label = replace(label, mechanism=INTERMODULATION, mechanisms=(INTERMODULATION,))
     return replace(
         label,
-        status="ambiguous" if meeting.alternatives[i] else "present",
+        status="ambiguous" if alternatives or word == "chance" else "present",
+        evidence=word,
         measured_frequency_hz=float(scene.found.frequency_hz[peak]),
         amplitude=float(scene.found.amplitude[peak]),
         db_over_floor=float(scene.found.db_over_floor[peak]),
-        alternatives=meeting.alternatives[i],
-        chance_coincidence=meeting.chance[i],
+        alternatives=alternatives,
+        chance_coincidence=float(scene.evidence.chance[i]) if of_its_own else meeting.chance[i],
     )
 
 

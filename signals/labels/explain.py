@@ -13,7 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signals.labels.combinations import Grid
+from signals.labels.combinations import RANK_STEP, Grid
+from signals.labels.evidence import expected_hits, proven_layers
+from signals.labels.types import Matching
 from signals.peaks import FoundPeaks
 from signals.series import BoolArray, FloatArray, IntArray
 from sim.core.lines import Line
@@ -23,20 +25,9 @@ GOLDEN = 0.6180339887498949
 PLACES = 2000
 """Random places looked at, at least: a share of 5 % is then known to about half a percent."""
 TRIALS = 6
+LOOKS = 2
 SAME_HZ = 1e-6
 """Sums nearer than this are one: rounding of identical sums."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class FalseMatch:
-    """Share of lines at random places that would have been explained, 0..1.
-
-    `families`: by a predicted line; `combinations`: by a sum beyond them, kept at or below `bound` by construction.
-    """
-
-    families: float
-    combinations: float
-    bound: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,6 +39,13 @@ class Sums:
     rank: IntArray
     grid: IntArray
     row: IntArray
+
+    def weight(self, rows: IntArray) -> IntArray:
+        """Sum of the modulating |orders| of some sums of one grid; of harmonics alone their number."""
+        grid = self.grids[int(self.grid[rows[0]])] if rows.size else None
+        if grid is None or grid.modulators:
+            return np.asarray(self.rank[rows] % RANK_STEP)
+        return np.asarray(np.abs(grid.orders[self.row[rows]]).sum(axis=1))
 
     def lines(self, i: int) -> tuple[Line, ...]:
         """The sum as lines, one for each component."""
@@ -100,6 +98,37 @@ def explained_by(
     return owners, chance
 
 
+def proven_sums(
+    sums: Sums,
+    owners: Sequence[Sequence[int]],
+    found: FoundPeaks,
+    reach: FloatArray,
+    *,
+    resolution_hz: float,
+    top_hz: float,
+    matching: Matching,
+) -> BoolArray:
+    """Which sums belong to a product that is there, shape (sums,): the sums of each grid are judged as a family.
+
+    A second look takes the peaks of proven products for explained: what they made does not crowd the spectrum.
+    """
+    own = np.zeros(sums.rank.size)
+    for k, names in enumerate(owners):
+        if names:
+            own[names[0]] = reach[k]
+    hit = own > 0
+    proven = np.zeros(hit.size, dtype=np.bool_)
+    for _ in range(LOOKS):
+        free = np.array([not (names and proven[names[0]]) for names in owners], dtype=np.bool_)
+        seen = np.where(proven, 0.0, own)
+        axis = found.frequency_hz
+        expected = expected_hits(sums.frequency_hz, seen, axis, reach, free, resolution_hz=resolution_hz, top_hz=top_hz)
+        for number in range(len(sums.grids)):
+            rows = np.flatnonzero(sums.grid == number)
+            proven[rows], _ = proven_layers(sums.weight(rows), hit[rows], expected[rows], matching)
+    return proven
+
+
 def neighbourhood_hz(frequency_hz: float, resolution_hz: float) -> float:
     """Half width of the stretch in which densities are counted, Hz."""
     return max(0.05 * frequency_hz, 100 * resolution_hz)
@@ -119,26 +148,23 @@ def _rounds(found: FoundPeaks) -> int:
 
 
 def measured_chance(
-    sums: Sums, found: FoundPeaks, reach_hz: FloatArray, *, resolution_hz: float, top_hz: float, max_chance: float
+    sums: Sums,
+    found: FoundPeaks,
+    reach_hz: FloatArray,
+    *,
+    resolution_hz: float,
+    top_hz: float,
+    max_chance: float,
+    proven: BoolArray | None = None,
 ) -> float:
-    """Share of displaced peaks that the combinations explain."""
+    """Share of displaced peaks that the combinations explain; with `proven` (sums,) those of them that count."""
     if not found.frequency_hz.size or not sums.rank.size:
         return 0.0
-    hits = [
-        np.mean(
-            [
-                bool(o)
-                for o in explained_by(
-                    sums,
-                    displaced(found, resolution_hz, top_hz, round_=i),
-                    reach_hz,
-                    resolution_hz=resolution_hz,
-                    max_chance=max_chance,
-                )[0]
-            ]
-        )
-        for i in range(_rounds(found))
-    ]
+    hits = []
+    for i in range(_rounds(found)):
+        moved = displaced(found, resolution_hz, top_hz, round_=i)
+        owners, _ = explained_by(sums, moved, reach_hz, resolution_hz=resolution_hz, max_chance=max_chance)
+        hits.append(np.mean([bool(o) and (proven is None or bool(proven[o[0]])) for o in owners]))
     return float(np.mean(hits))
 
 

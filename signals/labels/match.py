@@ -8,14 +8,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from signals.floor import FloorSettings, noise_floor
-from signals.labels.canonical import Candidate, merge_lines
-from signals.labels.combinations import grids
+from signals.labels.canonical import Candidate, inside, merge_lines
+from signals.labels.combinations import Grid, carriers, grids
 from signals.labels.entries import Scene, above_nyquist, labelled, unexplained
-from signals.labels.explain import FalseMatch, Sums, bounded_chance, explained_by, gather, measured_hits
+from signals.labels.evidence import weigh
+from signals.labels.explain import explained_by, gather, measured_hits
 from signals.labels.families import Bound
+from signals.labels.further import Further, Setting, combine
+from signals.labels.images import STEP_BASE, image_grids
 from signals.labels.kinematics import Kinematics
 from signals.labels.rivals import meet, reach_hz
-from signals.labels.types import LabelledPeak, LabelSet, Matching
+from signals.labels.types import FalseMatch, LabelledPeak, LabelSet, Matching
 from signals.peaks import FoundPeaks, find_peaks
 from signals.spectra.types import Spectrum
 from signals.windows import MAIN_LOBE_BINS
@@ -23,14 +26,6 @@ from sim.core.errors import Problem, SpecError, UnknownName
 from sim.core.lines import Line
 
 MAX_UNEXPLAINED = 200
-
-
-@dataclass(frozen=True, kw_only=True)
-class Setting:
-    """What decides whether a sum explains a peak."""
-
-    matching: Matching
-    bound: Bound
 
 
 def label_peaks(
@@ -44,6 +39,7 @@ def label_peaks(
     matching: Matching | None = None,
     reference: str = "f_r1",
     max_unexplained: int = MAX_UNEXPLAINED,
+    step_hz: float | None = None,
 ) -> LabelSet:
     """Match the peaks of a line spectrum with `lines`, merged where `kinematics` make them identical.
 
@@ -51,29 +47,22 @@ def label_peaks(
     the end of an amplitude spectrum one as `above_nyquist`. Peaks that no line explains are tried against the
     combinations of `bound` (family `combination`, listed only where found); what is still left is unexplained, the
     `max_unexplained` strongest are listed. `reference` is the shaft that orders are counted by.
+    `step_hz`: steps a second of the simulation the spectrum is of, for the lines that its steps make (base `f_s`).
     """
     spectrum.amplitude_factor("peak")  # refuses densities
     _check_bases(lines, bases_hz, reference)
-    settings, near, limits = floor or FloorSettings(), matching or Matching(), bound or Bound()
+    setting = Setting(matching=matching or Matching(), bound=bound or Bound(), floor=floor or FloorSettings())
     every = merge_lines(lines, bases_hz, kinematics)
-    candidates = _inside(every, spectrum)
-    noise = noise_floor(spectrum, settings, np.array([c.frequency_hz for c in candidates]))
-    found = find_peaks(spectrum, noise)
-    meeting = meet(candidates, found, spectrum.resolution_hz, near, limits)
-    scene = Scene(spectrum=spectrum, found=found, noise=noise, meeting=meeting, unit_hz=bases_hz[reference])
-    entries = [labelled(scene, i, candidate) for i, candidate in enumerate(candidates)]
-    entries += [above_nyquist(scene, candidate) for candidate in _beyond(every, spectrum)]
-    left = rest = found.part(~np.array(meeting.explained, dtype=np.bool_))
-    share = 0.0
-    if kinematics is not None:
-        top = float(spectrum.frequency_hz[-1])
-        sums = gather(grids(kinematics, bases_hz, lines, top_hz=top, bound=limits))
-        combined, rest, share = _combined(scene, left, sums, kinematics, bases_hz, Setting(matching=near, bound=limits))
-        entries += combined
+    known = _known(lines, bases_hz, kinematics, step_hz, spectrum)
+    further = _further(_scene(spectrum, inside(every, spectrum), bases_hz[reference], setting, known), known, setting)
+    scene = further.scene
+    rest = scene.found.part(further.nameless)
     strangers = _strangers(scene, rest, max_unexplained)
-    entries += strangers
+    entries = [*further.entries, *strangers]
+    entries += [labelled(scene, i, candidate) for i, candidate in enumerate(scene.meeting.candidates)]
+    entries += [above_nyquist(scene, candidate) for candidate in _beyond(every, spectrum)]
     return LabelSet(
-        frequencies_hz=dict(bases_hz),
+        frequencies_hz=dict(known.bases_hz),
         reference=reference,
         peaks=tuple(sorted(entries, key=lambda p: (p.frequency_hz, p.label))),
         channel=spectrum.channel,
@@ -82,50 +71,89 @@ def label_peaks(
         scaling=spectrum.scaling,
         window=spectrum.window,
         resolution_hz=spectrum.resolution_hz,
-        bound=limits,
-        matching=near,
-        floor=settings,
-        found=found.amplitude.size,
+        bound=setting.bound,
+        matching=setting.matching,
+        floor=setting.floor,
+        found=scene.found.amplitude.size,
         unexplained=rest.amplitude.size,
         truncated=rest.amplitude.size - len(strangers),
-        false_match=FalseMatch(families=_by_families(scene, near), combinations=share, bound=near.max_chance),
+        false_match=_false_match(scene, further, setting.matching),
         band=spectrum.band,
     )
 
 
-def _combined(
-    scene: Scene, left: FoundPeaks, sums: Sums, kinematics: Kinematics, bases_hz: Mapping[str, float], setting: Setting
-) -> tuple[list[LabelledPeak], FoundPeaks, float]:
-    """Entries of the peaks in `left` that a credible combination explains, the peaks still left, and the share of
-    lines at random places that would have been explained too.
-    """
-    spectrum, near = scene.spectrum, setting.matching
-    step, top = spectrum.resolution_hz, float(spectrum.frequency_hz[-1])
-    reach = reach_hz(left, step, near)
-    limit, share = bounded_chance(sums, left, reach, resolution_hz=step, top_hz=top, max_chance=near.max_chance)
-    owners, chance = explained_by(sums, left.frequency_hz, reach, resolution_hz=step, max_chance=limit)
-    explained = np.array([bool(o) for o in owners], dtype=np.bool_)
-    lines = [line for o in owners for i in o for line in sums.lines(i)]
-    candidates = _inside(merge_lines(lines, bases_hz, kinematics), spectrum)
-    named = left.part(explained)
-    meeting = meet(candidates, named, step, near, setting.bound)
-    inner = replace(scene, found=named, meeting=meeting)
-    odds = chance[explained]
-    entries = [
-        replace(labelled(inner, i, candidate), chance_coincidence=float(odds[peak]))
-        for i, candidate in enumerate(candidates)
-        if (peak := meeting.peak[i]) is not None
-    ]
-    explained[explained] = meeting.explained
-    return entries, left.part(~explained), share
+@dataclass(frozen=True, kw_only=True)
+class Known:
+    """What is known of the machine. Without `kinematics` nothing is known of what may modulate what."""
+
+    lines: Sequence[Line]
+    bases_hz: Mapping[str, float]
+    kinematics: Kinematics | None
+    images: Sequence[Grid] = ()
+    """Lines that the steps of the simulation make, if it is one."""
 
 
-def _by_families(scene: Scene, near: Matching) -> float:
-    """Share of lines at random places that a predicted line would have explained."""
+def _known(
+    lines: Sequence[Line],
+    bases_hz: Mapping[str, float],
+    kinematics: Kinematics | None,
+    step_hz: float | None,
+    spectrum: Spectrum,
+) -> Known:
+    if kinematics is None or step_hz is None:
+        return Known(lines=lines, bases_hz=bases_hz, kinematics=kinematics)
+    meshes, balls = carriers(kinematics, bases_hz, lines)
+    top, resolution = float(spectrum.frequency_hz[-1]), spectrum.resolution_hz
+    images = tuple(image_grids((*meshes, *balls), bases_hz, step_hz=step_hz, top_hz=top, resolution_hz=resolution))
+    return Known(lines=lines, bases_hz={**bases_hz, STEP_BASE: step_hz}, kinematics=kinematics, images=images)
+
+
+def _scene(
+    spectrum: Spectrum, candidates: tuple[Candidate, ...], unit_hz: float, setting: Setting, known: Known
+) -> Scene:
+    """The peaks of a spectrum, the lines they meet, and what speaks for each."""
+    noise = noise_floor(spectrum, setting.floor, np.array([c.frequency_hz for c in candidates]))
+    found, step, near = find_peaks(spectrum, noise), spectrum.resolution_hz, setting.matching
+    meeting = meet(candidates, found, step, near, setting.bound)
+    reach, top = reach_hz(found, step, near), float(spectrum.frequency_hz[-1])
+    folded = gather(known.images)
+    owners, _ = explained_by(folded, found.frequency_hz, reach, resolution_hz=step, max_chance=near.max_chance)
+    doubtful = np.array([bool(o) for o in owners], dtype=np.bool_)
+    evidence = weigh(meeting, found, reach, resolution_hz=step, top_hz=top, matching=near, doubtful=doubtful)
+    return Scene(spectrum=spectrum, found=found, noise=noise, meeting=meeting, evidence=evidence, unit_hz=unit_hz)
+
+
+def _further(scene: Scene, known: Known, setting: Setting) -> Further:
+    """What combinations and images of the steps explain; nothing where the ties of the machine are not known."""
+    kinematics, bases_hz = known.kinematics, known.bases_hz
+    if kinematics is None:
+        nameless = ~np.array(scene.meeting.explained, dtype=np.bool_)
+        return Further(entries=[], scene=scene, nameless=nameless, present=0.0, named=0.0)
+    top = float(scene.spectrum.frequency_hz[-1])
+    products = grids(kinematics, bases_hz, known.lines, top_hz=top, bound=setting.bound)
+    return combine(scene, gather([*products, *known.images]), kinematics, bases_hz, setting)
+
+
+def _false_match(scene: Scene, further: Further, near: Matching) -> FalseMatch:
+    """Shares of lines at random places that would have been called present, or named at all."""
     spectrum, found = scene.spectrum, scene.found
     step, top = spectrum.resolution_hz, float(spectrum.frequency_hz[-1])
-    predicted = np.array([c.frequency_hz for c in scene.meeting.candidates])
-    return measured_hits(predicted, found, reach_hz(found, step, near), resolution_hz=step, top_hz=top)
+    reach = reach_hz(found, step, near)
+
+    def share(words: Sequence[str]) -> float:
+        kept = [
+            c.frequency_hz
+            for c, word in zip(scene.meeting.candidates, scene.evidence.words, strict=True)
+            if word in words
+        ]
+        return measured_hits(np.array(kept), found, reach, resolution_hz=step, top_hz=top)
+
+    return FalseMatch(
+        families=share(("term", "family", "sum")),
+        combinations=further.present,
+        ambiguous=share(("chance",)) + further.named - further.present,
+        bound=near.max_chance,
+    )
 
 
 def _strangers(scene: Scene, left: FoundPeaks, most: int) -> list[LabelledPeak]:
@@ -147,13 +175,6 @@ def _check_bases(lines: Sequence[Line], bases_hz: Mapping[str, float], reference
                 for b in bad
             ]
         )
-
-
-def _inside(candidates: Sequence[Candidate], spectrum: Spectrum) -> tuple[Candidate, ...]:
-    """Candidates a main lobe away from zero frequency and from the end of the axis."""
-    lobe = MAIN_LOBE_BINS[spectrum.window] * spectrum.resolution_hz
-    top = float(spectrum.frequency_hz[-1])
-    return tuple(c for c in candidates if lobe <= c.frequency_hz <= top - lobe)
 
 
 def _beyond(candidates: Sequence[Candidate], spectrum: Spectrum) -> tuple[Candidate, ...]:

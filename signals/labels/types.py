@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from signals.floor import FloorSettings
-from signals.labels.explain import FalseMatch
 from signals.labels.families import Bound
 from signals.spectra.types import Band, Scaling
 
@@ -24,22 +23,32 @@ class Matching:
     for a bearing of a real machine, whose cage slips). Between several lines within the tolerance, those further
     off than the nearest by once more the tolerance are ruled out. `max_chance`: combinations (sums beyond the
     predicted families) explain a peak only when chance would bring one so near with no more than this probability.
+
+    Evidence: `family_chance` bounds the probability that chance brings as many lines of a family that nothing is known
+    to excite, `lone_chance` that it brings a single one; of the lines called present, by families or by combinations,
+    no more than the share `false_share` is to be expected by chance.
     """
 
     bins: float = 0.5
     relative: float = 0.0
     tie_bins: float = 0.05
     max_chance: float = 0.05
+    family_chance: float = 1e-3
+    lone_chance: float = 1e-4
+    false_share: float = 0.05
 
 
 @dataclass(frozen=True, kw_only=True)
 class LabelledPeak:
     """One label. `frequency_hz` is predicted (measured when unexplained); None means nothing was measured.
 
-    present: found, and no other sum within the bound fits. ambiguous: found, and the sums in `alternatives`
-    fit as well; `chance_coincidence` is the probability that a peak anywhere near meets some other line of the
-    prediction by chance. absent: predicted and not found; `detection_limit` is the amplitude that would have
-    been seen, and `masked_by` the peak too close to look past. unexplained: found, not predicted (empty label).
+    present: found, no other sum within the bound fits, and there is `evidence` that the line can be there: `term`, one
+    predicts it; `family`, enough lines of its family were found; `sum`, a combination that chance would hardly bring
+    so near. ambiguous: found, but the sums in `alternatives` fit as well, or (`evidence` is `chance`) nothing but its
+    place speaks for it. `chance_coincidence` is the probability that a peak anywhere near meets some other line of the
+    prediction by chance; with evidence `chance` that chance alone brings what was found of the family, with `sum` one
+    so near a combination. absent: predicted and not found; `detection_limit` is the amplitude that would have been
+    seen, and `masked_by` the peak too close to look past. unexplained: found, not predicted (empty label).
     above_nyquist: predicted beyond the end of the spectrum.
     `mechanism` is the first of the `mechanisms` that predict the line, or, once counterfactual runs were made, the one
     shown to cause it (`mechanism_basis` says which); `component` is None while several `components` are possible.
@@ -67,6 +76,21 @@ class LabelledPeak:
     alternatives: tuple[str, ...] = ()
     masked_by: str | None = None
     chance_coincidence: float | None = None
+    evidence: Literal["", "term", "family", "sum", "chance"] = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FalseMatch:
+    """Share of lines at random places that would have been called present, 0..1.
+
+    `families`: as a predicted line with evidence; `combinations`: as a sum beyond them. `ambiguous`: that would have
+    been given a name without evidence; the sums among them are kept at or below `bound` by construction.
+    """
+
+    families: float
+    combinations: float
+    ambiguous: float
+    bound: float
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from sim.assembly.laws import Acting, acting_terms, base_laws, machine_context, 
 from sim.assembly.linear import Linear, linear_part
 from sim.assembly.loads import load_vector, weight_vector
 from sim.assembly.plausibility import implausible
+from sim.assembly.reach import unreached_bores
 from sim.assembly.references import check_references
 from sim.assembly.run_up import run_up_elements
 from sim.core.elements import Element
@@ -104,7 +106,7 @@ def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGIST
     load = load + weight_vector(laws.weights, linear.names, linear.mass)
     dynamic = machine.operating is not None and machine.operating.kinematics == "dynamic"
     angles = {n[: -len(".theta")]: i for i, n in enumerate(linear.names) if n.endswith(".theta")} if dynamic else {}
-    return System(
+    system = System(
         machine=machine,
         dofs=linear.names,
         mass=linear.mass,
@@ -122,3 +124,4 @@ def assemble(machine: MachineSpec, *, seed: int = 0, registry: Registry = REGIST
         warnings=tuple(warnings),
         channels=machine_channels(linear.names, elements),
     )
+    return replace(system, warnings=(*warnings, *unreached_bores(system)))

@@ -12,9 +12,10 @@ from jobs.labelling import label_stored
 from jobs.limits import Limits
 from jobs.physics import PhysicsEngine
 from jobs.request import SimulationRequest
-from jobs.resolve import resolve
+from jobs.resolve import resolve, restored
 from jobs.results import ResultReader, write_result
 from sim.core.errors import SpecError
+from sim.solve.api import simulate
 from store.artefacts.folder import FolderStore
 
 ENGINE = PhysicsEngine()
@@ -108,3 +109,18 @@ def test_demo_run_is_kept_with_its_labels(tmp_path: Path) -> None:
     assert label_stored(reader, name, machine)["peaks"] == peaks["peaks"]
     again = label_stored(reader, reader.manifest.channels[1].name, machine)
     assert again["channel"] == reader.manifest.channels[1].name and again["peaks"]
+
+
+def test_a_contact_that_never_closed_is_told() -> None:
+    def warnings(gap_m: float) -> list[str]:
+        request = ask(set={"fit_clearance@bearing1.gap": gap_m})
+        machine, _ = restored(resolve(request, ENGINE, LIMITS).document)
+        response = simulate(machine, duration_s=0.1, output_rate_hz=20_000.0)
+        told = analyse(response, discard_transient=False).summary["warnings"]
+        assert isinstance(told, list)
+        return [w for w in told if w.startswith("bearing1")]
+
+    assert warnings(2e-5) == []
+    far = warnings(3e-4)
+    assert any("may never touch the bore" in w for w in far)
+    assert any(w.startswith("bearing1.wall was never in contact: ") for w in far)

@@ -93,6 +93,7 @@ class FakeEngine:
         seed: int,
         progress: Callable[[float], None],
         cancelled: Callable[[], bool],
+        estimate_error: bool = True,
     ) -> Response:
         orders = dict(part.partition("=")[::2] for part in machine.notes.split(";") if part)
         _misbehave(orders)

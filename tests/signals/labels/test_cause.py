@@ -92,7 +92,20 @@ def test_a_dummy_has_no_share_and_equals_have_equal_shares() -> None:
 
 
 def test_the_base_machine_is_split_among_its_excitations() -> None:
-    parts = split(row(10.0, 10.0, 10.0), [row(4.0, 0.0, 20.0), row(9.0, 0.0, 10.0)])
+    lacking = {frozenset({0}): row(4.0, 0.0, 20.0), frozenset({1}): row(9.0, 0.0, 10.0)}
+    parts = split(row(10.0, 10.0, 10.0), lacking, 2)
     assert parts[:, 0] == pytest.approx([0.6, 0.1, 0.3])
     assert parts[:, 1] == pytest.approx([0.5, 0.5, 0.0])  # each of two is necessary: they share
     assert parts[:, 2] == pytest.approx([0.0, 0.0, 1.0])  # taking one away makes the line grow
+
+
+def test_a_pair_that_each_suffice_or_cancel_share_what_both_make() -> None:
+    either = {frozenset({0}): row(10.0, 16.0), frozenset({1}): row(10.0, 9.0), frozenset({0, 1}): row(0.0, 0.0)}
+    parts = split(row(10.0, 1.0), either, 2)
+    assert parts[:, 0] == pytest.approx([0.5, 0.5, 0.0])  # each makes the line by itself
+    # amplitudes 3 and 4 against each other leave 1: power (1 - 16 + 9) / 2 = -3 and (1 - 9 + 16) / 2 = 4
+    assert parts[:, 1] == pytest.approx([0.0, 1.0, 0.0])
+
+
+def test_removing_nothing_explains_nothing() -> None:
+    assert split(row(2.0, 3.0), {}, 0) == pytest.approx(np.ones((1, 2)))

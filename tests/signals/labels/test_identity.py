@@ -69,14 +69,27 @@ def test_the_simplest_form_names_the_line() -> None:
     assert set(merged) == {"1*f_m-1*f_r1", "3*f_o1"}
     sideband = merged["1*f_m-1*f_r1"]
     assert sideband.components == ("pinion", "input")
-    assert sideband.mechanisms == ("eccentricity", "kinematic")
+    assert sideband.mechanisms == ("eccentricity",) and sideband.predicted
     assert sideband.aliases == ("22*f_r1",)
     assert merged["3*f_o1"].components == ("bearing1", "bearing2")
 
 
 def test_a_terms_own_prediction_names_the_mechanism() -> None:
     merged = merge_lines([line("mesh1", f_m=1), line("mesh1", "mesh_pairs", f_m=1)], BASES, KINEMATICS)
-    assert (merged[0].mechanism, merged[0].mechanisms) == ("mesh_pairs", ("mesh_pairs", "kinematic"))
+    assert (merged[0].mechanism, merged[0].mechanisms) == ("mesh_pairs", ("mesh_pairs",))
+
+
+def test_all_multiples_of_a_family_read_alike() -> None:
+    """Two terms speak of some multiples and sidebands each; all of the family have both, in one order."""
+    lines = [line("bearing1", f_o1=k) for k in range(1, 9)]
+    lines += [line("bearing1", "ball_contact", f_o1=k) for k in range(1, 4)]
+    lines += [line("bearing1", "fit_clearance", f_o1=k) for k in range(2, 7)]
+    lines += [line("gear", f_m=k, f_r2=n) for k in (1, 2) for n in (-1, 1)]
+    merged = merge_lines(lines, BASES, KINEMATICS)
+    balls = [c for c in merged if c.label.endswith("f_o1")]
+    assert len(balls) == 8 and {c.mechanisms for c in balls} == {("ball_contact", "fit_clearance")}
+    assert [c.predicted for c in balls] == [True] * 6 + [False] * 2
+    assert {c.mechanisms for c in merged if c not in balls} == {("kinematic",)}
 
 
 def test_negative_sums_fold_and_zero_sums_vanish() -> None:

@@ -97,4 +97,4 @@ def test_a_fit_wider_than_any_seat(term):
 
 def test_a_fit_of_unknown_size_is_not_judged():
     spec = TermSpec(term="fit_clearance", site="bearing1", parameters={"gap": 4e-4})
-    assert assemble(with_terms(PAPER, spec)).warnings == ()
+    assert not [w for w in assemble(with_terms(PAPER, spec)).warnings if "loosest seat" in w]
