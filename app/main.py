@@ -16,14 +16,15 @@ from app.guards.body import BodyGuard
 from app.guards.headers import ReplyHeaders
 from app.instruments import Instruments, Measured
 from app.recovery import RecoveryThread
-from app.routes import events, health, indicators, jobs, plots, reference, results, simulations
+from app.routes import estimate, events, health, indicators, jobs, plots, reference, results, simulations, terms
 from app.settings import Settings
 from app.state import AppState
 from jobs.ports import Engine
 from jobs.slices import Encoder
 from store.stores import Stores, open_stores
 
-ROUTERS = tuple(module.router for module in (simulations, jobs, events, results, indicators, plots, reference, health))
+_MODULES = (simulations, estimate, jobs, events, results, indicators, plots, terms, reference, health)
+ROUTERS = tuple(module.router for module in _MODULES)
 
 
 def create_app(settings: Settings, *, engine: Engine, encode: Encoder, stores: Stores | None = None) -> FastAPI:

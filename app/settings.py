@@ -35,6 +35,8 @@ class Settings:
     worker_silent_s: float = 60.0
     """A worker not heard of for so long is not counted as present."""
     static_folder: Path = Path(__file__).parent / "dashboard" / "static"
+    pages_folder: Path = Path(__file__).parents[1] / "docs" / "physics"
+    """Pages of the physical effects, one `KEY.md` each."""
 
     @property
     def keys_required(self) -> bool:
@@ -57,7 +59,7 @@ class Settings:
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> Settings:
         """`SIDEBAND_HOST`, `SIDEBAND_PORT`, `SIDEBAND_API_KEYS` (`name:sha256,...`), `SIDEBAND_ALLOWED_HOSTS`; limits:
         `SIDEBAND_MAX_DURATION_S`, `SIDEBAND_MAX_MEMORY_BYTES`, `SIDEBAND_MAX_STEPS`, `SIDEBAND_MAX_SECONDS`,
-        `SIDEBAND_MAX_WAITING`."""
+        `SIDEBAND_MAX_WAITING`. `SIDEBAND_PAGES_DIR`: the pages of the effects, where they lie elsewhere."""
         env = os.environ if environment is None else environment
         base = Limits()
         limits = Limits(
@@ -72,6 +74,7 @@ class Settings:
             host=env.get("SIDEBAND_HOST", cls.host),
             port=int(number(env, "SIDEBAND_PORT", cls.port, most=65535)),
             api_keys=parse_keys(env.get("SIDEBAND_API_KEYS", "")),
+            pages_folder=Path(env.get("SIDEBAND_PAGES_DIR") or cls.pages_folder),
             allowed_hosts=tuple(h.strip() for h in env.get("SIDEBAND_ALLOWED_HOSTS", "").split(",") if h.strip()),
             limits=limits,
         )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from sim.core.spec import MachineSpec
 from sim.solve.law_picture.ball_panels import ball_panels
 from sim.solve.law_picture.element_panels import element_panels
@@ -38,7 +40,12 @@ def built_in_picture(machine: MachineSpec, kind: str) -> tuple[Panel, ...]:
     if kind == "bearing":
         return tuple(ball_panels(here, None, machine.bearings[0].name))
     element = next(e for e in here.system.elements if e.name.startswith("load"))
-    return tuple(element_panels(here, here, element))
+    return tuple(_alone(panel) for panel in element_panels(here, here, element))
+
+
+def _alone(panel: Panel) -> Panel:
+    """A picture with nothing to compare with."""
+    return replace(panel, curves=tuple(replace(curve, without=None) for curve in panel.curves))
 
 
 def _elements(here: Side, before: Side, site: str) -> list[Panel]:
