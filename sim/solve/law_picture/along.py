@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 from sim.core.elements import Coordinate
 from sim.core.response import FloatArray
 from sim.solve.law_picture.bench import Bench
+from sim.solve.law_picture.carried import carried, mean_load_n
 from sim.solve.law_picture.side import Side, between
 
 
@@ -21,9 +22,9 @@ class Place:
     ud: FloatArray
     time_s: float = 0.0
 
-    def later(self, time_s: float) -> Place:
-        """The same at another instant."""
-        return replace(self, time_s=time_s)
+    def moved(self, by: FloatArray) -> Place:
+        """The same with all coordinates displaced."""
+        return replace(self, u=self.u + by)
 
     def at(self, i: int, *, x: float | None = None, v: float | None = None) -> Place:
         """The same with coordinate i elsewhere, or faster."""
@@ -104,13 +105,13 @@ def against(without: Side, bench: Bench, i: int) -> Along:
     )
 
 
-def resting(here: Side, bench: Bench) -> Place:
-    """The element at rest, teeth that it looks at under their mean load."""
-    u = bench.zeros()
+def resting(here: Side, bench: Bench, times: FloatArray) -> list[Place]:
+    """The element at rest at some instants, teeth that it looks at under their mean load."""
+    u = np.zeros((times.size, bench.element.size))
     law = here.laws.meshes.get(bench.element.site)
     for i, coordinate in enumerate(bench.element.coordinates):
         if law is not None and coordinate.name == f"{law.name}.deflection":
-            mesh = here.elements[law.name]
-            stiffness = 0.0 if mesh.linear_stiffness is None else float(mesh.linear_stiffness[0, 0])
-            u[i] = law.drive * law.mean_force_n / stiffness if stiffness > 0.0 else 0.0
-    return Place(u=u, ud=np.zeros(bench.element.size))
+            mesh = Bench(system=here.system, element=here.elements[law.name])
+            loaded = carried(mesh, times, mean_load_n(law))
+            u[:, i] = 0.0 if loaded is None else loaded
+    return [Place(u=row, ud=bench.zeros(), time_s=float(t)) for row, t in zip(u, times, strict=True)]

@@ -6,7 +6,7 @@ import numpy as np
 
 from sim.core.response import FloatArray
 from sim.core.spec import ForceLoad
-from sim.solve.law_picture.along import Place
+from sim.solve.law_picture.along import Place, resting
 from sim.solve.law_picture.bench import Bench
 from sim.solve.law_picture.panel import Axis, Curve, Panel
 from sim.solve.law_picture.scale import differs_along
@@ -19,30 +19,31 @@ TEETH = 3
 USUAL_HZ = 20.0
 
 
-def angle_panels(here: Side, bench: Bench, ways: list[Way], place: Place) -> list[Panel]:
+def angle_panels(here: Side, bench: Bench, ways: list[Way], moved: FloatArray) -> list[Panel]:
     """One panel for the forces and one for the torques, where the angle changes them.
 
-    What no motion changes is an excitation and shown as a force on the machine; anything else as a resistance at
-    `place`.
+    What no motion changes is an excitation and shown as a force on the machine; anything else as a resistance with the
+    coordinates `moved` (size,) off their places.
     """
     axis, values, times = _turn(here, bench)
-    rows = [bench.row(float(t), place.u) for t in times]
-    forces = np.array([bench.force(row, place.u, place.ud) for row in rows])
+    places = [place.moved(moved) for place in resting(here, bench, times)]
+    rows = [bench.row(place.time_s, place.u) for place in places]
+    forces = np.array([bench.force(row, place.u, place.ud) for row, place in zip(rows, places, strict=True)])
     panels = []
     for unit in dict.fromkeys(way.unit for way in ways):
         most = max(float(np.max(np.abs(forces[:, way.i]))) for way in ways if way.unit == unit)
         mine = [way for way in ways if way.unit == unit and np.max(np.abs(forces[:, way.i])) > 1e-9 * most]
         if not any(differs_along(forces[:, way.i]) for way in mine):
             continue
-        driven = not np.any(place.u) and all(_given(bench, rows[0], way.i) for way in mine)
+        driven = not np.any(places[0].u) and all(_given(bench, rows[0], way.i) for way in mine)
         panels.append(
             Panel(
                 title=f"{FORCE[unit].label} over the {'time' if axis.unit == 's' else 'angle'}",
-                caption=_driven_caption(mine, unit) if driven else _caption(mine[0], place),
+                caption=_driven_caption(mine, unit) if driven else _caption(mine, places[0]),
                 x=axis,
                 values=values,
                 y=FORCE[unit],
-                curves=tuple(_curve(way, forces, times, place, driven=driven, alone=len(mine) == 1) for way in mine),
+                curves=tuple(_curve(way, forces, places, driven=driven, alone=len(mine) == 1) for way in mine),
             )
         )
     return panels
@@ -63,13 +64,13 @@ def _turn(here: Side, bench: Bench) -> tuple[Axis, FloatArray, FloatArray]:
     return Axis(label=f"Angle of {bench.element.shafts[0]}", unit="rad"), angle, angle / speed
 
 
-def _curve(way: Way, forces: FloatArray, times: FloatArray, place: Place, *, driven: bool, alone: bool) -> Curve:
+def _curve(way: Way, forces: FloatArray, places: list[Place], *, driven: bool, alone: bool) -> Curve:
     name = "" if alone else way.coordinate.name.rsplit(".", 1)[-1]
     mine = forces[:, way.i]
     if driven:
-        return Curve(name=name, here=-mine, without=np.zeros(times.size))
-    others = np.array([way.without.held(place.later(float(t))) for t in times])
-    return Curve(name=name, here=mine + way.here.stiffness * place.u[way.i], without=others)
+        return Curve(name=name, here=-mine, without=np.zeros(mine.size))
+    others = np.array([way.without.held(place) for place in places])
+    return Curve(name=name, here=mine + way.here.stiffness * places[0].u[way.i], without=others)
 
 
 def _driven_caption(mine: list[Way], unit: str) -> str:
@@ -77,8 +78,9 @@ def _driven_caption(mine: list[Way], unit: str) -> str:
     return f"{FORCE[unit].label} on {', '.join(parts)} that the effect brings with it, whatever the motion."
 
 
-def _caption(way: Way, place: Place) -> str:
-    return f"Resistance at {way.name}{offsets(way, place)}.{way.beside}"
+def _caption(mine: list[Way], place: Place) -> str:
+    names = " and ".join(dict.fromkeys(way.name if len(mine) == 1 else way.part for way in mine))
+    return f"Resistance at {names}{offsets(mine[0], place)}.{mine[0].beside}"
 
 
 def _given(bench: Bench, row: FloatArray, i: int) -> bool:

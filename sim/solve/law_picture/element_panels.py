@@ -125,7 +125,8 @@ def element_panels(here: Side, without: Side, element: Element) -> list[Panel]:
     """Force over displacement, velocity and angle, as far as they tell something."""
     bench = Bench(system=here.system, element=element)
     ways = ways_of(here, without, bench)
-    place = resting(here, bench)
+    (place,) = resting(here, bench, np.zeros(1))
     panels, pressed = standing_panels(bench, ways, place)
-    turning = angle_panels(here, bench, ways, place) or angle_panels(here, bench, ways, pressed)
+    turning = angle_panels(here, bench, ways, bench.zeros())
+    turning = turning or angle_panels(here, bench, ways, pressed.u - place.u)
     return [panel for panel in (*panels, *turning) if panel.telling]

@@ -10,8 +10,9 @@ import numpy as np
 
 from sim.core.laws import TOOTH_POINTS, MeshLaw
 from sim.core.response import FloatArray
-from sim.parts.mesh_element import OUTPUTS, zero_row
+from sim.parts.mesh_element import zero_row
 from sim.solve.law_picture.bench import Bench
+from sim.solve.law_picture.carried import ERROR, STIFFNESS, carried, mean_load_n
 from sim.solve.law_picture.panel import Axis, Curve, Panel
 from sim.solve.law_picture.scale import telling_reach
 from sim.solve.law_picture.side import Side
@@ -22,9 +23,7 @@ AROUND = 2
 """Teeth shown on either side of the odd one."""
 ALIKE = 3
 """Teeth shown where all are alike."""
-ROOT_STEP_M = 1e-9
 BEYOND_PLAY = 1.5
-STIFFNESS, ERROR = ([output.name for output in OUTPUTS].index(n) for n in ("stiffness", "transmission_error"))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -195,17 +194,17 @@ def _loaded_error(mesh: Mesh) -> Panel | None:
 
     The error of the machine itself is often many times larger, so the change is shown alone.
     """
-    load_n = mesh.law.drive * mesh.law.mean_force_n
+    load_n = mean_load_n(mesh.law)
     angle, times = _angles(mesh)
-    here = _carried(mesh.bench, times, load_n)
-    other = None if mesh.without is None else _carried(mesh.without, times, load_n)
+    here = carried(mesh.bench, times, load_n)
+    other = None if mesh.without is None else carried(mesh.without, times, load_n)
     if here is None or (mesh.without is not None and other is None):
         return None
     change = None if other is None else here - other
     part = _window(mesh, change)
     shown = here if change is None else change
     what = "Deflection" if change is None else "Change, by the effect, of the deflection"
-    caption = f"{what} on the line of action of {mesh.law.name} that carries {abs(load_n):.3g} N, gears turned slowly."
+    caption = f"{what} on the line of action of {mesh.law.name} that carries {abs(load_n):.4g} N, gears turned slowly."
     return Panel(
         title=f"{'T' if change is None else 'Change of the t'}ransmission error under the mean load",
         caption=caption,
@@ -214,29 +213,3 @@ def _loaded_error(mesh: Mesh) -> Panel | None:
         y=Axis(label="Deflection", unit="m"),
         curves=(_curve(shown[part], None if change is None else np.zeros(shown[part].size)),),
     )
-
-
-def _carried(bench: Bench, times: FloatArray, load_n: float) -> FloatArray | None:
-    """Deflection (n,) at which the mesh carries a load, by Newton's method on the piecewise linear law; m."""
-    if load_n == 0.0:
-        return None
-    u = bench.zeros()
-    found = np.zeros(times.size)
-    for k, t in enumerate(times):
-        row = bench.row(float(t), still=True)
-        stiffness = bench.outputs(row, bench.zeros())[STIFFNESS]
-        # from the side where all flanks touch: there Newton's steps never leave the load behind
-        u[0] = 4.0 * load_n / stiffness + math.copysign(5e-4, load_n)
-        for _ in range(40):
-            force = float(bench.force(row, u)[0])
-            ahead = u.copy()
-            ahead[0] -= math.copysign(ROOT_STEP_M, load_n)
-            slope = (force - float(bench.force(row, ahead)[0])) / math.copysign(ROOT_STEP_M, load_n)
-            if slope <= 0.0:
-                return None
-            change = (load_n - force) / slope
-            u[0] += change
-            if abs(change) < 1e-13:
-                break
-        found[k] = u[0]
-    return found

@@ -8,8 +8,8 @@ import numpy as np
 
 from sim.core.response import FloatArray
 
-TELLING = 2e-3
-"""Least root mean square of a difference, relative to the range of the curves, that is worth a picture."""
+TELLING, SHARE = 0.01, 0.02
+"""Least difference, relative to the range of the curves, that the eye sees, and the least share of points with it."""
 
 
 def told(value: float, unit: str) -> str:
@@ -40,7 +40,7 @@ class Curve:
         other = np.zeros_like(self.here) if self.without is None else self.without
         size = float(np.ptp(np.concatenate([self.here, other])))
         rounding = 1e-9 * float(np.max(np.abs(other)))
-        return bool(np.sqrt(np.mean((self.here - other) ** 2)) > max(TELLING * size, rounding))
+        return bool(np.mean(np.abs(self.here - other) > max(TELLING * size, rounding)) >= SHARE)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -71,9 +71,10 @@ def ways_of(here: Side, without: Side, bench: Bench) -> list[Way]:
 def offsets(way: Way, place: Place) -> str:
     """Where the element is held meanwhile."""
     element = way.here.bench.element if way.here.bench is not None else None
-    held = [
-        f"{measured(c) if len(c.weights) < 3 else c.name} held {told(u, c.unit)} off"
-        for c, u in zip(element.coordinates if element else (), place.u, strict=element is not None)
-        if u != 0.0
-    ]
+    held = []
+    for c, u in zip(element.coordinates if element else (), place.u, strict=element is not None):
+        if u != 0.0 and c.name.endswith(".deflection"):
+            held.append(f"{c.name.rsplit('.', 1)[0]} under its mean load")
+        elif u != 0.0:
+            held.append(f"{measured(c) if len(c.weights) < 3 else c.name} displaced by {told(u, c.unit)}")
     return ", " + ", ".join(held) if held else ", all else at rest"

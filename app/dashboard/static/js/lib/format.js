@@ -1,7 +1,7 @@
 /** Numbers, units and times as people read them. */
 
 const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"]];
-const PREFIXABLE = new Set(["m", "N", "N/m", "Hz", "s", "Pa", "W", "J", "V", "rad", "N*s/m", "m/s", "m/s^2", "rad/s", "rad/s^2"]);
+const PREFIXABLE = new Set(["m", "N", "N/m", "N*m", "Hz", "s", "Pa", "W", "J", "V", "rad", "N*s/m", "m/s", "m/s^2", "rad/s", "rad/s^2"]);
 /** Nobody reads km/s². */
 const ONLY_SMALLER = new Set(["m", "m/s", "m/s^2", "rad", "rad/s", "rad/s^2", "s"]);
 const NBSP = "\u202f";
