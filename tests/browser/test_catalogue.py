@@ -78,7 +78,8 @@ def test_every_page_is_rendered_without_remains_of_its_markup(browser: Browser, 
     script = (
         "const [{ markdown }, reply] = await Promise.all([import('/js/lib/markdown.js'), fetch(arguments[0])]);"
         "const made = markdown(await reply.text(), () => '#/');"
-        "return made.map((e) => { e.querySelectorAll('code').forEach((c) => c.remove()); return e.textContent; }).join('\\n')"
+        "made.forEach((e) => e.querySelectorAll('code').forEach((c) => c.remove()));"
+        "return made.map((e) => e.textContent).join('\\n')"
     )
     for term in service.client.get("/v1/terms").json()["terms"]:
         text = browser.run(script, f"/v1/terms/{term['key']}/page")

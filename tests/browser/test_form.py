@@ -128,7 +128,7 @@ def test_the_estimate_and_the_limits_are_the_servers(form: Browser, service: Ser
     limits = service.client.get("/v1/limits").json()
     assert f"to {limits['duration_s']:g} s" in form.text("[data-param=duration_s]")
     eventually(lambda: "Solver steps" in form.text(ESTIMATE), what="the estimate")
-    assert "2 min of simulated time" in form.text(ESTIMATE)
+    assert "2\u202fmin of simulated time" in form.text(ESTIMATE)
     before = form.text(ESTIMATE)
     form.type("[data-param=duration_s] input", "20", clear=True)
     eventually(lambda: form.text(ESTIMATE) != before, what="another estimate")

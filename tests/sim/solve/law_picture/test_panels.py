@@ -92,6 +92,17 @@ def test_a_crack_softens_one_pair_and_the_mesh_around_it_only():
     assert 0.0 < lost.max() <= np.max(curve.without - curve.here) * (1 + 1e-3)
 
 
+def test_tooth_friction_turns_round_at_the_pitch_point_and_is_mu_n():
+    found = picture(PAPER, "tooth_friction", "mesh1", coefficient=0.08, speed=0.01)
+    panel = next(p for p in found if p.y.unit == "N" and p.x.unit == "rad")
+    (curve,) = panel.curves
+    torque = next(load.torque_nm for load in PAPER.loads if load.kind == "torque" and load.shaft == "input")
+    pinion = PAPER.gears[0]
+    base_m = 0.5 * pinion.module_m * pinion.teeth * math.cos(math.radians(pinion.pressure_angle_deg))
+    assert np.max(np.abs(curve.here)) == pytest.approx(0.08 * abs(torque) / base_m, rel=0.03)
+    assert curve.here.min() < 0.0 < curve.here.max()
+
+
 def test_an_added_mass_pushes_back_most_at_its_own_frequency():
     mass, hz, ratio = 0.2, 600.0, 0.05
     values = {"mass": mass, "frequency": hz, "damping_ratio": ratio}

@@ -156,7 +156,7 @@ function build(main, { presets, terms, sensors, limits, earlier, wanted }, signa
     submit.disabled = true;
     try {
       // Fields are checked by the server too: what it says is what counts, and names the bound of this server.
-      if (!valid() && ![...form.querySelectorAll("input[type=number]")].every((input) => input.value !== "")) throw new Error("Fill in every number.");
+      if (!valid() && ![...form.querySelectorAll("input[type=number][required]")].every((input) => input.value !== "")) throw new Error("Fill in every number.");
       const reply = await call("/v1/simulations", { method: "POST", body: body(), headers: { "X-Submitter": submitter() } });
       const job = await reply.json();
       if (!job.created) toast("This was asked for before: the result is shared.");
