@@ -28,9 +28,11 @@ ENV PATH=/opt/sideband/bin:$PATH \
     OMP_NUM_THREADS=1 \
     OPENBLAS_NUM_THREADS=1 \
     SIDEBAND_DATA_DIR=/data \
+    SIDEBAND_PAGES_DIR=/opt/sideband/share/physics \
     SIDEBAND_HOST=0.0.0.0
 USER sideband
 WORKDIR /home/sideband
+COPY docs/physics /opt/sideband/share/physics
 # Compile the kernels while the image is built: the first job must not wait for it. Another kind of CPU compiles again.
 RUN python -m workers.warm
 VOLUME /data

@@ -19,16 +19,27 @@ from app.guards.upload import UploadGuard
 from app.instruments import Instruments, Measured
 from app.query import only_known_query
 from app.recovery import RecoveryThread
-from app.routes import events, health, indicators, jobs, plots, recordings, reference, results, simulations
+from app.routes import (
+    estimate,
+    events,
+    health,
+    indicators,
+    jobs,
+    plots,
+    recordings,
+    reference,
+    results,
+    simulations,
+    terms,
+)
 from app.settings import Settings
 from app.state import AppState
 from jobs.ports import Engine
 from jobs.slices import Encoder
 from store.stores import Stores, open_stores
 
-ROUTERS = tuple(
-    module.router for module in (simulations, jobs, events, results, indicators, plots, recordings, reference, health)
-)
+_MODULES = (simulations, estimate, jobs, events, results, indicators, plots, recordings, terms, reference, health)
+ROUTERS = tuple(module.router for module in _MODULES)
 
 
 def create_app(settings: Settings, *, engine: Engine, encode: Encoder, stores: Stores | None = None) -> FastAPI:

@@ -39,6 +39,8 @@ class Settings:
     worker_silent_s: float = 60.0
     """A worker not heard of for so long is not counted as present."""
     static_folder: Path = Path(__file__).parent / "dashboard" / "static"
+    pages_folder: Path = Path(__file__).parents[1] / "docs" / "physics"
+    """Pages of the physical effects, one `KEY.md` each."""
 
     @property
     def keys_required(self) -> bool:
@@ -61,7 +63,8 @@ class Settings:
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> Settings:
         """`SIDEBAND_HOST`, `SIDEBAND_PORT`, `SIDEBAND_API_KEYS` (`name:sha256,...`), `SIDEBAND_ALLOWED_HOSTS`; limits:
         `SIDEBAND_MAX_DURATION_S`, `SIDEBAND_MAX_MEMORY_BYTES`, `SIDEBAND_MAX_STEPS`, `SIDEBAND_MAX_SECONDS`,
-        `SIDEBAND_MAX_WAITING`, `SIDEBAND_MAX_UPLOAD_BYTES`."""
+        `SIDEBAND_MAX_WAITING`, `SIDEBAND_MAX_UPLOAD_BYTES`. `SIDEBAND_PAGES_DIR`: the pages of the effects, where they
+        lie elsewhere."""
         env = os.environ if environment is None else environment
         read, base = Numbers(env), Limits()
         limits = Limits(
@@ -78,6 +81,7 @@ class Settings:
             host=env.get("SIDEBAND_HOST", cls.host),
             port=port,
             api_keys=parse_keys(env.get("SIDEBAND_API_KEYS", "")),
+            pages_folder=Path(env.get("SIDEBAND_PAGES_DIR") or cls.pages_folder),
             allowed_hosts=tuple(h.strip() for h in env.get("SIDEBAND_ALLOWED_HOSTS", "").split(",") if h.strip()),
             limits=limits,
             max_upload_bytes=int(number(env, "SIDEBAND_MAX_UPLOAD_BYTES", cls.max_upload_bytes)),

@@ -23,6 +23,7 @@ from signals.spectra.order import order_spectrum
 from signals.spectra.types import OrderSpectrum, Spectrum
 from sim.core.errors import SpecError
 from sim.core.response import Channel, Response
+from sim.core.spec import ForceLoad, MachineSpec, TorqueLoad
 from sim.core.speed import mean_ratio, warped_times
 
 MIN_REVOLUTIONS = 2.0
@@ -77,13 +78,21 @@ def _finite(recording: Recording, channel: Channel) -> bool:
 
 def analysed_from(response: Response, discard: bool) -> tuple[float, list[str]]:
     """Where the analysis begins, s, and notes. A record that is nearly all transient is analysed whole, and says so."""
-    if not discard:
+    if not discard or rings_down(response.machine):
         return 0.0, []
     samples = response.signals.shape[1]
     first = int(response.quality.transient_end_s * response.sampling_rate_hz)
     if samples - first >= max(MIN_SAMPLES, samples // 4):
         return first / response.sampling_rate_hz, []
     return 0.0, ["the start-up transient takes most of the record; it is analysed whole: simulate longer"]
+
+
+def rings_down(machine: MachineSpec) -> bool:
+    """Whether nothing keeps a machine moving: its loads step on at t = 0, and what follows is all there is to see."""
+    pushed = any(
+        not isinstance(x, TorqueLoad) and not (isinstance(x, ForceLoad) and x.amplitude_n == 0.0) for x in machine.loads
+    )
+    return machine.operating is None and not pushed
 
 
 def _rotation(series: Series, response: Response) -> float | FloatArray | None:
@@ -152,6 +161,7 @@ def _summary(response: Response, recording: Recording, start_s: float, notes: li
         "warnings": [*response.warnings, *notes],
         "contact_share": dict(response.contact_share),
         "analysed_from_s": start_s,
+        "rings_down": rings_down(response.machine),
         "features": {c.name: _features(recording, c) for c in recording.channels},
         "quality": {
             **{k: v for k, v in vars(quality).items() if k != "energy"},

@@ -49,7 +49,7 @@ def carry_out(
             variant,
             duration_s=request.duration_s,
             sampling_rate_hz=request.sampling_rate_hz,
-            channels=channels,
+            channels=_known(engine, variant, channels) if variant is not machine else channels,
             seed=request.seed,
             progress=lambda share: progress((first + share) / total),
             cancelled=cancelled,
@@ -74,6 +74,12 @@ def carry_out(
         start_s=start_s,
     )
     return _outcome(response, {CAUSES: causes, **_impacts(whole, response, request)}, request)
+
+
+def _known(engine: Engine, variant: MachineSpec, channels: list[str] | None) -> list[str] | None:
+    """Those of the outputs that a machine without some effect still has: a wall's force goes with its clearance."""
+    known = set(engine.report(variant).channels)
+    return None if channels is None else [name for name in channels if name in known]
 
 
 def _outcome(response: Response, extras: dict[str, Json], request: SimulationRequest) -> Outcome:

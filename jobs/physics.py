@@ -9,6 +9,7 @@ from threading import Lock
 from jobs.cost import Run, expected
 from jobs.example import example
 from jobs.identity import canonical_json
+from jobs.law_document import law_document
 from jobs.ports import MachineReport
 from jobs.record import Cost
 from jobs.term_document import term_document
@@ -67,6 +68,14 @@ class PhysicsEngine:
         # One at a time: whoever opens many pages must not take every core from the workers.
         with self._examples:
             return example(term)
+
+    def law(self, key: str) -> dict[str, object]:
+        """Pictures of an effect's law; raises UnknownName. Takes a second or two."""
+        term = REGISTRY.get(key)
+        if term is None:
+            raise UnknownName("term", key, REGISTRY.keys())
+        with self._examples:
+            return law_document(term)
 
     def bearings(self) -> list[dict[str, object]]:
         """The bearing catalogue."""

@@ -54,6 +54,9 @@ class Engine(Protocol):
     def example(self, key: str) -> dict[str, object]:
         """An effect at work on its demonstration machine; raises UnknownName."""
 
+    def law(self, key: str) -> dict[str, object]:
+        """Pictures of an effect's law on its demonstration machine; raises UnknownName."""
+
     def bearings(self) -> list[dict[str, object]]:
         """The bearing catalogue."""
 

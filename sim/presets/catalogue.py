@@ -70,14 +70,15 @@ def _demo() -> MachineSpec:
         clearance(DEMO_GAP_M),
         TermSpec(term="eccentricity", site="pinion", parameters={"radius": DEMO_RUNOUT_M}),
     )
-    notes = "Lightly damped, clearance 20 um at bearing 1, pinion run-out 20 um radius: f_m +- f_r1 needs the run-out."
+    notes = "Lightly damped, clearance 20 µm at bearing 1, pinion run-out 20 µm radius: f_m ± f_r1 needs the run-out."
     return gearbox(replace(LIGHT, name="paper-demo", notes=notes, terms=terms))
 
 
 def _oscillator() -> MachineSpec:
     return MachineSpec(
         name="oscillator",
-        notes="One mass on a spring and damper, pushed by a constant force: 50.3 Hz, damping ratio 0.05.",
+        notes="One mass on a spring and damper. A force of 10 N steps on at t = 0 and stays: the mass rings down at "
+        "50.3 Hz with a damping ratio of 0.05. Nothing turns, so there are no lines to label.",
         bodies=[BodySpec(name="mass", mass_kg=1.0, axes="y", stiffness_y_n_per_m=1e5, damping_y_ns_per_m=31.6227766)],
         loads=[ForceLoad(body="mass", axis="y", constant_n=10.0)],
     )
@@ -148,7 +149,9 @@ PRESETS: Mapping[str, Preset] = {
         Preset(name="bearing-rig", sentence="A motor shaft on two 6205 bearings with a load disc.", build=bearing_rig),
         Preset(name="two-stage", sentence="Two-stage gearbox: three flexible shafts, six bearings.", build=two_stage),
         Preset(name="overhung", sentence="A pinion overhung beyond its two bearings.", build=overhung),
-        Preset(name="oscillator", sentence="One mass on a spring.", build=_oscillator),
+        Preset(
+            name="oscillator", sentence="One mass on a spring that rings down after a step of force.", build=_oscillator
+        ),
     )
 }
 

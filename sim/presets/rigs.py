@@ -188,7 +188,7 @@ def two_stage() -> MachineSpec:
     width = 0.16
     return MachineSpec(
         name="two-stage",
-        notes="Two-stage parallel gearbox, 25 Hz and 20 N m in, ratio 9.91, run-out of 5 to 10 um on three gears.",
+        notes="Two-stage parallel gearbox, 25 Hz and 20 N m in, ratio 9.91, run-out of 5 to 10 µm on three gears.",
         shafts=[
             _straight("input", 0.025, width, {"bearing1": 0.01, "pinion1": 0.05, "bearing2": 0.15}, end=(0.01, 0.0)),
             _straight("idler", 0.03, width, {"bearing3": 0.01, "gear1": 0.05, "pinion2": 0.105, "bearing4": 0.15}),

@@ -11,8 +11,8 @@ from sim.core.elementary import sine_cosine
 from sim.core.elements import Coordinate, Element, Output, flat
 from sim.core.kernels import kernel
 from sim.core.laws import Laws
-from sim.core.spec import ForceLoad, MeasuredLoad
-from sim.core.terms import SiteContext, Term, Validation, Values
+from sim.core.spec import ForceLoad, MachineSpec, MeasuredLoad
+from sim.core.terms import Demo, SiteContext, Term, Validation, Values
 from sim.parts.sampled_load import sampled_element
 
 
@@ -70,6 +70,12 @@ class ForceLoads(Term):
         return found
 
 
+def shaken(machine: MachineSpec) -> MachineSpec:
+    """The machine pushed at a fifth of a natural frequency of 50 Hz or so."""
+    load = ForceLoad(body=machine.bodies[0].name, axis="y", amplitude_n=10.0, frequency_hz=10.0)
+    return machine.model_copy(update={"loads": [*machine.loads, load]})
+
+
 TERM = ForceLoads(
     key="force_load",
     title="Sinusoidal force",
@@ -79,6 +85,7 @@ TERM = ForceLoads(
     references=("docs/conventions.md",),
     severity=None,
     order=10,
+    demo=Demo(machine="oscillator", prepare=shaken),
     validation=(
         Validation(
             kind="closed form",

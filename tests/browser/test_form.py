@@ -119,3 +119,52 @@ def test_a_request_can_be_changed_and_run_again(form: Browser, service: Service)
     }
     assert values == {"speed_hz": "41", "duration_s": "0.3", "seed": "5"}
     assert form.run("return document.getElementById('preset').value") == "rotor"
+
+
+ESTIMATE = "[aria-label=Estimate]"
+
+
+def test_the_estimate_and_the_limits_are_the_servers(form: Browser, service: Service) -> None:
+    limits = service.client.get("/v1/limits").json()
+    assert f"to {limits['duration_s']:g} s" in form.text("[data-param=duration_s]")
+    eventually(lambda: "Solver steps" in form.text(ESTIMATE), what="the estimate")
+    assert "2\u202fmin of simulated time" in form.text(ESTIMATE)
+    before = form.text(ESTIMATE)
+    form.type("[data-param=duration_s] input", "20", clear=True)
+    eventually(lambda: form.text(ESTIMATE) != before, what="another estimate")
+
+
+def test_what_the_server_refuses_of_the_run_is_told_at_its_field(form: Browser, service: Service) -> None:
+    form.type("[data-param=sampling_rate_hz] input", "500", clear=True)
+    field = "[data-param=sampling_rate_hz]"
+    eventually(lambda: "too low for the labels" in form.text(field), what="the refusal at the field")
+    assert form.count(f"{field} [aria-invalid=true]") == 1
+    assert "No estimate" in form.text(ESTIMATE)
+    assert any("422" in line for line in form.complaints())
+
+
+def test_a_measurement_chain_is_put_together_and_simulated(form: Browser, service: Service) -> None:
+    add = "const s = document.querySelector(arguments[1]);s.value = arguments[0]; s.dispatchEvent(new Event('change'))"
+    chooser = "[aria-label='Add a sensor']"
+    known = {sensor["name"]: sensor for sensor in service.client.get("/v1/sensors").json()["sensors"]}
+    form.run(add, "icp-100mv-g", chooser)
+    form.run(add, "once-per-turn", chooser)
+    assert known["icp-100mv-g"]["sentence"] in form.text("[data-sensor=icp-100mv-g]")
+    form.type("#recorder-rate", "90000", clear=True)
+    rate = "[data-param=recorder_rate_hz]"
+    eventually(lambda: "nothing new would be seen" in form.text(rate), what="the refusal at the recorder's rate")
+    assert any("422" in line for line in form.complaints())
+    form.type("#recorder-rate", "12000", clear=True)
+    eventually(
+        lambda: "nothing new" not in form.text(rate) and "Recorded channels" in form.text(ESTIMATE), what="sense"
+    )
+    form.type("[data-param=duration_s] input", "0.6", clear=True)
+    form.click("button[type=submit]")
+    form.find(".result-title h1")
+    job = form.run("return location.hash").rsplit("/", 1)[1]
+    service.wait(job, "successful")
+    request = service.client.get(f"/v1/jobs/{job}").json()["request"]
+    assert [channel["preset"] for channel in request["sensors"]["channels"]] == ["icp-100mv-g", "once-per-turn"]
+    form.find("#card-time canvas", within_s=30)
+    form.open(service.page(f"/new?from={job}"))
+    assert "The earlier request had" in form.text(".sensors")

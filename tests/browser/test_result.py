@@ -8,6 +8,8 @@ from tests.browser.conftest import DEMO, Service
 from tests.browser.driver import Browser, eventually
 
 SPECTRUM = "#card-spectrum canvas.plot-canvas"
+AMPLITUDE = ".peaks-table th[data-key=amplitude]"
+"""The head of the column holds its unit."""
 UNTHINNED = 6000
 """A stretch of so many samples is fetched as it is."""
 INKED = """
@@ -113,9 +115,7 @@ def test_another_channel_brings_its_own_labels(result: Browser, service: Service
         "const s = document.getElementById('channel'); s.value = 'bearing1.inner.y.displacement';"
         "s.dispatchEvent(new Event('change'))"
     )
-    eventually(
-        lambda: "µm" in result.text(".peaks-table tbody") or "nm" in result.text(".peaks-table tbody"), what="lengths"
-    )
+    eventually(lambda: "µm" in result.text(AMPLITUDE) or "nm" in result.text(AMPLITUDE), what="lengths")
     assert "Envelope spectra are made of accelerations" in result.text("#card-envelope")
 
 
@@ -193,7 +193,9 @@ def test_a_machine_without_lines_says_why(browser: Browser, service: Service) ->
 
 def test_the_start_up_does_not_set_the_scale(browser: Browser, service: Service) -> None:
     # Half of the record is transient: it is analysed whole, but seen from where it has settled.
-    job = finished(service, preset="oscillator", duration_s=0.5)
+    machine = service.client.get("/v1/presets/oscillator").json()
+    machine["loads"].append({"kind": "force", "body": "mass", "axis": "y", "amplitude_n": 1.0, "frequency_hz": 20.0})
+    job = finished(service, machine=machine, duration_s=0.5)
     browser.open(service.page(f"/jobs/{job}"))
     canvas = "#card-time canvas.plot-canvas"
     eventually(lambda: browser.run("return document.querySelector(arguments[0])?.dataset.view", canvas), what="a view")
@@ -203,7 +205,27 @@ def test_the_start_up_does_not_set_the_scale(browser: Browser, service: Service)
     assert low >= 0.2 and high == pytest.approx(0.5)
 
 
+def test_a_ring_down_is_seen_from_its_beginning(browser: Browser, service: Service) -> None:
+    job = finished(service, preset="oscillator", duration_s=0.5)
+    browser.open(service.page(f"/jobs/{job}"))
+    canvas = "#card-time canvas.plot-canvas"
+    eventually(lambda: browser.run("return document.querySelector(arguments[0])?.dataset.view", canvas), what="a view")
+    assert view(browser, canvas)[0] == 0.0
+    text = browser.text("#card-quality")
+    assert "Ring-down" in text and "simulate longer" not in text
+
+
+def test_nothing_hidden_lengthens_the_page(result: Browser) -> None:
+    result.size(400, 900)
+    left = (
+        "const foot = document.querySelector('footer').getBoundingClientRect();"
+        "return document.documentElement.scrollHeight - foot.bottom - window.scrollY"
+    )
+    eventually(lambda: result.run(left) < 40, what="the page to end at its foot")
+
+
 def test_a_machine_of_angles_is_labelled(browser: Browser, service: Service) -> None:
     job = finished(service, preset="gear-pair", duration_s=0.5)
     browser.open(service.page(f"/jobs/{job}"))
-    assert "rad/s²" in browser.text('.peaks-table tr[data-label="1*f_m"]')
+    browser.find('.peaks-table tr[data-label="1*f_m"]')
+    assert "rad/s²" in browser.text(AMPLITUDE)

@@ -56,6 +56,10 @@ class FakeEngine:
         self.examples = getattr(self, "examples", 0) + 1
         return {"key": key, "made": self.examples}
 
+    def law(self, key: str) -> dict[str, object]:
+        self.laws = getattr(self, "laws", 0) + 1
+        return {"key": key, "made": self.laws}
+
     def bearings(self) -> list[dict[str, object]]:
         return [{"designation": "6203", "balls": 8}]
 

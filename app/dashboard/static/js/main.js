@@ -4,6 +4,8 @@ import { ApiProblem, apiKey, getJson, setApiKey } from "/js/lib/api.js";
 import { h, icon, replace } from "/js/lib/dom.js";
 import { clearBanner, problemBox, showBanner } from "/js/lib/problem.js";
 import { cataloguePage } from "/js/catalogue/page.js";
+import { termPage } from "/js/catalogue/term-page.js";
+import { apiPage } from "/js/api/page.js";
 import { formPage } from "/js/form/page.js";
 import { overviewPage } from "/js/overview/page.js";
 import { resultPage } from "/js/result/page.js";
@@ -12,6 +14,8 @@ const HEALTH_MS = 3000;
 const ROUTES = [
   [/^\/?$/, "overview", overviewPage, "Jobs"],
   [/^\/new$/, "new", formPage, "New simulation"],
+  [/^\/catalogue\/([a-z0-9_]+)\/page$/, "catalogue", termPage, "Effect"],
+  [/^\/api$/, "api", apiPage, "API"],
   [/^\/catalogue(?:\/([a-z0-9_]+))?$/, "catalogue", cataloguePage, "Physical effects"],
   [/^\/jobs\/([A-Za-z0-9_-]+)$/, "result", resultPage, "Result"],
 ];

@@ -4,6 +4,7 @@ import { h } from "/js/lib/dom.js";
 import { plainNumber, prose, unit } from "/js/lib/format.js";
 import { familyInfo, familyOf } from "/js/lib/families.js";
 import { examplePart } from "/js/catalogue/example.js";
+import { lawPart } from "/js/catalogue/law.js";
 import { formula } from "/js/plot/formula.js";
 
 const MOST_LINES = 12;
@@ -12,14 +13,14 @@ export function effectCard(term) {
   const body = h("div", { class: "card-body catalogue-body" });
   const element = h("details", { class: "card catalogue-effect", dataset: { term: term.key } },
     h("summary", {}, h("strong", {}, term.title), h("code", {}, term.key), h("span", { class: "muted" }, prose(term.sentence))), body);
-  let example = null;
+  let drawn = [];
   element.addEventListener("toggle", () => {
     if (element.open && !body.childElementCount) {
-      example = examplePart(term);
-      body.append(...contents(term, example.element));
+      drawn = [lawPart(term), examplePart(term)];
+      body.append(...contents(term, ...drawn.map((part) => part.element)));
     }
   });
-  return { term, element, text: searchable(term), stop: () => example?.stop() };
+  return { term, element, text: searchable(term), stop: () => drawn.forEach((part) => part.stop()) };
 }
 
 function searchable(term) {
@@ -28,17 +29,18 @@ function searchable(term) {
   return [term.key, term.title, term.sentence, ...term.sites, ...parameters, ...term.references, ...lines].join(" ").toLowerCase();
 }
 
-function contents(term, example) {
+function contents(term, law, example) {
   const facts = [
     ["Acts at", term.sites.join(", ") || "the whole machine, when there is something to act on"],
     ["Size", term.severity ? `${term.severity}${term.zero_is_healthy ? "; zero changes nothing" : ""}` : "–"],
     ["Energy", term.passive ? "never adds any" : "may add some"],
     ["Not together with", term.excludes.join(", ") || "–"],
     ["Demonstration", `${term.demo.machine}${term.demo.site ? `, at ${term.demo.site}` : ", which has it already"}`],
-    ["Law and limits", h("code", {}, term.page)],
+    ["Equations and limits", h("a", { href: `#/catalogue/${term.key}/page` }, "Page of this effect")],
   ];
   return [
     h("dl", { class: "catalogue-facts" }, facts.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))),
+    part("Force law", law, 1),
     part("Example", example, 1),
     part("Parameters", parameterTable(term), term.parameters.length),
     part("Predicted lines", lineTable(term), term.predicted_lines.length),

@@ -1,11 +1,11 @@
 /** An effect at work: signal and spectrum of its demonstration machine, the machine without it behind. */
 
 import { reference } from "/js/lib/api.js";
-import { h, replace, token } from "/js/lib/dom.js";
+import { h, replace } from "/js/lib/dom.js";
 import { drawMarker, familyColour, familyOf } from "/js/lib/families.js";
 import { channelName, number, scaled } from "/js/lib/format.js";
 import { problemBox } from "/js/lib/problem.js";
-import { highestNear, tracePath } from "/js/plot/reduce.js";
+import { highestNear } from "/js/plot/reduce.js";
 import { Plot } from "/js/plot/plot.js";
 
 export function examplePart(term) {
@@ -35,19 +35,14 @@ function most(...curves) {
 
 /** The curve without the effect, drawn behind. */
 function behind(curve) {
-  return (ctx, plot) => {
-    tracePath(ctx, curve, plot.x, plot.y, plot.view[0], plot.view[1]);
-    ctx.lineWidth = 1.2;
-    ctx.strokeStyle = token("--axis");
-    ctx.stroke();
-  };
+  return { ...curve, colour: "--axis" };
 }
 
 function signalPlot(term, { signal, unit: si }) {
   const [factor, unit] = scaled(most(signal.with, signal.without), si);
   const plot = new Plot({ label: `Example signal of ${term.title}`, height: 240, xLabel: "Time", xUnit: "s", yLabel: "Signal", yUnit: unit });
   const curve = scaledCurve(signal.with, factor);
-  if (signal.without) plot.below.push(behind(scaledCurve(signal.without, factor)));
+  if (signal.without) plot.companions.push(behind(scaledCurve(signal.without, factor)));
   plot.setData(curve, { domain: [curve.x[0], curve.x.at(-1)], view: [curve.x[0], curve.x.at(-1)] });
   return plot;
 }
@@ -56,7 +51,7 @@ function spectrumPlot(term, { spectrum, lines }) {
   const [factor, unit] = scaled(most(spectrum.with, spectrum.without), spectrum.unit);
   const plot = new Plot({ label: `Example spectrum of ${term.title}; its predicted lines are in the table below`, height: 210, xLabel: "Frequency", xUnit: "Hz", yLabel: "Amplitude", yUnit: unit, line: "--spectrum", fill: true, log: true, headroom: 22 });
   const curve = scaledCurve(spectrum.with, factor);
-  if (spectrum.without) plot.below.push(behind(scaledCurve(spectrum.without, factor)));
+  if (spectrum.without) plot.companions.push(behind(scaledCurve(spectrum.without, factor)));
   plot.above.push((ctx) => {
     for (const line of lines) {
       const height = highestNear(curve, line.frequency_hz, spectrum.resolution_hz);

@@ -8,7 +8,8 @@ const STANDARD = { term: "fit_clearance", site: "bearing1" };
 
 /** Names of the places in `machine` where a kind of site is. */
 function sitesOf(machine, kinds) {
-  const lists = { bearing: machine.bearings, gear: machine.gears, mesh: machine.meshes, shaft: machine.shafts };
+  const turning = machine.bodies.filter((body) => body.shaft);
+  const lists = { bearing: machine.bearings, gear: machine.gears, body: turning, mesh: machine.meshes, shaft: machine.shafts };
   return kinds.flatMap((kind) => (lists[kind] ?? []).map((part) => part.name));
 }
 
@@ -41,10 +42,10 @@ export function effectsPanel(terms, onChange) {
   }
 
   function draw() {
-    replace(list, effects.length ? effects.map((effect) => effect.element) : h("p", { class: "muted" }, "This machine has no adjustable effect yet."));
     const pairs = tunable.flatMap((term) => sitesOf(machine, term.sites)
       .filter((site) => !effects.some((effect) => effect.site === site && (effect.term.key === term.key || term.excludes.includes(effect.term.key))))
       .map((site) => [`${term.key}@${site}`, `${term.title}, ${partName(site)}`]));
+    replace(list, effects.length ? effects.map((effect) => effect.element) : h("p", { class: "muted" }, pairs.length ? "No effect yet." : "Nothing of this machine is of a kind that the effects act on: they need bearings, gears or shafts."));
     if (!pairs.length) { replace(adder); return; }
     const chooser = select([["", "Add an effect …"], ...pairs], "", { class: "small", "aria-label": "Add an effect", onchange: () => {
       const [key, site] = chooser.value.split("@");

@@ -1,7 +1,7 @@
 /** Numbers, units and times as people read them. */
 
 const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"]];
-const PREFIXABLE = new Set(["m", "N", "N/m", "Hz", "s", "Pa", "W", "J", "V", "rad", "N*s/m", "m/s", "m/s^2", "rad/s", "rad/s^2"]);
+const PREFIXABLE = new Set(["m", "N", "N/m", "N*m", "Hz", "s", "Pa", "W", "J", "V", "rad", "N*s/m", "m/s", "m/s^2", "rad/s", "rad/s^2"]);
 /** Nobody reads km/s². */
 const ONLY_SMALLER = new Set(["m", "m/s", "m/s^2", "rad", "rad/s", "rad/s^2", "s"]);
 const NBSP = "\u202f";
@@ -28,7 +28,7 @@ export function plainNumber(value) {
 
 /** Sentences of the server with the signs a page can show: `20 um`, `+-`. */
 export function prose(text) {
-  return text.replace(/(\d) ?um\b/g, `$1${NBSP}µm`).replace(/ \+-/g, " ±").replace(/±(?=\S)/g, "± ");
+  return text.replace(/(\d) ?u([ms])\b/g, `$1${NBSP}µ$2`).replace(/ \+-/g, " ±").replace(/±(?=\S)/g, "± ");
 }
 
 function superscript(exponent) {
@@ -67,9 +67,16 @@ export function duration(seconds) {
   if (seconds === null || seconds === undefined || !Number.isFinite(seconds)) return "–";
   if (seconds < 1) return `${Math.round(seconds * 1000)}${NBSP}ms`;
   if (seconds < 60) return `${number(seconds, seconds < 10 ? 2 : 3)}${NBSP}s`;
-  if (seconds < 3600) return `${Math.floor(seconds / 60)}${NBSP}min ${Math.round(seconds % 60)}${NBSP}s`;
-  if (seconds < 86400) return `${Math.floor(seconds / 3600)}${NBSP}h ${Math.round((seconds % 3600) / 60)}${NBSP}min`;
+  if (seconds < 3600) return both(Math.round(seconds), 60, "min", "s");
+  if (seconds < 86400) return both(Math.round(seconds / 60), 60, "h", "min");
   return `${number(seconds / 86400, 3)}${NBSP}d`;
+}
+
+/** `2 min`, `2 min 5 s`. */
+function both(count, size, large, small) {
+  const rest = count % size;
+  const whole = `${Math.floor(count / size)}${NBSP}${large}`;
+  return rest ? `${whole} ${rest}${NBSP}${small}` : whole;
 }
 
 export function ago(iso) {

@@ -29,6 +29,8 @@ export class Plot {
     this.series = { x: [], y: [] };
     this.domain = [0, 1];
     this.view = [0, 1];
+    /** Further curves {x, y, colour, width}, drawn behind the line; y is fitted to them too. */
+    this.companions = [];
     this.below = [];
     this.above = [];
     this.cursor = null;
@@ -114,6 +116,7 @@ export class Plot {
     ctx.rect(this.box.left, this.box.top - 1, this.box.right - this.box.left, this.box.bottom - this.box.top + 2);
     ctx.clip();
     this.below.forEach((layer) => layer(ctx, this));
+    this.companions.forEach((curve) => this.drawCompanion(ctx, curve));
     this.drawLine(ctx);
     this.above.forEach((layer) => layer(ctx, this));
     this.drawCursor(ctx);
@@ -121,7 +124,7 @@ export class Plot {
   }
 
   fitted() {
-    const found = extent(this.series, this.view[0], this.view[1]) ?? [0, 1];
+    const found = this.seen();
     const { bottom, top } = this.box;
     const head = top + (this.options.headroom ?? 6);
     if (this.options.log) {
@@ -132,6 +135,12 @@ export class Plot {
     const low = this.options.fromZero ? Math.min(0, found[0]) : found[0];
     const pad = (found[1] - low) * 0.05 || Math.abs(found[1]) * 0.05 || 1;
     return new Linear(this.options.fromZero && found[0] >= 0 ? 0 : low - pad, found[1] + (this.options.fromZero ? 0 : pad), bottom, head);
+  }
+
+  /** Lowest and highest y of all curves in view. */
+  seen() {
+    const all = [this.series, ...this.companions].map((curve) => extent(curve, this.view[0], this.view[1])).filter(Boolean);
+    return all.length ? [Math.min(...all.map(([low]) => low)), Math.max(...all.map(([, high]) => high))] : [0, 1];
   }
 
   drawGrid(ctx) {
@@ -173,7 +182,7 @@ export class Plot {
     if (!this.series.x.length) return;
     tracePath(ctx, this.series, this.x, this.y, this.view[0], this.view[1]);
     ctx.lineJoin = "round";
-    ctx.lineWidth = 1.2;
+    ctx.lineWidth = this.options.width ?? 1.2;
     ctx.strokeStyle = this.colours.line;
     ctx.stroke();
     if (this.options.fill) {
@@ -183,6 +192,16 @@ export class Plot {
       ctx.fillStyle = this.colours.soft;
       ctx.fill();
     }
+  }
+
+  drawCompanion(ctx, curve) {
+    tracePath(ctx, curve, this.x, this.y, this.view[0], this.view[1]);
+    ctx.lineJoin = "round";
+    ctx.lineWidth = curve.width ?? 1.2;
+    ctx.strokeStyle = token(curve.colour);
+    ctx.setLineDash(curve.dash ?? []);
+    ctx.stroke();
+    ctx.setLineDash([]);
   }
 
   drawCursor(ctx) {

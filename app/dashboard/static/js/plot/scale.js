@@ -18,10 +18,20 @@ export class Linear {
   }
 
   ticks(wanted) {
-    const step = niceStep((this.high - this.low) / Math.max(1, wanted));
+    let step = niceStep((this.high - this.low) / Math.max(1, wanted));
+    let found = this.multiples(step);
+    // one tick alone tells no scale
+    for (let finer = 2; found.length < 2 && finer <= 4; finer *= 2) {
+      step = niceStep((this.high - this.low) / (finer * Math.max(1, wanted)));
+      found = this.multiples(step);
+    }
+    return { values: found, text: (value) => fixed(value, step) };
+  }
+
+  multiples(step) {
     const found = [];
     for (let k = Math.ceil(this.low / step - 1e-9); k * step <= this.high + step * 1e-9; k += 1) found.push(k * step);
-    return { values: found, text: (value) => fixed(value, step) };
+    return found;
   }
 }
 

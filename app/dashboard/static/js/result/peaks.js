@@ -30,6 +30,7 @@ export function peaksCard(context, { onChoose, onFamilies }) {
   const count = h("span", { class: "muted small num" });
   const heads = COLUMNS.map(([key, name, right]) => h("th", { scope: "col", class: right ? "right" : "", dataset: { key } },
     h("button", { type: "button", onclick: () => sortBy(key) }, h("span", {}, name), h("span", { class: "arrow", "aria-hidden": "true" }))));
+  const amplitudeHead = heads[COLUMNS.findIndex(([key]) => key === "amplitude")].querySelector("span");
   const body = h("tbody");
   const more = h("button", { type: "button", class: "button small", onclick: () => { limit += 4 * STEP; draw(); } }, "Show more");
   const element = h("section", { class: "card", id: "card-peaks", "aria-label": "Labelled peaks" },
@@ -59,19 +60,21 @@ export function peaksCard(context, { onChoose, onFamilies }) {
     });
     const most = labels.peaks.reduce((top, peak) => Math.max(top, peak.amplitude ?? 0), 0);
     const scale = scaled(most, labels.peaks[0]?.unit ?? "");
+    const scaling = labels.peaks.find((peak) => peak.scaling)?.scaling ?? "";
+    amplitudeHead.textContent = scale[1] ? `Amplitude (${[scale[1], scaling].filter(Boolean).join(", ")})` : "Amplitude";
     count.textContent = `${rows.length} of ${labels.peaks.length} lines`;
     more.hidden = rows.length <= limit;
     replace(body, rows.length ? rows.slice(0, limit).map((peak) => row(peak, scale)) : h("tr", {}, h("td", { colspan: COLUMNS.length, class: "empty" }, labels.peaks.length ? "No line of these families has this status." : `No labels: ${labels.reason ?? "none were found"}.`)));
   }
 
-  function row(peak, [factor, shown]) {
+  function row(peak, [factor]) {
     const family = familyOf(peak);
     const same = chosen && chosen.label === peak.label && chosen.frequency_hz === peak.frequency_hz;
     return h("tr", { dataset: { label: peak.label, status: peak.status }, class: same ? "chosen" : "", onclick: () => { choose(peak); onChoose(peak); } },
       h("td", {}, h("button", { type: "button", class: "row-button", title: peak.aliases?.length ? `same as ${peak.aliases.join(", ")}` : peak.label }, swatch(family, "swatch"), peak.label ? formula(peak.label) : h("span", { class: "muted" }, "not explained"), h("span", { class: "visually-hidden" }, familyInfo(family).name))),
       h("td", { class: "right" }, number(peak.measured_frequency_hz ?? peak.frequency_hz, 6)),
       h("td", { class: "right" }, number(peak.order, 5)),
-      h("td", { class: "right" }, peak.status === "above_nyquist" ? "–" : peak.amplitude === null ? h("span", { class: "muted", title: "Smallest amplitude that would have been seen" }, `< ${number(peak.detection_limit * factor, 2)} ${shown}`) : `${number(peak.amplitude * factor, 4)} ${shown} ${peak.scaling}`),
+      h("td", { class: "right" }, peak.status === "above_nyquist" ? "–" : peak.amplitude === null ? h("span", { class: "muted", title: "Smallest amplitude that would have been seen" }, `< ${number(peak.detection_limit * factor, 2)}`) : number(peak.amplitude * factor, 4)),
       h("td", { class: "right" }, peak.db_over_floor === null ? "–" : number(peak.db_over_floor, 3)),
       h("td", {}, h("span", { class: "pill", dataset: { tone: TONES[peak.status] ?? "" }, title: peak.alternatives?.length ? `or ${peak.alternatives.join(", ")}` : peak.masked_by ? `masked by ${peak.masked_by}` : "" }, peak.status.replace(/_/g, " "))),
       h("td", {}, peak.components.map(partName).join(", ") || "–"),

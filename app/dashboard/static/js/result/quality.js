@@ -23,11 +23,19 @@ function items(summary) {
   return [
     [energy.acceptable ? "ok" : "bad", "Energy balance", `${number(energy.relative_residual * 100, 2)} %`, scale],
     stepError(quality),
-    ["ok", "Start-up transient", `ends at ${quantity(quality.transient_end_s, "s")}`, summary.analysed_from_s > 0 ? `Spectra and features begin at ${quantity(summary.analysed_from_s, "s")}.` : "Spectra and features use the whole record."],
+    transient(summary),
     [quality.unconverged_steps ? "warn" : "ok", "Steps", number(quality.steps, 4), `${quantity(quality.step_s, "s", 4)} each; ${quality.refined_steps} refined around impacts, ${quality.unconverged_steps} not fully converged`],
     ...Object.entries(contact).map(([name, share]) => ["ok", `Contact: ${name.split(".").map(partName).join(", ")}`, `${number(share * 100, 4)} %`, share < 0.9999 ? "of the time; free flight otherwise" : "of the time"]),
     ["ok", "Physics", physics, "version of the equations; part of the job's identity"],
   ];
+}
+
+function transient({ quality, analysed_from_s: analysed, rings_down: ringing }) {
+  if (ringing) return ["ok", "Ring-down", "the whole record", "Nothing keeps this machine moving, so what follows the step at t = 0 is the signal; spectra and features use all of it."];
+  const end = `ends at ${quantity(quality.transient_end_s, "s")}`;
+  if (analysed > 0) return ["ok", "Start-up transient", end, `Spectra and features begin at ${quantity(analysed, "s")}.`];
+  const whole = "Spectra and features use the whole record.";
+  return quality.transient_end_s > 0 ? ["warn", "Start-up transient", end, whole] : ["ok", "Start-up transient", "none", whole];
 }
 
 function stepError({ step_error: error, step_error_kind: kind }) {

@@ -85,13 +85,14 @@ export function signalCard(context, { title, id, channels = null, height = 250, 
  * Where the view starts: the load steps on at t = 0, and what it strikes would set the scale. A motion that does not
  * settle is seen from its second half on.
  */
-function settledFrom({ analysed_from_s: analysed, quality }, length_s) {
-  if (analysed > 0) return analysed;
+function settledFrom({ analysed_from_s: analysed, rings_down: ringing, quality }, length_s) {
+  if (analysed > 0 || ringing) return analysed;
   const end = quality?.transient_end_s ?? 0;
   return end < 0.75 * length_s ? end : length_s / 2;
 }
 
-function settledText({ analysed_from_s: analysed, quality }, from_s) {
+function settledText({ analysed_from_s: analysed, rings_down: ringing, quality }, from_s) {
+  if (ringing) return "Nothing keeps this machine moving: the record is its ring-down, and spectra and features use all of it.";
   if (analysed > 0) return `The start-up transient ends at ${quantity(from_s, "s")} (shaded before); spectra and features begin there.`;
   const end = quality?.transient_end_s ?? 0;
   return end === from_s ? `The start-up transient ends at ${quantity(from_s, "s")} (shaded before), but spectra and features use the whole record.`
