@@ -22,7 +22,26 @@ from tests.strategies.kernels import trials
 from tests.strategies.systems import with_terms
 
 ROOT = Path(__file__).resolve().parents[2]
-UNITS = {"1", "m", "mm", "rad", "kg", "kg*m", "N", "N/m", "N*s/m", "m/s", "Hz", "s", "Pa", "K", "N*m", "deg", "s/m"}
+UNITS = {
+    "1",
+    "m",
+    "mm",
+    "rad",
+    "kg",
+    "kg*m",
+    "N",
+    "N/m",
+    "N/m^3",
+    "N*s/m",
+    "m/s",
+    "Hz",
+    "s",
+    "Pa",
+    "K",
+    "N*m",
+    "deg",
+    "s/m",
+}
 LAW = CustomLaw(name="stop", dof="bearing2.outer.y", expression="1e6*max(x-1e-5,0)^1.5+20*tanh(v/0.02)*cos(phi)")
 MACHINE = preset("paper-lightly-damped").model_copy(update={"custom_laws": [LAW]})
 SITES = {"bearing": "bearing2", "gear": "pinion", "mesh": "mesh1", "shaft": "input"}
