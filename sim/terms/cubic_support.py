@@ -6,7 +6,7 @@ to ground, or of a sensor against the ring that it sits on.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from sim.core.elements import Coordinate, Element, Output
@@ -16,37 +16,8 @@ from sim.core.params import Param
 from sim.core.spec import MachineSpec, TermSpec
 from sim.core.terms import Demo, SiteContext, Term, Validation, Values
 from sim.parts.one_sided import one_sided_element
-from sim.parts.rotor import refusal, shaft_lines
-
-ALONG_X, ALONG_Y, SENSOR = 0.0, 1.0, 2.0
-Spring = Mapping[str, float]
-"""Weights by degree of freedom of what stretches the spring."""
-
-
-def _axes(machine: MachineSpec, name: str) -> str:
-    """Axes along which a gear or body moves."""
-    if any(g.name == name and g.translates for g in machine.gears):
-        return "xy"
-    return next((b.axes for b in machine.bodies if b.name == name), "")
-
-
-def springs(laws: Laws, which: float, site: SiteContext, key: str) -> tuple[tuple[str, Spring], ...]:
-    """Name, ending in the axis, and stretch of the springs that stiffen; SpecError where the site has none of them."""
-    machine, at = site.machine, site.site
-    bearing = at in laws.supports
-    if which == SENSOR:
-        found = [r for r in machine.resonators if r.bearing == at]
-        if not found:
-            raise refusal(site, key, "no sensor sits on it", "a bearing with a resonator, or spring 0 or 1")
-        mounts = [(r.name, r.axis) for r in found]
-        return tuple((f"{n}.cubic.{a}", {f"{n}.{a}": 1.0, f"{at}.outer.{a}": -1.0}) for n, a in mounts)
-    axis = "x" if which == ALONG_X else "y"
-    if bearing and laws.supports[at].released:
-        raise refusal(site, key, "its ring has lost its support", "a bearing without fit_clearance, or spring 2")
-    if not bearing and axis not in _axes(machine, at):
-        raise refusal(site, key, f"it does not move along {axis}", f"a body that moves along {axis}")
-    seat = ("housing." if laws.supports[at].housing_mass_kg > 0.0 else "outer.") if bearing else ""
-    return ((f"{at}.cubic.{axis}", {f"{at}.{seat}{axis}": 1.0}),)
+from sim.parts.rotor import shaft_lines
+from sim.parts.seat import ALONG_X, ALONG_Y, SENSOR, joints
 
 
 def _with_unbalance(machine: MachineSpec) -> MachineSpec:
@@ -61,16 +32,19 @@ class CubicSupport(Term):
 
     def elements(self, laws: Laws, values: Values, site: SiteContext) -> Sequence[Element]:
         """The cubic part beside the linear spring, once for every spring meant."""
-        return tuple(
-            one_sided_element(
-                name=name,
-                site=site.site,
-                coordinate=Coordinate(name=name, unit="m", weights=tuple(stretch.items())),
-                output=Output(name="force", quantity="force", unit="N", axis=name[-1]),
-                cubic=values["cubic"],
+        found = []
+        for joint in joints(laws, values["spring"], site, self.key):
+            name = f"{joint.part}.cubic.{joint.axis}"
+            found.append(
+                one_sided_element(
+                    name=name,
+                    site=site.site,
+                    coordinate=Coordinate(name=name, unit="m", weights=joint.weights),
+                    output=Output(name="force", quantity="force", unit="N", axis=joint.axis),
+                    cubic=values["cubic"],
+                )
             )
-            for name, stretch in springs(laws, values["spring"], site, self.key)
-        )
+        return found
 
     def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:
         """Twice and three times the rotation: under a static load the cube of a sine has even harmonics too."""

@@ -11,10 +11,11 @@ from scipy.special import ellipk
 from sim.assembly.assemble import assemble
 from sim.core.errors import SpecError
 from sim.core.spec import TermSpec
+from sim.parts.seat import SENSOR
 from sim.presets import preset
 from sim.solve.api import simulate
 from sim.solve.settings import Settings
-from sim.terms.cubic_support import SENSOR, TERM
+from sim.terms.cubic_support import TERM
 from tests.strategies.harmonic import allowed, element_of, small_system
 from tests.strategies.running import drive
 from tests.strategies.systems import with_terms
