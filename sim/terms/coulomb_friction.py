@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from sim.core.choose import size
 from sim.core.elementary import exponential, hyperbolic_tangent
 from sim.core.elements import Coordinate, Element, Output, flat
 from sim.core.kernels import kernel
@@ -30,13 +31,17 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201,ARG001
     """Resistance of the joint, N, with tangent (mode 1) or outputs (mode 2)."""
     v = ud[0]
-    share = hyperbolic_tangent(v / par[1])
+    x = v / par[1]
+    share = hyperbolic_tangent(x)
     slow = v / par[3]
     more = par[2] * exponential(-slow * slow)
     f[0] = par[0] * (1.0 + more) * share
     if mode == 1:
+        # 1 - tanh^2 without cancellation
+        t = exponential(-2.0 * size(x))
+        steep = 4.0 * t / ((1.0 + t) * (1.0 + t))
         out[0] = 0.0
-        out[1] = par[0] * ((1.0 + more) * (1.0 - share * share) / par[1] - 2.0 * more * slow / par[3] * share)
+        out[1] = par[0] * ((1.0 + more) * steep / par[1] - 2.0 * more * slow / par[3] * share)
     if mode == 2:
         out[0] = 0.0
         out[1] = f[0] * v

@@ -27,7 +27,9 @@ def run_both(name, *, rtol=1e-8):
     return compiled, plain, len(system.dofs)
 
 
-@pytest.mark.parametrize("name", MACHINES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.slow if name == "every term" else ()) for name in MACHINES]
+)
 def test_same_motion(name):
     compiled, plain, n = run_both(name)
     final = compiled.states[-1]
