@@ -196,6 +196,12 @@ def _chunks(packs: Sequence[Sequence[Chunked]]) -> tuple[IntArray, IntArray, Flo
     return np.concatenate(pointer), np.concatenate(column), np.concatenate(value), span
 
 
+def _angle_dofs(system: System) -> IntArray:
+    """(E, 2) index of the angle that each shaft of an element turns with, -1 where it is prescribed."""
+    found = [[system.dynamic_angle.get(b, -1) for b in e.shafts] for e in system.elements]
+    return np.array(found, dtype=np.int64).reshape(-1, 2)
+
+
 def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Built:
     """Flatten a system for a base step and its halvings."""
     rule = collocation(STAGES)
@@ -248,9 +254,7 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
         flags=np.array([[e.stiff, e.exact_end] for e in elements], dtype=np.int64).reshape(-1, 2),
         turns=np.array([[system.speeds_hz[b] for b in e.shafts] for e in elements]).reshape(-1, 2),
         speed=system.speed,
-        angle_dof=np.array(
-            [[system.dynamic_angle.get(b, -1) for b in e.shafts] for e in elements], dtype=np.int64
-        ).reshape(-1, 2),
+        angle_dof=_angle_dofs(system),
         carries=np.isin(np.arange(u), coords.force_rows).astype(np.int64),
         observe_rows=np.ascontiguousarray(coords.rows),
         opens=opens,
