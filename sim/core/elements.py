@@ -68,6 +68,8 @@ class Element:
     rates: bool = True
     """Whether the force depends on ud (forces of elements without rates are cheaper)."""
     stiff: bool = False
+    opens: bool = False
+    """Whether the force is exactly zero in free flight: a step in which it begins or ends is halved, as for walls."""
     exact_end: bool = False
     """Whether the force at the end of a step differs from the one at the last node (step-averaged tables)."""
     contact_output: int = -1

@@ -88,6 +88,7 @@ def structure(system: System) -> Hashable:
             e.forces,
             e.rates,
             e.stiff,
+            e.opens,
             e.exact_end,
             e.context,
             e.shafts,

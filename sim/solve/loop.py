@@ -176,11 +176,11 @@ def corrected_rows(plan, work, level):  # type: ignore[no-untyped-def]  # noqa: 
 
 @inline
 def contact_changed(plan, work):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Whether a stiff element opens or closes within the step."""
+    """Whether a wall or a mesh with backlash opens or closes within the step."""
     z = plan.states
     f = plan.forces_total
     for e in range(plan.elements):
-        if plan.flags[2 * e] == 0:
+        if plan.opens[e] == 0:
             continue
         before = 0.0
         for k in range(plan.forces[e]):
@@ -228,7 +228,7 @@ def try_step(plan, work, t, level, rtol):  # type: ignore[no-untyped-def]  # noq
     for k in range(size_z):
         work.next_z[k] = plan.end_load[level * size_z + k]
     product(plan, level, 2, work.z, work.next_z, 1)
-    if status == OK and plan.stiff > 0 and contact_changed(plan, work):
+    if status == OK and plan.opening > 0 and contact_changed(plan, work):
         return CONTACT_CHANGE
     return status
 

@@ -180,7 +180,7 @@ def _try(run: PlainRun, t: float, level: int) -> tuple[bool, FloatArray, FloatAr
 
 def _contact_changed(run: PlainRun, lam: FloatArray) -> bool:
     for element, _, place in _places(run):
-        if element.stiff:
+        if element.stiff or element.opens:
             before = bool(np.any(run.node_forces[-1, place]))
             if any(bool(np.any(row[place])) != before for row in lam):
                 return True

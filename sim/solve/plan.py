@@ -30,7 +30,7 @@ class Plan(NamedTuple):
     Sizes: E elements, F force coordinates, U coordinates, R node rows (padded to 8), Z = 2n states (padded), s nodes.
     """
 
-    sizes: IntArray  # E, F, U, R, Z, n, s, levels, stiff count, outputs
+    sizes: IntArray  # E, F, U, R, Z, n, s, levels, stiff count, outputs, opening count
     base_step: float
     step_head: FloatArray  # template of the `step` array of the kernels
     nodes: FloatArray  # (s,)
@@ -64,6 +64,7 @@ class Plan(NamedTuple):
     angle_dof: IntArray  # (E, 2) theta DOF or -1
     carries: IntArray  # (U,) 1 where a coordinate carries a force
     observe_rows: FloatArray  # (U, n) all coordinates
+    opens: IntArray  # (E,) 1 where a step in which the force begins or ends is halved
     compliance: FloatArray  # (levels, stiff, s, 2d, s, d) own compliance of stiff elements, d <= 2
     stiff_rows: IntArray  # (stiff, 4) node rows of the element's u and ud
 
@@ -195,6 +196,12 @@ def _chunks(packs: Sequence[Sequence[Chunked]]) -> tuple[IntArray, IntArray, Flo
     return np.concatenate(pointer), np.concatenate(column), np.concatenate(value), span
 
 
+def _angle_dofs(system: System) -> IntArray:
+    """(E, 2) index of the angle that each shaft of an element turns with, -1 where it is prescribed."""
+    found = [[system.dynamic_angle.get(b, -1) for b in e.shafts] for e in system.elements]
+    return np.array(found, dtype=np.int64).reshape(-1, 2)
+
+
 def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Built:
     """Flatten a system for a base step and its halvings."""
     rule = collocation(STAGES)
@@ -213,7 +220,8 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
     rows = stiff_rows(system, coords, f_at)
     stiff = sum(e.stiff for e in elements)
     head = np.concatenate([[0.0, 0.0, float(s)], rule.c, rule.lagrange.ravel(), rule.b])
-    ints = np.array([len(elements), f, u, r, z, n, s, levels, stiff, out_at[-1]], dtype=np.int64)
+    opens = np.array([e.stiff or e.opens for e in elements], dtype=np.int64)
+    ints = np.array([len(elements), f, u, r, z, n, s, levels, stiff, out_at[-1], opens.sum()], dtype=np.int64)
     plan = Plan(
         sizes=ints,
         base_step=base_step_s,
@@ -246,11 +254,10 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
         flags=np.array([[e.stiff, e.exact_end] for e in elements], dtype=np.int64).reshape(-1, 2),
         turns=np.array([[system.speeds_hz[b] for b in e.shafts] for e in elements]).reshape(-1, 2),
         speed=system.speed,
-        angle_dof=np.array(
-            [[system.dynamic_angle.get(b, -1) for b in e.shafts] for e in elements], dtype=np.int64
-        ).reshape(-1, 2),
+        angle_dof=_angle_dofs(system),
         carries=np.isin(np.arange(u), coords.force_rows).astype(np.int64),
         observe_rows=np.ascontiguousarray(coords.rows),
+        opens=opens,
         compliance=_padded_compliance(own_compliance(system, ops, rows, f_at, s)),
         stiff_rows=_place_of(order)[rows] if stiff else rows,
     )

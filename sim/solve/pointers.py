@@ -72,11 +72,11 @@ def new_work(plan: Plan) -> Work:
 # compiled code builds these; the compiler knows the types
 PlanPointers = namedtuple(
     "PlanPointers",
-    "elements forces_total coords rows states dofs stages levels stiff outputs base_step nodes weights predict "
+    "elements forces_total coords rows states dofs stages levels stiff outputs opening base_step nodes weights predict "
     "force_predict slope "
     "pointer column value span node_load end_load row_place prepare_address force_address u_at f_at size forces "
     "par_at par ctx_at ctx_width out_at out_count flags turns speed angle_dof carries observe_rows "
-    "compliance stiff_rows",
+    "opens compliance stiff_rows",
 )
 WorkPointers = namedtuple(
     "WorkPointers",
@@ -98,6 +98,7 @@ def plan_pointers(p):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
         p.sizes[7],
         p.sizes[8],
         p.sizes[9],
+        p.sizes[10],
         p.base_step,
         doubles(p.nodes.ctypes.data),
         doubles(p.weights.ctypes.data),
@@ -129,6 +130,7 @@ def plan_pointers(p):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
         integers(p.angle_dof.ctypes.data),
         integers(p.carries.ctypes.data),
         doubles(p.observe_rows.ctypes.data),
+        integers(p.opens.ctypes.data),
         doubles(p.compliance.ctypes.data),
         integers(p.stiff_rows.ctypes.data),
     )

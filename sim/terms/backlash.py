@@ -73,5 +73,11 @@ TERM = Backlash(
             deviation=1e-9,
             test="tests/sim/terms/test_backlash.py::test_force_over_deflection_has_a_dead_zone",
         ),
+        Validation(
+            kind="closed form",
+            source="speed kept in a strike without damper, at steps of 15 and 60 kHz",
+            deviation=2e-4,
+            test="tests/sim/terms/test_backlash.py::test_a_strike_without_damper_gives_back_the_speed",
+        ),
     ),
 )

@@ -86,5 +86,11 @@ TERM = InnerSpall(
             deviation=1e-6,
             test="tests/sim/terms/test_spalls.py::test_a_ring_at_rest_sinks_as_far_as_root_finding_says",
         ),
+        Validation(
+            kind="closed form",
+            source="A ball's entry and exit: the spall's length over the rolling speed apart, when kinematics says",
+            deviation=0.01,
+            test="tests/sim/terms/test_spalls.py::test_a_ball_enters_and_leaves_a_pit_a_length_over_speed_apart",
+        ),
     ),
 )

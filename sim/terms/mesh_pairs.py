@@ -117,6 +117,7 @@ class MeshPairs(Term):
                 context=CONTEXT,
                 shafts=(law.pinion, law.gear),
                 outputs=OUTPUTS,
+                opens=law.backlash_m is not None,
                 exact_end=True,
                 contact_output=5,
                 range_output=6,

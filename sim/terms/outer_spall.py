@@ -91,5 +91,11 @@ TERM = OuterSpall(
             deviation=0.1,
             test="tests/sim/terms/test_spalls.py::test_entry_and_impact_move_apart_by_length_over_speed",
         ),
+        Validation(
+            kind="closed form",
+            source="A ball's entry and exit: the spall's length over the rolling speed apart, when kinematics says",
+            deviation=0.01,
+            test="tests/sim/terms/test_spalls.py::test_a_ball_enters_and_leaves_a_pit_a_length_over_speed_apart",
+        ),
     ),
 )

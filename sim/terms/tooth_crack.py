@@ -79,6 +79,12 @@ TERM = ToothCrack(
             test="tests/sim/terms/test_tooth_crack.py::test_compliance_equals_an_integral_over_the_angle",
         ),
         Validation(
+            kind="independent calculation",
+            source="stiffness lost over that of the sound pair, by plane-stress finite elements of tooth and body",
+            deviation=0.16,
+            test="tests/sim/terms/test_tooth_crack_elements.py::test_loss_of_stiffness_by_finite_elements",
+        ),
+        Validation(
             kind="closed form",
             source="line of the shaft speed in spectrum or envelope at 20, 30 and 45 Hz, within half a bin",
             deviation=0.03,

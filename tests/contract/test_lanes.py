@@ -12,6 +12,7 @@ from sim.solve.ensemble import Member, simulate_many
 from sim.solve.settings import Settings
 from sim.terms import REGISTRY
 from tests.contract.shown import demo_machines
+from tests.strategies.systems import every_term_machine
 
 QUICK = Settings(estimate_error=False)
 SPAN = {"duration_s": 0.006, "output_rate_hz": 20_000.0}
@@ -32,6 +33,14 @@ def test_a_lane_with_the_effect_equals_the_single_run(key):
     assert isinstance(found, Response)
     size = np.max(np.abs(single.signals))
     np.testing.assert_allclose(found.signals, single.signals, atol=1e-9 * size)
+
+
+def test_a_lane_with_every_effect_at_once_equals_the_single_run():
+    machine = every_term_machine()
+    single = simulate(machine, settings=QUICK, **SPAN)
+    (found,) = simulate_many([Member(machine=machine)], settings=QUICK, **SPAN)
+    assert isinstance(found, Response)
+    np.testing.assert_allclose(found.signals, single.signals, atol=1e-9 * np.max(np.abs(single.signals)))
 
 
 def _weaker(spec: TermSpec, severity: str | None) -> TermSpec:

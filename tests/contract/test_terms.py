@@ -19,10 +19,29 @@ from sim.solve.plain import plain_context, plain_force
 from sim.solve.settings import Settings
 from sim.terms import REGISTRY
 from tests.strategies.kernels import trials
-from tests.strategies.systems import with_terms
+from tests.strategies.systems import INSTEAD, WITHOUT_ASKING, every_term_machine, with_terms
 
 ROOT = Path(__file__).resolve().parents[2]
-UNITS = {"1", "m", "mm", "rad", "kg", "kg*m", "N", "N/m", "N*s/m", "m/s", "Hz", "s", "Pa", "K", "N*m", "deg", "s/m"}
+UNITS = {
+    "1",
+    "m",
+    "mm",
+    "rad",
+    "kg",
+    "kg*m",
+    "N",
+    "N/m",
+    "N/m^3",
+    "N*s/m",
+    "m/s",
+    "Hz",
+    "s",
+    "Pa",
+    "K",
+    "N*m",
+    "deg",
+    "s/m",
+}
 LAW = CustomLaw(name="stop", dof="bearing2.outer.y", expression="1e6*max(x-1e-5,0)^1.5+20*tanh(v/0.02)*cos(phi)")
 MACHINE = preset("paper-lightly-damped").model_copy(update={"custom_laws": [LAW]})
 SITES = {"bearing": "bearing2", "gear": "pinion", "mesh": "mesh1", "shaft": "input"}
@@ -201,6 +220,15 @@ def test_predicted_lines_refer_to_existing_bases(term):
 def test_zero_severity_predicts_no_line(term):
     system = assemble(acting(term, **{term.severity: 0.0}), registry=awake(term))
     assert not [line for line in system.lines if line.mechanism == term.key]
+
+
+def test_every_effect_has_a_place_in_one_machine_and_that_machine_runs():
+    machine = every_term_machine()
+    assert {spec.term for spec in machine.terms} == set(REGISTRY.keys()) - WITHOUT_ASKING - INSTEAD
+    response = simulate(machine, duration_s=0.05, output_rate_hz=12_000.0, settings=Settings(estimate_error=False))
+    assert np.all(np.isfinite(response.signals))
+    assert response.quality.unconverged_steps == 0
+    assert response.quality.energy.acceptable
 
 
 def test_terms_compose():

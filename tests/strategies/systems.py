@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -14,10 +14,12 @@ from sim.core.spec import (
     BallGeometry,
     BearingSpec,
     BodySpec,
+    CustomLaw,
     ForceLoad,
     GearSpec,
     MachineSpec,
     MeshSpec,
+    MeshTable,
     OperatingSpec,
     ResonatorSpec,
     ShaftSpec,
@@ -27,8 +29,10 @@ from sim.core.spec import (
     TransmissionError,
 )
 from sim.core.system import System
+from sim.core.terms import Term
 from sim.parts.wall import CONTEXT, OUTPUTS, WALL_PARAMS, wall_parameters
 from sim.presets import preset
+from sim.terms import REGISTRY
 from sim.terms.fit_clearance import KERNEL
 
 
@@ -155,20 +159,53 @@ def with_terms(machine: MachineSpec, *terms: TermSpec) -> MachineSpec:
     return machine.model_copy(update={"terms": [*machine.terms, *terms]})
 
 
-def every_term_machine() -> MachineSpec:
-    """The lightly damped gearbox with one of everything that can act together."""
-    loads = [
-        *preset("paper-lightly-damped").loads,
-        ForceLoad(body="gear", axis="x", amplitude_n=5.0, frequency_hz=90.0),
-    ]
-    machine = preset("paper-lightly-damped").model_copy(update={"loads": loads})
-    return with_terms(
-        machine,
-        TermSpec(term="fit_clearance", site="bearing1"),
-        TermSpec(term="fit_clearance_series", site="bearing3"),
-        TermSpec(term="eccentricity", site="pinion"),
-        TermSpec(term="eccentricity", site="gear", parameters={"radius": 2e-5, "phase": 1.0}),
-        TermSpec(term="unbalance", site="gear"),
-        TermSpec(term="pitch_error", site="pinion"),
-        TermSpec(term="cage_slip", site="bearing2"),
-    )
+LAW = CustomLaw(name="stop", dof="bearing4.outer.y", expression="1e7*max(x-1e-6,0)^1.5+20*tanh(v/0.02)*cos(phi)")
+ASKED_FOR = {
+    "fit_clearance": ("bearing1", {}),
+    "fit_clearance_series": ("bearing3", {}),
+    "eccentricity": ("pinion", {}),
+    "unbalance": ("gear", {}),
+    "rub": ("gear", {"gap": 3e-6}),
+    "custom_force": ("bearing4", {}),
+    "tooth_crack": ("gear", {}),
+}
+"""Sites and values of effects in the machine of them all; the others act at the first bearing, gear, mesh or shaft that
+lets them, with their defaults."""
+WITHOUT_ASKING = {"mesh_pairs", "ball_contact", "force_load"}
+INSTEAD = {"mesh_total"}
+"""Takes the place of `mesh_pairs` where a mesh is given by one curve."""
+NEEDS_PAIRS = {"lead_misalignment", "missing_tooth", "profile_error", "tip_relief", "tooth_crack", "tooth_friction"} | {
+    "tooth_spall"
+}
+"""Effects that a mesh given by one curve refuses."""
+
+
+def _placed(placed: Sequence[TermSpec], term: Term, sites: Mapping[str, Sequence[str]]) -> TermSpec:
+    """A site for a term that none of the terms placed before forbids."""
+    site, values = ASKED_FOR.get(term.key, ("", {}))
+    for candidate in [site] if site else [s for kind in term.sites for s in sites.get(kind, ())]:
+        others = {spec.term for spec in placed if spec.site == candidate}
+        if not (others & set(term.excludes)) and not any(term.key in REGISTRY.get(o).excludes for o in others):
+            return TermSpec(term=term.key, site=candidate, parameters=values)
+    raise AssertionError(f"{term.key} has no place in the machine of every effect")
+
+
+def every_term_machine(*, curve: MeshTable | None = None) -> MachineSpec:
+    """The lightly damped gearbox with one of every registered effect; `curve` in place of tooth pairs for its mesh."""
+    plain = preset("paper-lightly-damped")
+    loads = [*plain.loads, ForceLoad(body="gear", axis="x", amplitude_n=5.0, frequency_hz=90.0)]
+    meshes = plain.meshes if curve is None else [plain.meshes[0].model_copy(update={"table": curve})]
+    machine = plain.model_copy(update={"loads": loads, "custom_laws": [LAW], "meshes": meshes})
+    left_out = WITHOUT_ASKING | INSTEAD | (NEEDS_PAIRS if curve is not None else set())
+    sites = {
+        "bearing": ("bearing2", "bearing4", "bearing3", "bearing1"),
+        "gear": ("pinion", "gear"),
+        "mesh": ("mesh1",),
+        "shaft": ("input", "output"),
+    }
+    placed: list[TermSpec] = []
+    for term in sorted(REGISTRY, key=lambda t: (t.key not in ASKED_FOR, t.key)):
+        if term.key not in left_out:
+            placed.append(_placed(placed, term, sites))
+    second = TermSpec(term="eccentricity", site="gear", parameters={"radius": 2e-5, "phase": 1.0})
+    return with_terms(machine, *placed, second)

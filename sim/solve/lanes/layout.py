@@ -27,7 +27,7 @@ class LanePlan(NamedTuple):
     Integers are the same in every lane. W = 8 lanes.
     """
 
-    sizes: IntArray  # E, F, U, R, Z = 2n, n, s, levels, stiff count, outputs
+    sizes: IntArray  # E, F, U, R, Z = 2n, n, s, levels, stiff count, outputs, opening count
     base_step: float
     step_head: FloatArray  # (head, W)
     nodes: FloatArray
@@ -62,6 +62,7 @@ class LanePlan(NamedTuple):
     observe_pointer: IntArray
     observe_column: IntArray
     observe_value: FloatArray  # (entries, W)
+    opens: IntArray
     compliance: FloatArray  # (levels, stiff, 12 * 6, W)
     stiff_rows: IntArray
 
@@ -186,6 +187,7 @@ def lane_plan(systems: Sequence[System], built: Sequence[Stepped], first: Plan) 
         observe_pointer=o_pointer,
         observe_column=o_column,
         observe_value=o_value,
+        opens=first.opens,
         compliance=_by_lane(own),
         stiff_rows=stiff,
     )

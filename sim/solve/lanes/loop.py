@@ -149,11 +149,11 @@ def predict(plan, work, level):  # type: ignore[no-untyped-def]  # noqa: ANN001,
 
 @inline
 def contact_changed(plan, work):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Where a stiff element opens or closes within the step."""
+    """Where a wall or a mesh with backlash opens or closes within the step."""
     f = plan.forces_total
     changed = work.counts[0] < 0.0
     for e in range(plan.elements):
-        if plan.flags[2 * e] == 0:
+        if plan.opens[e] == 0:
             continue
         before = 0.0 * work.counts[0]
         for k in range(plan.forces[e]):
@@ -207,7 +207,7 @@ def try_step(plan, work, t, level, rtol, mask):  # type: ignore[no-untyped-def] 
     status = iterate(plan, work, level, rtol, mask)
     loads = lane_shift(plan.end_load, level * plan.states)
     add_product(plan, plan.first_row[level * 3 + 2], plan.states, work.z, work.next_z, loads)
-    if plan.stiff > 0:
+    if plan.opening > 0:
         status = select((status == OK) & contact_changed(plan, work), CONTACT_CHANGE, status)
     return status
 

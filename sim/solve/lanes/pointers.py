@@ -77,10 +77,10 @@ def new_lane_work(plan: LanePlan) -> LaneWork:
 
 LanePlanPointers = namedtuple(
     "LanePlanPointers",
-    "elements forces_total coords rows states dofs stages levels stiff outputs base_step nodes weights predict "
+    "elements forces_total coords rows states dofs stages levels stiff outputs opening base_step nodes weights predict "
     "force_predict slope pointer column value first_row node_load end_load row_place prepare_address force_address "
     "u_at f_at size forces par_at par ctx_at ctx_width out_at out_count flags turns speed angle_dof carries "
-    "observe_pointer observe_column observe_value compliance stiff_rows",
+    "observe_pointer observe_column observe_value opens compliance stiff_rows",
 )
 LaneWorkPointers = namedtuple(
     "LaneWorkPointers",
@@ -102,6 +102,7 @@ def lane_plan_pointers(p):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN20
         p.sizes[7],
         p.sizes[8],
         p.sizes[9],
+        p.sizes[10],
         p.base_step,
         doubles(p.nodes.ctypes.data),
         doubles(p.weights.ctypes.data),
@@ -135,6 +136,7 @@ def lane_plan_pointers(p):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN20
         integers(p.observe_pointer.ctypes.data),
         integers(p.observe_column.ctypes.data),
         as_lanes(doubles(p.observe_value.ctypes.data)),
+        integers(p.opens.ctypes.data),
         as_lanes(doubles(p.compliance.ctypes.data)),
         integers(p.stiff_rows.ctypes.data),
     )

@@ -59,13 +59,12 @@ def test_loads_equal_torque_times_angle():
 def balanced_elements():
     """Elements whose whole energy flow is declared.
 
-    The mesh has a constant curve and no pitch error: what a varying curve or a gap that follows the teeth does is
-    booked as the remainder of the balance, not declared.
+    The mesh has a constant curve, no pitch error and no backlash: what a varying curve or a gap that follows the teeth
+    or the centre distance does is booked as the remainder of the balance, not declared.
     """
-    machine = every_term_machine()
-    machine = machine.model_copy(update={"terms": [t for t in machine.terms if t.term != "pitch_error"]})
-    flat = MeshTable(centre_distance_error_m=[0.0], stiffness_n_per_m=[[3e8, 3e8]])
-    system = assemble(machine.model_copy(update={"meshes": [machine.meshes[0].model_copy(update={"table": flat})]}))
+    machine = every_term_machine(curve=MeshTable(centre_distance_error_m=[0.0], stiffness_n_per_m=[[3e8, 3e8]]))
+    kept = [t for t in machine.terms if t.term not in {"pitch_error", "backlash"}]
+    system = assemble(machine.model_copy(update={"terms": kept}))
     return [pytest.param(system, element, id=element.name) for element in system.elements]
 
 

@@ -52,7 +52,9 @@ def test_forces_agree(name, mode):
             assert close(force, plain.force), element.name
             if mode == 1:
                 tangent = np.concatenate([plain.stiffness, plain.damping]).ravel()
-                assert close(out[: tangent.size], tangent), element.name
+                # slices of a whole face cancel in their tilting moment: what is left of 1e8 N/m is rounding
+                cancelled = bool(np.max(np.abs([tangent, out[: tangent.size]])) < 1e-9)
+                assert cancelled or close(out[: tangent.size], tangent), element.name
             if mode == 2:
                 for k in range(OUT_ENERGY + len(element.outputs)):
                     assert close(out[k], plain.outputs[k]), (element.name, k)

@@ -6,13 +6,16 @@ import numpy as np
 import pytest
 
 from sim.assembly.assemble import assemble
+from sim.core.spec import TermSpec
 from sim.presets import names, preset
 from sim.solve.plain_loop import plain_advance, plain_run
+from sim.terms.backlash import lightly_loaded
 from tests.strategies.running import drive
-from tests.strategies.systems import every_term_machine
+from tests.strategies.systems import every_term_machine, with_terms
 
 STEP_S, STEPS = 1.0 / 60_000.0, 40
-MACHINES = {name: preset(name) for name in names()} | {"every term": every_term_machine()}
+PARTING = with_terms(lightly_loaded(preset("gear-pair")), TermSpec(term="backlash", site="mesh1"))
+MACHINES = {name: preset(name) for name in names()} | {"every term": every_term_machine(), "parting flanks": PARTING}
 
 
 def run_both(name, *, rtol=1e-8):
@@ -24,7 +27,9 @@ def run_both(name, *, rtol=1e-8):
     return compiled, plain, len(system.dofs)
 
 
-@pytest.mark.parametrize("name", MACHINES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.slow if name == "every term" else ()) for name in MACHINES]
+)
 def test_same_motion(name):
     compiled, plain, n = run_both(name)
     final = compiled.states[-1]
@@ -33,7 +38,8 @@ def test_same_motion(name):
         assert difference <= 1e-12 * np.max(np.abs(plain.state[part]))
 
 
-def test_same_decisions_around_a_wall():
-    compiled, plain, _ = run_both("paper-demo")
+@pytest.mark.parametrize("name", ["paper-demo", "parting flanks"])
+def test_same_decisions_where_contact_opens_or_closes(name):
+    compiled, plain, _ = run_both(name)
     assert plain.rejected > 0
     assert compiled.counts[3] == plain.rejected

@@ -81,6 +81,42 @@ def test_entry_and_impact_move_apart_by_length_over_speed(speed_hz):
     assert times[0] < 1.5e-3 / along_m_per_s(speed_hz)
 
 
+def crossed_at(time_s, deep_enough):
+    """Instants at which a condition begins and ends to hold around a time at which it does, by bisection."""
+    edges = []
+    for side in (-1.0, 1.0):
+        inside, outside = time_s, time_s
+        while deep_enough(outside):
+            outside += side * 1e-4
+        for _ in range(40):
+            middle = 0.5 * (inside + outside)
+            inside, outside = (middle, outside) if deep_enough(middle) else (inside, middle)
+        edges.append(inside)
+    return edges
+
+
+@pytest.mark.parametrize("speed_hz", [5.0, 30.0])
+@pytest.mark.parametrize("term", [OUTER, INNER], ids=lambda t: t.key)
+def test_a_ball_enters_and_leaves_a_pit_a_length_over_speed_apart(term, speed_hz):
+    width, floor = 4e-3, 5e-6
+    machine = turned(bearing_with((term.key, {"width": width, "depth": floor, "angle": DOWN})), speed_hz)
+    system, element = element_of(machine)
+    gamma, omega = BALL_M / PITCH_M, 2.0 * np.pi * speed_hz
+    cage, side = 0.5 * omega * (1.0 - gamma), 1.0 if term is OUTER else -1.0
+    race = 0.5 * PITCH_M * (1.0 + side * gamma)
+    along = cage * race if term is OUTER else (omega - cage) * race
+    assert along == pytest.approx(along_m_per_s(speed_hz), rel=1e-12)  # rolling: the same on both races
+    sense = np.sign(element.parameters[3])
+    rate = sense * (cage if term is OUTER else cage - omega)
+    middle = (DOWN + (6.0 if rate > 0.0 else -6.0) * np.pi) / rate  # the first ball stands at 0 at t = 0
+    # half the floor is met where the ball, turning about an edge, has sunk so far
+    edge = np.sqrt(floor / (2.0 / BALL_M - side / race))
+    enters, leaves = crossed_at(middle, lambda t: gaps_at(system, element, t, BALLS)[0][0] > 0.5 * floor)
+    allowed = next(v.deviation for v in term.validation if "enters_and_leaves" in v.test)
+    assert leaves - enters == pytest.approx((width - 2.0 * edge) / along, rel=allowed)
+    assert 0.5 * (enters + leaves) == pytest.approx(middle, abs=allowed * width / along)
+
+
 def test_the_ball_turns_at_its_spin_frequency():
     machine = bearing_with(("ball_spall", {"width": 2e-3, "depth": 1e-3}))
     system, element = element_of(machine)
