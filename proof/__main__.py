@@ -49,6 +49,8 @@ def parser() -> argparse.ArgumentParser:
         if name == "run":
             command.add_argument("--budget", choices=("quick", "full"), default="quick")
             command.add_argument("--fresh", action="store_true", help="run again what is stored")
+            command.add_argument("--atlas", type=Path, default=ROOT / ".cache" / "proof" / "atlas")
+            command.add_argument("--jobs", type=int, help="processes that simulate an atlas")
         if name == "score":
             command.add_argument("--keep", action="store_true", help="store the summary in proof/results")
         if name == "page":
@@ -92,7 +94,7 @@ def seal(given: argparse.Namespace) -> None:
 
 def run(given: argparse.Namespace) -> None:
     """Run the engine."""
-    engine = Engine(budget=given.budget)
+    engine = Engine(budget=given.budget, atlas=given.atlas, jobs=given.jobs)
     for case in tqdm(chosen(given), desc="engine"):
         run_case(engine, _folder(given, "data") / case.name, _folder(given, "reports"), fresh=given.fresh)
 

@@ -19,9 +19,9 @@ from proof.run_up import OVERSAMPLING, RATE_HZ, X_DOFS, Y_DOFS, Speed, accelerat
 from proof.sensor_faults import Place, spoil
 
 DURATION_S = 1.2
-MISSET = ("kp", "ks", "mg", "em", "kre", "kr", "mr")
-"""Parameters of which two are wrong by 20 to 30 % in the machine file of a mis-set null."""
-MACHINE, DRIFT, EFFECT, SENSORS, NOISE, SPEED, FAULT, MISSED = range(1, 9)
+MISSET = ({"kp": 1.25, "mg": 0.75}, {"em": 0.72, "ks": 1.28}, {"kre": 0.7, "mr": 1.25})
+"""Factors on two parameters of the machine file in the mis-set nulls."""
+MACHINE, DRIFT, EFFECT, SENSORS, NOISE, SPEED, FAULT = range(1, 8)
 """Purposes of random numbers."""
 
 
@@ -64,11 +64,10 @@ def fault_place(case: Case) -> tuple[int, int]:
 
 def told(case: Case) -> dict[str, float]:
     """Parameters as the engine is told them: nominal, and wrong where the case is about that."""
-    parameters = dict(NOMINAL) | {"fr1": case.speeds_hz[len(case.speeds_hz) // 2], "T": case.torque_nm}
+    parameters = dict(NOMINAL) | {"T": case.torque_nm}
     if case.group == "misset":
-        rng = case.rng(MISSED)
-        for name in rng.choice(MISSET, 2, replace=False):
-            parameters[str(name)] *= 1.0 + float(rng.choice([-1.0, 1.0]) * rng.uniform(0.2, 0.3))
+        for name, factor in MISSET[case.index % len(MISSET)].items():
+            parameters[name] *= factor
     return parameters
 
 

@@ -20,11 +20,13 @@ KEPT_ERROR = 2_000
 
 @dataclass(frozen=True, kw_only=True)
 class Engine:
-    """How the engine is called: the command in front of `reconcile`, and its budget."""
+    """How the engine is called: the command in front of `reconcile`, its budget, and where atlases are kept."""
 
     command: tuple[str, ...] = (sys.executable, "-m", "app.cli.main")
     budget: str = "quick"
     timeout_s: float = TIMEOUT_S
+    atlas: Path | None = None
+    jobs: int | None = None
 
     def call(self, machine: Path, case: Path, out: Path) -> list[str]:
         """The whole command."""
@@ -33,7 +35,11 @@ class Engine:
             raise FileNotFoundError(f"{case} holds no test_*.json")
         baseline = ["--baseline", *given["baseline"]] if given["baseline"] else []
         where = ["--machine", str(machine), *baseline, "--recording", *given["test"]]
-        return [*self.command, "reconcile", *where, "--budget", self.budget, "--out", str(out)]
+        return [*self.command, "reconcile", *where, "--budget", self.budget, "--out", str(out), *self._shared()]
+
+    def _shared(self) -> list[str]:
+        atlas = [] if self.atlas is None else ["--atlas", str(self.atlas)]
+        return atlas if self.jobs is None else [*atlas, "--jobs", str(self.jobs)]
 
 
 def run_case(engine: Engine, case: Path, results: Path, *, fresh: bool = False) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from tests.house.project import ROOT
 
 MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-PROMISED = ("run", "test", "fast", "lint", "bench", "cost", "paper", "openapi", "lock", "clean", "setup")
+PROMISED = ("run", "test", "fast", "lint", "bench", "cost", "paper", "proof", "openapi", "lock", "clean", "setup")
 
 
 def _targets() -> set[str]:

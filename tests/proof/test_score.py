@@ -165,13 +165,14 @@ def made_case(folder):
 def test_the_engine_gets_a_copy_without_the_name_and_is_run_once(tmp_path):
     script = tmp_path / "engine.py"
     script.write_text(ENGINE)
-    engine = Engine(command=(sys.executable, str(script)))
+    engine = Engine(command=(sys.executable, str(script)), atlas=tmp_path / "atlas", jobs=1)
     case = made_case(tmp_path)
     result = run_case(engine, case, tmp_path / "results")
     assert result["error"] is None
     given = result["report"]["given"]
     assert not [word for word in given if "d001" in word]
     assert given.count("--baseline") == given.count("--recording") == 1
+    assert given[given.index("--atlas") + 1] == str(tmp_path / "atlas")
     assert sum(word.endswith("_1.json") for word in given) == 2
     assert "pictures" not in result["report"]
     assert result["report"]["force"] == {"law": None}
