@@ -117,6 +117,7 @@ def _loose(pairs: Sequence[Pair], change: Sequence[FloatArray], c: int, name: st
             severity=float(min(1.0, size / 20)),
             where=f"{hz:.4g} Hz",
             fault=quiet,
+            transfer_db=tuple(zip(map(float, pairs[0].centre_hz), map(float, curve), strict=False)),
         )
     ]
 

@@ -60,6 +60,8 @@ class Finding:
     fault: bool = False
     gain_db: float | None = None
     """Of gain and unit: the one change of level that undoing it takes back."""
+    transfer_db: tuple[tuple[float, float], ...] = ()
+    """Of a loose sensor: (frequency in Hz, change of level in dB) that undoing it takes back."""
 
 
 @dataclass(frozen=True, kw_only=True)

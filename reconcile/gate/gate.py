@@ -151,11 +151,17 @@ def _unswapped(recording: Recording, names: Sequence[str], order: Sequence[int])
 
 
 def _regained(recording: Recording, findings: Sequence[Finding]) -> Recording:
-    """Gains undone as measured; a loose sensor's channel is left out where others remain."""
+    """Gains and the transfer of loose sensors undone as measured."""
     samples = recording.samples.copy()
-    loose = {f.channel for f in findings if f.kind == "loose_sensor"}
     for f in findings:
-        if f.gain_db is not None and f.fault:
-            samples[recording.names.index(f.channel)] *= 10 ** (-f.gain_db / 20)
-    kept = [i for i, name in enumerate(recording.names) if name not in loose] or list(range(len(recording.names)))
-    return replace(recording, channels=tuple(recording.channels[i] for i in kept), samples=samples[kept])
+        if not f.fault or f.channel not in recording.names:
+            continue
+        row = recording.names.index(f.channel)
+        if f.gain_db is not None:
+            samples[row] *= 10 ** (-f.gain_db / 20)
+        if f.transfer_db:
+            hz, change_db = np.asarray(f.transfer_db).T
+            spectrum = np.fft.rfft(samples[row])
+            axis = np.fft.rfftfreq(samples.shape[1], 1 / recording.sampling_rate_hz)
+            samples[row] = np.fft.irfft(spectrum * 10 ** (-np.interp(axis, hz, change_db) / 20), samples.shape[1])
+    return replace(recording, samples=samples)

@@ -24,6 +24,10 @@ AWAY = 0.035
 """Share by which a control order must differ from orders of parts, their halves and multiples."""
 SHAFT_BINS = 2.0
 TAIL = 0.1
+LEAST_SCALE = 0.5
+LEAST_SPREAD = 0.7
+CERTAIN_Z = 6.0
+"""Robust deviations that noise does not reach."""
 LEAST_CHANCE = 1e-6
 """A tail read off 300 controls carries no further."""
 
@@ -144,15 +148,13 @@ def family_evidence(
             values = without(values, e, around, order)
         base = trials(family, family.order, reach, e.order_step)
         table = scores(values, e, family, base)
-        # were the family absent, its lines would be: the controls must not catch them
-        absent = without(values, e, [family.spacing], float(base[int(np.argmax(np.max(table, axis=0)))]))
-        control = np.stack(
-            [np.max(scores(absent, e, family, trials(family, o, reach, e.order_step)), axis=1) for o in controls],
-            axis=1,
-        )
-        centre = np.median(control, axis=1, keepdims=True)
-        spread = np.maximum(1.4826 * np.median(np.abs(control - centre), axis=1, keepdims=True), 0.7)
+        control, centre, spread = _controls(values, e, family, controls, reach)
         z = (table - centre) / spread
+        if float(np.max(z)) > CERTAIN_Z:
+            # lines that are surely there must not be caught by the controls: were the family absent, so would they be
+            absent = without(values, e, [family.spacing], float(base[int(np.argmax(np.max(z, axis=0)))]))
+            control, centre, spread = _controls(absent, e, family, controls, reach)
+            z = (table - centre) / spread
         band, trial = (int(i) for i in np.unravel_index(int(np.argmax(z)), z.shape))
         by_channel[e.channel] = float(z[band, trial])
         best_control = np.maximum(best_control, np.max((control - centre) / spread, axis=0))
@@ -171,6 +173,20 @@ def family_evidence(
         depth=comb_depth(e, place, family, order),
         channel_z=by_channel,
     )
+
+
+def _controls(
+    values: FloatArray, envelopes: Envelopes, family: Family, orders: FloatArray, reach: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """(best scores at the control orders (bands, controls), their medians and robust deviations (bands, 1))."""
+    rows = [
+        np.max(scores(values, envelopes, family, trials(family, o, reach, envelopes.order_step)), axis=1)
+        for o in orders
+    ]
+    control = np.stack(rows, axis=1)
+    centre = np.median(control, axis=1, keepdims=True)
+    spread = np.maximum(1.4826 * np.median(np.abs(control - centre), axis=1, keepdims=True), LEAST_SPREAD)
+    return control, centre, spread
 
 
 def comb_depth(envelopes: Envelopes, band: int, family: Family, order: float) -> float:
@@ -197,6 +213,6 @@ def tail_chance(controls: FloatArray, value: float) -> float:
     if above >= count // 2:
         return (1 + above) / (1 + n)
     top = np.sort(controls)[-count - 1 :]
-    scale = max(float(np.mean(top[1:] - top[0])), 1e-3)
+    scale = max(float(np.mean(top[1:] - top[0])), LEAST_SCALE)
     tail = count / n * np.exp(-(value - top[0]) / scale)
     return float(max(min((1 + above) / (1 + n), tail), LEAST_CHANCE))

@@ -27,6 +27,8 @@ STRIKE = 0.75
 STRIKE_RANGE = (0.5, 1.0)
 PROMINENCE = 0.1
 """Of a peak of the autocorrelation, over the height of the peak at the period."""
+MATE_SHARE = 0.4
+"""Prominence asked for of the satellite over that of the peak: it sits on the slope of the period's."""
 NOISE_TIMES = 6.0
 LEAST_PERIOD = 0.03
 """Height of the peak at the period (1 at lag 0) without which a second event would not be seen either."""
@@ -121,14 +123,15 @@ def _pair_lag(lags: FloatArray, curve: FloatArray, period: float, first: float, 
     step = float(lags[1])
     smooth = np.convolve(curve, np.ones(3) / 3, mode="same")
     # ringing of the structure makes ripples: peaks closer than half the first lag are one event
-    noise = 1.4826 * float(np.median(np.abs(np.diff(smooth[lags > 0.3 * period])))) / np.sqrt(2)
+    # the second difference of white noise has six times its variance; slopes and peaks hardly show in its median
+    noise = 1.4826 * float(np.median(np.abs(np.diff(smooth[lags > 0.3 * period], 2)))) / np.sqrt(6)
     least = max(least, NOISE_TIMES * noise)
-    places, facts = find_peaks(smooth, prominence=least, distance=max(1, int(first / 2 / step)))
+    places, facts = find_peaks(smooth, prominence=MATE_SHARE * least, distance=max(1, int(first / 2 / step)))
     prominence = dict(zip(places.tolist(), facts["prominences"].tolist(), strict=True))
     best: tuple[float, float] | None = None
     for place, height in prominence.items():
         lag = float(lags[place])
-        if not first <= lag <= LAST_SHARE * period:
+        if height < least or not first <= lag <= LAST_SHARE * period:
             continue
         mates = [p for p in prominence if abs(lags[p] - (period - lag)) < max(0.02 * period, 3 * step)]
         if not mates:

@@ -161,6 +161,11 @@ def test_gain_is_undone() -> None:
     assert np.std(gate.tests[0].samples[1]) == pytest.approx(np.std(tests[0].samples[1]), rel=0.06)
 
 
+def test_a_loose_mount_is_equalised() -> None:
+    gate = judged(changed(1, _loose))
+    assert np.std(gate.tests[0].samples[1]) == pytest.approx(np.std(trials()[0].samples[1]), rel=0.35)
+
+
 def test_hum_is_taken_out() -> None:
     gate = judged(changed(1, _hum))
     left = gate.tests[0].samples[1] - trials()[0].samples[1]
