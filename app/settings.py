@@ -75,6 +75,7 @@ class Settings:
             waiting_jobs=read.whole("SIDEBAND_MAX_WAITING", base.waiting_jobs),
         )
         port = read.whole("SIDEBAND_PORT", cls.port, most=65535)
+        upload = read.whole("SIDEBAND_MAX_UPLOAD_BYTES", cls.max_upload_bytes, unit="bytes")
         read.settle()
         return cls(
             stores=StoreSettings.from_environment(env),
@@ -84,7 +85,7 @@ class Settings:
             pages_folder=Path(env.get("SIDEBAND_PAGES_DIR") or cls.pages_folder),
             allowed_hosts=tuple(h.strip() for h in env.get("SIDEBAND_ALLOWED_HOSTS", "").split(",") if h.strip()),
             limits=limits,
-            max_upload_bytes=int(number(env, "SIDEBAND_MAX_UPLOAD_BYTES", cls.max_upload_bytes)),
+            max_upload_bytes=upload,
         )
 
 

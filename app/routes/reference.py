@@ -67,8 +67,8 @@ def bearings(request: Request, state: State) -> Response:
 def sensors(request: Request, state: State) -> Response:
     """What a measurement chain (`sensors` of a simulation) can be made of.
 
-    `sensors`: the ready ones by name, as forms show them; `kinds` of channels with their stages and unit, `presets` by name with the stages they fill in and their source, and
-    the JSON `schema` of the whole chain.
+    `sensors`: the ready ones as forms show them; `kinds` of channels with their stages and unit; `presets` by name with
+    the stages they fill in and their source; and the JSON `schema` of the whole chain.
     """
     return document(request, state, {**sensor_document(), "sensors": sensor_documents()})
 
