@@ -111,7 +111,7 @@ def _smooth_gain(hz: FloatArray, ratio_db: FloatArray, weight: FloatArray) -> Fl
     kernel = np.exp(-0.5 * distance**2) * weight[good]
     pull = 1.0 / PRIOR_DB**2
     offset = kernel @ (ratio_db[good] - median) / (kernel.sum(axis=1) + pull)
-    return median + np.clip(offset, -FARTHEST_DB, FARTHEST_DB)
+    return np.asarray(median + np.clip(offset, -FARTHEST_DB, FARTHEST_DB))
 
 
 def calibrate_chain(

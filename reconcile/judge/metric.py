@@ -73,4 +73,4 @@ def fit_metric(centre: FloatArray, scatter: Sequence[FloatArray]) -> Metric:
     size = pooled.shape[0]
     ridge = LEAST_VARIANCE + RIDGE * max(1.0, 4.0 * size / rows.shape[0]) * max(float(np.trace(pooled)) / size, 1e-9)
     inverse = np.linalg.inv(pooled + ridge * np.eye(size))
-    return Metric(centre=centre, turn=np.linalg.cholesky(0.5 * (inverse + inverse.T)))
+    return Metric(centre=centre, turn=np.asarray(np.linalg.cholesky(0.5 * (inverse + inverse.T)), dtype=np.float64))
