@@ -72,6 +72,7 @@ class Settings:
             waiting_jobs=read.whole("SIDEBAND_MAX_WAITING", base.waiting_jobs),
         )
         port = read.whole("SIDEBAND_PORT", cls.port, most=65535)
+        upload = read.whole("SIDEBAND_MAX_UPLOAD_BYTES", cls.max_upload_bytes, unit="bytes")
         read.settle()
         return cls(
             stores=StoreSettings.from_environment(env),
@@ -80,7 +81,7 @@ class Settings:
             api_keys=parse_keys(env.get("SIDEBAND_API_KEYS", "")),
             allowed_hosts=tuple(h.strip() for h in env.get("SIDEBAND_ALLOWED_HOSTS", "").split(",") if h.strip()),
             limits=limits,
-            max_upload_bytes=int(number(env, "SIDEBAND_MAX_UPLOAD_BYTES", cls.max_upload_bytes)),
+            max_upload_bytes=upload,
         )
 
 
