@@ -53,3 +53,9 @@ def simulated_channels(machine: MachineSpec, channels: Sequence[Channel]) -> tup
     if problems:
         raise SpecError(problems)
     return tuple(name for name in found if name is not None)
+
+
+def standard_channels(machine: MachineSpec, wanted: Sequence[str]) -> tuple[str, ...]:
+    """Both axes at every bearing, and what is wanted beside them: one atlas serves any choice of sensors."""
+    usual = {_on_bearing(machine, b.name, axis) for b in machine.bearings for axis in ("x", "y")}
+    return tuple(sorted(usual | set(wanted)))

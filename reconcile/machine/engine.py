@@ -10,7 +10,7 @@ from typing import Literal
 from reconcile.atlas.bank import Mapper, make_bank
 from reconcile.atlas.candidates import candidates
 from reconcile.atlas.keep import Forgetful, Keeper, kept_bank
-from reconcile.atlas.places import simulated_channels
+from reconcile.atlas.places import simulated_channels, standard_channels
 from reconcile.atlas.plan import NULL_PAIRS, atlas_plan, with_tooth_pairs
 from reconcile.calibrate.uncertain import uncertain_numbers
 from reconcile.gate import inspect_measurement
@@ -97,7 +97,7 @@ def _setting(
     data = observe(machine, watched, gate.tests, gate.baselines, seed=seed)
     recorded = gate.tests[0].channels
     simulated = simulated_channels(machine, recorded)
-    distinct = tuple(sorted(set(simulated)))
+    distinct = standard_channels(machine, simulated)
     paired = with_tooth_pairs(machine)
     plan = atlas_plan(paired, uncertain_numbers(paired), candidates(paired), seed=seed)
     banks = []
