@@ -180,12 +180,12 @@ def judge(fitted: Fitted, observed: FloatArray) -> Screen:
         p_any=float((1 + np.sum(_largest(fitted.resting, fitted.resting) >= strongest)) / count),
         strongest=strongest,
         p_best=float((1 + np.sum(gains >= nothing - found)) / count),
-        misfit=_misfit(fitted, found, nothing),
+        misfit=quantile_of_misfit(fitted, found, nothing),
         length=nothing,
     )
 
 
-def _misfit(fitted: Fitted, found: float, length: float) -> float:
+def quantile_of_misfit(fitted: Fitted, found: float, length: float) -> float:
     """Quantile of `found` among left-out draws of about the same length: near 1, no known effect looks like this."""
     near = np.argsort(np.abs(np.log(fitted.size + 1e-9) - np.log(length + 1e-9)))[:60]
     own = fitted.own[near] / np.maximum(fitted.size[near], 1e-9)
