@@ -18,7 +18,7 @@ PLANTED = {
     "sim/presets/gearbox.py": "import sim.solve.api",
     "sim/terms/unbalance.py": "import sim.terms.eccentricity",
     "jobs/limits.py": "import rq",
-    "workers/settings.py": "import app.settings",
+    "workers/context.py": "import app.settings",
     "sideband_client/errors.py": "import sim.core.errors",
     "proof/machine.py": "import sim.core.errors",
 }
@@ -29,7 +29,7 @@ BROKEN_BY = {
     "presets-reach": "sim/presets/gearbox.py",
     "terms": "sim/terms/unbalance.py",
     "no-web-below": "jobs/limits.py",
-    "rooms": "workers/settings.py",
+    "rooms": "workers/context.py",
     "client": "sideband_client/errors.py",
     "proof": "proof/machine.py",
 }
