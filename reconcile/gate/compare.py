@@ -24,8 +24,13 @@ GAIN_SPREAD_DB = 1.0
 """Half of all bands within this of the median change: what repetition, load and a drift of a few per cent leave."""
 QUIET_DB = 1.0
 LOOSE_DB = 6.0
-LOOSE_ROUGH_DB = 1.5
-"""RMS by which lines and floor of a loose sensor may differ in their change, and both from a smooth curve."""
+LOOSE_BAND_DB = 3.0
+LOOSE_ROUGH_DB = 2.0
+ROUGH_SHARE = 0.2
+"""By which lines, floor and speeds may differ in their change, at least or as a share of the change."""
+LOOSE_IMPACTS = 0.5
+"""Growth of the kurtosis of the bands that changed: a filter makes no impacts."""
+QUIET_SHARE = 0.2
 OTHERS_SHARE = 0.3
 """By which, of its change, other channels may have changed for it to be remarked; a fault needs them quiet."""
 SWAP_SHARE = 0.5
@@ -94,20 +99,25 @@ def _gain_finding(gain: float, change: Sequence[FloatArray], c: int, name: str, 
 
 
 def _loose(pairs: Sequence[Pair], change: Sequence[FloatArray], c: int, name: str) -> list[Finding]:
-    """A smooth filter on one channel: bands changed a lot, lines as the floor, the same at all speeds, others quiet."""
-    others = [np.abs(d[k]) for d in change for k in range(len(pairs[0].names)) if k != c]
-    loudest = max(float(np.percentile(o, 80)) for o in others)
+    """A filter on one channel: bands changed, lines as the floor, alike at all speeds, no impacts, others quiet."""
     count = min(d.shape[2] for d in change)
-    curve = np.mean([_smooth(np.mean(d[c, :, :count], axis=0)) for d in change], axis=0)
-    size = float(np.ptp(curve))
-    rough = max(float(np.sqrt(np.mean((d[c, k, :count] - curve) ** 2))) for d in change for k in (0, 1))
-    if loudest > OTHERS_SHARE * size or size < LOOSE_DB or rough > max(LOOSE_ROUGH_DB, 0.15 * size):
+    own = np.stack([d[c, :, :count] for d in change])
+    curve = np.mean(own, axis=(0, 1))
+    changed = np.abs(curve) > LOOSE_BAND_DB
+    size = float(np.max(np.abs(curve)))
+    if size < LOOSE_DB or not np.any(changed):
+        return []
+    rough = float(np.median(np.max(np.abs(own - curve)[:, :, changed], axis=(0, 1))))
+    impacts = max(float(np.median(p.impacts[c, :count][changed])) for p in pairs)
+    others = [d[k, 0, :count][changed] for d in change for k in range(len(pairs[0].names)) if k != c]
+    loudest = max(float(np.median(np.abs(o))) for o in others)
+    if rough > max(LOOSE_ROUGH_DB, ROUGH_SHARE * size) or impacts > LOOSE_IMPACTS or loudest > OTHERS_SHARE * size:
         return []
     top = int(np.argmax(np.abs(curve)))
     hz = float(pairs[0].centre_hz[top])
     detail = f"its transfer changed by up to {curve[top]:+.0f} dB around {hz:.4g} Hz, lines and noise alike; "
-    quiet = loudest <= 2 * QUIET_DB
-    detail += f"the other channels changed by {loudest:.1f} dB at most"
+    quiet = loudest <= max(2 * QUIET_DB, QUIET_SHARE * size)
+    detail += f"the other channels changed by {loudest:.1f} dB there"
     return [
         Finding(
             kind="loose_sensor",
@@ -120,12 +130,6 @@ def _loose(pairs: Sequence[Pair], change: Sequence[FloatArray], c: int, name: st
             transfer_db=tuple(zip(map(float, pairs[0].centre_hz), map(float, curve), strict=False)),
         )
     ]
-
-
-def _smooth(values: FloatArray) -> FloatArray:
-    """Mean over half an octave, shape (bands,)."""
-    padded = np.pad(values, 1, mode="edge")
-    return np.asarray((padded[:-2] + padded[1:-1] + padded[2:]) / 3, dtype=np.float64)
 
 
 def swapped(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding, ...]:

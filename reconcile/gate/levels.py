@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from signals.recording import Recording
-from signals.series import FloatArray
+from signals.series import FloatArray, Series
 from signals.spectra.amplitude import power_spectral_density
 
 BANDS_PER_OCTAVE = 6
@@ -25,6 +25,8 @@ class Levels:
     centre_hz: FloatArray
     mean_db: FloatArray
     floor_db: FloatArray
+    kurtosis: FloatArray
+    """Excess of the complex envelope of each band: 0 for noise, far above it where impacts ring."""
 
 
 def channel_levels(recording: Recording, name: str) -> Levels:
@@ -38,11 +40,24 @@ def channel_levels(recording: Recording, name: str) -> Levels:
     place = np.searchsorted(spectrum.frequency_hz, edges)
     tiny = max(float(np.max(spectrum.values)) * 1e-15, np.finfo(np.float64).tiny)
     bands = [(a, b) for a, b in pairwise(place) if b - a >= 3]
+    transform = np.fft.rfft(series.samples - np.mean(series.samples))
+    spread = [_kurtosis(transform, spectrum.frequency_hz[a], spectrum.frequency_hz[b - 1], series) for a, b in bands]
     return Levels(
         centre_hz=np.array([np.sqrt(spectrum.frequency_hz[a] * spectrum.frequency_hz[b - 1]) for a, b in bands]),
         mean_db=np.array([10 * np.log10(np.mean(spectrum.values[a:b]) + tiny) for a, b in bands]),
         floor_db=np.array([10 * np.log10(np.median(spectrum.values[a:b]) + tiny) for a, b in bands]),
+        kurtosis=np.array(spread),
     )
+
+
+def _kurtosis(
+    transform: np.ndarray[tuple[int], np.dtype[np.complex128]], low_hz: float, high_hz: float, series: Series
+) -> float:
+    """Excess kurtosis of the complex envelope of a band."""
+    per_hz = series.samples.size / series.sampling_rate_hz
+    part = transform[int(low_hz * per_hz) : int(high_hz * per_hz) + 2]
+    square = np.abs(np.fft.ifft(part, 2 * part.size)) ** 2
+    return float(np.mean(square**2) / max(float(np.mean(square)) ** 2, 1e-300) - 2)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,6 +70,8 @@ class Pair:
     test: FloatArray
     """(channels, 2, bands) dB: mean, floor."""
     baseline: FloatArray
+    impacts: FloatArray
+    """(channels, bands) growth of the kurtosis of the complex envelopes."""
 
 
 def pairs(
@@ -84,6 +101,7 @@ def pairs(
                 centre_hz=now[0].centre_hz[:count],
                 test=np.stack([np.stack([x.mean_db[:count], x.floor_db[:count]]) for x in now]),
                 baseline=np.stack([np.stack([x.mean_db[:count], x.floor_db[:count]]) for x in then]),
+                impacts=np.stack([a.kurtosis[:count] - b.kurtosis[:count] for a, b in zip(now, then, strict=True)]),
             )
         )
     return tuple(found)

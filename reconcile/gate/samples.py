@@ -34,7 +34,10 @@ PILE_SAMPLES = 30
 def sample_findings(recording: Recording, label: str) -> tuple[Finding, ...]:
     """Defects of every channel as findings; `fault` where they are large enough to matter."""
     n = recording.samples.shape[1]
-    found = [_of_defect(d, label, n) for d in inspect(recording)]
+    found = [
+        _of_defect(d, label, n, float(recording.samples[recording.names.index(d.channel), 0]))
+        for d in inspect(recording)
+    ]
     known = {(f.channel, f.kind) for f in found}
     for name, samples in zip(recording.names, recording.samples, strict=True):
         if not np.all(np.isfinite(samples)) or np.ptp(samples) == 0:
@@ -66,13 +69,17 @@ def repaired(recording: Recording) -> tuple[Recording, tuple[str, ...]]:
     return replace(recording, channels=kept, samples=samples[rows]), tuple(lost)
 
 
-def _of_defect(defect: Defect, label: str, n: int) -> Finding:
+def _of_defect(defect: Defect, label: str, n: int, value: float) -> Finding:
+    """A constant channel is silent at zero and stuck anywhere else (`value`: its first sample)."""
     share = defect.samples / n
     first = defect.places[0]
     where = f"{defect.count} stretches, the first at {first.start_s:.6g} to {first.stop_s:.6g} s"
+    kind = KIND[defect.kind]
+    if defect.kind == "constant" and value != 0.0:
+        kind = "stuck"
     always = defect.kind in ("not_finite", "constant", "dropout")
     return Finding(
-        kind=KIND[defect.kind],
+        kind=kind,
         channel=defect.channel,
         recording=label,
         detail=f"{defect.message}: {share:.3%} of the samples",

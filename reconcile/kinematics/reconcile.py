@@ -173,7 +173,8 @@ def _fault(gate: Gate) -> Report:
     kind = gate.fault.kind.replace("_", " ")
     return Report(
         verdict="measurement_fault",
-        sentence=f"The mismatch is in the measurement: {kind}{channel} ({gate.fault.detail}).",
+        sentence=f"The mismatch is in the measurement: {kind}{channel} ({gate.fault.detail})."
+        + (" Apart from it these kinematics show nothing missing." if gate.usable else ""),
         level="kinematics",
         fault=gate.fault,
     )

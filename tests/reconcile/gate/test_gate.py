@@ -110,6 +110,11 @@ def _loose(x, i):  # type: ignore[no-untyped-def]
     return low + 4 * ring
 
 
+def _ring(x, i):  # type: ignore[no-untyped-def]
+    """A mount that has come loose: one narrow resonance."""
+    return x + 6 * lfilter(*butter(1, [2950.0, 3150.0], "bandpass", fs=RATE_HZ), x)
+
+
 def _hum(x, i):  # type: ignore[no-untyped-def]
     t = np.arange(x.size) / RATE_HZ
     return x + 0.4 * np.sin(2 * np.pi * 49.98 * t) + 0.1 * np.sin(2 * np.pi * 149.94 * t)
@@ -128,7 +133,8 @@ KINDS = [
     ("dropouts", _away),
     ("stuck", _stuck),
     ("not_finite", _nan),
-    ("silence", lambda x, i: np.full_like(x, 0.1)),
+    ("silence", lambda x, i: np.zeros_like(x)),
+    ("stuck", lambda x, i: np.full_like(x, 0.1)),
     ("clipped", lambda x, i: np.clip(x, -1.5, 1.5)),
     ("clipped", lambda x, i: np.clip(x, -1.5, 1.5) + 1e-3 * np.sin(np.arange(x.size))),
     ("mains_hum", _hum),
@@ -136,6 +142,7 @@ KINDS = [
     ("gain_change", lambda x, i: 0.5 * x),
     ("unit_mismatch", lambda x, i: x / 9.80665),
     ("loose_sensor", _loose),
+    ("loose_sensor", _ring),
     ("alias", _alias),
 ]
 
