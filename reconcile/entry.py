@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from reconcile.atlas.bank import Mapper
+from reconcile.atlas.candidates import Candidate
 from reconcile.atlas.keep import Keeper
 from reconcile.driven import reconcile_driven
 from reconcile.kinematics import KinematicSpec, reconcile_kinematics
@@ -95,11 +96,13 @@ def reconcile_recordings(
     mapper: Mapper = map,
     seed: int = 0,
     progress: Progress = _nothing,
+    nominated: Sequence[Candidate] | None = None,
 ) -> Report:
     """Reconcile recordings with what is known of their machine.
 
     A machine without shafts is driven by a measured input; kinematics alone allow names and feature-level gains; a
-    machine that can be simulated allows all stages. SpecError says what cannot be reconciled and why.
+    machine that can be simulated allows all stages, and there `nominated` may limit the effects considered. SpecError
+    says what cannot be reconciled and why.
     """
     check_size(tests, baselines)
     if isinstance(machine, MachineSpec) and not machine.shafts:
@@ -108,5 +111,13 @@ def reconcile_recordings(
     if isinstance(machine, KinematicSpec):
         return reconcile_kinematics(machine, tests, baselines, seed=seed)
     return reconcile_machine(
-        machine, tests, baselines, budget=budget, keeper=keeper, mapper=mapper, seed=seed, progress=progress
+        machine,
+        tests,
+        baselines,
+        budget=budget,
+        keeper=keeper,
+        mapper=mapper,
+        seed=seed,
+        progress=progress,
+        nominated=nominated,
     )

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 from reconcile.atlas.bank import Mapper, make_bank
-from reconcile.atlas.candidates import candidates
+from reconcile.atlas.candidates import Candidate, candidates
 from reconcile.atlas.keep import Forgetful, Keeper, kept_bank
 from reconcile.atlas.places import simulated_channels, standard_channels
-from reconcile.atlas.plan import NULL_PAIRS, atlas_plan, with_tooth_pairs
+from reconcile.atlas.plan import NULL_PAIRS, AtlasPlan, atlas_plan, with_tooth_pairs
 from reconcile.calibrate.uncertain import uncertain_numbers
 from reconcile.gate import inspect_measurement
 from reconcile.gate.findings import Gate
@@ -60,14 +60,21 @@ def reconcile_machine(
     mapper: Mapper = map,
     seed: int = 0,
     progress: Progress = _silent,
+    nominated: Sequence[Candidate] | None = None,
 ) -> Report:
-    """Reconcile recordings with a machine; SpecError says what cannot be done and why."""
+    """Reconcile recordings with a machine; SpecError says what cannot be done and why.
+
+    `nominated` limits the effects considered; without it every registered effect at every site is a candidate.
+    """
     started = time.process_time()
     progress(0.0, "sensor gate")
     gate = _gate(machine, tests, baselines, seed)
     if not gate.usable:
         return fault_answer(gate, level="machine")
-    setting = _setting(machine, gate, keeper or Forgetful(), mapper, seed, progress)
+    paired = with_tooth_pairs(machine)
+    chosen = candidates(paired) if nominated is None else tuple(nominated)
+    plan = atlas_plan(paired, uncertain_numbers(paired), chosen, seed=seed)
+    setting = _setting(machine, gate, plan, keeper or Forgetful(), mapper, progress)
     atlas_s = time.process_time() - started
     progress(0.6, "candidates")
     found = _screened(setting)
@@ -90,16 +97,14 @@ def _gate(machine: MachineSpec, tests: Sequence[Recording], baselines: Sequence[
 
 
 def _setting(
-    machine: MachineSpec, gate: Gate, keeper: Keeper, mapper: Mapper, seed: int, progress: Progress
+    machine: MachineSpec, gate: Gate, plan: AtlasPlan, keeper: Keeper, mapper: Mapper, progress: Progress
 ) -> Setting:
     watched = watch_list(machine)
     progress(0.05, "speed and features")
-    data = observe(machine, watched, gate.tests, gate.baselines, seed=seed)
+    data = observe(machine, watched, gate.tests, gate.baselines, seed=plan.seed)
     recorded = gate.tests[0].channels
     simulated = simulated_channels(machine, recorded)
     distinct = standard_channels(machine, simulated)
-    paired = with_tooth_pairs(machine)
-    plan = atlas_plan(paired, uncertain_numbers(paired), candidates(paired), seed=seed)
     banks = []
     for k, one in enumerate(data):
         progress(0.1 + 0.5 * k / len(data), f"atlas at {one.point.speed_hz:g} Hz")
@@ -115,7 +120,7 @@ def _setting(
         banks=tuple(banks),
         seen_through=seen,
         changes=observed_changes(data, seen, banks, plan),
-        seed=seed,
+        seed=plan.seed,
     )
 
 

@@ -1,0 +1,112 @@
+"""All stages on a small atlas: a spall hidden in the paper's gearbox is found, and a sound machine is left alone."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from reconcile.atlas.candidates import Candidate
+from reconcile.calibrate.uncertain import DRIFT, draw_offsets, moved, uncertain_numbers
+from reconcile.entry import reconcile_recordings
+from signals.recording import Operating, Recording
+from sim.core.response import Channel
+from sim.core.spec import MachineSpec, TermSpec
+from sim.presets import preset
+from sim.solve.api import simulate
+from sim.solve.settings import Settings
+from store.atlas import AtlasFolder
+
+RATE_HZ = 20480.0
+SETTLE_S = 0.3
+PLACES = ("bearing1", "bearing3")
+SPALL = TermSpec(term="outer_spall", site="bearing1", parameters={"width": 1.5e-3})
+NOMINATED = tuple(
+    Candidate(term=term, site=site)
+    for term, site in (
+        ("outer_spall", "bearing1"),
+        ("outer_spall", "bearing3"),
+        ("inner_spall", "bearing1"),
+        ("tooth_crack", "pinion"),
+        ("unbalance", "pinion"),
+    )
+)
+
+
+def measured(machine: MachineSpec, seed: int, duration_s: float = 3.0) -> Recording:
+    """Accelerations on two bearings with white noise of a tenth of each signal's deviation."""
+    response = simulate(
+        machine,
+        duration_s=SETTLE_S + duration_s,
+        output_rate_hz=RATE_HZ,
+        channels=["resonator1.y.acceleration", "resonator3.y.acceleration"],
+        seed=seed,
+        settings=Settings(rtol=1e-3, estimate_error=False),
+    )
+    rows = np.asarray(response.signals)[:, round(SETTLE_S * RATE_HZ) :]
+    noise = np.random.default_rng(seed).normal(size=rows.shape) * 0.1 * rows.std(axis=1, keepdims=True)
+    channels = tuple(
+        Channel(name=p, quantity="acceleration", unit="m/s^2", location=p, axis="y") for p in PLACES
+    )
+    return Recording(
+        sampling_rate_hz=RATE_HZ,
+        channels=channels,
+        samples=rows + noise,
+        operating=Operating(shaft="input", speed_hz=30.0, torque_nm=25.0),
+    )
+
+
+@pytest.fixture(scope="module")
+def atlas(tmp_path_factory: pytest.TempPathFactory) -> AtlasFolder:
+    return AtlasFolder(tmp_path_factory.mktemp("atlas"))
+
+
+@pytest.fixture(scope="module")
+def real() -> MachineSpec:
+    """Not the nominal machine: every number is off as numbers of drawings are."""
+    nominal = preset("paper-lightly-damped")
+    numbers = uncertain_numbers(nominal)
+    return moved(nominal, numbers, draw_offsets(numbers, np.random.default_rng(77)))
+
+
+@pytest.fixture(scope="module")
+def baseline(real: MachineSpec) -> Recording:
+    return measured(real, 501)
+
+
+@pytest.mark.slow
+@pytest.mark.xdist_group("reconcile-machine")
+def test_a_hidden_spall_is_found(real: MachineSpec, baseline: Recording, atlas: AtlasFolder) -> None:
+    numbers = uncertain_numbers(real)
+    later = draw_offsets(numbers, np.random.default_rng(78))
+    drifted = moved(real, numbers, type(later)(values=DRIFT * later.values))
+    test = measured(drifted.model_copy(update={"terms": [*drifted.terms, SPALL]}), 502)
+    nominal = preset("paper-lightly-damped")
+    heard: list[float] = []
+    report = reconcile_recordings(
+        nominal, [test], [baseline], keeper=atlas, nominated=NOMINATED, progress=lambda share, _stage: heard.append(share)
+    )
+    assert report.level == "machine"
+    assert report.verdict in ("explained", "ambiguous"), report.sentence
+    best = report.causes[0]
+    assert ("outer_spall", "bearing1") in [(c.term, c.site) for c in report.causes if c.score > best.score - 3.0]
+    assert report.where.sites[0].site == "bearing1"
+    cause = next(c for c in report.causes if (c.term, c.site) == ("outer_spall", "bearing1"))
+    assert cause.severity is not None and cause.severity.low < 1.5e-3 < cause.severity.high
+    assert report.held_out is not None and report.held_out.gain > 0.2
+    assert report.machine is not None
+    again = MachineSpec.model_validate(report.machine)
+    assert again.terms[-1].term == best.term
+    assert heard == sorted(heard) and heard[-1] == 1.0
+    json.dumps(report.document())
+
+
+@pytest.mark.slow
+@pytest.mark.xdist_group("reconcile-machine")
+def test_the_same_machine_again_misses_nothing(baseline: Recording, atlas: AtlasFolder) -> None:
+    nominal = preset("paper-lightly-damped")
+    report = reconcile_recordings(nominal, [baseline], [baseline], keeper=atlas, nominated=NOMINATED)
+    assert report.verdict == "nothing_missing", report.sentence
+    assert report.causes == () and report.machine is None
+    json.dumps(report.document())
