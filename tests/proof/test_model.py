@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -100,10 +101,16 @@ def with_effect(name, site, value, variant=0, seed=1):
     return machine
 
 
-def run(machine, speed_hz=30.0, duration_s=1.0, dofs=Y_DOFS):
-    return accelerations(machine, steady(speed_hz), duration_s=duration_s, oversampling=1, rate_hz=120_000, dofs=dofs)[
-        :, ::6
-    ]
+def run(machine, duration_s=1.0, settle_s=0.25):
+    fine = accelerations(
+        machine, steady(30.0), duration_s=duration_s, settle_s=settle_s, oversampling=1, rate_hz=120_000, dofs=Y_DOFS
+    )
+    return fine[:, ::6]
+
+
+@cache
+def healthy(torque_nm=25.0, **changes):
+    return run(at_torque(torque_nm), **changes)
 
 
 SPEED = 30.0
@@ -130,10 +137,9 @@ LINES = [
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "site", "value", "variant", "lines"), LINES, ids=[row[0] for row in LINES])
 def test_an_effect_shows_at_its_lines(name, site, value, variant, lines):
-    healthy = run(arrays_of(exact_machine()))
     faulty = run(with_effect(name, site, value, variant))
     for hz in lines:
-        gains = [level(f, hz) / max(level(h, hz), 1e-4) for f, h in zip(faulty, healthy, strict=True)]
+        gains = [level(f, hz) / max(level(h, hz), 1e-4) for f, h in zip(faulty, healthy(), strict=True)]
         assert max(gains) > 3.0, f"{hz:g} Hz: {gains}"
 
 
@@ -141,12 +147,12 @@ def test_an_effect_shows_at_its_lines(name, site, value, variant, lines):
 @pytest.mark.parametrize("name", [*CLOSED, *OPEN])
 def test_every_law_runs_at_its_corners_and_changes_something(name):
     law = CLOSED[name] if name in CLOSED else OPEN[name]
-    healthy = run(at_torque(law.torque_nm), duration_s=0.2)
-    for site in (law.sites[0], law.sites[-1]):
-        for variant in range(law.variants):
-            found = run(with_effect(name, site, law.levels[3], variant), duration_s=0.2)
-            assert np.all(np.isfinite(found))
-            assert np.linalg.norm(found - healthy) > 1e-3 * np.linalg.norm(healthy)
+    short = {"duration_s": 0.1, "settle_s": 0.1}
+    sound = healthy(law.torque_nm, **short)
+    for site, variant in {*((law.sites[0], v) for v in range(law.variants)), (law.sites[-1], 0)}:
+        found = run(with_effect(name, site, law.levels[3], variant), **short)
+        assert np.all(np.isfinite(found))
+        assert np.linalg.norm(found - sound) > 1e-3 * np.linalg.norm(sound)
 
 
 def test_a_sound_tooth_and_a_zero_severity_change_nothing():
