@@ -18,7 +18,18 @@ from app.guards.headers import ReplyHeaders
 from app.guards.upload import UploadGuard
 from app.instruments import Instruments, Measured
 from app.recovery import RecoveryThread
-from app.routes import events, health, indicators, jobs, plots, recordings, reference, results, simulations
+from app.routes import (
+    events,
+    health,
+    indicators,
+    jobs,
+    plots,
+    reconciliations,
+    recordings,
+    reference,
+    results,
+    simulations,
+)
 from app.settings import Settings
 from app.state import AppState
 from jobs.ports import Engine
@@ -26,7 +37,19 @@ from jobs.slices import Encoder
 from store.stores import Stores, open_stores
 
 ROUTERS = tuple(
-    module.router for module in (simulations, jobs, events, results, indicators, plots, recordings, reference, health)
+    module.router
+    for module in (
+        simulations,
+        jobs,
+        events,
+        results,
+        indicators,
+        plots,
+        recordings,
+        reconciliations,
+        reference,
+        health,
+    )
 )
 
 

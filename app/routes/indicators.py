@@ -72,5 +72,6 @@ def indicator(
 
 
 def _subject(state: AppState, job_id: str, found: Stored, channel: str) -> Subject:
+    found.reader.channel(channel)
     machine, _ = restored(state.stores.catalogue.request_of(job_id))
     return of_result(found.reader, channel, machine)
