@@ -26,6 +26,7 @@ from app.routes import (
     indicators,
     jobs,
     plots,
+    reconciliations,
     recordings,
     reference,
     results,
@@ -38,7 +39,20 @@ from jobs.ports import Engine
 from jobs.slices import Encoder
 from store.stores import Stores, open_stores
 
-_MODULES = (simulations, estimate, jobs, events, results, indicators, plots, recordings, terms, reference, health)
+_MODULES = (
+    simulations,
+    estimate,
+    jobs,
+    events,
+    results,
+    indicators,
+    plots,
+    recordings,
+    reconciliations,
+    terms,
+    reference,
+    health,
+)
 ROUTERS = tuple(module.router for module in _MODULES)
 
 

@@ -22,7 +22,7 @@ class ProgressView(Reply):
 
     fraction: Annotated[float, Field(ge=0, le=1)]
     stage: str
-    """`waiting`, `starting`, `simulating`, `analysing`, `storing`, `done`."""
+    """`waiting`, `starting`, `simulating`, `analysing`, `storing`, `done`; a reconciliation names its own stages."""
     eta_s: float | None
     """Estimated time left, s."""
 
@@ -31,8 +31,8 @@ class FailureView(Reply):
     """Why a job failed."""
 
     code: str
-    """`diverged`, `invalid-machine`, `worker-lost`, `timeout`, `out-of-memory`, `store-full`, `store-away` or
-    `internal`."""
+    """`diverged`, `invalid-machine`, `worker-lost`, `timeout`, `out-of-memory`, `store-full`, `store-away`,
+    `not-reconcilable` or `internal`."""
     message: str
     advice: str
     detail: dict[str, object] | None = None

@@ -53,7 +53,7 @@ def accept(desk: Desk, request: SimulationRequest, *, submitter: str, scope: str
     """
     body = digest(request.model_dump(mode="json"))
     if key is not None:
-        earlier = _replayed(desk, scope, key, body)
+        earlier = replayed(desk, scope, key, body)
         if earlier is not None:
             return earlier
     resolved = resolve(request, desk.engine, desk.limits)
@@ -62,7 +62,7 @@ def accept(desk: Desk, request: SimulationRequest, *, submitter: str, scope: str
         _check_room(desk, resolved)
     now = desk.clock()
     if key is not None:
-        _reserve(desk, scope, key, body, identifier)
+        reserve(desk, scope, key, body, identifier)
     record, created = desk.catalogue.put(
         identifier,
         resolved.document,
@@ -92,7 +92,8 @@ def ticket_of(record: JobRecord, limits: Limits) -> Ticket:
     return Ticket(job_id=record.id, attempt=record.attempt, timeout_s=int(limits.seconds * 2) + 60)
 
 
-def _replayed(desk: Desk, scope: str, key: str, body: str) -> Acceptance | None:
+def replayed(desk: Desk, scope: str, key: str, body: str) -> Acceptance | None:
+    """What was accepted under the key before; IdempotencyConflict when it was another request."""
     earlier = desk.catalogue.recall(scope, key)
     if earlier is None:
         return None
@@ -104,7 +105,7 @@ def _replayed(desk: Desk, scope: str, key: str, body: str) -> Acceptance | None:
         return None  # The key was kept, but its request never came to be accepted.
 
 
-def _reserve(desk: Desk, scope: str, key: str, body: str, identifier: str) -> None:
+def reserve(desk: Desk, scope: str, key: str, body: str, identifier: str) -> None:
     """Keep the key before the job: of two requests that come at once with one key, the second is refused."""
     earlier = desk.catalogue.remember(scope, key, body, identifier, desk.clock())
     if earlier is not None and earlier.body_sha256 != body:

@@ -13,6 +13,7 @@ JobError
  |   +- StoreFull          no space left
  +- UnknownArtefact        the result has no such part
  +- RecordingRefused       what was sent is no recording; carries field problems
+ +- NotReconcilable        recordings and machine do not go together; carries field problems
 """
 
 from __future__ import annotations
@@ -98,6 +99,14 @@ class UnknownArtefact(JobError):
 
 class RecordingRefused(JobError):
     """A recording that was sent in cannot be read as it is described; `problems` say which field or place is wrong."""
+
+    def __init__(self, problems: Sequence[Problem]) -> None:
+        self.problems = tuple(problems)
+        super().__init__("; ".join(str(p) for p in self.problems))
+
+
+class NotReconcilable(JobError):
+    """Recordings cannot be reconciled with the machine as it is given; `problems` say which field stands in the way."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
         self.problems = tuple(problems)

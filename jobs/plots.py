@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from jobs.errors import UnknownArtefact
 from jobs.results import ResultReader
 from jobs.thinning import highest, min_max
 
@@ -37,6 +38,8 @@ def default_channel(reader: ResultReader) -> str:
     """The first acceleration that has a spectrum, or simply the first channel."""
     with_spectrum = {entry.channel for entry in reader.manifest.spectra}
     channels = reader.manifest.channels
+    if not channels:
+        raise UnknownArtefact("channel", "any", ())
     chosen = next((c for c in channels if c.quantity == "acceleration" and c.name in with_spectrum), channels[0])
     return chosen.name
 

@@ -4,19 +4,22 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from jobs import transitions
 from jobs.accept import KIND
 from jobs.carry_out import carry_out, completed
-from jobs.errors import RecordingRefused, StaleAttempt, StoreAway, StoreFull
+from jobs.errors import NotReconcilable, RecordingRefused, StaleAttempt, StoreAway, StoreFull
 from jobs.ports import Analyser, ArtefactStore, Clock, Engine, JobCatalogue
+from jobs.reconciliations.carry_out import reconcile_stored
+from jobs.reconciliations.words import RECONCILIATION
 from jobs.record import Failure, JobRecord, ResultRef
 from jobs.recordings.read import read_upload
 from jobs.recordings.words import RECORDING
 from jobs.reporter import Reporter
 from jobs.resolve import restored
-from jobs.results import write_result
+from jobs.results import plain, write_result
+from reconcile.atlas.keep import Forgetful, Keeper
 from sim.core.errors import Cancelled, Diverged, SpecError
 
 log = logging.getLogger(__name__)
@@ -38,6 +41,8 @@ class Bench:
     max_losses: int = 2
     keep_s: float | None = 30 * 86400.0
     timeouts: tuple[type[BaseException], ...] = ()
+    keeper: Keeper = field(default_factory=Forgetful)
+    """Where the atlases of reconciliations are kept between jobs."""
 
 
 def run(bench: Bench, job_id: str, attempt: int, worker: str) -> JobRecord | None:
@@ -114,8 +119,32 @@ def _recorded(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> Re
     return read_upload(bench.artefacts, reporter, bench.catalogue.request_of(job_id), job_id, attempt)
 
 
-_KINDS: Mapping[str, Callable[[Bench, Reporter, str, int], ResultRef]] = {KIND: _simulated, RECORDING: _recorded}
+def _reconciled(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> ResultRef:
+    return reconcile_stored(
+        bench.catalogue,
+        bench.artefacts,
+        bench.keeper,
+        reporter,
+        bench.catalogue.request_of(job_id),
+        prefix=f"{job_id}/{attempt}",
+        attempt=attempt,
+        expires_at=lambda: None if bench.keep_s is None else bench.clock() + bench.keep_s,
+    )
+
+
+_KINDS: Mapping[str, Callable[[Bench, Reporter, str, int], ResultRef]] = {
+    KIND: _simulated,
+    RECORDING: _recorded,
+    RECONCILIATION: _reconciled,
+}
 """How each kind of job comes to its result."""
+
+
+_WRONG: Mapping[type[BaseException], tuple[str, str]] = {
+    RecordingRefused: ("refused", "change the fields named, or send a sound file"),
+    NotReconcilable: ("not-reconcilable", "change the fields named, or choose other recordings"),
+}
+"""Code and advice of what the sender can put right."""
 
 
 def failure_of(error: BaseException, timeouts: tuple[type[BaseException], ...]) -> Failure:
@@ -123,14 +152,10 @@ def failure_of(error: BaseException, timeouts: tuple[type[BaseException], ...]) 
     if isinstance(error, Diverged):
         detail: dict[str, object] = {"time_s": error.time_s, "dof": error.dof}
         return Failure(code="diverged", message=str(error), advice=error.advice, detail=detail)
-    if isinstance(error, SpecError | RecordingRefused):
-        refused = isinstance(error, RecordingRefused)
-        return Failure(
-            code="refused" if refused else "invalid-machine",
-            message=str(error),
-            advice="change the fields named, or send a sound file" if refused else "change the fields named",
-            detail={"errors": [problem.to_dict() for problem in error.problems]},
-        )
+    if isinstance(error, SpecError | RecordingRefused | NotReconcilable):
+        code, advice = _WRONG.get(type(error), ("invalid-machine", "change the fields named"))
+        errors = [plain(problem.to_dict()) for problem in error.problems]
+        return Failure(code=code, message=str(error), advice=advice, detail={"errors": errors})
     if isinstance(error, MemoryError):
         return Failure(code="out-of-memory", message="memory ran out", advice="shorten the run or ask fewer channels")
     if isinstance(error, timeouts):

@@ -19,6 +19,7 @@ class StoreSettings:
     redis_url: str
     database_url: str = ""
     artefact_url: str = ""
+    atlas_dir: Path | None = None
 
     @property
     def catalogue_url(self) -> str:
@@ -36,13 +37,19 @@ class StoreSettings:
         message = "is not a kind of artefact store this build has"
         raise SpecError(Problem(field="ARTEFACT_URL", message=message, given=url, allowed=ALLOWED))
 
+    @property
+    def atlas_folder(self) -> Path:
+        """Folder of the atlases that reconciliations share; it holds nothing that could not be made again."""
+        return self.atlas_dir or self.data_dir / "atlas"
+
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> StoreSettings:
-        """`SIDEBAND_DATA_DIR`, `REDIS_URL`, `DATABASE_URL`, `ARTEFACT_URL`."""
+        """`SIDEBAND_DATA_DIR`, `REDIS_URL`, `DATABASE_URL`, `ARTEFACT_URL`, `SIDEBAND_ATLAS`."""
         env = os.environ if environment is None else environment
         return cls(
             data_dir=Path(env.get("SIDEBAND_DATA_DIR", "data")).absolute(),
             redis_url=env.get("REDIS_URL", ""),
             database_url=env.get("DATABASE_URL", ""),
             artefact_url=env.get("ARTEFACT_URL", ""),
+            atlas_dir=Path(atlas).absolute() if (atlas := env.get("SIDEBAND_ATLAS", "")) else None,
         )

@@ -11,6 +11,7 @@ from jobs.accept import Desk
 from jobs.limits import Limits
 from jobs.ports import Analyser, Engine
 from jobs.run import Bench
+from store.atlas import AtlasFolder
 from store.settings import StoreSettings
 from store.stores import Stores, open_stores
 from store.worker_settings import WorkerSettings
@@ -39,6 +40,7 @@ class Context:
             max_losses=self.settings.max_losses,
             keep_s=self.settings.keep_s,
             timeouts=(JobTimeoutException,),
+            keeper=AtlasFolder(self.store_settings.atlas_folder),
         )
 
     def desk(self) -> Desk:

@@ -98,5 +98,6 @@ def _check(
 
 
 def _subject(state: AppState, job_id: str, found: Stored, channel: str, part: Window) -> Subject:
+    found.reader.channel(channel)
     machine, _ = restored(state.stores.catalogue.request_of(job_id))
     return of_result(found.reader, channel, machine, part)

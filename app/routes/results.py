@@ -57,7 +57,7 @@ def summary(job_id: JobId, request: Request, state: State) -> Response:
         "channels": [channel.model_dump() for channel in manifest.channels],
         "spectra": [{"channel": s.channel, "kind": s.kind, "unit": s.unit} for s in manifest.spectra],
         "files": {name: {**entry.model_dump(), "href": f"{base}/files/{name}"} for name, entry in found.files()},
-        "links": {part: f"{base}/{part}" for part in ("signals", "spectra", "peaks", "plots", *_further(found.reader))},
+        "links": {part: f"{base}/{part}" for part in _parts(found.reader)},
     }
     return _json(request, document, etag)
 
@@ -180,8 +180,10 @@ def file(job_id: JobId, name: str, request: Request, state: State) -> Response:
     )
 
 
-def _further(reader: ResultReader) -> tuple[str, ...]:
-    return (IMPACTS,) if reader.has(IMPACTS) else ()
+def _parts(reader: ResultReader) -> tuple[str, ...]:
+    if not reader.manifest.channels:
+        return ()  # a result without signals, such as a reconciliation's, is its files
+    return ("signals", "spectra", "peaks", "plots", *((IMPACTS,) if reader.has(IMPACTS) else ()))
 
 
 def _spectrum(document: SpectrumDocument, max_points: int | None) -> dict[str, object]:

@@ -1,0 +1,73 @@
+"""Accepting a reconciliation: checked, durable before the reply, shared by everyone who asks the same."""
+
+from __future__ import annotations
+
+from jobs import transitions
+from jobs.accept import Acceptance, Desk, check_queue, hand_over, needs_work, replayed, reserve
+from jobs.identity import digest, job_id
+from jobs.reconciliations.chosen import choose
+from jobs.reconciliations.machine import Known, read_known, stored_form
+from jobs.reconciliations.request import ReconciliationRequest
+from jobs.reconciliations.words import METHOD_VERSION, RECONCILIATION
+from jobs.record import Cost
+from reconcile.kinematics import KinematicSpec
+
+KINEMATIC_S, DRIVEN_S = 5.0, 60.0
+"""Core-seconds: a recording at the level of kinematics, a machine that is driven by a measured input."""
+ATLAS_S = 300.0
+"""An operating point of an atlas that is not kept yet; more than that for machines with many parts."""
+BUDGET_S = {"quick": 120.0, "full": 600.0}
+COPIES = 6
+"""Of the samples, held while they are looked at."""
+
+
+def accept_reconciliation(
+    desk: Desk, request: ReconciliationRequest, *, submitter: str, scope: str, key: str | None
+) -> Acceptance:
+    """Accept a request for `submitter`; `scope` is whose idempotency keys these are.
+
+    SpecError names the fields that must change, ResultNotReady a recording that is still being read.
+    """
+    body = digest({"kind": RECONCILIATION, **request.model_dump(mode="json")})
+    if key is not None:
+        earlier = replayed(desk, scope, key, body)
+        if earlier is not None:
+            return earlier
+    known = read_known(request.machine, desk.engine)
+    chosen = choose(desk.catalogue, desk.artefacts, request.recordings, request.baselines)
+    settings = request.model_dump(mode="json", exclude={"machine"})
+    document = {"machine": stored_form(known), **settings}
+    identifier = job_id(RECONCILIATION, document, f"{desk.engine.version} {METHOD_VERSION}")
+    if needs_work(desk.catalogue, identifier):
+        check_queue(desk)
+    now = desk.clock()
+    if key is not None:
+        reserve(desk, scope, key, body, identifier)
+    name = known.name or "kinematics"
+    preset = request.machine if isinstance(request.machine, str) else None
+    cost = _cost(known, request, chosen.samples)
+    record, created = desk.catalogue.put(
+        identifier,
+        document,
+        first=lambda: transitions.new(
+            job_id=identifier,
+            kind=RECONCILIATION,
+            submitter=submitter,
+            source={"preset": preset, "machine": name, **settings},
+            cost=cost,
+            now=now,
+        ),
+        again=lambda present: transitions.submit_again(present, submitter, now),
+    )
+    return Acceptance(record=hand_over(desk, record), created=created, replayed=False)
+
+
+def _cost(known: Known, request: ReconciliationRequest, samples: int) -> Cost:
+    """A rough figure for the list: an atlas that is kept costs nothing, every other part is in it."""
+    if isinstance(known, KinematicSpec):
+        seconds = KINEMATIC_S * (len(request.recordings) + len(request.baselines))
+    elif not known.shafts:
+        seconds = DRIVEN_S
+    else:
+        seconds = ATLAS_S * len(request.recordings) + BUDGET_S[request.budget]
+    return Cost(steps=0, memory_bytes=8 * COPIES * samples, seconds=seconds)

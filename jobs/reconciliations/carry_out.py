@@ -1,0 +1,124 @@
+"""What a worker does with a reconciliation: loads the recordings, runs the engine, keeps report, page and machine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+
+from jobs.errors import NotReconcilable
+from jobs.ports import ArtefactStore, JobCatalogue
+from jobs.reconciliations.chosen import choose
+from jobs.reconciliations.machine import restored_known
+from jobs.reconciliations.request import ReconciliationRequest
+from jobs.reconciliations.words import MACHINE, PAGE, REPORT
+from jobs.record import ResultRef
+from jobs.reporter import Reporter
+from jobs.results import Manifest, json_bytes, put_file
+from reconcile.atlas.bank import Task
+from reconcile.atlas.keep import Keeper
+from reconcile.entry import reconcile_recordings
+from reconcile.machine.engine import BUDGETS
+from reconcile.observe.statistics import Statistics
+from reconcile.report import page, strict_json
+from reconcile.verdict import Report
+from sim.core.errors import Cancelled, SpecError
+from sim.version import PHYSICS_VERSION
+
+LOADED, STORING = 0.02, 0.97
+"""Shares of the whole at which the engine begins and ends."""
+ATLAS_END, ATLAS_SPAN, REFINED_SPAN = 0.6, 0.5, 0.05
+"""In the engine's own share: where the atlas ends, what it takes together, what a later round shows at most."""
+
+
+class Watched:
+    """Hears the engine's stages, and stands between its simulations to ask whether the work is still wanted."""
+
+    def __init__(self, reporter: Reporter, points: int) -> None:
+        self._reporter, self._points = reporter, max(points, 1)
+        self._share, self._stage = 0.0, ""
+
+    def stage(self, share: float, stage: str) -> None:
+        """A stage of the engine begins; raises Cancelled."""
+        self._share, self._stage = share, stage
+        self._tell(share, stage)
+
+    def map(
+        self, run: Callable[[Task], list[Statistics | None]], tasks: Iterable[Task]
+    ) -> Iterator[list[Statistics | None]]:
+        """`map` that tells how far it is and ends with Cancelled between two tasks."""
+        todo = list(tasks)
+        span = ATLAS_SPAN / self._points if self._share < ATLAS_END else REFINED_SPAN
+        for done, task in enumerate(todo):
+            if self._reporter.cancelled():
+                self._reporter.raise_if_stale()
+                raise Cancelled("cancelled")
+            self._tell(self._share + span * done / len(todo), f"{self._stage}, part {done + 1} of {len(todo)}")
+            yield run(task)
+
+    def _tell(self, share: float, stage: str) -> None:
+        self._reporter.stage(stage, LOADED + (STORING - LOADED) * share)
+
+
+def reconcile_stored(
+    catalogue: JobCatalogue,
+    artefacts: ArtefactStore,
+    keeper: Keeper,
+    reporter: Reporter,
+    document: Mapping[str, object],
+    *,
+    prefix: str,
+    attempt: int,
+    expires_at: Callable[[], float | None],
+) -> ResultRef:
+    """Carry out the stored request; NotReconcilable says which field or recording stands in the way."""
+    reporter.stage("loading recordings", 0.0)
+    request = ReconciliationRequest.model_validate(document)
+    try:
+        known = restored_known(document["machine"])
+        tests, baselines = choose(catalogue, artefacts, request.recordings, request.baselines).loaded()
+        watched = Watched(reporter, len({r.operating for r in tests}))
+        report = reconcile_recordings(
+            known,
+            tests,
+            baselines,
+            budget=BUDGETS[request.budget],
+            keeper=keeper,
+            mapper=watched.map,
+            seed=request.seed,
+            progress=watched.stage,
+        )
+    except SpecError as error:
+        raise NotReconcilable(error.problems) from error
+    reporter.stage("storing", STORING)
+    return _kept(artefacts, prefix, attempt, report, request.seed, tests[0].sampling_rate_hz, expires_at())
+
+
+def _kept(
+    artefacts: ArtefactStore,
+    prefix: str,
+    attempt: int,
+    report: Report,
+    seed: int,
+    sampling_rate_hz: float,
+    expires_at: float | None,
+) -> ResultRef:
+    """As a simulation's result is kept (`jobs.results`), without signals of its own."""
+    texts = {
+        f"{REPORT}.json": strict_json(report).encode(),
+        PAGE: page(report).encode(),
+        "summary.json": json_bytes({"verdict": report.verdict, "sentence": report.sentence, "level": report.level}),
+    }
+    if report.machine is not None:
+        texts[f"{MACHINE}.json"] = json_bytes(report.machine)
+    files = {name: put_file(artefacts, f"{prefix}/{name}", [text]) for name, text in texts.items()}
+    manifest = Manifest(
+        physics_version=PHYSICS_VERSION,
+        seed=seed,
+        sampling_rate_hz=sampling_rate_hz,
+        samples=0,
+        channels=(),
+        spectra=(),
+        files=files,
+    )
+    table = put_file(artefacts, f"{prefix}/manifest.json", [json_bytes(manifest.model_dump(mode="json"))])
+    size = table.bytes + sum(entry.bytes for entry in files.values())
+    return ResultRef(attempt=attempt, size_bytes=size, sha256=table.sha256, expires_at=expires_at)

@@ -1,0 +1,90 @@
+"""The recordings that a request names: there, read, and not too long together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from jobs.errors import ResultNotReady, UnknownJob
+from jobs.ports import ArtefactStore, JobCatalogue
+from jobs.record import JobRecord
+from jobs.recordings.stored import stored_recording
+from jobs.recordings.words import RECORDING
+from jobs.results import ResultReader
+from jobs.status import Status
+from reconcile.entry import MOST_SAMPLES
+from signals.recording import Recording
+from sim.core.errors import Problem, SpecError
+
+
+@dataclass(frozen=True, kw_only=True)
+class Chosen:
+    """Readers of the recordings to explain and of the baselines, in the order they were named."""
+
+    recordings: tuple[ResultReader, ...]
+    baselines: tuple[ResultReader, ...]
+
+    @property
+    def samples(self) -> int:
+        """Of all channels together."""
+        return sum(r.manifest.samples * len(r.manifest.channels) for r in (*self.recordings, *self.baselines))
+
+    def loaded(self) -> tuple[list[Recording], list[Recording]]:
+        """The recordings and the baselines with their samples."""
+        return [stored_recording(r) for r in self.recordings], [stored_recording(r) for r in self.baselines]
+
+
+def choose(
+    catalogue: JobCatalogue, artefacts: ArtefactStore, recordings: Sequence[str], baselines: Sequence[str]
+) -> Chosen:
+    """Find them; SpecError names every id that cannot be used, ResultNotReady the first that is still being read."""
+    problems = list(_repeated(recordings, baselines))
+    waiting: list[JobRecord] = []
+    found: dict[str, list[ResultReader]] = {"recordings": [], "baselines": []}
+    for field, ids in (("recordings", recordings), ("baselines", baselines)):
+        for place, identifier in enumerate(ids):
+            record, reason = _looked_up(catalogue, identifier)
+            if reason:
+                problems.append(Problem(field=f"{field}.{place}", message=reason, given=identifier))
+            elif record is not None and record.status.active:
+                waiting.append(record)
+            elif record is not None and record.result is not None:
+                found[field].append(ResultReader(artefacts, f"{identifier}/{record.result.attempt}"))
+    if problems:
+        raise SpecError(problems)
+    if waiting:
+        raise ResultNotReady(waiting[0].id, waiting[0].status)
+    chosen = Chosen(recordings=tuple(found["recordings"]), baselines=tuple(found["baselines"]))
+    if chosen.samples > MOST_SAMPLES:
+        message = "the recordings are too long together"
+        allowed = f"<= {MOST_SAMPLES}"
+        raise SpecError(
+            Problem(field="recordings", message=message, given=chosen.samples, allowed=allowed, unit="samples")
+        )
+    return chosen
+
+
+def _repeated(recordings: Sequence[str], baselines: Sequence[str]) -> Iterator[Problem]:
+    seen: set[str] = set()
+    for field, ids in (("recordings", recordings), ("baselines", baselines)):
+        for place, identifier in enumerate(ids):
+            if identifier in seen:
+                message, allowed = "names a recording a second time", "each once, to explain or as baseline"
+                yield Problem(field=f"{field}.{place}", message=message, given=identifier, allowed=allowed)
+            seen.add(identifier)
+
+
+def _looked_up(catalogue: JobCatalogue, identifier: str) -> tuple[JobRecord | None, str]:
+    """The record, and why it cannot be used (empty: it can, or will be)."""
+    try:
+        record = catalogue.get(identifier)
+    except UnknownJob:
+        return None, "is not the id of a recording"
+    if record.kind != RECORDING:
+        return None, f"is the id of a {record.kind}, not of a recording"
+    if record.gone is not None:
+        return None, f"is a recording that was {record.gone}; send it again"
+    if not record.status.active and record.status is not Status.SUCCESSFUL:
+        why = f": {record.failure.message}" if record.failure is not None else ""
+        return None, f"is a recording that could not be read ({record.status.value}){why}"
+    return record, ""

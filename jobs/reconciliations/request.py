@@ -1,0 +1,60 @@
+"""What a caller may ask of a reconciliation."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, ConfigDict, Field, WithJsonSchema
+
+from reconcile.entry import MOST_RECORDINGS
+from sim.core.spec import SpecModel
+
+RecordingId = Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9_-]+$")]
+
+
+def _name_or_object(value: object) -> object:
+    if isinstance(value, dict) or (isinstance(value, str) and 0 < len(value) <= 80):
+        return value
+    raise ValueError("must be the name of a preset, or an object")
+
+
+MachineForm = Annotated[
+    object,
+    AfterValidator(_name_or_object),
+    WithJsonSchema({"anyOf": [{"type": "string", "minLength": 1, "maxLength": 80}, {"type": "object"}]}),
+]
+
+
+class ReconciliationRequest(SpecModel):
+    """Recordings, and what is known of the machine they come from."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {
+                    "machine": {
+                        "kinematics": {
+                            "shafts": [{"name": "input"}],
+                            "bearings": [{"name": "bearing1", "shaft": "input", "catalogue": "6205"}],
+                        }
+                    },
+                    "baselines": [],
+                    "recordings": ["0123456789abcdef0123456789abcdef"],
+                    "budget": "quick",
+                    "seed": 0,
+                }
+            ]
+        }
+    )
+
+    machine: MachineForm
+    """Name of a preset, a machine specification, a flat parameter file's content, or `{"kinematics": {...}}` where only
+    shafts, bearings and teeth are known."""
+    recordings: Annotated[list[RecordingId], Field(min_length=1, max_length=MOST_RECORDINGS)]
+    """Ids of the recordings to explain (`POST /v1/recordings`)."""
+    baselines: Annotated[list[RecordingId], Field(max_length=MOST_RECORDINGS, default_factory=list)]
+    """Ids of recordings of the same machine when it was sound."""
+    budget: Literal["quick", "full"] = "quick"
+    """How much is simulated beyond the atlas: 5 candidates once, or 8 candidates twice."""
+    seed: Annotated[int, Field(ge=0, le=2**53 - 1)] = 0
+    """Seed of the atlas and of the bootstrap."""

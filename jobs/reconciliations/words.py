@@ -1,0 +1,13 @@
+"""Names that the parts of a reconciliation's way share."""
+
+from __future__ import annotations
+
+RECONCILIATION = "reconciliation"
+"""Kind of these jobs."""
+METHOD_VERSION = "reconciliation-1"
+"""Part of a reconciliation's identity beside the physics version: raised when the answer to the same would be another."""
+REPORT = "report"
+"""Name of the document that makes a stored result a reconciliation."""
+MACHINE = "machine"
+"""Name of the document with the revised machine, there when the answer has one."""
+PAGE = "report.html"
