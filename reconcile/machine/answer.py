@@ -9,7 +9,7 @@ import numpy as np
 from reconcile.atlas.keep import ATLAS_VERSION
 from reconcile.gate.findings import Gate
 from reconcile.machine.decide import Decision, decide, merged_weights
-from reconcile.machine.heldout import feature_frequencies, held_out
+from reconcile.machine.heldout import feature_frequencies, held_out, spectral_mask
 from reconcile.machine.pictures import line_changes, ranking, spectra, turn_map
 from reconcile.machine.refine import best_draws
 from reconcile.machine.setting import Found, Setting
@@ -179,9 +179,8 @@ def _held(setting: Setting, found: Found, decision: Decision, layout: Layout) ->
         setting.changes,
         found.known,
         decision.chosen[0],
-        layout=layout,
+        spectral=spectral_mask(layout, setting.seen_through),
         frequency=feature_frequencies(layout, lines, count),
-        channels=count,
         seed=setting.seed,
     )
 

@@ -8,14 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from reconcile.calibrate.chain import band_centres_hz
-from reconcile.judge.changes import Changes
+from reconcile.judge.changes import Changes, Lens
 from reconcile.machine.library import Catalogued
-from reconcile.observe.features import Layout
+from reconcile.observe.features import SOFT, Layout
 from reconcile.verdict import HeldOut
 from signals.series import FloatArray
 from sim.terms import REGISTRY
 
 NEAREST = 3
+STANDS_OUT_DB = 6.0
 BLOCKS = 40
 COPIES = 300
 RETUNE_RIDGE = 3.0
@@ -47,13 +48,20 @@ def splits(changes: Changes, spectral: np.ndarray) -> tuple[tuple[Split, ...], s
     return tuple(found), "each operating point in turn, fitted on the others"
 
 
-def spectral_mask(layout: Layout, channels: int, points: int) -> np.ndarray:
-    """Features that are levels of lines and third octaves."""
-    one = np.zeros(layout.size, dtype=bool)
+def spectral_mask(layout: Layout, seen_through: Sequence[Lens]) -> np.ndarray:
+    """Levels of all third octaves, and of the lines that a healthy machine shows above its noise, (F,).
+
+    Chosen without the test: lines that are noise before and after would hide every gain.
+    """
     parts = layout.slices()
-    one[parts["line"]] = True
-    one[parts["total"]] = True
-    return np.tile(one, channels * points)
+    rows = []
+    for lens in seen_through:
+        noise = 10.0 * np.log10(SOFT * lens.scale.line_noise + 1e-300)
+        mask = np.zeros((noise.shape[0], layout.size), dtype=bool)
+        mask[:, parts["line"]] = lens.nominal[:, parts["line"]] > noise + STANDS_OUT_DB
+        mask[:, parts["total"]] = True
+        rows.append(mask.ravel())
+    return np.concatenate(rows)
 
 
 def _prediction(changes: FloatArray, rows: Sequence[int], split: Split, sigma: FloatArray) -> FloatArray:
@@ -105,12 +113,11 @@ def _gain(before: FloatArray, after: FloatArray) -> float:
 
 
 def held_out(
-    changes: Changes, known: Catalogued, name: str, *, layout: Layout, frequency: FloatArray, channels: int, seed: int
+    changes: Changes, known: Catalogued, name: str, *, spectral: np.ndarray, frequency: FloatArray, seed: int
 ) -> HeldOut:
     """Log-spectral distance before and after adding the effect, with a 90 % block-bootstrap interval of the gain."""
     sigma = np.sqrt(np.nan_to_num(changes.measured, nan=10.0) ** 2 + 1.0)
-    mask = spectral_mask(layout, channels, len(changes.starts) - 1)
-    ways, how = splits(changes, mask)
+    ways, how = splits(changes, spectral)
     groups = known.library.groups
     term, site = name.split("@", maxsplit=1)[0], name.split("@")[1]
     parameters = len(REGISTRY.get(term).params) if REGISTRY.get(term) is not None else 2  # type: ignore[union-attr]
