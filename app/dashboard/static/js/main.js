@@ -6,6 +6,8 @@ import { clearBanner, problemBox, showBanner } from "/js/lib/problem.js";
 import { cataloguePage } from "/js/catalogue/page.js";
 import { formPage } from "/js/form/page.js";
 import { overviewPage } from "/js/overview/page.js";
+import { reconcilePage } from "/js/reconcile/page.js";
+import { reconciliationPage } from "/js/reconcile/result.js";
 import { resultPage } from "/js/result/page.js";
 
 const HEALTH_MS = 3000;
@@ -13,6 +15,8 @@ const ROUTES = [
   [/^\/?$/, "overview", overviewPage, "Jobs"],
   [/^\/new$/, "new", formPage, "New simulation"],
   [/^\/catalogue(?:\/([a-z0-9_]+))?$/, "catalogue", cataloguePage, "Physical effects"],
+  [/^\/reconcile$/, "reconcile", reconcilePage, "Reconcile"],
+  [/^\/reconcile\/([A-Za-z0-9_-]+)$/, "reconcile", reconciliationPage, "Reconciliation"],
   [/^\/jobs\/([A-Za-z0-9_-]+)$/, "result", resultPage, "Result"],
 ];
 
