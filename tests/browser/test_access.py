@@ -29,6 +29,7 @@ MARKS = tuple(f"--family-{name}" for name in ("mesh", "shaft", "outer", "inner",
 def pages(service: Service) -> list[tuple[str, str]]:
     return [
         ("/", ".presets a"),
+        ("/reconcile", "[aria-label='Start a reconciliation'] button"),
         ("/new", "[aria-label='Machine check'] .facts"),
         (f"/jobs/{service.demo}", ".peaks-table tr[data-label]"),
     ]

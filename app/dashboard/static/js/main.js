@@ -8,6 +8,8 @@ import { termPage } from "/js/catalogue/term-page.js";
 import { apiPage } from "/js/api/page.js";
 import { formPage } from "/js/form/page.js";
 import { overviewPage } from "/js/overview/page.js";
+import { reconcilePage } from "/js/reconcile/page.js";
+import { reconciliationPage } from "/js/reconcile/result.js";
 import { resultPage } from "/js/result/page.js";
 
 const HEALTH_MS = 3000;
@@ -17,6 +19,8 @@ const ROUTES = [
   [/^\/catalogue\/([a-z0-9_]+)\/page$/, "catalogue", termPage, "Effect"],
   [/^\/api$/, "api", apiPage, "API"],
   [/^\/catalogue(?:\/([a-z0-9_]+))?$/, "catalogue", cataloguePage, "Physical effects"],
+  [/^\/reconcile$/, "reconcile", reconcilePage, "Reconcile"],
+  [/^\/reconcile\/([A-Za-z0-9_-]+)$/, "reconcile", reconciliationPage, "Reconciliation"],
   [/^\/jobs\/([A-Za-z0-9_-]+)$/, "result", resultPage, "Result"],
 ];
 

@@ -41,9 +41,9 @@ function headers(extra) {
   return key ? { ...extra, Authorization: `Bearer ${key}` } : extra;
 }
 
-/** The raw reply; throws ApiProblem unless it is a 2xx. */
-export async function request(path, { method = "GET", body, signal, headers: extra = {} } = {}) {
-  const init = { method, signal, headers: headers(extra) };
+/** The raw reply; throws ApiProblem unless it is a 2xx. `body` goes as JSON, `form` as parts with files. */
+export async function request(path, { method = "GET", body, form, signal, headers: extra = {} } = {}) {
+  const init = { method, signal, headers: headers(extra), body: form };
   if (body !== undefined) {
     init.body = JSON.stringify(body);
     init.headers["Content-Type"] = "application/json";

@@ -14,7 +14,7 @@ export async function cancelJob(job) {
     ? `${job.submitters} requests wait for this result. The work stops when none is left.`
     : "The work stops. What was computed so far is dropped; the job stays in the list.";
   const choices = shared ? [["mine", "Withdraw one request"], ["all", "Stop for everyone"]] : [["all", "Stop the job"]];
-  const choice = await ask("Cancel this simulation?", text, choices);
+  const choice = await ask("Cancel this job?", text, choices);
   if (choice === null) return false;
   const options = choice === "all" ? { body: { everyone: true } } : { headers: { "X-Submitter": submitter() } };
   return done(call(`/v1/jobs/${job.id}/cancel`, { method: "POST", ...options }), "Cancelled.");

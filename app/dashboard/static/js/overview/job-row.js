@@ -34,10 +34,11 @@ export function jobRow(refresh) {
     const active = job.status === "accepted" || job.status === "running";
     element.dataset.job = job.id;
     element.dataset.status = job.status;
-    name.href = `#/jobs/${job.id}`;
+    const reconciled = job.kind === "reconciliation";
+    name.href = reconciled ? `#/reconcile/${job.id}` : `#/jobs/${job.id}`;
     name.textContent = request.preset ?? request.machine;
     changes.textContent = changesText(request) || job.id.slice(0, 8);
-    settings.textContent = `${quantity(request.duration_s, "s")} at ${quantity(request.sampling_rate_hz, "Hz")}, seed ${request.seed}`;
+    settings.textContent = reconciled ? `${request.recordings.length} recordings reconciled, ${request.budget}, seed ${request.seed}` : `${quantity(request.duration_s, "s")} at ${quantity(request.sampling_rate_hz, "Hz")}, seed ${request.seed}`;
     replace(pill, statusPill(job));
     eta.textContent = job.status === "running" ? `${Math.round(job.progress.fraction * 100)} %${job.progress.eta_s ? ` · ${duration(job.progress.eta_s)} left` : ""}` : "";
     progress.hidden = !active;

@@ -22,6 +22,10 @@ export function resultPage(main, { id }) {
     unfollow = () => {};
     try {
       const job = await getJson(path, { signal: abort.signal });
+      if (job.kind === "reconciliation") {
+        location.replace(`#/reconcile/${job.id}`);
+        return;
+      }
       document.title = `${job.request.preset ?? job.request.machine} – Sideband`;
       head.update(job);
       await show(job);

@@ -1,0 +1,98 @@
+/** The answer in the order one asks: what, where, why, how much better, what cannot be told, what to do next. */
+
+import { apiKey, download } from "/js/lib/api.js";
+import { h, icon } from "/js/lib/dom.js";
+import { number, partName, quantity, unit } from "/js/lib/format.js";
+import { toastProblem } from "/js/lib/problem.js";
+
+const TONES = { nothing_missing: "ok", explained: "run", ambiguous: "warn", unknown_physics: "warn", measurement_fault: "bad", not_decidable: "warn" };
+const words = (text) => text.replace(/_/g, " ");
+const percent = (share) => (share === null || share === undefined ? "–" : `${number(100 * share, 3)} %`);
+
+export function answer({ id, report, links }) {
+  return h("div", { class: "result-body" }, verdict(report), where(report.where), causes(report.causes), heldOut(report.held_out), force(report.force),
+    limits(report), next(report.next_experiment), files(id, links), links.page && !apiKey() ? picture(links.page) : null);
+}
+
+function card(title, name, ...content) {
+  return h("section", { class: "card", id: `answer-${name}`, "aria-label": title },
+    h("div", { class: "card-head" }, h("h2", {}, title)), h("div", { class: "card-body reconcile-form" }, ...content));
+}
+
+function verdict(report) {
+  const { fault } = report;
+  return h("section", { class: "card card-body reconcile-form", id: "answer-verdict", "aria-label": "Verdict" },
+    h("div", {}, h("span", { class: "pill", dataset: { tone: TONES[report.verdict] ?? "" } }, words(report.verdict))),
+    h("p", { class: "reconcile-sentence" }, report.sentence),
+    fault ? h("p", { class: "muted" }, `${words(fault.kind)}, channel ${fault.channel}. ${fault.detail}`) : null);
+}
+
+function where({ sites, lines, angle_window: angle, limits: told }) {
+  const bars = sites.map(({ site, weight }) => {
+    const fill = h("i", {});
+    fill.style.width = `${100 * weight}%`;
+    return h("div", { class: "site-bar", dataset: { site } }, h("span", {}, partName(site)), h("div", { class: "progress" }, fill), h("span", { class: "num" }, percent(weight)));
+  });
+  return card("Where", "where", bars.length ? bars : h("p", { class: "muted" }, "No place stands out."),
+    angle ? h("p", {}, `Around ${number(angle.centre_deg)}° of ${angle.shaft} (${number(angle.low_deg)}° to ${number(angle.high_deg)}°).`) : null,
+    lines.length ? table("Lines", ["Line", "Frequency", "Change", "Channel", "Follows"], lines.map((line) =>
+      [line.label, quantity(line.frequency_hz, "Hz"), `${number(line.change_db, 3)} dB`, line.channel || "–", line.locked_to || "–"])) : null,
+    bullets(told));
+}
+
+function causes(list) {
+  if (!list.length) return null;
+  return card("What explains it", "causes", table("Causes", ["Effect", "At", "Severity (90 %)", "Score", "Named"], list.map((cause) =>
+    [words(cause.term), partName(cause.site), severity(cause.severity), number(cause.score, 3), cause.named ? "yes" : `no${cause.reasons.length ? `: ${cause.reasons.join("; ")}` : ""}`])));
+}
+
+function severity(found) {
+  if (!found) return "–";
+  const range = `${quantity(found.low, found.unit, 3)} to ${quantity(found.high, found.unit, 3)}`;
+  return `${words(found.name)} ${quantity(found.value, found.unit, 3)} (${range})`;
+}
+
+function heldOut(found) {
+  if (!found) return null;
+  const rows = [["Before", `${number(found.before)} ${unit(found.unit)}`], ["After", `${number(found.after)} ${unit(found.unit)}`],
+    ["Gain (90 %)", `${percent(found.gain)} (${percent(found.gain_low)} to ${percent(found.gain_high)})`],
+    ["Gain by retuning alone", percent(found.retuned)], ["Gain of a black box", percent(found.black_box)], ["Gain of a placebo", percent(found.placebo)]];
+  return card("Improvement on data never fitted", "held-out", h("p", { class: "muted" }, `${found.metric}${found.held ? `; held out: ${found.held}` : ""}`),
+    table("Held-out data", ["", ""], rows));
+}
+
+function force(found) {
+  if (!found) return null;
+  return card("Estimated force", "force", h("p", {}, `At ${partName(found.site)}: ${found.law ? `law ${found.law}` : "no stable law"}.`),
+    bullets(Object.entries(found.coefficients).map(([name, value]) => `${name}: ${number(value)}`)));
+}
+
+function limits({ undecidable }) {
+  return undecidable.length ? card("What cannot be told", "limits", bullets(undecidable)) : null;
+}
+
+function next(found) {
+  return found ? card("Next experiment", "next", h("p", {}, found.sentence)) : null;
+}
+
+function files(id, links) {
+  const save = (path, name) => h("button", { type: "button", class: "button", onclick: () => download(path, name).catch(toastProblem) }, icon("download"), name);
+  return card("Files", "files", h("div", { class: "reconcile-row" }, save(links.report, `report-${id.slice(0, 8)}.json`), save(links.page, `report-${id.slice(0, 8)}.html`),
+    links.machine ? save(links.machine, `machine-${id.slice(0, 8)}.json`) : null,
+    apiKey() ? null : h("a", { href: links.page, target: "_blank", rel: "noopener" }, "Open the report by itself")));
+}
+
+/** Map of the machine, spectra and heat maps; no scripts run in it. A frame cannot carry a key: then it is a file only. */
+function picture(path) {
+  return card("Report with pictures", "page", h("iframe", { class: "report-frame", src: path, sandbox: "", title: "Report with map, spectra and heat maps" }));
+}
+
+function table(label, heads, rows) {
+  return h("div", { class: "table-wrap" }, h("table", { "aria-label": label },
+    heads.some(Boolean) ? h("thead", {}, h("tr", {}, heads.map((head) => h("th", { scope: "col" }, head)))) : null,
+    h("tbody", {}, rows.map((cells) => h("tr", {}, cells.map((cell) => h("td", {}, cell)))))));
+}
+
+function bullets(list) {
+  return list?.length ? h("ul", { class: "reconcile-list" }, list.map((item) => h("li", {}, item))) : null;
+}

@@ -1,0 +1,90 @@
+/** Choosing the machine, the budget and the start; and the reconciliations that were asked for. */
+
+import { getJson, reference, request, submitter } from "/js/lib/api.js";
+import { h, replace, segmented, select } from "/js/lib/dom.js";
+import { ago } from "/js/lib/format.js";
+import { problemBox } from "/js/lib/problem.js";
+import { statusPill } from "/js/lib/status.js";
+
+const LIST_MS = 3000;
+const NAMES = { recordings: "Recordings to explain", baselines: "Baselines", machine: "Machine" };
+const EXAMPLE = JSON.stringify({ kinematics: { shafts: [{ name: "input" }], bearings: [{ name: "bearing1", shaft: "input", catalogue: "6205" }] } }, null, 1);
+
+/** `chosen(use)` gives the ids of the recordings marked so. */
+export function startCard(chosen) {
+  const preset = select([["", "pasted JSON"]], "", { id: "machine-preset", onchange: () => { pasted.parentElement.hidden = preset.value !== ""; } });
+  const pasted = h("textarea", { id: "machine-json", rows: "9", spellcheck: "false", value: EXAMPLE });
+  const seed = h("input", { type: "number", id: "reconcile-seed", min: "0", step: "1", value: "0" });
+  const notice = h("div");
+  const button = h("button", { type: "submit", class: "button primary" }, "Reconcile");
+  let budget = "quick";
+  reference("/v1/presets").then(({ presets }) => preset.append(...presets.map((p) => h("option", { value: p.name }, p.title))))
+    .catch(() => { /* the banner says that the server does not answer */ });
+
+  async function start(event) {
+    event.preventDefault();
+    replace(notice);
+    button.disabled = true;
+    try {
+      const body = { machine: preset.value || parsed(pasted.value), recordings: chosen("recordings"), baselines: chosen("baselines"), budget, seed: Number(seed.value) };
+      if (!body.recordings.length) throw new Error("Mark at least one recording below as “to explain”.");
+      const job = await (await request("/v1/reconciliations", { method: "POST", body, headers: { "X-Submitter": submitter() } })).json();
+      location.hash = `#/reconcile/${job.id}`;
+    } catch (error) {
+      replace(notice, problemBox(error, NAMES));
+    } finally {
+      button.disabled = false;
+    }
+  }
+
+  const element = h("section", { class: "card", "aria-label": "Start a reconciliation" },
+    h("div", { class: "card-head" }, h("h2", {}, "2. Say what the machine is, and start")),
+    h("form", { class: "card-body reconcile-form", onsubmit: start },
+      h("label", { for: "machine-preset" }, "Machine"), preset,
+      h("div", { class: "reconcile-form" }, h("label", { for: "machine-json" }, "A specification, reference parameters, or kinematics alone (JSON)"), pasted),
+      h("div", { class: "reconcile-row" }, segmented("Budget", [["quick", "Quick"], ["full", "Full"]], budget, (value) => { budget = value; }),
+        h("label", { for: "reconcile-seed" }, "Seed"), seed, button),
+      h("p", { class: "muted small" }, "Mark recordings below as “to explain” or “baseline” first. A simulated machine needs an atlas, minutes at its first use; kinematics take seconds."),
+      notice));
+  const earlier = listCard();
+  return { element, list: earlier.element, stop: earlier.stop };
+}
+
+function parsed(text) {
+  try {
+    return JSON.parse(text);
+  } catch (error) {
+    throw new Error(`The machine is not JSON: ${error.message}`);
+  }
+}
+
+function listCard() {
+  const body = h("tbody");
+  const element = h("section", { class: "card", hidden: true, "aria-label": "Reconciliations" },
+    h("div", { class: "card-head" }, h("h2", {}, "Reconciliations")),
+    h("div", { class: "table-wrap" }, h("table", { "aria-label": "Reconciliations" },
+      h("thead", {}, h("tr", {}, ["Machine", "Recordings", "Budget", "Status", "Asked for"].map((name) => h("th", { scope: "col" }, name)))), body)));
+  let timer = 0;
+  let shown = "";
+
+  async function refresh() {
+    try {
+      const { jobs } = document.hidden ? { jobs: [] } : await getJson("/v1/reconciliations?limit=20");
+      const now = JSON.stringify(jobs.map((job) => [job.id, job.status, job.progress.stage]));
+      if (jobs.length && now !== shown) replace(body, jobs.map(row));
+      if (jobs.length) [shown, element.hidden] = [now, false];
+    } catch { /* the banner says that the server does not answer */ }
+    timer = setTimeout(refresh, LIST_MS);
+  }
+  refresh();
+  return { element, stop: () => clearTimeout(timer) };
+}
+
+function row(job) {
+  return h("tr", { dataset: { job: job.id, status: job.status } },
+    h("td", {}, h("a", { href: `#/reconcile/${job.id}` }, job.request.preset ?? job.request.machine)),
+    h("td", { class: "small num" }, `${job.request.recordings.length} to explain, ${job.request.baselines.length} baseline`),
+    h("td", { class: "small" }, job.request.budget),
+    h("td", {}, statusPill(job), job.status === "running" ? h("span", { class: "muted small" }, ` ${job.progress.stage}`) : null),
+    h("td", { class: "small num" }, ago(job.accepted_at)));
+}

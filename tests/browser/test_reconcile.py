@@ -1,0 +1,49 @@
+"""Recordings and reconciliations in the dashboard."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from signals.encode import describe, encode
+from tests.browser.conftest import Service
+from tests.browser.driver import Browser, eventually
+from tests.strategies.impulses import recorded, sound, train
+
+MACHINE = {
+    "kinematics": {
+        "shafts": [{"name": "shaft"}],
+        "bearings": [{"name": "bearing1", "shaft": "shaft", "catalogue": "6205"}],
+    }
+}
+FILL = "const e = document.querySelector(arguments[0]); e.value = arguments[1];"
+
+
+def test_a_recording_is_sent_chosen_and_reconciled(browser: Browser, service: Service, tmp_path: Path) -> None:
+    made = recorded(sound(2) + train(np.random.default_rng(2), 3.5848 * 0.992, 1.0))
+    (tmp_path / "spalled.npz").write_bytes(encode(made, "npz"))
+    browser.open(service.page("/reconcile"))
+    browser.type("#upload-file", str(tmp_path / "spalled.npz"))
+    browser.run(FILL, "#upload-description", json.dumps(describe(made)))
+    browser.click("[aria-label='Send a recording'] button[type=submit]")
+    browser.find("tr[data-recording][data-status=ready]", within_s=90)
+    eventually(lambda: "sound" in browser.text("tr[data-recording]"), what="the quality")
+    assert "spalled.npz" in browser.text("tr[data-recording]")
+    browser.click("[aria-label='Start a reconciliation'] button[type=submit]")
+    assert "at least one recording" in browser.text("[aria-label='Start a reconciliation'] .message")
+    browser.run(FILL, "tr[data-recording] select", "recordings")
+    browser.run(FILL, "#machine-json", json.dumps(MACHINE))
+    browser.click("[aria-label='Start a reconciliation'] button[type=submit]")
+    browser.find("#answer-verdict", within_s=180)
+    assert "explained" in browser.text("#answer-verdict")
+    assert "bearing 1" in browser.text("#answer-where .site-bar")
+    assert "outer spall" in browser.text("#answer-causes")
+    assert browser.find("#answer-page iframe.report-frame")
+    assert browser.run("return fetch(document.querySelector('iframe.report-frame').src).then((r) => r.status)") == 200
+    browser.size(360)
+    assert browser.run("return document.documentElement.scrollWidth") <= 360
+    browser.open(service.page("/reconcile"))
+    browser.find("[aria-label=Reconciliations] tr[data-status=successful]")
+    assert browser.run("return document.documentElement.scrollWidth") <= 360

@@ -1,0 +1,264 @@
+"""A reconciliation from acceptance through the worker's hands and back, on a real catalogue and folder."""
+
+from __future__ import annotations
+
+import io
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from jobs import run, transitions
+from jobs.accept import Desk
+from jobs.errors import IdempotencyConflict, ResultNotReady
+from jobs.limits import Limits
+from jobs.ports import Ticket
+from jobs.reconciliations import carry_out
+from jobs.reconciliations.accept import accept_reconciliation
+from jobs.reconciliations.request import ReconciliationRequest
+from jobs.record import JobRecord
+from jobs.recordings.accept import Upload, accept_recording
+from jobs.results import ResultReader
+from jobs.run import Bench
+from jobs.status import Status
+from reconcile.verdict import Report
+from signals.encode import describe, encode
+from signals.recording import Operating, Recording
+from sim.core.errors import Problem, SpecError
+from sim.core.response import Channel
+from store.artefacts.folder import FolderStore
+from store.catalogue import engine, schema
+from store.catalogue.catalogue import SqlCatalogue
+from tests.service.fakes import FakeEngine, analyse, machine
+
+KINEMATICS: dict[str, Any] = {
+    "kinematics": {
+        "shafts": [{"name": "input"}],
+        "bearings": [{"name": "bearing1", "shaft": "input", "catalogue": "6205"}],
+    }
+}
+
+
+def made(seed: int) -> Recording:
+    return Recording(
+        sampling_rate_hz=1024.0,
+        channels=(Channel(name="a", quantity="acceleration", unit="m/s^2", location="bearing1", axis="x"),),
+        samples=np.random.default_rng(seed).normal(size=(1, 900)),
+        operating=Operating(shaft="input", speed_hz=20.0),
+    )
+
+
+class Broker:
+    """`jobs.ports.Queue` that keeps nothing."""
+
+    def ping(self) -> None:
+        pass
+
+    def submit(self, ticket: Ticket) -> None:
+        pass
+
+    def holds(self, ticket: Ticket) -> bool:
+        return True
+
+    def withdraw(self, ticket: Ticket) -> None:
+        pass
+
+    def length(self) -> int:
+        return 0
+
+
+class World:
+    """Desk, bench and stores on one folder, with a clock that goes on by itself."""
+
+    def __init__(self, folder: Path) -> None:
+        database = engine.connect(f"sqlite:///{folder / 'c.sqlite'}")
+        schema.create_schema(database)
+        self.now = 1000.0
+        self.catalogue, self.artefacts = SqlCatalogue(database), FolderStore(folder / "artefacts")
+        common: Any = {"catalogue": self.catalogue, "artefacts": self.artefacts, "clock": self.clock}
+        self.desk = Desk(queue=Broker(), engine=FakeEngine(), limits=Limits(), **common)
+        self.bench = Bench(engine=FakeEngine(), analyse=analyse, keep_s=60.0, **common)
+
+    def clock(self) -> float:
+        self.now += 1.0
+        return self.now
+
+    def recording(self, seed: int, *, read: bool = True) -> str:
+        content, about = encode(made(seed), "npz"), json.loads(json.dumps(describe(made(seed))))
+        upload = Upload(name="r.npz", content=io.BytesIO(content))
+        record = accept_recording(self.desk, about, upload, submitter="me").record
+        if read:
+            done = run.run(self.bench, record.id, record.attempt, "w")
+            assert done is not None and done.status is Status.SUCCESSFUL
+        return record.id
+
+    def ask(self, ids: list[str], known: object = None, key: str | None = None, **more: Any) -> JobRecord:
+        body = {"machine": known or KINEMATICS, "recordings": ids, **more}
+        request = ReconciliationRequest.model_validate(body)
+        return accept_reconciliation(self.desk, request, submitter="me", scope="", key=key).record
+
+    def carried_out(self, record: JobRecord) -> JobRecord:
+        done = run.run(self.bench, record.id, record.attempt, "w")
+        assert done is not None
+        return done
+
+
+@pytest.fixture
+def world(tmp_path: Path) -> World:
+    return World(tmp_path)
+
+
+REPORT = Report(verdict="explained", sentence="A <b> spall.", level="machine", machine={"name": "m"}, provenance={})
+
+
+def test_the_answer_is_kept_as_report_page_and_machine(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: dict[str, Any] = {}
+
+    def engine(known: Any, tests: Any, baselines: Any, **how: Any) -> Report:
+        seen.update(how, known=known, tests=tests, baselines=baselines)
+        how["progress"](0.5, "held-out data")
+        seen["told"] = world.catalogue.get(record.id).progress
+        return REPORT
+
+    monkeypatch.setattr(carry_out, "reconcile_recordings", engine)
+    a, b = world.recording(1), world.recording(2)
+    record = world.ask([a], baselines=[b], budget="full", seed=7)
+    assert (record.kind, record.source["machine"], record.source["recordings"]) == (
+        "reconciliation",
+        "kinematics",
+        [a],
+    )
+    done = world.carried_out(record)
+    assert done.status is Status.SUCCESSFUL and done.result is not None and done.result.expires_at is not None
+    np.testing.assert_array_equal(seen["tests"][0].samples, made(1).samples)
+    np.testing.assert_array_equal(seen["baselines"][0].samples, made(2).samples)
+    assert (seen["seed"], seen["budget"].name, seen["told"].stage) == (7, "full", "held-out data")
+    assert 0.4 < seen["told"].fraction < 0.6
+    reader = ResultReader(world.artefacts, f"{record.id}/1")
+    assert reader.document("report")["sentence"] == "A <b> spall."
+    assert reader.document("summary") == {"verdict": "explained", "sentence": "A <b> spall.", "level": "machine"}
+    assert reader.document("machine") == {"name": "m"}
+    page = world.artefacts.read(f"{record.id}/1/report.html").decode()
+    assert "A &lt;b&gt; spall." in page and "<script" not in page
+
+
+def test_the_same_question_is_one_job_another_is_another(world: World) -> None:
+    a, b = world.recording(1), world.recording(2)
+    first = world.ask([a])
+    assert world.ask([a]).id == first.id
+    others = [
+        world.ask([a], seed=1),
+        world.ask([a], budget="full"),
+        world.ask([b]),
+        world.ask([a], baselines=[b]),
+        world.ask([a], "oscillator"),
+    ]
+    assert len({r.id for r in (first, *others)}) == 6
+    assert world.ask([a], machine().model_dump(mode="json")).id == others[-1].id, "a preset is its specification"
+    assert world.ask([a], key="k").id == first.id
+    with pytest.raises(IdempotencyConflict):
+        world.ask([b], key="k")
+
+
+def test_recordings_that_cannot_be_used_are_named(world: World) -> None:
+    a, gone, late = world.recording(1), world.recording(2), world.recording(3, read=False)
+    world.catalogue.change(gone, lambda r: transitions.delete(r, 1.0))
+    simulation = world.ask([a]).id
+    with pytest.raises(SpecError) as refused:
+        world.ask([a, "nothing", gone, late], baselines=[a, simulation])
+    told = {p.field: p.message for p in refused.value.problems}
+    assert set(told) == {"recordings.1", "recordings.2", "baselines.0", "baselines.1"}
+    assert "not the id" in told["recordings.1"] and "deleted" in told["recordings.2"]
+    assert "second time" in told["baselines.0"] and "reconciliation" in told["baselines.1"]
+    with pytest.raises(ResultNotReady, match=late):
+        world.ask([a, late])
+
+
+@pytest.mark.parametrize(
+    ("known", "field"),
+    [
+        ("nothing", "machine"),
+        ({"kinematics": {"shafts": []}}, "machine.kinematics.shafts"),
+        ({"kinematics": {}, "name": "x"}, "machine"),
+        ({"name": "x", "bodies": [{"name": "m"}]}, "machine.bodies.0.mass_kg"),
+        ({"parameters": 3}, "machine.parameters"),
+        ({"parameters": {}, "other": 1}, "machine.other"),
+    ],
+)
+def test_a_machine_that_is_none_is_refused_at_once(world: World, known: object, field: str) -> None:
+    with pytest.raises(SpecError) as refused:
+        world.ask([world.recording(1)], known)
+    assert field in [p.field for p in refused.value.problems]
+
+
+def test_what_the_engine_refuses_is_told_field_by_field(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: Any, **__: Any) -> Report:
+        raise SpecError(Problem(field="recording[0]", message="is too short", given=np.float64(0.5), unit="s"))
+
+    monkeypatch.setattr(carry_out, "reconcile_recordings", refuse)
+    done = world.carried_out(world.ask([world.recording(1)]))
+    assert done.status is Status.FAILED and done.failure is not None and done.failure.detail is not None
+    assert done.failure.code == "not-reconcilable"
+    (error,) = done.failure.detail["errors"]  # type: ignore[misc, attr-defined]
+    assert (error["field"], error["given"]) == ("recording[0]", 0.5)
+
+
+def test_a_recording_deleted_in_the_meantime_is_told(world: World) -> None:
+    a = world.recording(1)
+    record = world.ask([a])
+    world.catalogue.change(a, lambda r: transitions.delete(r, 1.0))
+    done = world.carried_out(record)
+    assert done.failure is not None and done.failure.code == "not-reconcilable" and "deleted" in done.failure.message
+
+
+def test_a_defect_of_ours_tells_no_paths_and_the_worker_goes_on(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: Any, **__: Any) -> Report:
+        raise ValueError("/secret/path")
+
+    monkeypatch.setattr(carry_out, "reconcile_recordings", broken)
+    done = world.carried_out(world.ask([world.recording(1)]))
+    assert done.failure is not None and done.failure.code == "internal" and "/secret" not in done.failure.message
+
+
+def test_a_cancel_is_heard_between_two_simulations(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
+    ran: list[int] = []
+
+    def engine(*_: Any, progress: Any, mapper: Any, **__: Any) -> Report:
+        progress(0.1, "atlas at 20 Hz")
+
+        def simulate(task: int) -> list[None]:
+            ran.append(task)
+            if task == 2:
+                world.catalogue.change(record.id, lambda r: transitions.withdraw(r, ("me",), world.now))
+            return [None]
+
+        list(mapper(simulate, range(10)))
+        return REPORT
+
+    monkeypatch.setattr(carry_out, "reconcile_recordings", engine)
+    record = world.ask([world.recording(1)])
+    assert world.carried_out(record).status is Status.DISMISSED
+    assert ran == [0, 1, 2]
+
+
+def test_progress_goes_through_the_parts_of_an_atlas(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[tuple[float, str]] = []
+
+    def engine(*_: Any, progress: Any, mapper: Any, **__: Any) -> Report:
+        for share, stage in ((0.1, "atlas at 20 Hz"), (0.7, "refining")):
+            progress(share, stage)
+            for _found in mapper(lambda task: [None], range(4)):
+                state = world.catalogue.get(record.id).progress
+                told.append((state.fraction, state.stage))
+        return replace(REPORT, machine=None)
+
+    monkeypatch.setattr(carry_out, "reconcile_recordings", engine)
+    record = world.ask([world.recording(1)])
+    assert world.carried_out(record).status is Status.SUCCESSFUL
+    assert [stage for _, stage in told[:2]] == ["atlas at 20 Hz, part 1 of 4", "atlas at 20 Hz, part 2 of 4"]
+    fractions = [fraction for fraction, _ in told]
+    assert fractions == sorted(fractions) and len(set(fractions)) == 8 and fractions[-1] < 0.97
+    assert not ResultReader(world.artefacts, f"{record.id}/1").has("machine")
