@@ -72,7 +72,7 @@ def test_no_offset_is_the_same_machine_and_offsets_are_relative() -> None:
 
 def test_a_given_mesh_table_follows_the_modulus() -> None:
     stiffness = [[3e8, 5e8, 4e8, 3e8]]
-    table = MeshTable(stiffness_n_per_m=stiffness)
+    table = MeshTable(centre_distance_error_m=[0.0], stiffness_n_per_m=stiffness)
     mesh = MACHINE.meshes[0].model_copy(update={"table": table, "tooth_pairs": False})
     machine = MACHINE.model_copy(update={"meshes": [mesh]})
     numbers = uncertain_numbers(machine)
