@@ -38,7 +38,7 @@ def statistics(line: np.ndarray, floor: np.ndarray) -> Statistics:
 def healthy(seed: int) -> Healthy:
     power = 10 ** np.random.default_rng(seed).uniform(-1.0, 0.0, LINES_HZ.size)
     return Healthy(
-        line=power[None], line_spread_db=np.full((1, LINES_HZ.size), 1.0), floor=np.full((1, CENTRES.size), 1e-9)
+        line=power[None], line_spread_db=np.full((1, LINES_HZ.size), 1.0), floor=np.full((1, CENTRES.size), 1e-15)
     )
 
 

@@ -15,7 +15,7 @@ from sim.presets import preset
 
 def test_a_straight_path_has_no_scatter() -> None:
     shares = np.random.default_rng(0).uniform(size=9)
-    points = np.outer(shares, [3.0, -2.0, 0.5]) + [1.0, 2.0, 3.0]
+    points = np.outer(shares, [3.0, -2.0, 0.5]) + np.array([1.0, 2.0, 3.0])
     assert np.abs(neighbour_scatter(points, shares)).max() < 1e-6
     assert neighbour_scatter(points[:2], shares[:2]).shape == (0, 3)
 
@@ -28,10 +28,10 @@ def test_scatter_is_that_of_one_draw() -> None:
 
 
 def test_the_metric_tells_classes_apart_where_plain_distance_does_not() -> None:
-    """Two effects differ by 1 along a quiet axis and scatter by 8 along a loud one."""
+    """Two effects differ by 1 along a quiet axis and scatter by 30 along a loud one; few draws are there."""
     rng = np.random.default_rng(2)
-    spread, centres = np.array([8.0, 0.25]), np.array([[0.0, 0.0], [0.0, 1.0]])
-    drawn = [c + rng.normal(size=(200, 2)) * spread for c in centres]
+    spread, centres = np.array([30.0, 0.25]), np.array([[0.0, 0.0], [0.0, 1.0]])
+    drawn = [c + rng.normal(size=(30, 2)) * spread for c in centres]
     metric = fit_metric(np.zeros(2), [d - d.mean(axis=0) for d in drawn])
     tests = np.concatenate([c + rng.normal(size=(200, 2)) * spread for c in centres])
     truth = np.repeat([0, 1], 200)
@@ -39,10 +39,10 @@ def test_the_metric_tells_classes_apart_where_plain_distance_does_not() -> None:
     def right(place) -> float:  # type: ignore[no-untyped-def]
         library, seen = np.concatenate([place(d) for d in drawn]), place(tests)
         nearest = np.argmin(np.sum((seen[:, None] - library[None]) ** 2, axis=2), axis=1)
-        return float(np.mean((nearest >= 200) == truth))
+        return float(np.mean((nearest >= 30) == truth))
 
     assert right(metric) > right(lambda x: x) + 0.15
-    assert right(metric) > 0.9
+    assert right(metric) > 0.85
 
 
 def test_whitening_counts_what_is_known_everywhere() -> None:

@@ -78,7 +78,7 @@ def test_a_bad_fit_is_unknown_whoever_is_nearest() -> None:
 def test_what_healthy_machines_show_too_is_nothing() -> None:
     quiet = decide(screen([20.0], p_any=0.3, p_best=0.2, strongest=2.0))
     assert (quiet.word, quiet.chosen) == ("nothing_missing", ())
-    assert "p = 0.4" in quiet.reasons[0]
+    assert "p = 1" in quiet.reasons[0]
     # A pattern in a change that is not unusual, and an unusual change that is not glaring, are nothing either.
     assert decide(screen([20.0], p_any=0.3)).word == "nothing_missing"
     assert decide(screen([20.0], p_best=0.3, strongest=GLARING - 1)).word == "nothing_missing"
