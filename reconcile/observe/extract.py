@@ -15,6 +15,8 @@ USABLE = 0.42
 """Share of the sampling rate below which bands are trusted: anti-alias filters fall off above."""
 OVERSAMPLING = 2.2
 """Samples a cycle of the band's upper edge, so that squared envelopes do not alias into what is watched."""
+LEAST_VARIANCE = 1e-150
+"""Of a silent channel, so that its moments are finite: the square of this is a number still."""
 MEDIAN_OF_EXPONENTIAL = float(np.log(2.0))
 
 
@@ -77,7 +79,7 @@ def _shapes(
         kept[:, first:last] = 2.0 * spectrum[:, first:last] * (points / n)
         analytic = fft.ifft(kept, axis=1)
         x = analytic.real
-        variance = np.maximum(np.mean(x**2, axis=1), 1e-300)
+        variance = np.maximum(np.mean(x**2, axis=1), LEAST_VARIANCE)
         mean_square[:, e] = variance
         kurtosis[:, e] = np.mean(x**4, axis=1) / variance**2 - 3.0
         skewness[:, e] = np.mean(x**3, axis=1) / variance**1.5

@@ -46,9 +46,7 @@ def measured(machine: MachineSpec, seed: int, duration_s: float = 3.0) -> Record
     )
     rows = np.asarray(response.signals)[:, round(SETTLE_S * RATE_HZ) :]
     noise = np.random.default_rng(seed).normal(size=rows.shape) * 0.1 * rows.std(axis=1, keepdims=True)
-    channels = tuple(
-        Channel(name=p, quantity="acceleration", unit="m/s^2", location=p, axis="y") for p in PLACES
-    )
+    channels = tuple(Channel(name=p, quantity="acceleration", unit="m/s^2", location=p, axis="y") for p in PLACES)
     return Recording(
         sampling_rate_hz=RATE_HZ,
         channels=channels,
@@ -85,7 +83,12 @@ def test_a_hidden_spall_is_found(real: MachineSpec, baseline: Recording, atlas: 
     nominal = preset("paper-lightly-damped")
     heard: list[float] = []
     report = reconcile_recordings(
-        nominal, [test], [baseline], keeper=atlas, nominated=NOMINATED, progress=lambda share, _stage: heard.append(share)
+        nominal,
+        [test],
+        [baseline],
+        keeper=atlas,
+        nominated=NOMINATED,
+        progress=lambda share, _stage: heard.append(share),
     )
     assert report.level == "machine"
     assert report.verdict in ("explained", "ambiguous"), report.sentence

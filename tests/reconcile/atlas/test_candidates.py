@@ -1,0 +1,92 @@
+"""Candidates are the registered effects, everywhere they may act, in sizes their terms allow."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from reconcile.atlas.candidates import FREE, Candidate, candidates, draw_term, size_parameter, size_range
+from reconcile.atlas.plan import with_tooth_pairs
+from sim.assembly.assemble import BUILT_IN, assemble
+from sim.core.spec import TermSpec
+from sim.presets import preset
+from sim.terms import REGISTRY
+
+MACHINE = with_tooth_pairs(preset("paper-lightly-damped"))
+ALL = candidates(MACHINE)
+SIZED = [t for t in REGISTRY if t.severity is not None and t.key not in BUILT_IN and t.key not in FREE]
+PARTS = {
+    "bearing": [b.name for b in MACHINE.bearings],
+    "gear": [g.name for g in MACHINE.gears],
+    "body": [b.name for b in MACHINE.bodies],
+    "mesh": [m.name for m in MACHINE.meshes],
+    "shaft": [s.name for s in MACHINE.shafts],
+}
+
+
+@pytest.mark.parametrize("term", SIZED, ids=lambda t: t.key)
+def test_every_effect_with_a_size_stands_at_each_legal_site(term) -> None:  # type: ignore[no-untyped-def]
+    sites = {c.site for c in ALL if c.term == term.key}
+    assert sites == {name for kind in term.sites for name in PARTS[kind]}
+
+
+def test_nothing_stands_twice_and_what_is_there_is_no_candidate() -> None:
+    assert len({c.label for c in ALL}) == len(ALL)
+    there = TermSpec(term="outer_spall", site="bearing1", parameters={"width": 1e-3})
+    left = {c.label for c in candidates(MACHINE.model_copy(update={"terms": [there]}))}
+    assert {c.label for c in ALL} - left == {"outer_spall@bearing1"}
+    assert not {c.term for c in ALL} & set(FREE)
+
+
+@pytest.mark.parametrize(
+    "candidate",
+    [next(c for c in ALL if c.term == t.key) for t in SIZED if any(c.term == t.key for c in ALL)],
+    ids=lambda c: c.term,
+)
+def test_draws_are_within_bounds_reproducible_and_leave_out_what_the_machine_gives(candidate: Candidate) -> None:
+    term = REGISTRY.get(candidate.term)
+    assert term is not None
+    size = size_parameter(term)
+    low, high = size_range(size)
+    assert 0 < low < high <= size.high
+    given = set(term.machine_values(MACHINE, candidate.site)) - {size.name}
+    for k in range(30):
+        share = k / 29
+        one, two = (draw_term(candidate, share, np.random.default_rng(k), MACHINE) for _ in range(2))
+        assert one == two
+        assert low * (1 - 1e-9) <= one.parameters[size.name] <= high * (1 + 1e-9)
+        assert not given & set(one.parameters)
+        values = term.values(one.parameters, candidate.label)
+        for param in term.params:
+            if param.choices:
+                assert values[param.name] in param.choices
+
+
+def test_larger_shares_are_larger_sizes() -> None:
+    sizes = [
+        draw_term(Candidate(term="outer_spall", site="bearing1"), u, np.random.default_rng(0), MACHINE).parameters[
+            "width"
+        ]
+        for u in (0.0, 0.5, 1.0)
+    ]
+    assert sizes[1] == pytest.approx(np.sqrt(sizes[0] * sizes[2]))
+    assert sizes[0] < sizes[1] < sizes[2]
+
+
+def test_unknown_terms_and_terms_without_size_are_refused() -> None:
+    with pytest.raises(ValueError, match="no term"):
+        draw_term(Candidate(term="gremlin", site="bearing1"), 0.5, np.random.default_rng(0), MACHINE)
+    unsized = next((t for t in REGISTRY if t.severity is None), None)
+    if unsized is not None:
+        with pytest.raises(ValueError, match="no size"):
+            size_parameter(unsized)
+
+
+@pytest.mark.slow
+def test_tooth_pairs_let_single_teeth_differ() -> None:
+    nominal = preset("paper")
+    paired = with_tooth_pairs(nominal)
+    assert all(m.table is None and m.tooth_pairs for m in paired.meshes)
+    assert paired.model_copy(update={"meshes": nominal.meshes}) == nominal
+    crack = draw_term(Candidate(term="tooth_crack", site="pinion"), 0.5, np.random.default_rng(0), paired)
+    assemble(paired.model_copy(update={"terms": [*paired.terms, crack]}), seed=0)

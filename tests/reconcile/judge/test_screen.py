@@ -1,0 +1,83 @@
+"""The screen on a made library: right names, honest p-values, unknown patterns told by their misfit."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from reconcile.judge.screen import Fitted, Screen, fit_space, judge
+from reconcile.machine.decide import DETECT_P, chance
+from tests.reconcile.judge.made import EFFECTS, FAMILIES, FEATURES, MEMBERS, changes, library, world
+
+MADE = world()
+
+
+@cache
+def space() -> Fitted:
+    return fit_space(changes(MADE, np.zeros(FEATURES)), library(MADE), seed=1)
+
+
+def screened(observed: np.ndarray) -> Screen:
+    return judge(space(), observed)
+
+
+@pytest.mark.parametrize("c", range(len(EFFECTS)))
+def test_a_known_effect_is_named_and_known_to_be(c: int) -> None:
+    right = 0
+    for seed in range(20):
+        rng = np.random.default_rng([seed, c])
+        found = screened(MADE.effect(c, float(rng.uniform(0.2, 1.0)), rng) + MADE.noise(rng))
+        right += found.names[int(np.argmax(found.weights))] == EFFECTS[c]
+        assert found.p_best <= DETECT_P
+        assert found.weights.sum() == pytest.approx(1.0)
+        assert np.argmax(found.evidence) == np.argmax(found.weights)
+    assert right >= 19
+
+
+def test_p_values_of_sound_machines_are_no_smaller_than_they_say() -> None:
+    n = 400
+    found = [screened(MADE.noise(np.random.default_rng([7, k]))) for k in range(n)]
+    for name in ("p_any", "p_best"):
+        values = np.sort([getattr(s, name) for s in found])
+        for level in (0.05, 0.2, 0.5):
+            share = float(np.mean(values <= level))
+            assert abs(share - level) < 0.05 + 3 * np.sqrt(level * (1 - level) / n), (name, level, share)
+    alarms = sum(chance(s) <= DETECT_P for s in found)
+    assert alarms <= 0.01 * n + 3 * np.sqrt(0.01 * n), alarms
+
+
+def test_a_pattern_of_no_known_effect_fits_worse_than_known_ones_do() -> None:
+    strange, known = [], []
+    for seed in range(20):
+        rng = np.random.default_rng([11, seed])
+        alien = np.zeros(FAMILIES)
+        alien[[2, 7, 10, 11]] = [-12.0, -12.0, 14.0, 14.0]
+        strange.append(screened(np.repeat(alien, MEMBERS) + MADE.noise(rng)).misfit)
+        known.append(screened(MADE.effect(seed % 4, float(rng.uniform(0.2, 1.0)), rng) + MADE.noise(rng)).misfit)
+    assert np.min(strange) > 0.9
+    assert np.mean(np.array(known) > 0.9) <= 0.25
+
+
+def test_the_strongest_group_is_the_changed_one_and_grows_with_the_change() -> None:
+    rng = np.random.default_rng(13)
+    base = MADE.noise(rng)
+    sizes = [screened(base + k * np.repeat(MADE.patterns[2], MEMBERS)).strongest for k in (0.0, 0.5, 1.0, 2.0)]
+    assert sizes == sorted(sizes) and sizes[-1] > 15.0
+
+
+def test_what_was_not_measured_is_left_out() -> None:
+    rng = np.random.default_rng(17)
+    observed = MADE.effect(2, 0.8, rng) + MADE.noise(rng)
+    observed[:3] = np.nan
+    fitted = fit_space(changes(MADE, observed), library(MADE), seed=1)
+    assert np.isinf(fitted.whiten.sigma[:3]).all()
+    found = judge(fitted, observed)
+    assert np.isfinite(found.evidence).all() and found.names[int(np.argmax(found.weights))] == EFFECTS[2]
+
+
+def test_the_same_seed_gives_the_same_space() -> None:
+    again = fit_space(changes(MADE, np.zeros(FEATURES)), library(MADE), seed=1)
+    np.testing.assert_array_equal(again.null, space().null)
+    assert again.overdispersion == space().overdispersion

@@ -1,0 +1,138 @@
+"""Every verdict from screens that are made for it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from reconcile.judge.screen import Screen
+from reconcile.machine.decide import (
+    GLARING,
+    MOST_NAMED,
+    STRANGE,
+    chance,
+    credible_set,
+    decide,
+    merged_weights,
+    variants,
+)
+from reconcile.machine.words import next_experiment, sentence, title
+from reconcile.verdict import HeldOut, Severity
+
+NAMES = (
+    "outer_spall@bearing1",
+    "outer_spall@bearing3",
+    "inner_spall@bearing1",
+    "tooth_crack@pinion",
+    "unbalance@pinion",
+    "unbalance@gear",
+    "rub@pinion",
+    "bent_shaft@pinion",
+)
+
+
+def screen(evidence: list[float], names: tuple[str, ...] = NAMES, **how: float) -> Screen:
+    values = np.array(evidence + [-5.0] * (len(names) - len(evidence)))
+    weights = np.exp(values - values.max())
+    usual = {"p_any": 0.003, "strongest": 40.0, "p_best": 0.003, "misfit": 0.4, "length": 90.0}
+    return Screen(
+        names=names,
+        evidence=values,
+        weights=weights / weights.sum(),
+        nearest=np.zeros(len(names), dtype=int),
+        **{**usual, **how},  # type: ignore[arg-type]
+    )
+
+
+def test_one_effect_far_ahead_is_named() -> None:
+    found = decide(screen([20.0, 9.0]))
+    assert (found.word, found.chosen) == ("explained", NAMES[:1])
+
+
+@pytest.mark.parametrize(
+    ("evidence", "chosen", "why"),
+    [
+        ([12.0, 11.5], NAMES[:2], "place"),
+        ([12.0, -5.0, 11.5], (NAMES[0], NAMES[2]), "mechanism"),
+        ([12.0, -5.0, -5.0, 11.5], (NAMES[0], NAMES[3]), "look alike"),
+    ],
+)
+def test_what_looks_alike_is_a_set_and_says_what_is_undecided(
+    evidence: list[float], chosen: tuple[str, ...], why: str
+) -> None:
+    found = decide(screen(evidence))
+    assert (found.word, found.chosen) == ("ambiguous", chosen)
+    assert why in found.reasons[0]
+
+
+def test_a_set_too_large_decides_nothing() -> None:
+    found = decide(screen([12.0] * len(NAMES)))
+    assert found.word == "not_decidable" and len(found.chosen) > MOST_NAMED
+
+
+def test_a_bad_fit_is_unknown_whoever_is_nearest() -> None:
+    assert decide(screen([20.0, 9.0], misfit=STRANGE + 0.05)).word == "unknown_physics"
+    assert decide(screen([2.0, -9.0])).word == "unknown_physics"
+
+
+def test_what_healthy_machines_show_too_is_nothing() -> None:
+    quiet = decide(screen([20.0], p_any=0.3, p_best=0.2, strongest=2.0))
+    assert (quiet.word, quiet.chosen) == ("nothing_missing", ())
+    assert "p = 1" in quiet.reasons[0]
+    # A pattern in a change that is not unusual, and an unusual change that is not glaring, are nothing either.
+    assert decide(screen([20.0], p_any=0.3)).word == "nothing_missing"
+    assert decide(screen([20.0], p_best=0.3, strongest=GLARING - 1)).word == "nothing_missing"
+    assert decide(screen([20.0], p_best=0.3, strongest=GLARING + 1)).word == "explained"
+
+
+def test_two_looks_cost_a_factor_of_two() -> None:
+    assert chance(screen([1.0], p_any=0.02, p_best=0.004, strongest=1.0)) == pytest.approx(0.008)
+    assert chance(screen([1.0], p_any=0.002, p_best=0.5)) == pytest.approx(0.004)
+    assert chance(screen([1.0], p_any=0.5, p_best=0.5, strongest=1.0)) == 1.0
+
+
+def test_forms_of_one_effect_count_together() -> None:
+    assert variants("fit_clearance@bearing1", "fit_clearance_series@bearing1")
+    assert not variants("fit_clearance@bearing1", "fit_clearance_series@bearing2")
+    assert not variants("outer_spall@bearing1", "outer_spall@bearing1")
+    names = ("fit_clearance@bearing1", "fit_clearance_series@bearing1", "unbalance@pinion")
+    made = screen([10.0, 10.0, 5.0], names)
+    weights = merged_weights(made)
+    assert list(weights) == ["fit_clearance@bearing1", "unbalance@pinion"]
+    assert sum(weights.values()) == pytest.approx(1.0)
+    assert decide(made).word == "explained"
+
+
+def test_the_smallest_set_that_carries_the_weight() -> None:
+    weights = {"a": 0.5, "b": 0.3, "c": 0.15, "d": 0.05}
+    assert credible_set(weights, 0.5) == ("a",)
+    assert credible_set(weights, 0.9) == ("a", "b", "c")
+
+
+def test_sentences_say_what_where_and_how_large() -> None:
+    size = Severity(name="width", value=1.5e-3, unit="m", low=1.2e-3, high=1.9e-3)
+    held = HeldOut(
+        metric="log_spectral_distance",
+        unit="dB",
+        before=6.0,
+        after=2.0,
+        gain=0.67,
+        gain_low=0.6,
+        gain_high=0.7,
+        retuned=0.1,
+        black_box=0.2,
+        placebo=0.0,
+    )
+    text = sentence(decide(screen([20.0])), size, held)
+    assert "bearing1" in text and "0.0015 m" in text and "67%" in text
+    assert sentence(decide(screen([20.0], p_any=1.0, p_best=1.0, strongest=0.0)), None, None).startswith("Nothing")
+    assert " or " in sentence(decide(screen([12.0, 11.5])), None, None)
+    assert title("outer_spall@bearing1").endswith("at bearing1")
+
+
+def test_the_next_experiment_is_a_sensor_where_places_are_open_else_another_speed() -> None:
+    sensor = next_experiment(NAMES[:2], 0.5, 1, ["bearing1 y"])
+    assert sensor is not None and "bearing3" in sensor.sentence and sensor.separation_expected == pytest.approx(1.0)
+    speed = next_experiment((NAMES[0], NAMES[2]), 0.5, 2, ["bearing1 y"])
+    assert speed is not None and "speed" in speed.sentence and speed.separation_expected == pytest.approx(0.75)
+    assert next_experiment(NAMES[:1], 0.5, 1, []) is None

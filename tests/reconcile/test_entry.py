@@ -1,0 +1,92 @@
+"""What is refused before anything is computed, and with which words."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reconcile import entry
+from reconcile.atlas.places import simulated_channel, simulated_channels
+from reconcile.entry import check_channels, check_size, reconcile_recordings
+from signals.recording import Operating, Recording
+from sim.core.errors import SpecError
+from sim.core.response import Channel
+from sim.presets import preset
+
+MACHINE = preset("paper-lightly-damped")
+
+
+def channel(
+    location: str = "bearing1", axis: str = "y", quantity: str = "acceleration", unit: str = "m/s^2"
+) -> Channel:
+    return Channel(name=f"{location}{axis}", quantity=quantity, unit=unit, location=location, axis=axis)
+
+
+def recording(*channels: Channel, rate_hz: float = 20480.0, seconds: float = 1.0) -> Recording:
+    chosen = channels or (channel(),)
+    return Recording(
+        sampling_rate_hz=rate_hz,
+        channels=chosen,
+        samples=np.random.default_rng(0).normal(size=(len(chosen), round(seconds * rate_hz))),
+        operating=Operating(shaft="input", speed_hz=30.0),
+    )
+
+
+def test_no_recording_is_refused() -> None:
+    with pytest.raises(SpecError, match="at least one recording"):
+        reconcile_recordings(MACHINE, [])
+
+
+def test_more_than_a_request_may_ask_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    one = recording(seconds=0.01)
+    check_size([one] * entry.MOST_RECORDINGS, [one] * entry.MOST_RECORDINGS)
+    with pytest.raises(SpecError, match="at most 24"):
+        check_size([one], [one] * (entry.MOST_RECORDINGS + 1))
+    monkeypatch.setattr(entry, "MOST_SAMPLES", 2 * one.samples.size)
+    check_size([one], [one])
+    with pytest.raises(SpecError, match="too long together"):
+        check_size([one, one], [one])
+
+
+@pytest.mark.parametrize(
+    ("other", "field"),
+    [
+        (recording(channel("bearing2")), r"baseline\[0\]\.channels\[0\]"),
+        (recording(channel(axis="x")), r"baseline\[0\]\.channels\[0\]"),
+        (recording(channel(quantity="velocity", unit="m/s")), r"baseline\[0\]\.channels\[0\]"),
+        (recording(channel(unit="g")), r"baseline\[0\]\.channels\[0\]"),
+        (recording(channel(), channel("bearing2")), r"baseline\[0\]\.channels"),
+        (recording(rate_hz=10240.0), r"baseline\[0\]\.sampling_rate_hz"),
+    ],
+)
+def test_recordings_that_do_not_match_are_refused_by_field(other: Recording, field: str) -> None:
+    with pytest.raises(SpecError, match=field):
+        reconcile_recordings(MACHINE, [recording()], [other])
+    check_channels([other], [other])
+
+
+def test_matching_recordings_pass_whatever_their_names_and_lengths() -> None:
+    renamed = replace(channel(), name="anything")
+    check_channels([recording()], [recording(renamed, seconds=2.0)])
+
+
+@pytest.mark.parametrize(
+    ("location", "axis", "name"),
+    [
+        ("bearing1", "y", "resonator1.y.acceleration"),
+        ("bearing1", "x", "bearing1.outer.x.acceleration"),
+        ("bearing1", "", "resonator1.y.acceleration"),
+        ("resonator3", "y", "resonator3.y.acceleration"),
+        ("casing", "y", None),
+        ("", "", None),
+    ],
+)
+def test_sensors_stand_where_they_were_mounted(location: str, axis: str, name: str | None) -> None:
+    assert simulated_channel(MACHINE, replace(channel(), location=location, axis=axis)) == name
+
+
+def test_a_place_the_machine_does_not_have_is_refused() -> None:
+    with pytest.raises(SpecError, match="is not a place of this machine"):
+        simulated_channels(MACHINE, [channel(), channel("casing")])
