@@ -26,7 +26,7 @@ def term_document(term: Term) -> dict[str, object]:
         "predicted_lines": [
             {
                 "label": line.label,
-                "orders": {base: n for base, n in line.orders if n},
+                "orders": {base: n if isinstance(n, int) else float(n) for base, n in line.orders if n},
                 "family": line.family,
                 "component": line.component,
                 "frequency_hz": hz,

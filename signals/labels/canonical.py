@@ -11,7 +11,7 @@ from signals.labels.identity import VectorKey, base_vectors, vector_key
 from signals.labels.kinematics import Kinematics
 from signals.spectra.types import Spectrum
 from signals.windows import MAIN_LOBE_BINS
-from sim.core.lines import Line
+from sim.core.lines import Line, Order
 
 FAMILY_ORDER = ("f_m", "f_o", "f_i", "f_b", "f_c", "f_r")
 """Order of the bases in a label (carriers before what modulates them), and of preference between equal weights."""
@@ -29,7 +29,7 @@ class Candidate:
     """
 
     label: str
-    orders: tuple[tuple[str, int], ...]
+    orders: tuple[tuple[str, Order], ...]
     frequency_hz: float
     family: str
     mechanism: str
@@ -41,8 +41,8 @@ class Candidate:
 
     @property
     def weight(self) -> int:
-        """Sum of |orders|: how far-fetched the sum is."""
-        return sum(abs(n) for _, n in self.orders)
+        """How far-fetched the sum is."""
+        return weight_of(self.orders)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,14 +90,19 @@ def inside(candidates: Sequence[Candidate], spectrum: Spectrum) -> tuple[Candida
     return tuple(c for c in candidates if lobe <= c.frequency_hz <= top - lobe)
 
 
-def simplicity(orders: Sequence[tuple[str, int]]) -> tuple[int, int, tuple[tuple[int, int, str], ...]]:
+def weight_of(orders: Sequence[tuple[str, Order]]) -> int:
+    """Sum of |orders|; a fraction p/q counts |p| + q - 1, so that a half is no simpler than the whole."""
+    return sum(abs(n.numerator) + n.denominator - 1 for _, n in orders)
+
+
+def simplicity(orders: Sequence[tuple[str, Order]]) -> tuple[int, int, tuple[tuple[int, int, str], ...]]:
     """Sort key, smallest first: sum of |orders|, number of bases, then mesh before bearing before shaft."""
-    return sum(abs(n) for _, n in orders), len(orders), tuple(_rank(base) for base, _ in orders)
+    return weight_of(orders), len(orders), tuple(_rank(base) for base, _ in orders)
 
 
 def _ordered(line: Line) -> Line:
     """The line with its bases in canonical order, zeros dropped, and the first multiple positive."""
-    totals: dict[str, int] = {}
+    totals: dict[str, Order] = {}
     for base, n in line.orders:
         totals[base] = totals.get(base, 0) + n
     orders = tuple(sorted(((b, n) for b, n in totals.items() if n), key=lambda item: _rank(item[0])))

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import combinations
 from math import factorial
 from typing import Literal
@@ -20,6 +21,7 @@ from signals.labels.types import LabelledPeak
 from signals.series import BoolArray, FloatArray
 from signals.spectra.types import Spectrum
 from signals.windows import transform
+from sim.core.lines import Order
 
 Coalition = frozenset[int]
 """Indices of the effects that act."""
@@ -28,7 +30,7 @@ MAX_SHAPLEY = 3
 """Effects up to which every coalition is run (eight runs); beyond, each effect is taken away by itself."""
 DEEPEST_DB = 120.0
 """What is reported when a line vanishes altogether: below, there is only rounding."""
-_TERM = re.compile(r"([+-]?\d+)\*([A-Za-z_]+\d*)")
+_TERM = re.compile(r"([+-]?\d+(?:/\d+)?)\*([A-Za-z_]+\d*)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,14 +58,16 @@ class Reading:
     lost: BoolArray
 
 
-def orders_of(label: str) -> tuple[tuple[str, int], ...]:
-    """Bases and multiples of a label: `1*f_m-1*f_r1` gives (f_m, 1), (f_r1, -1)."""
-    return tuple((base, int(n)) for n, base in _TERM.findall(label))
+def orders_of(label: str) -> tuple[tuple[str, Order], ...]:
+    """Bases and multiples of a label: `1*f_m-1*f_r1` gives (f_m, 1), (f_r1, -1), `1/2*f_r1` (f_r1, Fraction(1, 2))."""
+    return tuple((base, Fraction(n) if "/" in n else int(n)) for n, base in _TERM.findall(label))
 
 
 def places_hz(peaks: Sequence[LabelledPeak], bases_hz: Mapping[str, float]) -> FloatArray:
     """Where the labels' lines lie for other base frequencies, Hz, shape (lines,)."""
-    return np.array([abs(sum(n * bases_hz[base] for base, n in orders_of(p.label))) for p in peaks], dtype=np.float64)
+    return np.array(
+        [abs(sum(float(n) * bases_hz[base] for base, n in orders_of(p.label))) for p in peaks], dtype=np.float64
+    )
 
 
 def read_lines(spectrum: Spectrum, frequency_hz: FloatArray, floor: Floor) -> Reading:

@@ -12,6 +12,7 @@ from fractions import Fraction
 
 from signals.labels.kinematics import BearingKinematics, Kinematics, MeshKinematics
 from sim.core.errors import Problem, SpecError
+from sim.core.lines import Order
 
 Vector = Mapping[str, Fraction]
 VectorKey = tuple[tuple[str, Fraction], ...]
@@ -31,7 +32,7 @@ def base_vectors(kinematics: Kinematics) -> dict[str, Vector]:
     return vectors
 
 
-def vector_key(orders: Sequence[tuple[str, int]], vectors: Mapping[str, Vector]) -> VectorKey:
+def vector_key(orders: Sequence[tuple[str, Order]], vectors: Mapping[str, Vector]) -> VectorKey:
     """The sum as a hashable vector; a base without known ties is its own symbol."""
     total: dict[str, Fraction] = {}
     for base, n in orders:

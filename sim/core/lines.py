@@ -8,6 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from fractions import Fraction
+
+Order = int | Fraction
+"""A multiple; a fraction where a rotor answers every second or third turn only."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,17 +22,17 @@ class Line:
     `family` a coarse group for switching displays (`mesh`, `shaft`, `outer`, `inner`, `ball`, `cage`).
     """
 
-    orders: tuple[tuple[str, int], ...]
+    orders: tuple[tuple[str, Order], ...]
     component: str
     mechanism: str
     family: str
 
     @property
     def label(self) -> str:
-        """Canonical text of the sum, for example `1*f_m-1*f_r1`."""
-        parts = [f"{n:+d}*{base}" for base, n in self.orders if n != 0]
+        """Canonical text of the sum, for example `1*f_m-1*f_r1` or `1/2*f_r1`."""
+        parts = [f"{'+' if n > 0 else ''}{n}*{base}" for base, n in self.orders if n != 0]
         return "".join(parts).removeprefix("+")
 
     def frequency_hz(self, bases_hz: Mapping[str, float]) -> float:
         """Frequency for the given base frequencies, Hz (negative sums fold to positive)."""
-        return abs(sum(n * bases_hz[base] for base, n in self.orders))
+        return abs(sum(float(n) * bases_hz[base] for base, n in self.orders))

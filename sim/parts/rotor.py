@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from sim.core.elements import Coordinate
 from sim.core.errors import Problem, SpecError
-from sim.core.lines import Line
+from sim.core.lines import Line, Order
 from sim.core.spec import BearingSpec, MachineSpec, ShaftSpec, TorqueLoad
 from sim.core.terms import SiteContext
 
@@ -99,7 +99,7 @@ def shaft_torque_nm(site: SiteContext) -> float:
     return -power / site.speed_hz if site.speed_hz > 0.0 else 0.0
 
 
-def shaft_lines(site: SiteContext, key: str, orders: Sequence[int]) -> tuple[Line, ...]:
+def shaft_lines(site: SiteContext, key: str, orders: Sequence[Order]) -> tuple[Line, ...]:
     """Multiples of the rotation of the site's shaft."""
     if not site.shaft_base:
         return ()

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 from sim.core.elements import Coordinate, Element, Output
 from sim.core.laws import Laws
@@ -18,6 +19,9 @@ from sim.core.terms import Demo, SiteContext, Term, Validation, Values
 from sim.parts.one_sided import one_sided_element
 from sim.parts.rotor import refusal, shaft_lines
 
+HALF = Fraction(1, 2)
+"""Turning about twice as fast as it vibrates freely, a rotor that lifts off may come down every second turn only
+(Ehrich 1988, J. Vib. Acoust. 110(1))."""
 OUTPUT = Output(name="force", quantity="force", unit="N", axis="y")
 
 
@@ -50,8 +54,8 @@ class PedestalLooseness(Term):
         )
 
     def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:
-        """Multiples of the shaft's rotation."""
-        return shaft_lines(site, self.key, (2, 3, 4, 5)) if values["loss"] > 0.0 else ()
+        """Multiples of the shaft's rotation and of its half."""
+        return shaft_lines(site, self.key, (2, 3, 4, 5, HALF, 3 * HALF)) if values["loss"] > 0.0 else ()
 
 
 TERM = PedestalLooseness(

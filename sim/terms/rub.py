@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 from sim.core.choose import larger, root, select, somewhere, uniform
 from sim.core.compiled import inline
@@ -111,6 +112,9 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
 
 
 KERNEL = kernel(prepare, force, same=(0,))
+HALF, THIRD = Fraction(1, 2), Fraction(1, 3)
+"""A rotor that turns some two or three times as fast as it vibrates freely may touch every second or third turn only
+(Ehrich 1988, J. Vib. Acoust. 110(1))."""
 OUTPUTS = (
     Output(name="contact", quantity="state", unit="1"),
     Output(name="normal_force", quantity="force", unit="N"),
@@ -162,8 +166,9 @@ class Rub(Term):
         )
 
     def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:
-        """Multiples of the shaft's rotation."""
-        return shaft_lines(site, self.key, (2, 3, 4, 5)) if values["stiffness"] > 0.0 else ()
+        """Multiples of the shaft's rotation, and of its half and third."""
+        orders = (2, 3, 4, 5, HALF, 3 * HALF, THIRD, 2 * THIRD)
+        return shaft_lines(site, self.key, orders) if values["stiffness"] > 0.0 else ()
 
 
 TERM = Rub(
@@ -224,6 +229,10 @@ TERM = Rub(
             "literature survey, Shock Vib. Dig. 21(3)"
         ),
         "Hunt & Crossley 1975, Coefficient of restitution interpreted as damping in vibroimpact, J. Appl. Mech. 42(2)",
+        (
+            "Ehrich 1988, High order subharmonic response of high speed rotors in bearing clearance, J. Vib. "
+            "Acoust. 110(1)"
+        ),
     ),
     severity="stiffness",
     order=30,

@@ -100,7 +100,7 @@ export function partName(name) {
 
 /** Terms of a label: `1*f_m-2*f_r1` -> [{sign:"", count:1, base:"f", index:"m"}, {sign:"−", count:2, ...}]. */
 export function labelTerms(label) {
-  return [...label.matchAll(/([+-]?)(\d+)\*([a-z]+)_([a-z0-9]+)/g)].map(([, sign, count, base, index]) => ({
-    sign: sign === "-" ? "−" : sign, count: Number(count), base, index,
+  return [...label.matchAll(/([+-]?)(\d+(?:\/\d+)?)\*([a-z]+)_([a-z0-9]+)/g)].map(([, sign, count, base, index]) => ({
+    sign: sign === "-" ? "−" : sign, count: count.includes("/") ? count : Number(count), base, index,
   }));
 }
