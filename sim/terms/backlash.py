@@ -35,11 +35,11 @@ class Backlash(Term):
 
 
 def lightly_loaded(machine: MachineSpec) -> MachineSpec:
-    """The machine with a torque too small to keep the flanks together."""
-    loads = [TorqueLoad(shaft="input", torque_nm=0.2)]
+    """The machine with a torque too small to keep the flanks together; front and back strike once a period."""
+    loads = [TorqueLoad(shaft="input", torque_nm=0.1)]
     operating = machine.operating
     if operating is not None:
-        operating = operating.model_copy(update={"speed_hz": 15.0})
+        operating = operating.model_copy(update={"speed_hz": 20.0})
     return machine.model_copy(update={"loads": loads, "operating": operating})
 
 
