@@ -90,6 +90,7 @@ def test_every_page_is_rendered_without_remains_of_its_markup(browser: Browser, 
 def test_the_calls_of_the_api_are_listed_and_the_document_is_linked(browser: Browser, service: Service) -> None:
     browser.open(service.page("/catalogue"))
     browser.click("footer a[href='#/api']")
+    browser.find(".api-calls code")
     text = browser.text("main")
     paths = service.client.get("/openapi.json").json()["paths"]
     assert all(path in text for path in paths)
