@@ -13,13 +13,14 @@ from reconcile.judge.screen import Library
 from reconcile.machine.heldout import LATER, held_out, spectral_mask, splits
 from reconcile.machine.library import Catalogued, joined
 from reconcile.machine.severity import estimated_severity
-from reconcile.observe.features import Layout
+from reconcile.observe.features import SOFT, Layout
 from reconcile.observe.statistics import third_octaves
 from sim.core.spec import TermSpec
 from sim.terms import REGISTRY
 
 BANDS = third_octaves().size - 1
 LAYOUT = Layout(lines=40, bands=BANDS, shapes=4, modulations=6)
+STANDING = 15
 NAME, WRONG = "outer_spall@bearing1", "outer_spall@bearing3"
 
 
@@ -63,6 +64,15 @@ def test_intervals_of_the_size_cover_it() -> None:
     assert np.median(away) < 0.35
 
 
+def spectral(points: int) -> np.ndarray:
+    """Mask of a machine whose first lines stand 20 dB above their noise and whose others are buried."""
+    level = np.zeros((1, LAYOUT.size))
+    level[0, :STANDING] = 20.0
+    scale = SimpleNamespace(line_noise=np.full((1, LAYOUT.lines), 1.0 / SOFT))
+    lens = SimpleNamespace(scale=scale, nominal=level)
+    return spectral_mask(LAYOUT, [lens] * points)  # type: ignore[list-item]
+
+
 def data(points: int, perfect: bool) -> tuple[SimpleNamespace, Catalogued, np.ndarray]:
     """Changes of `points` points where the named effect moves a third of the lines by 12 dB; the rival others."""
     rng = np.random.default_rng(points)
@@ -88,7 +98,7 @@ def data(points: int, perfect: bool) -> tuple[SimpleNamespace, Catalogued, np.nd
 @pytest.mark.parametrize("points", [1, 3])
 def test_the_right_effect_explains_held_out_data_and_nothing_else_does(points: int) -> None:
     made, known, frequency = data(points, perfect=True)
-    how = {"layout": LAYOUT, "frequency": frequency, "channels": 1, "seed": 0}
+    how = {"spectral": spectral(points), "frequency": frequency, "seed": 0}
     right = held_out(made, known, NAME, **how)  # type: ignore[arg-type]
     assert right.gain > 0.9 and right.gain_low <= right.gain <= right.gain_high
     assert right.gain_low > 0.8
@@ -101,13 +111,13 @@ def test_the_right_effect_explains_held_out_data_and_nothing_else_does(points: i
 
 def test_each_point_is_held_out_once_and_a_single_ones_later_half() -> None:
     made, _, _ = data(3, perfect=True)
-    mask = spectral_mask(LAYOUT, 1, 3)
-    assert mask.sum() == 3 * (LAYOUT.lines + BANDS)
+    mask = spectral(3)
+    assert mask.sum() == 3 * (STANDING + BANDS)
     ways, _ = splits(made, mask)  # type: ignore[arg-type]
     assert not any(np.any(w.fit & w.score) for w in ways)
     np.testing.assert_array_equal(np.sum([w.score for w in ways], axis=0), mask)
     one, _, _ = data(1, perfect=True)
-    (way,), told = splits(one, spectral_mask(LAYOUT, 1, 1))  # type: ignore[arg-type]
+    (way,), told = splits(one, spectral(1))  # type: ignore[arg-type]
     assert told == LATER
     np.testing.assert_array_equal(way.scored, one.halves[1])
     np.testing.assert_array_equal(way.fitted, one.halves[0])
