@@ -124,7 +124,7 @@ def _fitted_change(found: Found, name: str, observed: np.ndarray) -> np.ndarray:
 def answer(setting: Setting, found: Found, gate: Gate, cost: Mapping[str, object]) -> Report:
     """The report of a machine-level reconciliation."""
     observed = setting.changes.observed
-    decision = decide(found.screen)
+    decision = decide(found.screen, views=len(setting.channels) * len(setting.data))
     watched = watch_list(setting.machine)
     layout = _layout(watched, setting)
     weights = merged_weights(found.screen)

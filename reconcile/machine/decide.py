@@ -23,6 +23,9 @@ SET_WEIGHT = 0.9
 """The answer is the smallest set of candidates that carries this weight."""
 LEAST_EVIDENCE = 3.0
 """Log evidence a named cause needs over nothing missing."""
+FEW_VIEWS = 2
+"""So few sensors and operating points together cannot exclude what explains half as much."""
+FEW_SHARE = 0.5
 MOST_NAMED = 6
 """A set larger than this says nothing: the place or the mechanism is then not decidable."""
 
@@ -78,8 +81,8 @@ def chance(screen: Screen) -> float:
     return min(1.0, 2.0 * min(pattern, glaring))
 
 
-def decide(screen: Screen, *, strange: float = STRANGE) -> Decision:
-    """Nothing missing, one name, a set, or none of the known."""
+def decide(screen: Screen, *, views: int, strange: float = STRANGE) -> Decision:
+    """Nothing missing, one name, a set, or none of the known. `views`: sensors times operating points."""
     p = chance(screen)
     if p > DETECT_P:
         shown = max(p, 2.0 * min(screen.p_best, 0.5))
@@ -87,6 +90,8 @@ def decide(screen: Screen, *, strange: float = STRANGE) -> Decision:
         return Decision(word="nothing_missing", chosen=(), p=min(shown, 1.0), reasons=(reason,))
     weights = merged_weights(screen)
     chosen = credible_set(weights)
+    if views <= FEW_VIEWS:
+        chosen = _not_excluded(screen, weights, chosen)
     evidence = {name: float(screen.evidence[screen.names.index(name)]) for name in chosen}
     if screen.misfit > strange or evidence[chosen[0]] < LEAST_EVIDENCE:
         reason = f"the best known effect fits worse than {screen.misfit:.0%} of simulated ones do"
@@ -96,6 +101,13 @@ def decide(screen: Screen, *, strange: float = STRANGE) -> Decision:
     if len(chosen) <= MOST_NAMED:
         return Decision(word="ambiguous", chosen=chosen, p=p, reasons=(_why(chosen),))
     return Decision(word="not_decidable", chosen=chosen, p=p, reasons=(f"{len(chosen)} effects look alike",))
+
+
+def _not_excluded(screen: Screen, weights: dict[str, float], chosen: tuple[str, ...]) -> tuple[str, ...]:
+    """The set with everything that explains nearly as much: few views make wrong effects fit by chance."""
+    value = {name: float(screen.evidence[screen.names.index(name)]) for name in weights}
+    least = FEW_SHARE * max(value.values())
+    return (*chosen, *(n for n in weights if n not in chosen and value[n] >= least))
 
 
 def _why(chosen: Sequence[str]) -> str:

@@ -45,7 +45,7 @@ def screen(evidence: list[float], names: tuple[str, ...] = NAMES, **how: float) 
 
 
 def test_one_effect_far_ahead_is_named() -> None:
-    found = decide(screen([20.0, 9.0]))
+    found = decide(screen([20.0, 9.0]), views=9)
     assert (found.word, found.chosen) == ("explained", NAMES[:1])
 
 
@@ -60,29 +60,29 @@ def test_one_effect_far_ahead_is_named() -> None:
 def test_what_looks_alike_is_a_set_and_says_what_is_undecided(
     evidence: list[float], chosen: tuple[str, ...], why: str
 ) -> None:
-    found = decide(screen(evidence))
+    found = decide(screen(evidence), views=9)
     assert (found.word, found.chosen) == ("ambiguous", chosen)
     assert why in found.reasons[0]
 
 
 def test_a_set_too_large_decides_nothing() -> None:
-    found = decide(screen([12.0] * len(NAMES)))
+    found = decide(screen([12.0] * len(NAMES)), views=9)
     assert found.word == "not_decidable" and len(found.chosen) > MOST_NAMED
 
 
 def test_a_bad_fit_is_unknown_whoever_is_nearest() -> None:
-    assert decide(screen([20.0, 9.0], misfit=STRANGE + 0.05)).word == "unknown_physics"
-    assert decide(screen([2.0, -9.0])).word == "unknown_physics"
+    assert decide(screen([20.0, 9.0], misfit=STRANGE + 0.05), views=9).word == "unknown_physics"
+    assert decide(screen([2.0, -9.0]), views=9).word == "unknown_physics"
 
 
 def test_what_healthy_machines_show_too_is_nothing() -> None:
-    quiet = decide(screen([20.0], p_any=0.3, p_best=0.2, strongest=2.0))
+    quiet = decide(screen([20.0], p_any=0.3, p_best=0.2, strongest=2.0), views=9)
     assert (quiet.word, quiet.chosen) == ("nothing_missing", ())
     assert "p = 1" in quiet.reasons[0]
     # A pattern in a change that is not unusual, and an unusual change that is not glaring, are nothing either.
-    assert decide(screen([20.0], p_any=0.3)).word == "nothing_missing"
-    assert decide(screen([20.0], p_best=0.3, strongest=GLARING - 1)).word == "nothing_missing"
-    assert decide(screen([20.0], p_best=0.3, strongest=GLARING + 1)).word == "explained"
+    assert decide(screen([20.0], p_any=0.3), views=9).word == "nothing_missing"
+    assert decide(screen([20.0], p_best=0.3, strongest=GLARING - 1), views=9).word == "nothing_missing"
+    assert decide(screen([20.0], p_best=0.3, strongest=GLARING + 1), views=9).word == "explained"
 
 
 def test_two_looks_cost_a_factor_of_two() -> None:
@@ -100,7 +100,7 @@ def test_forms_of_one_effect_count_together() -> None:
     weights = merged_weights(made)
     assert list(weights) == ["fit_clearance@bearing1", "unbalance@pinion"]
     assert sum(weights.values()) == pytest.approx(1.0)
-    assert decide(made).word == "explained"
+    assert decide(made, views=9).word == "explained"
 
 
 def test_the_smallest_set_that_carries_the_weight() -> None:
@@ -123,7 +123,7 @@ def test_sentences_say_what_where_and_how_large() -> None:
         black_box=0.2,
         placebo=0.0,
     )
-    text = sentence(decide(screen([20.0])), size, held)
+    text = sentence(decide(screen([20.0]), views=9), size, held)
     assert "bearing1" in text and "0.0015 m" in text and "67%" in text
     assert sentence(decide(screen([20.0], p_any=1.0, p_best=1.0, strongest=0.0)), None, None).startswith("Nothing")
     assert " or " in sentence(decide(screen([12.0, 11.5])), None, None)
@@ -136,3 +136,10 @@ def test_the_next_experiment_is_a_sensor_where_places_are_open_else_another_spee
     speed = next_experiment((NAMES[0], NAMES[2]), 0.5, 2, ["bearing1 y"])
     assert speed is not None and "speed" in speed.sentence and speed.separation_expected == pytest.approx(0.75)
     assert next_experiment(NAMES[:1], 0.5, 1, []) is None
+
+
+def test_few_views_do_not_exclude_what_explains_half_as_much() -> None:
+    one = screen([20.0, 11.0, 3.0])
+    assert decide(one, views=9).word == "explained"
+    few = decide(one, views=1)
+    assert few.word == "ambiguous" and len(few.chosen) == 2
