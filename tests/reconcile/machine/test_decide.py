@@ -125,8 +125,10 @@ def test_sentences_say_what_where_and_how_large() -> None:
     )
     text = sentence(decide(screen([20.0]), views=9), size, held)
     assert "bearing1" in text and "0.0015 m" in text and "67%" in text
-    assert sentence(decide(screen([20.0], p_any=1.0, p_best=1.0, strongest=0.0)), None, None).startswith("Nothing")
-    assert " or " in sentence(decide(screen([12.0, 11.5])), None, None)
+    assert sentence(decide(screen([20.0], p_any=1.0, p_best=1.0, strongest=0.0), views=9), None, None).startswith(
+        "Nothing"
+    )
+    assert " or " in sentence(decide(screen([12.0, 11.5]), views=9), None, None)
     assert title("outer_spall@bearing1").endswith("at bearing1")
 
 
