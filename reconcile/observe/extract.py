@@ -37,7 +37,7 @@ def _line_powers(
     lobe = lobes[:, 2 * LOBE_BINS + 1 :] - lobes[:, : -2 * LOBE_BINS - 1]
     found = np.full((power.shape[0], lines_hz.size), np.nan)
     for i, hz in enumerate(lines_hz):
-        if hz > top_hz or hz < (LOBE_BINS + 1) * bin_hz:
+        if not (LOBE_BINS + 1) * bin_hz <= hz <= top_hz:
             continue
         reach = max(hz * slack[i], 0.5 * bin_hz)
         low, high = int(np.floor((hz - reach) / bin_hz + 0.5)), int(np.floor((hz + reach) / bin_hz + 0.5))

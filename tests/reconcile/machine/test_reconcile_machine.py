@@ -21,7 +21,8 @@ from store.atlas import AtlasFolder
 RATE_HZ = 20480.0
 SETTLE_S = 0.3
 PLACES = ("bearing1", "bearing3")
-SPALL = TermSpec(term="outer_spall", site="bearing1", parameters={"width": 1.5e-3})
+SPALL = TermSpec(term="outer_spall", site="bearing1", parameters={"width": 1.5e-3, "angle": 1.4})
+"""In the load zone: elsewhere on the fixed ring no ball is pressed into it."""
 NOMINATED = tuple(
     Candidate(term=term, site=site)
     for term, site in (
