@@ -121,7 +121,7 @@ def main(argv: list[str] | None = None) -> int:
 HEAD = """# Real recordings
 
 Made by `make proof-real` (it needs the recordings, which are not part of the project). The engine sees anonymised
-copies, the speed as the source states it, bearing sizes and teeth. It was tuned on `hit_sm_mfs`; decision rules were changed
+copies, the speed as the source states it, bearing sizes and teeth. It was tuned on `hit_sm_mfs`; rules were changed
 once after the other rigs had been seen (a depth of modulation is asked of a name, shaft lines must be among the
 strongest, loose mounts are judged in the bands that changed), so those rows are not blind. Held-out data are the later
 half of one record: weaker than another recording. The broken tooth of `openei_gear` is not found: what changes there is
