@@ -17,7 +17,7 @@ ALSO_P = 0.05
 GLARING = 15.0
 """Deviations of the most changed group of features from which a change needs no known pattern: beyond what mis-set
 parameters did on the development nulls."""
-STRANGE = 0.9
+STRANGE = 0.98
 """Quantile of the misfit among known effects above which no known effect is adequate."""
 SET_WEIGHT = 0.9
 """The answer is the smallest set of candidates that carries this weight."""
