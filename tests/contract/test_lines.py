@@ -87,7 +87,7 @@ def test_fractional_orders_appear_at_two_and_three_times_the_natural_frequency(k
     machine, plain = fast_rotor(speed_hz, moment, *terms), fast_rotor(speed_hz, moment)
     lines = [x for x in assemble(machine).lines if x.mechanism == key and "/" in x.label]
     found = {line.label: line.plain for line in shown(REGISTRY.get(key), lines, machine, plain)}
-    assert expected == {label for label, plain_to_see in found.items() if plain_to_see}
+    assert expected <= {label for label, plain_to_see in found.items() if plain_to_see}
 
 
 @pytest.mark.slow

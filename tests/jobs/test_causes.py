@@ -37,8 +37,9 @@ def test_every_line_of_the_base_machine_has_an_element_that_makes_it() -> None:
         mesh = sum(c["share"] for c in told if c["site"] == "mesh1" and c["counterfactual"] != "predicted")
         assert mesh > 0.6, (label, told)
         assert not [c for c in told if c["counterfactual"] == "predicted" and c["share"] > 0.05]
-    for peak in peaks("nothing", "gear-pair").values():
-        if peak["amplitude"]:
+    for label, peak in peaks("nothing", "gear-pair").items():
+        # beats of the mesh with the step of the integration are told as such and have no cause in the machine
+        if peak["amplitude"] and not label.endswith("*f_s"):
             assert sum(c["share"] for c in peak["causes"] if c["site"] == "mesh1") > 0.95
 
 

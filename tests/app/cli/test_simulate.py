@@ -54,10 +54,10 @@ def test_causes_and_impacts_on_request(sideband: Process, tmp_path: Path) -> Non
     change = ("--set", "eccentricity@pinion.radius=2e-5", "--duration", 0.6, "--channels", "resonator1.y.acceleration")
     done = sideband("simulate", "--preset", "paper-lightly-damped", *change, "--causes", "--out", out)
     assert done.returncode == 0, done.stderr
-    assert "causes: 7 further runs" in done.stderr and "100 % eccentricity@pinion" in done.stdout
+    assert "causes: 10 further runs" in done.stderr and "100 % eccentricity@pinion" in done.stdout
     assert {path.name for path in out.iterdir()} == {*FILES, *FURTHER}
     labels = json.loads((out / "labels.json").read_text())
-    assert labels["cause_cost"]["runs"] == 7 and labels["cause_cost"]["steps"] > 7 * 36_000
+    assert labels["cause_cost"]["runs"] == 10 and labels["cause_cost"]["steps"] > 10 * 36_000
     sideband_line = next(p for p in labels["peaks"] if p["label"] == "1*f_m+1*f_r1")
     assert sideband_line["causes"][0]["term"] == "eccentricity" and sideband_line["causes"][0]["share"] > 0.9
     impacts = json.loads((out / "impacts.json").read_text())
