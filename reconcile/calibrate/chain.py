@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reconcile.observe.statistics import SHAPE_BANDS_HZ, Statistics, third_octaves
+from reconcile.observe.statistics import LOBE, SHAPE_BANDS_HZ, Statistics, third_octaves
 from signals.series import FloatArray
 
 STANDS_OUT = 25.0
@@ -123,7 +123,7 @@ def calibrate_chain(
     for c in range(channels):
         ratios, weights, places = [], [], []
         for seen, model, hz in zip(recorded, healthy, lines_hz, strict=True):
-            noise = np.interp(np.log(hz), np.log(band_centres_hz()), _filled(seen.floor)[c]) * seen.resolution_hz
+            noise = np.interp(np.log(hz), np.log(band_centres_hz()), _filled(seen.floor)[c]) * LOBE * seen.resolution_hz
             power = seen.line[c]
             out = (power > STANDS_OUT * noise) & _leading(power, hz) & _leading(model.line[c], hz)
             with np.errstate(invalid="ignore", divide="ignore"):

@@ -112,9 +112,9 @@ def observed_changes(
         spread = measured_db(one.test, lens.chain, lens.lines_hz) ** 2
         if one.baseline is not None:
             spread = spread + measured_db(one.baseline, lens.chain, lens.lines_hz) ** 2
-        steady = unsteady_db(one.test, watched)
+        steady = unsteady_db(one.test, watched, one.lines_hz)
         measured.append(np.sqrt(spread + steady**2).ravel())
-        wander.append(np.tile(wander_patterns(watched, steady.size), spread.shape[0]))
+        wander.append(np.tile(wander_patterns(watched, one.lines_hz, steady.size), spread.shape[0]))
         groups.append(_groups(one.test) + (groups[-1].max() + 1 if groups else 0))
         null.append(_null(lens, bank, plan, based=based))
         starts.append(starts[-1] + observed[-1].size)

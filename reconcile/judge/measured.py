@@ -6,16 +6,19 @@ import numpy as np
 
 from reconcile.calibrate.chain import Chain
 from reconcile.observe.features import SHAPE_DB, SOFT
-from reconcile.observe.statistics import SHAPE_BANDS_HZ, Statistics, third_octaves
+from reconcile.observe.statistics import LOBE, LOBE_SCATTER, SHAPE_BANDS_HZ, Statistics, third_octaves
 from reconcile.observe.watch import WatchList
 from signals.series import FloatArray
 
-UNSTEADY_DB = {"line": 1.0, "floor": 0.7, "total": 0.7, "depth": 1.0, "kurtosis": 5.0, "skewness": 4.0}
+UNSTEADY_DB = {"line": 1.0, "floor": 0.7, "total": 0.7, "depth": 1.0, "kurtosis": 3.0, "skewness": 3.0}
 """What repeated recordings of a sound machine differ by beside noise and drift: speed wander left after tracking,
 phases of balls, which moments of few impacts feel most. Set on the development nulls."""
-SIDEBAND_DB = 4.0
+LOW_SHAPE_DB = {"kurtosis": 12.0, "skewness": 18.0}
+"""The same in the lowest band, where the moments are those of few lines and follow their phases."""
 WANDER_DB = 4.0
 """Sidebands of the mesh at a shaft's multiples rise and fall together with slow wander of the speed."""
+WANDER_HZ = 13.0
+"""Wander left after following the angle reaches this far from the lines."""
 DB = 10.0 / np.log(10.0)
 MEDIAN_LOSS = 1.44
 """Standard deviation of the logarithm of a median of exponentials over that of their mean: 1/ln 2."""
@@ -24,21 +27,21 @@ MEDIAN_LOSS = 1.44
 def measured_db(seen: Statistics, chain: Chain, lines_hz: FloatArray) -> FloatArray:
     """(C, F): deviations of the soft features. A line of power P in noise n varies by sqrt(2 P n + n^2)."""
     noise = chain.line_noise(lines_hz) * seen.resolution_hz
-    power = np.maximum(seen.line - noise, 0.0)
-    line = DB * np.sqrt(2.0 * power * noise + noise**2) / (seen.line + SOFT * noise)
+    lobe, scatter = LOBE * noise, LOBE_SCATTER * noise
+    power = np.maximum(seen.line - lobe, 0.0)
+    line = DB * np.sqrt(2.0 * power * noise + scatter**2) / (seen.line + SOFT * lobe)
     widths = np.diff(third_octaves())
     band = np.broadcast_to(DB / np.sqrt(widths * seen.duration_s), seen.floor.shape)
     shapes = np.array([high - low for low, high in SHAPE_BANDS_HZ])
     deep = np.broadcast_to((2.0 * seen.resolution_hz / shapes)[None, :, None], seen.depth.shape)
-    depth = DB * np.sqrt(2.0 * seen.depth * deep + deep**2) / (seen.depth + SOFT * deep)
+    depth = DB * np.sqrt(2.0 * seen.depth * deep + (LOBE_SCATTER * deep) ** 2) / (seen.depth + SOFT * LOBE * deep)
     moment = np.broadcast_to(SHAPE_DB * np.sqrt(12.0 / (shapes * seen.duration_s)), seen.kurtosis.shape)
     parts = [line, MEDIAN_LOSS * band, band, depth.reshape(depth.shape[0], -1), moment, moment]
     return np.concatenate(parts, axis=-1)
 
 
-def unsteady_db(seen: Statistics, watched: WatchList) -> FloatArray:
+def unsteady_db(seen: Statistics, watched: WatchList, lines_hz: FloatArray) -> FloatArray:
     """(F,): deviation of one channel's features between repeated recordings, beside noise and drift."""
-    sidebands = np.array([w.family == "sideband" for w in watched.lines])
     sizes = {
         "line": seen.line.shape[1],
         "floor": seen.floor.shape[1],
@@ -48,16 +51,30 @@ def unsteady_db(seen: Statistics, watched: WatchList) -> FloatArray:
         "skewness": seen.skewness.shape[1],
     }
     rows = {name: np.full(n, UNSTEADY_DB[name]) for name, n in sizes.items()}
-    rows["line"][sidebands] = SIDEBAND_DB
+    for name, value in LOW_SHAPE_DB.items():
+        rows[name][0] = value
+    rows["line"][wandering(watched, lines_hz)] = WANDER_DB
     return np.concatenate(list(rows.values()))
 
 
-def wander_patterns(watched: WatchList, features: int) -> FloatArray:
-    """(shafts, F): what one deviation of wander of each shaft does to one channel's features, dB."""
+def wandering(watched: WatchList, lines_hz: FloatArray) -> np.ndarray:
+    """(L,): sidebands so near to their mesh line that the speed's own slow wander makes some of them."""
+    mesh = {w.label: hz for w, hz in zip(watched.lines, lines_hz, strict=True) if w.family == "mesh"}
+    found = np.zeros(len(watched.lines), dtype=bool)
+    for i, line in enumerate(watched.lines):
+        if line.family == "sideband":
+            base, order = next((b, n) for b, n in line.orders.items() if not b.startswith("f_r"))
+            found[i] = abs(lines_hz[i] - mesh.get(f"{order:g}*{base}", np.inf)) < WANDER_HZ
+    return found
+
+
+def wander_patterns(watched: WatchList, lines_hz: FloatArray, features: int) -> FloatArray:
+    """(shafts, F): what one deviation of wander does around each shaft's sidebands of one channel, dB."""
+    near = wandering(watched, lines_hz)
     shafts = sorted({b for w in watched.lines if w.family == "sideband" for b in w.orders if b.startswith("f_r")})
     patterns = np.zeros((len(shafts), features))
     for row, shaft in enumerate(shafts):
         for i, line in enumerate(watched.lines):
-            if line.family == "sideband" and shaft in line.orders:
+            if near[i] and shaft in line.orders:
                 patterns[row, i] = WANDER_DB
     return patterns

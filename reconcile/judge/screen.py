@@ -13,7 +13,7 @@ from reconcile.judge.paths import Paths, build_paths
 from reconcile.judge.pooled import Pooling
 from signals.series import FloatArray
 
-NULL_COPIES = 6
+NULL_COPIES = 16
 """Noisy copies of each simulated healthy pair, of either sign: the bank of nulls."""
 
 

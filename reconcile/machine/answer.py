@@ -92,6 +92,12 @@ def revised(machine: MachineSpec, cause: Cause) -> MachineSpec:
     return machine.model_copy(update={"terms": [*machine.terms, term]})
 
 
+def _revised_document(setting: Setting, causes: Sequence[Cause]) -> dict[str, object] | None:
+    if not causes:
+        return None
+    return revised(setting.fitted_machine or setting.machine, causes[0]).model_dump(mode="json")
+
+
 def _sites(weights: Mapping[str, float]) -> tuple[PlaceWeight, ...]:
     total: dict[str, float] = {}
     for name, weight in weights.items():
@@ -121,7 +127,9 @@ def _fitted_change(found: Found, name: str, observed: np.ndarray) -> np.ndarray:
     return np.asarray(0.5 * (changes[max(first, 0)] + changes[second]) if first >= 0 else 0.5 * changes[second])
 
 
-def answer(setting: Setting, found: Found, gate: Gate, cost: Mapping[str, object]) -> Report:
+def answer(
+    setting: Setting, found: Found, gate: Gate, cost: Mapping[str, object], fit: Mapping[str, object] | None = None
+) -> Report:
     """The report of a machine-level reconciliation."""
     observed = setting.changes.observed
     decision = decide(found.screen, views=len(setting.channels) * len(setting.data))
@@ -153,8 +161,8 @@ def answer(setting: Setting, found: Found, gate: Gate, cost: Mapping[str, object
         held_out=held,
         undecidable=tuple(decision.reasons) if decision.word in ("ambiguous", "not_decidable") else (),
         next_experiment=next_experiment(decision.chosen, lead, len(setting.data), setting.channels),
-        machine=revised(setting.machine, causes[0]).model_dump(mode="json") if causes else None,
-        stages=_stages(setting, found, gate, decision),
+        machine=_revised_document(setting, causes),
+        stages=_stages(setting, found, gate, decision, fit or {}),
         pictures={
             "spectra": spectra(setting.data, setting.seen_through, fitted, layout, setting.channels),
             "ranking": ranking(found.screen, max(lead, 1.0), named) if missing else [],
@@ -185,7 +193,9 @@ def _held(setting: Setting, found: Found, decision: Decision, layout: Layout) ->
     )
 
 
-def _stages(setting: Setting, found: Found, gate: Gate, decision: Decision) -> tuple[Mapping[str, object], ...]:
+def _stages(
+    setting: Setting, found: Found, gate: Gate, decision: Decision, fit: Mapping[str, object]
+) -> tuple[Mapping[str, object], ...]:
     speeds: Sequence[str] = [
         f"{d.point.speed_hz:g} Hz stated, {d.spectra[0].speed_hz:.3f} Hz found ({d.spectra[0].estimate.method})"
         for d in setting.data
@@ -194,7 +204,7 @@ def _stages(setting: Setting, found: Found, gate: Gate, decision: Decision) -> t
     return (
         _gate_stage(gate),
         {"name": "observe", "speeds": speeds, "features": int(np.isfinite(found.fitted.whiten.sigma).sum())},
-        {"name": "calibrate", "median_gain_db": gains, "mode": "A" if setting.changes.with_baseline else "B"},
+        {"name": "calibrate", "median_gain_db": gains, "mode": "A" if setting.changes.with_baseline else "B", **fit},
         {
             "name": "is anything missing",
             "length": found.screen.length,

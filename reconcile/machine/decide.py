@@ -14,7 +14,7 @@ from sim.terms import REGISTRY
 DETECT_P = 0.01
 ALSO_P = 0.05
 """A pattern counts only if the whole change is unusual too."""
-GLARING = 15.0
+GLARING = 8.0
 """Deviations of the most changed group of features from which a change needs no known pattern: beyond what mis-set
 parameters did on the development nulls."""
 STRANGE = 0.98
@@ -26,6 +26,8 @@ LEAST_EVIDENCE = 3.0
 FEW_VIEWS = 2
 """So few sensors and operating points together cannot exclude what explains half as much."""
 FEW_SHARE = 0.5
+FAINT = 14.0
+"""Deviations of the most changed group below which a change that no effect explains may be too faint to tell."""
 MOST_NAMED = 6
 """A set larger than this says nothing: the place or the mechanism is then not decidable."""
 
@@ -81,6 +83,11 @@ def chance(screen: Screen) -> float:
     return min(1.0, 2.0 * min(pattern, glaring))
 
 
+def remarkable(screen: Screen) -> bool:
+    """Whether it is worth a closer look: a pattern, or a change, that few healthy machines show."""
+    return screen.p_any <= ALSO_P or screen.p_best <= ALSO_P
+
+
 def decide(screen: Screen, *, views: int, strange: float = STRANGE) -> Decision:
     """Nothing missing, one name, a set, or none of the known. `views`: sensors times operating points."""
     p = chance(screen)
@@ -93,7 +100,11 @@ def decide(screen: Screen, *, views: int, strange: float = STRANGE) -> Decision:
     if views <= FEW_VIEWS:
         chosen = _not_excluded(screen, weights, chosen)
     evidence = {name: float(screen.evidence[screen.names.index(name)]) for name in chosen}
-    if screen.misfit > strange or evidence[chosen[0]] < LEAST_EVIDENCE:
+    weak = evidence[chosen[0]] < LEAST_EVIDENCE
+    if weak and screen.strongest < FAINT:
+        reason = "the change is too faint to tell one effect from another"
+        return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(reason,))
+    if screen.misfit > strange or weak:
         reason = f"the best known effect fits worse than {screen.misfit:.0%} of simulated ones do"
         return Decision(word="unknown_physics", chosen=chosen[:3], p=p, reasons=(reason,))
     if len(chosen) == 1:

@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from reconcile.atlas.bank import Mapper, make_bank
+import numpy as np
+
+from reconcile.atlas.bank import Mapper
 from reconcile.atlas.candidates import Candidate, candidates
 from reconcile.atlas.keep import Forgetful, Keeper, kept_bank
 from reconcile.atlas.places import simulated_channels, standard_channels
-from reconcile.atlas.plan import NULL_PAIRS, AtlasPlan, atlas_plan, with_tooth_pairs
+from reconcile.atlas.plan import AtlasPlan, atlas_plan, with_tooth_pairs
 from reconcile.calibrate.uncertain import uncertain_numbers
 from reconcile.gate import inspect_measurement
 from reconcile.gate.findings import Gate
 from reconcile.judge.changes import lenses, observed_changes
 from reconcile.judge.screen import fit_space, judge
 from reconcile.machine.answer import answer, fault_answer
-from reconcile.machine.decide import credible_set, merged_weights
+from reconcile.machine.decide import credible_set, merged_weights, remarkable
 from reconcile.machine.library import Catalogued, catalogued, joined
+from reconcile.machine.local import around_baseline, first_heat, second_heat, simulated_banks, told
+from reconcile.machine.meter import Meter
 from reconcile.machine.refine import best_draws, refined_plan
 from reconcile.machine.setting import Found, Setting
 from reconcile.observe.observation import observe
@@ -34,15 +37,18 @@ REFINED_DRAWS = 8
 
 @dataclass(frozen=True, kw_only=True)
 class Budget:
-    """How much is simulated beyond the atlas: `effects` best candidates in each of `rounds`."""
+    """How much is simulated beyond the atlas, on machines that agree with the baseline: the best `terms` at all sites,
+    more of the best `candidates`, then the `effects` best near their best draws in each of `rounds`."""
 
     name: Literal["quick", "full"]
+    terms: int
+    candidates: int
     effects: int
     rounds: int
 
 
-QUICK = Budget(name="quick", effects=5, rounds=1)
-FULL = Budget(name="full", effects=8, rounds=2)
+QUICK = Budget(name="quick", terms=20, candidates=8, effects=3, rounds=1)
+FULL = Budget(name="full", terms=100, candidates=20, effects=6, rounds=2)
 BUDGETS = {"quick": QUICK, "full": FULL}
 
 
@@ -66,7 +72,7 @@ def reconcile_machine(
 
     `nominated` limits the effects considered; without it every registered effect at every site is a candidate.
     """
-    started = time.process_time()
+    meter = Meter(mapper)
     progress(0.0, "sensor gate")
     gate = _gate(machine, tests, baselines, seed)
     if not gate.usable:
@@ -74,19 +80,24 @@ def reconcile_machine(
     paired = with_tooth_pairs(machine)
     chosen = candidates(paired) if nominated is None else tuple(nominated)
     plan = atlas_plan(paired, uncertain_numbers(paired), chosen, seed=seed)
-    setting = _setting(machine, gate, plan, keeper or Forgetful(), mapper, progress)
-    atlas_s = time.process_time() - started
+    setting = _setting(machine, gate, plan, keeper or Forgetful(), meter, progress)
+    atlas_s = meter.spent_s()
     progress(0.6, "candidates")
     found = _screened(setting)
-    for turn in range(budget.rounds):
-        progress(0.7 + 0.2 * turn / budget.rounds, "refining the best candidates")
-        if found.screen.p_any > 0.05 and found.screen.p_best > 0.05:
-            break
-        found = _refined(setting, found, budget, mapper, turn)
+    fit: Mapping[str, object] = {}
+    if remarkable(found.screen):
+        progress(0.62, "machines that agree with the baseline")
+        local = around_baseline(setting, meter)
+        if local is not None:
+            progress(0.7, "candidates on these machines")
+            fit = told(local)
+            setting, found = local.setting, _located(local.setting, found, plan, budget, meter)
+        for turn in range(budget.rounds):
+            progress(0.8 + 0.1 * turn / budget.rounds, "refining the best candidates")
+            found = _refined(setting, found, budget, meter, turn)
     progress(0.9, "held-out data")
-    spent = time.process_time() - started
-    cost = {"own_process_until_atlas_s": atlas_s, "own_process_s": spent, "budget": budget.name}
-    report = answer(setting, found, gate, cost)
+    cost = {"core_s": meter.spent_s(), "until_atlas_core_s": atlas_s, "budget": budget.name}
+    report = answer(setting, found, gate, cost, fit)
     progress(1.0, "done")
     return report
 
@@ -142,18 +153,20 @@ def _screened(setting: Setting) -> Found:
     return _fit(setting, known)
 
 
-def _refined(setting: Setting, found: Found, budget: Budget, mapper: Mapper, turn: int) -> Found:
-    """Simulate the leading candidates again near their best draws, and judge with both libraries."""
-    weights = merged_weights(found.screen)
-    leading = list(weights)[: budget.effects]
-    if len(credible_set(weights, 0.999)) == 1:
-        leading = leading[:2]
-    around = [(name, best_draws(found.fitted, found.known, name, setting.changes.observed)) for name in leading]
-    plan = refined_plan(setting.plan, around, draws=REFINED_DRAWS, pairs=NULL_PAIRS, seed=setting.seed + turn)
-    distinct = tuple(sorted(set(setting.simulated)))
-    places = [distinct.index(s) for s in setting.simulated]
-    banks = [make_bank(plan, one.point, distinct, mapper).at(range(len(plan.draws)), places) for one in setting.data]
-    more = catalogued(
+def _located(setting: Setting, screened: Found, atlas: AtlasPlan, budget: Budget, mapper: Mapper) -> Found:
+    """The best of the screened candidates, simulated on the setting's own machines alone, the best of them more."""
+    ranked = [screened.screen.names[k] for k in np.argsort(-screened.screen.evidence)]
+    first = first_heat(setting.plan, ranked, atlas, budget.terms)
+    known = _simulated(setting, first, mapper)
+    found = _fit(setting, known)
+    best = [found.screen.names[k] for k in np.argsort(-found.screen.evidence)[: budget.candidates]]
+    second = second_heat(setting.plan, best, atlas, first)
+    return _fit(setting, joined(known, _simulated(setting, second, mapper)))
+
+
+def _simulated(setting: Setting, plan: AtlasPlan, mapper: Mapper) -> Catalogued:
+    banks = simulated_banks(setting, plan, mapper)
+    return catalogued(
         plan,
         banks,
         setting.seen_through,
@@ -161,4 +174,15 @@ def _refined(setting: Setting, found: Found, budget: Budget, mapper: Mapper, tur
         setting.banks,
         with_baseline=setting.changes.with_baseline,
     )
-    return _fit(setting, joined(found.known, more))
+
+
+def _refined(setting: Setting, found: Found, budget: Budget, mapper: Mapper, turn: int) -> Found:
+    """Simulate the leading candidates again near their best draws, and judge with both libraries."""
+    weights = merged_weights(found.screen)
+    leading = list(weights)[: budget.effects]
+    if len(credible_set(weights, 0.999)) == 1:
+        leading = leading[:2]
+    around = [(name, best_draws(found.fitted, found.known, name, setting.changes.observed)) for name in leading]
+    pairs = len(setting.plan.offsets)
+    plan = refined_plan(setting.plan, around, draws=REFINED_DRAWS, pairs=pairs, seed=setting.seed + turn)
+    return _fit(setting, joined(found.known, _simulated(setting, plan, mapper)))

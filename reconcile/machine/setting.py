@@ -26,6 +26,8 @@ class Setting:
     seen_through: tuple[Lens, ...]
     changes: Changes
     seed: int
+    fitted_machine: MachineSpec | None = None
+    """The mean of the machines that agree with the baseline."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reconcile.calibrate.chain import Chain
-from reconcile.observe.statistics import SHAPE_BANDS_HZ, third_octaves
+from reconcile.observe.statistics import LOBE, SHAPE_BANDS_HZ, third_octaves
 from signals.series import FloatArray
 
 SOFT = 2.0
@@ -64,8 +64,8 @@ def scale_of(chain: Chain, lines_hz: FloatArray, resolution_hz: float) -> Scale:
     """Reference levels from the noise the chain adds."""
     widths = np.array([high - low for low, high in SHAPE_BANDS_HZ])
     return Scale(
-        line_noise=chain.line_noise(lines_hz) * resolution_hz,
-        depth_noise=2.0 * resolution_hz / widths + LEAST_DEPTH,
+        line_noise=chain.line_noise(lines_hz) * LOBE * resolution_hz,
+        depth_noise=2.0 * LOBE * resolution_hz / widths + LEAST_DEPTH,
     )
 
 
@@ -118,10 +118,11 @@ def through(
     shape_widths = np.array([high - low for low, high in SHAPE_BANDS_HZ])
     gain = 10.0 ** (chain.gain_db / 10.0)
     noise = chain.noise * more
-    line = chain.line_gain(lines_hz) * bank.line + chain.line_noise(lines_hz) * more * resolution_hz  # type: ignore[attr-defined]
+    lobe = LOBE * resolution_hz
+    line = chain.line_gain(lines_hz) * bank.line + chain.line_noise(lines_hz) * more * lobe  # type: ignore[attr-defined]
     signal = chain.shape_gain() * bank.band  # type: ignore[attr-defined]
     share = signal / (signal + chain.shape_noise() * more + 1e-300)
-    depth_noise = (1.0 - share**2) * 2.0 * resolution_hz / shape_widths
+    depth_noise = (1.0 - share**2) * 2.0 * lobe / shape_widths
     return Passed(
         line=line,
         floor=gain * bank.floor + noise,  # type: ignore[attr-defined]

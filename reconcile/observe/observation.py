@@ -20,6 +20,8 @@ from sim.core.spec import MachineSpec, TorqueLoad
 
 SAME_SPEED = 0.015
 SAME_TORQUE = 0.1
+TOOTH_ORDERS = 10
+"""Harmonics of the teeth by which the angle is followed."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,15 +95,17 @@ def observe(
     seed: int = 0,
 ) -> tuple[PointData, ...]:
     """Every operating point of the tests; where baselines exist, only points that have one."""
-    orders = [float(n * g.teeth) for g in machine.gears for n in (1, 2) if _drives(machine, g.shaft)]
+    teeth = sorted({float(g.teeth) for g in machine.gears if _drives(machine, g.shaft)})
+    orders = [n * z for n in range(1, TOOTH_ORDERS + 1) for z in teeth]
+    slowest = _slowest(machine)
     known = _group(machine, baselines)
     found = []
     for point, members in _group(machine, tests):
         resting = next((b for p, b in known if _alike(p, point)), None)
         if known and resting is None:
             continue
-        now = [steady(r, orders=orders, seed=seed) for r in members]
-        before = [steady(r, orders=orders, seed=seed) for r in resting or ()]
+        now = [steady(r, orders=orders, slowest=slowest, seed=seed) for r in members]
+        before = [steady(r, orders=orders, slowest=slowest, seed=seed) for r in resting or ()]
         bases = bases_at(machine, point.speed_hz)
         middle = now[0].samples.shape[1] // 2
         found.append(
@@ -137,3 +141,9 @@ def least_turns(found: Sequence[PointData]) -> float:
 def finite_channels(found: Sequence[PointData]) -> np.ndarray:
     """Mask of channels with a signal at every point, shape (C,)."""
     return np.asarray(np.all([np.nanmax(d.test.band, axis=1) > 0 for d in found], axis=0))
+
+
+def _slowest(machine: MachineSpec) -> float:
+    """Turns of the slowest shaft a revolution of the drive shaft."""
+    turning = [hz for base, hz in bases_at(machine, 1.0).items() if base.startswith("f_r") and hz > 0.0]
+    return min(turning, default=1.0)

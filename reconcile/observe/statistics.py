@@ -12,6 +12,10 @@ SHAPE_BANDS_HZ = ((60.0, 600.0), (600.0, 2000.0), (2000.0, 4500.0), (4500.0, 800
 """Bands of the envelopes and of the moments: fixed in Hz, since structural resonances are."""
 LOWEST_BAND_HZ = 25.0
 HIGHEST_HZ = 8200.0
+LOBE = 10.0 / 3.0
+"""Noise that a line's lobe of five bins gathers, over that in the noise bandwidth of the Hann window (1.5 bins)."""
+LOBE_SCATTER = 2.1
+"""Standard deviation of that noise, in the same unit: neighbouring bins of a Hann spectrum are correlated."""
 
 
 def third_octaves() -> FloatArray:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from reconcile.speed import SpeedEstimate, estimate_speed, shaft_angle
+from reconcile.speed import SpeedEstimate, estimate_speed, followed_angle, shaft_angle
 from signals.recording import Recording
 from signals.series import FloatArray
 
@@ -26,10 +26,13 @@ class Steady:
     estimate: SpeedEstimate
 
 
-def steady(recording: Recording, *, orders: Sequence[float], seed: int = 0) -> Steady:
-    """`orders`: cycles a revolution of the drive shaft that surely exist (teeth and their multiples)."""
-    estimate = estimate_speed(recording, orders=orders, seed=seed)
-    angle = shaft_angle(recording, estimate, orders=orders)
+def steady(recording: Recording, *, orders: Sequence[float], slowest: float = 1.0, seed: int = 0) -> Steady:
+    """`orders`: cycles a revolution of the drive shaft that surely exist (teeth and their multiples).
+
+    `slowest`: turns of the slowest shaft a revolution of the drive shaft.
+    """
+    estimate = estimate_speed(recording, orders=orders[:2], seed=seed)
+    angle = _angle(recording, estimate, orders, slowest)
     known = np.isfinite(angle)
     samples, turns = recording.samples[:, known], angle[known] / (2 * np.pi)
     rate = recording.sampling_rate_hz
@@ -42,3 +45,14 @@ def steady(recording: Recording, *, orders: Sequence[float], seed: int = 0) -> S
     at = np.interp(wanted, turns, time)
     spline = CubicSpline(time, samples, axis=1)
     return Steady(samples=np.asarray(spline(at)), rate_hz=rate, speed_hz=speed, estimate=estimate)
+
+
+def _angle(recording: Recording, estimate: SpeedEstimate, orders: Sequence[float], slowest: float) -> FloatArray:
+    """Pulses where there are any; else all lines of the teeth together; else what single channels give."""
+    if estimate.method != "tacho" and orders:
+        angle = followed_angle(
+            recording.samples, recording.sampling_rate_hz, estimate.speed_hz, orders=orders, slowest=slowest
+        )
+        if angle is not None:
+            return angle
+    return shaft_angle(recording, estimate, orders=orders[:2])

@@ -2,5 +2,6 @@
 
 from reconcile.speed.angle import shaft_angle
 from reconcile.speed.estimate import Method, SpeedEstimate, estimate_speed
+from reconcile.speed.follow import followed_angle
 
-__all__ = ["Method", "SpeedEstimate", "estimate_speed", "shaft_angle"]
+__all__ = ["Method", "SpeedEstimate", "estimate_speed", "followed_angle", "shaft_angle"]

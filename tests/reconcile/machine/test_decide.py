@@ -14,6 +14,7 @@ from reconcile.machine.decide import (
     credible_set,
     decide,
     merged_weights,
+    remarkable,
     variants,
 )
 from reconcile.machine.words import next_experiment, sentence, title
@@ -145,3 +146,13 @@ def test_few_views_do_not_exclude_what_explains_half_as_much() -> None:
     assert decide(one, views=9).word == "explained"
     few = decide(one, views=1)
     assert few.word == "ambiguous" and len(few.chosen) == 2
+
+
+@pytest.mark.parametrize(("strongest", "word"), [(10.0, "not_decidable"), (30.0, "unknown_physics")])
+def test_a_change_without_a_pattern_is_faint_or_unknown(strongest: float, word: str) -> None:
+    assert decide(screen([1.0, 0.5], strongest=strongest, misfit=0.5), views=9).word == word
+
+
+def test_a_closer_look_is_taken_only_where_something_is_unusual() -> None:
+    assert not remarkable(screen([1.0], p_any=0.3, p_best=0.2))
+    assert remarkable(screen([1.0], p_any=0.01, p_best=0.5)) and remarkable(screen([1.0], p_any=0.5, p_best=0.01))

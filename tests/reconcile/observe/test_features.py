@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from reconcile.calibrate.chain import Chain
 from reconcile.observe.features import Layout, scale_of, soft_features, through
-from reconcile.observe.statistics import SHAPE_BANDS_HZ, third_octaves
+from reconcile.observe.statistics import LOBE, SHAPE_BANDS_HZ, third_octaves
 
 BANDS = third_octaves().size - 1
 SHAPES = len(SHAPE_BANDS_HZ)
@@ -56,13 +56,13 @@ def test_noise_adds_powers_and_dilutes_shapes(seed: int, noise: float, louder: f
     here = bank(seed)
     passed = through(chain(0.0, noise), here, LINES_HZ, RESOLUTION_HZ, louder)
     density = noise * louder
-    np.testing.assert_allclose(passed.line, here.line + density * RESOLUTION_HZ)
+    np.testing.assert_allclose(passed.line, here.line + density * LOBE * RESOLUTION_HZ)
     np.testing.assert_allclose(passed.floor, here.floor + density)
     np.testing.assert_allclose(passed.total, here.total + density * np.diff(third_octaves()))
     share = here.band / (here.band + density * WIDTHS)
     np.testing.assert_allclose(passed.kurtosis, here.kurtosis * share**2)
     np.testing.assert_allclose(passed.skewness, here.skewness * share**1.5)
-    flat = (1 - share**2) * 2 * RESOLUTION_HZ / WIDTHS
+    flat = (1 - share**2) * 2 * LOBE * RESOLUTION_HZ / WIDTHS
     np.testing.assert_allclose(passed.depth, here.depth * share[..., None] ** 2 + flat[..., None])
 
 

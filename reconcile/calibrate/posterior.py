@@ -1,0 +1,156 @@
+"""Stage 1: machines of the kind that agree with the baseline, by an iterated ensemble smoother.
+
+Healthy machines drawn from the specification's uncertainty are moved together towards the levels of the mesh lines in
+the baseline recordings: ensemble smoother with multiple data assimilation, A. A. Emerick and A. C. Reynolds, Computers
+& Geosciences 55 (2013) 3-15, equations 1-4 with equal inflation. The sensors' paths are unknown: they enter as
+correlated errors, smooth over frequency and the same at all speeds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.atlas.bank import Bank
+from reconcile.calibrate.uncertain import SPREAD, Offsets
+from reconcile.observe.features import SOFT, Scale
+from reconcile.observe.statistics import Statistics
+from signals.series import FloatArray
+
+ROUNDS = 2
+PATH_DB = 6.0
+"""Standard deviation of a sensor's path over frequency, and its common gain's."""
+GAIN_DB = 10.0
+PATH_OCTAVES = 0.5
+MODEL_DB = 1.5
+"""What the model itself is wrong by at a line: shapes of teeth, damping."""
+STANDS_OUT_DB = 6.0
+FARTHEST = 1.6
+"""Parameters stay within this many times their declared spread."""
+DB = 10.0 / np.log(10.0)
+
+Simulate = Callable[[Sequence[Offsets]], Sequence[Bank]]
+"""Healthy machines with these offsets at every operating point."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evidence:
+    """What the baseline says: levels (n,) in dB, their line's place (point, channel, line) and frequency, Hz."""
+
+    levels_db: FloatArray
+    point: np.ndarray
+    channel: np.ndarray
+    line: np.ndarray
+    frequency_hz: FloatArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Posterior:
+    """`offsets`: machines that agree with the baseline. `banks`: how they behave at every point.
+
+    `misfit`: median over machines of the mean squared standardised residual, before and after (1: within errors).
+    `determined` (numbers,): share of each number's prior variance that the baseline removed. `strayed`: numbers whose
+    mean left the declared spread.
+    """
+
+    offsets: tuple[Offsets, ...]
+    banks: tuple[Bank, ...]
+    misfit: tuple[float, float]
+    determined: FloatArray
+    strayed: np.ndarray
+
+
+def mesh_evidence(
+    recorded: Sequence[Statistics], scales: Sequence[Scale], lines_hz: Sequence[FloatArray], mesh: np.ndarray
+) -> Evidence:
+    """Lines (`mesh`: mask (L,)) that stand out of the noise of the baselines."""
+    levels, points, channels, lines, frequencies = [], [], [], [], []
+    for p, (seen, scale, hz) in enumerate(zip(recorded, scales, lines_hz, strict=True)):
+        power = np.nan_to_num(seen.line - scale.line_noise)
+        out = mesh[None, :] & (power > SOFT * 10.0 ** (STANDS_OUT_DB / 10.0) * scale.line_noise)
+        c, i = np.nonzero(out)
+        levels.append(DB * np.log(power[out]))
+        points.append(np.full(c.size, p))
+        channels.append(c)
+        lines.append(i)
+        frequencies.append(hz[i])
+    return Evidence(
+        levels_db=np.concatenate(levels),
+        point=np.concatenate(points),
+        channel=np.concatenate(channels),
+        line=np.concatenate(lines),
+        frequency_hz=np.concatenate(frequencies),
+    )
+
+
+def _shown(banks: Sequence[Bank], evidence: Evidence) -> FloatArray:
+    """The same levels of simulated machines, (N, n); NaN where a machine did not run."""
+    found = np.empty((banks[0].line.shape[0], evidence.levels_db.size))
+    for k in range(evidence.levels_db.size):
+        line = banks[evidence.point[k]].line[:, evidence.channel[k], evidence.line[k]]
+        found[:, k] = DB * np.log(line + 1e-300)
+    return found
+
+
+def _errors(evidence: Evidence) -> FloatArray:
+    """Covariance (n, n) of path, gain and model, dB^2."""
+    octaves = np.log2(evidence.frequency_hz)
+    same = evidence.channel[:, None] == evidence.channel[None, :]
+    path = PATH_DB**2 * np.exp(-0.5 * ((octaves[:, None] - octaves[None, :]) / PATH_OCTAVES) ** 2)
+    return np.asarray(np.where(same, path + GAIN_DB**2, 0.0) + MODEL_DB**2 * np.eye(octaves.size))
+
+
+def _misfit(residual: FloatArray, errors: FloatArray) -> float:
+    solved = np.linalg.solve(errors, residual.T)
+    return float(np.median(np.sum(residual.T * solved, axis=0)) / residual.shape[1])
+
+
+def calibrated(
+    start: Sequence[Offsets], banks: Sequence[Bank], evidence: Evidence, simulate: Simulate, *, seed: int
+) -> Posterior | None:
+    """Moved machines; None where the baseline has too few lines to say anything."""
+    count = evidence.levels_db.size
+    if count < 3:
+        return None
+    rng = np.random.default_rng([seed, 11])
+    errors = _errors(evidence)
+    theta = np.array([o.values for o in start])
+    prior = theta.var(axis=0)
+    shown = _shown(banks, evidence)
+    good = np.asarray(np.isfinite(shown).all(axis=1))
+    before = _misfit(evidence.levels_db - shown[good], errors)
+    for _ in range(ROUNDS):
+        theta = _moved(theta, shown, good, evidence, ROUNDS * errors, rng)
+        banks = tuple(simulate([Offsets(values=row) for row in theta]))
+        shown = _shown(banks, evidence)
+        good = np.asarray(np.isfinite(shown).all(axis=1) & np.all([b.alive for b in banks], axis=0))
+        if good.sum() < 4:
+            return None
+    kept = np.flatnonzero(good)
+    offsets = tuple(Offsets(values=theta[k]) for k in kept)
+    return Posterior(
+        offsets=offsets,
+        banks=tuple(b.at(kept, range(b.band.shape[1])) for b in banks),
+        misfit=(before, _misfit(evidence.levels_db - shown[good], errors)),
+        determined=np.asarray(1.0 - theta.var(axis=0) / np.maximum(prior, 1e-12)),
+        strayed=np.abs(theta.mean(axis=0)) > SPREAD,
+    )
+
+
+def _moved(
+    theta: FloatArray,
+    shown: FloatArray,
+    good: np.ndarray,
+    evidence: Evidence,
+    errors: FloatArray,
+    rng: np.random.Generator,
+) -> FloatArray:
+    """One assimilation: every machine against the levels with an error of its own."""
+    mean = shown[good].mean(axis=0)
+    a, b = theta[good] - theta[good].mean(axis=0), shown[good] - mean
+    gain = np.linalg.solve(b.T @ b / (good.sum() - 1) + errors, b.T @ a / (good.sum() - 1))
+    noise = rng.standard_normal((theta.shape[0], errors.shape[0])) @ np.linalg.cholesky(errors).T
+    away = evidence.levels_db + noise - np.where(good[:, None], shown, mean)
+    return np.asarray(np.clip(theta + away @ gain, -FARTHEST * SPREAD, FARTHEST * SPREAD))

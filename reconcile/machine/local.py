@@ -1,0 +1,165 @@
+"""Stages 1 and 5 where a baseline exists: the candidates on machines that agree with it.
+
+The atlas knows only machines of the kind; which resonance a mesh harmonic meets differs among them, and so do the
+changes an effect brings. Machines that agree with the baseline show what the effect would change on this one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reconcile.atlas.bank import ARRAYS, Bank, Mapper, make_bank
+from reconcile.atlas.plan import AtlasPlan, Draw
+from reconcile.calibrate.posterior import Posterior, calibrated, mesh_evidence
+from reconcile.calibrate.uncertain import DRIFT, Offsets, draw_offsets, moved
+from reconcile.judge.changes import lenses, observed_changes
+from reconcile.machine.library import share_of
+from reconcile.machine.setting import Setting
+from reconcile.observe.watch import watch_list
+from signals.series import FloatArray
+
+MACHINES = 24
+"""Machines that are fitted to the baseline."""
+FIRST_SIZES = (4, 6, 2, 5, 7, 3, 1, 0)
+"""Ranks by size in the order in which the draws of a candidate are simulated."""
+LANES = 8
+"""Machines that cost no more than one: vector lanes hold one effect."""
+LEAST_DRAWS = 2
+TOLD = 12
+DECIDED = 0.3
+"""Share of its variance that the baseline must take from a number to count as decided."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Local:
+    """A setting whose healthy machines agree with the baseline, and how well they do."""
+
+    setting: Setting
+    posterior: Posterior
+
+
+def simulated_banks(setting: Setting, plan: AtlasPlan, mapper: Mapper) -> tuple[Bank, ...]:
+    """All draws of a plan at the operating points and channels of the setting."""
+    distinct = tuple(sorted(set(setting.simulated)))
+    places = [distinct.index(s) for s in setting.simulated]
+    rows = range(len(plan.draws))
+    return tuple(make_bank(plan, one.point, distinct, mapper).at(rows, places) for one in setting.data)
+
+
+def around_baseline(setting: Setting, mapper: Mapper) -> Local | None:
+    """None without a baseline, or where it does not say enough."""
+    recorded = [d.baseline for d in setting.data if d.baseline is not None]
+    if len(recorded) < len(setting.data):
+        return None
+    plan = setting.plan
+    mesh = np.array([w.family == "mesh" for w in watch_list(setting.machine).lines], dtype=bool)
+    evidence = mesh_evidence(
+        recorded, [x.scale for x in setting.seen_through], [d.lines_hz for d in setting.data], mesh
+    )
+    alive = np.all([b.alive for b in setting.banks], axis=0)
+    first = [k for k, d in enumerate(plan.draws) if d.candidate is None and not d.twin and alive[k]][:MACHINES]
+
+    def simulate(offsets: Sequence[Offsets]) -> tuple[Bank, ...]:
+        healthy = tuple(Draw(pair=k) for k in range(len(offsets)))
+        fitted = replace(plan, offsets=tuple(offsets), twins=tuple(offsets), draws=healthy)
+        return simulated_banks(setting, fitted, mapper)
+
+    start = [plan.offsets[plan.draws[k].pair] for k in first]
+    banks = [b.at(first, range(b.band.shape[1])) for b in setting.banks]
+    posterior = calibrated(start, banks, evidence, simulate, seed=setting.seed)
+    return None if posterior is None else _with_twins(setting, posterior, mapper)
+
+
+def _with_twins(setting: Setting, posterior: Posterior, mapper: Mapper) -> Local:
+    """The fitted machines and what drift does to each."""
+    rng = np.random.default_rng([setting.seed, 12])
+    plan = setting.plan
+    twins = tuple(o.mixed(draw_offsets(plan.numbers, rng), DRIFT) for o in posterior.offsets)
+    pairs = range(len(posterior.offsets))
+    drifted = replace(plan, offsets=posterior.offsets, twins=twins, draws=tuple(Draw(pair=k, twin=True) for k in pairs))
+    second = simulated_banks(setting, drifted, mapper)
+    both = replace(drifted, draws=(*(Draw(pair=k) for k in pairs), *drifted.draws))
+    banks = tuple(stacked(a, b) for a, b in zip(posterior.banks, second, strict=True))
+    seen = lenses(setting.data, banks, both)
+    return Local(
+        setting=replace(
+            setting,
+            plan=both,
+            banks=banks,
+            seen_through=seen,
+            changes=observed_changes(setting.data, seen, banks, both),
+            fitted_machine=moved(plan.machine, plan.numbers, _middle(posterior)),
+        ),
+        posterior=posterior,
+    )
+
+
+def stacked(first: Bank, second: Bank) -> Bank:
+    """Draws of both, one after the other."""
+
+    def both(name: str) -> FloatArray:
+        return np.concatenate([getattr(first, name), getattr(second, name)])
+
+    return Bank(
+        alive=both("alive"),
+        resolution_hz=first.resolution_hz,
+        duration_s=first.duration_s,
+        **{name: both(name) for name in ARRAYS},
+    )
+
+
+def first_heat(plan: AtlasPlan, ranked: Sequence[str], atlas: AtlasPlan, terms: int) -> AtlasPlan:
+    """The best `terms` effects at all their sites on the fitted machines, so many draws that vector lanes fill."""
+    sites: dict[str, list[str]] = {}
+    for name in ranked:
+        sites.setdefault(name.split("@")[0], []).append(name)
+    draws = {name: max(LEAST_DRAWS, LANES // len(names)) for names in list(sites.values())[:terms] for name in names}
+    return _planned(plan, {name: (0, count) for name, count in draws.items()}, atlas)
+
+
+def second_heat(plan: AtlasPlan, best: Sequence[str], atlas: AtlasPlan, before: AtlasPlan) -> AtlasPlan:
+    """All draws of the `best` candidates that were not simulated `before`."""
+    done = [d.candidate.label for d in before.draws if d.candidate is not None]
+    return _planned(plan, {name: (done.count(name), LANES) for name in best}, atlas)
+
+
+def _planned(plan: AtlasPlan, wanted: Mapping[str, tuple[int, int]], atlas: AtlasPlan) -> AtlasPlan:
+    """The atlas' own draws of each candidate from one number to another, middle and large sizes first."""
+    known: dict[str, list[Draw]] = {}
+    for draw in atlas.draws:
+        if draw.candidate is not None and draw.term is not None:
+            known.setdefault(draw.candidate.label, []).append(draw)
+    planned: list[Draw] = []
+    for number, (name, (first, last)) in enumerate(wanted.items()):
+        by_size = sorted(known.get(name, []), key=share_of)
+        order = [k for k in FIRST_SIZES if k < len(by_size)] + list(range(len(FIRST_SIZES), len(by_size)))
+        taken = [by_size[k] for k in order[first:last]]
+        planned += [replace(d, pair=(number + 5 * (first + j)) % len(plan.offsets)) for j, d in enumerate(taken)]
+    return replace(plan, draws=tuple(planned))
+
+
+def told(local: Local) -> dict[str, object]:
+    """What the calibration found, for the report: how well, which numbers the baseline decides, which it cannot."""
+    posterior = local.posterior
+    labels = [n.label for n in local.setting.plan.numbers]
+    order = np.argsort(-posterior.determined)
+    middle = _middle(posterior).values
+    return {
+        "machines": len(posterior.offsets),
+        "misfit_before": posterior.misfit[0],
+        "misfit_after": posterior.misfit[1],
+        "decided": [
+            {"number": labels[k], "share": float(posterior.determined[k]), "offset": float(middle[k])}
+            for k in order[:TOLD]
+            if posterior.determined[k] > DECIDED
+        ],
+        "undecided": int(np.sum(posterior.determined <= DECIDED)),
+        "strayed": [labels[k] for k in np.flatnonzero(posterior.strayed)],
+    }
+
+
+def _middle(posterior: Posterior) -> Offsets:
+    return Offsets(values=np.mean([o.values for o in posterior.offsets], axis=0))

@@ -1,0 +1,48 @@
+"""Processor seconds of a reconciliation, those of its worker processes included."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+
+from reconcile.atlas.bank import Mapper, Task
+from reconcile.observe.statistics import Statistics
+
+Work = Callable[[Task], list[Statistics | None]]
+
+
+@dataclass(frozen=True)
+class Timed:
+    """A task's result with what it cost."""
+
+    work: Work
+
+    def __call__(self, task: Task) -> tuple[float, list[Statistics | None]]:
+        """Processor seconds and the result."""
+        started = time.process_time()
+        found = self.work(task)
+        return time.process_time() - started, found
+
+
+@dataclass
+class Meter:
+    """A mapper that adds up the processor seconds of its tasks, wherever they run."""
+
+    mapper: Callable[..., Iterable[tuple[float, list[Statistics | None]]]] | Mapper
+    own: float = field(default_factory=time.process_time)
+    elsewhere_s: float = 0.0
+    local: bool = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.local = self.mapper is map
+
+    def __call__(self, work: Work, tasks: Iterable[Task]) -> Iterator[list[Statistics | None]]:
+        """The results in order."""
+        for seconds, found in self.mapper(Timed(work), tasks):  # type: ignore[arg-type]
+            self.elsewhere_s += 0.0 if self.local else seconds  # type: ignore[operator]
+            yield found  # type: ignore[misc]
+
+    def spent_s(self) -> float:
+        """Since this meter was made."""
+        return time.process_time() - self.own + self.elsewhere_s

@@ -1,0 +1,68 @@
+"""Which draws the heats simulate, and what a reconciliation costs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import pytest
+
+from reconcile.atlas.bank import Task
+from reconcile.atlas.candidates import candidates
+from reconcile.atlas.plan import AtlasPlan, Point, atlas_plan
+from reconcile.calibrate.uncertain import uncertain_numbers
+from reconcile.machine.library import share_of
+from reconcile.machine.local import LANES, first_heat, second_heat
+from reconcile.machine.meter import Meter
+from reconcile.observe.statistics import Statistics
+from sim import presets
+
+RANKED = ("outer_spall@bearing2", "inner_spall@bearing1", "outer_spall@bearing1", "tooth_crack@gear", "backlash@mesh1")
+
+
+@pytest.fixture(scope="module")
+def atlas() -> AtlasPlan:
+    machine = presets.preset("paper-lightly-damped")
+    chosen = [c for c in candidates(machine) if c.label in RANKED]
+    return atlas_plan(machine, uncertain_numbers(machine), chosen, seed=1)
+
+
+def labels(plan: AtlasPlan) -> list[str]:
+    return [d.candidate.label for d in plan.draws if d.candidate is not None]
+
+
+def test_the_first_heat_fills_lanes_with_the_best_effects_at_all_their_sites(atlas: AtlasPlan) -> None:
+    found = labels(first_heat(atlas, RANKED, atlas, terms=3))
+    assert found.count("outer_spall@bearing2") == found.count("outer_spall@bearing1") == LANES // 2
+    assert found.count("inner_spall@bearing1") == found.count("tooth_crack@gear") == LANES
+    assert "backlash@mesh1" not in found
+
+
+def test_the_second_heat_simulates_what_the_first_did_not(atlas: AtlasPlan) -> None:
+    first = first_heat(atlas, RANKED, atlas, terms=1)
+    second = second_heat(atlas, RANKED[:2], atlas, first)
+    assert labels(second).count("outer_spall@bearing2") == LANES // 2 and labels(second).count(RANKED[1]) == LANES
+    sizes = sorted(share_of(d) for p in (first, second) for d in p.draws if d.candidate.label == RANKED[0])  # type: ignore[union-attr]
+    known = sorted(share_of(d) for d in atlas.draws if d.candidate is not None and d.candidate.label == RANKED[0])
+    assert sizes == known, "all of the atlas' sizes, each once"
+    assert share_of(first.draws[0]) > float(np.median(known)), "large sizes first"
+
+
+def busy(task: Task) -> list[Statistics | None]:
+    return [None] * len(task.draws)
+
+
+def elsewhere(work: object, tasks: Iterable[Task]) -> Iterable[object]:
+    for task in tasks:
+        _, found = work(task)  # type: ignore[operator]
+        yield 5.0, found
+
+
+def test_seconds_of_other_processes_count(atlas: AtlasPlan) -> None:
+    task = Task(plan=atlas, draws=(0, 1), point=Point(speed_hz=30.0), channels=("a",))
+    meter = Meter(elsewhere)
+    assert list(meter(busy, [task, task])) == [[None, None]] * 2
+    assert 10.0 <= meter.spent_s() < 11.0
+    own = Meter(map)
+    list(own(busy, [task]))
+    assert own.spent_s() < 1.0
