@@ -14,6 +14,7 @@ from starlette.responses import Response
 from jobs import errors
 from jobs.validation import problem_of, shown
 from sim.core.errors import Diverged, Problem, SidebandError, SpecError, UnknownName
+from sim.core.near import did_you_mean
 
 MEDIA_TYPE = "application/problem+json"
 RETRY_AFTER_S = 5
@@ -104,7 +105,7 @@ def _fields(error: SidebandError, location: str) -> Sequence[FieldError]:
 
 
 def _choice(kind: str, name: str, known: Sequence[str]) -> FieldError:
-    message = f"is not a known {kind}"
+    message = f"is not a known {kind}{did_you_mean(name, known)}"
     return FieldError(field=kind, location="path", message=message, given=shown(name), allowed=", ".join(known))
 
 
@@ -128,13 +129,13 @@ def field_error(problem: Problem, location: str = "body") -> FieldError:
     )
 
 
-def request_errors(details: Sequence[ErrorDetails]) -> list[FieldError]:
-    """Findings of the framework's own validation; their first place says where the field is."""
+def request_errors(details: Sequence[ErrorDetails], body: type[BaseModel] | None = None) -> list[FieldError]:
+    """Findings of the framework's own validation; their first place says where the field is. `body`: what is read."""
     found = []
     for item in details:
         location, *rest = item["loc"] or ("body",)
         inner = ErrorDetails(**{**item, "loc": tuple(rest)})
-        found.append(field_error(problem_of(inner), str(location)))
+        found.append(field_error(problem_of(inner, model=body if location == "body" else None), str(location)))
     return found
 
 
