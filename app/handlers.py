@@ -13,7 +13,8 @@ from starlette.responses import Response
 
 from app import problems
 from app.guards.upload import UploadRefused
-from sim.core.errors import SidebandError
+from jobs.errors import UnknownArtefact
+from sim.core.errors import SidebandError, UnknownName
 
 log = logging.getLogger(__name__)
 
@@ -37,6 +38,8 @@ async def _ours(request: Request, error: Exception) -> Response:
     assert isinstance(error, SidebandError)
     # Reading has no body: what is wrong was in the query.
     location = "query" if request.method in ("GET", "HEAD") else "body"
+    if isinstance(error, UnknownName | UnknownArtefact) and error.name in request.path_params.values():
+        location = "path"
     return problems.response(problems.told(error, location), request.url.path)
 
 

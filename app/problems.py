@@ -95,18 +95,18 @@ def _fields(error: SidebandError, location: str) -> Sequence[FieldError]:
     if isinstance(error, SpecError):
         return [field_error(problem, location) for problem in error.problems]
     if isinstance(error, UnknownName):
-        return [_choice(error.kind, error.name, error.known)]
+        return [_choice(error.kind, error.name, error.known, location)]
     if isinstance(error, errors.UnknownArtefact) and error.known:
-        return [_choice(error.kind, error.name, error.known)]
+        return [_choice(error.kind, error.name, error.known, location)]
     if isinstance(error, errors.IdempotencyConflict):
         message = "was used with another request"
         return [FieldError(field="Idempotency-Key", location="header", message=message, given=error.key)]
     return ()
 
 
-def _choice(kind: str, name: str, known: Sequence[str]) -> FieldError:
+def _choice(kind: str, name: str, known: Sequence[str], location: str) -> FieldError:
     message = f"is not a known {kind}{did_you_mean(name, known)}"
-    return FieldError(field=kind, location="path", message=message, given=shown(name), allowed=", ".join(known))
+    return FieldError(field=kind, location=location, message=message, given=shown(name), allowed=", ".join(known))
 
 
 def _headers(error: SidebandError, status: int) -> dict[str, str]:

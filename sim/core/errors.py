@@ -66,7 +66,12 @@ class Diverged(SidebandError, ArithmeticError):
 
     def __init__(self, *, time_s: float, dof: str, advice: str) -> None:
         self.time_s, self.dof, self.advice = time_s, dof, advice
-        super().__init__(f"simulation diverged at t = {time_s:.6g} s in {dof}; {advice}")
+        super().__init__(f"{self.what}; {advice}")
+
+    @property
+    def what(self) -> str:
+        """What happened, without the advice."""
+        return f"simulation diverged at t = {self.time_s:.6g} s in {self.dof}"
 
 
 class Cancelled(SidebandError):
