@@ -102,7 +102,10 @@ def machine_of(choice: MachineChoice, engine: Engine) -> MachineSpec:
     names = engine.preset_names()
     if choice.preset is None or choice.preset not in names:
         problem = Problem(
-            field="preset", message=f"is not a known preset{did_you_mean(choice.preset, names)}", given=choice.preset, allowed=", ".join(names)
+            field="preset",
+            message=f"is not a known preset{did_you_mean(choice.preset, names)}",
+            given=choice.preset,
+            allowed=", ".join(names),
         )
         raise SpecError(problem)
     return apply_overrides(engine.preset(choice.preset), choice.set)

@@ -42,7 +42,7 @@ def test_a_filter_above_half_the_clock_is_told(cutoff_hz, count):
     channel = {
         "kind": "accelerometer",
         "name": "a",
-        "place": {"location": "bearing1", "axis": "y"},
+        "place": {"location": "bearing1"},
         "anti_alias": {"cutoff_hz": cutoff_hz},
     }
     chain = SensorChain.model_validate({"clock": {"sampling_rate_hz": 25_600.0}, "channels": [channel]})

@@ -118,7 +118,10 @@ def checked(given: Mapping[str, object]) -> dict[str, float]:
 
 def _unknown(name: str) -> Problem:
     return Problem(
-        field=f"parameters.{name}", message=f"is not a known parameter{did_you_mean(name, KEYS)}", given=name, allowed=", ".join(KEYS)
+        field=f"parameters.{name}",
+        message=f"is not a known parameter{did_you_mean(name, KEYS)}",
+        given=name,
+        allowed=", ".join(KEYS),
     )
 
 
