@@ -10,10 +10,11 @@ from jobs.demonstration import demonstration, predicted
 from jobs.documents import FloatArray
 from jobs.example_lines import Predicted, Seen, in_envelope, seen
 from jobs.thinning import highest
-from signals.recording import Channel, Recording, from_response
+from signals.recording import Recording, from_response
 from signals.series import Series
 from signals.spectra import amplitude_spectrum, envelope_spectrum
 from signals.spectra.types import Spectrum
+from sim.core.response import Channel
 from sim.core.spec import MachineSpec
 from sim.core.terms import Term
 from sim.solve.api import simulate

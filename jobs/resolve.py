@@ -103,7 +103,7 @@ def machine_of(choice: MachineChoice, engine: Engine) -> MachineSpec:
     if choice.preset is None or choice.preset not in names:
         problem = Problem(
             field="preset",
-            message=f"is not a known preset{did_you_mean(choice.preset, names)}",
+            message=f"is not a known preset{did_you_mean(str(choice.preset), names)}",
             given=choice.preset,
             allowed=", ".join(names),
         )
