@@ -6,12 +6,15 @@ import logging
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
+from fastapi.routing import APIRoute
+from pydantic import BaseModel
 from starlette.exceptions import HTTPException
 from starlette.responses import Response
 
 from app import problems
 from app.guards.upload import UploadRefused
-from sim.core.errors import SidebandError
+from jobs.errors import UnknownArtefact
+from sim.core.errors import SidebandError, UnknownName
 
 log = logging.getLogger(__name__)
 
@@ -35,6 +38,8 @@ async def _ours(request: Request, error: Exception) -> Response:
     assert isinstance(error, SidebandError)
     # Reading has no body: what is wrong was in the query.
     location = "query" if request.method in ("GET", "HEAD") else "body"
+    if isinstance(error, UnknownName | UnknownArtefact) and error.name in request.path_params.values():
+        location = "path"
     return problems.response(problems.told(error, location), request.url.path)
 
 
@@ -45,11 +50,18 @@ async def _upload(request: Request, error: Exception) -> Response:
 
 async def _invalid(request: Request, error: Exception) -> Response:
     assert isinstance(error, RequestValidationError)
-    fields = problems.request_errors(error.errors())
+    fields = problems.request_errors(error.errors(), _body_model(request.scope.get("route")))
     count = len(fields)
     detail = f"{count} field{'s' if count != 1 else ''} must change; see `errors`"
     told = problems.Told(slug="invalid-request", status=422, detail=detail, fields=fields)
     return problems.response(told, request.url.path)
+
+
+def _body_model(route: object) -> type[BaseModel] | None:
+    """What a route reads its body as."""
+    read = route.dependant.body_params if isinstance(route, APIRoute) else []
+    model = read[0].field_info.annotation if len(read) == 1 else None
+    return model if isinstance(model, type) and issubclass(model, BaseModel) else None
 
 
 async def _http(request: Request, error: Exception) -> Response:

@@ -14,6 +14,7 @@ from starlette.responses import Response
 from jobs import errors
 from jobs.validation import problem_of, shown
 from sim.core.errors import Diverged, Problem, SidebandError, SpecError, UnknownName
+from sim.core.near import did_you_mean
 
 MEDIA_TYPE = "application/problem+json"
 RETRY_AFTER_S = 5
@@ -94,18 +95,18 @@ def _fields(error: SidebandError, location: str) -> Sequence[FieldError]:
     if isinstance(error, SpecError):
         return [field_error(problem, location) for problem in error.problems]
     if isinstance(error, UnknownName):
-        return [_choice(error.kind, error.name, error.known)]
+        return [_choice(error.kind, error.name, error.known, location)]
     if isinstance(error, errors.UnknownArtefact) and error.known:
-        return [_choice(error.kind, error.name, error.known)]
+        return [_choice(error.kind, error.name, error.known, location)]
     if isinstance(error, errors.IdempotencyConflict):
         message = "was used with another request"
         return [FieldError(field="Idempotency-Key", location="header", message=message, given=error.key)]
     return ()
 
 
-def _choice(kind: str, name: str, known: Sequence[str]) -> FieldError:
-    message = f"is not a known {kind}"
-    return FieldError(field=kind, location="path", message=message, given=shown(name), allowed=", ".join(known))
+def _choice(kind: str, name: str, known: Sequence[str], location: str) -> FieldError:
+    message = f"is not a known {kind}{did_you_mean(name, known)}"
+    return FieldError(field=kind, location=location, message=message, given=shown(name), allowed=", ".join(known))
 
 
 def _headers(error: SidebandError, status: int) -> dict[str, str]:
@@ -128,13 +129,13 @@ def field_error(problem: Problem, location: str = "body") -> FieldError:
     )
 
 
-def request_errors(details: Sequence[ErrorDetails]) -> list[FieldError]:
-    """Findings of the framework's own validation; their first place says where the field is."""
+def request_errors(details: Sequence[ErrorDetails], body: type[BaseModel] | None = None) -> list[FieldError]:
+    """Findings of the framework's own validation; their first place says where the field is. `body`: what is read."""
     found = []
     for item in details:
         location, *rest = item["loc"] or ("body",)
         inner = ErrorDetails(**{**item, "loc": tuple(rest)})
-        found.append(field_error(problem_of(inner), str(location)))
+        found.append(field_error(problem_of(inner, model=body if location == "body" else None), str(location)))
     return found
 
 

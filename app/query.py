@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterator
 
 from fastapi import Request
 from fastapi.dependencies.models import Dependant
 from fastapi.exceptions import RequestValidationError
 from fastapi.routing import APIRoute
+
+from sim.core.near import did_you_mean
 
 NONE = "none: this address has no query parameters"
 
@@ -40,12 +41,10 @@ def _declared(dependant: Dependant) -> Iterator[str]:
 
 
 def _told(name: str, known: tuple[str, ...], given: str) -> dict[str, object]:
-    near = difflib.get_close_matches(name, known, n=1)
-    hint = f" (did you mean {near[0]}?)" if near else ""
     return {
         "type": "unknown_query",
         "loc": ("query", name[:120]),
-        "msg": f"is not a query parameter of this address{hint}",
+        "msg": f"is not a query parameter of this address{did_you_mean(name, known)}",
         "input": given,
         "ctx": {"expected": ", ".join(known) or NONE},
     }

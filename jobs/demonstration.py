@@ -14,7 +14,10 @@ from sim.presets import preset
 
 @dataclass(frozen=True, kw_only=True)
 class Demonstration:
-    """A machine with the effect at `site`, and the same without; one machine and no site for a built-in effect."""
+    """A machine with the effect at `site` and where its declaration says `elsewhere`, and the same without.
+
+    One machine and no site for a built-in effect.
+    """
 
     machine: MachineSpec
     without: MachineSpec
@@ -30,8 +33,10 @@ def demonstration(term: Term) -> Demonstration:
     if term.key in BUILT_IN:
         return Demonstration(machine=plain, without=plain, site="", values=values)
     site = term.demo.site or _sites(plain, term)[0]
-    acting = TermSpec(term=term.key, site=site, parameters=dict(term.demo.values))
-    machine = plain.model_copy(update={"terms": [*plain.terms, acting]})
+    acting = [
+        TermSpec(term=term.key, site=where, parameters=dict(term.demo.values)) for where in (site, *term.demo.elsewhere)
+    ]
+    machine = plain.model_copy(update={"terms": [*plain.terms, *acting]})
     return Demonstration(machine=machine, without=plain, site=site, values=values)
 
 

@@ -2,64 +2,88 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from jobs.demonstration import demonstration, predicted
 from jobs.documents import FloatArray
+from jobs.example_lines import Predicted, Seen, in_envelope, seen
 from jobs.thinning import highest
 from signals.recording import Recording, from_response
 from signals.series import Series
 from signals.spectra import amplitude_spectrum, envelope_spectrum
 from signals.spectra.types import Spectrum
+from sim.core.response import Channel
 from sim.core.spec import MachineSpec
 from sim.core.terms import Term
 from sim.solve.api import simulate
 from sim.solve.settings import Settings
 
-SETTLING_S, SPAN_S, RATE_HZ = 0.2, 0.5, 20_000.0
+SETTLING_S, SPAN_S, RATE_HZ = 0.2, 1.0, 20_000.0
 MAX_POINTS = 2000
-LEADING = 6
-"""Lines that are marked."""
-IN_ENVELOPE = frozenset({"outer", "inner", "ball", "cage"})
-"""Families whose rate shows in the envelope of a resonance rather than as a line of its own."""
 MARGIN = 1.3
 LEAST_SPAN_HZ = 200.0
 """The spectrum is shown up to `MARGIN` times the highest marked line, at least so far."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class View:
+    """One channel with the effect and without, its spectra, and the lines that they show."""
+
+    channel: Channel
+    here: Series
+    there: Series | None
+    spectrum: Spectrum
+    other: Spectrum | None
+    lines: Seen
+
+
 def example(term: Term) -> dict[str, object]:
     """The document: `signal` and `spectrum`, each `with` and `without` (None for a built-in effect), and the lines.
 
-    The channel is the first acceleration of the default channels, after the start-up. Both envelopes are of the band
-    that suits the signal with the effect. Spectra are of the whole span; of the signal, the first `MAX_POINTS` samples
-    (0.1 s) are given, as thinning would hide the shape of impacts.
+    `lines` are the strongest predicted ones that stand out here, `unseen` the leading predicted ones that do not. The
+    channel is the first acceleration, of the default channels after the start-up, that shows half as many of the
+    leading ones as any other or more. Both
+    envelopes are of the band that suits the signal with the effect. Spectra are of the whole span; of the signal, the
+    first `MAX_POINTS` samples (0.1 s) are given, as thinning would hide the shape of impacts.
     """
     shown = demonstration(term)
-    lines = predicted(term, shown)[:LEADING]
-    first = _recorded(shown.machine)
-    channel = next((c for c in first.channels if c.quantity == "acceleration"), first.channels[0])
-    here = first.series(channel.name)
-    there = None if shown.machine == shown.without else _recorded(shown.without).series(channel.name)
-    envelope = bool(lines) and lines[0][0].family in IN_ENVELOPE and float(here.samples.std()) > 0
-    spectrum = envelope_spectrum(here) if envelope else amplitude_spectrum(here)
-    other = None
-    if there is not None:
-        other = envelope_spectrum(there, band=spectrum.band) if envelope else amplitude_spectrum(there)
-    top_hz = max([LEAST_SPAN_HZ, *(MARGIN * hz for _, hz in lines)]) if lines else RATE_HZ / 20
+    lines = predicted(term, shown)
+    here = _recorded(shown.machine)
+    there = None if shown.machine == shown.without else _recorded(shown.without)
+    felt = [c for c in here.channels if c.quantity == "acceleration"] or list(here.channels[:1])
+    views = [_view(here, there, channel, lines, falls=term.demo.falls) for channel in (felt if lines else felt[:1])]
+    best = next(view for view in views if 2 * view.lines.leading >= max(v.lines.leading for v in views))
+    marked = best.lines.marked
+    top_hz = max([LEAST_SPAN_HZ, *(MARGIN * hz for _, hz in marked)]) if marked else RATE_HZ / 20
     return {
         "key": term.key,
-        "channel": channel.name,
-        "unit": channel.unit,
-        "signal": {"with": _signal(here), "without": None if there is None else _signal(there)},
+        "channel": best.channel.name,
+        "unit": best.channel.unit,
+        "note": term.demo.note,
+        "signal": {"with": _signal(best.here), "without": None if best.there is None else _signal(best.there)},
         "spectrum": {
-            "kind": "envelope" if envelope else "amplitude",
-            "unit": spectrum.unit,
-            "resolution_hz": spectrum.resolution_hz,
-            "with": _spectrum(spectrum, top_hz),
-            "without": None if other is None else _spectrum(other, top_hz),
+            "kind": best.spectrum.kind,
+            "unit": best.spectrum.unit,
+            "resolution_hz": best.spectrum.resolution_hz,
+            "with": _spectrum(best.spectrum, top_hz),
+            "without": None if best.other is None else _spectrum(best.other, top_hz),
         },
-        "lines": [{"label": line.label, "family": line.family, "frequency_hz": hz} for line, hz in lines],
+        "lines": [{"label": line.label, "family": line.family, "frequency_hz": hz} for line, hz in marked],
+        "unseen": list(best.lines.unseen),
     }
+
+
+def _view(here: Recording, there: Recording | None, channel: Channel, lines: list[Predicted], *, falls: bool) -> View:
+    a, b = here.series(channel.name), None if there is None else there.series(channel.name)
+    envelope = in_envelope(lines) and float(a.samples.std()) > 0
+    spectrum = envelope_spectrum(a) if envelope else amplitude_spectrum(a)
+    other = None
+    if b is not None:
+        other = envelope_spectrum(b, band=spectrum.band) if envelope else amplitude_spectrum(b)
+    found = seen(lines, spectrum, other, falls=falls)
+    return View(channel=channel, here=a, there=b, spectrum=spectrum, other=other, lines=found)
 
 
 def _recorded(machine: MachineSpec) -> Recording:

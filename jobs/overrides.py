@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import difflib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
@@ -14,6 +13,7 @@ from pydantic import ValidationError
 from jobs.shorthand import LONG, NAMES, TORQUE, path_of, set_torque
 from jobs.validation import problems_of, shown
 from sim.core.errors import Problem, SpecError
+from sim.core.near import did_you_mean, near
 from sim.core.spec import MachineSpec
 
 RPM_NAMES = ("rpm", "speed_rpm", "n_rpm", "revolutions", "rev_per_min")
@@ -89,8 +89,7 @@ def _renamed(problem: Problem, places: Mapping[str, str]) -> Problem:
         if above is None or problem.field.startswith("set."):
             return problem
         key, rest = places[above], place.removeprefix(above)
-    near = difflib.get_close_matches(str(problem.given), problem.allowed.split(", "), n=1)
-    hint = f" (did you mean {near[0]}?)" if near and isinstance(problem.given, str) else ""
+    hint = did_you_mean(problem.given, problem.allowed.split(", ")) if isinstance(problem.given, str) else ""
     return replace(problem, field=f"set.{key}{rest}", message=problem.message + hint)
 
 
@@ -151,8 +150,7 @@ def _set_path(document: dict[str, Any], key: str, value: object) -> Problem | No
             node.setdefault(part, None)
         names = _names(node)
         if part not in names:
-            near = _near(node, part)
-            whole = [".".join([*parts[:depth], path]) for path in near]
+            whole = [".".join([*parts[:depth], path]) for path in _near(node, part)]
             return _unknown(key, value, part, ".".join(parts[:depth]) or THE_MACHINE, names, whole)
         if depth == len(parts) - 1:
             break
@@ -187,7 +185,7 @@ def _near(node: object, part: str) -> list[str]:
     """Paths below `node` whose last name is like `part`; the likeliest first, at most three."""
     leaves = list(_leaves(node))
     names = {path.rsplit(".", 1)[-1] for path in leaves} | set(_names(node))
-    close = difflib.get_close_matches(part, sorted(names), n=2)
+    close = near(part, sorted(names), most=2)
     close += [name for name in sorted(names) if name.startswith(f"{part}_") and name not in close]
     by_name = [path for name in close for path in (*_names(node), *leaves) if path.rsplit(".", 1)[-1] == name]
     return list(dict.fromkeys(by_name))[:3]
@@ -202,11 +200,11 @@ def _leaves(node: object, path: str = "") -> Iterator[str]:
         yield path
 
 
-def _unknown(key: str, value: object, part: str, where: str, names: list[str], near: list[str]) -> Problem:
-    near = [LONG.get(path, path) for path in near]
+def _unknown(key: str, value: object, part: str, where: str, names: list[str], paths: list[str]) -> Problem:
+    paths = [LONG.get(path, path) for path in paths]
     if where == THE_MACHINE:
-        near += [n for n in difflib.get_close_matches(part, NAMES, n=1, cutoff=0.7) if n not in near]
-    hint = f" (did you mean {' or '.join(near)}?)" if near else ""
+        paths += [n for n in near(part, NAMES, most=1, like=0.7) if n not in paths]
+    hint = f" (did you mean {' or '.join(paths)}?)" if paths else ""
     if part.lower() in RPM_NAMES:
         hertz = f"={value / 60:g}" if isinstance(value, int | float) and not isinstance(value, bool) else ""
         hint = f" (speeds are given in Hz, rpm / 60: speed_hz{hertz})"

@@ -63,7 +63,7 @@ class SimulationRequest(MachineChoice):
         }
     )
 
-    duration_s: Annotated[float, Field(gt=0, le=3600)] = 1.0
+    duration_s: Annotated[float, Field(gt=0)] = 1.0
     """Simulated time, s. A tighter bound may be set by the server."""
     sampling_rate_hz: Annotated[float, Field(ge=100, le=500_000)] = DEFAULT_RATE_HZ
     """Output rate, Hz; the signals are low-pass filtered before they are thinned to it."""

@@ -14,6 +14,7 @@ from jobs.request import ALL, MAX_CHANNELS, MachineChoice, SimulationRequest
 from jobs.sensing import check_sensors, told_shortly, with_sensors
 from jobs.validation import Findings, shown
 from sim.core.errors import Problem, SpecError, UnknownName
+from sim.core.near import did_you_mean
 from sim.core.spec import MachineSpec
 
 
@@ -101,7 +102,10 @@ def machine_of(choice: MachineChoice, engine: Engine) -> MachineSpec:
     names = engine.preset_names()
     if choice.preset is None or choice.preset not in names:
         problem = Problem(
-            field="preset", message="is not a known preset", given=choice.preset, allowed=", ".join(names)
+            field="preset",
+            message=f"is not a known preset{did_you_mean(str(choice.preset), names)}",
+            given=choice.preset,
+            allowed=", ".join(names),
         )
         raise SpecError(problem)
     return apply_overrides(engine.preset(choice.preset), choice.set)

@@ -150,8 +150,8 @@ _WRONG: Mapping[type[BaseException], tuple[str, str]] = {
 def failure_of(error: BaseException, timeouts: tuple[type[BaseException], ...]) -> Failure:
     """How an error is told to the person who asked; no traceback, no paths."""
     if isinstance(error, Diverged):
-        detail: dict[str, object] = {"time_s": error.time_s, "dof": error.dof}
-        return Failure(code="diverged", message=str(error), advice=error.advice, detail=detail)
+        detail: dict[str, object] = {"time_s": float(f"{error.time_s:.6g}"), "dof": error.dof}
+        return Failure(code="diverged", message=error.what, advice=error.advice, detail=detail)
     if isinstance(error, SpecError | RecordingRefused | NotReconcilable):
         code, advice = _WRONG.get(type(error), ("invalid-machine", "change the fields named"))
         errors = [plain(problem.to_dict()) for problem in error.problems]

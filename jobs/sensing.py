@@ -90,6 +90,18 @@ def told_shortly(settings: Mapping[str, object]) -> dict[str, object]:
     return {**settings, SENSORS: {"name": chain["name"], "seed": chain["seed"], "channels": channels}}
 
 
+def _open_filters(chain: SensorChain) -> list[str]:
+    """Anti-alias filters that let pass what the clock cannot represent."""
+    half_hz = None if chain.clock.sampling_rate_hz is None else 0.5 * chain.clock.sampling_rate_hz
+    return [
+        f"{channel.name}: the anti-alias filter's cut-off {channel.anti_alias.cutoff_hz:g} Hz is not below half the "
+        f"clock's rate, {half_hz:g} Hz: what lies above folds back into the record"
+        for channel in chain.channels
+        if not isinstance(channel, Tacho) and channel.anti_alias is not None
+        if half_hz is not None and channel.anti_alias.cutoff_hz >= half_hz
+    ]
+
+
 def sensed_response(response: Response, request: SimulationRequest) -> tuple[Response, dict[str, Json]]:
     """The response with the measured channels in place of the simulated ones, and the description of the chain.
 
@@ -109,6 +121,7 @@ def sensed_response(response: Response, request: SimulationRequest) -> tuple[Res
         channels=found.channels,
         signals=np.asarray(found.samples),
         bases_hz=bases,
+        warnings=(*response.warnings, *_open_filters(chain)),
     )
     assert found.chain is not None
     return seen, {SENSORS: dict(found.chain)}

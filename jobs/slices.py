@@ -45,10 +45,17 @@ def window(reader: ResultReader, start_s: float | None, end_s: float | None) -> 
     start = 0 if start_s is None else max(0, math.ceil(start_s * rate - 1e-6))
     stop = samples if end_s is None else min(samples, math.ceil(end_s * rate - 1e-6))
     if start >= stop:
-        allowed = f"0 <= start_s < end_s <= {samples / rate:g}"
-        message = "the stretch holds no samples"
-        raise SpecError(Problem(field="end_s", message=message, given=[start_s, end_s], allowed=allowed, unit="s"))
+        raise SpecError(_empty(start_s, end_s, samples / rate))
     return Window(start=start, stop=stop)
+
+
+def _empty(start_s: float | None, end_s: float | None, duration_s: float) -> Problem:
+    """The bound that leaves no samples: a start beyond the end of the signal, else the end."""
+    if end_s is None or (start_s is not None and start_s >= duration_s):
+        message, allowed = "is not before the end of the signal", f"0 <= start_s < {duration_s:g}"
+        return Problem(field="start_s", message=message, given=start_s, allowed=allowed, unit="s")
+    allowed = f"{start_s or 0.0:g} < end_s <= {duration_s:g}"
+    return Problem(field="end_s", message="leaves no samples after start_s", given=end_s, allowed=allowed, unit="s")
 
 
 def recording(reader: ResultReader, channels: Sequence[str], part: Window) -> Recording:

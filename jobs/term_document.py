@@ -34,6 +34,12 @@ def term_document(term: Term) -> dict[str, object]:
             for line, hz in predicted(term, shown)
         ],
         "validation": [asdict(check) for check in term.validation],
-        "demo": {"machine": term.demo.machine, "site": shown.site, "values": dict(shown.values)},
+        "demo": {
+            "machine": term.demo.machine,
+            "site": shown.site,
+            "elsewhere": list(term.demo.elsewhere),
+            "values": dict(shown.values),
+            "note": term.demo.note,
+        },
         "page": f"docs/physics/{term.key}.md",
     }

@@ -44,6 +44,11 @@ class Job:
     def __repr__(self) -> str:
         return f"<Job {self.id} {self.state.status}>"
 
+    @property
+    def status(self) -> str:
+        """accepted, running, successful, failed or dismissed, when the server was last asked."""
+        return self.state.status
+
     def refresh(self) -> JobState:
         """Ask the server how the job stands."""
         self.state = state_of(self._transport.json("GET", self._path))

@@ -6,10 +6,12 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
+from signals.known_fields import fields_beside
 from sim.core.errors import Problem, SpecError
+from sim.core.near import did_you_mean
 
 UNITS = (
     ("_ns_per_m", "N s/m"),
@@ -52,12 +54,12 @@ def unit_of(field: str) -> str:
     return next((unit for ending, unit in UNITS if name.endswith(ending)), "")
 
 
-def problems_of(error: ValidationError, prefix: str = "") -> tuple[Problem, ...]:
-    """Every finding of a pydantic validation as a field problem."""
-    return tuple(problem_of(details, prefix) for details in error.errors(include_url=False))
+def problems_of(error: ValidationError, prefix: str = "", model: type[BaseModel] | None = None) -> tuple[Problem, ...]:
+    """Every finding of a pydantic validation as a field problem; `model`: what was validated, to say what it knows."""
+    return tuple(problem_of(details, prefix, model) for details in error.errors(include_url=False))
 
 
-def problem_of(details: ErrorDetails, prefix: str = "") -> Problem:
+def problem_of(details: ErrorDetails, prefix: str = "", model: type[BaseModel] | None = None) -> Problem:
     """One finding as a field problem."""
     parts = [*([prefix] if prefix else []), *_place(details["loc"])]
     context: Mapping[str, object] = details.get("ctx", {})
@@ -67,8 +69,12 @@ def problem_of(details: ErrorDetails, prefix: str = "") -> Problem:
         given = context.get("tag")
     field = ".".join(parts) or "request"
     unit = unit_of(field)
-    message = _message(details) + _unit_hint(details.get("input"), field, context)
-    return Problem(field=field, message=message, given=given, allowed=_allowed(details["type"], context), unit=unit)
+    message, allowed = _message(details), _allowed(details["type"], context)
+    if details["type"] == "extra_forbidden" and model is not None:
+        known = fields_beside(model, details["loc"])
+        message, allowed, unit = message + did_you_mean(str(details["loc"][-1]), known), ", ".join(known), ""
+    message += _unit_hint(details.get("input"), field, context)
+    return Problem(field=field, message=message, given=given, allowed=allowed, unit=unit)
 
 
 def _place(loc: Sequence[int | str]) -> Iterator[str]:

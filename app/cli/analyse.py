@@ -22,7 +22,7 @@ from app.cli.recordings import Given, read_recording
 from jobs.indicators import KINDS, Rotation, Subject, indicators, of_recording
 from jobs.indicators.subject import of_simulation
 from signals.series import Series
-from sim.core.errors import Problem, SpecError, UnknownName
+from sim.core.errors import Problem, SidebandError, SpecError, UnknownName
 
 PREFERRED = ("acceleration", "angular_acceleration")
 
@@ -114,6 +114,8 @@ def _of_folder(folder: Path, wanted: str | None) -> Subject:
         with np.load(folder / "signals.npz", allow_pickle=False) as file:
             samples = file[name][first:]
         unit, seed = str(by_name[name]["unit"]), int(str(summary["seed"]))
+    except SidebandError:
+        raise
     except (KeyError, ValueError, AssertionError) as error:
         message = f"does not hold what a result folder holds: {error}"
         raise SpecError(Problem(field=str(folder), message=message)) from error

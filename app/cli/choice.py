@@ -55,7 +55,7 @@ def read_machine(path: Path) -> MachineSpec:
     try:
         return MachineSpec.model_validate(document)
     except ValidationError as error:
-        raise SpecError(problems_of(error, prefix=path.name)) from error
+        raise SpecError(problems_of(error, prefix=path.name, model=MachineSpec)) from error
 
 
 def parse_set(items: Iterable[str]) -> dict[str, object]:

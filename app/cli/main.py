@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from types import ModuleType
 
 from sim.core.errors import Cancelled, SidebandError, SpecError
+from sim.core.near import did_you_mean
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,7 +119,7 @@ def _overview(arguments: Sequence[str]) -> int:
     if known.version:
         return _version()
     if rest:
-        parser.error(f"unknown command {rest[0]!r}; known: {', '.join(COMMANDS)}")
+        parser.error(f"unknown command {rest[0]!r}{did_you_mean(rest[0], COMMANDS)}; known: {', '.join(COMMANDS)}")
     parser.print_help(sys.stderr)
     return WRONG_INPUT
 

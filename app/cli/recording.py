@@ -73,4 +73,6 @@ def _finding(finding: Mapping[str, Any]) -> str:
 
 def _hum(line: Mapping[str, Any]) -> str:
     harmonic = f"{line['harmonic']} x {line['mains_hz']:g} Hz"
+    if line["shared"]:
+        harmonic += ", where the machine has a line too"
     return f"{line['channel']}: mains hum at {line['frequency_hz']:.5g} Hz ({harmonic}), {line['db_over_floor']:.0f} dB"

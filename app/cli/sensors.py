@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -37,4 +38,5 @@ def chosen_sensors(arguments: argparse.Namespace) -> SensorChain | None:
     try:
         return SensorChain.model_validate(document)
     except ValidationError as error:
-        raise SpecError(problems_of(error, prefix=arguments.sensors.name)) from error
+        found = problems_of(error, model=SensorChain)
+        raise SpecError([replace(problem, field=f"--sensors {problem.field}") for problem in found]) from error

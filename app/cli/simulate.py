@@ -6,7 +6,6 @@ Example: sideband simulate --preset paper --set fit_clearance@bearing1.gap=2e-5 
 from __future__ import annotations
 
 import argparse
-import difflib
 import shlex
 import sys
 import time
@@ -33,6 +32,7 @@ from jobs.request import ALL, DEFAULT_RATE_HZ, SimulationRequest
 from jobs.resolve import resolve
 from jobs.validation import Findings, problems_of
 from sim.core.errors import Problem, SpecError
+from sim.core.near import near
 from sim.core.spec import MachineSpec
 
 DEFAULT_PRESET = "paper-demo"
@@ -181,7 +181,7 @@ def _request(arguments: argparse.Namespace) -> SimulationRequest:
             causes=arguments.causes,
         )
     except ValidationError as error:
-        raise SpecError(problems_of(error)) from error
+        raise SpecError(problems_of(error, model=SimulationRequest)) from error
 
 
 def _names(given: Sequence[str] | None) -> list[str] | None:
@@ -197,9 +197,9 @@ def _check_names(wanted: Sequence[str] | None, known: Sequence[str]) -> None:
 
 
 def _no_channel(name: str, known: Sequence[str]) -> Problem:
-    near = difflib.get_close_matches(name, known, n=3) or known[:3]
+    alike = near(name, known, most=3) or known[:3]
     message = "`all` stands alone" if name == "all" else "is not an output of this machine"
-    allowed = f"{', '.join(near)} ... ({len(known)} in all: `sideband machine --machine FILE --json`)"
+    allowed = f"{', '.join(alike)} ... ({len(known)} in all: `sideband machine --machine FILE --json`)"
     return Problem(field="--channels", message=message, given=name, allowed=allowed)
 
 

@@ -58,7 +58,8 @@ class Subject:
         for base, info in self.shafts.items():
             if name in (base, info.component):
                 return base
-        raise UnknownName("shaft", name, tuple(self.shafts))
+        called = [known for base, info in self.shafts.items() for known in (base, info.component) if known]
+        raise UnknownName("shaft", name, list(dict.fromkeys(called)))
 
 
 def stretch_of(reader: ResultReader, start_s: float | None, end_s: float | None) -> Window:

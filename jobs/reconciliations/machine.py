@@ -12,6 +12,7 @@ from jobs.resolve import report_of
 from jobs.validation import problems_of
 from reconcile.kinematics import KinematicSpec, read_kinematic_spec
 from sim.core.errors import Problem, SpecError
+from sim.core.near import did_you_mean
 from sim.core.spec import MachineSpec
 from sim.presets.reference import KEYS, reference_machine
 
@@ -49,7 +50,8 @@ def restored_known(document: object) -> Known:
 def _preset(name: str, engine: Engine) -> MachineSpec:
     names = engine.preset_names()
     if name not in names:
-        raise SpecError(Problem(field="machine", message="is not a known preset", given=name, allowed=", ".join(names)))
+        message = f"is not a known preset{did_you_mean(name, names)}"
+        raise SpecError(Problem(field="machine", message=message, given=name, allowed=", ".join(names)))
     return engine.preset(name)
 
 
@@ -66,7 +68,7 @@ def _spec(form: Mapping[str, object]) -> MachineSpec:
     try:
         return MachineSpec.model_validate(form)
     except ValidationError as error:
-        raise SpecError(problems_of(error, prefix="machine")) from error
+        raise SpecError(problems_of(error, prefix="machine", model=MachineSpec)) from error
 
 
 def _is_parameters(form: Mapping[str, object]) -> bool:

@@ -108,7 +108,7 @@ def read_kinematic_spec(document: object) -> KinematicSpec:
     if not isinstance(document, dict) or set(document) != {"kinematics"}:
         given = sorted(map(str, document)) if isinstance(document, dict) else type(document).__name__
         message = "must be an object with the one key 'kinematics'"
-        raise SpecError(Problem(field="machine", message=message, given=given))
+        raise SpecError(Problem(field="machine", message=message, given=given, allowed="kinematics"))
     try:
         return KinematicSpec.model_validate(document["kinematics"])
     except ValidationError as error:
@@ -116,12 +116,26 @@ def read_kinematic_spec(document: object) -> KinematicSpec:
             [
                 Problem(
                     field=".".join(("kinematics", *map(str, e["loc"]))),
-                    message=str(e["msg"]),
+                    message="is not a known field" if e["type"] == "extra_forbidden" else str(e["msg"]),
                     given=e["input"] if isinstance(e["input"], str | int | float) else None,
+                    allowed=", ".join(_fields(e["loc"])) if e["type"] == "extra_forbidden" else "",
                 )
                 for e in error.errors()
             ]
         ) from None
+
+
+def _fields(place: tuple[int | str, ...]) -> tuple[str, ...]:
+    """The known keys beside an unknown one."""
+    parts: dict[str, type[SpecModel]] = {
+        "shafts": KinematicShaft,
+        "bearings": KinematicBearing,
+        "gears": KinematicGear,
+        "meshes": KinematicMesh,
+        "orders": BearingOrders,
+    }
+    outer = [parts[step] for step in place[:-1] if isinstance(step, str) and step in parts]
+    return tuple((outer[-1] if outer else KinematicSpec).model_fields)
 
 
 def of_machine(machine: MachineSpec) -> KinematicSpec:

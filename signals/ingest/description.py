@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Literal, Self
 
@@ -10,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_valida
 
 from signals.validation import problems_of, shown
 from sim.core.errors import Problem, SpecError
+from sim.core.near import near
 from sim.core.spec.base import WHOLE
 
 MAX_CHANNELS = 512
@@ -125,7 +125,7 @@ def read_description(document: object) -> Description:
     try:
         found = Description.model_validate(document)
     except ValidationError as error:
-        raise SpecError([*problems_of(error), *_slips(document)]) from error
+        raise SpecError([*problems_of(error, model=Description), *_slips(document)]) from error
     problems = [*_slips(document), *_doubled(found)]
     if problems:
         raise SpecError(problems)
@@ -172,9 +172,9 @@ def _alike(part: object, model: type[BaseModel], prefix: str) -> list[Problem]:
     problems = []
     for key in part:
         if isinstance(key, str) and key not in model.model_fields:
-            near = difflib.get_close_matches(key[:80], list(model.model_fields), n=1, cutoff=ALIKE)
-            if near:
-                problems.append(Problem(field=f"{prefix}{key[:80]}", message="is not a known field", allowed=near[0]))
+            alike = near(key, model.model_fields, most=1, like=ALIKE)
+            if alike:
+                problems.append(Problem(field=f"{prefix}{key[:80]}", message="is not a known field", allowed=alike[0]))
     return problems
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,6 +10,7 @@ from typing import Annotated, Self
 from pydantic import Field, model_validator
 
 from sim.core.errors import Problem, SpecError
+from sim.core.near import near
 from sim.core.spec import SpecModel
 
 ChannelName = Annotated[str, Field(min_length=1, max_length=120, pattern=r"^[A-Za-z0-9_.-]+$")]
@@ -86,9 +86,9 @@ def _mixed(mix: list[MixEntry], quantity: str, known: Mapping[str, str], field: 
     for i, entry in enumerate(mix):
         at = f"{field}.mix.{i}.channel"
         if entry.channel not in known:
-            near = difflib.get_close_matches(entry.channel, list(known), n=3) or list(known)[:3]
+            alike = near(entry.channel, known, most=3) or list(known)[:3]
             message = "is not an output of this machine"
-            allowed = f"{', '.join(near)} ... ({len(known)} in all)"
+            allowed = f"{', '.join(alike)} ... ({len(known)} in all)"
             problems.append(Problem(field=at, message=message, given=entry.channel, allowed=allowed))
         elif known[entry.channel] != quantity:
             message = f"is a channel of {known[entry.channel]}; this sensor measures {quantity}"

@@ -12,6 +12,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 
+from sim.core.near import did_you_mean
+
 
 @dataclass(frozen=True, kw_only=True)
 class Problem:
@@ -52,7 +54,8 @@ class UnknownName(SidebandError, KeyError):
 
     def __init__(self, kind: str, name: str, known: Sequence[str]) -> None:
         self.kind, self.name, self.known = kind, name, tuple(known)
-        super().__init__(f"unknown {kind} {name!r}; known: {', '.join(self.known) or 'none'}")
+        hint = did_you_mean(name, self.known)
+        super().__init__(f"unknown {kind} {name!r}{hint}; known: {', '.join(self.known) or 'none'}")
 
     def __str__(self) -> str:
         return str(self.args[0])
@@ -63,7 +66,12 @@ class Diverged(SidebandError, ArithmeticError):
 
     def __init__(self, *, time_s: float, dof: str, advice: str) -> None:
         self.time_s, self.dof, self.advice = time_s, dof, advice
-        super().__init__(f"simulation diverged at t = {time_s:.6g} s in {dof}; {advice}")
+        super().__init__(f"{self.what}; {advice}")
+
+    @property
+    def what(self) -> str:
+        """What happened, without the advice."""
+        return f"simulation diverged at t = {self.time_s:.6g} s in {self.dof}"
 
 
 class Cancelled(SidebandError):

@@ -51,13 +51,17 @@ class Demo:
     """Where an effect is plain to see: its first `leading` lines stand out there against the machine without it.
 
     `machine` names a preset; `site` is empty for the first one where the effect may act; `values` replace defaults.
-    `prepare` changes the machine where no preset has what the effect needs.
+    `elsewhere` lists further sites with the same effect. `prepare` changes the machine where no preset has what the
+    effect needs, and `note` says how. `falls`: the effect takes its lines away instead of raising them.
     """
 
     machine: str = "paper-lightly-damped"
     site: str = ""
+    elsewhere: tuple[str, ...] = ()
     values: Values = field(default_factory=dict)
     leading: int = 3
+    falls: bool = False
+    note: str = ""
     prepare: Callable[[MachineSpec], MachineSpec] = _as_it_is
 
 

@@ -99,6 +99,13 @@ def shaft_torque_nm(site: SiteContext) -> float:
     return -power / site.speed_hz if site.speed_hz > 0.0 else 0.0
 
 
+def at_speed(machine: MachineSpec, speed_hz: float) -> MachineSpec:
+    """The machine running at another speed."""
+    if machine.operating is None:
+        return machine
+    return machine.model_copy(update={"operating": machine.operating.model_copy(update={"speed_hz": speed_hz})})
+
+
 def shaft_lines(site: SiteContext, key: str, orders: Sequence[Order]) -> tuple[Line, ...]:
     """Multiples of the rotation of the site's shaft."""
     if not site.shaft_base:

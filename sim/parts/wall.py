@@ -10,6 +10,7 @@ from sim.core.spec import MachineSpec
 from sim.core.terms import SiteContext, Values
 from sim.parts.bearing.clearances import loosest_seat_m
 from sim.parts.bearing.size import bearing_size
+from sim.parts.rotor import at_speed
 
 CONTEXT = 1
 WALL_PARAMS = (
@@ -72,6 +73,11 @@ def bore_values(machine: MachineSpec, bearing: str) -> Values:
     """Collision damping from the bearing's specification, when it has one."""
     damping = next(b.bore_damping_ns_per_m for b in machine.bearings if b.name == bearing)
     return {} if damping is None else {"damping": damping}
+
+
+def beside_resonance(machine: MachineSpec) -> MachineSpec:
+    """At a speed where the loose ring does not mainly move the machine away from a resonance."""
+    return at_speed(machine, 40.0)
 
 
 def fit_cautions(values: Values, site: SiteContext) -> tuple[str, ...]:

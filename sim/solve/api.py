@@ -112,7 +112,11 @@ def diverged(system: System, displacement: FloatArray, time_s: float) -> Diverge
     """The error of a motion that left all bounds: where it is worst, and what to do."""
     state = np.abs(displacement)
     worst = int(np.argmax(np.where(np.isfinite(state), state, np.inf)))
-    advice = "check stiffness, damping and load there; a shorter step (more steps per output) may resolve it"
+    doubts = f" (it was warned: {'; '.join(system.warnings[:3])})" if system.warnings else ""
+    advice = (
+        f"check the loads, stiffness and damping that act there for a slip in a unit{doubts}; "
+        "if all are meant, a shorter step (a higher sampling rate) may resolve it"
+    )
     return Diverged(time_s=time_s, dof=system.dofs[worst], advice=advice)
 
 

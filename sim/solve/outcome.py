@@ -44,7 +44,7 @@ def _unconverged(finished: Finished) -> tuple[str, ...]:
     if count == 0:
         return ()
     share = 100.0 * count / max(int(finished.counts[1]), 1)
-    return (f"{count} steps ({share:.2g} %) were taken although their forces had not settled: ask for shorter steps",)
+    return (f"{count} steps ({share:.3g} %) were taken although their forces had not settled: ask for shorter steps",)
 
 
 def _warnings(error: float | None, kind: str) -> tuple[str, ...]:
@@ -52,7 +52,7 @@ def _warnings(error: float | None, kind: str) -> tuple[str, ...]:
         return ()
     if kind == "irregular":
         return ("the motion is irregular (impacts): compare spectra and statistics, not single samples",)
-    return (f"the step changes the result by {100 * error:.2g} %: ask for more steps per output sample",)
+    return (f"the step changes the result by {100 * error:.3g} %: ask for more steps per output sample",)
 
 
 SPEED_WARNING = 2e-3
@@ -67,7 +67,7 @@ def _speed_warning(system: System, duration_s: float) -> tuple[str, ...]:
     if span <= SPEED_WARNING:
         return ()
     lines = "lines smear in spectra over time; orders stay sharp"
-    return (f"the speed varies by {100 * span:.2g} % of the nominal one (frequencies are those of its mean): {lines}",)
+    return (f"the speed varies by {100 * span:.3g} % of the nominal one (frequencies are those of its mean): {lines}",)
 
 
 def _range_warnings(system: System, contact: FloatArray) -> list[str]:
@@ -76,7 +76,7 @@ def _range_warnings(system: System, contact: FloatArray) -> list[str]:
         if element.range_output >= 0 and contact[e, 2] > 0:
             share = 100.0 * contact[e, 2] / max(contact[e, 0], 1.0)
             what = "left the range of its stiffness table"
-            found.append(f"{element.name}: {share:.2g} % of the time {what}, whose last row was used")
+            found.append(f"{element.name}: {share:.3g} % of the time {what}, whose last row was used")
     return found
 
 

@@ -65,7 +65,12 @@ TERM = Backlash(
     ),
     severity="width",
     order=20,
-    demo=Demo(machine="gear-pair", prepare=lightly_loaded, leading=2),
+    demo=Demo(
+        machine="gear-pair",
+        prepare=lightly_loaded,
+        note="At 20 Hz with 0.1 N m, too little to keep the flanks together.",
+        leading=2,
+    ),
     validation=(
         Validation(
             kind="closed form",

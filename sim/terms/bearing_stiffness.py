@@ -138,7 +138,13 @@ TERM = BearingStiffness(
     severity="hardening",
     order=30,
     excludes=("fit_clearance",),
-    demo=Demo(machine="rotor", values={"hardening": 5.0, "reference": 1e-6}, leading=2, prepare=_shaken),
+    demo=Demo(
+        machine="rotor",
+        values={"hardening": 5.0, "reference": 1e-6},
+        leading=2,
+        prepare=_shaken,
+        note="With a force of 400 N at the shaft's speed.",
+    ),
     validation=(
         Validation(
             kind="closed form",

@@ -83,7 +83,7 @@ TERM = CubicSupport(
     severity="cubic",
     order=30,
     repeats="spring",
-    demo=Demo(leading=2, prepare=_with_unbalance),
+    demo=Demo(leading=2, prepare=_with_unbalance, note="With an unbalance of 2e-3 kg m on the pinion."),
     validation=(
         Validation(
             kind="closed form",

@@ -145,7 +145,7 @@ TERM = CustomForce(
     severity="scale",
     order=30,
     repeats="law",
-    demo=Demo(leading=2, prepare=_demonstration),
+    demo=Demo(leading=2, prepare=_demonstration, note="With a force of 50 cos(phi) + 20 cos(2 phi) N on bearing 1."),
     validation=(
         Validation(
             kind="closed form",

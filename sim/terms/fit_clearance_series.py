@@ -14,11 +14,12 @@ from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.params import Param
 from sim.core.spec import MachineSpec
-from sim.core.terms import SiteContext, Term, Validation, Values
+from sim.core.terms import Demo, SiteContext, Term, Validation, Values
 from sim.parts.wall import (
     CONTEXT,
     OUTPUTS,
     WALL_PARAMS,
+    beside_resonance,
     bore_values,
     clearance_lines,
     fit_cautions,
@@ -108,6 +109,11 @@ TERM = FitClearanceSeries(
     passive=True,
     order=20,
     excludes=("fit_clearance",),
+    demo=Demo(
+        prepare=beside_resonance,
+        note="At 40 Hz: at 30 Hz the mesh frequency lies near a mode at 727 Hz, from which the loose ring moves the "
+        "machine away.",
+    ),
     validation=(
         Validation(
             kind="closed form",

@@ -85,7 +85,7 @@ TERM = ForceLoads(
     references=("docs/conventions.md",),
     severity=None,
     order=10,
-    demo=Demo(machine="oscillator", prepare=shaken),
+    demo=Demo(machine="oscillator", prepare=shaken, note="With a force of 10 N at 10 Hz."),
     validation=(
         Validation(
             kind="closed form",

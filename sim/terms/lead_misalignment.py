@@ -101,7 +101,7 @@ TERM = LeadMisalignment(
     ),
     severity="angle",
     order=30,
-    demo=Demo(values={"angle": 1e-3}, prepare=exact_teeth),
+    demo=Demo(values={"angle": 1e-3}, prepare=exact_teeth, note="Without its transmission error."),
     validation=(
         Validation(
             kind="closed form",

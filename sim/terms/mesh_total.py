@@ -238,7 +238,7 @@ TERM = MeshTotal(
     references=("seed eqs (13)-(15), (17)", "docs/physics/deviations.md"),
     severity=None,
     order=10,
-    demo=Demo(prepare=one_curve),
+    demo=Demo(prepare=one_curve, note="With its mesh as one curve."),
     validation=(
         Validation(
             kind="independent calculation",

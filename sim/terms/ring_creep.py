@@ -67,7 +67,12 @@ TERM = RingCreep(
     references=("Harris & Kotzalas, Rolling Bearing Analysis, 5th ed. 2006, ch. 10 (both rings turning)",),
     severity="ratio",
     order=20,
-    demo=Demo(machine="rotor", values={"ratio": 0.1}, prepare=_pitted),
+    demo=Demo(
+        machine="rotor",
+        values={"ratio": 0.1},
+        prepare=_pitted,
+        note="With a spall on its outer race: a race without a mark creeps unseen.",
+    ),
     validation=(
         Validation(
             kind="closed form",

@@ -25,7 +25,7 @@ from sim.core.lines import Line
 from sim.core.params import Param
 from sim.core.spec import MachineSpec, TermSpec
 from sim.core.terms import Demo, SiteContext, Term, Validation, Values
-from sim.parts.rotor import moves, outer_radius_m, plane, refusal, shaft_lines, turning_on
+from sim.parts.rotor import at_speed, moves, outer_radius_m, plane, refusal, shaft_lines, turning_on
 
 # parameters: turning coordinate (0, 1), stiffness, gap, loss chi, friction, v_0, radius, sense
 
@@ -123,9 +123,9 @@ OUTPUTS = (
 
 
 def _with_unbalance(machine: MachineSpec) -> MachineSpec:
-    """Something that turns must bring the gear to the ring."""
-    term = TermSpec(term="unbalance", site="pinion", parameters={"moment": 2e-3})
-    return machine.model_copy(update={"terms": [*machine.terms, term]})
+    """Something that turns must bring the disc to the ring, at three times the speed of its natural vibration."""
+    term = TermSpec(term="unbalance", site="disc", parameters={"moment": 5e-6})
+    return at_speed(machine.model_copy(update={"terms": [*machine.terms, term]}), 800.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -236,7 +236,14 @@ TERM = Rub(
     ),
     severity="stiffness",
     order=30,
-    demo=Demo(leading=1, prepare=_with_unbalance),
+    demo=Demo(
+        machine="rotor",
+        values={"gap": 4e-6, "stiffness": 5e7, "friction": 0.05},
+        leading=1,
+        prepare=_with_unbalance,
+        note="At 800 Hz, three times its lowest natural frequencies, with an unbalance of 5e-6 kg m: every second turn "
+        "touches.",
+    ),
     validation=(
         Validation(
             kind="independent calculation",

@@ -11,6 +11,7 @@ from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.params import Param
 from sim.core.response import FloatArray
+from sim.core.spec import MachineSpec, TorqueLoad, TransmissionError
 from sim.core.terms import Demo, SiteContext, Term, Validation, Values
 from sim.parts.gear.flank import Flank
 from sim.parts.mesh_shapes import Shape, every_tooth_lines, with_shape
@@ -19,6 +20,13 @@ from sim.parts.mesh_shapes import Shape, every_tooth_lines, with_shape
 def relief_m(from_tip: FloatArray, amount_m: float, length: float, form: float) -> FloatArray:
     """Metal missing: `amount_m` at the tip, nothing beyond `length` from it; form 1 linear, 2 parabolic."""
     return np.asarray(amount_m * np.clip(1.0 - from_tip / length, 0.0, 1.0) ** form)
+
+
+def _suited(machine: MachineSpec) -> MachineSpec:
+    """Loaded as the default relief is made for: teeth that bend by about that much, and no other error."""
+    exact = TransmissionError(amplitude_m=0.0)
+    meshes = [mesh.model_copy(update={"transmission_error": exact}) for mesh in machine.meshes]
+    return machine.model_copy(update={"meshes": meshes, "loads": [TorqueLoad(shaft="input", torque_nm=60.0)]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +82,14 @@ TERM = TipRelief(
     references=("ISO 21771:2007 (profile modifications)",),
     severity="amount",
     order=20,
-    demo=Demo(machine="gear-pair", values={"amount": 3e-5}, leading=3),
+    demo=Demo(
+        machine="gear-pair",
+        elsewhere=("gear",),
+        leading=3,
+        falls=True,
+        prepare=_suited,
+        note="At 60 N m, for which the default relief of both gears is made, with teeth otherwise exact.",
+    ),
     validation=(
         Validation(
             kind="independent calculation",

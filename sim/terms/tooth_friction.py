@@ -80,7 +80,7 @@ TERM = ToothFriction(
     ),
     severity="coefficient",
     order=20,
-    demo=Demo(prepare=felt_along_x),
+    demo=Demo(prepare=felt_along_x, note="With its sensors turned to x, across the line of action."),
     validation=(
         Validation(
             kind="closed form",

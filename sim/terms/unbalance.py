@@ -12,8 +12,9 @@ from sim.core.kernels import kernel
 from sim.core.laws import Laws
 from sim.core.lines import Line
 from sim.core.params import Param
-from sim.core.terms import SiteContext, Term, Validation, Values
-from sim.parts.rotor import moves, refusal
+from sim.core.spec import MachineSpec
+from sim.core.terms import Demo, SiteContext, Term, Validation, Values
+from sim.parts.rotor import at_speed, moves, refusal
 
 CONTEXT = 2
 
@@ -51,6 +52,11 @@ OUTPUTS = (
     Output(name="force_x", quantity="force", unit="N", axis="x"),
     Output(name="force_y", quantity="force", unit="N", axis="y"),
 )
+
+
+def _fast(machine: MachineSpec) -> MachineSpec:
+    """At a speed where the force stands above that of the passing balls."""
+    return at_speed(machine, 100.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -108,6 +114,13 @@ TERM = Unbalance(
     references=("ISO 21940-11:2016 (balance quality)",),
     severity="moment",
     order=20,
+    demo=Demo(
+        machine="rotor",
+        values={"moment": 1e-4},
+        leading=1,
+        prepare=_fast,
+        note="At 100 Hz: the force grows with the square of the speed.",
+    ),
     validation=(
         Validation(
             kind="closed form",

@@ -116,6 +116,8 @@ def shown(term: Term, lines: list[Line], with_term: MachineSpec, without: Machin
                 level = amplitude_at(a, hz)
                 over = 20 * np.log10(level / floor[round(hz / a.resolution_hz)])
                 rise = np.inf if term.key in BASE else 20 * np.log10(level / amplitude_at(b, hz))
+                if term.demo.falls:
+                    rise, over = -rise, over - rise
                 views.append(Shown(label=line.label, over_floor_db=over, rise_db=rise, where=where))
         found.append(max(views, key=lambda v: min(v.over_floor_db - OVER_FLOOR_DB, v.rise_db - RISE_DB)))
     return found

@@ -9,7 +9,6 @@ import pytest
 from jobs.demonstration import demonstration, predicted
 from jobs.term_document import term_document
 from sim.assembly.assemble import BUILT_IN, assemble, predicted_lines
-from sim.presets import preset
 from sim.terms import REGISTRY
 from sim.terms.cage_slip import TERM as CAGE_SLIP
 from sim.terms.unbalance import TERM as UNBALANCE
@@ -45,7 +44,7 @@ def test_lines_of_one_of_everything_are_those_of_the_assembled_machine():
 
 def test_unbalance_turns_with_its_shaft():
     ((line, hz),) = predicted(UNBALANCE, demonstration(UNBALANCE))
-    operating = preset(UNBALANCE.demo.machine).operating
+    operating = demonstration(UNBALANCE).machine.operating
     assert (line.label, hz) == ("1*f_r1", operating.speed_hz)
 
 

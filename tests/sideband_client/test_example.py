@@ -27,6 +27,7 @@ def test_example_of_the_page_runs(tmp_path: Path) -> None:
     finally:
         parts.close()
     assert told.returncode == 0, told.stderr
+    assert told.stdout.startswith("accepted\n")
     assert "simulating" in told.stdout and re.search(r"^1\*f_m .* present$", told.stdout, re.MULTILINE), told.stdout
     assert (tmp_path / "out" / "signals.npz").is_file()
 

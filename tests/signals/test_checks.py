@@ -95,12 +95,28 @@ def test_irregular_stamps_are_described_and_refused() -> None:
         read_time_base(np.array([0.0, np.nan, 1.0]))
 
 
-def test_hum_is_found_unless_the_shaft_explains_it() -> None:
+def _humming(*lines: tuple[float, float]) -> Series:
     noise = 0.1 * np.random.default_rng(1).standard_normal(T.size)
-    series = Series(samples=noise + 0.2 * np.sin(2 * np.pi * 100.02 * T), sampling_rate_hz=RATE, unit="g", name="a")
-    (hum,) = find_hum(series)
-    assert (hum.mains_hz, hum.harmonic) == (50.0, 2)
-    assert hum.amplitude_peak == pytest.approx(0.2, rel=0.1)
+    tones = sum((a * np.sin(2 * np.pi * hz * T) for hz, a in lines), start=np.zeros(T.size))
+    return Series(samples=noise + tones, sampling_rate_hz=RATE, unit="g", name="a")
+
+
+def test_hum_is_found_unless_the_shaft_explains_it() -> None:
+    series = _humming((50.01, 0.3), (100.02, 0.2))
+    one, two = find_hum(series)
+    assert (one.mains_hz, one.harmonic, two.harmonic) == (50.0, 1, 2)
+    assert two.amplitude_peak == pytest.approx(0.2, rel=0.1)
     assert find_hum(series, expected_hz=[25.005 * k for k in range(1, 10)]) == ()
-    quiet = Series(samples=noise, sampling_rate_hz=RATE, unit="g")
-    assert find_hum(quiet) == ()
+    assert find_hum(_humming()) == ()
+
+
+def test_one_line_at_some_harmonic_of_the_mains_is_a_coincidence() -> None:
+    assert find_hum(_humming((298.95, 0.5))) == find_hum(_humming((180.0, 0.5))) == ()
+    assert {(h.mains_hz, h.harmonic) for h in find_hum(_humming((180.0, 0.5), (300.0, 0.5)))} == {(60.0, 3), (60.0, 5)}
+    found = find_hum(_humming((50.0, 0.5), (298.95, 0.5)))
+    assert [(h.mains_hz, h.harmonic) for h in found] == [(50.0, 1)]
+
+
+def test_a_harmonic_where_the_machine_has_a_line_too_is_told_where_the_rest_is() -> None:
+    found = find_hum(_humming((50.0, 0.5), (100.0, 0.4), (150.0, 0.3)), [30.0 * k for k in range(1, 20)])
+    assert [(h.harmonic, h.shared) for h in found] == [(1, False), (2, False), (3, True)]

@@ -6,7 +6,6 @@ diameter for the same designation, so each row also says whose bearing it is.
 
 from __future__ import annotations
 
-import difflib
 import json
 import math
 import re
@@ -18,6 +17,7 @@ from types import MappingProxyType
 from typing import Any, Literal
 
 from sim.core.errors import UnknownName
+from sim.core.near import near
 from sim.parts.bearing.geometry import RollingGeometry, from_diameters
 
 _MM = 1e-3
@@ -129,6 +129,5 @@ def lookup(designation: str) -> CatalogueRow:
     wanted = base.group(1) if base else designation
     reason = missing().get(wanted)
     kind = "bearing" if reason is None else f"bearing (left out: {reason}; its geometry can be given instead)"
-    near = difflib.get_close_matches(_folded(wanted), by_folded, n=5, cutoff=0.6)
-    known = [by_folded[n].designation for n in near] or list(catalogue())
+    known = [by_folded[n].designation for n in near(_folded(wanted), by_folded, most=5)] or list(catalogue())
     raise UnknownName(kind, designation, known)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
 from sim.core.errors import Problem, SpecError
+from sim.core.near import did_you_mean
 from sim.core.params import Param
 
 Absence = Literal["refused", "derived", "default"]
@@ -117,10 +117,11 @@ def checked(given: Mapping[str, object]) -> dict[str, float]:
 
 
 def _unknown(name: str) -> Problem:
-    near = difflib.get_close_matches(name, KEYS, n=3)
-    hint = f" (did you mean {' or '.join(near)}?)" if near else ""
     return Problem(
-        field=f"parameters.{name}", message=f"is not a known parameter{hint}", given=name, allowed=", ".join(KEYS)
+        field=f"parameters.{name}",
+        message=f"is not a known parameter{did_you_mean(name, KEYS)}",
+        given=name,
+        allowed=", ".join(KEYS),
     )
 
 

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import json
+import re
+from pathlib import Path
+
 import pytest
 
 from reconcile.kinematics import of_machine, read_kinematic_spec
@@ -83,3 +87,26 @@ def test_a_full_machine_is_read_as_kinematics() -> None:
     tie = ties(found, "input")
     assert {f.kind for f in tie.families} >= {"outer", "inner", "ball", "cage", "turn"}
     assert len(tie.meshes) == 1
+
+
+@pytest.mark.parametrize(
+    ("document", "field", "allowed"),
+    [
+        (spec(extra=1), "kinematics.extra", "name, shafts, bearings, gears, meshes"),
+        (spec(bearings=[bearing(catalogue="6205", speed=1)]), "kinematics.bearings.0.speed", "catalogue, balls"),
+        (spec(bearings=[bearing(orders={"bpfo": 3.5, "bpfi": 5.5, "bpf": 1})]), "orders.bpf", "bpfo, bpfi, bsf, ftf"),
+        ({"kinematic": {}}, "machine", "kinematics"),
+    ],
+)
+def test_the_refusal_of_an_unknown_key_lists_the_known_ones(document, field, allowed) -> None:  # type: ignore[no-untyped-def]
+    with pytest.raises(SpecError) as caught:
+        read_kinematic_spec(document)
+    (problem,) = caught.value.problems
+    assert problem.field.endswith(field) and allowed in problem.allowed
+
+
+def test_the_example_of_the_page_is_read() -> None:
+    page = (Path(__file__).parents[3] / "docs" / "reconcile.md").read_text(encoding="utf-8")
+    (example,) = (text for text in re.findall(r"```json\n(.*?)```", page, re.DOTALL) if "kinematics" in text)
+    tie = ties(read_kinematic_spec(json.loads(example)))
+    assert tie.shafts["output"] == pytest.approx(21 / 64)

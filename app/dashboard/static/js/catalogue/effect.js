@@ -35,7 +35,7 @@ function contents(term, law, example) {
     ["Size", term.severity ? `${term.severity}${term.zero_is_healthy ? "; zero changes nothing" : ""}` : "–"],
     ["Energy", term.passive ? "never adds any" : "may add some"],
     ["Not together with", term.excludes.join(", ") || "–"],
-    ["Demonstration", `${term.demo.machine}${term.demo.site ? `, at ${term.demo.site}` : ", which has it already"}`],
+    ["Demonstration", `${term.demo.machine}${term.demo.site ? `, at ${[term.demo.site, ...term.demo.elsewhere].join(" and ")}` : ", which has it already"}${term.demo.note ? `. ${term.demo.note}` : ""}`],
     ["Equations and limits", h("a", { href: `#/catalogue/${term.key}/page` }, "Page of this effect")],
   ];
   return [

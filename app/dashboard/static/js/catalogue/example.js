@@ -20,9 +20,9 @@ export function examplePart(term) {
   return { element: body, stop: () => { left = true; plots.forEach((plot) => plot.destroy()); } };
 }
 
-function about({ channel, signal, spectrum }) {
+function about({ channel, note, signal, spectrum, unseen, lines }) {
   const behind = signal.without ? "Grey: the same machine without the effect." : "Every such machine has this effect, so there is none without it.";
-  return `${channelName(channel)}, after the start-up; ${spectrum.kind} spectrum, resolution ${number(spectrum.resolution_hz)} Hz. ${behind} Marks: the leading predicted lines.`;
+  return `${channelName(channel)}, after the start-up; ${spectrum.kind} spectrum, resolution ${number(spectrum.resolution_hz)} Hz. ${note} ${behind} ${lines.length ? "Marks: the predicted lines that show here, the strongest of them." : ""}${unseen.length ? ` Predicted, but not to be seen here: ${unseen.join(", ")}.` : ""}`;
 }
 
 function scaledCurve(curve, factor) {

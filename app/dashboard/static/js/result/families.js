@@ -11,6 +11,9 @@ export function swatch(key, className = "") {
   return canvas;
 }
 
+/** The labels keep the strongest of the unexplained lines only, so many at most (signals/labels/match.py). */
+const MOST_UNEXPLAINED = 200;
+
 export function familyChips(context, onChange) {
   const element = h("div", { class: "families", role: "group", "aria-label": "Families of lines" });
   let counts = {};
@@ -18,7 +21,7 @@ export function familyChips(context, onChange) {
   function refresh() {
     replace(element, FAMILIES.map(({ key, name }) => h("button", {
       type: "button", class: "family", dataset: { family: key, empty: String(!counts[key]) }, "aria-pressed": String(context.families.has(key)), onclick: () => toggle(key),
-    }, swatch(key), name, h("span", { class: "count num muted" }, String(counts[key] ?? 0)))));
+    }, swatch(key), name, h("span", { class: "count num muted" }, key === "unexplained" && counts[key] >= MOST_UNEXPLAINED ? `${MOST_UNEXPLAINED}+` : String(counts[key] ?? 0)))));
   }
 
   function toggle(key) {

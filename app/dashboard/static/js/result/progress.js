@@ -1,7 +1,7 @@
 /** A job that is under way, and one that did not end well. */
 
 import { h, replace } from "/js/lib/dom.js";
-import { duration } from "/js/lib/format.js";
+import { duration, number } from "/js/lib/format.js";
 
 const STAGES = { waiting: "Waiting for a worker", starting: "Starting", simulating: "Simulating", analysing: "Analysing spectra and labels", storing: "Storing the result", done: "Done" };
 
@@ -33,7 +33,7 @@ export function failurePanel(job) {
   const box = note(failure.code === "diverged" ? "The simulation diverged" : "The job failed", failure.message, "bad");
   if (failure.advice) box.append(h("p", {}, h("strong", {}, "What to do: "), failure.advice));
   const details = Object.entries(failure.detail ?? {}).filter(([, value]) => typeof value !== "object");
-  if (details.length) box.append(h("dl", { class: "facts" }, details.map(([name, value]) => [h("dt", {}, name), h("dd", {}, String(value))])));
+  if (details.length) box.append(h("dl", { class: "facts" }, details.map(([name, value]) => [h("dt", {}, name), h("dd", {}, typeof value === "number" ? number(value, 6) : String(value))])));
   const errors = failure.detail?.errors;
   if (Array.isArray(errors)) {
     const list = h("ul", { class: "problem-fields" });
