@@ -56,7 +56,7 @@ class Carrier:
 class Grid:
     """All sums of a carrier and its modulators: `orders` shape (sums, bases), frequencies and ranks (sums,).
 
-    `mechanism`, `family`: what modulated sums are called.
+    `mechanisms`, `family`: what modulated sums are called. `series`: a defect's own lines, no product of others.
     """
 
     carrier: Carrier | None
@@ -64,8 +64,9 @@ class Grid:
     orders: IntArray
     frequency_hz: FloatArray
     rank: IntArray
-    mechanism: str = INTERMODULATION
+    mechanisms: tuple[str, ...] = (INTERMODULATION,)
     family: str = FAMILY
+    series: bool = False
 
     def lines(self, row: int) -> Iterator[Line]:
         """The sum with each component that takes part, so that merging collects them."""
@@ -78,7 +79,8 @@ class Grid:
                     yield Line(orders=kept, component=name, mechanism=mechanism, family=self.carrier.family)
         # the carrier counts as a component only where nothing modulates it
         for name in (c for m in self.modulators for c in m.components):
-            yield Line(orders=kept, component=name, mechanism=self.mechanism, family=self.family)
+            for mechanism in self.mechanisms:
+                yield Line(orders=kept, component=name, mechanism=mechanism, family=self.family)
 
 
 def rank_of(orders: Sequence[tuple[str, int]], carriers: Sequence[str]) -> int:
