@@ -104,7 +104,7 @@ def proven_layers(
     tail = np.where(lines > 0, gammainc(np.maximum(lines, 1), by_chance), 1.0)
     limit = np.where(lines > 1, matching.family_chance, matching.lone_chance)
     false = np.cumsum(np.where(hit, 0.0, np.expm1(np.minimum(expected, 1.0)))[order])[last]
-    clear = (false <= matching.false_share * lines) & (by_chance <= CROWDED * lines)
+    clear = (false <= matching.false_share * lines) & (by_chance <= max(CROWDED, matching.false_share) * lines)
     good = np.flatnonzero((tail <= limit) & clear)
     proven = np.zeros(weights.size, dtype=np.bool_)
     proven[order[: last[good[-1]] + 1 if good.size else 0]] = True

@@ -51,9 +51,8 @@ def series_grids(
             words = told.get(frozenset({base}), Told(mechanisms=(MECHANISM,), family=family))
             # which of equal bearings it is, a term alone can say
             sites = tuple(b.site for b in (acting if told else alike))
-            carrier = Carrier(
-                base=base, components=sites, mechanisms=words.mechanisms, family=words.family, strong=True
-            )
+            makers = tuple((site, m) for site in sites for m in words.mechanisms)
+            carrier = Carrier(base=base, makers=makers, family=words.family, strong=True)
             yield _grid(carrier, _side(acting[0], letter, bases_hz, sites, bound), bases_hz, EVERY[letter], top_hz)
 
 
@@ -99,7 +98,7 @@ def _grid(carrier: Carrier, side: Modulator | None, bases_hz: Mapping[str, float
         orders=np.asarray(orders[kept], dtype=np.int64),
         frequency_hz=np.asarray(signed[kept], dtype=np.float64),
         rank=np.asarray(RANK_STEP + sidebands[kept], dtype=np.int64),
-        mechanisms=carrier.mechanisms,
+        mechanisms=tuple(dict.fromkeys(mechanism for _, mechanism in carrier.makers)),
         family=carrier.family,
         series=True,
     )
