@@ -53,10 +53,13 @@ class Candidate:
 
 @dataclass(frozen=True, kw_only=True)
 class Told:
-    """What terms say of the lines made of some bases: their mechanisms and the family they count to."""
+    """What terms say of the lines made of some bases: their mechanisms, the family they count to, and the `makers`,
+    components each with a mechanism.
+    """
 
     mechanisms: tuple[str, ...]
     family: str
+    makers: frozenset[tuple[str, str]] = frozenset()
 
 
 def told_series(lines: Iterable[Line]) -> dict[Series, Told]:
@@ -67,7 +70,8 @@ def told_series(lines: Iterable[Line]) -> dict[Series, Told]:
             series = frozenset(base for base, n in line.orders if n)
             known = found.get(series, Told(mechanisms=(), family=line.family))
             mechanisms = tuple(dict.fromkeys((*known.mechanisms, line.mechanism)))
-            found[series] = replace(known, mechanisms=mechanisms)
+            makers = known.makers | {(line.component, line.mechanism)}
+            found[series] = replace(known, mechanisms=mechanisms, makers=makers)
     return found
 
 
@@ -133,7 +137,7 @@ def _candidate(group: Sequence[Line], bases_hz: Mapping[str, float], told: Mappi
         frequency_hz=first.frequency_hz(bases_hz),
         family=family,
         mechanism=mechanisms[0],
-        component=components[0] if len(components) == 1 else _site(group, mechanisms[0], family),
+        component=components[0] if len(components) == 1 else _site(known, mechanisms[0], family),
         components=components,
         mechanisms=mechanisms,
         aliases=labels[1:],
@@ -142,9 +146,9 @@ def _candidate(group: Sequence[Line], bases_hz: Mapping[str, float], told: Mappi
     )
 
 
-def _site(group: Sequence[Line], mechanism: str, family: str) -> str | None:
+def _site(known: Sequence[Told], mechanism: str, family: str) -> str | None:
     """Where the defect sits that names a line of several equal bearings, if it sits in one only."""
-    sites = {x.component for x in group if x.mechanism == mechanism}
+    sites = {site for told in known for site, by in told.makers if by == mechanism}
     return sites.pop() if family in IN_BEARINGS and mechanism not in HEALTHY and len(sites) == 1 else None
 
 

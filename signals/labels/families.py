@@ -37,8 +37,8 @@ class Bound:
     ball: int = 5
     ball_cage_sidebands: int = 2
     cage: int = 5
-    series_shaft_sidebands: int = 10
-    series_cage_sidebands: int = 8
+    series_shaft_sidebands: int = 12
+    series_cage_sidebands: int = 10
     combination_shaft: int = 5
     combination_outer: int = 24
     ambiguity_weight: int = 12
