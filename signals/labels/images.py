@@ -20,7 +20,7 @@ FAMILY = "numerical"
 MECHANISM = "step_image"
 MAX_FOLDS = 24
 """Largest multiple of the step rate looked at."""
-MAX_ORDER = 2500
+MAX_ORDER = 3000
 """Largest multiple of a base looked at: a kink's harmonics fall as the 2.5th power, nothing is left of later ones."""
 MAX_SHARE = 0.03
 """Largest amplitude of an image over that of the strongest line, -30 dB: the harmonics that fold lie far out."""

@@ -31,3 +31,14 @@ def test_every_effect_has_an_example_of_bounded_size(key):
         if isinstance(curve, dict):
             assert 2 < len(curve["x"]) == len(curve["y"]) <= MAX_POINTS
     assert found["spectrum"]["with"]["x"][-1] <= 10_000.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("key", ["outer_spall", "inner_spall", "ball_spall"])
+def test_the_envelope_of_a_spall_shows_its_rate_before_anything_else(key):
+    document = example(REGISTRY.get(key))
+    curve, lines = document["spectrum"]["with"], document["lines"]
+    x, y = np.array(curve["x"]), np.array(curve["y"])
+    inner = np.flatnonzero((y[1:-1] > y[:-2]) & (y[1:-1] >= y[2:]) & (x[1:-1] > 4.0)) + 1
+    strongest = x[inner[np.argmax(y[inner])]]
+    assert strongest == pytest.approx(lines[0]["frequency_hz"], abs=document["spectrum"]["resolution_hz"])
