@@ -92,11 +92,11 @@ def proven_layers(
 
     A family is gone through from its simplest sums on. Up to a sum of some weight it is there when chance brings as
     many lines with no more than `matching.family_chance` (a single one: `lone_chance`), and when no more than the share
-    `matching.false_share` of the lines found are false. Lines up to the heaviest such weight are proven. The number that
-    chance brings is Poisson's, `expected` what it is for each line. Those of the lines found that are false follow from
-    the lines missed, as chance misses too: with the chance q to hit, q / (1 - q) = e^expected - 1 for each line missed
-    (J. D. Storey, J. R. Stat. Soc. B 64 (2002) 479-498: the true nulls are counted where nothing was found). A family of
-    which every line is found has no false ones, however many peaks there are.
+    `matching.false_share` of the lines found are false. Lines up to the heaviest such weight are proven. The number
+    that chance brings is Poisson's, `expected` what it is for each line. How many of the lines found are false follows
+    from the lines missed, as chance misses too: with the chance q to hit, q / (1 - q) = e^expected - 1 for each line
+    missed (J. D. Storey, J. R. Stat. Soc. B 64 (2002) 479-498: the true nulls are counted where nothing was found). A
+    family of which every line is found has no false ones, however many peaks there are (up to `CROWDED`).
     """
     order = np.argsort(weights, kind="stable")
     last = np.flatnonzero(np.diff(weights[order], append=weights.max(initial=0) + 1) > 0)

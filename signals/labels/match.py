@@ -133,9 +133,7 @@ def _further(scene: Scene, known: Known, setting: Setting) -> Further:
         return first
     top = float(scene.spectrum.frequency_hz[-1])
     products = grids(kinematics, bases_hz, known.lines, top_hz=top, bound=setting.bound)
-    series = series_grids(
-        kinematics, bases_hz, known.lines, found=found_bases(scene), top_hz=top, bound=setting.bound
-    )
+    series = series_grids(kinematics, bases_hz, known.lines, found=found_bases(scene), top_hz=top, bound=setting.bound)
     physical = combine(first, gather([*series, *products]), kinematics, bases_hz, setting, tried=first.left)
     weak = faint(scene.found)
     images = gather(known.images)

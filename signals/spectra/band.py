@@ -8,14 +8,15 @@ kurtosis is above chance the one with the largest mean of two negentropies <w ln
 in time (w: the envelope over its mean) and of its spectrum (w: power of a bin over their mean): impacts stand out in
 time, and repeated ones gather in few lines, where a click spreads over all. That is the infogram's average of
 J. Antoni, "The infogram: entropic evidence of the signature of repetitive transients", Mech. Syst. Signal Process. 74
-(2016) 73-94. A single click, or the jump from the end of the record to its beginning, has the larger mean of the two at
-times: bands whose spectrum is no more lined than noise makes it are passed over. The spectrum's half by itself falls for a low band with a few lines of the shaft and the bearing in it,
-that beat; gears beat sharply as well, and have no excess kurtosis. The bands are cut ideally from one transform of the
-whole series.
+(2016) 73-94. A single click, or the jump from the end of the record to its beginning, has the larger mean at times: bands
+whose spectrum is no more lined than noise makes it are passed over. The spectrum's half by itself falls for a low band
+with a few lines of the shaft and the bearing in it, that beat; gears beat sharply as well, and have no excess kurtosis.
+The bands are cut ideally from one transform of the whole series.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,8 +29,8 @@ from signals.spectra.types import Band
 from sim.core.errors import Problem, SpecError
 
 RULE = "largest mean negentropy of the squared envelope and of its spectrum among the bands of a 1/3-binary tree whose "
-RULE += "spectral kurtosis, and the negentropy of that spectrum if possible, are above chance; if no band is impulsive, "
-RULE += "the largest spectral kurtosis relative to chance"
+RULE += "spectral kurtosis, and where there are such the negentropy of that spectrum, is above chance; if no band is "
+RULE += "impulsive, the largest spectral kurtosis relative to chance"
 FALSE_ALARM = 0.05
 MIN_BAND_SAMPLES = 128
 """Complex samples a band needs before its kurtosis is looked at."""
@@ -60,7 +61,7 @@ class _Candidate:
         Its bins are exponential there: <w ln w> = 1 - 0.577 with a variance of Gamma''(3) - 0.423^2 = 2.3 a bin.
         """
         bins = self.samples // 2
-        return self.in_spectrum > NOISE_NEGENTROPY + 3 * (2.3 / bins) ** 0.5
+        return self.in_spectrum > NOISE_NEGENTROPY + 3 * math.sqrt(2.3 / bins)
 
 
 def choose_band(series: Series, *, min_bandwidth_hz: float | None = None, max_level: int = 5) -> Band:

@@ -48,7 +48,9 @@ def test_a_cause_without_which_the_line_grows_says_so() -> None:
         {"term": "transmission_error", "site": "mesh1", "share": 0.92, "removed_db": -2.89},
         {"term": "ball_contact", "site": "bearing1", "share": 0.08, "removed_db": 0.5},
     ]
-    _, rule, line = listed({"channel": "x", "cause_rule": "shapley_power", "peaks": [peak("3*f_m", 1.0, causes=causes)]})
+    _, rule, line = listed(
+        {"channel": "x", "cause_rule": "shapley_power", "peaks": [peak("3*f_m", 1.0, causes=causes)]}
+    )
     assert "by Shapley's value" in rule
     assert line.endswith("92 % transmission_error@mesh1 (without it the line grows by 2.9 dB)")
 

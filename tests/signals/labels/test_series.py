@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from gearbox import BASES, KINEMATICS, LINES, RATE, sines
+from gearbox import BASES, KINEMATICS, RATE, sines
 
 from signals.labels import Kinematics, ShaftKinematics, kinematic_lines, label_peaks
 from signals.labels.canonical import HEALTHY
@@ -35,7 +35,9 @@ def told(site: str, mechanism: str, family: str, *sums: dict[str, int]) -> list[
 INNER = told("bearing2", "inner_spall", "inner", *({"f_i2": k, "f_r1": n} for k in range(1, 9) for n in range(-2, 3)))
 BALL = told("bearing1", "ball_spall", "ball", *({"f_b1": 2 * k, "f_c1": n} for k in range(1, 9) for n in range(-2, 3)))
 BALLS = [
-    line for i in (1, 2) for line in told(f"bearing{i}", "ball_contact", "outer", *({f"f_o{i}": k} for k in range(1, 7)))
+    line
+    for i in (1, 2)
+    for line in told(f"bearing{i}", "ball_contact", "outer", *({f"f_o{i}": k} for k in range(1, 7)))
 ]
 
 
