@@ -223,7 +223,7 @@ def _decided(peak: Mapping[str, object], causes: Sequence[Mapping[str, object]])
     One without which the line grows is not: it makes the line where another effect is missing, and weakens it here.
     """
     told = {**peak, "causes": list(causes)}
-    if causes and float(str(causes[0]["share"])) >= SHOWN and float(str(causes[0]["removed_db"])) >= 0:
+    if causes and float(str(causes[0]["share"])) >= SHOWN and float(str(causes[0].get("removed_db", 0.0))) >= 0:
         basis = PREDICTED if causes[0]["counterfactual"] == PREDICTED else "counterfactual"
         told |= {"mechanism": causes[0]["term"], "mechanism_basis": basis}
         told |= {"component": causes[0]["site"]} if causes[0]["site"] else {}

@@ -8,9 +8,10 @@ kurtosis is above chance the one with the largest mean of two negentropies <w ln
 in time (w: the envelope over its mean) and of its spectrum (w: power of a bin over their mean): impacts stand out in
 time, and repeated ones gather in few lines, where a click spreads over all. That is the infogram's average of
 J. Antoni, "The infogram: entropic evidence of the signature of repetitive transients", Mech. Syst. Signal Process. 74
-(2016) 73-94. A single click, or the jump from the end of the record to its beginning, has the larger mean at times: bands
-whose spectrum is no more lined than noise makes it are passed over. The spectrum's half by itself falls for a low band
-with a few lines of the shaft and the bearing in it, that beat; gears beat sharply as well, and have no excess kurtosis.
+(2016) 73-94. A single click, or the jump from the end of the record to its beginning, has the larger mean at times:
+bands whose spectrum is no more lined than noise makes it are passed over. The spectrum's half by itself falls for a low
+band with a few lines of the shaft and the bearing in it, that beat; gears beat sharply as well, and have no excess
+kurtosis.
 The bands are cut ideally from one transform of the whole series.
 """
 
