@@ -218,9 +218,12 @@ def _told(labels: Mapping[str, object], table: Mapping[str, Sequence[Mapping[str
 
 
 def _decided(peak: Mapping[str, object], causes: Sequence[Mapping[str, object]]) -> dict[str, object]:
-    """The peak with its causes; one with half the line's power or more is its mechanism, and its site the component."""
+    """The peak with its causes; one with half the line's power or more is its mechanism, and its site the component.
+
+    One without which the line grows is not: it makes the line where another effect is missing, and weakens it here.
+    """
     told = {**peak, "causes": list(causes)}
-    if causes and isinstance(share := causes[0]["share"], float) and share >= SHOWN:
+    if causes and float(str(causes[0]["share"])) >= SHOWN and float(str(causes[0].get("removed_db", 0.0))) >= 0:
         basis = PREDICTED if causes[0]["counterfactual"] == PREDICTED else "counterfactual"
         told |= {"mechanism": causes[0]["term"], "mechanism_basis": basis}
         told |= {"component": causes[0]["site"]} if causes[0]["site"] else {}

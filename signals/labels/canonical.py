@@ -15,6 +15,10 @@ from sim.core.lines import Line, Order
 
 FAMILY_ORDER = ("f_m", "f_o", "f_i", "f_b", "f_c", "f_r")
 """Order of the bases in a label (carriers before what modulates them), and of preference between equal weights."""
+IN_BEARINGS = frozenset({"outer", "inner", "ball", "cage"})
+"""Families of the parts of a bearing."""
+HEALTHY = frozenset({"ball_contact"})
+"""What every bearing does: named after a term that someone put into the machine, where both make a line."""
 Series = frozenset[str]
 """The bases of a line: its family of multiples and sidebands."""
 _BASE = re.compile(r"^(?P<family>[a-z]_[a-z])(?P<index>\d*)$")
@@ -24,6 +28,7 @@ _BASE = re.compile(r"^(?P<family>[a-z]_[a-z])(?P<index>\d*)$")
 class Candidate:
     """A canonical line: one frequency, every form, component and mechanism it may come from (simplest first).
 
+    `component`: the only one, or that of the defect which names a bearing's line; None where several may make it.
     `predicted`: a term of the physics predicts this very line. `families`: component and first base of each of its
     forms, as (`bearing1`, `f_i1`): what has to be found together where nothing predicts it.
     """
@@ -33,6 +38,7 @@ class Candidate:
     frequency_hz: float
     family: str
     mechanism: str
+    component: str | None
     components: tuple[str, ...]
     mechanisms: tuple[str, ...]
     aliases: tuple[str, ...]
@@ -47,10 +53,13 @@ class Candidate:
 
 @dataclass(frozen=True, kw_only=True)
 class Told:
-    """What terms say of the lines made of some bases: their mechanisms and the family they count to."""
+    """What terms say of the lines made of some bases: their mechanisms, the family they count to, and the `makers`,
+    components each with a mechanism.
+    """
 
     mechanisms: tuple[str, ...]
     family: str
+    makers: frozenset[tuple[str, str]] = frozenset()
 
 
 def told_series(lines: Iterable[Line]) -> dict[Series, Told]:
@@ -61,7 +70,8 @@ def told_series(lines: Iterable[Line]) -> dict[Series, Told]:
             series = frozenset(base for base, n in line.orders if n)
             known = found.get(series, Told(mechanisms=(), family=line.family))
             mechanisms = tuple(dict.fromkeys((*known.mechanisms, line.mechanism)))
-            found[series] = replace(known, mechanisms=mechanisms)
+            makers = known.makers | {(line.component, line.mechanism)}
+            found[series] = replace(known, mechanisms=mechanisms, makers=makers)
     return found
 
 
@@ -117,19 +127,29 @@ def _candidate(group: Sequence[Line], bases_hz: Mapping[str, float], told: Mappi
     first = ordered[0]
     labels = tuple(dict.fromkeys(x.label for x in ordered))
     known = [told[series] for x in ordered if (series := _series(x)) in told]
-    mechanisms = tuple(dict.fromkeys(m for t in known for m in t.mechanisms)) or (MECHANISM,)
+    spoken = dict.fromkeys(m for t in known for m in t.mechanisms)
+    mechanisms = tuple(sorted(spoken, key=lambda m: m in HEALTHY)) or (MECHANISM,)
+    family = told[_series(first)].family if _series(first) in told else first.family
+    components = tuple(dict.fromkeys(x.component for x in ordered))
     return Candidate(
         label=first.label,
         orders=first.orders,
         frequency_hz=first.frequency_hz(bases_hz),
-        family=told[_series(first)].family if _series(first) in told else first.family,
+        family=family,
         mechanism=mechanisms[0],
-        components=tuple(dict.fromkeys(x.component for x in ordered)),
+        component=components[0] if len(components) == 1 else _site(known, mechanisms[0], family),
+        components=components,
         mechanisms=mechanisms,
         aliases=labels[1:],
         predicted=any(x.mechanism != MECHANISM for x in group),
         families=tuple(dict.fromkeys((x.component, x.orders[0][0]) for x in ordered)),
     )
+
+
+def _site(known: Sequence[Told], mechanism: str, family: str) -> str | None:
+    """Where the defect sits that names a line of several equal bearings, if it sits in one only."""
+    sites = {site for told in known for site, by in told.makers if by == mechanism}
+    return sites.pop() if family in IN_BEARINGS and mechanism not in HEALTHY and len(sites) == 1 else None
 
 
 def _series(line: Line) -> Series:

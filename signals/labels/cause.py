@@ -103,8 +103,10 @@ def shares(power: Mapping[Coalition, FloatArray], effects: int, rule: Rule) -> F
 
     `shapley_power`: L. S. Shapley's value (A value for n-person games, Contributions to the Theory of Games II, 1953,
     307-317) with the line's power as the worth of a coalition: the mean, over all orders of adding the effects, of
-    what each adds. `leave_one_out_power`: what the line loses without each effect. Effects that weaken a line have no
-    share of it. Rows are scaled to add up to one; a line without power has no shares.
+    what each adds. `leave_one_out_power`: what the line loses without each effect. Effects whose value is negative have
+    no share. By Shapley that is what weakens a line on the mean over the orders: an effect without which the line
+    grows may have a share all the same, for what it adds where others are missing.
+    Rows are scaled to add up to one; a line without power has no shares.
     """
     everyone = frozenset(range(effects))
     base = np.maximum(power[frozenset()], 0.0)
@@ -135,7 +137,9 @@ def split(base: FloatArray, lacking: Mapping[Coalition, FloatArray], count: int)
 
     `base` (lines,) is the base machine's power, `lacking` that of the machine without the excitations of a set: every
     single one, and pairs of them. A single excitation explains what goes away with it; one of a pair its Shapley value
-    in the game of the two, so that two that each suffice, or that weaken each other, share what goes away with both.
+    in the game of the two, so that two that each suffice, or that weaken each other, share what goes away with both:
+    half of what it takes from the two together and half of what it makes alone. The stronger of two that work against
+    each other so has nearly all, though the line may grow without it.
     Together they explain no more than all: beyond that they are scaled. Shape (count + 1, lines).
     """
     lost = [np.maximum(_explained(base, lacking, i), 0.0) for i in range(count)]

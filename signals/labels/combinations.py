@@ -45,18 +45,23 @@ class Carrier:
     """
 
     base: str
-    components: tuple[str, ...]
-    mechanisms: tuple[str, ...]
+    makers: tuple[tuple[str, str], ...]
+    """Components, each with a mechanism that makes the series there."""
     family: str
     strong: bool
     """Whether the order is free, as that of a mesh; the passing of balls is weak and ranks as a modulation does."""
+
+    @property
+    def components(self) -> tuple[str, ...]:
+        """Where the series may come from."""
+        return tuple(dict.fromkeys(name for name, _ in self.makers))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Grid:
     """All sums of a carrier and its modulators: `orders` shape (sums, bases), frequencies and ranks (sums,).
 
-    `mechanism`, `family`: what modulated sums are called.
+    `mechanisms`, `family`: what modulated sums are called. `series`: a defect's own lines, no product of others.
     """
 
     carrier: Carrier | None
@@ -64,8 +69,9 @@ class Grid:
     orders: IntArray
     frequency_hz: FloatArray
     rank: IntArray
-    mechanism: str = INTERMODULATION
+    mechanisms: tuple[str, ...] = (INTERMODULATION,)
     family: str = FAMILY
+    series: bool = False
 
     def lines(self, row: int) -> Iterator[Line]:
         """The sum with each component that takes part, so that merging collects them."""
@@ -73,12 +79,12 @@ class Grid:
         bases = [*([self.carrier.base] if self.carrier else []), *(m.base for m in self.modulators)]
         kept = tuple((base, n) for base, n in zip(bases, numbers, strict=True) if n)
         if self.carrier and not self.modulators:
-            for name in self.carrier.components:
-                for mechanism in self.carrier.mechanisms:
-                    yield Line(orders=kept, component=name, mechanism=mechanism, family=self.carrier.family)
+            for name, mechanism in self.carrier.makers:
+                yield Line(orders=kept, component=name, mechanism=mechanism, family=self.carrier.family)
         # the carrier counts as a component only where nothing modulates it
         for name in (c for m in self.modulators for c in m.components):
-            yield Line(orders=kept, component=name, mechanism=self.mechanism, family=self.family)
+            for mechanism in self.mechanisms:
+                yield Line(orders=kept, component=name, mechanism=mechanism, family=self.family)
 
 
 def rank_of(orders: Sequence[tuple[str, int]], carriers: Sequence[str]) -> int:
@@ -143,13 +149,12 @@ def carriers(
     """Meshes, and ball passes that a term predicts; bearings of one frequency are one."""
     told = told_series(lines)
 
-    def made(base: str, components: tuple[str, ...], family: str) -> Carrier:
+    def made(base: str, sites: Sequence[tuple[str, str]], family: str) -> Carrier:
         known = told.get(frozenset({base}), Told(mechanisms=(MECHANISM,), family=family))
-        return Carrier(
-            base=base, components=components, mechanisms=known.mechanisms, family=known.family, strong=family == "mesh"
-        )
+        makers = tuple((site, m) for own, site in sites for m in told.get(frozenset({own}), known).mechanisms)
+        return Carrier(base=base, makers=makers, family=known.family, strong=family == "mesh")
 
-    meshes = tuple(made(m.base, (m.component,), "mesh") for m in kinematics.meshes if m.base in bases_hz)
+    meshes = tuple(made(m.base, [(m.base, m.component)], "mesh") for m in kinematics.meshes if m.base in bases_hz)
     sites: dict[int, list[tuple[str, str]]] = {}
     for bearing in kinematics.bearings:
         base = bearing.base("o")
@@ -158,7 +163,7 @@ def carriers(
     balls = []
     for found in sites.values():
         known = [base for base, _ in found if frozenset({base}) in told]
-        balls += [made(known[0], tuple(site for _, site in found), "outer")] if known else []
+        balls += [made(known[0], found, "outer")] if known else []
     return meshes, tuple(balls)
 
 

@@ -74,7 +74,7 @@ def _named(scene: Scene, candidate: Candidate) -> LabelledPeak:
         order=candidate.frequency_hz / scene.unit_hz,
         unit=scene.spectrum.unit,
         scaling=scene.spectrum.scaling,
-        component=candidate.components[0] if len(candidate.components) == 1 else None,
+        component=candidate.component,
         components=candidate.components,
         family=candidate.family,
         mechanism=candidate.mechanism,

@@ -21,6 +21,9 @@ from signals.labels.types import Matching
 from signals.peaks import FoundPeaks
 from signals.series import BoolArray, FloatArray, IntArray
 
+CROWDED = 0.2
+"""Hits that chance brings over lines found, from which on misses prove nothing: the neighbourhood is full of peaks."""
+
 Word = Literal["term", "family", "sum", "chance"]
 
 
@@ -89,15 +92,20 @@ def proven_layers(
 
     A family is gone through from its simplest sums on. Up to a sum of some weight it is there when chance brings as
     many lines with no more than `matching.family_chance` (a single one: `lone_chance`), and when no more than the share
-    `matching.false_share` of the lines found is to be expected by chance. Lines up to the heaviest such weight are
-    proven. The number that chance brings is Poisson's, `expected` what it is for each line.
+    `matching.false_share` of the lines found are false. Lines up to the heaviest such weight are proven. The number
+    that chance brings is Poisson's, `expected` what it is for each line. How many of the lines found are false follows
+    from the lines missed, as chance misses too: with the chance q to hit, q / (1 - q) = e^expected - 1 for each line
+    missed (J. D. Storey, J. R. Stat. Soc. B 64 (2002) 479-498: the true nulls are counted where nothing was found). A
+    family of which every line is found has no false ones, however many peaks there are (up to `CROWDED`).
     """
     order = np.argsort(weights, kind="stable")
     last = np.flatnonzero(np.diff(weights[order], append=weights.max(initial=0) + 1) > 0)
     lines, by_chance = np.cumsum(hit[order])[last], np.cumsum(expected[order])[last]
     tail = np.where(lines > 0, gammainc(np.maximum(lines, 1), by_chance), 1.0)
     limit = np.where(lines > 1, matching.family_chance, matching.lone_chance)
-    good = np.flatnonzero((tail <= limit) & (by_chance <= matching.false_share * lines))
+    false = np.cumsum(np.where(hit, 0.0, np.expm1(np.minimum(expected, 1.0)))[order])[last]
+    clear = (false <= matching.false_share * lines) & (by_chance <= max(CROWDED, matching.false_share) * lines)
+    good = np.flatnonzero((tail <= limit) & clear)
     proven = np.zeros(weights.size, dtype=np.bool_)
     proven[order[: last[good[-1]] + 1 if good.size else 0]] = True
     chance = np.empty(weights.size)

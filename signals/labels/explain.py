@@ -47,6 +47,10 @@ class Sums:
             return np.asarray(self.rank[rows] % RANK_STEP)
         return np.asarray(np.abs(grid.orders[self.row[rows]]).sum(axis=1))
 
+    def series(self, i: int) -> bool:
+        """Whether the sum belongs to a defect's series."""
+        return self.grids[int(self.grid[i])].series
+
     def lines(self, i: int) -> tuple[Line, ...]:
         """The sum as lines, one for each component."""
         return tuple(self.grids[int(self.grid[i])].lines(int(self.row[i])))

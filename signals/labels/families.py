@@ -22,6 +22,8 @@ class Bound:
     two modulating bases, only for peaks that no family explains) the largest |order| of a shaft and of a bearing;
     that of the mesh is bounded by the spectrum.
 
+    `series_shaft_sidebands`, `series_cage_sidebands`: sidebands of a defect's series (`signals.labels.series`), whose
+    own order the spectrum bounds.
     `ambiguity_weight`: a sum competes for a peak that a simpler sum explains only if its |orders| add up to no more.
     """
 
@@ -35,6 +37,8 @@ class Bound:
     ball: int = 5
     ball_cage_sidebands: int = 2
     cage: int = 5
+    series_shaft_sidebands: int = 12
+    series_cage_sidebands: int = 10
     combination_shaft: int = 5
     combination_outer: int = 24
     ambiguity_weight: int = 12

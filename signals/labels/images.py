@@ -12,14 +12,25 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from signals.labels.combinations import RANK_STEP, Carrier, Grid, Modulator
+from signals.peaks import FoundPeaks
+from signals.series import BoolArray
 
 STEP_BASE = "f_s"
 FAMILY = "numerical"
 MECHANISM = "step_image"
 MAX_FOLDS = 24
 """Largest multiple of the step rate looked at."""
+MAX_ORDER = 3000
+"""Largest multiple of a base looked at: a kink's harmonics fall as the 2.5th power, nothing is left of later ones."""
+MAX_SHARE = 0.03
+"""Largest amplitude of an image over that of the strongest line, -30 dB: the harmonics that fold lie far out."""
 RANK = 3 * RANK_STEP
 """Beyond all combinations: a line of the machine is the simpler explanation."""
+
+
+def faint(found: FoundPeaks) -> BoolArray:
+    """Peaks that may be images: `MAX_SHARE` of the strongest or less; shape (peaks,)."""
+    return np.asarray(found.amplitude <= MAX_SHARE * np.max(found.amplitude, initial=0.0), dtype=np.bool_)
 
 
 def image_grids(
@@ -38,7 +49,7 @@ def image_grids(
         numbers = [np.arange(np.ceil((f - top_hz) / hz), np.floor((f + top_hz) / hz) + 1) for f in folds]
         rows = [np.stack([n, np.full_like(n, -m)], axis=1) for m, n in enumerate(numbers, start=1)]
         orders = np.concatenate(rows).astype(np.int64)
-        orders = orders[orders[:, 0] > 0]
+        orders = orders[(orders[:, 0] > 0) & (orders[:, 0] <= MAX_ORDER)]
         frequency = np.abs(orders @ np.array([hz, step_hz]))
         kept = frequency > 1e-6 * hz
         step = Modulator(base=STEP_BASE, frequency_hz=step_hz, reach=MAX_FOLDS, components=carrier.components)
@@ -48,6 +59,6 @@ def image_grids(
             orders=orders[kept],
             frequency_hz=frequency[kept],
             rank=RANK - orders[kept, 1],
-            mechanism=MECHANISM,
+            mechanisms=(MECHANISM,),
             family=FAMILY,
         )

@@ -14,10 +14,11 @@ from signals.labels.entries import Scene, above_nyquist, labelled, unexplained
 from signals.labels.evidence import weigh
 from signals.labels.explain import explained_by, gather, measured_hits
 from signals.labels.families import Bound
-from signals.labels.further import Further, Setting, combine
-from signals.labels.images import STEP_BASE, image_grids
+from signals.labels.further import Further, Setting, combine, found_bases, untouched
+from signals.labels.images import STEP_BASE, faint, image_grids
 from signals.labels.kinematics import Kinematics
 from signals.labels.rivals import meet, reach_hz
+from signals.labels.series import series_grids
 from signals.labels.types import FalseMatch, LabelledPeak, LabelSet, Matching
 from signals.peaks import FoundPeaks, find_peaks
 from signals.spectra.types import Spectrum
@@ -118,20 +119,25 @@ def _scene(
     reach, top = reach_hz(found, step, near), float(spectrum.frequency_hz[-1])
     folded = gather(known.images)
     owners, _ = explained_by(folded, found.frequency_hz, reach, resolution_hz=step, max_chance=near.max_chance)
-    doubtful = np.array([bool(o) for o in owners], dtype=np.bool_)
+    doubtful = np.array([bool(o) for o in owners], dtype=np.bool_) & faint(found)
     evidence = weigh(meeting, found, reach, resolution_hz=step, top_hz=top, matching=near, doubtful=doubtful)
     return Scene(spectrum=spectrum, found=found, noise=noise, meeting=meeting, evidence=evidence, unit_hz=unit_hz)
 
 
 def _further(scene: Scene, known: Known, setting: Setting) -> Further:
-    """What combinations and images of the steps explain; nothing where the ties of the machine are not known."""
-    kinematics, bases_hz = known.kinematics, known.bases_hz
+    """What series of defects and combinations explain, and of the weak peaks that they leave the images of the steps;
+    nothing where the ties of the machine are not known.
+    """
+    kinematics, bases_hz, first = known.kinematics, known.bases_hz, untouched(scene)
     if kinematics is None:
-        nameless = ~np.array(scene.meeting.explained, dtype=np.bool_)
-        return Further(entries=[], scene=scene, nameless=nameless, present=0.0, named=0.0)
+        return first
     top = float(scene.spectrum.frequency_hz[-1])
     products = grids(kinematics, bases_hz, known.lines, top_hz=top, bound=setting.bound)
-    return combine(scene, gather([*products, *known.images]), kinematics, bases_hz, setting)
+    series = series_grids(kinematics, bases_hz, known.lines, found=found_bases(scene), top_hz=top, bound=setting.bound)
+    physical = combine(first, gather([*series, *products]), kinematics, bases_hz, setting, tried=first.left)
+    weak = faint(scene.found)
+    images = gather(known.images)
+    return combine(physical, images, kinematics, bases_hz, setting, tried=physical.left & weak, proven_only=True)
 
 
 def _false_match(scene: Scene, further: Further, near: Matching) -> FalseMatch:

@@ -26,7 +26,7 @@ class Matching:
 
     Evidence: `family_chance` bounds the probability that chance brings as many lines of a family that nothing is known
     to excite, `lone_chance` that it brings a single one; of the lines called present, by families or by combinations,
-    no more than the share `false_share` is to be expected by chance.
+    no more than the share `false_share` is false, as counted by the lines missed.
     """
 
     bins: float = 0.5

@@ -43,6 +43,21 @@ def test_every_line_of_the_base_machine_has_an_element_that_makes_it() -> None:
             assert sum(c["share"] for c in peak["causes"] if c["site"] == "mesh1") > 0.95
 
 
+def test_what_weakens_a_line_is_not_its_mechanism() -> None:
+    def told(removed_db: float) -> Mapping[str, object]:
+        cause = {"term": "te", "site": "m1", "counterfactual": "amplitude_zero", "removed_db": removed_db, "share": 0.9}
+        peak = {"label": "3*f_m", "mechanism": "mesh_total", "mechanism_basis": "predicted", "component": "mesh1"}
+        table = {"x": {"amplitude": {"3*f_m": [cause]}}}
+        document = {"channels": table, "rule": "shapley_power", "cost": {}}
+        listed = with_causes({"peaks": [peak], "envelope": None}, document, "x")["peaks"]
+        assert isinstance(listed, list) and listed[0]["causes"] == [cause]
+        return dict(listed[0])
+
+    grows, falls = told(-2.89), told(20.0)
+    assert (grows["mechanism"], grows["mechanism_basis"], grows["component"]) == ("mesh_total", "predicted", "mesh1")
+    assert (falls["mechanism"], falls["mechanism_basis"], falls["component"]) == ("te", "counterfactual", "m1")
+
+
 @pytest.mark.slow
 def test_clearance_alone_causes_the_ball_pass_lines() -> None:
     for k in (1, 2, 3, 4, 5):

@@ -86,3 +86,14 @@ def test_the_lines_that_its_page_speaks_of_are_marked(key, expected):
 def test_tip_relief_of_the_default_size_calms_the_mesh():
     found = example(REGISTRY.get("tip_relief"))["signal"]
     assert np.std(found["with"]["y"]) < 0.25 * np.std(found["without"]["y"])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("key", ["outer_spall", "inner_spall", "ball_spall"])
+def test_the_envelope_of_a_spall_shows_its_rate_before_anything_else(key):
+    document = example(REGISTRY.get(key))
+    curve, lines = document["spectrum"]["with"], document["lines"]
+    x, y = np.array(curve["x"]), np.array(curve["y"])
+    inner = np.flatnonzero((y[1:-1] > y[:-2]) & (y[1:-1] >= y[2:]) & (x[1:-1] > 4.0)) + 1
+    strongest = x[inner[np.argmax(y[inner])]]
+    assert strongest == pytest.approx(lines[0]["frequency_hz"], abs=document["spectrum"]["resolution_hz"])

@@ -10,6 +10,7 @@ import pytest
 from jobs.labelling import Predicted, label_sets
 from signals.labels.types import LabelSet
 from signals.recording import from_response
+from sim.core.spec import TermSpec
 from sim.presets import preset
 from sim.solve.api import simulate
 from sim.solve.settings import Settings
@@ -77,3 +78,25 @@ def test_families_that_nothing_excites_are_not_present_in_the_demo() -> None:
     assert {f"{k}*f_o1" for k in range(1, 9)} <= {p.label for p in found.with_status("present")}
     assert {"1*f_m-1*f_r1", "1*f_m+1*f_r1"} <= {p.label for p in found.with_status("present")}
     assert found.false_match.families < 0.02 and found.false_match.combinations < 0.03
+
+
+@pytest.mark.slow
+def test_an_inner_spall_is_named_where_it_is_strongest_and_demodulated_there() -> None:
+    machine = preset("rotor")
+    spall = TermSpec(term="inner_spall", site="bearing1", parameters={"width": 1e-3})
+    machine = machine.model_copy(update={"terms": [*machine.terms, spall]})
+    settings = Settings(estimate_error=False)
+    run = simulate(machine, duration_s=1.0, output_rate_hz=30_000.0, settings=settings)
+    series = from_response(run).select(start_s=2 / 30).series(run.channels[0].name)
+    found = label_sets(series, Predicted(machine=machine, seed=0, bases_hz=run.bases_hz, step_s=run.quality.step_s))
+    assert found is not None
+    ranked = sorted((p for p in found.amplitude.peaks if p.amplitude), key=lambda p: -(p.amplitude or 0.0))
+    assert {p.label for p in ranked[:3]} == {"30*f_i1+2*f_r1", "29*f_i1+2*f_r1", "30*f_i1-2*f_r1"}
+    assert {(p.status, p.mechanism, p.component) for p in ranked[:200]} == {("present", "inner_spall", "bearing1")}
+    assert found.amplitude.unexplained < 0.4 * found.amplitude.found
+    assert len(found.amplitude.with_status("ambiguous")) < 0.02 * found.amplitude.found
+    assert found.amplitude.false_match.combinations + found.amplitude.false_match.families <= 0.05
+    band = found.envelope.band
+    assert band is not None and band.impulsive and band.high_hz > 5000.0
+    strongest = max(found.envelope.peaks, key=lambda p: p.amplitude or 0.0)
+    assert (strongest.label, strongest.mechanism) == ("1*f_i1", "inner_spall")

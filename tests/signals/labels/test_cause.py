@@ -107,5 +107,14 @@ def test_a_pair_that_each_suffice_or_cancel_share_what_both_make() -> None:
     assert parts[:, 1] == pytest.approx([0.0, 1.0, 0.0])
 
 
+def test_an_effect_without_which_the_line_grows_may_have_a_share() -> None:
+    """Alone 0 makes a power of 6 and 1 one of 4; together they leave 2: 0 adds (6 - 2) / 2 on the mean, 1 nothing."""
+    power = {frozenset({0, 1}): row(2.0), frozenset({0}): row(6.0), frozenset({1}): row(4.0), frozenset(): row(0.0)}
+    assert shares(power, 2, "shapley_power")[:, 0] == pytest.approx([1.0, 0.0, 0.0])
+    assert shares(power, 2, "leave_one_out_power")[:, 0] == pytest.approx([0.0, 0.0, 0.0])
+    lacking = {frozenset({0}): row(4.0), frozenset({1}): row(6.0), frozenset({0, 1}): row(0.0)}
+    assert split(row(2.0), lacking, 2)[0] == pytest.approx([1.0])
+
+
 def test_removing_nothing_explains_nothing() -> None:
     assert split(row(2.0, 3.0), {}, 0) == pytest.approx(np.ones((1, 2)))

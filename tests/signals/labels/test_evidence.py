@@ -133,7 +133,25 @@ def test_layers_are_poissons_tail_of_what_is_found_so_far(lines: list[tuple[int,
         heaviest = weights[proven].max()
         assert np.all(proven == (weights <= heaviest))
         upto = weights <= heaviest
-        assert chance[weights == heaviest][0] <= 1e-3 and expected[upto].sum() <= 0.05 * hit[upto].sum()
+        false = np.expm1(expected[upto & ~hit]).sum()
+        assert chance[weights == heaviest][0] <= 1e-3 and false <= 0.05 * hit[upto].sum()
+        assert expected[upto].sum() <= 0.2 * hit[upto].sum()
+
+
+def test_false_lines_are_counted_by_the_lines_missed() -> None:
+    """Of many random families, with some true lines each, as many are false as the missed ones say."""
+    rng = np.random.default_rng(7)
+    expected, true = np.full(4000, 0.15), np.arange(4000) < 3000
+    hit = true | (rng.random(4000) < -np.expm1(-0.15))
+    false = np.count_nonzero(hit & ~true)
+    assert np.expm1(expected[~hit]).sum() == pytest.approx(false, rel=0.15)
+
+
+def test_a_family_found_whole_is_there_however_many_peaks_there_are() -> None:
+    weights, expected = np.arange(1, 41), np.full(40, 0.08)
+    whole, _ = proven_layers(weights, np.ones(40, dtype=np.bool_), expected, Matching())
+    half, _ = proven_layers(weights, np.arange(40) % 2 == 0, expected, Matching())
+    assert whole.all() and not half.any()
 
 
 @settings(deadline=None, max_examples=20)

@@ -87,7 +87,7 @@ def test_all_multiples_of_a_family_read_alike() -> None:
     lines += [line("gear", f_m=k, f_r2=n) for k in (1, 2) for n in (-1, 1)]
     merged = merge_lines(lines, BASES, KINEMATICS)
     balls = [c for c in merged if c.label.endswith("f_o1")]
-    assert len(balls) == 8 and {c.mechanisms for c in balls} == {("ball_contact", "fit_clearance")}
+    assert len(balls) == 8 and {c.mechanisms for c in balls} == {("fit_clearance", "ball_contact")}
     assert [c.predicted for c in balls] == [True] * 6 + [False] * 2
     assert {c.mechanisms for c in merged if c not in balls} == {("kinematic",)}
 

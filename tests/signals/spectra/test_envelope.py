@@ -37,6 +37,14 @@ def test_impacts_show_their_rate_in_the_band_the_rule_chooses(squared: bool) -> 
     assert strongest_hz(series, squared=squared, min_bandwidth_hz=1000.0) == pytest.approx(FAULT_HZ, abs=0.5)
 
 
+def test_a_click_in_a_quiet_band_is_not_chosen_before_repeated_impacts() -> None:
+    series = impacts(noise=0.01)
+    samples = series.samples.copy()
+    samples[7000:7400] += 0.5 * np.hanning(400) * np.sin(2 * np.pi * 300.0 * np.arange(400) / RATE)
+    band = choose_band(Series(samples=samples, sampling_rate_hz=RATE, unit="m/s^2", name="a"))
+    assert band.low_hz < RESONANCE_HZ < band.high_hz
+
+
 def test_amplitude_of_a_modulated_carrier_is_the_depth() -> None:
     t = np.arange(40_000) / RATE
     samples = 3.0 * (1 + 0.2 * np.cos(2 * np.pi * 50 * t)) * np.cos(2 * np.pi * 5000 * t)
