@@ -13,6 +13,8 @@ from reconcile.judge.paths import Paths, build_paths
 from reconcile.judge.pooled import Pooling
 from signals.series import FloatArray
 
+FULL_PATH = 6
+"""Draws from which an effect's path is known well enough to judge how far a draw lies from the others."""
 NULL_COPIES = 16
 """Noisy copies of each simulated healthy pair, of either sign: the bank of nulls."""
 
@@ -42,13 +44,22 @@ class Fitted:
     overdispersion: float
     """Squared distance that counts as one unit of evidence, from leaving draws out."""
     own: FloatArray
-    """(m,): squared distance of each draw from its own effect's path without it."""
+    """(k,): squared distance of each draw that stands out from its own effect's path without it."""
     size: FloatArray
-    """(m,): squared length of each draw."""
+    """(k,): squared length of the same draws."""
 
     def place(self, changes: FloatArray) -> FloatArray:
         """(F,) -> (D,)."""
         return np.asarray(self.metric(self.pool(self.whiten(changes)[None]))[0])
+
+
+def _well_known(visible: np.ndarray, library: Library) -> np.ndarray:
+    """Rows that stand out, of effects whose path without the row is still one: others would look worse than they are."""
+    draws = np.zeros(visible.size, dtype=int)
+    for members in library.groups.values():
+        draws[list(members)] = len(members)
+    rows = np.flatnonzero(visible & (draws >= FULL_PATH))
+    return rows if rows.size >= FULL_PATH else np.flatnonzero(visible)
 
 
 def _softness(distances: FloatArray, truth: np.ndarray) -> float:
@@ -122,7 +133,7 @@ def fit_space(changes: Changes, library: Library, *, seed: int) -> Fitted:
     for c, members in enumerate(library.groups.values()):
         truth[list(members)] = c
     size = np.sum(points**2, axis=1)
-    seen = np.flatnonzero(size > np.quantile(np.sum(null**2, axis=1), 0.95))
+    seen = _well_known(size > np.quantile(np.sum(null**2, axis=1), 0.95), library)
     groups = np.where(np.isfinite(whiten.sigma), changes.groups, -1)
     return Fitted(
         whiten=whiten,
@@ -133,8 +144,8 @@ def fit_space(changes: Changes, library: Library, *, seed: int) -> Fitted:
         resting=_group_lengths(whiten(fresh), groups),
         groups=groups,
         overdispersion=_softness(distances[seen], truth[seen]) if seen.size else 10.0,
-        own=distances[np.arange(truth.size), truth],
-        size=size,
+        own=distances[seen, truth[seen]] if seen.size else distances[np.arange(truth.size), truth],
+        size=size[seen] if seen.size else size,
     )
 
 
