@@ -47,14 +47,25 @@ class Fitted:
     """(k,): squared distance of each draw that stands out from its own effect's path without it."""
     size: FloatArray
     """(k,): squared length of the same draws."""
+    visible: np.ndarray
+    """(m,): draws larger than 95 % of the nulls."""
 
     def place(self, changes: FloatArray) -> FloatArray:
         """(F,) -> (D,)."""
         return np.asarray(self.metric(self.pool(self.whiten(changes)[None]))[0])
 
 
+def _telling(groups: Mapping[str, tuple[int, ...]], visible: np.ndarray) -> dict[str, tuple[int, ...]]:
+    """Without draws that show nothing where others show something: a defect outside the load zone bends the path."""
+    found = {}
+    for name, members in groups.items():
+        shown = tuple(k for k in members if visible[k])
+        found[name] = shown if len(shown) >= 2 else tuple(members)
+    return found
+
+
 def _well_known(visible: np.ndarray, library: Library) -> np.ndarray:
-    """Rows that stand out, of effects whose path without the row is still one: others would look worse than they are."""
+    """Rows that stand out, of effects whose path without the row is still one; others would look too strange."""
     draws = np.zeros(visible.size, dtype=int)
     for members in library.groups.values():
         draws[list(members)] = len(members)
@@ -127,13 +138,14 @@ def fit_space(changes: Changes, library: Library, *, seed: int) -> Fitted:
     scatter = [neighbour_scatter(drawn[list(g)], library.shares[list(g)]) for g in library.groups.values()]
     metric = fit_metric(centre, [*scatter, resting - centre])
     points, null = metric(drawn), metric(pool(whiten(fresh)))
-    paths = build_paths(points, library.groups, library.shares)
+    size = np.sum(points**2, axis=1)
+    visible = size > np.quantile(np.sum(null**2, axis=1), 0.95)
+    paths = build_paths(points, _telling(library.groups, visible), library.shares)
     distances = _between(points, paths)
     truth = np.zeros(points.shape[0], dtype=int)
     for c, members in enumerate(library.groups.values()):
         truth[list(members)] = c
-    size = np.sum(points**2, axis=1)
-    seen = _well_known(size > np.quantile(np.sum(null**2, axis=1), 0.95), library)
+    seen = _well_known(visible, library)
     groups = np.where(np.isfinite(whiten.sigma), changes.groups, -1)
     return Fitted(
         whiten=whiten,
@@ -146,6 +158,7 @@ def fit_space(changes: Changes, library: Library, *, seed: int) -> Fitted:
         overdispersion=_softness(distances[seen], truth[seen]) if seen.size else 10.0,
         own=distances[seen, truth[seen]] if seen.size else distances[np.arange(truth.size), truth],
         size=size[seen] if seen.size else size,
+        visible=visible,
     )
 
 

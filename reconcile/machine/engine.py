@@ -21,7 +21,7 @@ from reconcile.judge.screen import fit_space, judge
 from reconcile.machine.answer import answer, fault_answer
 from reconcile.machine.decide import credible_set, merged_weights, remarkable
 from reconcile.machine.library import Catalogued, catalogued, joined
-from reconcile.machine.local import around_baseline, first_heat, second_heat, simulated_banks, told
+from reconcile.machine.local import around_baseline, first_heat, ordered_draws, second_heat, simulated_banks, told
 from reconcile.machine.meter import Meter
 from reconcile.machine.refine import best_draws, refined_plan
 from reconcile.machine.setting import Found, Setting
@@ -156,11 +156,13 @@ def _screened(setting: Setting) -> Found:
 def _located(setting: Setting, screened: Found, atlas: AtlasPlan, budget: Budget, mapper: Mapper) -> Found:
     """The best of the screened candidates, simulated on the setting's own machines alone, the best of them more."""
     ranked = [screened.screen.names[k] for k in np.argsort(-screened.screen.evidence)]
-    first = first_heat(setting.plan, ranked, atlas, budget.terms)
+    shown = [t for t, seen in zip(screened.known.terms, screened.fitted.visible, strict=True) if seen]
+    draws = ordered_draws(atlas, shown)
+    first = first_heat(setting.plan, ranked, draws, budget.terms)
     known = _simulated(setting, first, mapper)
     found = _fit(setting, known)
     best = [found.screen.names[k] for k in np.argsort(-found.screen.evidence)[: budget.candidates]]
-    second = second_heat(setting.plan, best, atlas, first)
+    second = second_heat(setting.plan, best, draws, first)
     return _fit(setting, joined(known, _simulated(setting, second, mapper)))
 
 

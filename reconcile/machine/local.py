@@ -20,6 +20,7 @@ from reconcile.machine.library import share_of
 from reconcile.machine.setting import Setting
 from reconcile.observe.watch import watch_list
 from signals.series import FloatArray
+from sim.core.spec import TermSpec
 
 MACHINES = 24
 """Machines that are fitted to the baseline."""
@@ -111,7 +112,23 @@ def stacked(first: Bank, second: Bank) -> Bank:
     )
 
 
-def first_heat(plan: AtlasPlan, ranked: Sequence[str], atlas: AtlasPlan, terms: int) -> AtlasPlan:
+def ordered_draws(atlas: AtlasPlan, shown: Sequence[TermSpec]) -> dict[str, list[Draw]]:
+    """The atlas' draws of each candidate in the order in which they are worth simulating: those that were `shown` to
+    change something first, middle and large sizes first."""
+    telling = {id(term) for term in shown}
+    known: dict[str, list[Draw]] = {}
+    for draw in atlas.draws:
+        if draw.candidate is not None and draw.term is not None:
+            known.setdefault(draw.candidate.label, []).append(draw)
+    found = {}
+    for name, draws in known.items():
+        by_size = sorted(draws, key=share_of)
+        order = [k for k in FIRST_SIZES if k < len(by_size)] + list(range(len(FIRST_SIZES), len(by_size)))
+        found[name] = sorted((by_size[k] for k in order), key=lambda d: id(d.term) not in telling)
+    return found
+
+
+def first_heat(plan: AtlasPlan, ranked: Sequence[str], atlas: Mapping[str, Sequence[Draw]], terms: int) -> AtlasPlan:
     """The best `terms` effects at all their sites on the fitted machines, so many draws that vector lanes fill."""
     sites: dict[str, list[str]] = {}
     for name in ranked:
@@ -120,23 +137,19 @@ def first_heat(plan: AtlasPlan, ranked: Sequence[str], atlas: AtlasPlan, terms: 
     return _planned(plan, {name: (0, count) for name, count in draws.items()}, atlas)
 
 
-def second_heat(plan: AtlasPlan, best: Sequence[str], atlas: AtlasPlan, before: AtlasPlan) -> AtlasPlan:
+def second_heat(
+    plan: AtlasPlan, best: Sequence[str], atlas: Mapping[str, Sequence[Draw]], before: AtlasPlan
+) -> AtlasPlan:
     """All draws of the `best` candidates that were not simulated `before`."""
     done = [d.candidate.label for d in before.draws if d.candidate is not None]
     return _planned(plan, {name: (done.count(name), LANES) for name in best}, atlas)
 
 
-def _planned(plan: AtlasPlan, wanted: Mapping[str, tuple[int, int]], atlas: AtlasPlan) -> AtlasPlan:
-    """The atlas' own draws of each candidate from one number to another, middle and large sizes first."""
-    known: dict[str, list[Draw]] = {}
-    for draw in atlas.draws:
-        if draw.candidate is not None and draw.term is not None:
-            known.setdefault(draw.candidate.label, []).append(draw)
+def _planned(plan: AtlasPlan, wanted: Mapping[str, tuple[int, int]], atlas: Mapping[str, Sequence[Draw]]) -> AtlasPlan:
+    """Draws of each candidate from one place in their order to another."""
     planned: list[Draw] = []
     for number, (name, (first, last)) in enumerate(wanted.items()):
-        by_size = sorted(known.get(name, []), key=share_of)
-        order = [k for k in FIRST_SIZES if k < len(by_size)] + list(range(len(FIRST_SIZES), len(by_size)))
-        taken = [by_size[k] for k in order[first:last]]
+        taken = atlas.get(name, ())[first:last]
         planned += [replace(d, pair=(number + 5 * (first + j)) % len(plan.offsets)) for j, d in enumerate(taken)]
     return replace(plan, draws=tuple(planned))
 

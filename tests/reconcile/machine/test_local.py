@@ -12,7 +12,7 @@ from reconcile.atlas.candidates import candidates
 from reconcile.atlas.plan import AtlasPlan, Point, atlas_plan
 from reconcile.calibrate.uncertain import uncertain_numbers
 from reconcile.machine.library import share_of
-from reconcile.machine.local import LANES, first_heat, second_heat
+from reconcile.machine.local import LANES, first_heat, ordered_draws, second_heat
 from reconcile.machine.meter import Meter
 from reconcile.observe.statistics import Statistics
 from sim import presets
@@ -32,20 +32,27 @@ def labels(plan: AtlasPlan) -> list[str]:
 
 
 def test_the_first_heat_fills_lanes_with_the_best_effects_at_all_their_sites(atlas: AtlasPlan) -> None:
-    found = labels(first_heat(atlas, RANKED, atlas, terms=3))
+    found = labels(first_heat(atlas, RANKED, ordered_draws(atlas, ()), terms=3))
     assert found.count("outer_spall@bearing2") == found.count("outer_spall@bearing1") == LANES // 2
     assert found.count("inner_spall@bearing1") == found.count("tooth_crack@gear") == LANES
     assert "backlash@mesh1" not in found
 
 
 def test_the_second_heat_simulates_what_the_first_did_not(atlas: AtlasPlan) -> None:
-    first = first_heat(atlas, RANKED, atlas, terms=1)
-    second = second_heat(atlas, RANKED[:2], atlas, first)
+    first = first_heat(atlas, RANKED, ordered_draws(atlas, ()), terms=1)
+    second = second_heat(atlas, RANKED[:2], ordered_draws(atlas, ()), first)
     assert labels(second).count("outer_spall@bearing2") == LANES // 2 and labels(second).count(RANKED[1]) == LANES
     sizes = sorted(share_of(d) for p in (first, second) for d in p.draws if d.candidate.label == RANKED[0])  # type: ignore[union-attr]
     known = sorted(share_of(d) for d in atlas.draws if d.candidate is not None and d.candidate.label == RANKED[0])
     assert sizes == known, "all of the atlas' sizes, each once"
     assert share_of(first.draws[0]) > float(np.median(known)), "large sizes first"
+
+
+def test_draws_that_showed_something_come_first(atlas: AtlasPlan) -> None:
+    drawn = [d for d in atlas.draws if d.candidate is not None and d.candidate.label == RANKED[0]]
+    smallest = min(drawn, key=share_of)
+    assert ordered_draws(atlas, [smallest.term])[RANKED[0]][0] is smallest  # type: ignore[list-item]
+    assert ordered_draws(atlas, ())[RANKED[0]][-1] is smallest
 
 
 def busy(task: Task) -> list[Statistics | None]:
