@@ -25,7 +25,8 @@ from sim.parts.mesh_kernels import (
 SLOTS = 4
 """Pairs that can touch within a step: contact ratios up to 3."""
 CONTEXT = 20
-"""Context row: error, rate, phase, phi_p, phi_g, change of backlash, tilt, spare, then (stiffness, gap, cut) a slot."""
+"""Context row: error, rate, phase, phi_p, phi_g, change of backlash, tilt, mesh cycles over which a jump is drawn, then
+(stiffness, gap, cut) a slot."""
 GAUSS = 0.7745966692414834
 """Three-point Gauss node sqrt(3/5)."""
 SHAPE_POINTS = 129
@@ -191,17 +192,6 @@ def fill_pairs(step, shafts, par, centre, tilt, width, ctx):  # type: ignore[no-
             place = smaller(larger((ctx[i * width + 2] - pair) / ratio, 0.0), 1.0)
             ctx[i * width + at + 1] = pair_gap(par, pair)
             ctx[i * width + at + 2] = pair_cut(par, place, pair)
-
-
-@inline
-def exact_stiffness(par, ctx, error, tilt, slot):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Stiffness of a slot's pair at the instant of the context row, a centre-distance error and a tilt, N/m."""
-    row = row_position(par, error)
-    ratio = row_value(par, par[26], row)
-    whole = floor(ctx[2])
-    x = (ctx[2] - whole + slot) / ratio
-    k = pair_value(par, row, tilt_position(par, tilt), smaller(x, 1.0), whole - slot)
-    return select(x < 1.0, k, 0.0)
 
 
 @inline

@@ -14,10 +14,12 @@ from sim.core.choose import floor, root, select, size, uniform
 from sim.core.elementary import hyperbolic_tangent
 from sim.core.kernels import kernel
 from sim.parts.mesh_kernels import SAME, backlash_growth, centre_error
-from sim.parts.pair_kernels import exact_stiffness, fill_pairs, pair_load
+from sim.parts.observed_pairs import observed_pair, turned_meanwhile
+from sim.parts.pair_kernels import fill_pairs, pair_load
 
-CONTEXT = 28
-"""The rows of `pair_kernels`, with L as the spare, then (arm, sliding speed of the turning gears) a slot."""
+CONTEXT = 29
+"""The rows of `pair_kernels`, with L in place 7, then (arm, sliding speed of the turning gears) a slot; last what stood
+in place 7."""
 E_FRICTION, E_SPEED, E_BASES, E_TANGENT_G, E_TANGENT_P, E_PITCH, E_MOMENT, E_DRIVE_P, E_DRIVE_G = range(9)
 
 
@@ -28,9 +30,9 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
     n = s + 1
     e = uniform(par[43])
     tilt = (u[3] + 0.5 * h * u[10]) / par[14]
-    fill_pairs(step, shafts, par, (u[5], u[6], u[12], u[13]), tilt, 28, ctx)
+    fill_pairs(step, shafts, par, (u[5], u[6], u[12], u[13]), tilt, 29, ctx)
     for i in range(s):
-        at = i * 28
+        at = i * 29
         phase = ctx[at + 2]
         after = step[3 + i] * h
         x = u[5] + after * u[12]
@@ -46,7 +48,8 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
             ctx[at + 20 + 2 * slot] = arm
             ctx[at + 21 + 2 * slot] = -par[33] * turning
     for j in range(28):
-        ctx[s * 28 + j] = ctx[(s - 1) * 28 + j]
+        ctx[s * 29 + j] = ctx[(s - 1) * 29 + j]
+    ctx[s * 29 + 28] = turned_meanwhile(step, shafts, par)
 
 
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
@@ -64,20 +67,31 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
     if mode == 1:
         for i in range(56):
             out[i] = 0.0
-    for slot in range(4):
-        k = ctx[8 + 3 * slot]
+    for slot in range(5 if mode == 2 else 4):
+        drawn = 1.0 + 0.0 * s
         if mode == 2:
-            k = exact_stiffness(par, ctx, error, tilt, slot)
-        found = pair_load(par, growth, tilt, s - ctx[9 + 3 * slot], ctx[10 + 3 * slot], k)
-        arm_p = -par[33] * ctx[20 + 2 * slot]
-        arm_g = par[33] * (ctx[7] - ctx[20 + 2 * slot])
-        speed = ud[0] + ctx[21 + 2 * slot]
+            k, gap, cut, _, drawn = observed_pair(par, ctx, ctx[28], error, tilt, slot)
+        else:
+            k = ctx[8 + 3 * slot]
+            gap = ctx[9 + 3 * slot]
+            cut = ctx[10 + 3 * slot]
+        found = pair_load(par, growth, tilt, s - gap, cut, k)
+        if slot == 4:
+            # the next pair stands one base pitch behind the last one, and all of it is linear in the place
+            arm = 2.0 * ctx[20] - ctx[22]
+            turning = 2.0 * ctx[21] - ctx[23]
+        else:
+            arm = ctx[20 + 2 * slot]
+            turning = ctx[21 + 2 * slot]
+        arm_p = -par[33] * arm
+        arm_g = par[33] * (ctx[7] - arm)
+        speed = ud[0] + turning
         share = hyperbolic_tangent(speed / par[e + 1])
-        friction = par[e] * size(found[0]) * share
+        friction = drawn * par[e] * size(found[0]) * share
         sliding += friction
         turn_p += arm_p * friction
         turn_g += arm_g * friction
-        moment += found[5]
+        moment += drawn * found[5]
         lost += friction * speed
         if mode == 1:
             grown = par[e] * share * select(found[0] < 0.0, -found[2], found[2])

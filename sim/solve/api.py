@@ -75,8 +75,8 @@ def check_request(duration_s: float, rate_hz: float) -> None:
         raise SpecError(problems)
 
 
-def _start(system: System, rate_hz: float, names: tuple[str, ...], rtol: float) -> _Run:
-    built = build_plan(system, 1.0 / rate_hz)
+def _start(system: System, rate_hz: float, names: tuple[str, ...], rtol: float, drawn_s: float) -> _Run:
+    built = build_plan(system, 1.0 / rate_hz, drawn_s=drawn_s)
     run = _Run(system=system, built=built, work=new_work(built.plan), probe=new_probe(built, system, names), rtol=rtol)
     begin(built.plan, run.work, run.probe)
     return run
@@ -142,9 +142,15 @@ def step_difference(coarse: FloatArray, fine: FloatArray) -> float:
 def _pilot_error(system: System, rate_hz: float, names: tuple[str, ...], rtol: float, span_s: float) -> float:
     """Worst relative L2 difference between a step and its half over the second half of the pilot."""
     count = max(int(span_s * rate_hz), 8)
-    coarse = _advance(_start(system, rate_hz, names, rtol), 0, count, count)
-    fine = _advance(_start(system, 2 * rate_hz, names, rtol), 0, 2 * count, 2 * count)[:, ::2]
+    drawn_s = 1.0 / rate_hz  # alike in both: where a jump falls between samples is no error of the step
+    coarse = _advance(_start(system, rate_hz, names, rtol, drawn_s), 0, count, count)
+    fine = _advance(_start(system, 2 * rate_hz, names, rtol, drawn_s), 0, 2 * count, 2 * count)[:, ::2]
     return step_difference(coarse, fine)
+
+
+def drawn_s(settings: Settings, factor: int, rate_hz: float) -> float:
+    """Interval for which jumps are drawn band-limited, s: the base step where a filter thins the samples, else 0."""
+    return 1.0 / rate_hz if settings.anti_alias and factor > 1 else 0.0
 
 
 def simulate(
@@ -174,7 +180,7 @@ def simulate(
     error = None
     if chosen.estimate_error:
         error = _pilot_error(system, rate, default_channels(system), chosen.rtol, min(PILOT_S, duration_s))
-    run = _start(system, rate, names, chosen.rtol)
+    run = _start(system, rate, names, chosen.rtol, drawn_s(chosen, factor, rate))
     stream = Stream(
         advance=lambda first, count, last: _advance(run, first, count, last),
         channels=len(selected),

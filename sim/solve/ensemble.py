@@ -22,6 +22,7 @@ from sim.solve.api import (
     check_request,
     default_channels,
     diverged,
+    drawn_s,
     resolve_channels,
     runs_away,
     step_difference,
@@ -102,9 +103,9 @@ def structure(system: System) -> Hashable:
     return system.dofs, elements, tuple(system.dynamic_angle.items()), len(system.dampers), system.speed.size
 
 
-def _start(systems: Sequence[System], step_s: float, names: tuple[str, ...], rtol: float) -> _Lanes:
+def _start(systems: Sequence[System], step_s: float, names: tuple[str, ...], rtol: float, drawn_s: float) -> _Lanes:
     operators = {id(system): stepped(system, step_s) for system in systems}
-    first = build_plan(systems[0], step_s)
+    first = build_plan(systems[0], step_s, drawn_s=drawn_s)
     plan = lane_plan(systems, [operators[id(system)] for system in systems], first.plan)
     lanes = _Lanes(
         systems=systems,
@@ -122,8 +123,9 @@ def _pilots(systems: Sequence[System], rate_hz: float, rtol: float, span_s: floa
     """Step error of each lane, as the single solver measures it."""
     names = default_channels(systems[0])
     count = max(int(span_s * rate_hz), 8)
-    coarse = _start(systems, 1.0 / rate_hz, names, rtol).advance(0, count, count)
-    fine = _start(systems, 0.5 / rate_hz, names, rtol).advance(0, 2 * count, 2 * count)[:, ::2]
+    drawn = 1.0 / rate_hz
+    coarse = _start(systems, 1.0 / rate_hz, names, rtol, drawn).advance(0, count, count)
+    fine = _start(systems, 0.5 / rate_hz, names, rtol, drawn).advance(0, 2 * count, 2 * count)[:, ::2]
     return [step_difference(coarse[lane::WIDTH], fine[lane::WIDTH]) for lane in range(WIDTH)]
 
 
@@ -146,7 +148,8 @@ def _run_lanes(ready: Sequence[_Ready], call: _Call) -> list[Response | Sideband
     if call.settings.estimate_error:
         errors = [*_pilots(systems, rate, call.settings.rtol, min(PILOT_S, call.duration_s))]
     channels = full[0].channels
-    lanes = _start(systems, 1.0 / rate, tuple(c.name for c in channels), call.settings.rtol)
+    drawn = drawn_s(call.settings, full[0].factor, rate)
+    lanes = _start(systems, 1.0 / rate, tuple(c.name for c in channels), call.settings.rtol, drawn)
     stream = Stream(
         advance=lanes.advance,
         channels=len(channels) * WIDTH,

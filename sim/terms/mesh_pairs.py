@@ -28,7 +28,8 @@ from sim.parts.mesh_kernels import (
     slope_angle,
     unilateral,
 )
-from sim.parts.pair_kernels import CONTEXT, exact_stiffness, fill_pairs, pair_load
+from sim.parts.observed_pairs import observed_pair, turned_meanwhile
+from sim.parts.pair_kernels import CONTEXT, fill_pairs, pair_load
 from sim.parts.pair_parameters import mean_stiffness_n_per_m, pair_parameters
 
 
@@ -40,6 +41,7 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
     s = uniform(step[2])
     for j in range(20):
         ctx[s * 20 + j] = ctx[(s - 1) * 20 + j]
+    ctx[s * 20 + 7] = turned_meanwhile(step, shafts, par)
 
 
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
@@ -59,17 +61,21 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
         error = centre_error(par, ctx[3], ctx[4], u[1], u[2])
         growth = backlash_growth(par, error)
         tilt = shaft_tilt(par, u[3], u[4])
-    for slot in range(4):
-        k = ctx[8 + 3 * slot]
+    for slot in range(5 if mode == 2 else 4):
+        on_path = drawn = 1.0 + 0.0 * s
         if mode == 2:
-            k = exact_stiffness(par, ctx, error, tilt, slot)
-        total += k
-        found = pair_load(par, growth, tilt, s - ctx[9 + 3 * slot], ctx[10 + 3 * slot], k)
-        load += found[0]
-        energy += found[1]
-        tangent += found[2]
-        share += found[3]
-        slope += found[4]
+            k, gap, cut, on_path, drawn = observed_pair(par, ctx, ctx[7], error, tilt, slot)
+        else:
+            k = ctx[8 + 3 * slot]
+            gap = ctx[9 + 3 * slot]
+            cut = ctx[10 + 3 * slot]
+        found = pair_load(par, growth, tilt, s - gap, cut, k)
+        load += drawn * found[0]
+        energy += on_path * found[1]
+        tangent += on_path * found[2]
+        share += on_path * found[3]
+        slope += on_path * found[4]
+        total += on_path * k
     free = par[1] < 0.0
     touching = select(free | (tangent != 0.0), 1.0, 0.0)
     # with backlash every pair damps in proportion to its stiffness, from touch on
