@@ -20,7 +20,7 @@ from jobs.reporter import Reporter
 from jobs.resolve import restored
 from jobs.results import plain, write_result
 from reconcile.atlas.keep import Forgetful, Keeper
-from sim.core.errors import Cancelled, Diverged, SpecError
+from sim.core.errors import Cancelled, Diverged, Meaningless, SpecError
 
 log = logging.getLogger(__name__)
 
@@ -152,6 +152,9 @@ def failure_of(error: BaseException, timeouts: tuple[type[BaseException], ...]) 
     if isinstance(error, Diverged):
         detail: dict[str, object] = {"time_s": float(f"{error.time_s:.6g}"), "dof": error.dof}
         return Failure(code="diverged", message=error.what, advice=error.advice, detail=detail)
+    if isinstance(error, Meaningless):
+        reasons: dict[str, object] = {"reasons": [*error.reasons]}
+        return Failure(code="meaningless", message=error.what, advice=error.advice, detail=reasons)
     if isinstance(error, SpecError | RecordingRefused | NotReconcilable):
         code, advice = _WRONG.get(type(error), ("invalid-machine", "change the fields named"))
         errors = [plain(problem.to_dict()) for problem in error.problems]

@@ -91,9 +91,9 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
         out[0] = energy
         out[1] = (f[0] - load) * sd
         out[2] = -f[0] * ctx[1]
-        out[3] = total
+        out[3] = total if uniform(par[39]) < 2 else tangent  # of a face in slices those that touch
         out[4] = error
-        out[5] = slope_angle(u, par[14])
+        out[5] = slope_angle(u, par[14]) if uniform(par[39]) < 2 else shaft_tilt(par, u[3], u[4])
         out[6] = f[0]
         out[7] = ctx[0]
         out[8] = touching
