@@ -13,9 +13,6 @@ from sim.parts.band_limit import step_share
 from sim.parts.mesh_kernels import row_position
 from sim.parts.pair_kernels import pair_cut, pair_gap, pair_value, row_value, tilt_position
 
-SEEN = 5
-"""Pairs looked at: the four of a step, then the one that comes next."""
-
 
 @inline
 def turned_meanwhile(step, shafts, par):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
@@ -26,7 +23,7 @@ def turned_meanwhile(step, shafts, par):  # type: ignore[no-untyped-def]  # noqa
 
 @inline
 def observed_pair(par, ctx, width, error, tilt, slot):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """(stiffness on the path, gap, cut, 1 on the path, share of the load reported) of a pair at a context row's instant.
+    """(stiffness, gap, cut, 1 on the path, share of the load reported) of a pair at the instant of a context row.
 
     `slot`: 0 the pair that entered last, 3 the one three before it, 4 the one that enters next; `width` as
     `turned_meanwhile`. Beyond the path the pair keeps the stiffness of its end.
@@ -49,3 +46,19 @@ def observed_pair(par, ctx, width, error, tilt, slot):  # type: ignore[no-untype
     if somewhere((inside > 0.0) | near):
         k = pair_value(par, row, tilt_position(par, tilt), place, pair)
     return k, pair_gap(par, pair), pair_cut(par, place, pair), inside, share
+
+
+@inline
+def pair_now(mode, par, ctx, width, error, tilt, slot):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """What `observed_pair` gives in mode 2; else the node values of a context row, with their whole load."""
+    at = 8 + 3 * slot
+    if mode == 2:
+        return observed_pair(par, ctx, width, error, tilt, slot)
+    whole = 1.0 + 0.0 * error
+    return ctx[at], ctx[at + 1], ctx[at + 2], whole, whole
+
+
+@inline
+def pairs_now(mode):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Pairs to look at: the four of a step, in mode 2 also the one that comes next."""
+    return 5 if mode == 2 else 4

@@ -11,10 +11,11 @@ tilts the shafts.
 from __future__ import annotations
 
 from sim.core.choose import floor, root, select, size, uniform
+from sim.core.compiled import inline
 from sim.core.elementary import hyperbolic_tangent
 from sim.core.kernels import kernel
 from sim.parts.mesh_kernels import SAME, backlash_growth, centre_error
-from sim.parts.observed_pairs import observed_pair, turned_meanwhile
+from sim.parts.observed_pairs import pair_now, pairs_now, turned_meanwhile
 from sim.parts.pair_kernels import fill_pairs, pair_load
 
 CONTEXT = 29
@@ -52,6 +53,17 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
     ctx[s * 29 + 28] = turned_meanwhile(step, shafts, par)
 
 
+@inline
+def contact_point(ctx, slot):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """(arm, sliding speed of the turning gears) of a slot's pair.
+
+    The next pair, slot 4, stands one base pitch behind the last one, and both are linear in the place.
+    """
+    if slot == 4:
+        return 2.0 * ctx[20] - ctx[22], 2.0 * ctx[21] - ctx[23]
+    return ctx[20 + 2 * slot], ctx[21 + 2 * slot]
+
+
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Resistance to sliding (N), to the turning of either gear (N m) and to the tilt of the shafts (N)."""
     e = uniform(par[43])
@@ -67,22 +79,10 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
     if mode == 1:
         for i in range(56):
             out[i] = 0.0
-    for slot in range(5 if mode == 2 else 4):
-        drawn = 1.0 + 0.0 * s
-        if mode == 2:
-            k, gap, cut, _, drawn = observed_pair(par, ctx, ctx[28], error, tilt, slot)
-        else:
-            k = ctx[8 + 3 * slot]
-            gap = ctx[9 + 3 * slot]
-            cut = ctx[10 + 3 * slot]
+    for slot in range(pairs_now(mode)):
+        k, gap, cut, _, drawn = pair_now(mode, par, ctx, ctx[28], error, tilt, slot)
         found = pair_load(par, growth, tilt, s - gap, cut, k)
-        if slot == 4:
-            # the next pair stands one base pitch behind the last one, and all of it is linear in the place
-            arm = 2.0 * ctx[20] - ctx[22]
-            turning = 2.0 * ctx[21] - ctx[23]
-        else:
-            arm = ctx[20 + 2 * slot]
-            turning = ctx[21 + 2 * slot]
+        arm, turning = contact_point(ctx, slot)
         arm_p = -par[33] * arm
         arm_g = par[33] * (ctx[7] - arm)
         speed = ud[0] + turning

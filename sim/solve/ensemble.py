@@ -213,8 +213,8 @@ def simulate_many(
 ) -> list[Response | SidebandError]:
     """Simulate every member from rest; results stand in the order of the members.
 
-    An impossible or diverging member leaves its error (SpecError, UnknownName, Diverged, Meaningless) in its place; the others are
-    not touched. Raises SpecError for an impossible request and Cancelled.
+    An impossible, diverging or meaningless member leaves its error (SpecError, UnknownName, Diverged, Meaningless) in
+    its place; the others are not touched. Raises SpecError for an impossible request and Cancelled.
     """
     check_request(duration_s, output_rate_hz)
     chosen = settings or Settings()

@@ -28,7 +28,7 @@ from sim.parts.mesh_kernels import (
     slope_angle,
     unilateral,
 )
-from sim.parts.observed_pairs import observed_pair, turned_meanwhile
+from sim.parts.observed_pairs import pair_now, pairs_now, turned_meanwhile
 from sim.parts.pair_kernels import CONTEXT, fill_pairs, pair_load
 from sim.parts.pair_parameters import mean_stiffness_n_per_m, pair_parameters
 
@@ -61,14 +61,8 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
         error = centre_error(par, ctx[3], ctx[4], u[1], u[2])
         growth = backlash_growth(par, error)
         tilt = shaft_tilt(par, u[3], u[4])
-    for slot in range(5 if mode == 2 else 4):
-        on_path = drawn = 1.0 + 0.0 * s
-        if mode == 2:
-            k, gap, cut, on_path, drawn = observed_pair(par, ctx, ctx[7], error, tilt, slot)
-        else:
-            k = ctx[8 + 3 * slot]
-            gap = ctx[9 + 3 * slot]
-            cut = ctx[10 + 3 * slot]
+    for slot in range(pairs_now(mode)):
+        k, gap, cut, on_path, drawn = pair_now(mode, par, ctx, ctx[7], error, tilt, slot)
         found = pair_load(par, growth, tilt, s - gap, cut, k)
         load += drawn * found[0]
         energy += on_path * found[1]

@@ -43,7 +43,7 @@ def run(machine, seconds=0.1):
 @pytest.mark.parametrize("expression", STEEP)
 def test_a_law_too_steep_for_any_step_is_named(expression):
     machine = with_law("rotor", "bearing1.outer.y", expression)
-    with pytest.raises(Meaningless, match="custom law 'mine' .bearing1.custom.mine. is too steep") as told:
+    with pytest.raises(Meaningless, match=r"custom law 'mine' .bearing1\.custom\.mine. is too steep") as told:
         run(machine)
     assert STEEP[expression] in "; ".join(told.value.reasons)
     (lost,) = simulate_many([Member(machine=machine)], duration_s=0.1, output_rate_hz=30_000.0)
