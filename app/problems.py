@@ -13,7 +13,7 @@ from starlette.responses import Response
 
 from jobs import errors
 from jobs.validation import problem_of, shown
-from sim.core.errors import Diverged, Problem, SidebandError, SpecError, UnknownName
+from sim.core.errors import Diverged, Meaningless, Problem, SidebandError, SpecError, UnknownName
 from sim.core.near import did_you_mean
 
 MEDIA_TYPE = "application/problem+json"
@@ -69,6 +69,7 @@ _CLASSES: tuple[tuple[type[SidebandError], str, int], ...] = (
     (SpecError, "invalid-request", 422),
     (UnknownName, "unknown-name", 404),
     (Diverged, "diverged", 422),
+    (Meaningless, "meaningless", 422),
 )
 
 

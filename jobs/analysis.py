@@ -47,6 +47,8 @@ def analyse(response: Response, *, discard_transient: bool) -> ResultDocuments:
         spectra += [_document(s) for s in channel_spectra(recording.series(channel.name), channel, response)]
     notes = [*notes, *_open_contacts(response)]
     peaks = _labels(response, recording)
+    if response.quality.doubts:
+        peaks = {**peaks, "doubts": [*response.quality.doubts]}
     if "reason" in peaks:
         notes = [*notes, f"no labels: {peaks['reason']}"]
     return ResultDocuments(summary=_summary(response, recording, start_s, notes), peaks=peaks, spectra=tuple(spectra))

@@ -20,7 +20,7 @@ from jobs.reporter import Reporter
 from jobs.resolve import restored
 from jobs.results import plain, write_result
 from reconcile.atlas.keep import Forgetful, Keeper
-from sim.core.errors import Cancelled, Diverged, SpecError
+from sim.core.errors import Cancelled, Diverged, Meaningless, SpecError
 
 log = logging.getLogger(__name__)
 
@@ -147,11 +147,19 @@ _WRONG: Mapping[type[BaseException], tuple[str, str]] = {
 """Code and advice of what the sender can put right."""
 
 
+def _unusable(error: Diverged | Meaningless) -> Failure:
+    """A run that left all bounds, or whose numbers mean nothing."""
+    if isinstance(error, Meaningless):
+        detail: dict[str, object] = {"reasons": [*error.reasons]}
+        return Failure(code="meaningless", message=error.what, advice=error.advice, detail=detail)
+    detail = {"time_s": float(f"{error.time_s:.6g}"), "dof": error.dof}
+    return Failure(code="diverged", message=error.what, advice=error.advice, detail=detail)
+
+
 def failure_of(error: BaseException, timeouts: tuple[type[BaseException], ...]) -> Failure:
     """How an error is told to the person who asked; no traceback, no paths."""
-    if isinstance(error, Diverged):
-        detail: dict[str, object] = {"time_s": float(f"{error.time_s:.6g}"), "dof": error.dof}
-        return Failure(code="diverged", message=error.what, advice=error.advice, detail=detail)
+    if isinstance(error, Diverged | Meaningless):
+        return _unusable(error)
     if isinstance(error, SpecError | RecordingRefused | NotReconcilable):
         code, advice = _WRONG.get(type(error), ("invalid-machine", "change the fields named"))
         errors = [plain(problem.to_dict()) for problem in error.problems]

@@ -6,7 +6,8 @@ M q'' + C q' + K q = F - B f(u, u', t). The remaining coordinates are observed o
 
 Calling convention (all pointers to doubles; node k of the step is the last, at its end):
 
-step    [t0, h, s, c_1..c_s, then s*s Lagrange coefficients (row j: ascending powers of l_j), then s weights b_j]
+step    [t0, h, s, c_1..c_s, then s*s Lagrange coefficients (row j: ascending powers of l_j), then s weights b_j, then
+        the sampling interval (s) for which mode 2 draws jumps band-limited, since a filter follows; 0: as they are]
 shafts  4 rows of length s + 1 (start, then nodes): angle and speed of the first shaft, angle and speed of the second
 ctx     (s + 1) rows of `context` doubles: row i < s for node i (may hold step-averaged values); elements with
         `exact_end` fill row s for the exact instant at the end of the step, the others are observed with row s - 1

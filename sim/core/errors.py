@@ -4,6 +4,7 @@ SidebandError
  +- SpecError (ValueError)      the specification cannot describe a machine; carries field problems
  +- UnknownName (KeyError)      a preset, term, site, bearing or channel that does not exist
  +- Diverged (ArithmeticError)  the integration left the finite numbers; time, DOF, advice
+ +- Meaningless (ArithmeticError) the run ended, but its figures say that the numbers mean nothing; reasons, advice
  +- Cancelled                   the caller asked to stop
 """
 
@@ -72,6 +73,19 @@ class Diverged(SidebandError, ArithmeticError):
     def what(self) -> str:
         """What happened, without the advice."""
         return f"simulation diverged at t = {self.time_s:.6g} s in {self.dof}"
+
+
+class Meaningless(SidebandError, ArithmeticError):
+    """A run whose energy balance, convergence or step error says that its numbers are none of the machine's."""
+
+    def __init__(self, *, reasons: Sequence[str], advice: str) -> None:
+        self.reasons, self.advice = tuple(reasons), advice
+        super().__init__(f"{self.what}. {advice}")
+
+    @property
+    def what(self) -> str:
+        """What is wrong, without the advice."""
+        return f"the numbers of this run mean nothing: {'; '.join(self.reasons)}"
 
 
 class Cancelled(SidebandError):

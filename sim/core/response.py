@@ -69,6 +69,8 @@ class Quality:
     """`regular`, `irregular` (chaotic motion: compare statistics only) or `not measured`."""
     transient_end_s: float
     energy: EnergyBalance
+    doubts: tuple[str, ...] = ()
+    """Why the numbers are not to be trusted; empty when nothing speaks against them."""
 
 
 @dataclass(frozen=True, kw_only=True)

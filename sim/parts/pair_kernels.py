@@ -25,7 +25,8 @@ from sim.parts.mesh_kernels import (
 SLOTS = 4
 """Pairs that can touch within a step: contact ratios up to 3."""
 CONTEXT = 20
-"""Context row: error, rate, phase, phi_p, phi_g, change of backlash, tilt, spare, then (stiffness, gap, cut) a slot."""
+"""Context row: error, rate, phase, phi_p, phi_g, change of backlash, tilt, mesh cycles over which a jump is drawn, then
+(stiffness, gap, cut) a slot."""
 GAUSS = 0.7745966692414834
 """Three-point Gauss node sqrt(3/5)."""
 SHAPE_POINTS = 129
@@ -125,10 +126,11 @@ def pair_cut(par, x, n):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
 @inline
 def pair_moments(step, s, par, where, phases, n, at, width, ctx):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Node stiffness of pair n with the moments of its true stiffness over the step, into place `at` of each row."""
-    row, tilt, ratio = where
+    row, tilt, ratio, growth = where
     phase0, dphase = phases
+    # the end of the path moves with the centre distance: a ratio held over the step is wrong by O(h) at each exit
     x0 = larger((n - phase0) / dphase, 0.0)
-    x1 = smaller((n + ratio - phase0) / dphase, 1.0)
+    x1 = smaller((n + ratio - phase0) / larger(dphase - growth, 0.5 * dphase), 1.0)
     m0 = 0.0 * row
     m1 = m0
     m2 = m0
@@ -139,7 +141,7 @@ def pair_moments(step, s, par, where, phases, n, at, width, ctx):  # type: ignor
         for g in range(3):
             x = middle + half * GAUSS * (g - 1)
             weight = half * ((8.0 if g == 1 else 5.0) / 9.0)
-            place = smaller(larger((phase0 + dphase * x - n) / ratio, 0.0), 1.0)
+            place = smaller(larger((phase0 + dphase * x - n) / (ratio + growth * x), 0.0), 1.0)
             k = weight * pair_value(par, row, tilt, place, n)
             m0 += k
             m1 += k * x
@@ -175,33 +177,23 @@ def fill_pairs(step, shafts, par, centre, tilt, width, ctx):  # type: ignore[no-
         ctx[i * width + 5] = node_growth(par, step[3 + i] * h, centre, phi_p, phi_g)
         ctx[i * width + 6] = tilt
     x, y, xd, yd = centre
-    middle_p = 0.5 * (shafts[0] + shafts[s])
-    middle_g = 0.5 * (shafts[2 * n] + shafts[2 * n + s])
-    error = centre_error(par, middle_p, middle_g, x + 0.5 * h * xd, y + 0.5 * h * yd)
-    row = row_position(par, error)
-    ratio = row_value(par, par[26], row)
+    before = centre_error(par, shafts[0], shafts[2 * n], x, y)
+    after = centre_error(par, shafts[s], shafts[2 * n + s], x + h * xd, y + h * yd)
+    row = row_position(par, 0.5 * (before + after))
+    ratio = row_value(par, par[26], row_position(par, before))
+    growth = row_value(par, par[26], row_position(par, after)) - ratio
+    where = (row, tilt_position(par, tilt), ratio, growth)
     phase0 = par[5] * shafts[0] / turn
     dphase = larger(par[5] * shafts[s] / turn - phase0, 1e-12)
     top = floor(phase0 + dphase)
     for slot in range(4):
         pair = top - slot
         at = 8 + 3 * slot
-        pair_moments(step, s, par, (row, tilt_position(par, tilt), ratio), (phase0, dphase), pair, at, width, ctx)
+        pair_moments(step, s, par, where, (phase0, dphase), pair, at, width, ctx)
         for i in range(s):
-            place = smaller(larger((ctx[i * width + 2] - pair) / ratio, 0.0), 1.0)
+            place = smaller(larger((ctx[i * width + 2] - pair) / (ratio + growth * step[3 + i]), 0.0), 1.0)
             ctx[i * width + at + 1] = pair_gap(par, pair)
             ctx[i * width + at + 2] = pair_cut(par, place, pair)
-
-
-@inline
-def exact_stiffness(par, ctx, error, tilt, slot):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """Stiffness of a slot's pair at the instant of the context row, a centre-distance error and a tilt, N/m."""
-    row = row_position(par, error)
-    ratio = row_value(par, par[26], row)
-    whole = floor(ctx[2])
-    x = (ctx[2] - whole + slot) / ratio
-    k = pair_value(par, row, tilt_position(par, tilt), smaller(x, 1.0), whole - slot)
-    return select(x < 1.0, k, 0.0)
 
 
 @inline

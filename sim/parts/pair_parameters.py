@@ -9,6 +9,7 @@ from sim.core.laws import TOOTH_POINTS, MeshLaw
 from sim.core.response import FloatArray
 from sim.core.spec import MachineSpec
 from sim.parts import mesh_kernels as mk
+from sim.parts.band_limit import step_response
 from sim.parts.mesh_element import header, zero_row
 
 
@@ -56,6 +57,7 @@ def pair_parameters(law: MeshLaw, machine: MachineSpec, extra: FloatArray | None
         kinds_g,
         shapes,
         slice_gaps,
+        step_response(),
         own,
     )
     at = mk.HEADER + np.concatenate([[0], np.cumsum([t.size for t in tables])])
@@ -63,5 +65,5 @@ def pair_parameters(law: MeshLaw, machine: MachineSpec, extra: FloatArray | None
     head[mk.H_RATIOS] = at[2]
     head[mk.H_KINDS] = max(shapes.shape[0], 1)
     head[mk.H_KINDS_P], head[mk.H_KINDS_G], head[mk.H_SHAPES] = at[4:7]
-    head[mk.H_SLICE_GAPS], head[mk.H_EXTRA] = at[7:9]
+    head[mk.H_SLICE_GAPS], head[mk.H_STEP], head[mk.H_EXTRA] = at[7:10]
     return flat(head, *tables)

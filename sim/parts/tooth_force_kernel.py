@@ -11,13 +11,16 @@ tilts the shafts.
 from __future__ import annotations
 
 from sim.core.choose import floor, root, select, size, uniform
+from sim.core.compiled import inline
 from sim.core.elementary import hyperbolic_tangent
 from sim.core.kernels import kernel
 from sim.parts.mesh_kernels import SAME, backlash_growth, centre_error
-from sim.parts.pair_kernels import exact_stiffness, fill_pairs, pair_load
+from sim.parts.observed_pairs import pair_now, pairs_now, turned_meanwhile
+from sim.parts.pair_kernels import fill_pairs, pair_load
 
-CONTEXT = 28
-"""The rows of `pair_kernels`, with L as the spare, then (arm, sliding speed of the turning gears) a slot."""
+CONTEXT = 29
+"""The rows of `pair_kernels`, with L in place 7, then (arm, sliding speed of the turning gears) a slot; last what stood
+in place 7."""
 E_FRICTION, E_SPEED, E_BASES, E_TANGENT_G, E_TANGENT_P, E_PITCH, E_MOMENT, E_DRIVE_P, E_DRIVE_G = range(9)
 
 
@@ -28,9 +31,9 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
     n = s + 1
     e = uniform(par[43])
     tilt = (u[3] + 0.5 * h * u[10]) / par[14]
-    fill_pairs(step, shafts, par, (u[5], u[6], u[12], u[13]), tilt, 28, ctx)
+    fill_pairs(step, shafts, par, (u[5], u[6], u[12], u[13]), tilt, 29, ctx)
     for i in range(s):
-        at = i * 28
+        at = i * 29
         phase = ctx[at + 2]
         after = step[3 + i] * h
         x = u[5] + after * u[12]
@@ -46,7 +49,19 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
             ctx[at + 20 + 2 * slot] = arm
             ctx[at + 21 + 2 * slot] = -par[33] * turning
     for j in range(28):
-        ctx[s * 28 + j] = ctx[(s - 1) * 28 + j]
+        ctx[s * 29 + j] = ctx[(s - 1) * 29 + j]
+    ctx[s * 29 + 28] = turned_meanwhile(step, shafts, par)
+
+
+@inline
+def contact_point(ctx, slot):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """(arm, sliding speed of the turning gears) of a slot's pair.
+
+    The next pair, slot 4, stands one base pitch behind the last one, and both are linear in the place.
+    """
+    if slot == 4:
+        return 2.0 * ctx[20] - ctx[22], 2.0 * ctx[21] - ctx[23]
+    return ctx[20 + 2 * slot], ctx[21 + 2 * slot]
 
 
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
@@ -64,20 +79,19 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
     if mode == 1:
         for i in range(56):
             out[i] = 0.0
-    for slot in range(4):
-        k = ctx[8 + 3 * slot]
-        if mode == 2:
-            k = exact_stiffness(par, ctx, error, tilt, slot)
-        found = pair_load(par, growth, tilt, s - ctx[9 + 3 * slot], ctx[10 + 3 * slot], k)
-        arm_p = -par[33] * ctx[20 + 2 * slot]
-        arm_g = par[33] * (ctx[7] - ctx[20 + 2 * slot])
-        speed = ud[0] + ctx[21 + 2 * slot]
+    for slot in range(pairs_now(mode)):
+        k, gap, cut, _, drawn = pair_now(mode, par, ctx, ctx[28], error, tilt, slot)
+        found = pair_load(par, growth, tilt, s - gap, cut, k)
+        arm, turning = contact_point(ctx, slot)
+        arm_p = -par[33] * arm
+        arm_g = par[33] * (ctx[7] - arm)
+        speed = ud[0] + turning
         share = hyperbolic_tangent(speed / par[e + 1])
-        friction = par[e] * size(found[0]) * share
+        friction = drawn * par[e] * size(found[0]) * share
         sliding += friction
         turn_p += arm_p * friction
         turn_g += arm_g * friction
-        moment += found[5]
+        moment += drawn * found[5]
         lost += friction * speed
         if mode == 1:
             grown = par[e] * share * select(found[0] < 0.0, -found[2], found[2])

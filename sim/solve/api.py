@@ -14,6 +14,7 @@ from sim.core.response import Channel, FloatArray, Response
 from sim.core.spec import MachineSpec
 from sim.core.system import System
 from sim.solve.outcome import Finished, Request, response
+from sim.solve.pilot import pilot_channels, step_difference
 from sim.solve.plan import Built, build_plan
 from sim.solve.pointers import Work, new_work
 from sim.solve.sampling import Probe, begin, new_probe, sample
@@ -75,8 +76,8 @@ def check_request(duration_s: float, rate_hz: float) -> None:
         raise SpecError(problems)
 
 
-def _start(system: System, rate_hz: float, names: tuple[str, ...], rtol: float) -> _Run:
-    built = build_plan(system, 1.0 / rate_hz)
+def _start(system: System, rate_hz: float, names: tuple[str, ...], rtol: float, drawn_s: float) -> _Run:
+    built = build_plan(system, 1.0 / rate_hz, drawn_s=drawn_s)
     run = _Run(system=system, built=built, work=new_work(built.plan), probe=new_probe(built, system, names), rtol=rtol)
     begin(built.plan, run.work, run.probe)
     return run
@@ -129,22 +130,19 @@ def _advance(run: _Run, first: int, count: int, last: int) -> FloatArray:
     return block
 
 
-def step_difference(coarse: FloatArray, fine: FloatArray) -> float:
-    """Worst relative L2 difference of (channels, samples) with a step and with half of it, over the second half."""
-    half = coarse.shape[1] // 2
-    difference = np.linalg.norm(coarse[:, half:] - fine[:, half:], axis=1)
-    size = np.linalg.norm(fine[:, half:] - fine[:, half:].mean(axis=1, keepdims=True), axis=1)
-    level = size.max()
-    kept = size > 1e-9 * level if level > 0 else size > 0
-    return float(np.max(difference[kept] / size[kept])) if np.any(kept) else 0.0
-
-
-def _pilot_error(system: System, rate_hz: float, names: tuple[str, ...], rtol: float, span_s: float) -> float:
-    """Worst relative L2 difference between a step and its half over the second half of the pilot."""
+def _pilot_error(system: System, rate_hz: float, rtol: float, span_s: float) -> float:
+    """Difference between a step and its half over the pilot: `sim.solve.pilot`."""
+    names = pilot_channels(default_channels(system))
     count = max(int(span_s * rate_hz), 8)
-    coarse = _advance(_start(system, rate_hz, names, rtol), 0, count, count)
-    fine = _advance(_start(system, 2 * rate_hz, names, rtol), 0, 2 * count, 2 * count)[:, ::2]
+    drawn_s = 1.0 / rate_hz  # alike in both: where a jump falls between samples is no error of the step
+    coarse = _advance(_start(system, rate_hz, names, rtol, drawn_s), 0, count, count)
+    fine = _advance(_start(system, 2 * rate_hz, names, rtol, drawn_s), 0, 2 * count, 2 * count)[:, ::2]
     return step_difference(coarse, fine)
+
+
+def drawn_s(settings: Settings, factor: int, rate_hz: float) -> float:
+    """Interval for which jumps are drawn band-limited, s: the base step where a filter thins the samples, else 0."""
+    return 1.0 / rate_hz if settings.anti_alias and factor > 1 else 0.0
 
 
 def simulate(
@@ -173,8 +171,8 @@ def simulate(
     samples = math.ceil(duration_s * output_rate_hz - 1e-9)
     error = None
     if chosen.estimate_error:
-        error = _pilot_error(system, rate, default_channels(system), chosen.rtol, min(PILOT_S, duration_s))
-    run = _start(system, rate, names, chosen.rtol)
+        error = _pilot_error(system, rate, chosen.rtol, min(PILOT_S, duration_s))
+    run = _start(system, rate, names, chosen.rtol, drawn_s(chosen, factor, rate))
     stream = Stream(
         advance=lambda first, count, last: _advance(run, first, count, last),
         channels=len(selected),

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sim.assembly.assemble import assemble
-from sim.core.errors import Cancelled, SidebandError
+from sim.core.errors import Cancelled, Meaningless, SidebandError
 from sim.core.lanes import WIDTH
 from sim.core.response import Channel, FloatArray, Response
 from sim.core.spec import MachineSpec
@@ -22,14 +22,15 @@ from sim.solve.api import (
     check_request,
     default_channels,
     diverged,
+    drawn_s,
     resolve_channels,
     runs_away,
-    step_difference,
 )
 from sim.solve.lanes.layout import LanePlan, lane_plan, stepped
 from sim.solve.lanes.pointers import LaneWork, new_lane_work
 from sim.solve.lanes.sampling import LaneProbe, begin, new_lane_probe, sample
 from sim.solve.outcome import Finished, Request, response
+from sim.solve.pilot import pilot_channels, step_difference
 from sim.solve.plan import build_plan
 from sim.solve.settings import PILOT_S, Settings
 from sim.solve.step_choice import steps_per_output
@@ -102,9 +103,9 @@ def structure(system: System) -> Hashable:
     return system.dofs, elements, tuple(system.dynamic_angle.items()), len(system.dampers), system.speed.size
 
 
-def _start(systems: Sequence[System], step_s: float, names: tuple[str, ...], rtol: float) -> _Lanes:
+def _start(systems: Sequence[System], step_s: float, names: tuple[str, ...], rtol: float, drawn_s: float) -> _Lanes:
     operators = {id(system): stepped(system, step_s) for system in systems}
-    first = build_plan(systems[0], step_s)
+    first = build_plan(systems[0], step_s, drawn_s=drawn_s)
     plan = lane_plan(systems, [operators[id(system)] for system in systems], first.plan)
     lanes = _Lanes(
         systems=systems,
@@ -120,10 +121,11 @@ def _start(systems: Sequence[System], step_s: float, names: tuple[str, ...], rto
 
 def _pilots(systems: Sequence[System], rate_hz: float, rtol: float, span_s: float) -> list[float]:
     """Step error of each lane, as the single solver measures it."""
-    names = default_channels(systems[0])
+    names = pilot_channels(default_channels(systems[0]))
     count = max(int(span_s * rate_hz), 8)
-    coarse = _start(systems, 1.0 / rate_hz, names, rtol).advance(0, count, count)
-    fine = _start(systems, 0.5 / rate_hz, names, rtol).advance(0, 2 * count, 2 * count)[:, ::2]
+    drawn = 1.0 / rate_hz
+    coarse = _start(systems, 1.0 / rate_hz, names, rtol, drawn).advance(0, count, count)
+    fine = _start(systems, 0.5 / rate_hz, names, rtol, drawn).advance(0, 2 * count, 2 * count)[:, ::2]
     return [step_difference(coarse[lane::WIDTH], fine[lane::WIDTH]) for lane in range(WIDTH)]
 
 
@@ -146,7 +148,8 @@ def _run_lanes(ready: Sequence[_Ready], call: _Call) -> list[Response | Sideband
     if call.settings.estimate_error:
         errors = [*_pilots(systems, rate, call.settings.rtol, min(PILOT_S, call.duration_s))]
     channels = full[0].channels
-    lanes = _start(systems, 1.0 / rate, tuple(c.name for c in channels), call.settings.rtol)
+    drawn = drawn_s(call.settings, full[0].factor, rate)
+    lanes = _start(systems, 1.0 / rate, tuple(c.name for c in channels), call.settings.rtol, drawn)
     stream = Stream(
         advance=lanes.advance,
         channels=len(channels) * WIDTH,
@@ -171,7 +174,10 @@ def _run_lanes(ready: Sequence[_Ready], call: _Call) -> list[Response | Sideband
             contact=lanes.probe.contact[:, lane].reshape(-1, 3),
         )
         request = Request(channels=channels, rate_hz=call.rate_hz, step_s=1.0 / rate, seed=one.member.seed)
-        results.append(response(one.system, request, finished, signals[lane::WIDTH].copy(), errors[lane]))
+        try:
+            results.append(response(one.system, request, finished, signals[lane::WIDTH].copy(), errors[lane]))
+        except Meaningless as error:
+            results.append(error)
     return results
 
 
@@ -207,8 +213,8 @@ def simulate_many(
 ) -> list[Response | SidebandError]:
     """Simulate every member from rest; results stand in the order of the members.
 
-    An impossible or diverging member leaves its error (SpecError, UnknownName, Diverged) in its place; the others are
-    not touched. Raises SpecError for an impossible request and Cancelled.
+    An impossible, diverging or meaningless member leaves its error (SpecError, UnknownName, Diverged, Meaningless) in
+    its place; the others are not touched. Raises SpecError for an impossible request and Cancelled.
     """
     check_request(duration_s, output_rate_hz)
     chosen = settings or Settings()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from sim.solve.chunks import IntArray
 from sim.solve.energy import energy_balance
 from sim.solve.settings import IRREGULAR
 from sim.solve.transient import transient_end_s
+from sim.solve.trust import doubts, refuse_meaningless
 from sim.version import PHYSICS_VERSION
 
 STEP_WARNING = 1e-2
@@ -37,14 +38,6 @@ class Finished:
     counts: FloatArray | IntArray
     energy: FloatArray
     contact: FloatArray
-
-
-def _unconverged(finished: Finished) -> tuple[str, ...]:
-    count = int(finished.counts[4])
-    if count == 0:
-        return ()
-    share = 100.0 * count / max(int(finished.counts[1]), 1)
-    return (f"{count} steps ({share:.3g} %) were taken although their forces had not settled: ask for shorter steps",)
 
 
 def _warnings(error: float | None, kind: str) -> tuple[str, ...]:
@@ -98,6 +91,18 @@ def response(
     duration_s = signals.shape[1] / request.rate_hz
     ratio = mean_ratio(system.speed, 0.0, duration_s)
     period = 1.0 / max((hz for hz in system.speeds_hz.values() if hz > 0), default=20.0 / duration_s)
+    quality = Quality(
+        step_s=request.step_s,
+        steps=int(finished.counts[1]),
+        refined_steps=int(finished.counts[2]),
+        unconverged_steps=int(finished.counts[4]),
+        step_error=error,
+        step_error_kind=kind,
+        transient_end_s=transient_end_s(signals, request.rate_hz, period),
+        energy=energy_balance(system, finished.z, finished.work, finished.energy),
+    )
+    refuse_meaningless(system, quality)
+    quality = replace(quality, doubts=doubts(quality))
     return Response(
         machine=system.machine,
         sampling_rate_hz=request.rate_hz,
@@ -105,17 +110,9 @@ def response(
         signals=signals,
         bases_hz={name: hz * ratio for name, hz in system.bases_hz.items()},
         derived=dict(system.derived),
-        quality=Quality(
-            step_s=request.step_s,
-            steps=int(finished.counts[1]),
-            refined_steps=int(finished.counts[2]),
-            unconverged_steps=int(finished.counts[4]),
-            step_error=error,
-            step_error_kind=kind,
-            transient_end_s=transient_end_s(signals, request.rate_hz, period),
-            energy=energy_balance(system, finished.z, finished.work, finished.energy),
-        ),
-        warnings=system.warnings
+        quality=quality,
+        warnings=quality.doubts
+        + system.warnings
         + _warnings(error, kind)
         + _speed_warning(system, duration_s)
         + tuple(_range_warnings(system, finished.contact)),

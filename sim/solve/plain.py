@@ -62,8 +62,8 @@ class Evaluated:
 
 
 def step_array(t0_s: float, h_s: float, nodes: FloatArray, lagrange: FloatArray, weights: FloatArray) -> FloatArray:
-    """The `step` argument of the kernels."""
-    return np.concatenate([[t0_s, h_s, float(nodes.size)], nodes, lagrange.ravel(), weights])
+    """The `step` argument of the kernels; jumps are reported as they are."""
+    return np.concatenate([[t0_s, h_s, float(nodes.size)], nodes, lagrange.ravel(), weights, [0.0]])
 
 
 def shaft_rows(system: System, element: Element, step: FloatArray, state: FloatArray) -> FloatArray:

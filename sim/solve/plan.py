@@ -202,8 +202,8 @@ def _angle_dofs(system: System) -> IntArray:
     return np.array(found, dtype=np.int64).reshape(-1, 2)
 
 
-def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Built:
-    """Flatten a system for a base step and its halvings."""
+def build_plan(system: System, base_step_s: float, levels: int = LEVELS, drawn_s: float = 0.0) -> Built:
+    """Flatten a system for a base step and its halvings; `drawn_s`: see `sim.core.elements`, the calling convention."""
     rule = collocation(STAGES)
     coords = coordinates(system)
     elements = system.elements
@@ -219,7 +219,7 @@ def build_plan(system: System, base_step_s: float, levels: int = LEVELS) -> Buil
     out_at = _starts([3 + len(e.outputs) for e in elements])
     rows = stiff_rows(system, coords, f_at)
     stiff = sum(e.stiff for e in elements)
-    head = np.concatenate([[0.0, 0.0, float(s)], rule.c, rule.lagrange.ravel(), rule.b])
+    head = np.concatenate([[0.0, 0.0, float(s)], rule.c, rule.lagrange.ravel(), rule.b, [drawn_s]])
     opens = np.array([e.stiff or e.opens for e in elements], dtype=np.int64)
     ints = np.array([len(elements), f, u, r, z, n, s, levels, stiff, out_at[-1], opens.sum()], dtype=np.int64)
     plan = Plan(

@@ -19,6 +19,7 @@ from sim.core.params import Param
 from sim.core.response import FloatArray
 from sim.core.spec import CustomLaw, ForceTable, MachineSpec
 from sim.core.terms import Demo, SiteContext, Term, Validation, Values
+from sim.parts.law_at_rest import forces_at_rest
 from sim.parts.program_kernel import CONTEXT, KERNEL
 from sim.parts.rotor import shaft_lines
 
@@ -57,6 +58,24 @@ def law_parameters(law: CustomLaw, number: int, scale: float) -> FloatArray:
     codes[: len(program)] = [step.code for step in program]
     values[: len(program)] = [step.value for step in program]
     return flat(float(len(program)), codes, values, scale, table_parameters(law.table))
+
+
+MOST_N = 1e9
+"""Force (moment) at rest above which a law cannot be meant: the thrust of a hundred moon rockets, on one part."""
+
+
+def checked_at_rest(law: CustomLaw, number: int, parameters: FloatArray) -> FloatArray:
+    """The parameters; SpecError names a law whose force is no number, or beyond reason, before anything moves."""
+    worst = forces_at_rest(parameters)
+    worst = worst[np.argmax(np.where(np.isfinite(worst), np.abs(worst), np.inf))]
+    if np.isfinite(worst) and abs(worst) <= MOST_N:
+        return parameters
+    form = "table" if law.expression is None else "expression"
+    message = f"the force of law {law.name!r} at rest (x = v = 0) is {worst:.3g}: is something divided by zero?"
+    given = law.expression if law.expression is not None else float(worst)
+    allowed = f"-{MOST_N:g} to {MOST_N:g} at x = v = 0"
+    field = f"custom_laws.{number - 1}.{form}"
+    raise SpecError(Problem(field=field, message=message, given=given, allowed=allowed, unit="N"))
 
 
 def _demonstration(machine: MachineSpec) -> MachineSpec:
@@ -101,7 +120,7 @@ class CustomForce(Term):
                 kernel=KERNEL,
                 coordinates=(Coordinate(name=name, unit="rad" if turning else "m", weights=weights),),
                 forces=1,
-                parameters=law_parameters(law, number, values["scale"]),
+                parameters=checked_at_rest(law, number, law_parameters(law, number, values["scale"])),
                 context=CONTEXT,
                 shafts=(site.shaft, site.shaft),
                 outputs=(output,),

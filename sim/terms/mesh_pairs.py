@@ -28,7 +28,8 @@ from sim.parts.mesh_kernels import (
     slope_angle,
     unilateral,
 )
-from sim.parts.pair_kernels import CONTEXT, exact_stiffness, fill_pairs, pair_load
+from sim.parts.observed_pairs import pair_now, pairs_now, turned_meanwhile
+from sim.parts.pair_kernels import CONTEXT, fill_pairs, pair_load
 from sim.parts.pair_parameters import mean_stiffness_n_per_m, pair_parameters
 
 
@@ -40,6 +41,7 @@ def prepare(step, shafts, u, par, ctx):  # type: ignore[no-untyped-def]  # noqa:
     s = uniform(step[2])
     for j in range(20):
         ctx[s * 20 + j] = ctx[(s - 1) * 20 + j]
+    ctx[s * 20 + 7] = turned_meanwhile(step, shafts, par)
 
 
 def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
@@ -59,17 +61,15 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
         error = centre_error(par, ctx[3], ctx[4], u[1], u[2])
         growth = backlash_growth(par, error)
         tilt = shaft_tilt(par, u[3], u[4])
-    for slot in range(4):
-        k = ctx[8 + 3 * slot]
-        if mode == 2:
-            k = exact_stiffness(par, ctx, error, tilt, slot)
-        total += k
-        found = pair_load(par, growth, tilt, s - ctx[9 + 3 * slot], ctx[10 + 3 * slot], k)
-        load += found[0]
-        energy += found[1]
-        tangent += found[2]
-        share += found[3]
-        slope += found[4]
+    for slot in range(pairs_now(mode)):
+        k, gap, cut, on_path, drawn = pair_now(mode, par, ctx, ctx[7], error, tilt, slot)
+        found = pair_load(par, growth, tilt, s - gap, cut, k)
+        load += drawn * found[0]
+        energy += on_path * found[1]
+        tangent += on_path * found[2]
+        share += on_path * found[3]
+        slope += on_path * found[4]
+        total += on_path * k
     free = par[1] < 0.0
     touching = select(free | (tangent != 0.0), 1.0, 0.0)
     # with backlash every pair damps in proportion to its stiffness, from touch on
@@ -85,9 +85,9 @@ def force(mode, u, ud, ctx, par, f, out):  # type: ignore[no-untyped-def]  # noq
         out[0] = energy
         out[1] = (f[0] - load) * sd
         out[2] = -f[0] * ctx[1]
-        out[3] = total
+        out[3] = total if uniform(par[39]) < 2 else tangent  # of a face in slices those that touch
         out[4] = error
-        out[5] = slope_angle(u, par[14])
+        out[5] = slope_angle(u, par[14]) if uniform(par[39]) < 2 else shaft_tilt(par, u[3], u[4])
         out[6] = f[0]
         out[7] = ctx[0]
         out[8] = touching

@@ -50,7 +50,7 @@ def force_of(element, x, v, phi):
 LAWS = {
     "2*x - v/4": lambda x, v, p: 2 * x - v / 4,
     "-x^2 + 3*x*v^3": lambda x, v, p: -(x**2) + 3 * x * v**3,
-    "x^-2 + x^0": lambda x, v, p: x**-2.0 + 1,
+    "(x + 2)^-2 + x^0": lambda x, v, p: (x + 2) ** -2.0 + 1,
     "max(x - 0.2, 0)^1.5 * (1 + 0.3*v)": lambda x, v, p: max(x - 0.2, 0) ** 1.5 * (1 + 0.3 * v),
     "min(x, v) - abs(v)*v": lambda x, v, p: min(x, v) - abs(v) * v,
     "5*sign(v)*sqrt(abs(x))": lambda x, v, p: 5 * np.sign(v) * np.sqrt(abs(x)),
@@ -58,7 +58,7 @@ LAWS = {
     "sin(phi)/(1+x^2)": lambda x, v, p: np.sin(p) / (1 + x**2),
     "--(+x)*1.5e-1": lambda x, v, p: 0.15 * x,
     "x - v - 1": lambda x, v, p: x - v - 1,
-    "8/4/x": lambda x, v, p: 2 / x,
+    "8/4/(x + 2)": lambda x, v, p: 2 / (x + 2),
 }
 
 
@@ -76,6 +76,12 @@ def test_an_expression_is_what_it_says_with_its_derivatives(text):
         ]
         assert found[0] == pytest.approx(2.0 * exact(x, v, phi), rel=1e-12, abs=1e-13)
         assert found[1:] == pytest.approx([2.0 * s for s in slopes], rel=1e-6, abs=1e-7)
+
+
+@pytest.mark.parametrize("text", ["1/0", "1e308*1e308", "2/x", "1e10", "1/(phi - phi)"])
+def test_a_force_beyond_reason_at_rest_is_refused_by_name(text):
+    with pytest.raises(SpecError, match=r"custom_laws\.0\.expression: the force of law 'own' at rest"):
+        element_of(with_law(expression=text), "custom_force", "bearing1")
 
 
 def test_a_table_is_interpolated_linearly_and_held_at_its_ends():

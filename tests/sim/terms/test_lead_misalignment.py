@@ -34,7 +34,8 @@ def test_load_of_a_wedge_on_a_bed_of_springs(angle, deflection):
     found = at_phase(element_of(system, "mesh1"), 23, 0.85, u, np.zeros(5))
     own = np.array([0.0, 0.0, 0.0, 0.0, deflection, 0.0, 0.0])
     tilting = at_phase(element_of(system, "mesh1.tilting"), 23, 0.85, own, np.zeros(7))
-    k, steep = found.outputs[3], abs(angle)
+    whole = at_phase(element_of(assemble(MACHINE), "mesh1"), 23, 0.85, u, np.zeros(5))
+    k, steep = whole.outputs[3], abs(angle)
     touching = (deflection + 0.5 * steep * WIDTH_M) / steep
     if touching >= WIDTH_M:
         load, moment = k * deflection, k * steep * WIDTH_M**2 / 12.0
@@ -68,3 +69,20 @@ def test_the_moment_loads_the_bearings_of_a_shaft_unequally():
     assert moved[0] * moved[1] < 0.0
     assert moved[2] * moved[3] < 0.0
     assert moved[0] * moved[2] < 0.0
+
+
+def test_the_stiffness_reported_is_that_of_the_slices_that_touch():
+    """5 um of deflection at 1e-3 rad: b = (d + |t| W/2)/|t| = 17 mm of 24."""
+    u = np.array([5e-6, 0, 0, 0, 0.0])
+    whole = at_phase(element_of(assemble(MACHINE), "mesh1"), 23, 0.85, u, np.zeros(5)).outputs[3]
+    part = at_phase(element_of(misaligned(1e-3), "mesh1"), 23, 0.85, u, np.zeros(5)).outputs[3]
+    assert part == pytest.approx(whole * 17.0 / 24.0, abs=whole / 15.0)
+
+
+def test_the_tilt_reported_has_a_sign():
+    element = element_of(misaligned(3e-4), "mesh1")
+    tilts = [
+        at_phase(element, 23, 0.85, np.array([1e-5, 0, 0, 0, side * 4e-4 * LENGTH_M]), np.zeros(5)).outputs[5]
+        for side in (1.0, -1.0)
+    ]
+    assert tilts == pytest.approx([4e-4, -4e-4], rel=1e-9)
