@@ -1,3 +1,3 @@
 """Version of the physics: part of every result's identity."""
 
-PHYSICS_VERSION = "1.1.0"
+PHYSICS_VERSION = "1.2.0"
