@@ -82,7 +82,7 @@ openapi: dev  ## write openapi/openapi.json
 	$(BIN)/python -m app.openapi
 
 LOCK = $(BIN)/pip-compile --quiet -c constraints.txt --no-emit-index-url --no-emit-find-links --strip-extras --no-header $(UPGRADE)
-SERVER = --extra postgres --extra s3 --extra formats
+SERVER = --extra postgres --extra s3 --extra formats --extra datasets
 lock: dev  ## new lock files from pyproject.toml (keeps what is locked; add UPGRADE=--upgrade to renew)
 	$(LOCK) -o requirements.lock pyproject.toml
 	$(LOCK) $(SERVER) -o requirements-server.lock pyproject.toml
