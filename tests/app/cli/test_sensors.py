@@ -52,7 +52,7 @@ def test_the_same_command_gives_the_same_bytes_and_leftovers_go(call: Call, tmp_
 @pytest.mark.parametrize(
     ("chain", "arguments", "named"),
     [
-        ({"channels": []}, (), "chain.json.channels"),
+        ({"channels": []}, (), "--sensors channels: "),
         ({"channels": [{**MASS, "converter": {"bits": 99}}]}, (), "converter.bits"),
         ({"channels": [{**MASS, "preset": "nonesuch"}]}, (), "icp-100mv-g"),
         ({"channels": [{**MASS, "place": {"location": "case"}}]}, (), "--sensors channels.0.place.location"),

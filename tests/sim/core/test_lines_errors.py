@@ -34,5 +34,6 @@ def test_messages_say_what_to_change():
     problem = Problem(field="gears.0.teeth", message="too few", given=3, allowed="6 to 2000", unit="1")
     assert str(SpecError(problem)) == "gears.0.teeth: too few (given 3); allowed: 6 to 2000"
     assert problem.to_dict()["given"] == 3
-    assert str(UnknownName("preset", "papper", ("paper",))) == "unknown preset 'papper'; known: paper"
+    unknown = str(UnknownName("preset", "papper", ("paper",)))
+    assert unknown == "unknown preset 'papper' (did you mean paper?); known: paper"
     assert "t = 0.25 s in ring.x" in str(Diverged(time_s=0.25, dof="ring.x", advice="shorten the step"))

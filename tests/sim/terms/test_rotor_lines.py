@@ -21,7 +21,16 @@ KEYS = (
 
 
 def turning_at(machine, hz):
-    return machine.model_copy(update={"operating": machine.operating.model_copy(update={"speed_hz": hz})})
+    """The machine at another speed, its unbalances such that their forces stay what they were."""
+    faster = machine.operating.speed_hz / hz
+    terms = [_scaled(term, faster**2) if term.term == "unbalance" else term for term in machine.terms]
+    operating = machine.operating.model_copy(update={"speed_hz": hz})
+    return machine.model_copy(update={"operating": operating, "terms": terms})
+
+
+def _scaled(term, factor):
+    moment = term.parameters["moment"] * factor
+    return term.model_copy(update={"parameters": {**term.parameters, "moment": moment}})
 
 
 @pytest.mark.slow
