@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from signals.floor import FloorSettings, noise_floor
-from signals.peaks import FREQUENCY_SPREAD_BINS, find_peaks, leakage, refine
+from signals.peaks import FREQUENCY_SPREAD_BINS, disagreement_bins, find_peaks, leakage, refine
 from signals.series import Series
 from signals.spectra import amplitude_spectrum
 from signals.windows import MAIN_LOBE_BINS, window
@@ -65,6 +65,30 @@ def test_one_sine_is_located_between_bins(position: float, amplitude: float, nam
     # what is left is the mirror image at minus the frequency, 100 bins away or more, and for the flat top its flatness
     assert frequency[0] == pytest.approx(position, abs={"boxcar": 1e-2, "hamming": 3e-3}.get(name, 1e-3))
     assert found[0] == pytest.approx(amplitude, rel={"boxcar": 1e-2, "hamming": 3e-3}.get(name, 1e-3))
+
+
+def test_a_line_near_by_pulls_no_further_than_the_neighbours_disagree() -> None:
+    """Pairs 1.5 to 4 bins apart, the weaker 6 to 60 dB down; the tie rule allows 0.05 bins besides."""
+    n, rng, off, without = 1000, np.random.default_rng(11), 0, 0
+    t = np.arange(n) / n
+    for _ in range(1500):
+        position, apart = 200 + rng.uniform(-0.5, 0.5), rng.choice([-1, 1]) * rng.uniform(1.5, 4)
+        weaker = 10 ** rng.uniform(-3, -0.3) * np.cos(2 * np.pi * (position + apart) * t + rng.uniform(0, 6.28))
+        spectrum = amplitude_spectrum(series(np.cos(2 * np.pi * position * t + rng.uniform(0, 6.28)) + weaker))
+        peak = np.array([198 + int(np.argmax(spectrum.values[198:203]))])
+        error = abs(refine(spectrum, peak)[0][0] / spectrum.resolution_hz - position)
+        without += error > 0.05
+        off += error > 0.05 + disagreement_bins(spectrum, peak)[0]
+    assert off <= 5 < 50 < without
+
+
+@pytest.mark.parametrize("name", [name for name in MAIN_LOBE_BINS if name != "boxcar"])
+def test_the_neighbours_of_a_lone_sine_agree(name: str) -> None:
+    t = np.arange(1000) / RATE
+    for position in (100.0, 100.2, 100.49):
+        spectrum = amplitude_spectrum(series(np.sin(2 * np.pi * position * t)), window_name=name)
+        peak = np.array([int(np.argmax(spectrum.values))])
+        assert disagreement_bins(spectrum, peak)[0] < 2e-2
 
 
 @pytest.mark.parametrize("level", [0.02, 0.2])
