@@ -124,23 +124,32 @@ def modulators(
 def grids(
     kinematics: Kinematics, bases_hz: Mapping[str, float], lines: Sequence[Line], *, top_hz: float, bound: Bound
 ) -> tuple[Grid, ...]:
-    """Harmonics of every carrier below `top_hz`, then sums of every mesh with one and two modulators; without a mesh,
-    of the modulators alone.
+    """Harmonics of every carrier below `top_hz`, then sums of two meshes, then of every mesh with one and two
+    modulators; without a mesh, of the modulators alone.
     """
     available = modulators(kinematics, bases_hz, lines, bound)
     meshes, balls = carriers(kinematics, bases_hz, lines)
-    sets: list[tuple[Modulator, ...]] = [(), *((m,) for m in available), *pairs(available, 2)]
+    sets: list[tuple[Modulator, ...]] = [*((m,) for m in available), *pairs(available, 2)]
+    plan: list[tuple[Carrier | None, tuple[Modulator, ...]]] = [(carrier, ()) for carrier in (*meshes, *balls)]
+    plan += [(first, (_second(mesh, bases_hz, bound),)) for first, mesh in pairs(meshes, 2)]
+    plan += [(carrier, chosen) for chosen in sets for carrier in (meshes or (None,))]
     result: list[Grid] = []
     total = 0
-    for chosen in sets:
-        for carrier in (*meshes, *balls) if not chosen else (meshes or (None,)):
-            grid = _grid(carrier, chosen, bases_hz, top_hz)
-            total += grid.rank.size
-            if total > MAX_SUMS:
-                return tuple(result)
-            if grid.rank.size:
-                result.append(grid)
+    for carrier, chosen in plan:
+        grid = _grid(carrier, chosen, bases_hz, top_hz)
+        total += grid.rank.size
+        if total > MAX_SUMS:
+            return tuple(result)
+        if grid.rank.size:
+            result.append(grid)
     return tuple(result)
+
+
+def _second(mesh: Carrier, bases_hz: Mapping[str, float], bound: Bound) -> Modulator:
+    """A mesh that modulates another: the shaft between them carries the motion of both."""
+    return Modulator(
+        base=mesh.base, frequency_hz=bases_hz[mesh.base], reach=bound.combination_mesh, components=mesh.components
+    )
 
 
 def carriers(

@@ -19,8 +19,8 @@ MECHANISM = "kinematic"
 @dataclass(frozen=True, kw_only=True)
 class Bound:
     """Largest orders looked at: harmonics of each family, sidebands on each side, and in combinations (j f_m with up to
-    two modulating bases, only for peaks that no family explains) the largest |order| of a shaft and of a bearing;
-    that of the mesh is bounded by the spectrum.
+    two modulating bases, only for peaks that no family explains) the largest |order| of a shaft, of a bearing and
+    of a second mesh; that of the first mesh is bounded by the spectrum.
 
     `series_shaft_sidebands`, `series_cage_sidebands`: sidebands of a defect's series (`signals.labels.series`), whose
     own order the spectrum bounds.
@@ -41,6 +41,7 @@ class Bound:
     series_cage_sidebands: int = 10
     combination_shaft: int = 5
     combination_outer: int = 24
+    combination_mesh: int = 20
     ambiguity_weight: int = 12
 
 

@@ -18,7 +18,7 @@ from signals.labels.further import Further, Setting, combine, found_bases, untou
 from signals.labels.images import STEP_BASE, faint, image_grids
 from signals.labels.kinematics import Kinematics
 from signals.labels.rivals import meet, reach_hz
-from signals.labels.series import series_grids
+from signals.labels.series import series_grids, tooth_grids
 from signals.labels.types import FalseMatch, LabelledPeak, LabelSet, Matching
 from signals.peaks import FoundPeaks, find_peaks
 from signals.spectra.types import Spectrum
@@ -134,7 +134,8 @@ def _further(scene: Scene, known: Known, setting: Setting) -> Further:
     top = float(scene.spectrum.frequency_hz[-1])
     products = grids(kinematics, bases_hz, known.lines, top_hz=top, bound=setting.bound)
     series = series_grids(kinematics, bases_hz, known.lines, found=found_bases(scene), top_hz=top, bound=setting.bound)
-    physical = combine(first, gather([*series, *products]), kinematics, bases_hz, setting, tried=first.left)
+    teeth = tooth_grids(kinematics, bases_hz, known.lines, top_hz=top)
+    physical = combine(first, gather([*series, *teeth, *products]), kinematics, bases_hz, setting, tried=first.left)
     weak = faint(scene.found)
     images = gather(known.images)
     return combine(physical, images, kinematics, bases_hz, setting, tried=physical.left & weak, proven_only=True)

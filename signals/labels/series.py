@@ -1,9 +1,11 @@
-"""Series of local bearing defects to the end of the spectrum: k f_i +- n f_r, 2k f_b +- n f_c, k f_o.
+"""Series of local defects to the end of the spectrum: k f_i +- n f_r, 2k f_b +- n f_c, k f_o; k f_m +- n f_r of teeth.
 
 Balls strike a pit within microseconds and ring the resonances of the machine, so that the strong lines are those of
 high order near a resonance, not the first multiples: R. B. Randall and J. Antoni, "Rolling element bearing
 diagnostics - a tutorial", Mech. Syst. Signal Process. 25 (2011) 485-520, sections 2 and 5. A pit on the inner race is
-carried through the load zone once a turn of the shaft, one on a ball once a turn of the cage: sidebands.
+carried through the load zone once a turn of the shaft, one on a ball once a turn of the cage: sidebands. A wheel whose
+teeth differ repeats itself once a turn only: every multiple of its shaft's speed, which are the sidebands of the mesh up to
+half its teeth (P. D. McFadden, J. Vib. Acoust. Stress Reliab. Des. 108 (1986) 165-170).
 
 A series goes on beyond the bound of the families where a term of the machine predicts its base, or, where no term is
 known at all, where its family was found.
@@ -54,6 +56,29 @@ def series_grids(
             makers = tuple((site, m) for site in sites for m in words.mechanisms)
             carrier = Carrier(base=base, makers=makers, family=words.family, strong=True)
             yield _grid(carrier, _side(acting[0], letter, bases_hz, sites, bound), bases_hz, EVERY[letter], top_hz)
+
+
+def tooth_grids(
+    kinematics: Kinematics, bases_hz: Mapping[str, float], lines: Sequence[Line], *, top_hz: float
+) -> Iterator[Grid]:
+    """Sidebands of each mesh to half the teeth of each wheel of which a term predicts more than the first sidebands:
+    what varies smoothly over a turn, as run-out does, makes the first alone.
+    """
+    uneven = {line.mechanism for line in lines if len(line.orders) > 1 and abs(line.orders[-1][1]) > 1}
+    told = told_series(line for line in lines if line.mechanism in uneven)
+    for mesh in kinematics.meshes:
+        wheels = (
+            (mesh.pinion_shaft, mesh.pinion_teeth, mesh.pinion),
+            (mesh.gear_shaft, mesh.gear_teeth, mesh.gear),
+        )
+        for shaft, teeth, wheel in wheels:
+            words = told.get(frozenset({mesh.base, shaft}))
+            if words is None or mesh.base not in bases_hz or shaft not in bases_hz:
+                continue
+            makers = tuple((wheel, mechanism) for mechanism in words.mechanisms)
+            carrier = Carrier(base=mesh.base, makers=makers, family=words.family, strong=True)
+            side = Modulator(base=shaft, frequency_hz=bases_hz[shaft], reach=(teeth + 1) // 2, components=(wheel,))
+            yield _grid(carrier, side, bases_hz, 1, top_hz)
 
 
 def _alike(
