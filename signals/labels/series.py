@@ -4,8 +4,8 @@ Balls strike a pit within microseconds and ring the resonances of the machine, s
 high order near a resonance, not the first multiples: R. B. Randall and J. Antoni, "Rolling element bearing
 diagnostics - a tutorial", Mech. Syst. Signal Process. 25 (2011) 485-520, sections 2 and 5. A pit on the inner race is
 carried through the load zone once a turn of the shaft, one on a ball once a turn of the cage: sidebands. A wheel whose
-teeth differ repeats itself once a turn only: every multiple of its shaft's speed, which are the sidebands of the mesh up to
-half its teeth (P. D. McFadden, J. Vib. Acoust. Stress Reliab. Des. 108 (1986) 165-170).
+teeth differ repeats itself once a turn only: every multiple of its shaft's speed, the sidebands of the mesh up to half
+its teeth (P. D. McFadden, J. Vib. Acoust. Stress Reliab. Des. 108 (1986) 165-170).
 
 A series goes on beyond the bound of the families where a term of the machine predicts its base, or, where no term is
 known at all, where its family was found.
@@ -64,7 +64,7 @@ def tooth_grids(
     """Sidebands of each mesh to half the teeth of each wheel of which a term predicts more than the first sidebands:
     what varies smoothly over a turn, as run-out does, makes the first alone.
     """
-    uneven = {line.mechanism for line in lines if len(line.orders) > 1 and abs(line.orders[-1][1]) > 1}
+    uneven = {line.mechanism for line in lines if len(line.orders) > 1 and line.orders[-1][1] not in (-1, 0, 1)}
     told = told_series(line for line in lines if line.mechanism in uneven)
     for mesh in kinematics.meshes:
         wheels = (
