@@ -33,7 +33,8 @@ class LineChange:
 
 @dataclass(frozen=True, kw_only=True)
 class AngleWindow:
-    """Where in a revolution the residual sits: centre and half width, degrees of `shaft`."""
+    """Where in a revolution the residual sits: centre and half width, degrees of `shaft` from the
+    tacho's pulse on, without one from the first sample on."""
 
     shaft: str
     centre_deg: float

@@ -12,15 +12,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import hilbert
 
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.lines import OrderLines, level_changes, matched, order_lines
 from reconcile.kinematics.observe import Observation
+from reconcile.observe.turn import local_energy, prominence, window_of
 from reconcile.verdict import AngleWindow
 from signals.series import FloatArray
-from signals.synchronous import separate, synchronous_average
-from sim.core.errors import SpecError
 
 MESHES = 5
 SIDEBANDS = 8
@@ -29,9 +27,6 @@ HALF_WIDTH = 0.3
 """Over which a line's power is summed, share of the smallest distance of sidebands."""
 ERRORS = 4.0
 MIN_LINES = 8
-LOCAL = 2.0
-"""A window of the mean turn is a place if it stands out this many times more than in the baseline."""
-LOCAL_LEAST = 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,38 +125,18 @@ def _one(
     )
 
 
-def local_energy(observation: Observation, channel: str, shaft: str, ratio: float, teeth: int) -> FloatArray | None:
-    """Envelope power of the mean turn's residual in windows of two teeth over its mean, (steps,)."""
-    e = observation.channel(channel)
-    assert e is not None
-    series = observation.recording.series(channel)
-    try:
-        mean = synchronous_average(series, shaft=shaft, rotation=e.angle_rad, ratio=ratio)
-        residual = separate(mean, teeth=(teeth,)).difference
-    except SpecError:
-        return None
-    power = np.abs(hilbert(residual)) ** 2
-    width = max(3, 2 * residual.size // teeth)
-    kernel = np.zeros(residual.size)
-    kernel[:width] = 1 / width
-    smooth = np.fft.irfft(np.fft.rfft(power) * np.fft.rfft(np.roll(kernel, -(width // 2))), residual.size)
-    return np.asarray(smooth / max(float(np.mean(smooth)), 1e-300), dtype=np.float64)
-
-
 def _window(
     test: Observation, base: Observation, channel: str, shaft: str, ratio: float, teeth: int
 ) -> AngleWindow | None:
     """Where in the turn the residual gathers, if it does so more than in the baseline."""
-    now = local_energy(test, channel, shaft, ratio, teeth)
-    before = local_energy(base, channel, shaft, ratio, teeth)
-    if now is None or before is None:
+    now, before = (_energy(x, channel, shaft, ratio, teeth) for x in (test, base))
+    if now is None or not prominence(now, before):
         return None
-    top = float(np.max(now))
-    if top < LOCAL_LEAST or top < LOCAL * float(np.max(before)):
-        return None
-    centre = 360.0 * int(np.argmax(now)) / now.size
-    above = np.roll(now, now.size // 2 - int(np.argmax(now))) > top / 2
-    half = np.flatnonzero(above)
-    middle = now.size // 2
-    low, high = (float(360.0 * (edge - middle) / now.size) for edge in (half[0], half[-1]))
-    return AngleWindow(shaft=shaft, centre_deg=centre, low_deg=centre + low, high_deg=centre + high)
+    return window_of(now, shaft=shaft)
+
+
+def _energy(observation: Observation, channel: str, shaft: str, ratio: float, teeth: int) -> FloatArray | None:
+    e = observation.channel(channel)
+    assert e is not None
+    series = observation.recording.series(channel)
+    return local_energy(series, shaft=shaft, rotation=e.angle_rad, ratio=ratio, teeth=teeth)

@@ -14,6 +14,7 @@ from reconcile.machine.pictures import line_changes, ranking, spectra, turn_map
 from reconcile.machine.refine import best_draws
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.severity import estimated_severity
+from reconcile.machine.window import angle_window
 from reconcile.machine.words import next_experiment, sentence
 from reconcile.observe.features import Layout
 from reconcile.observe.watch import WatchList, watch_list
@@ -154,6 +155,7 @@ def answer(
         where=Where(
             sites=_sites(weights) if missing else (),
             lines=line_changes(setting.data, setting.changes, layout, watched, setting.channels) if missing else (),
+            angle_window=angle_window(setting.machine, setting.data, setting.channels) if missing else None,
             limits=_limits(setting),
         ),
         causes=causes,

@@ -18,12 +18,16 @@ EVEN_SHARE = 2e-4
 
 @dataclass(frozen=True, kw_only=True)
 class Steady:
-    """`samples` (C, n) at `rate_hz`, as if the drive shaft had turned at `speed_hz` all the time."""
+    """`samples` (C, n) at `rate_hz`, as if the drive shaft had turned at `speed_hz` all the time.
+
+    `start_turns`: its angle at the first sample, by the tacho; 0 without one.
+    """
 
     samples: FloatArray
     rate_hz: float
     speed_hz: float
     estimate: SpeedEstimate
+    start_turns: float = 0.0
 
 
 def steady(recording: Recording, *, orders: Sequence[float], slowest: float = 1.0, seed: int = 0) -> Steady:
@@ -39,12 +43,14 @@ def steady(recording: Recording, *, orders: Sequence[float], slowest: float = 1.
     speed = float((turns[-1] - turns[0]) / ((turns.size - 1) / rate))
     time = np.arange(turns.size) / rate
     wander = np.abs(turns - turns[0] - speed * time).max()
+    start = float(turns[0]) % 1.0 if estimate.method == "tacho" else 0.0
     if wander < EVEN_SHARE:
-        return Steady(samples=samples, rate_hz=rate, speed_hz=speed, estimate=estimate)
+        return Steady(samples=samples, rate_hz=rate, speed_hz=speed, estimate=estimate, start_turns=start)
     wanted = turns[0] + speed * time
     at = np.interp(wanted, turns, time)
     spline = CubicSpline(time, samples, axis=1)
-    return Steady(samples=np.asarray(spline(at)), rate_hz=rate, speed_hz=speed, estimate=estimate)
+    even = np.asarray(spline(at))
+    return Steady(samples=even, rate_hz=rate, speed_hz=speed, estimate=estimate, start_turns=start)
 
 
 def _angle(recording: Recording, estimate: SpeedEstimate, orders: Sequence[float], slowest: float) -> FloatArray:

@@ -85,7 +85,7 @@ def where_table(where: Where) -> Markup:
     said = Markup("")
     if window is not None:
         text = f"{window.centre_deg:.0f}° of {window.shaft} (from {window.low_deg:.0f}° to {window.high_deg:.0f}°)"
-        said = tag("p", f"The residual sits at {text}.")
+        said = tag("p", f"The residual sits at {text}, from the tacho's pulse or, without one, from the first sample on.")
     limits = bullets(where.limits)
     return Markup(
         said
