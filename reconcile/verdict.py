@@ -33,8 +33,7 @@ class LineChange:
 
 @dataclass(frozen=True, kw_only=True)
 class AngleWindow:
-    """Where in a revolution the residual sits: centre and half width, degrees of `shaft` from the
-    tacho's pulse on, without one from the first sample on."""
+    """Where in a revolution the residual sits, degrees of `shaft` from the tacho's pulse on, else the first sample."""
 
     shaft: str
     centre_deg: float

@@ -85,7 +85,8 @@ def where_table(where: Where) -> Markup:
     said = Markup("")
     if window is not None:
         text = f"{window.centre_deg:.0f}° of {window.shaft} (from {window.low_deg:.0f}° to {window.high_deg:.0f}°)"
-        said = tag("p", f"The residual sits at {text}, from the tacho's pulse or, without one, from the first sample on.")
+        since = "from the tacho's pulse or, without one, from the first sample on"
+        said = tag("p", f"The residual sits at {text}, {since}.")
     limits = bullets(where.limits)
     return Markup(
         said
