@@ -15,7 +15,7 @@ from sim.core.errors import SpecError
 LOCAL = 2.0
 """A window of the mean turn is a place if it stands out this many times more than in the baseline."""
 LOCAL_LEAST = 5.0
-"""The same over the mean of its own turn: 26 concealed healthy cases of development reach 4.0, faulty teeth 6 to 39."""
+"""The same over the mean of its own turn: 14 concealed healthy cases of development reach 4.0, faulty teeth 6 to 39."""
 
 
 def local_energy(series: Series, *, shaft: str, rotation: FloatArray, ratio: float, teeth: int) -> FloatArray | None:
