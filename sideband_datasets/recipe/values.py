@@ -111,11 +111,10 @@ def drawn(value: Value, share: float, own: object, field: str) -> Drawn:
 
 
 def _between(low: float, high: float, share: float, *, log: bool) -> float:
-    if log:
-        value = math.exp(math.log(low) + share * (math.log(high) - math.log(low)))
-    else:
-        value = low + share * (high - low)
-    return min(max(value, low), high)
+    if not log:
+        return min(max(low + share * (high - low), low), high)
+    ends = math.log(low), math.log(high)
+    return min(max(math.exp(ends[0] + share * (ends[1] - ends[0])), low), high)
 
 
 def least(value: Value) -> float | None:
