@@ -32,7 +32,7 @@ FORMATS: Mapping[str, Format] = {
         Format(
             name="parquet",
             suffix=".parquet",
-            media_type="application/vnd.apache.parquet",
+            media_type="application/x-parquet",
             sentence="Apache Parquet, one row a window; the folder is laid out as the Hugging Face loader wants it.",
             write=parquet.write,
             read=parquet.read,
@@ -59,7 +59,7 @@ FORMATS: Mapping[str, Format] = {
             name="webdataset",
             suffix=".tar",
             media_type="application/x-tar",
-            sentence="WebDataset: tar with KEY.npy, KEY.json and KEY.cls of each row.",
+            sentence="WebDataset: tar with KEY.npy, KEY.json and KEY.txt (its class) of each row.",
             write=tar.write,
             read=tar.read,
         ),

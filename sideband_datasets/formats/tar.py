@@ -1,4 +1,4 @@
-"""WebDataset shards: a plain tar; each row is KEY.npy (signal), KEY.json (all other columns), KEY.cls (its class)."""
+"""WebDataset shards: a plain tar; each row is KEY.npy (signal), KEY.json (all other columns), KEY.txt (its class)."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ def _members(row: Row) -> Iterator[tuple[str, bytes]]:
     signal = io.BytesIO()
     np.save(signal, record.pop("signal"), allow_pickle=False)
     text = json.dumps(_plain(record), sort_keys=True, allow_nan=False)
-    yield "cls", row.fault_type.encode()
     yield "json", text.encode()
     yield "npy", signal.getvalue()
+    yield "txt", row.fault_type.encode()
 
 
 def write(path: Path, rows: Sequence[Row]) -> None:

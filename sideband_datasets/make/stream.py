@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -24,7 +25,9 @@ from sim.core.lanes import WIDTH
 from sim.core.speed import mean_ratio
 
 BATCH = 32 * WIDTH
-"""Recordings held at once: enough of one structure to fill the lanes, few enough to be small."""
+"""Recordings held at once at most: enough of one structure to fill the lanes."""
+BATCH_BYTES = 64_000_000
+"""Of the samples of the rows held at once, about."""
 
 
 def rows(
@@ -33,11 +36,13 @@ def rows(
     *,
     failed: Callable[[Failure], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
+    made: Callable[[int], None] | None = None,
 ) -> Iterator[Row]:
     """The rows `indices` of a dataset in their order (none: all), made as they are asked for, in constant memory.
 
     Row i is a pure function of (recipe, i): the same bytes alone, in any order and beside any others. A recording that
     cannot be made (diverged, meaningless, impossible) is told to `failed`, or warned of, and its rows are left out.
+    `made` is told how many rows were done, ahead of the rows themselves, which come in their order.
     Raises SpecError for a recipe that cannot be planned or an index beyond it, Cancelled.
     """
     plan = make_plan(recipe)
@@ -47,7 +52,25 @@ def rows(
         raise SpecError(
             Problem(field="indices", message="no such row", given=beyond[0], allowed=f"0 to {plan.rows - 1}")
         )
-    return _rows(plan, wanted, failed or _warn, cancelled)
+    return _rows(plan, wanted, _Told(failed=failed or _warn, made=made or _nobody), cancelled)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Told:
+    failed: Callable[[Failure], None]
+    made: Callable[[int], None]
+
+
+def _nobody(count: int) -> None:
+    """Nobody counts."""
+
+
+def batch_size(plan: Plan) -> int:
+    """Recordings worked on at once, a multiple of the lanes."""
+    recipe = plan.recipe
+    longest_s = min(recipe.duration_s, recipe.windows.length_s or recipe.duration_s)
+    size = 4.0 * plan.rows_per_recording * longest_s * recipe.sampling_rate_hz
+    return max(WIDTH, min(BATCH, int(BATCH_BYTES / size) // WIDTH * WIDTH))
 
 
 def _warn(failure: Failure) -> None:
@@ -55,11 +78,9 @@ def _warn(failure: Failure) -> None:
     warnings.warn(message, stacklevel=4)
 
 
-def _rows(
-    plan: Plan, wanted: Sequence[int], told: Callable[[Failure], None], cancelled: Callable[[], bool] | None
-) -> Iterator[Row]:
+def _rows(plan: Plan, wanted: Sequence[int], told: _Told, cancelled: Callable[[], bool] | None) -> Iterator[Row]:
     size = plan.rows_per_recording
-    for batch in _batches(wanted, size):
+    for batch in _batches(wanted, size, batch_size(plan)):
         members: dict[int, list[int]] = {}
         for i in dict.fromkeys(batch):
             members.setdefault(i // size, []).append(i)
@@ -71,17 +92,18 @@ def _rows(
                 failures[number] = made
             else:
                 found |= {row.row: row for row in made}
+            told.made(len(members[number]))
         for number in sorted(failures):
-            told(failures[number])
+            told.failed(failures[number])
         yield from (found[i] for i in batch if i in found)
 
 
-def _batches(wanted: Sequence[int], size: int) -> Iterator[list[int]]:
-    """Rows in their order, as many at once as are of `BATCH` recordings."""
+def _batches(wanted: Sequence[int], size: int, most: int) -> Iterator[list[int]]:
+    """Rows in their order, as many at once as are of `most` recordings of `size` rows."""
     batch: list[int] = []
     recordings: set[int] = set()
     for i in wanted:
-        if i // size not in recordings and len(recordings) == BATCH:
+        if i // size not in recordings and len(recordings) == most:
             yield batch
             batch, recordings = [], set()
         batch.append(i)

@@ -1,0 +1,150 @@
+"""Whether a dataset is what its manifest says, free of leaks, and what its recipe makes."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from sideband_datasets.folder.layout import DATA, FAILURES, MANIFEST, files_below, sha256, unfinished
+from sideband_datasets.folder.manifest import versions
+from sideband_datasets.formats import FORMATS, fingerprint, record_of
+from sideband_datasets.make.stream import rows
+from sideband_datasets.plan.plan import Plan
+from sideband_datasets.plan.seeds import Stream, generator
+from sideband_datasets.plan.tried import make_plan
+from sideband_datasets.recipe.read import identity, read_recipe
+from sim.core.errors import Problem, SidebandError, SpecError
+
+Told = Callable[[str], object]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finding:
+    """One thing wrong: the file or row, and what."""
+
+    where: str
+    what: str
+
+    def __str__(self) -> str:
+        return f"{self.where}: {self.what}"
+
+
+def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> list[Finding]:
+    """Everything that is wrong with a dataset; empty when nothing is. `remake`: rows made again, drawn by `seed`.
+
+    SpecError when there is no dataset to look at.
+    """
+    if not (out / MANIFEST).is_file():
+        hint = "it is unfinished: `sideband dataset resume`" if unfinished(out).exists() else "a finished dataset"
+        message = f"has no {MANIFEST}"
+        raise SpecError(Problem(field="DIR", message=message, given=str(out), allowed=hint))
+    try:
+        manifest = json.loads((out / MANIFEST).read_text(encoding="utf-8"))
+        plan = make_plan(read_recipe(manifest["recipe"]))
+        suffix = FORMATS[manifest["format"]].suffix
+        listed = {entry["file"]: entry for entry in manifest["shards"]}
+    except (ValueError, KeyError, TypeError) as error:
+        return [Finding(where=MANIFEST, what=f"cannot be read: {error!r}")]
+    told("checksums")
+    found = list(_files(out, manifest, listed, plan, suffix))
+    told("rows")
+    broken = {finding.where for finding in found}
+    seen = _Seen(plan=plan)
+    for file, entry in listed.items():
+        if file not in broken:
+            found += seen.shard(out, file, entry, manifest["format"])
+    found += seen.missing(out, complete=not broken & set(listed))
+    if remake:
+        told("rows made again")
+        found += _remade(manifest, plan, seen.fingerprints, remake, seed)
+    return found
+
+
+def _files(
+    out: Path, manifest: Mapping[str, Any], listed: Mapping[str, Any], plan: Plan, suffix: str
+) -> Iterator[Finding]:
+    if manifest.get("recipe_sha256") != identity(plan.recipe):
+        yield Finding(where=MANIFEST, what="the recipe is not the one that was made (its checksum differs)")
+    expected = {file: entry["sha256"] for file, entry in listed.items()} | dict(manifest["files"])
+    for file, checksum in expected.items():
+        if not (out / file).exists():
+            yield Finding(where=file, what="is missing")
+        elif sha256(out / file) != checksum:
+            yield Finding(where=file, what="differs from what was written (its checksum is another)")
+    for path in files_below(out):
+        name = path.relative_to(out).as_posix()
+        inside = any(name.startswith(f"{file}/") for file in listed) if suffix == ".zarr" else False
+        if name not in expected and name != MANIFEST and not inside:
+            yield Finding(where=name, what="is surplus: the manifest does not list it")
+
+
+class _Seen:
+    """What the rows of all shards say, gathered row by row."""
+
+    def __init__(self, *, plan: Plan) -> None:
+        self.plan = plan
+        self.fingerprints: dict[int, str] = {}
+        self._split_of: dict[tuple[str, str], str] = {}
+        self._told: set[tuple[str, str]] = set()
+
+    def shard(self, out: Path, file: str, entry: Mapping[str, Any], kind: str) -> list[Finding]:
+        """Findings of one shard."""
+        found: list[Finding] = []
+        count = 0
+        try:
+            for record in FORMATS[kind].read(out / file):
+                count += 1
+                found += self._row(file, entry["split"], record)
+        except (OSError, ValueError, KeyError, SidebandError) as error:
+            return [*found, Finding(where=file, what=f"cannot be read: {error}")]
+        if count != entry["rows"]:
+            found.append(Finding(where=file, what=f"has {count} rows; the manifest says {entry['rows']}"))
+        return found
+
+    def _row(self, file: str, split: str, record: Mapping[str, Any]) -> Iterator[Finding]:
+        number, name = int(record["row"]), str(record["signal_id"])
+        if number in self.fingerprints:
+            yield Finding(where=file, what=f"row {name} occurs twice")
+        if not 0 <= number < self.plan.rows:
+            yield Finding(where=file, what=f"row {name} is not of this dataset")
+            return
+        self.fingerprints[number] = fingerprint(dict(record))
+        if record["split"] != split:
+            yield Finding(where=file, what=f"row {name} is of split {record['split']} in a file of {split}")
+        for what in ("machine_id", "path_id"):
+            key = what, str(record[what])
+            first = self._split_of.setdefault(key, split)
+            if first != split and key not in self._told:
+                self._told.add(key)
+                yield Finding(where=file, what=f"leak: {what} {key[1]} occurs in {first} and in {split}")
+        planned = self.plan.machines[int(self.plan.machine[number // self.plan.rows_per_recording])]
+        if record["machine_id"] != planned.machine_id:
+            yield Finding(where=file, what=f"row {name} is of {record['machine_id']}; planned {planned.machine_id}")
+
+    def missing(self, out: Path, *, complete: bool) -> Iterator[Finding]:
+        """Rows that are neither there nor listed as failed; told only where every shard could be read."""
+        path = out / FAILURES
+        if not complete or not path.is_file():
+            return
+        lines = path.read_text(encoding="utf-8").splitlines()
+        failed = {row for line in lines for row in json.loads(line)["rows"]}
+        gone = set(range(self.plan.rows)) - set(self.fingerprints) - failed
+        if gone:
+            some = ", ".join(map(str, sorted(gone)[:5]))
+            yield Finding(where=DATA, what=f"{len(gone)} rows are missing and not listed as failed: {some} ...")
+
+
+def _remade(
+    manifest: Mapping[str, Any], plan: Plan, fingerprints: Mapping[int, str], count: int, seed: int
+) -> Iterator[Finding]:
+    if manifest["versions"] != versions():
+        yield Finding(where=MANIFEST, what="was made with other versions: rows cannot be compared bit for bit")
+        return
+    there = sorted(fingerprints)
+    chosen = generator(seed, Stream.REMAKE).choice(there, size=min(count, len(there)), replace=False)
+    for row in rows(plan.recipe, sorted(int(i) for i in chosen)):
+        if fingerprint(record_of(row)) != fingerprints[row.row]:
+            yield Finding(where=row.signal_id, what="differs from the row made again")
