@@ -29,7 +29,6 @@ from sideband_datasets.recipe.read import document_of
 from sim.core.errors import Problem, SpecError
 
 FAILED = 1
-Bar = tqdm  # type: ignore[type-arg]
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -114,14 +113,14 @@ def _told(plan: Plan, expected: Estimate) -> str:
 
 
 @contextmanager
-def _progress() -> Iterator[Bar]:
+def _progress() -> Iterator[tqdm]:  # type: ignore[type-arg]
     text = "{n_fmt}/{total_fmt} rows {bar} {rate_fmt} [{elapsed}<{remaining}]"
     # `disable=None`: a bar on a terminal only, not in a file or a pipe.
     with tqdm(total=0, unit="row", disable=None, bar_format=text, file=sys.stderr) as bar:
         yield bar
 
 
-def _show(bar: Bar, progress: Progress) -> None:
+def _show(bar: tqdm, progress: Progress) -> None:  # type: ignore[type-arg]
     if not bar.total:
         # Rows that were there already say nothing of the rate.
         bar.reset(total=progress.total)

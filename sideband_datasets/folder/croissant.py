@@ -59,7 +59,9 @@ TYPES = {
     "numbers": "sc:Float",
     "signal": "sc:Float",
 }
+"""Of columns by kind. Peaks are objects in a list, which the format has no field for."""
 REPEATED = ("texts", "numbers", "signal")
+SHARDS, ROWS = "shards", "rows"
 
 
 def croissant(plan: Plan, receipts: Sequence[Receipt], kind: str) -> dict[str, object]:
@@ -90,26 +92,29 @@ def croissant(plan: Plan, receipts: Sequence[Receipt], kind: str) -> dict[str, o
         "distribution": shards,
     }
     if kind == "parquet":
-        document["recordSet"] = [_records(receipt) for receipt in receipts if receipt.rows]
+        every = {
+            "@type": "cr:FileSet",
+            "@id": SHARDS,
+            "name": SHARDS,
+            "description": "All shards; each is listed with its checksum besides.",
+            "encodingFormat": media,
+            "includes": f"{DATA}/*{FORMATS[kind].suffix}",
+        }
+        document["distribution"] = [every, *shards]
+        fields = [_field(column) for column in COLUMNS if column.kind in TYPES]
+        document["recordSet"] = [{"@type": "cr:RecordSet", "@id": ROWS, "name": ROWS, "field": fields}]
     return document
 
 
-def _records(receipt: Receipt) -> dict[str, object]:
-    """The rows of a shard."""
-    name = receipt.name.split(".")[0]
-    fields = [_field(column, name, receipt.name) for column in COLUMNS if column.kind != "peaks"]
-    return {"@type": "cr:RecordSet", "@id": name, "name": name, "field": fields}
-
-
-def _field(column: Column, records: str, file: str) -> dict[str, object]:
+def _field(column: Column) -> dict[str, object]:
     unit = f" Unit: {column.unit}." if column.unit else ""
     found: dict[str, object] = {
         "@type": "cr:Field",
-        "@id": f"{records}/{column.name}",
+        "@id": f"{ROWS}/{column.name}",
         "name": column.name,
         "description": column.sentence + unit,
         "dataType": TYPES[column.kind],
-        "source": {"fileObject": {"@id": file}, "extract": {"column": column.name}},
+        "source": {"fileSet": {"@id": SHARDS}, "extract": {"column": column.name}},
     }
     if column.kind in REPEATED:
         found["repeated"] = True

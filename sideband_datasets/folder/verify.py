@@ -6,7 +6,9 @@ import json
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from tarfile import TarError
 from typing import Any
+from zipfile import BadZipFile
 
 from sideband_datasets.folder.layout import DATA, FAILURES, MANIFEST, files_below, sha256, unfinished
 from sideband_datasets.folder.manifest import versions
@@ -16,7 +18,7 @@ from sideband_datasets.plan.plan import Plan
 from sideband_datasets.plan.seeds import Stream, generator
 from sideband_datasets.plan.tried import make_plan
 from sideband_datasets.recipe.read import identity, read_recipe
-from sim.core.errors import Problem, SidebandError, SpecError
+from sim.core.errors import Problem, SpecError
 
 Told = Callable[[str], object]
 
@@ -56,7 +58,7 @@ def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> li
     for file, entry in listed.items():
         if file not in broken:
             found += seen.shard(out, file, entry, manifest["format"])
-    found += seen.missing(out, complete=not broken & set(listed))
+    found += seen.missing(out, complete=not broken & {*listed, FAILURES})
     if remake:
         told("rows made again")
         found += _remade(manifest, plan, seen.fingerprints, remake, seed)
@@ -98,7 +100,7 @@ class _Seen:
             for record in FORMATS[kind].read(out / file):
                 count += 1
                 found += self._row(file, entry["split"], record)
-        except (OSError, ValueError, KeyError, SidebandError) as error:
+        except (OSError, ValueError, KeyError, BadZipFile, TarError) as error:
             return [*found, Finding(where=file, what=f"cannot be read: {error}")]
         if count != entry["rows"]:
             found.append(Finding(where=file, what=f"has {count} rows; the manifest says {entry['rows']}"))

@@ -39,7 +39,7 @@ def test_every_row_comes_once_in_order(every):
 @pytest.mark.slow
 @pytest.mark.parametrize("indices", [[5], [47, 0, 13, 12], [2, 2], list(range(20, 30))])
 def test_a_row_is_the_same_bytes_alone_in_any_order_and_batch(every, indices, monkeypatch):
-    monkeypatch.setattr("sideband_datasets.make.stream.BATCH", 3)
+    monkeypatch.setattr("sideband_datasets.make.stream.batch_size", lambda plan: 3)
     found = list(rows(RECIPE, indices))
     assert [row.row for row in found] == indices
     assert all(_same(row, every[row.row]) for row in found)
