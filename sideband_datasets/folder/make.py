@@ -148,7 +148,8 @@ def _carry_on(plan: Plan, out: Path, settings: Settings, told: Callable[[Progres
     with _alone(folder):
         _sweep(folder)
         receipts = {shard: receipt for shard in shards if (receipt := finished(folder, shard)) is not None}
-        left = [shard for shard in shards if shard not in receipts]
+        # The largest first: workers then end together.
+        left = sorted((s for s in shards if s not in receipts), key=lambda shard: -len(shard.recordings))
         kept = sum(len(shard.recordings) for shard in receipts) * plan.rows_per_recording
         told(Progress(rows=kept, kept=kept, total=plan.rows))
 

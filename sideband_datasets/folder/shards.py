@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
+from itertools import pairwise
 from pathlib import Path
 
 from sideband_datasets.folder.layout import DATA, STATE, json_text, sha256, size_of, whole, write_text
@@ -41,12 +42,14 @@ class Receipt:
 
 
 def shards_of(plan: Plan, suffix: str, size: int | None = None) -> list[Shard]:
-    """All shards, split after split, in the order of the plan; `size`: recordings in each."""
+    """All shards, split after split, in the order of the plan; `size`: most recordings in each."""
     most = size or batch_size(plan)
     found = []
     for split in plan.splits:
         members = plan.of_split(split).tolist()
-        parts = [members[k : k + most] for k in range(0, len(members), most)]
+        count = -(-len(members) // most)
+        ends = [k * len(members) // count for k in range(count + 1)] if count else []
+        parts = [members[first:last] for first, last in pairwise(ends)]
         for k, part in enumerate(parts):
             name = f"{split}-{k:05d}-of-{len(parts):05d}{suffix}"
             found.append(Shard(split=split, name=name, recordings=tuple(part)))
