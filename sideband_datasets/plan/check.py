@@ -25,6 +25,10 @@ OF_THE_MACHINE = ("path", "mounting")
 """Stages of a chain that belong to a machine: drawn anew for every recording they would be other machines' too."""
 
 
+LEAST_SAMPLES = 16
+"""Of a window."""
+
+
 def check_recipe(recipe: Recipe) -> None:
     """SpecError lists what the registered effects and the recipe's own numbers forbid."""
     problems = [
@@ -104,6 +108,9 @@ def _window_problems(recipe: Recipe) -> Iterator[Problem]:
         return
     if windows.length_revolutions is not None and slowest is None:
         return  # the machine's own speed decides: told when its recording is cut
+    if windows.length_s is not None and windows.length_s * recipe.sampling_rate_hz < LEAST_SAMPLES:
+        message, allowed = "is too short", f">= {LEAST_SAMPLES / recipe.sampling_rate_hz:g}"
+        yield Problem(field="windows.length_s", message=message, given=windows.length_s, allowed=allowed, unit="s")
     span = windows.span(window_length_s(recipe, slowest))
     if span > recipe.duration_s * (1 + 1e-9):
         at = f" at {slowest:g} Hz" if windows.length_revolutions is not None else ""

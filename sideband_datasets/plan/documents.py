@@ -52,7 +52,8 @@ def holders(document: object, path: str, field: str) -> Iterator[tuple[dict[str,
         below = [child for node in nodes for child in _below(node, part) if child is not None]
         if not below:
             known = _names(nodes[0])
-            message = f"has no {part!r} on the way to {path!r}{did_you_mean(part, known)}"
+            hint = " (it is null: give it in the chain)" if part in known else did_you_mean(part, known)
+            message = f"has no {part!r} on the way to {path!r}{hint}"
             raise SpecError(Problem(field=field, message=message, given=path, allowed=", ".join(known)))
         nodes = below
     for node in nodes:

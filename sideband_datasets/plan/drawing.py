@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from pydantic import ValidationError
 
-from sideband_datasets.plan.axes import drawn_only, recording_axes
+from sideband_datasets.plan.axes import Axis, drawn_only, recording_axes
 from sideband_datasets.plan.check import sites_of
 from sideband_datasets.plan.documents import holders, own_value
 from sideband_datasets.plan.machines import Document, Machine, part, told_as, values_at, with_values
@@ -19,11 +19,14 @@ from signals.overrides import apply_overrides
 from signals.sensors import SensorChain
 from signals.shorthand import path_of
 from signals.validation import problems_of
-from sim.core.errors import SpecError
+from sim.core.errors import Problem, SpecError
 from sim.core.params import Param
 from sim.core.spec import MachineSpec
 from sim.core.terms import Term
 from sim.terms import REGISTRY
+
+NAMES = {"conditions.speed_hz": "speeds_hz", "conditions.torque_nm": "torques_nm"}
+"""Problems of the operating point by the recipe's names."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,9 +72,7 @@ def drawing(plan: Plan, number: int) -> Drawing:
     fault = recipe.faults[kind - 1] if kind else None
     machine = plan.machines[int(plan.machine[number])]
     axes = recording_axes(recipe, fault, kind - 1)
-    own = {
-        axis.key: _own(axis.key, machine) for axis in drawn_only(axes) if axis.key.startswith(("condition", "chain"))
-    }
+    own = {axis.key: _own(axis, machine) for axis in drawn_only(axes) if axis.key.startswith(("condition", "chain"))}
     values = values_at(axes, plan.points(kind).at(int(plan.rank[number])), own)
     spec = _at_point(machine.spec, values)
     effects: tuple[Effect, ...] = ()
@@ -93,22 +94,25 @@ def drawing(plan: Plan, number: int) -> Drawing:
     )
 
 
-def _own(key: str, machine: Machine) -> object:
+def _own(axis: Axis, machine: Machine) -> object:
     """What a machine and its chain have where something is drawn for every recording."""
-    head, _, path = key.partition(":")
+    head, _, path = axis.key.partition(":")
     if head == "condition":
         return own_value(machine.spec, path_of(path))
     if machine.chain is None or head != f"chain.{machine.measurement}":
         return 1.0  # another chain's: drawn with the others, and not used
-    found = list(holders(machine.chain, path, key))
+    found = list(holders(machine.chain, path, axis.field))
     return found[0][0].get(found[0][1])
 
 
 def _at_point(spec: MachineSpec, values: Mapping[str, Drawn]) -> MachineSpec:
     changes: dict[str, object] = dict(part(values, "condition"))
     changes |= {key: values[key] for key in ("speed_hz", "torque_nm") if key in values}
-    with told_as("conditions"):
-        return apply_overrides(spec, changes)
+    try:
+        with told_as("conditions"):
+            return apply_overrides(spec, changes)
+    except SpecError as error:
+        raise SpecError([replace(p, field=NAMES.get(p.field, p.field)) for p in error.problems]) from error
 
 
 def _with_fault(
@@ -121,7 +125,7 @@ def _with_fault(
         assert term is not None
         given = part(values, f"fault.{t}")
         share = given.pop("site")
-        sites = sites_of(spec, wanted, term, f"{field}.{t}.sites")
+        sites = _free(sites_of(spec, wanted, term, f"{field}.{t}.sites"), term.key, effects, f"{field}.{t}.sites")
         assert isinstance(share, float)
         site = sites[min(int(share * len(sites)), len(sites) - 1)]
         if not given:
@@ -130,6 +134,16 @@ def _with_fault(
         effects.append(_effect(term, site, given))
     with told_as(field):
         return apply_overrides(spec, changes), tuple(effects)
+
+
+def _free(sites: Sequence[str], term: str, effects: Sequence[Effect], field: str) -> list[str]:
+    """Places where the same effect of this fault does not act already."""
+    taken = {effect.site for effect in effects if effect.term == term}
+    left = [site for site in sites if site not in taken]
+    if not left:
+        message = f"{term} acts at every one of these already, by another term of the fault"
+        raise SpecError(Problem(field=field, message=message, given=", ".join(sites)))
+    return left
 
 
 def _effect(term: Term, site: str, given: Mapping[str, Drawn]) -> Effect:

@@ -9,9 +9,9 @@ import numpy as np
 from sideband_datasets.plan.check import window_length_s
 from sideband_datasets.plan.plan import Plan
 from sideband_datasets.plan.tried import outputs_of, samples_of
-from sideband_datasets.recipe.model import Recipe
 from sim.assembly.assemble import assemble
 from sim.core.errors import Problem, SpecError
+from sim.core.lanes import WIDTH
 from sim.solve.api import default_channels
 from sim.solve.settings import PILOT_S
 from sim.solve.step_choice import run_cost
@@ -28,6 +28,8 @@ BYTES_PER_ROW = 6_000
 """Columns and peaks beside the samples."""
 MOST_BYTES = 500_000_000_000
 MOST_ROWS = 5_000_000
+MOST_LANES_BYTES = 2_000_000_000
+"""Outputs of the recordings that are simulated side by side: a worker holds them at once."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,6 +52,7 @@ def estimate(plan: Plan, workers: int) -> Estimate:
     for drawn in samples_of(plan):
         system = assemble(drawn.spec, seed=drawn.seed)
         outputs = outputs_of(plan, drawn, system) or default_channels(system)
+        _check_memory(round(8 * WIDTH * len(outputs) * total_s * recipe.sampling_rate_hz))
         cost = run_cost(
             system, duration_s=total_s, output_rate_hz=recipe.sampling_rate_hz, channels=len(outputs)
         ).seconds
@@ -65,7 +68,7 @@ def estimate(plan: Plan, workers: int) -> Estimate:
             speeds.append(drawn.spec.operating.speed_hz)
     core = float(np.mean(seconds)) * recipe.count
     length_s = window_length_s(recipe, float(np.mean(speeds)) if speeds else None)
-    size = round(plan.rows * (4 * length_s * _rate_hz(recipe) + BYTES_PER_ROW))
+    size = round(plan.rows * (4 * length_s * recipe.sampling_rate_hz + BYTES_PER_ROW))
     _check_bounds(plan.rows, size)
     return Estimate(
         recordings=recipe.count,
@@ -77,8 +80,11 @@ def estimate(plan: Plan, workers: int) -> Estimate:
     )
 
 
-def _rate_hz(recipe: Recipe) -> float:
-    return recipe.sampling_rate_hz
+def _check_memory(size: int) -> None:
+    if size > MOST_LANES_BYTES:
+        message = f"makes recordings too large to be simulated {WIDTH} at a time"
+        allowed = f"{MOST_LANES_BYTES} bytes or fewer together: shorter, or at a lower sampling rate"
+        raise SpecError(Problem(field="duration_s", message=message, given=size, allowed=allowed))
 
 
 def _check_bounds(rows: int, size: int) -> None:

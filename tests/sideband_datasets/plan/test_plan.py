@@ -135,12 +135,36 @@ def test_machines_that_are_all_alike_are_refused():
         ({"windows": {"per_recording": 3, "length_s": 0.05}}, "duration_s: 3 windows need 0.15 s"),
         ({"windows": {"length_revolutions": 10}}, "at 25 Hz"),
         ({"splits": {"a": 0.2, "b": 0.2, "c": 0.2, "d": 0.2, "e": 0.2}}, "5 splits need as many machines"),
+        ({"windows": {"length_s": 1e-5}}, "windows.length_s: is too short"),
+        ({"speeds_hz": {"low": 30, "high": 1800}}, "speeds_hz: .*if rpm were meant"),
+        ({"torques_nm": 5}, "torques_nm: needs a machine with one torque"),
+        ({"faults": [{"name": "x", "terms": [{**OUTER, "sites": ["bearing1"]}] * 2}]}, "acts at every one of these"),
         ({"conditions": {"bearings.bearing7.cage_phase_rad": 1.0}}, "bearing7"),
     ],
 )
 def test_what_cannot_be_made_is_told_by_its_field(changes, told):
     with pytest.raises(SpecError, match=told):
         make_plan(tiny(**changes))
+
+
+def test_two_spalls_of_one_fault_never_share_a_bearing():
+    plan = planned(tiny(count=20, faults=[{"name": "two", "terms": [OUTER, OUTER]}]))
+    for i in range(20):
+        assert len({effect.site for effect in drawing(plan, i).effects}) == 2 * (plan.kind[i] > 0)
+
+
+def test_what_is_too_large_is_refused_before_it_starts():
+    with pytest.raises(SpecError, match="too many rows"):
+        estimate(make_plan(tiny(count=3000, duration_s=0.2, windows={"per_recording": 1000, "length_s": 0.0021, "overlap": 0.95})), 2)
+    with pytest.raises(SpecError, match="too large to be simulated 8 at a time"):
+        estimate(make_plan(tiny(duration_s=60, sampling_rate_hz=500_000)), 2)
+
+
+def test_a_stage_that_is_not_there_is_told_by_its_place():
+    chosen = document()["measurement"]
+    chosen[0]["each"] = {"channels.nde.noise.density_per_sqrt_hz": {"low": 1, "high": 2}}
+    with pytest.raises(SpecError, match=r"measurement\.0\.each\.channels\.nde.*it is null"):
+        make_plan(tiny(measurement=chosen))
 
 
 def test_a_path_drawn_for_every_recording_is_refused():
