@@ -155,7 +155,12 @@ def test_two_spalls_of_one_fault_never_share_a_bearing():
 
 def test_what_is_too_large_is_refused_before_it_starts():
     with pytest.raises(SpecError, match="too many rows"):
-        estimate(make_plan(tiny(count=3000, duration_s=0.2, windows={"per_recording": 1000, "length_s": 0.0021, "overlap": 0.95})), 2)
+        estimate(
+            make_plan(
+                tiny(count=3000, duration_s=0.2, windows={"per_recording": 1000, "length_s": 0.0021, "overlap": 0.95})
+            ),
+            2,
+        )
     with pytest.raises(SpecError, match="too large to be simulated 8 at a time"):
         estimate(make_plan(tiny(duration_s=60, sampling_rate_hz=500_000)), 2)
 
