@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import importlib.metadata
 import json
 import platform
@@ -9,9 +10,13 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 
+import sideband_datasets
+import signals
+import sim
 from sideband_datasets.folder.layout import DATA
 from sideband_datasets.folder.shards import Receipt
 from sideband_datasets.plan.plan import Plan
@@ -22,13 +27,27 @@ from sim.version import PHYSICS_VERSION
 SCHEMA_VERSION = 1
 PACKAGES = ("numpy", "scipy", "numba", "pyarrow")
 """Whose versions may change a bit."""
+SOURCES = (".py", ".json", ".csv")
+
+
+@cache
+def code_sha256() -> str:
+    """Of every source and table of the rooms that make rows: any change of them may change a row."""
+    found = hashlib.sha256()
+    for room in (sim, signals, sideband_datasets):
+        assert room.__file__ is not None
+        root = Path(room.__file__).parent
+        for path in sorted(p for p in root.rglob("*") if p.suffix in SOURCES):
+            found.update(f"{root.name}/{path.relative_to(root).as_posix()}\0".encode())
+            found.update(path.read_bytes())
+    return found.hexdigest()
 
 
 @cache
 def versions() -> dict[str, str]:
     """Of everything that rows depend on."""
     packages = {name: importlib.metadata.version(name) for name in PACKAGES}
-    return {"physics": PHYSICS_VERSION, "python": platform.python_version(), **packages}
+    return {"physics": PHYSICS_VERSION, "code": code_sha256()[:16], "python": platform.python_version(), **packages}
 
 
 def failures_text(receipts: Sequence[Receipt]) -> str:

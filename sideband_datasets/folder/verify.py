@@ -10,9 +10,12 @@ from tarfile import TarError
 from typing import Any
 from zipfile import BadZipFile
 
+import numpy as np
+from numpy.typing import NDArray
+
 from sideband_datasets.folder.layout import DATA, FAILURES, MANIFEST, files_below, sha256, unfinished
 from sideband_datasets.folder.manifest import versions
-from sideband_datasets.formats import FORMATS, fingerprint, record_of
+from sideband_datasets.formats import FORMATS, Record, fingerprint, record_of
 from sideband_datasets.make.stream import rows
 from sideband_datasets.plan.plan import Plan
 from sideband_datasets.plan.seeds import Stream, generator
@@ -61,7 +64,7 @@ def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> li
     found += seen.missing(out, complete=not broken & {*listed, FAILURES})
     if remake:
         told("rows made again")
-        found += _remade(manifest, plan, seen.fingerprints, remake, seed)
+        found += _remade(manifest, seen, remake, seed)
     return found
 
 
@@ -88,7 +91,9 @@ class _Seen:
 
     def __init__(self, *, plan: Plan) -> None:
         self.plan = plan
-        self.fingerprints: dict[int, str] = {}
+        # Arrays, not dictionaries: a dataset may have millions of rows.
+        self.there = np.zeros(plan.rows, dtype=np.bool_)
+        self.fingerprints = np.zeros((plan.rows, 32), dtype=np.uint8)
         self._split_of: dict[tuple[str, str], str] = {}
         self._told: set[tuple[str, str]] = set()
 
@@ -108,12 +113,13 @@ class _Seen:
 
     def _row(self, file: str, split: str, record: Mapping[str, Any]) -> Iterator[Finding]:
         number, name = int(record["row"]), str(record["signal_id"])
-        if number in self.fingerprints:
-            yield Finding(where=file, what=f"row {name} occurs twice")
         if not 0 <= number < self.plan.rows:
             yield Finding(where=file, what=f"row {name} is not of this dataset")
             return
-        self.fingerprints[number] = fingerprint(dict(record))
+        if self.there[number]:
+            yield Finding(where=file, what=f"row {name} occurs twice")
+        self.there[number] = True
+        self.fingerprints[number] = _bytes(dict(record))
         if record["split"] != split:
             yield Finding(where=file, what=f"row {name} is of split {record['split']} in a file of {split}")
         for what in ("machine_id", "path_id"):
@@ -132,21 +138,25 @@ class _Seen:
         if not complete or not path.is_file():
             return
         lines = path.read_text(encoding="utf-8").splitlines()
-        failed = {row for line in lines for row in json.loads(line)["rows"]}
-        gone = set(range(self.plan.rows)) - set(self.fingerprints) - failed
-        if gone:
-            some = ", ".join(map(str, sorted(gone)[:5]))
-            yield Finding(where=DATA, what=f"{len(gone)} rows are missing and not listed as failed: {some} ...")
+        left = ~self.there
+        left[[row for line in lines for row in json.loads(line)["rows"]]] = False
+        gone = np.flatnonzero(left)
+        if gone.size:
+            some = ", ".join(map(str, gone[:5].tolist()))
+            yield Finding(where=DATA, what=f"{gone.size} rows are missing and not listed as failed: {some} ...")
 
 
-def _remade(
-    manifest: Mapping[str, Any], plan: Plan, fingerprints: Mapping[int, str], count: int, seed: int
-) -> Iterator[Finding]:
-    if manifest["versions"] != versions():
-        yield Finding(where=MANIFEST, what="was made with other versions: rows cannot be compared bit for bit")
-        return
-    there = sorted(fingerprints)
-    chosen = generator(seed, Stream.REMAKE).choice(there, size=min(count, len(there)), replace=False)
-    for row in rows(plan.recipe, sorted(int(i) for i in chosen)):
-        if fingerprint(record_of(row)) != fingerprints[row.row]:
-            yield Finding(where=row.signal_id, what="differs from the row made again")
+def _bytes(record: Record) -> NDArray[np.uint8]:
+    """The fingerprint of a row, shape (32,)."""
+    return np.frombuffer(bytes.fromhex(fingerprint(record)), dtype=np.uint8)
+
+
+def _remade(manifest: Mapping[str, Any], seen: _Seen, count: int, seed: int) -> Iterator[Finding]:
+    there = np.flatnonzero(seen.there)
+    chosen = generator(seed, Stream.REMAKE).choice(there, size=min(count, there.size), replace=False)
+    made, now = manifest["versions"], versions()
+    changed = [f"{key} {made.get(key)}, now {now[key]}" for key in now if made.get(key) != now[key]]
+    why = f" (it was made with other versions: {'; '.join(changed)})" if changed else ""
+    for row in rows(seen.plan.recipe, sorted(chosen.tolist())):
+        if not np.array_equal(_bytes(record_of(row)), seen.fingerprints[row.row]):
+            yield Finding(where=row.signal_id, what=f"differs from the row made again{why}")

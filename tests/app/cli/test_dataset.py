@@ -6,6 +6,10 @@ import json
 from collections.abc import Callable
 from pathlib import Path
 
+import pytest
+
+from app.cli import dataset
+from sideband_datasets.folder import Progress
 from sideband_datasets.recipe import RECIPES
 from tests.sideband_datasets.small import document
 
@@ -66,3 +70,25 @@ def test_wrong_input_is_told_by_its_field(call: Call, tmp_path: Path) -> None:
         assert code == 2, arguments
         assert told in error
     assert not list(tmp_path.glob("x*"))
+
+
+def test_an_interruption_says_how_to_go_on(call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    out = tmp_path / "set"
+    shown = dataset._show
+
+    def interrupt(bar: object, progress: Progress) -> None:
+        shown(bar, progress)
+        if progress.rows:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(dataset, "_show", interrupt)
+    making = ("dataset", "make", _recipe(tmp_path), "--out", str(out), "--workers", "1")
+    code, _, error = call(*making)
+    assert code == 130
+    assert f"sideband dataset resume {out}" in error
+    assert not out.exists()
+    monkeypatch.undo()
+    assert "was begun already" in call(*making)[2]
+    assert "unfinished" in call("dataset", "verify", str(out))[2]
+    assert call("dataset", "resume", str(out), "--workers", "1")[0] == 0
+    assert call("dataset", "verify", str(out))[0] == 0
