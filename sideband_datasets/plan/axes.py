@@ -43,11 +43,12 @@ def machine_axes(recipe: Recipe, number: int) -> tuple[Axis, ...]:
     """What is drawn once a machine of family `number`: its parameters, its chain, what of each chain is its own."""
     family: Machines = recipe.machines[number]
     axes = _each("machine:", f"machines.{number}.vary", family.vary)
-    if len(recipe.measurement) > 1:
-        names = Choice(choices=tuple(m.name for m in recipe.measurement))
-        axes.append(Axis(key="chain", field="measurement", value=names))
-    for k, choice in enumerate(recipe.measurement):
-        axes += _each(f"chain.{k}:", f"measurement.{k}.vary", choice.vary)
+    chains = recipe.chains_of(number)
+    if chains:
+        names = Choice(choices=tuple(recipe.measurement[k].name for k in chains))
+        axes.append(Axis(key="chain", field="measurement", value=names if len(chains) > 1 else names.choices[0]))
+    for k in chains:
+        axes += _each(f"chain.{k}:", f"measurement.{k}.vary", recipe.measurement[k].vary)
     return tuple(axes)
 
 

@@ -144,7 +144,7 @@ def machines_of(recipe: Recipe, number: int) -> list[Machine]:
         values = values_at(axes, points.at(k), own)
         with told_as(f"machines.{number}.vary"):
             spec = apply_overrides(base, part(values, "machine"))
-        chosen = None if not names else names.index(str(values.get("chain", names[0])))
+        chosen = None if not names else names.index(str(values["chain"]))
         chain = None
         if chosen is not None:
             chain = with_values(chains[chosen], part(values, f"chain.{chosen}"), f"measurement.{chosen}.vary")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from contextlib import suppress
 from functools import lru_cache
 
 import numpy as np
@@ -16,7 +15,6 @@ from signals.sensors import SensorChain, outputs_needed, pickups, quantities_of
 from signals.sensors.clock import nominal_rate_hz
 from signals.validation import Findings
 from sim.assembly.assemble import assemble
-from sim.core.errors import SpecError
 from sim.core.system import System
 
 
@@ -28,9 +26,10 @@ def outputs_of(plan: Plan, drawn: Drawing, system: System) -> tuple[str, ...] | 
         return None
     known = quantities_of(channel.name for channel in system.channels)
     needed = outputs_needed(pickups(drawn.chain, drawn.spec, known, "measurement.chain"))
-    for choice in plan.recipe.measurement:
-        with suppress(SpecError):  # a chain for another family's machines
-            needed += outputs_needed(pickups(_chain(_text(choice.chain)), drawn.spec, known))
+    families = [machines.name for machines in plan.recipe.machines]
+    for k in plan.recipe.chains_of(families.index(drawn.machine.family)):
+        chain = _chain(_text(plan.recipe.measurement[k].chain))
+        needed += outputs_needed(pickups(chain, drawn.spec, known, f"measurement.{k}.chain"))
     return tuple(sorted(set(needed))) or tuple(known)[:1]
 
 

@@ -65,6 +65,8 @@ class Measurement(SpecModel):
     """
 
     name: ShortName
+    machines: Annotated[list[ShortName], Field(max_length=64)] = Field(default_factory=list)
+    """Families that may get it; none: all."""
     chain: dict[str, JsonValue]
     vary: dict[Key, Value] = Field(default_factory=dict, max_length=200)
     """Drawn once a machine: how its sensors are fixed, its transfer path, its cable."""
@@ -153,6 +155,13 @@ class Recipe(SpecModel):
             twice = sorted({name for name in names if names.count(name) > 1})
             if twice:
                 raise ValueError(f"{what} need different names; twice (or reserved): {', '.join(twice)}")
+        families = [m.name for m in self.machines]
+        unknown = sorted({name for chain in self.measurement for name in chain.machines} - set(families))
+        if unknown:
+            raise ValueError(f"measurement names machines that there are none of: {', '.join(unknown)}")
+        bare = [name for number, name in enumerate(families) if self.measurement and not self.chains_of(number)]
+        if bare:
+            raise ValueError(f"no measurement is for the machines {', '.join(bare)}")
         if abs(sum(self.splits.values()) - 1.0) > 1e-6:
             raise ValueError(f"the shares of `splits` add up to {sum(self.splits.values()):g}, not to 1")
         if not self.faults and self.healthy_share not in (None, 1.0):
@@ -160,6 +169,11 @@ class Recipe(SpecModel):
         if self.faults and self.healthy_share == 1.0:
             raise ValueError("`healthy_share` 1 leaves nothing to the faults")
         return self
+
+    def chains_of(self, family: int) -> list[int]:
+        """Numbers of the chains that machines of family `family` may get."""
+        name = self.machines[family].name
+        return [k for k, chain in enumerate(self.measurement) if not chain.machines or name in chain.machines]
 
     @property
     def classes(self) -> tuple[str, ...]:

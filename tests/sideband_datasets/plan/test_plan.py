@@ -172,6 +172,38 @@ def test_a_stage_that_is_not_there_is_told_by_its_place():
         make_plan(tiny(measurement=chosen))
 
 
+def _two_families() -> dict[str, object]:
+    rotor, chain = document()["machines"][0], document()["measurement"][0]
+    rig = {
+        "name": "rig",
+        "preset": "bearing-rig",
+        "instances": 2,
+        "vary": {"bodies.disc.mass_kg": {"factor": [0.5, 2]}},
+    }
+    place = {"location": "resonator1"}
+    channels = [{"name": name, "kind": "accelerometer", "place": place} for name in ("a", "b")]
+    chains = [{**chain, "machines": ["rotor"]}, {"name": "pad", "machines": ["rig"], "chain": {"channels": channels}}]
+    return {"machines": [rotor, rig], "measurement": chains, "faults": [{"name": "outer", "terms": [OUTER]}]}
+
+
+def test_families_have_sensors_of_their_own():
+    plan = make_plan(tiny(**_two_families()))
+    assert {(m.family, plan.recipe.measurement[m.measurement].name) for m in plan.machines} == {
+        ("rotor", "stud"),
+        ("rig", "pad"),
+    }
+    for i in range(12):
+        drawn = drawing(plan, i)
+        assert drawn.measurement == {"rotor": "stud", "rig": "pad"}[drawn.machine.family]
+
+
+def test_a_family_without_a_sensor_is_refused():
+    changes = _two_families()
+    changes["measurement"] = changes["measurement"][:1]
+    with pytest.raises(SpecError, match="no measurement is for the machines rig"):
+        tiny(**changes)
+
+
 def test_a_path_drawn_for_every_recording_is_refused():
     chosen = document()["measurement"]
     chosen[0]["each"] = {"channels.de.mounting.frequency_hz": {"low": 4000, "high": 9000}}
