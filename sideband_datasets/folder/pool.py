@@ -107,7 +107,8 @@ class _Pool:
 
     def stop(self) -> None:
         if self._executor is not None:
-            for process in multiprocessing.active_children():
+            # Only its own: whoever calls this may have other children.
+            for process in list((self._executor._processes or {}).values()):
                 process.terminate()
             with contextlib.suppress(BrokenProcessPool):
                 self._executor.shutdown(wait=True, cancel_futures=True)

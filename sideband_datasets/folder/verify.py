@@ -20,7 +20,7 @@ from sideband_datasets.make.stream import rows
 from sideband_datasets.plan.plan import Plan
 from sideband_datasets.plan.seeds import Stream, generator
 from sideband_datasets.plan.tried import make_plan
-from sideband_datasets.recipe.read import identity, read_recipe
+from sideband_datasets.recipe.read import checksum, read_recipe
 from sim.core.errors import Problem, SpecError
 
 Told = Callable[[str], object]
@@ -54,7 +54,7 @@ def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> li
     except (ValueError, KeyError, TypeError) as error:
         return [Finding(where=MANIFEST, what=f"cannot be read: {error!r}")]
     told("checksums")
-    found = list(_files(out, manifest, listed, plan, suffix))
+    found = list(_files(out, manifest, listed, suffix))
     told("rows")
     broken = {finding.where for finding in found}
     seen = _Seen(plan=plan)
@@ -68,16 +68,14 @@ def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> li
     return found
 
 
-def _files(
-    out: Path, manifest: Mapping[str, Any], listed: Mapping[str, Any], plan: Plan, suffix: str
-) -> Iterator[Finding]:
-    if manifest.get("recipe_sha256") != identity(plan.recipe):
+def _files(out: Path, manifest: Mapping[str, Any], listed: Mapping[str, Any], suffix: str) -> Iterator[Finding]:
+    if manifest.get("recipe_sha256") != checksum(manifest["recipe"]):
         yield Finding(where=MANIFEST, what="the recipe is not the one that was made (its checksum differs)")
     expected = {file: entry["sha256"] for file, entry in listed.items()} | dict(manifest["files"])
-    for file, checksum in expected.items():
+    for file, wanted in expected.items():
         if not (out / file).exists():
             yield Finding(where=file, what="is missing")
-        elif sha256(out / file) != checksum:
+        elif sha256(out / file) != wanted:
             yield Finding(where=file, what="differs from what was written (its checksum is another)")
     for path in files_below(out):
         name = path.relative_to(out).as_posix()

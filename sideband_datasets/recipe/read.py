@@ -40,11 +40,20 @@ def document_of(recipe: Recipe) -> dict[str, object]:
     return document
 
 
+def _text(document: object) -> str:
+    return json.dumps(document, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
 def canonical(recipe: Recipe) -> str:
     """One text for one recipe: keys sorted, no blanks."""
-    return json.dumps(document_of(recipe), sort_keys=True, separators=(",", ":"), allow_nan=False)
+    return _text(document_of(recipe))
+
+
+def checksum(document: object) -> str:
+    """SHA-256 of a recipe's document as it was written; a later version may know further fields."""
+    return hashlib.sha256(_text(document).encode()).hexdigest()
 
 
 def identity(recipe: Recipe) -> str:
     """SHA-256 of the canonical text."""
-    return hashlib.sha256(canonical(recipe).encode()).hexdigest()
+    return checksum(document_of(recipe))

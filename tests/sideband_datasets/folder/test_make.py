@@ -34,6 +34,7 @@ def contents(out: Path) -> dict[str, bytes]:
     return {p.relative_to(out).as_posix(): p.read_bytes() for p in sorted(out.rglob("*")) if p.is_file()}
 
 
+@pytest.mark.slow
 def test_the_folder_holds_every_row_of_the_recipe(made):
     found = [r for path in sorted((made / "data").iterdir()) for r in FORMATS["parquet"].read(path)]
     expected = {row.row: fingerprint(record_of(row)) for row in rows(RECIPE)}
@@ -51,6 +52,7 @@ def test_shards_hold_every_recording_once_and_one_split_each():
     assert all(plan.split(i) == shard.split for shard in shards for i in shard.recordings)
 
 
+@pytest.mark.slow
 def test_an_interrupted_dataset_is_not_there_and_resumes_to_the_same_bytes(made, tmp_path, monkeypatch):
     out = tmp_path / "set"
 
@@ -97,6 +99,7 @@ def test_what_is_there_is_not_overwritten(made, tmp_path):
         resume(tmp_path / "nothing", 1, _silent)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["hdf5", "zarr", "webdataset", "npz"])
 def test_every_format_makes_a_sound_folder(kind, tmp_path):
     pytest.importorskip(FORMATS[kind].package or "numpy")

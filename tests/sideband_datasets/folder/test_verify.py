@@ -78,6 +78,7 @@ def test_rows_of_another_split_twice_or_missing_are_found(copy):
     assert "is of split test in a file of train" in _told(copy)
 
 
+@pytest.mark.slow
 def test_a_row_that_the_recipe_does_not_make_is_found(copy):
     path = _shard(copy)
     table = pq.read_table(path)
