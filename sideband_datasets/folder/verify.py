@@ -50,11 +50,12 @@ def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> li
         manifest = json.loads((out / MANIFEST).read_text(encoding="utf-8"))
         plan = make_plan(read_recipe(manifest["recipe"]))
         suffix = FORMATS[manifest["format"]].suffix
-        listed = {entry["file"]: entry for entry in manifest["shards"]}
-    except (ValueError, KeyError, TypeError) as error:
+        listed = {e["file"]: {key: e[key] for key in ("sha256", "split", "rows")} for e in manifest["shards"]}
+        versions_then, others = dict(manifest["versions"]), dict(manifest["files"])
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
         return [Finding(where=MANIFEST, what=f"cannot be read: {error!r}")]
     told("checksums")
-    found = list(_files(out, manifest, listed, suffix))
+    found = list(_files(out, manifest, listed, others, suffix))
     told("rows")
     broken = {finding.where for finding in found}
     seen = _Seen(plan=plan)
@@ -64,14 +65,16 @@ def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> li
     found += seen.missing(out, complete=not broken & {*listed, FAILURES})
     if remake:
         told("rows made again")
-        found += _remade(manifest, seen, remake, seed)
+        found += _remade(versions_then, seen, remake, seed)
     return found
 
 
-def _files(out: Path, manifest: Mapping[str, Any], listed: Mapping[str, Any], suffix: str) -> Iterator[Finding]:
+def _files(
+    out: Path, manifest: Mapping[str, Any], listed: Mapping[str, Any], others: Mapping[str, Any], suffix: str
+) -> Iterator[Finding]:
     if manifest.get("recipe_sha256") != checksum(manifest["recipe"]):
         yield Finding(where=MANIFEST, what="the recipe is not the one that was made (its checksum differs)")
-    expected = {file: entry["sha256"] for file, entry in listed.items()} | dict(manifest["files"])
+    expected = {file: entry["sha256"] for file, entry in listed.items()} | dict(others)
     for file, wanted in expected.items():
         if not (out / file).exists():
             yield Finding(where=file, what="is missing")
@@ -149,10 +152,10 @@ def _bytes(record: Record) -> NDArray[np.uint8]:
     return np.frombuffer(bytes.fromhex(fingerprint(record)), dtype=np.uint8)
 
 
-def _remade(manifest: Mapping[str, Any], seen: _Seen, count: int, seed: int) -> Iterator[Finding]:
+def _remade(made: Mapping[str, Any], seen: _Seen, count: int, seed: int) -> Iterator[Finding]:
     there = np.flatnonzero(seen.there)
     chosen = generator(seed, Stream.REMAKE).choice(there, size=min(count, there.size), replace=False)
-    made, now = manifest["versions"], versions()
+    now = versions()
     changed = [f"{key} {made.get(key)}, now {now[key]}" for key in now if made.get(key) != now[key]]
     why = f" (it was made with other versions: {'; '.join(changed)})" if changed else ""
     for row in rows(seen.plan.recipe, sorted(chosen.tolist())):

@@ -96,6 +96,21 @@ def test_a_changed_recipe_is_found(copy):
     assert "the recipe is not the one that was made" in _told(copy)
 
 
+@pytest.mark.parametrize("key", ["recipe", "format", "shards", "files", "versions"])
+@pytest.mark.parametrize("value", [None, "", {"a": 1}])
+def test_a_broken_manifest_is_a_finding_and_no_traceback(copy, key, value):
+    manifest = json.loads((copy / "manifest.json").read_text())
+    manifest[key] = value
+    (copy / "manifest.json").write_text(json.dumps(manifest))
+    told = _told(copy)
+    assert told or (key, value) in [("versions", ""), ("versions", {"a": 1})]
+
+
+def test_a_manifest_that_is_no_json_is_a_finding(copy):
+    (copy / "manifest.json").write_text("{")
+    assert "manifest.json: cannot be read" in _told(copy)
+
+
 def test_a_folder_without_a_dataset_is_refused(tmp_path):
     with pytest.raises(SpecError, match=r"manifest\.json"):
         verify(tmp_path)
