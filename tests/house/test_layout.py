@@ -12,7 +12,7 @@ import pytest
 from tests.house.project import ROOT, configuration, packages, sources, text, tracked
 
 MEDIAN_LINES, MOST_LINES, MOST_FUNCTION_LINES = 150, 320, 60
-ROOMS = {"sim", "signals", "reconcile", "jobs", "store", "workers", "app", "sideband_client"}
+ROOMS = {"sim", "signals", "reconcile", "sideband_datasets", "jobs", "store", "workers", "app", "sideband_client"}
 
 
 def _lines(name: Path) -> int:

@@ -1,0 +1,7 @@
+"""A dataset as a folder: shards made by workers, a manifest, a card; checked, and taken up again where it stopped."""
+
+from sideband_datasets.folder.layout import unfinished
+from sideband_datasets.folder.make import Progress, Settings, make, resume
+from sideband_datasets.folder.verify import Finding, verify
+
+__all__ = ["Finding", "Progress", "Settings", "make", "resume", "unfinished", "verify"]

@@ -1,0 +1,101 @@
+"""Shards of a dataset: which recordings each holds, and making one."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from itertools import pairwise
+from pathlib import Path
+
+from sideband_datasets.folder.layout import DATA, STATE, json_text, sha256, size_of, whole, write_text
+from sideband_datasets.formats import format_named
+from sideband_datasets.make.batch import Failure
+from sideband_datasets.make.stream import batch_size, rows
+from sideband_datasets.plan.plan import Plan
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shard:
+    """Recordings of one split; `name` is that of the file or folder."""
+
+    split: str
+    name: str
+    recordings: tuple[int, ...]
+
+    @property
+    def stem(self) -> str:
+        """The name of its receipt."""
+        return self.name.split(".")[0]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Receipt:
+    """What a finished shard holds."""
+
+    name: str
+    split: str
+    rows: int
+    bytes: int
+    sha256: str
+    failures: tuple[Failure, ...]
+
+
+def shards_of(plan: Plan, suffix: str, size: int | None = None) -> list[Shard]:
+    """All shards, split after split, in the order of the plan; `size`: most recordings in each."""
+    most = size or batch_size(plan)
+    found = []
+    for split in plan.splits:
+        members = plan.of_split(split).tolist()
+        count = -(-len(members) // most)
+        ends = [k * len(members) // count for k in range(count + 1)] if count else []
+        parts = [members[first:last] for first, last in pairwise(ends)]
+        for k, part in enumerate(parts):
+            name = f"{split}-{k:05d}-of-{len(parts):05d}{suffix}"
+            found.append(Shard(split=split, name=name, recordings=tuple(part)))
+    return found
+
+
+def receipt_path(folder: Path, shard: Shard) -> Path:
+    """Where the receipt of a shard lies while the dataset is made."""
+    return folder / STATE / f"{shard.stem}.json"
+
+
+def finished(folder: Path, shard: Shard) -> Receipt | None:
+    """The receipt of a shard that is there and unchanged; None when it has to be made."""
+    path, data = receipt_path(folder, shard), folder / DATA / shard.name
+    if not path.is_file() or not data.exists():
+        return None
+    document = json.loads(path.read_text(encoding="utf-8"))
+    failures = tuple(Failure(**{**f, "rows": tuple(f["rows"])}) for f in document.pop("failures"))
+    receipt = Receipt(**document, failures=failures)
+    return receipt if receipt.sha256 == sha256(data) else None
+
+
+def make_shard(
+    plan: Plan,
+    shard: Shard,
+    folder: Path,
+    kind: str,
+    *,
+    made: Callable[[int], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Receipt:
+    """Simulate, write and sign a shard; `made` is told how many rows were added."""
+    size = plan.rows_per_recording
+    wanted = [number * size + k for number in shard.recordings for k in range(size)]
+    failures: list[Failure] = []
+    found = list(rows(plan.recipe, wanted, failed=failures.append, cancelled=cancelled, made=made))
+    data = folder / DATA / shard.name
+    with whole(data) as path:
+        format_named(kind).write(path, found)
+    receipt = Receipt(
+        name=shard.name,
+        split=shard.split,
+        rows=len(found),
+        bytes=size_of(data),
+        sha256=sha256(data),
+        failures=tuple(sorted(failures, key=lambda failure: failure.recording)),
+    )
+    write_text(receipt_path(folder, shard), json_text(asdict(receipt)))
+    return receipt

@@ -1,0 +1,129 @@
+"""Recordings of a plan, eight machines of one structure side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from sideband_datasets.plan.drawing import Drawing, drawing
+from sideband_datasets.plan.plan import Plan
+from sideband_datasets.plan.tried import outputs_of
+from signals.recording import Recording, from_response
+from signals.sensors import measure, motion_of
+from sim.assembly.assemble import assemble
+from sim.core.errors import Cancelled, SidebandError
+from sim.core.lanes import WIDTH
+from sim.core.response import Response
+from sim.core.system import System
+from sim.solve.ensemble import Member, simulate_many, structure
+from sim.solve.step_choice import steps_per_output
+
+
+@dataclass(frozen=True, kw_only=True)
+class Failure:
+    """A recording that could not be made: `kind` is the name of the error. Its rows are missing in the dataset."""
+
+    recording: int
+    recording_id: str
+    rows: tuple[int, ...]
+    machine_id: str
+    fault_type: str
+    split: str
+    kind: str
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Made:
+    """A recording as its sensors saw it, with the simulation it comes from."""
+
+    drawing: Drawing
+    system: System
+    response: Response
+    recording: Recording
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Ready:
+    """A recording put together: what machines side by side must share, and what it needs of the simulation."""
+
+    drawing: Drawing
+    system: System
+    outputs: tuple[str, ...] | None
+    alike: Hashable
+
+
+def recorded(
+    plan: Plan, numbers: Sequence[int], cancelled: Callable[[], bool] | None = None
+) -> Iterator[tuple[int, Made | Failure]]:
+    """The recordings `numbers`, each once, as they are done: those of one structure fill the lanes.
+
+    Each is the same bytes alone or beside any others.
+    """
+    groups: dict[Hashable, list[_Ready]] = {}
+    for number in dict.fromkeys(numbers):
+        try:
+            ready = _put_together(plan, number)
+            groups.setdefault(ready.alike, []).append(ready)
+        except SidebandError as error:
+            yield number, _failed(plan, number, error)
+    for group in groups.values():
+        for first in range(0, len(group), WIDTH):
+            yield from _simulated(plan, group[first : first + WIDTH], cancelled)
+
+
+def _put_together(plan: Plan, number: int) -> _Ready:
+    drawn = drawing(plan, number)
+    system = assemble(drawn.spec, seed=drawn.seed)
+    outputs = outputs_of(plan, drawn, system)
+    factor = steps_per_output(system, plan.recipe.sampling_rate_hz)
+    return _Ready(drawing=drawn, system=system, outputs=outputs, alike=(structure(system), factor, outputs))
+
+
+def _simulated(
+    plan: Plan, group: Sequence[_Ready], cancelled: Callable[[], bool] | None
+) -> Iterator[tuple[int, Made | Failure]]:
+    responses = simulate_many(
+        [Member(machine=one.drawing.spec, seed=one.drawing.seed) for one in group],
+        duration_s=plan.recipe.settle_s + plan.recipe.duration_s,
+        output_rate_hz=plan.recipe.sampling_rate_hz,
+        channels=group[0].outputs,
+        cancelled=cancelled,
+    )
+    for one, response in zip(group, responses, strict=True):
+        yield one.drawing.number, _measured(plan, one.drawing, one.system, response)
+
+
+def _measured(plan: Plan, drawn: Drawing, system: System, response: Response | SidebandError) -> Made | Failure:
+    if isinstance(response, SidebandError):
+        return _failed(plan, drawn.number, response)
+    try:
+        recording = from_response(response)
+        if drawn.chain is not None:
+            recording = measure(motion_of(response), drawn.chain, seed=drawn.noise_seed).recording
+    except SidebandError as error:
+        return _failed(plan, drawn.number, error)
+    # The simulated outputs are not needed any more: what is kept is the recording.
+    slim = replace(response, signals=response.signals[:, :0])
+    return Made(drawing=drawn, system=system, response=slim, recording=recording)
+
+
+def _failed(plan: Plan, number: int, error: SidebandError) -> Failure:
+    if isinstance(error, Cancelled):
+        raise error
+    first = number * plan.rows_per_recording
+    return Failure(
+        recording=number,
+        recording_id=f"{plan.recipe.name}-{number:06d}",
+        rows=tuple(range(first, first + plan.rows_per_recording)),
+        machine_id=plan.machines[int(plan.machine[number])].machine_id,
+        fault_type=plan.recipe.classes[int(plan.kind[number])],
+        split=plan.split(number),
+        kind=type(error).__name__,
+        reason=str(error),
+    )
+
+
+def failed(plan: Plan, made: Made, error: SidebandError) -> Failure:
+    """The failure of a recording that could not be cut or labelled."""
+    return _failed(plan, made.drawing.number, error)

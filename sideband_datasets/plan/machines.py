@@ -1,0 +1,164 @@
+"""The machines of a dataset: each drawn once, with its sensors and its transfer path."""
+
+from __future__ import annotations
+
+import copy
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from typing import Any
+
+from pydantic import ValidationError
+
+from sideband_datasets.plan.axes import Axis, drawn_only, levels, machine_axes
+from sideband_datasets.plan.documents import holders, own_value
+from sideband_datasets.plan.points import Points
+from sideband_datasets.plan.seeds import Stream, whole_seed
+from sideband_datasets.recipe.model import Machines, Recipe
+from sideband_datasets.recipe.values import Drawn, drawn
+from signals.overrides import apply_overrides
+from signals.sensors import SensorChain
+from signals.series import FloatArray
+from signals.shorthand import path_of
+from signals.validation import problems_of
+from sim.core.errors import SpecError
+from sim.core.spec import MachineSpec
+from sim.presets import preset
+
+Document = dict[str, Any]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Machine:
+    """One machine of a family, sound, at the family's operating point; `chain` is the document of its sensors.
+
+    `content` and `path_id` are hashes of what it is and of the paths to its sensors: equal ones are equal machines.
+    """
+
+    machine_id: str
+    family: str
+    spec: MachineSpec
+    measurement: int | None
+    chain: Document | None
+    content: str
+    path_id: str
+    seed: int
+
+
+@contextmanager
+def told_as(field: str) -> Iterator[None]:
+    """Problems of changes (`set.KEY`) raised inside carry the name `field.KEY` of the recipe."""
+    try:
+        yield
+    except SpecError as error:
+        found = [
+            replace(p, field=f"{field}.{p.field.removeprefix('set.').removeprefix(f'{field}.')}")
+            for p in error.problems
+        ]
+        raise SpecError(found) from error
+
+
+def base_machine(family: Machines, number: int) -> MachineSpec:
+    """What all of a family have in common."""
+    machine = preset(family.preset) if family.preset is not None else family.machine
+    assert machine is not None
+    with told_as(f"machines.{number}.set"):
+        return apply_overrides(machine, family.set)
+
+
+def values_at(axes: tuple[Axis, ...], point: FloatArray, own: Mapping[str, object]) -> dict[str, Drawn]:
+    """Every axis' value at a point of the drawn ones."""
+    free = {axis.key: float(share) for axis, share in zip(drawn_only(axes), point, strict=True)}
+    return {a.key: drawn(a.value, free.get(a.key, 0.0), own.get(a.key), a.field) for a in axes}
+
+
+def part(values: Mapping[str, Drawn], prefix: str) -> dict[str, Drawn]:
+    """Values whose key begins with `prefix:`, without it."""
+    head = f"{prefix}:"
+    return {key.removeprefix(head): value for key, value in values.items() if key.startswith(head)}
+
+
+def chain_document(recipe: Recipe, number: int) -> Document:
+    """A chain with every stage of its sensors written out; SpecError names its wrong fields."""
+    field = f"measurement.{number}.chain"
+    try:
+        chain = SensorChain.model_validate(recipe.measurement[number].chain)
+    except ValidationError as error:
+        raise SpecError(problems_of(error, prefix=field, model=SensorChain)) from error
+    return chain.model_dump(mode="json")
+
+
+def with_values(document: Document, values: Mapping[str, object], field: str) -> Document:
+    """A copy of a chain's document with values put in by path."""
+    changed = copy.deepcopy(document)
+    for path, value in values.items():
+        for holder, name in holders(changed, path, f"{field}.{path}"):
+            holder[name] = value
+    return changed
+
+
+def _hash(document: object) -> str:
+    text = json.dumps(document, sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _path_id(machine_id: str, chain: Document | None) -> str:
+    """Hash of the transfer paths of all channels; without one the path is the machine's own."""
+    paths = [c.get("path") for c in chain["channels"]] if chain is not None else []
+    return _hash(paths if any(paths) else machine_id)
+
+
+def _own_values(recipe: Recipe, axes: tuple[Axis, ...], base: MachineSpec) -> dict[str, object]:
+    own: dict[str, object] = {}
+    for axis in axes:
+        head, _, key = axis.key.partition(":")
+        if head == "machine":
+            own[axis.key] = own_value(base, path_of(key))
+        elif head.startswith("chain.") and key:
+            number = int(head.removeprefix("chain."))
+            found = list(holders(chain_document(recipe, number), key, axis.field))
+            own[axis.key] = found[0][0].get(found[0][1]) if found else None
+    return own
+
+
+def machines_of(recipe: Recipe, number: int) -> list[Machine]:
+    """All machines of family `number`."""
+    family = recipe.machines[number]
+    base, axes = base_machine(family, number), machine_axes(recipe, number)
+    own = _own_values(recipe, axes, base)
+    points = Points(
+        # Machines are a sample of a population: levels would build the same one again.
+        kind="latin_hypercube" if recipe.plan == "factorial" else recipe.plan,
+        levels=levels(drawn_only(axes)),
+        count=family.instances,
+        seed=recipe.seed,
+        stream=Stream.FAMILY,
+        number=number,
+    )
+    chains = [chain_document(recipe, k) for k in range(len(recipe.measurement))]
+    names = [m.name for m in recipe.measurement]
+    found = []
+    for k in range(family.instances):
+        values = values_at(axes, points.at(k), own)
+        with told_as(f"machines.{number}.vary"):
+            spec = apply_overrides(base, part(values, "machine"))
+        chosen = None if not names else names.index(str(values["chain"]))
+        chain = None
+        if chosen is not None:
+            chain = with_values(chains[chosen], part(values, f"chain.{chosen}"), f"measurement.{chosen}.vary")
+        machine_id = f"{family.name}-{k:04d}"
+        found.append(
+            Machine(
+                machine_id=machine_id,
+                family=family.name,
+                spec=spec,
+                measurement=chosen,
+                chain=chain,
+                content=_hash(spec.model_dump(mode="json")),
+                path_id=_path_id(machine_id, chain),
+                seed=whole_seed(recipe.seed, Stream.MACHINE, number, k),
+            )
+        )
+    return found

@@ -1,0 +1,70 @@
+"""The plan of a recipe, with one recording of every class and family put together before hours are spent on it."""
+
+from __future__ import annotations
+
+import json
+from functools import lru_cache
+
+import numpy as np
+
+from sideband_datasets.plan.drawing import Drawing, drawing
+from sideband_datasets.plan.plan import Plan, planned
+from sideband_datasets.recipe.model import Recipe
+from sideband_datasets.recipe.read import canonical
+from signals.sensors import SensorChain, outputs_needed, pickups, quantities_of
+from signals.sensors.clock import nominal_rate_hz
+from signals.validation import Findings
+from sim.assembly.assemble import assemble
+from sim.core.system import System
+
+
+def outputs_of(plan: Plan, drawn: Drawing, system: System) -> tuple[str, ...] | None:
+    """Outputs to simulate: those of every chain of the recipe, so that machines with different ones can run side by
+    side; None for the standard ones. SpecError when the recording's own chain cannot be served.
+    """
+    if drawn.chain is None:
+        return None
+    known = quantities_of(channel.name for channel in system.channels)
+    needed = outputs_needed(pickups(drawn.chain, drawn.spec, known, "measurement.chain"))
+    families = [machines.name for machines in plan.recipe.machines]
+    for k in plan.recipe.chains_of(families.index(drawn.machine.family)):
+        chain = _chain(_text(plan.recipe.measurement[k].chain))
+        needed += outputs_needed(pickups(chain, drawn.spec, known, f"measurement.{k}.chain"))
+    return tuple(sorted(set(needed))) or tuple(known)[:1]
+
+
+@lru_cache(maxsize=64)
+def _chain(text: str) -> SensorChain:
+    return SensorChain.model_validate_json(text)
+
+
+def _text(chain: object) -> str:
+    """A chain as one text."""
+    return json.dumps(chain, sort_keys=True)
+
+
+def samples_of(plan: Plan) -> list[Drawing]:
+    """The first recording of every class on every family."""
+    families = [m.family for m in plan.machines]
+    number = np.array([families.index(f) for f in families])[plan.machine]
+    _, first = np.unique(np.stack([plan.kind, number]), axis=1, return_index=True)
+    return [drawing(plan, int(i)) for i in sorted(first)]
+
+
+@lru_cache(maxsize=4)
+def _tried(text: str) -> Plan:
+    recipe = Recipe.model_validate_json(text)
+    plan = planned(recipe)
+    findings = Findings()
+    for drawn in samples_of(plan):
+        with findings.step():
+            outputs_of(plan, drawn, assemble(drawn.spec, seed=drawn.seed))
+            if drawn.chain is not None:
+                nominal_rate_hz(drawn.chain.clock, recipe.sampling_rate_hz, "measurement.chain.clock")
+    findings.settle()
+    return plan
+
+
+def make_plan(recipe: Recipe) -> Plan:
+    """The plan of a recipe; SpecError lists what of it cannot be made."""
+    return _tried(canonical(recipe))

@@ -1,0 +1,45 @@
+"""Ready recipes."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+
+from sideband_datasets.recipe.model import Recipe
+from sideband_datasets.recipe.read import read_recipe
+from sim.core.errors import UnknownName
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ready:
+    """Name of a recipe beside this module (`recipes/NAME.json`), and the sentence that explains it."""
+
+    name: str
+    sentence: str
+
+    def read(self) -> Recipe:
+        """The recipe."""
+        text = files("sideband_datasets.recipe").joinpath("recipes", f"{self.name}.json").read_text(encoding="utf-8")
+        return read_recipe(json.loads(text))
+
+
+RECIPES: Mapping[str, Ready] = {
+    ready.name: ready
+    for ready in (
+        Ready(name="bearing-rig", sentence="Motor shaft on two ball bearings: healthy, outer race, inner race, ball."),
+        Ready(
+            name="gearbox",
+            sentence="The paper's gearbox: healthy, loose fit, crack, broken tooth, unbalance, spall with crack.",
+        ),
+        Ready(name="small", sentence="Eight short recordings of the smallest rotor: to try the doors."),
+    )
+}
+
+
+def recipe_named(name: str) -> Recipe:
+    """A ready recipe; UnknownName lists what exists."""
+    if name not in RECIPES:
+        raise UnknownName("recipe", name, tuple(RECIPES))
+    return RECIPES[name].read()

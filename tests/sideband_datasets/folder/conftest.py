@@ -1,0 +1,16 @@
+from __future__ import annotations
+
+import pytest
+
+from sideband_datasets.folder import Settings, make
+from tests.sideband_datasets.small import tiny
+
+RECIPE = tiny(peaks={"spectra": ["envelope"]}, sampling_rate_hz=10_000)
+
+
+@pytest.fixture(scope="session")
+def made(tmp_path_factory):
+    """A finished dataset of 48 rows in six shards; not to be changed."""
+    out = tmp_path_factory.mktemp("made") / "set"
+    make(RECIPE, out, Settings(shard_recordings=2), lambda progress: None)
+    return out
