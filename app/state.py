@@ -29,6 +29,8 @@ class AppState:
     started_at: float
     labels: Kept = field(default_factory=Kept)
     """Labels of channels that are not stored with their result."""
+    conditions: Kept = field(default_factory=Kept)
+    """Features of recordings, as they are stored: they never change."""
 
     def desk(self) -> Desk:
         """For accepting and recovering."""
