@@ -13,8 +13,10 @@ from jobs.health.standard import SOURCE, zones_for
 from jobs.health.titles import is_family, title_of, unit_of
 from jobs.health.words import STATES, AlarmKind, Severity, State
 
-JUDGED_SPOILT = ("clipping",)
-"""A clipped level is at least what it reads; other defects make features of their own, so those are not judged."""
+CLIPPING = "clipping"
+JUDGED_CLIPPED = ("rms", "peak", "velocity_rms")
+"""A clipped level is at least what it reads. Its harmonics are made by the clipping, as other defects make features of
+their own: those are not judged."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,9 +57,9 @@ def assess(point: Point, baselines: Baselines) -> Assessment:
     medians: dict[tuple[str, str], float] = {}
     alarms = list(_measurement(point))
     for channel, entry in point.channels.items():
-        spoilt = any(f["channel"] == channel and f["kind"] not in JUDGED_SPOILT for f in point.findings)
+        defects = {f["kind"] for f in point.findings if f["channel"] == channel}
         for feature, value in entry.features.items():
-            if value is None or spoilt:
+            if value is None or (defects and not (defects == {CLIPPING} and feature in JUDGED_CLIPPED)):
                 continue
             found = baselines.of(like, point, channel, feature) if like else None
             if found is None:
@@ -67,7 +69,7 @@ def assess(point: Point, baselines: Baselines) -> Assessment:
             medians[channel, feature] = 10 ** (found.median_db / 20)
             if judged.severity is not None:
                 alarms.append(_risen(point, channel, feature, value, judged, found.recordings))
-        if not spoilt:
+        if defects <= {CLIPPING}:
             alarms += _fixed(point, channel)
     judged_at_all = bool(limits) or point.baseline or any(_zoned(point, name) is not None for name in point.channels)
     return Assessment(
@@ -147,8 +149,8 @@ def _measurement(point: Point) -> Iterator[Alarm]:
 
 
 def _defect(point: Point, finding: Mapping[str, Any]) -> Alarm:
-    judged = finding["kind"] in JUDGED_SPOILT
-    rest = "its levels are at least what they read" if judged else "its features are not judged"
+    clipped = finding["kind"] == CLIPPING
+    rest = "its RMS and peak are at least what they read" if clipped else "its features are not judged"
     return Alarm(
         recording=point.recording,
         time=point.time,
