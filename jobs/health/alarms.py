@@ -126,6 +126,7 @@ def _fixed(point: Point, channel: str) -> Iterator[Alarm]:
     if severity is None:
         return
     limit = zones.c_d if severity == "alarm" else zones.b_c
+    place = f"zone {zones.zone(velocity)} of {point.vibration_class}"
     yield Alarm(
         recording=point.recording,
         time=point.time,
@@ -138,7 +139,7 @@ def _fixed(point: Point, channel: str) -> Iterator[Alarm]:
         unit="m/s",
         rise_db=None,
         baselines=0,
-        message=f"{velocity * 1e3:.2f} mm/s on {channel} lies in zone {zones.zone(velocity)} of {point.vibration_class}",
+        message=f"{velocity * 1e3:.2f} mm/s on {channel} lies in {place}",
         rule=f"{SOURCE}, {point.vibration_class}: {limit * 1e3:g} mm/s",
     )
 

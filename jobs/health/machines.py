@@ -86,14 +86,12 @@ def trends(
     for channel in (name for name in machine.channels if not channels or name in channels):
         held = [p.channels[channel] for p in (machine.points[i] for i in places) if channel in p.channels]
         known = sorted({feature for entry in held for feature in entry.features}, key=_rank)
-        for feature in (name for name in known if not features or name in features):
-            found.append(_trend(machine, places, channel, feature, unit_of(feature, held[-1].unit)))
+        wanted = [name for name in known if not features or name in features]
+        found += [_trend(machine, places, channel, name, unit_of(name, held[-1].unit)) for name in wanted]
     return tuple(found)
 
 
-def alarms_at(
-    machine: Watched, places: Sequence[int], channels: Sequence[str], features: Sequence[str]
-) -> list[Alarm]:
+def alarms_at(machine: Watched, places: Sequence[int], channels: Sequence[str], features: Sequence[str]) -> list[Alarm]:
     """Of these recordings, the latest first; of a channel's defects whatever feature is asked for."""
     return [
         alarm

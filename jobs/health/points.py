@@ -65,7 +65,6 @@ class Point:
     sampling_rate_hz: float
     operating: Operating | None
     channels: Mapping[str, ChannelPoint]
-    lines: tuple[Mapping[str, Any], ...]
     findings: tuple[Mapping[str, Any], ...]
     reasons: tuple[str, ...]
 
@@ -108,7 +107,6 @@ def _point(record: JobRecord, artefacts: ArtefactStore, kept: Kept) -> Point:
         sampling_rate_hz=document["sampling_rate_hz"],
         operating=None if operating is None else Operating(**operating),
         channels={name: ChannelPoint(**entry) for name, entry in document["channels"].items()},
-        lines=tuple(document["lines"]),
         findings=tuple(document["findings"]),
         reasons=tuple(document["reasons"]),
     )
@@ -118,6 +116,7 @@ def _read(reader: ResultReader) -> bytes:
     """The features, and the defects that were found when the file was read."""
     summary: dict[str, Any] = reader.document("summary")
     document = reader.document(CONDITION) if reader.has(CONDITION) else _without_features(summary)
+    document.pop("lines", None)  # told with the recording; here they would only take up memory
     findings = [
         {key: finding[key] for key in ("channel", "kind", "message", "count")} for finding in summary["findings"]
     ]
@@ -138,6 +137,5 @@ def _without_features(summary: Mapping[str, Any]) -> dict[str, object]:
         "sampling_rate_hz": summary["sampling_rate_hz"],
         "operating": summary["operating"],
         "channels": channels,
-        "lines": [],
         "reasons": ["was read before features were kept: delete it and send it again to have them"],
     }

@@ -90,9 +90,9 @@ def amplitude(level_db: float) -> float:
 
 
 SPREAD_RULE = (
-    "20 log10 of the value beyond median + factor x 1.4826 MAD of at least 8 baseline recordings of the same channel at "
-    "like speed (3 %) and torque (10 %); the factor depends on their number so that a recording of the same Gaussian is "
-    "told a warning with probability 1e-3 and an alarm with 1e-4, per value"
+    "20 log10 of the value beyond median + factor x 1.4826 MAD of at least 8 baseline recordings of the same channel "
+    "at like speed (3 %) and torque (10 %); the factor depends on their number so that a recording of the same "
+    "Gaussian is told a warning with probability 1e-3 and an alarm with 1e-4, per value"
 )
 LEVEL_RULE = f"{SPREAD_RULE}; and at least 2 dB above the median"
 FAMILY_RULE = f"{SPREAD_RULE}; and at least 6 dB (alarm: 12 dB) above the median"

@@ -87,9 +87,7 @@ def _raw(seen: Observation, channel: str, tie: Ties) -> list[FamilyLevel]:
     spectrum = order_lines(seen, channel)
     if spectrum is None:
         return []
-    rows = [
-        (name, "shaft", f"f_r{i}", ratio, SHAFT_HARMONICS) for i, (name, ratio) in enumerate(tie.shafts.items(), 1)
-    ]
+    rows = [(name, "shaft", f"f_r{i}", ratio, SHAFT_HARMONICS) for i, (name, ratio) in enumerate(tie.shafts.items(), 1)]
     for i, mesh in enumerate(tie.meshes, 1):
         rows.append((mesh[0], "mesh", "f_m" if len(tie.meshes) == 1 else f"f_m{i}", mesh[1], MESH_HARMONICS))
     found = []

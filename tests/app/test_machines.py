@@ -55,7 +55,9 @@ def sent(client: httpx.Client) -> list[str]:
     ids.append(send(client, signal(10), about(10, baseline=False)))
     ids.append(send(client, signal(11, 2.0), about(11, baseline=False)))
     ids.append(send(client, np.clip(signal(12), -0.6, 0.6), about(12, baseline=False)))
-    ids.append(send(client, signal(1), about(1, baseline=False, machine="fan", kinematics={"shafts": [{"name": "shaft"}]})))
+    ids.append(
+        send(client, signal(1), about(1, baseline=False, machine="fan", kinematics={"shafts": [{"name": "shaft"}]}))
+    )
     for each in ids:
         eventually(lambda each=each: client.get(f"/v1/recordings/{each}").json()["status"] != "accepted", within_s=90)
         assert client.get(f"/v1/recordings/{each}").json()["status"] == "ready"

@@ -70,7 +70,10 @@ def test_a_failing_bearing_is_seen_from_the_list_to_the_line(
     browser.find("[aria-label='Recording day-21.npz']")
     browser.click("[aria-label='Recording day-21.npz'] summary")
     assert "% of the envelope" in browser.text("[aria-label='Named lines']")
-    browser.run("const e = document.querySelector('[aria-label=Feature]'); e.value = 'rms'; e.dispatchEvent(new Event('change'));")
+    browser.run(
+        "const e = document.querySelector('[aria-label=Feature]');"
+        "e.value = 'rms'; e.dispatchEvent(new Event('change'));"
+    )
     eventually(lambda: browser.count(".trend-svg[aria-label^='RMS about the mean']") == 1, what="the other feature")
     browser.click("[aria-label='Last verdicts'] tr a")
     browser.find("#answer-verdict")

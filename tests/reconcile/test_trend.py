@@ -8,7 +8,7 @@ import pytest
 from reconcile.kinematics import read_kinematic_spec
 from reconcile.kinematics.trend import Levels, family_levels
 from sim.core.errors import SpecError
-from tests.strategies.impulses import N, RATE_HZ, SPEED_HZ, recorded, sound, train
+from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, sound, train
 
 SPEC = read_kinematic_spec(
     {
@@ -62,5 +62,5 @@ def test_a_gain_does_not_move_a_bearing_and_moves_a_shaft() -> None:
 
 
 def test_what_cannot_be_done_is_told() -> None:
-    with pytest.raises(SpecError, match="operating.shaft"):
+    with pytest.raises(SpecError, match=r"operating\.shaft"):
         family_levels(SPEC, recorded(sound(1), shaft="nothing"))

@@ -37,7 +37,6 @@ def point(
         if speed_hz is None
         else Operating(shaft="shaft", speed_hz=speed_hz, torque_nm=torque_nm, speed_from="stated"),
         "channels": {"de": channel},
-        "lines": (),
         "findings": tuple(findings),
         "reasons": (),
     }
