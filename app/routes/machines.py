@@ -19,7 +19,7 @@ from app.machine_views import (
 from app.paging import mark_of, read_cursor, relative
 from app.routes.responses import problems
 from app.state import State
-from jobs.health.machines import alarms_at, chosen, machine_names, trends, watched
+from jobs.health.machines import alarms_at, chosen, machine_names, trends
 from jobs.health.verdicts import verdicts_of
 from sim.core.errors import Problem, SpecError, UnknownName
 
@@ -47,7 +47,7 @@ def list_machines(
         following = relative(request.url.include_query_params(cursor=page[-1]))
         response.headers["Link"] = f'<{following}>; rel="next"'
     stores = state.stores
-    seen = [watched(stores.catalogue, stores.artefacts, state.conditions, name) for name in page]
+    seen = [state.watch.machine(stores.catalogue, stores.artefacts, name) for name in page]
     return MachinePage(machines=[machine_view(machine) for machine in seen], total=len(names), next=following)
 
 
@@ -70,7 +70,7 @@ def get_health(
     """
     response.headers["Cache-Control"] = "no-store"
     stores, channels, features = state.stores, channel or [], feature or []
-    machine = watched(stores.catalogue, stores.artefacts, state.conditions, name)
+    machine = state.watch.machine(stores.catalogue, stores.artefacts, name)
     for unknown in (c for c in channels if c not in machine.channels):
         raise UnknownName("channel", unknown, machine.channels)
     if start is not None and end is not None and start > end:

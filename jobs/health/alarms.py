@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from jobs.health.baselines import Baselines
+from jobs.health.baselines import Baselines, Like
 from jobs.health.points import Point
 from jobs.health.rules import FAMILY_RULE, LEVEL_RULE, Judged, judge
 from jobs.health.standard import SOURCE, zones_for
@@ -52,7 +52,7 @@ class Assessment:
 
 def assess(point: Point, baselines: Baselines) -> Assessment:
     """Judge a recording. Baselines themselves are held against fixed limits and defects only."""
-    like = () if point.baseline else baselines.like(point)
+    like = Like(()) if point.baseline else baselines.like(point)
     limits: dict[tuple[str, str], Judged] = {}
     medians: dict[tuple[str, str], float] = {}
     alarms = list(_measurement(point))
@@ -61,7 +61,7 @@ def assess(point: Point, baselines: Baselines) -> Assessment:
         for feature, value in entry.features.items():
             if value is None or (defects and not (defects == {CLIPPING} and feature in JUDGED_CLIPPED)):
                 continue
-            found = baselines.of(like, point, channel, feature) if like else None
+            found = like.of(channel, entry.place, feature)
             if found is None:
                 continue
             judged = judge(value, found, family=is_family(feature))

@@ -13,24 +13,36 @@ SPOILING = ("not_finite", "constant", "stuck", "dropout", "clipping")
 """Defects with which a channel is no baseline."""
 
 
+class Like:
+    """Baselines of one operating point and rate. What they say of a feature is worked out once."""
+
+    def __init__(self, points: Sequence[Point]) -> None:
+        self._points = tuple(points)
+        self._known: dict[tuple[str, tuple[str, ...], str], Baseline | None] = {}
+
+    def __len__(self) -> int:
+        return len(self._points)
+
+    def of(self, channel: str, place: tuple[str, ...], feature: str) -> Baseline | None:
+        """Of one feature of one channel; None where fewer than 8 recordings have it."""
+        key = (channel, place, feature)
+        if key not in self._known:
+            values = [value for p in self._points if (value := _value(p, channel, place, feature))]
+            self._known[key] = baseline_of(values)
+        return self._known[key]
+
+
 class Baselines:
-    """The baseline recordings of a machine. What they say is worked out once for each set of like ones."""
+    """The baseline recordings of a machine."""
 
     def __init__(self, points: Sequence[Point]) -> None:
         self._points = [p for p in points if p.baseline]
-        self._known: dict[tuple[tuple[str, ...], str, tuple[str, ...], str], Baseline | None] = {}
+        self._groups: dict[tuple[str, ...], Like] = {}
 
-    def like(self, point: Point) -> tuple[Point, ...]:
-        """Baselines at the operating point and rate of `point`."""
-        return tuple(p for p in self._points if p.recording != point.recording and alike(p, point))
-
-    def of(self, like: Sequence[Point], point: Point, channel: str, feature: str) -> Baseline | None:
-        """Of one feature of one channel; None where fewer than 8 of the like ones have it."""
-        place = point.channels[channel].place
-        key = (tuple(p.recording for p in like), channel, place, feature)
-        if key not in self._known:
-            self._known[key] = baseline_of([value for p in like if (value := _value(p, channel, place, feature))])
-        return self._known[key]
+    def like(self, point: Point) -> Like:
+        """Those at the operating point and rate of `point`."""
+        found = [p for p in self._points if alike(p, point)]
+        return self._groups.setdefault(tuple(p.recording for p in found), Like(found))
 
 
 def alike(a: Point, b: Point) -> bool:

@@ -12,8 +12,8 @@ from jobs.health.titles import NAMES, OCTAVE, title_of, unit_of
 from jobs.health.words import State
 from jobs.kept import Kept
 from jobs.ports import ArtefactStore, JobCatalogue
+from jobs.record import JobRecord
 from jobs.recordings.words import RECORDING
-from sim.core.errors import UnknownName
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,11 +60,9 @@ def machine_names(catalogue: JobCatalogue) -> list[str]:
     return catalogue.names(RECORDING)
 
 
-def watched(catalogue: JobCatalogue, artefacts: ArtefactStore, kept: Kept, name: str) -> Watched:
-    """One machine; UnknownName when no recording names it."""
-    points = points_of(catalogue, artefacts, kept, name)
-    if not points and name not in (names := machine_names(catalogue)):
-        raise UnknownName("machine", name, names)
+def watched(records: Sequence[JobRecord], artefacts: ArtefactStore, kept: Kept, name: str) -> Watched:
+    """A machine by the records of its recordings."""
+    points = points_of(records, artefacts, kept)
     baselines = Baselines(points)
     return Watched(name=name, points=tuple(points), assessments=tuple(assess(p, baselines) for p in points))
 

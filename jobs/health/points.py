@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -69,10 +69,15 @@ class Point:
     reasons: tuple[str, ...]
 
 
-def points_of(catalogue: JobCatalogue, artefacts: ArtefactStore, kept: Kept, machine: str) -> list[Point]:
-    """Every recording of a machine that was read, the earliest first."""
-    found = [_point(record, artefacts, kept) for record in _records(catalogue, machine)]
+def points_of(records: Iterable[JobRecord], artefacts: ArtefactStore, kept: Kept) -> list[Point]:
+    """Recordings that were read, the earliest first."""
+    found = [_point(record, artefacts, kept) for record in records]
     return sorted(found, key=lambda p: (p.time, p.recording))
+
+
+def records_of(catalogue: JobCatalogue, machine: str) -> list[JobRecord]:
+    """Every recording of a machine that was read, up to 5000, the last sent first."""
+    return list(_records(catalogue, machine))
 
 
 def _records(catalogue: JobCatalogue, machine: str) -> Iterator[JobRecord]:

@@ -13,6 +13,7 @@ import bisect
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -69,13 +70,19 @@ def baseline_of(values: Sequence[float]) -> Baseline | None:
 
 def judge(value: float, baseline: Baseline, *, family: bool) -> Judged:
     """Against the spread; a family of lines must besides have risen by 6 dB (12 dB: alarm), others by 2 dB."""
+    warning, alarm = _limits(baseline, family)
+    rise_db = (decibel(value) if value > 0 else -math.inf) - baseline.median_db
+    severity: Severity | None = "alarm" if value > alarm else "warning" if value > warning else None
+    return Judged(rise_db=rise_db, warning=warning, alarm=alarm, severity=severity)
+
+
+@lru_cache(maxsize=16_384)
+def _limits(baseline: Baseline, family: bool) -> tuple[float, float]:
+    """Of warning and alarm, in the unit of the values."""
     rises = (FAMILY_WARNING_DB, FAMILY_ALARM_DB) if family else (LEVEL_RISE_DB, LEVEL_RISE_DB)
-    warning = baseline.limit_db(WARNING_FACTORS, rises[0])
-    alarm = baseline.limit_db(ALARM_FACTORS, rises[1])
-    level = decibel(value) if value > 0 else -math.inf
-    severity: Severity | None = "alarm" if level > alarm else "warning" if level > warning else None
-    return Judged(
-        rise_db=level - baseline.median_db, warning=amplitude(warning), alarm=amplitude(alarm), severity=severity
+    return (
+        amplitude(baseline.limit_db(WARNING_FACTORS, rises[0])),
+        amplitude(baseline.limit_db(ALARM_FACTORS, rises[1])),
     )
 
 

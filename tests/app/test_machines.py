@@ -173,6 +173,9 @@ def test_a_recording_read_earlier_still_counts(client: httpx.Client, parts: Part
     assert found["series"][0]["values"] == [pytest.approx(np.std(signal(40)), rel=1e-6)]
     assert "before features were kept" in found["points"][0]["reasons"][0]
     assert client.get(f"/v1/recordings/{made}").json()["condition"] is None
+    assert client.delete(f"/v1/recordings/{made}").status_code == 204
+    assert client.get("/v1/machines/old/health").status_code == 404, "with its last recording the machine goes"
+    assert "old" not in [m["name"] for m in client.get("/v1/machines").json()["machines"]]
 
 
 def test_the_last_verdicts_are_linked(client: httpx.Client, sent: list[str]) -> None:
