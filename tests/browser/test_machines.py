@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -41,7 +42,8 @@ def send(service: Service, day: int, height: float, *, baseline: bool) -> str:
 
 
 @pytest.fixture(scope="module")
-def sent(service: Service) -> list[str]:
+def sent(service: Service) -> Iterator[list[str]]:
+    """Recordings that go again: other tests look at the first one in the list."""
     ids = [send(service, day, 0.0, baseline=True) for day in range(1, SOUND + 1)]
     ids += [send(service, day, height, baseline=False) for day, height in enumerate(HEIGHTS, start=SOUND + 1)]
     for each in ids:
@@ -49,7 +51,9 @@ def sent(service: Service) -> list[str]:
     asked = {"machine": {"kinematics": KINEMATICS}, "recordings": ids[-1:], "baselines": ids[:1]}
     made = service.client.post("/v1/reconciliations", json=asked).raise_for_status().json()["id"]
     service.wait(made, "successful", within_s=180)
-    return ids
+    yield ids
+    for address in (*(f"/v1/recordings/{each}" for each in ids), f"/v1/jobs/{made}"):
+        service.client.delete(address).raise_for_status()
 
 
 def test_a_failing_bearing_is_seen_from_the_list_to_the_line(
