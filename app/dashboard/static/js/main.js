@@ -7,6 +7,8 @@ import { cataloguePage } from "/js/catalogue/page.js";
 import { termPage } from "/js/catalogue/term-page.js";
 import { apiPage } from "/js/api/page.js";
 import { formPage } from "/js/form/page.js";
+import { machinesPage } from "/js/machines/list.js";
+import { machinePage } from "/js/machines/page.js";
 import { overviewPage } from "/js/overview/page.js";
 import { reconcilePage } from "/js/reconcile/page.js";
 import { reconciliationPage } from "/js/reconcile/result.js";
@@ -21,6 +23,8 @@ const ROUTES = [
   [/^\/catalogue(?:\/([a-z0-9_]+))?$/, "catalogue", cataloguePage, "Physical effects"],
   [/^\/reconcile$/, "reconcile", reconcilePage, "Reconcile"],
   [/^\/reconcile\/([A-Za-z0-9_-]+)$/, "reconcile", reconciliationPage, "Reconciliation"],
+  [/^\/machines$/, "machines", machinesPage, "Machines"],
+  [/^\/machines\/([A-Za-z0-9][A-Za-z0-9._-]*)$/, "machines", machinePage, "Machine"],
   [/^\/jobs\/([A-Za-z0-9_-]+)$/, "result", resultPage, "Result"],
 ];
 
