@@ -1,0 +1,131 @@
+"""Features where the bearing's geometry is known: how each family of lines stands out, by chance and by depth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from learn.bank import Bank
+from learn.combs import SLIP, Comb, Search, away_from, grid, logs, search
+from learn.orders import FaultOrders
+from signals.series import FloatArray
+
+FAMILIES = ("outer", "inner", "ball", "cage")
+LEAST_DEPTH = 1e-3
+NAMES = (
+    *(f"chance_{f}" for f in FAMILIES),
+    *(f"z_{f}" for f in FAMILIES),
+    *(f"depth_{f}" for f in FAMILIES),
+    "side_inner",
+    "side_ball",
+    "shaft_depth",
+    "impulsive",
+    "log_turns",
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Found:
+    """A family in the bank: base order, slip, band, standardised score, log10 chance, depth."""
+
+    family: str
+    order: float
+    slip: float
+    band_hz: tuple[float, float]
+    channel: int
+    z: float
+    chance: float
+    depth: float
+
+
+def combs(orders: FaultOrders) -> dict[str, Comb]:
+    """The lines each family is looked for by."""
+    return {
+        "outer": Comb(harmonics=4),
+        "inner": Comb(harmonics=3, spacings=(1.0,)),
+        "ball": Comb(harmonics=3, spacings=(orders.cage,)),
+        "cage": Comb(harmonics=4),
+    }
+
+
+def line_depths(bank: Bank, band: int, places: FloatArray) -> FloatArray:
+    """Depth of the lines at `places` (orders), largest of three bins, noise subtracted, shape as places."""
+    k = np.rint(np.abs(places) / bank.step).astype(np.int64)
+    k = np.clip(k, 2, bank.depth.shape[1] - 2)
+    near = np.stack([k - 1, k, k + 1])
+    row = bank.depth[band]
+    pick = np.take_along_axis(near, np.argmax(row[near], axis=0)[np.newaxis], axis=0)[0]
+    square = row[pick] ** 2
+    noise = square / np.maximum(bank.excess[band][pick], 1e-12)
+    return np.asarray(np.sqrt(np.maximum(square - 3 * noise, 0.0)), dtype=np.float64)
+
+
+def comb_depth(bank: Bank, band: int, base: float, comb: Comb) -> float:
+    """Root of the summed squares of the comb's lines."""
+    places = np.array([k * base + s for k, s, _ in comb.lines()])
+    places = places[(np.abs(places) > 4 * bank.step) & (np.abs(places) < bank.step * (bank.depth.shape[1] - 3))]
+    places = places[np.abs(places - np.rint(places)) > 1.5 * bank.step]
+    return float(np.sqrt(np.sum(line_depths(bank, band, places) ** 2)))
+
+
+def known_orders(orders: FaultOrders) -> tuple[float, ...]:
+    """All base orders."""
+    return orders.outer, orders.inner, orders.ball, orders.cage
+
+
+def find(bank: Bank, orders: FaultOrders, doubt: float = 0.0) -> dict[str, Found]:
+    """Every family; `doubt` (relative, of the speed) widens the search."""
+    values, base = logs(bank), grid(bank)
+    away = away_from(base, known_orders(orders))
+    found = {}
+    for family, comb in combs(orders).items():
+        order = {"outer": orders.outer, "inner": orders.inner, "ball": orders.ball, "cage": orders.cage}[family]
+        if family == "cage":
+            order *= 4  # the cage's own order is below the grid: its fourth harmonic is searched as a base
+        s: Search = search(values, bank.step, base, comb, away)
+        z, at, band = s.near(order, SLIP + doubt)
+        found[family] = Found(
+            family=family,
+            order=at,
+            slip=at / order - 1,
+            band_hz=(float(bank.bands_hz[band, 0]), float(bank.bands_hz[band, 1])),
+            channel=bank.channel[band],
+            z=z,
+            chance=-s.chance(z, away, SLIP + doubt),
+            depth=comb_depth(bank, band, at, comb),
+        )
+    return found
+
+
+def vector(bank: Bank, orders: FaultOrders, doubt: float = 0.0) -> tuple[FloatArray, dict[str, Found]]:
+    """(features in the order of `NAMES`, what was found)."""
+    found = find(bank, orders, doubt)
+    rows = [found[f] for f in FAMILIES]
+    bands = [int(np.flatnonzero((bank.bands_hz[:, 0] == f.band_hz[0]) & (bank.bands_hz[:, 1] == f.band_hz[1]))[0]) for f in rows]
+    side_inner = _side(bank, bands[1], found["inner"].order, 1.0)
+    side_ball = _side(bank, bands[2], found["ball"].order, orders.cage)
+    shaft = np.array([np.sqrt(np.sum(line_depths(bank, b, np.array([1.0, 2.0, 3.0])) ** 2)) for b in range(len(bank.channel))])
+    values = [
+        *(f.chance for f in rows),
+        *(f.z for f in rows),
+        *(_db(f.depth) for f in rows),
+        side_inner,
+        side_ball,
+        _db(float(np.max(shaft))),
+        float(np.log10(max(float(np.max(bank.kurtosis)), 0.0) + 0.1)),
+        float(np.log10(bank.turns)),
+    ]
+    return np.asarray(values, dtype=np.float64), found
+
+
+def _db(depth: float) -> float:
+    return float(np.log10(max(depth, LEAST_DEPTH)))
+
+
+def _side(bank: Bank, band: int, order: float, spacing: float) -> float:
+    """Log ratio of the first sidebands to the carrier over three harmonics."""
+    k = np.arange(1, 4) * order
+    carrier = float(np.sqrt(np.sum(line_depths(bank, band, k) ** 2)))
+    sides = float(np.sqrt(np.sum(line_depths(bank, band, np.concatenate([k - spacing, k + spacing])) ** 2)))
+    return float(np.log10((sides + 0.01) / (carrier + 0.01)))
