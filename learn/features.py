@@ -13,6 +13,10 @@ from signals.series import FloatArray
 
 FAMILIES = ("outer", "inner", "ball", "cage")
 LEAST_DEPTH = 1e-3
+LINE_EXCESS = 14.0
+"""Power over the floor from which a bin is a line: noise passes it in one bin of a million."""
+HANN_BINS = 1.5
+"""A line's power in the bins of a Hann window over that of its peak."""
 NAMES = (
     *(f"chance_{f}" for f in FAMILIES),
     *(f"z_{f}" for f in FAMILIES),
@@ -21,6 +25,8 @@ NAMES = (
     "side_ball",
     "shaft_depth",
     "impulsive",
+    "impulsive_middle",
+    "erratic",
     "log_turns",
 )
 
@@ -113,10 +119,26 @@ def vector(bank: Bank, orders: FaultOrders, doubt: float = 0.0) -> tuple[FloatAr
         side_inner,
         side_ball,
         _db(float(np.max(shaft))),
-        float(np.log10(max(float(np.max(bank.kurtosis)), 0.0) + 0.1)),
+        *impulsiveness(bank),
         float(np.log10(bank.turns)),
     ]
     return np.asarray(values, dtype=np.float64), found
+
+
+def impulsiveness(bank: Bank) -> tuple[float, float, float]:
+    """Log kurtosis of the most impulsive and of the middle band; log of what of the former no line of the envelope makes.
+
+    Squared envelope over its mean m(t) times exponential noise has kurtosis 2 var m; lines of depth d make d^2 / 2 of
+    var m. What is left is impulses without a period.
+    """
+    kurtosis = np.maximum(bank.kurtosis, 0.0)
+    clear = np.where(bank.excess > LINE_EXCESS, bank.depth, 0.0)
+    erratic = np.maximum(0.5 * kurtosis - 0.5 * np.sum(clear**2, axis=1) / HANN_BINS, 0.0)
+    return (
+        float(np.log10(np.max(kurtosis) + 0.1)),
+        float(np.log10(np.median(kurtosis) + 0.1)),
+        float(np.log10(np.max(erratic) + 0.05)),
+    )
 
 
 def _db(depth: float) -> float:

@@ -13,7 +13,7 @@ import numpy as np
 
 from learn.bank import Bank
 from learn.combs import Comb, Search, away_from, grid, logs, search, tail
-from learn.features import comb_depth, line_depths
+from learn.features import comb_depth, impulsiveness, line_depths
 from learn.orders import of_ratio
 from signals.series import FloatArray
 from sim.parts.bearing.catalogue import catalogue
@@ -39,6 +39,7 @@ NAMES = (
     "u_shaft_depth",
     "u_impulsive",
     "u_impulsive_middle",
+    "u_erratic",
     "u_log_turns",
 )
 
@@ -106,7 +107,6 @@ def vector(bank: Bank, doubt: float = 0.0) -> tuple[FloatArray, dict[str, float]
     shaft_side, cage_side = _sides(bank, band, order)
     with_shaft = search(values, bank.step, base, Comb(harmonics=3, spacings=(1.0,)), away)
     shaft = np.array([np.sqrt(np.sum(line_depths(bank, b, np.array([1.0, 2.0, 3.0])) ** 2)) for b in range(bank.depth.shape[0])])
-    kurtosis = np.maximum(bank.kurtosis, 0.0) + 0.1
     depth = comb_depth(bank, band, order, Comb(harmonics=4))
     row = [
         z,
@@ -119,8 +119,7 @@ def vector(bank: Bank, doubt: float = 0.0) -> tuple[FloatArray, dict[str, float]
         second,
         *(_best_within(carriers if f != "inner" else with_shaft, f) for f in ("outer", "inner", "ball")),
         float(np.log10(max(float(np.max(shaft)), 1e-3))),
-        float(np.log10(np.max(kurtosis))),
-        float(np.log10(np.median(kurtosis))),
+        *impulsiveness(bank),
         float(np.log10(bank.turns)),
     ]
     return np.asarray(row, dtype=np.float64), {"order": order, "band": float(band), "z": z}

@@ -39,11 +39,11 @@ def rolling_noise(rng: np.random.Generator, angle_rad: FloatArray, orders: Fault
 
 
 def knocks(rng: np.random.Generator, samples: int, rate_hz: float) -> FloatArray:
-    """Impulses at random times, up to twenty a second, of exponential height, RMS 1, (2, n); in one of five machines."""
+    """Impulses at random times, up to three a second, of exponential height, RMS 1, (2, n); in one of five machines."""
     values = np.zeros((2, samples))
     if rng.random() < 0.8:
         return values
-    count = rng.poisson(log_uniform(rng, 0.2, 20.0) * samples / rate_hz)
+    count = rng.poisson(log_uniform(rng, 0.2, 3.0) * samples / rate_hz)
     if count:
         at = rng.integers(0, samples, count)
         angle = rng.uniform(0, 2 * np.pi)

@@ -25,13 +25,16 @@ from sim.core.spec import (
     SupportSpec,
     TermSpec,
 )
+from sim.parts.bearing.catalogue import catalogue
 
 CLASSES = ("healthy", "outer", "inner", "ball")
-BALLS = (6, 7, 8, 8, 9, 9, 10, 11, 12, 13, 14, 16)
-"""Ball numbers of the batches: lanes of one batch share theirs; eight and nine are the commonest."""
+BALLS = (8, 9, 7, 8, 9, 10, 8, 9, 8, 9, 12, 13)
+"""Ball numbers of the batches: lanes of one batch share theirs; eight and nine are the commonest by far."""
+USUAL = 0.7
+"""Share of bearings with a diameter ratio as a catalogue bearing of as many balls has it, within 2 %."""
 SLOW_HZ, SPLIT_HZ, FAST_HZ = 9.0, 22.0, 62.0
-SLOW_S, FAST_S = 4.0, 2.2
-"""Simulated length below and above the split: forty turns and more."""
+SLOW_S, FAST_S = 3.2, 1.7
+"""Simulated length below and above the split: 27 to 100 turns."""
 GRAVITY_M_PER_S2 = 9.80665
 BEARINGS = ("bearing1", "bearing2")
 
@@ -46,9 +49,15 @@ class Drawn:
 
 
 def _geometry(rng: np.random.Generator, balls: int) -> BallGeometry:
-    """Balls fill 55 to 90 % of the pitch circle: Z asin(d/D) < pi; contact angle 0 or that of an angular contact."""
-    angle = 0.0 if rng.random() < 0.8 else float(rng.uniform(5.0, 30.0))
-    ratio = min(0.32, math.sin(math.pi / balls * rng.uniform(0.55, 0.9)))
+    """Usual ratios, or balls that fill 55 to 90 % of the pitch circle at contact angles of up to 30 degrees."""
+    alike = [r for r in catalogue().values() if r.balls == balls and r.element == "ball"]
+    angle = 0.0
+    if alike and rng.random() < USUAL:
+        one = alike[int(rng.integers(len(alike)))]
+        ratio = one.ball_diameter_m / one.pitch_diameter_m * float(rng.uniform(0.98, 1.02))
+    else:
+        ratio = min(0.3, math.sin(math.pi / balls * rng.uniform(0.55, 0.9)))
+        angle = 0.0 if rng.random() < 0.6 else float(rng.uniform(5.0, 30.0))
     pitch = log_uniform(rng, 0.025, 0.09)
     return BallGeometry(
         balls=balls, ball_diameter_m=ratio * pitch, pitch_diameter_m=pitch, contact_angle_deg=round(angle, 2)
@@ -81,7 +90,7 @@ def _bearing(rng: np.random.Generator, name: str, balls: int, clearance_m: float
 def _nuisance(
     rng: np.random.Generator, bearings: Sequence[BearingSpec], speed_hz: float, load_n: float
 ) -> list[TermSpec]:
-    """What every sound machine has: unbalance and misalignment (forces up to a third of the load, which so keeps the
+    """What every sound machine has: unbalance and misalignment (forces up to half of the load, which so keeps the
     bearings loaded), waves on races, slip of the cage."""
     omega = 2 * math.pi * speed_hz
     offset = log_uniform(rng, 1e-6, 1e-4)
@@ -89,7 +98,7 @@ def _nuisance(
         TermSpec(
             term="unbalance",
             site="disc",
-            parameters={"moment": log_uniform(rng, 1e-3, 0.3) * load_n / omega**2, "phase": float(rng.uniform(0, 6.28))},
+            parameters={"moment": log_uniform(rng, 1e-3, 0.5) * load_n / omega**2, "phase": float(rng.uniform(0, 6.28))},
         ),
         TermSpec(
             term="parallel_misalignment",
@@ -129,11 +138,12 @@ def _fault(rng: np.random.Generator, kind: str, bearing: BearingSpec) -> TermSpe
     return TermSpec(term=f"{kind}_spall", site=bearing.name, parameters=values)
 
 
-def draw(seed: int, index: int, balls: int, fast: bool) -> Drawn:
-    """Machine `index` of a seed: the same whatever else is drawn."""
-    rng = np.random.default_rng([seed, index])
+def draw(seed: int, index: int, balls: int, fast: bool, *, spread: bool = True) -> Drawn:
+    """Machine `index` of a seed: the same whatever else is drawn. Without `spread` all are one machine but for the
+    faults."""
+    rng = np.random.default_rng([seed, index if spread else 0])
     speed = log_uniform(rng, SPLIT_HZ, FAST_HZ) if fast else log_uniform(rng, SLOW_HZ, SPLIT_HZ)
-    clearance = float(rng.uniform(0.0, 8e-6))
+    clearance = float(rng.uniform(-4e-6, 8e-6))
     bearings = [_bearing(rng, name, balls, clearance) for name in BEARINGS]
     mass, push = log_uniform(rng, 1.0, 20.0), log_uniform(rng, 1.0, 3e3)
     load = mass * GRAVITY_M_PER_S2 + push
@@ -149,6 +159,7 @@ def draw(seed: int, index: int, balls: int, fast: bool) -> Drawn:
         operating=OperatingSpec(shaft="input", speed_hz=speed, rotation="geared", profile=profile),
         terms=_nuisance(rng, bearings, speed, load),
     )
+    rng = rng if spread else np.random.default_rng([seed, index])
     faults = [_fault(rng, kind, bearings[0]) for kind in CLASSES[1:]]
     machines = [sound, *(sound.model_copy(update={"terms": [*sound.terms, f]}) for f in faults)]
     return Drawn(

@@ -24,11 +24,21 @@ MOTION_RATE_HZ = 48_000.0
 SETTLED_S = 0.15
 OUTPUTS = ("bearing1.outer.x.acceleration", "bearing1.outer.y.acceleration")
 PER_BATCH = 2
+SINGLE = 13
+"""Batch whose kind of machine stands for all where nothing is spread: nine balls, above 22 Hz."""
 STILL = 1e-6
 """RMS acceleration, m/s^2, below which the measured bearing carries nothing."""
 BANDS = 16
-SHOWS = 0.1
+SHOWS = 0.3
 """Share that the fault's own power must have in some band over what the sound machine and the noise have there."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Variant:
+    """What of the recipe is switched on: the measurement chain (with what real bearings add), the spread of machines."""
+
+    chain: bool = True
+    spread: bool = True
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,17 +55,20 @@ class Row:
     clear_db: float
 
 
+FULL = Variant()
+
+
 def batch_plan(index: int) -> tuple[int, bool]:
     """(balls, fast) of batch `index`."""
     return BALLS[index % len(BALLS)], (index // len(BALLS)) % 3 != 0
 
 
-def rows(seed: int, batches: Sequence[int], *, chain: bool = True) -> Iterator[Row]:
-    """Rows of these batches of two machines; `chain` False: the ring's motion itself."""
+def rows(seed: int, batches: Sequence[int], variant: Variant = FULL) -> Iterator[Row]:
+    """Rows of these batches of two machines."""
     for batch in batches:
-        balls, fast = batch_plan(batch)
+        balls, fast = batch_plan(batch if variant.spread else SINGLE)
         numbers = [PER_BATCH * batch + k for k in range(PER_BATCH)]
-        drawn = [draw(seed, n, balls, fast) for n in numbers]
+        drawn = [draw(seed, n, balls, fast, spread=variant.spread) for n in numbers]
         members = [Member(machine=m, seed=d.seed) for d in drawn for m in d.machines]
         found = simulate_many(
             members,
@@ -68,7 +81,7 @@ def rows(seed: int, batches: Sequence[int], *, chain: bool = True) -> Iterator[R
             four = found[len(CLASSES) * k : len(CLASSES) * (k + 1)]
             responses = [r for r in four if isinstance(r, Response)]
             if len(responses) == len(CLASSES):
-                yield from _measured(number, one, responses, np.random.default_rng([seed, number, 1]), chain)
+                yield from _measured(number, one, responses, np.random.default_rng([seed, number, 1]), variant.chain)
 
 
 def _measured(
