@@ -28,10 +28,11 @@ def rolling_noise(rng: np.random.Generator, angle_rad: FloatArray, orders: Fault
     """Noise of rough surfaces in rolling, RMS 1, (2, n): its level follows load and passing balls.
 
     Rough contact gives noise whose power is periodic (J. Antoni and R. B. Randall, J. Vib. Acoust. 125 (2003)
-    282-289), so sound bearings show weak lines at their own orders too.
+    282-289), so sound bearings show weak lines at their own orders too; one line of something else beside them.
     """
     level = np.ones(angle_rad.size)
-    for order, most in ((1.0, 0.5), (2.0, 0.3), (orders.outer, 0.2), (orders.inner, 0.15), (orders.cage, 0.15)):
+    foreign = (log_uniform(rng, 0.5, 12.0), 0.15)
+    for order, most in (foreign, (1.0, 0.5), (2.0, 0.3), (orders.outer, 0.2), (orders.inner, 0.15), (orders.cage, 0.15)):
         phase = rng.uniform(0, 2 * np.pi)
         level += log_uniform(rng, 0.003, most) * np.cos(order * angle_rad + phase)
     noise = rng.standard_normal((2, angle_rad.size)) * np.sqrt(np.maximum(level, 0.0))
@@ -64,7 +65,7 @@ def free_axis(
     """
     samples = fault.shape[1]
     inside = 3.0 * smooth_walk(rng, samples, rate_hz, log_uniform(rng, 0.02, 1.0)) + rng.uniform(-2.0, 5.0)
-    shift_s = log_uniform(rng, 0.003, 0.5) / spin_hz * smooth_walk(rng, samples, rate_hz, 1.0 / cage_hz)
+    shift_s = log_uniform(rng, 0.01, 1.0) / spin_hz * smooth_walk(rng, samples, rate_hz, 1.0 / cage_hz)
     at = np.arange(samples) + shift_s * rate_hz
     moved = np.stack([np.interp(at, np.arange(samples), row) for row in fault])
     return np.asarray(moved / (1.0 + np.exp(-inside)), dtype=np.float64)

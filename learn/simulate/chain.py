@@ -1,8 +1,8 @@
 """The way from the bearing's ring to the recorder, drawn widely: structure, fastening, noise, hum, filter, converter.
 
 Ranges: resonances of housings and fastenings between 0.6 and 20 kHz with damping ratios of 0.5 to 8 % (Harris' Shock and
-Vibration Handbook, 5th ed. 2002, ch. 12; Ewins, Modal Testing, 2nd ed. 2000); noise from 40 dB below to 26 dB above what
-the sound machine moves.
+Vibration Handbook, 5th ed. 2002, ch. 12; Ewins, Modal Testing, 2nd ed. 2000); noise from 40 dB below to 26 dB above
+the level that background is drawn around.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def _path(rng: np.random.Generator, top_hz: float) -> dict[str, object]:
 
 
 def drawn_chain(rng: np.random.Generator, rms: float, rate_hz: float) -> SensorChain:
-    """A chain for a motion of that RMS (m/s^2), recorded at `rate_hz`."""
+    """A chain for motion of about that RMS (m/s^2), recorded at `rate_hz`."""
     top = 0.42 * rate_hz
     noise_rms = rms * log_uniform(rng, 0.01, 20.0)
     full = RMS_RANGE_V * (rms + noise_rms) * 8.0

@@ -96,8 +96,9 @@ def _measured(
     orders = from_geometry(geometry_from_spec(drawn.machines[0].bearings[0]))
     rate = float(rng.choice(RATES_HZ)) if chain else MOTION_RATE_HZ
     if chain:
-        motions = _in_life(motions, orders, operating.speed_hz, rms, rng)
-        links = drawn_chain(rng, rms, rate)
+        level = _level(motions, rms, rng)
+        motions = _in_life(motions, orders, operating.speed_hz, level, rng)
+        links = drawn_chain(rng, level, rate)
         recorded = [measure(motion, links, seed=drawn.seed).recording.samples[0] for motion in motions]
     else:
         recorded = [motion.recording.samples[1] for motion in motions]
@@ -118,14 +119,23 @@ def _measured(
         )
 
 
+def _level(motions: Sequence[Motion], rms: float, rng: np.random.Generator) -> float:
+    """Level that background and noise are drawn around, m/s^2: between what the sound machine moves and what the
+    faults add (their median), so that clear and buried faults are both common."""
+    sound = motions[0].recording.samples
+    added = float(np.median([np.std(m.recording.samples - sound) for m in motions[1:]]))
+    share = rng.random()
+    return float(rms ** (1 - share) * max(added, rms) ** share)
+
+
 def _in_life(
-    motions: Sequence[Motion], orders: FaultOrders, speed_hz: float, rms: float, rng: np.random.Generator
+    motions: Sequence[Motion], orders: FaultOrders, speed_hz: float, level: float, rng: np.random.Generator
 ) -> list[Motion]:
     """The same background for all four; the ball's spall on a ball whose axis is free."""
     sound = motions[0].recording.samples
     angle = motions[0].angle_rad("input")
-    ground = rms * log_uniform(rng, 0.03, 3.0) * rolling_noise(rng, angle, orders)
-    ground = ground + rms * log_uniform(rng, 0.1, 3.0) * knocks(rng, sound.shape[1], MOTION_RATE_HZ)
+    ground = level * log_uniform(rng, 0.03, 3.0) * rolling_noise(rng, angle, orders)
+    ground = ground + level * log_uniform(rng, 0.1, 3.0) * knocks(rng, sound.shape[1], MOTION_RATE_HZ)
     found = []
     for label, motion in zip(CLASSES, motions, strict=True):
         added = motion.recording.samples - sound
