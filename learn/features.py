@@ -1,4 +1,8 @@
-"""Features where the bearing's geometry is known: how each family of lines stands out, by chance and by depth."""
+"""Features where the bearing's geometry is known: how each family of lines stands out, by chance and by depth.
+
+Left out on purpose: levels in any unit, the length of the recording, and lines of the shaft, which sound machines have
+of every height.
+"""
 
 from __future__ import annotations
 
@@ -23,11 +27,9 @@ NAMES = (
     *(f"depth_{f}" for f in FAMILIES),
     "side_inner",
     "side_ball",
-    "shaft_depth",
     "impulsive",
     "impulsive_middle",
     "erratic",
-    "log_turns",
 )
 
 
@@ -38,6 +40,8 @@ class Found:
     family: str
     order: float
     slip: float
+    band: int
+    """Number in the bank."""
     band_hz: tuple[float, float]
     channel: int
     z: float
@@ -95,6 +99,7 @@ def find(bank: Bank, orders: FaultOrders, doubt: float = 0.0) -> dict[str, Found
             family=family,
             order=at,
             slip=at / order - 1,
+            band=band,
             band_hz=(float(bank.bands_hz[band, 0]), float(bank.bands_hz[band, 1])),
             channel=bank.channel[band],
             z=z,
@@ -108,19 +113,15 @@ def vector(bank: Bank, orders: FaultOrders, doubt: float = 0.0) -> tuple[FloatAr
     """(features in the order of `NAMES`, what was found)."""
     found = find(bank, orders, doubt)
     rows = [found[f] for f in FAMILIES]
-    bands = [int(np.flatnonzero((bank.bands_hz[:, 0] == f.band_hz[0]) & (bank.bands_hz[:, 1] == f.band_hz[1]))[0]) for f in rows]
-    side_inner = _side(bank, bands[1], found["inner"].order, 1.0)
-    side_ball = _side(bank, bands[2], found["ball"].order, orders.cage)
-    shaft = np.array([np.sqrt(np.sum(line_depths(bank, b, np.array([1.0, 2.0, 3.0])) ** 2)) for b in range(len(bank.channel))])
+    side_inner = _side(bank, found["inner"].band, found["inner"].order, 1.0)
+    side_ball = _side(bank, found["ball"].band, found["ball"].order, orders.cage)
     values = [
         *(f.chance for f in rows),
         *(f.z for f in rows),
         *(_db(f.depth) for f in rows),
         side_inner,
         side_ball,
-        _db(float(np.max(shaft))),
         *impulsiveness(bank),
-        float(np.log10(bank.turns)),
     ]
     return np.asarray(values, dtype=np.float64), found
 

@@ -37,7 +37,7 @@ def fit_head(
 ) -> Head:
     """Networks on everything, each from another start; the temperature from machines left out in turn."""
     kinds = np.array([classes.index(x) for x in labels])
-    owner = np.asarray(machines)
+    owner = np.unique(np.asarray(machines), return_inverse=True)[1]
     mean, scale = np.mean(rows, axis=0), np.maximum(np.std(rows, axis=0), LEAST_SCALE)
     z = np.clip((rows - mean) / scale, -CLIP, CLIP)
     weights = _balanced(kinds, len(classes))

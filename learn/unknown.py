@@ -36,11 +36,9 @@ NAMES = (
     "u_z_outer",
     "u_z_inner",
     "u_z_ball",
-    "u_shaft_depth",
     "u_impulsive",
     "u_impulsive_middle",
     "u_erratic",
-    "u_log_turns",
 )
 
 
@@ -106,7 +104,6 @@ def vector(bank: Bank, doubt: float = 0.0) -> tuple[FloatArray, dict[str, float]
     second, _, _ = strongest(bank, carriers, taken=order)
     shaft_side, cage_side = _sides(bank, band, order)
     with_shaft = search(values, bank.step, base, Comb(harmonics=3, spacings=(1.0,)), away)
-    shaft = np.array([np.sqrt(np.sum(line_depths(bank, b, np.array([1.0, 2.0, 3.0])) ** 2)) for b in range(bank.depth.shape[0])])
     depth = comb_depth(bank, band, order, Comb(harmonics=4))
     row = [
         z,
@@ -118,9 +115,7 @@ def vector(bank: Bank, doubt: float = 0.0) -> tuple[FloatArray, dict[str, float]
         float(np.max(with_shaft.best[near])),
         second,
         *(_best_within(carriers if f != "inner" else with_shaft, f) for f in ("outer", "inner", "ball")),
-        float(np.log10(max(float(np.max(shaft)), 1e-3))),
         *impulsiveness(bank),
-        float(np.log10(bank.turns)),
     ]
     return np.asarray(row, dtype=np.float64), {"order": order, "band": float(band), "z": z}
 

@@ -22,6 +22,8 @@ from signals.series import FloatArray
 WINDOW_TURNS = 10.0
 MIDDLE_TURNS = (15.0, 40.0)
 WINDOWS = 2
+PARTS = 8
+"""Shares of the machines that processes take in turn."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,10 +46,10 @@ def pieces(row: Row) -> list[FloatArray]:
     return [row.samples, *(row.samples[s : s + short] for s in starts), row.samples[:medium]]
 
 
-def batch_table(batch: int, seed: int, variant: Variant) -> list[tuple[FloatArray, FloatArray, str, int, bool]]:
-    """Features of one batch of machines."""
+def part_table(part: int, count: int, seed: int, variant: Variant) -> list[tuple[FloatArray, FloatArray, str, int, bool]]:
+    """Features of one share of the machines."""
     found = []
-    for row in rows(seed, [batch], variant):
+    for row in rows(count, seed, part, PARTS, variant):
         for place, piece in enumerate(pieces(row)):
             spectra = bank([piece], row.rate_hz, row.speed_hz)
             known, _ = features.vector(spectra, row.orders)
@@ -56,17 +58,17 @@ def batch_table(batch: int, seed: int, variant: Variant) -> list[tuple[FloatArra
     return found
 
 
-def table(seed: int, batches: Sequence[int], variant: Variant, processes: int = 2) -> Table:
-    """Features of all batches; the same whatever the number of processes."""
-    work = partial(batch_table, seed=seed, variant=variant)
+def table(count: int, seed: int, variant: Variant, processes: int = 2, parts: Sequence[int] = range(PARTS)) -> Table:
+    """Features of a dataset of about `count` machines; the same whatever the number of processes."""
+    work = partial(part_table, count=count, seed=seed, variant=variant)
     if processes > 1:
         os.environ.setdefault("OMP_NUM_THREADS", "1")
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
-            parts = list(pool.map(work, batches))
+            shares = list(pool.map(work, parts))
     else:
-        parts = [work(batch) for batch in batches]
-    flat = [one for part in parts for one in part]
+        shares = [work(part) for part in parts]
+    flat = [one for share in shares for one in share]
     return Table(
         known=np.stack([one[0] for one in flat]),
         unknown=np.stack([one[1] for one in flat]),

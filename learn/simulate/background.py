@@ -9,6 +9,8 @@ import math
 
 import numpy as np
 
+from scipy.interpolate import CubicSpline
+
 from learn.orders import FaultOrders
 from signals.series import FloatArray
 
@@ -69,3 +71,11 @@ def free_axis(
     at = np.arange(samples) + shift_s * rate_hz
     moved = np.stack([np.interp(at, np.arange(samples), row) for row in fault])
     return np.asarray(moved / (1.0 + np.exp(-inside)), dtype=np.float64)
+
+
+def warped(samples: FloatArray, rate_hz: float, share: float, step_s: float, seed: int) -> FloatArray:
+    """Samples (c, n) of a machine whose speed wanders by the RMS `share`, with knots every `step_s`."""
+    count = samples.shape[1]
+    speed = share * smooth_walk(np.random.default_rng(seed), count, rate_hz, step_s)
+    at = np.clip(np.arange(count) + np.cumsum(speed - np.mean(speed)), 0, count - 1)
+    return np.asarray(CubicSpline(np.arange(count), samples, axis=1)(at), dtype=np.float64)

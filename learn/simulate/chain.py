@@ -38,10 +38,16 @@ def drawn_chain(rng: np.random.Generator, rms: float, rate_hz: float) -> SensorC
     top = 0.42 * rate_hz
     noise_rms = rms * log_uniform(rng, 0.01, 20.0)
     full = RMS_RANGE_V * (rms + noise_rms) * 8.0
+    direction = math.radians(rng.uniform(30.0, 150.0))
     channel = {
         "kind": "accelerometer",
         "name": CHANNEL,
-        "place": {"location": "bearing1.outer", "direction_deg": float(rng.uniform(30.0, 150.0))},
+        "place": {
+            "mix": [
+                {"channel": "ring.x.acceleration", "factor": math.cos(direction)},
+                {"channel": "ring.y.acceleration", "factor": math.sin(direction)},
+            ]
+        },
         "path": _path(rng, top),
         "mounting": {"frequency_hz": log_uniform(rng, 4e3, 30e3), "damping_ratio": log_uniform(rng, 0.03, 0.15)},
         "noise": {

@@ -1,169 +1,185 @@
-"""Bearing machines drawn over wide ranges: sizes, stiffnesses, loads, speeds, healthy nuisance, one fault.
+"""The Sideband dataset behind the classifier: recipes of bearing machines drawn over wide ranges, four recordings each.
 
-A machine is drawn once and simulated four times: sound, and with a spall on the outer race, the inner race and a ball.
-So the four differ by the fault alone, and what the fault adds at the sensor is known (`visible`).
+Every machine is recorded sound and with a spall on the outer race, the inner race and a ball. Speed, load, sizes,
+stiffnesses and what is never perfect in a sound machine differ from machine to machine only, so the four recordings
+of one machine differ by the fault alone. No chain is in the recipe: the ring's motion is kept, and heard in `hearing`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
-import numpy as np
-
-from learn.simulate.background import log_uniform
+from sideband_datasets import Recipe, read_recipe
 from sim.core.spec import (
     BallGeometry,
     BearingSpec,
     BodySpec,
-    FluctuatingSpeed,
-    ForceLoad,
     MachineSpec,
     OperatingSpec,
     ShaftSpec,
     SupportSpec,
-    TermSpec,
 )
-from sim.parts.bearing.catalogue import catalogue
+from sim.parts.bearing.catalogue import CatalogueRow, catalogue
 
 CLASSES = ("healthy", "outer", "inner", "ball")
-BALLS = (8, 9, 7, 8, 9, 10, 8, 9, 8, 9, 12, 13)
-"""Ball numbers of the batches: lanes of one batch share theirs; eight and nine are the commonest by far."""
-USUAL = 0.7
-"""Share of bearings with a diameter ratio as a catalogue bearing of as many balls has it, within 2 %."""
-SLOW_HZ, SPLIT_HZ, FAST_HZ = 9.0, 22.0, 62.0
-SLOW_S, FAST_S = 3.2, 1.7
-"""Simulated length below and above the split: 27 to 100 turns."""
-GRAVITY_M_PER_S2 = 9.80665
+FAULTS = CLASSES[1:]
 BEARINGS = ("bearing1", "bearing2")
+RATE_HZ = 48_000.0
+SETTLE_S = 0.15
+SLOW_HZ, SPLIT_HZ, FAST_HZ = 9.0, 22.0, 62.0
+SLOW_S, FAST_S = 3.0, 1.6
+"""Length of a recording below and above the split: 27 to 100 turns."""
+UNUSUAL = ((6, 0.28, 0.0), (7, 0.25, 20.0), (8, 0.28, 0.0), (9, 0.18, 15.0), (10, 0.24, 0.0), (11, 0.2, 25.0),
+           (12, 0.19, 0.0), (13, 0.16, 15.0), (14, 0.17, 0.0), (16, 0.13, 12.0))  # fmt: skip
+"""Beside the catalogue: balls, diameter ratio, contact angle (degrees)."""
+PITCH_M = 0.045
+RARE = 0.35
+"""Machines of each unusual geometry, relative to those of a catalogue size."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Drawn:
-    """One machine: four specifications in the order of `CLASSES`, the spall's arc of each fault in rad."""
+class Bearings:
+    """Bearings of one family: sizes of the catalogue with as many balls, or one free geometry."""
 
-    machines: tuple[MachineSpec, ...]
-    widths_m: tuple[float, ...]
-    seed: int
-
-
-def _geometry(rng: np.random.Generator, balls: int) -> BallGeometry:
-    """Usual ratios, or balls that fill 55 to 90 % of the pitch circle at contact angles of up to 30 degrees."""
-    alike = [r for r in catalogue().values() if r.balls == balls and r.element == "ball"]
-    angle = 0.0
-    if alike and rng.random() < USUAL:
-        one = alike[int(rng.integers(len(alike)))]
-        ratio = one.ball_diameter_m / one.pitch_diameter_m * float(rng.uniform(0.98, 1.02))
-    else:
-        ratio = min(0.3, math.sin(math.pi / balls * rng.uniform(0.55, 0.9)))
-        angle = 0.0 if rng.random() < 0.6 else float(rng.uniform(5.0, 30.0))
-    pitch = log_uniform(rng, 0.025, 0.09)
-    return BallGeometry(
-        balls=balls, ball_diameter_m=ratio * pitch, pitch_diameter_m=pitch, contact_angle_deg=round(angle, 2)
-    )
+    name: str
+    sizes: tuple[str, ...] = ()
+    geometry: BallGeometry | None = None
+    share: float = 1.0
+    """How many machines, relative to the other families."""
 
 
-def _bearing(rng: np.random.Generator, name: str, balls: int, clearance_m: float) -> BearingSpec:
-    mass, stiffness = log_uniform(rng, 0.1, 2.0), log_uniform(rng, 2e7, 4e8)
-    ratio = log_uniform(rng, 0.6, 1.6)
-    damping = 2 * log_uniform(rng, 0.02, 0.15) * math.sqrt(stiffness * mass)
+@cache
+def families() -> tuple[Bearings, ...]:
+    """Catalogue bearings by number of balls, as common as the catalogue has them, then unusual ones."""
+    rows: dict[int, list[CatalogueRow]] = {}
+    for row in catalogue().values():
+        if row.element == "ball" and row.contact_angle_rad == 0.0:
+            rows.setdefault(row.balls, []).append(row)
+    usual = [
+        Bearings(name=f"usual{z}", sizes=tuple(sorted(r.designation for r in found)), share=float(len(found)))
+        for z, found in sorted(rows.items())
+    ]
+    free = [
+        Bearings(
+            name=f"free{k}",
+            geometry=BallGeometry(
+                balls=z, ball_diameter_m=ratio * PITCH_M, pitch_diameter_m=PITCH_M, contact_angle_deg=angle
+            ),
+            share=RARE,
+        )
+        for k, (z, ratio, angle) in enumerate(UNUSUAL)
+    ]
+    return (*usual, *free)
+
+
+def _bearing(name: str, kind: Bearings) -> BearingSpec:
     return BearingSpec(
         name=name,
         body="disc",
-        geometry=_geometry(rng, balls),
-        radial_clearance_m=clearance_m + float(rng.uniform(-1e-6, 1e-6)),
-        inner_mass_kg=log_uniform(rng, 0.03, 0.3),
-        outer_mass_kg=mass,
-        shaft_stiffness_n_per_m=log_uniform(rng, 3e7, 4e8),
-        shaft_damping_ns_per_m=log_uniform(rng, 200.0, 2e3),
-        cage_phase_rad=float(rng.uniform(0, 2 * math.pi)),
+        catalogue=kind.sizes[0] if kind.sizes else None,
+        geometry=kind.geometry,
+        inner_mass_kg=0.1,
+        outer_mass_kg=0.5,
+        shaft_stiffness_n_per_m=1e8,
+        shaft_damping_ns_per_m=600.0,
         support=SupportSpec(
-            stiffness_x_n_per_m=stiffness,
-            stiffness_y_n_per_m=stiffness * ratio,
-            damping_x_ns_per_m=damping,
-            damping_y_ns_per_m=damping,
+            stiffness_x_n_per_m=1e8, stiffness_y_n_per_m=1e8, damping_x_ns_per_m=1e3, damping_y_ns_per_m=1e3
         ),
     )
 
 
-def _nuisance(
-    rng: np.random.Generator, bearings: Sequence[BearingSpec], speed_hz: float, load_n: float
-) -> list[TermSpec]:
-    """What every sound machine has: unbalance and misalignment (forces up to half of the load, which so keeps the
-    bearings loaded), waves on races, slip of the cage."""
-    omega = 2 * math.pi * speed_hz
-    offset = log_uniform(rng, 1e-6, 1e-4)
-    terms = [
-        TermSpec(
-            term="unbalance",
-            site="disc",
-            parameters={"moment": log_uniform(rng, 1e-3, 0.5) * load_n / omega**2, "phase": float(rng.uniform(0, 6.28))},
-        ),
-        TermSpec(
-            term="parallel_misalignment",
-            site="input",
-            parameters={
-                "offset": offset,
-                "stiffness": log_uniform(rng, 1e-3, 0.3) * load_n / offset,
-                "odd": float(rng.uniform(0, 0.6)),
-                "phase": float(rng.uniform(0, 6.28)),
-            },
-        ),
-    ]
-    for bearing in bearings:
-        for term in ("outer_waviness", "inner_waviness"):
-            values = {
-                "amplitude": log_uniform(rng, 3e-9, 5e-7),
-                "order": float(rng.integers(2, 60)),
-                "phase": float(rng.uniform(0, 6.28)),
-            }
-            terms.append(TermSpec(term=term, site=bearing.name, parameters=values))
-        share = float(rng.uniform(0.0, 0.02))
-        terms.append(TermSpec(term="cage_slip", site=bearing.name, parameters={"share": share}))
-    return terms
-
-
-def _fault(rng: np.random.Generator, kind: str, bearing: BearingSpec) -> TermSpec:
-    """A spall 0.15 to 4 mm long; on the outer race within 70 degrees of the load."""
-    assert bearing.geometry is not None and bearing.geometry.ball_diameter_m is not None
-    ball = bearing.geometry.ball_diameter_m
-    longest = min(4e-3, 0.35 * ball)
-    angle = -math.pi / 2 + rng.uniform(-1.2, 1.2) if kind == "outer" else rng.uniform(0, 6.28)
-    values = {
-        "width": log_uniform(rng, 1.5e-4, longest),
-        "depth": log_uniform(rng, 3e-5, min(5e-4, 0.2 * ball)),
-        "angle": float(angle),
-    }
-    return TermSpec(term=f"{kind}_spall", site=bearing.name, parameters=values)
-
-
-def draw(seed: int, index: int, balls: int, fast: bool, *, spread: bool = True) -> Drawn:
-    """Machine `index` of a seed: the same whatever else is drawn. Without `spread` all are one machine but for the
-    faults."""
-    rng = np.random.default_rng([seed, index if spread else 0])
-    speed = log_uniform(rng, SPLIT_HZ, FAST_HZ) if fast else log_uniform(rng, SLOW_HZ, SPLIT_HZ)
-    clearance = float(rng.uniform(-4e-6, 8e-6))
-    bearings = [_bearing(rng, name, balls, clearance) for name in BEARINGS]
-    mass, push = log_uniform(rng, 1.0, 20.0), log_uniform(rng, 1.0, 3e3)
-    load = mass * GRAVITY_M_PER_S2 + push
-    wander = log_uniform(rng, 1e-4, 4e-3)
-    profile = FluctuatingSpeed(random_rms=wander, correlation_s=log_uniform(rng, 0.1, 2.0))
-    sound = MachineSpec(
-        name="drawn",
+def machine(kind: Bearings) -> MachineSpec:
+    """A disc on a shaft in two bearings under a radial load."""
+    return MachineSpec(
+        name=kind.name,
         shafts=[ShaftSpec(name="input", length_m=0.3)],
-        bodies=[BodySpec(name="disc", mass_kg=mass, shaft="input", axes="xy")],
-        bearings=bearings,
-        loads=[ForceLoad(body="disc", axis="y", constant_n=-push)],
-        gravity_m_per_s2=GRAVITY_M_PER_S2,
-        operating=OperatingSpec(shaft="input", speed_hz=speed, rotation="geared", profile=profile),
-        terms=_nuisance(rng, bearings, speed, load),
+        bodies=[BodySpec(name="disc", mass_kg=5.0, shaft="input", axes="xy")],
+        bearings=[_bearing(name, kind) for name in BEARINGS],
+        gravity_m_per_s2=9.80665,
+        operating=OperatingSpec(shaft="input", speed_hz=30.0, rotation="geared"),
     )
-    rng = rng if spread else np.random.default_rng([seed, index])
-    faults = [_fault(rng, kind, bearings[0]) for kind in CLASSES[1:]]
-    machines = [sound, *(sound.model_copy(update={"terms": [*sound.terms, f]}) for f in faults)]
-    return Drawn(
-        machines=tuple(machines),
-        widths_m=(0.0, *(f.parameters["width"] for f in faults)),
-        seed=int(rng.integers(2**31)),
+
+
+def _log(low: float, high: float) -> dict[str, object]:
+    return {"low": low, "high": high, "scale": "log"}
+
+
+def vary(kind: Bearings, *, fast: bool) -> dict[str, object]:
+    """What differs from machine to machine. Gravity stands for any radial load (belts, weights, neighbours), clearance
+    below zero for preload, under which all balls carry and a defect is struck alike wherever it stands."""
+    found: dict[str, object] = {
+        "operating.speed_hz": _log(SPLIT_HZ, FAST_HZ) if fast else _log(SLOW_HZ, SPLIT_HZ),
+        "gravity_m_per_s2": _log(9.8, 100.0),
+        "bodies.disc.mass_kg": _log(1.0, 20.0),
+        "unbalance@disc.moment": _log(1e-6, 5e-4),
+        "parallel_misalignment@input.offset": _log(1e-6, 1e-5),
+        "parallel_misalignment@input.stiffness": _log(1e4, 1e6),
+        "parallel_misalignment@input.odd": {"low": 0.0, "high": 0.6},
+    }
+    for name in BEARINGS:
+        at = f"bearings.{name}"
+        if kind.sizes:
+            found[f"{at}.catalogue"] = {"choices": list(kind.sizes)}
+        found |= {
+            f"{at}.radial_clearance_m": {"low": -8e-6, "high": 7e-6},
+            f"{at}.inner_mass_kg": _log(0.03, 0.3),
+            f"{at}.outer_mass_kg": _log(0.1, 2.0),
+            f"{at}.shaft_stiffness_n_per_m": _log(3e7, 4e8),
+            f"{at}.shaft_damping_ns_per_m": _log(200.0, 2e3),
+            f"{at}.cage_phase_rad": {"low": 0.0, "high": 6.28},
+            f"{at}.support.stiffness_x_n_per_m": _log(2e7, 4e8),
+            f"{at}.support.stiffness_y_n_per_m": _log(2e7, 4e8),
+            f"{at}.support.damping_x_ns_per_m": _log(200.0, 5e3),
+            f"{at}.support.damping_y_ns_per_m": _log(200.0, 5e3),
+            f"cage_slip@{name}.share": {"low": 0.0, "high": 0.02},
+        }
+        for term in ("outer_waviness", "inner_waviness"):
+            found[f"{term}@{name}.amplitude"] = _log(3e-9, 5e-7)
+            found[f"{term}@{name}.order"] = {"choices": [float(k) for k in range(2, 60)]}
+    return found
+
+
+def _fault(name: str) -> dict[str, object]:
+    """A spall 0.15 to 3 mm long; on the outer race within 70 degrees of the load."""
+    angle = {"low": -math.pi / 2 - 1.2, "high": -math.pi / 2 + 1.2} if name == "outer" else {"low": 0.0, "high": 6.28}
+    longest = 2e-3 if name == "ball" else 3e-3
+    values = {"width": _log(1.5e-4, longest), "depth": _log(3e-5, 4e-4), "angle": angle}
+    return {"name": name, "terms": [{"term": f"{name}_spall", "sites": [BEARINGS[0]], "parameters": values}]}
+
+
+def recipe(count: int, *, fast: bool, seed: int = 0, spread: bool = True) -> Recipe:
+    """`count` machines and four recordings of each; without `spread` all are one machine but for their faults."""
+    kinds = families() if spread else tuple(f for f in families() if f.name == "usual9")
+    total = sum(f.share for f in kinds)
+    members = [
+        {
+            "name": kind.name,
+            "machine": machine(kind).model_dump(mode="json"),
+            "vary": vary(kind, fast=fast) if spread else {"operating.speed_hz": {"low": 29.0, "high": 31.0}},
+            "instances": max(1, round(count * kind.share / total)),
+        }
+        for kind in kinds
+    ]
+    built = sum(int(m["instances"]) for m in members)  # type: ignore[call-overload]
+    ring = [
+        {"kind": "accelerometer", "name": axis, "place": {"location": f"{BEARINGS[0]}.outer", "direction_deg": angle}}
+        for axis, angle in (("x", 0.0), ("y", 90.0))
+    ]
+    return read_recipe(
+        {
+            "name": "bearings-fast" if fast else "bearings-slow",
+            "seed": seed,
+            "count": len(CLASSES) * built,
+            "machines": members,
+            "faults": [_fault(name) for name in FAULTS],
+            "healthy_share": 1 / len(CLASSES),
+            "measurement": [{"name": "ring", "chain": {"channels": ring}}],
+            "sampling_rate_hz": RATE_HZ,
+            "duration_s": FAST_S if fast else SLOW_S,
+            "settle_s": SETTLE_S,
+            "peaks": {"spectra": []},
+            "splits": {"train": 1.0},
+        }
     )
