@@ -12,6 +12,7 @@ from learn.bank import MIN_TURNS, Bank, bank
 from learn.features import Found
 from learn.model import Head, Model
 from learn.orders import FaultOrders
+from learn.severity import severity_index
 from learn.speed import Speed, candidates
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
@@ -36,6 +37,8 @@ class Assessment:
     stretches: int
     turns: float
     geometry: str
+    severity: float | None
+    """Index of `learn.severity`, mean over the stretches, where a race is named; higher is longer."""
 
 
 def assess(
@@ -55,16 +58,26 @@ def assess(
         rows.append(_row(spectra, orders, doubt))
         shown.append(spectra)
     p = pooled(head, np.stack([r[0] for r in rows]))
-    strongest = int(np.argmax([r[1].get("z", 0.0) if orders is None else max(f.z for f in r[2].values()) for r in rows]))
+    label = head.classes[int(np.argmax(p))]
+    strongest = int(
+        np.argmax([r[1].get("z", 0.0) if orders is None else max(f.z for f in r[2].values()) for r in rows])
+    )
     return Assessment(
-        label=head.classes[int(np.argmax(p))],
+        label=label,
         probabilities=dict(zip(head.classes, (float(x) for x in p), strict=True)),
         found=rows[strongest][2],
         comb=rows[strongest][1],
         stretches=len(parts),
         turns=sum(s.turns for s in shown),
         geometry="known" if orders is not None else "unknown",
+        severity=_severity(shown, [r[2] for r in rows], label),
     )
+
+
+def _severity(shown: Sequence[Bank], found: Sequence[dict[str, Found]], label: str) -> float | None:
+    values = [severity_index(s, f[label]) for s, f in zip(shown, found, strict=True) if label in f]
+    told = [v for v in values if v is not None]
+    return float(np.mean(told)) if told else None
 
 
 def estimated(
@@ -89,9 +102,11 @@ def estimated(
     return best[1]
 
 
-def _row(spectra: Bank, orders: FaultOrders | None, doubt: float) -> tuple[FloatArray, dict[str, float], dict[str, Found]]:
+def _row(
+    spectra: Bank, orders: FaultOrders | None, doubt: float
+) -> tuple[FloatArray, dict[str, float], dict[str, Found]]:
     if orders is None:
-        row, comb = unknown.vector(spectra, doubt)
+        row, comb = unknown.vector(spectra)
         return row, comb, {}
     row, found = features.vector(spectra, orders, doubt)
     return row, {}, found
@@ -111,9 +126,7 @@ def stretches(channels: Sequence[FloatArray], rate_hz: float, speed_hz: float) -
     if turns < MIN_TURNS:
         allowed = f"at least {MIN_TURNS / speed_hz:.3g}"
         raise SpecError(
-            Problem(
-                field="samples", message="are too few turns", given=samples / rate_hz, allowed=allowed, unit="s"
-            )
+            Problem(field="samples", message="are too few turns", given=samples / rate_hz, allowed=allowed, unit="s")
         )
     count = min(max(1, int(np.ceil(turns / LONGEST_TURNS))), MOST_STRETCHES)
     length = min(samples // count, int(LONGEST_TURNS * rate_hz / speed_hz))

@@ -1,8 +1,8 @@
 """Envelope spectra of a recording in many bands, over orders of the shaft: what every feature is read from.
 
 Each channel is whitened (so strong stationary lines and resonances count alike, as in cepstral pre-whitening:
-Borghesani et al., Mech. Syst. Signal Process. 36 (2013) 370-384), cut into bands of a tree, and the squared envelope of each
-band is taken at equal angles. Two numbers a bin: power over the local floor (exponential in noise, whatever the
+Borghesani et al., Mech. Syst. Signal Process. 36 (2013) 370-384), cut into bands of a tree, and the squared envelope of
+each band is taken at equal angles. Two numbers a bin: power over the local floor (exponential in noise, whatever the
 length) and depth, the amplitude over the mean squared envelope (no gain, no path enters). Channels are more bands.
 """
 
@@ -63,7 +63,7 @@ def bank(channels: Sequence[FloatArray], rate_hz: float, speed_hz: float) -> Ban
     for index, samples in enumerate(channels):
         x = even_length(samples)
         turns = x.size / rate_hz * speed_hz
-        angle = 2 * np.pi * speed_hz / rate_hz * np.arange(x.size)
+        angle = np.asarray(2 * np.pi * speed_hz / rate_hz * np.arange(x.size), dtype=np.float64)
         white = whitened(x)
         for low, high in tree(rate_hz, speed_hz):
             square, rate, kurt = squared_envelope(white, low, high, rate_hz)

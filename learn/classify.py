@@ -27,7 +27,9 @@ def usable(recording: Recording, channels: Sequence[str] | None = None) -> Recor
     names = list(channels) if channels else [c.name for c in recording.channels if c.quantity in VIBRATION]
     if not names:
         known = ", ".join(f"{c.name} ({c.quantity or '-'})" for c in recording.channels)
-        raise SpecError(Problem(field="channels", message="hold no vibration", given=known, allowed=", ".join(VIBRATION)))
+        raise SpecError(
+            Problem(field="channels", message="hold no vibration", given=known, allowed=", ".join(VIBRATION))
+        )
     chosen = recording.select(channels=names)
     for row, name in enumerate(names):
         values = chosen.samples[row]
@@ -46,7 +48,9 @@ def speed_of(recording: Recording, sites: Sequence[Site], *, trust: bool) -> Spe
     stated = recording.operating.speed_hz if recording.operating is not None else None
     if trust:
         if stated is None or stated <= 0:
-            raise SpecError(Problem(field="operating.speed_hz", message="is needed to be trusted", given=stated, unit="Hz"))
+            raise SpecError(
+                Problem(field="operating.speed_hz", message="is needed to be trusted", given=stated, unit="Hz")
+            )
         return Speed(speed_hz=stated, method="given", standing=0.0)
     orders = sites[0].orders if sites and sites[0].ratio == 1.0 else None
     return estimated(list(recording.samples), recording.sampling_rate_hz, stated or None, orders)
@@ -77,7 +81,12 @@ def classify(
         "probabilities": answer.probabilities,
         "bearing": name or None,
         "geometry": answer.geometry,
-        "speed": {"speed_hz": speed.speed_hz, "method": speed.method, "estimated": speed.method not in ("tacho", "given")},
+        "speed": {
+            "speed_hz": speed.speed_hz,
+            "method": speed.method,
+            "estimated": speed.method not in ("tacho", "given", "stated"),
+        },
+        "severity_index": answer.severity,
         "turns": answer.turns,
         "stretches": answer.stretches,
         "channels": list(chosen.names),

@@ -81,7 +81,9 @@ class Search:
 
     def near(self, order: float, reach: float = SLIP) -> tuple[float, float, int]:
         """(largest z within the reach, its order, its band)."""
-        inside = np.flatnonzero(np.abs(self.base / order - 1) <= max(reach, 0.5 * (self.base[1] - self.base[0]) / order))
+        inside = np.flatnonzero(
+            np.abs(self.base / order - 1) <= max(reach, 0.5 * (self.base[1] - self.base[0]) / order)
+        )
         k = int(inside[np.argmax(self.best[inside])])
         return float(self.best[k]), float(self.base[k]), int(self.band[k])
 

@@ -36,7 +36,9 @@ def kinematics_in(extra: Mapping[str, object], shaft: str | None) -> KinematicSp
         one = {"catalogue": one}
     if not isinstance(one, Mapping):
         allowed = "a catalogue name, or an object as in kinematics.bearings"
-        raise SpecError(Problem(field=BEARING, message="must say one bearing", given=type(one).__name__, allowed=allowed))
+        raise SpecError(
+            Problem(field=BEARING, message="must say one bearing", given=type(one).__name__, allowed=allowed)
+        )
     name = shaft or SHAFT
     row = {"name": "bearing", "shaft": name, **one}
     return read_kinematic_spec({KINEMATICS: {"shafts": [{"name": name}], "bearings": [row]}})
@@ -46,7 +48,7 @@ def sites(spec: KinematicSpec, shaft: str | None) -> list[Site]:
     """Bearings of a specification, seen from the shaft whose speed is told."""
     names = [s.name for s in spec.shafts]
     tied = ties(spec, shaft if shaft in names else None)
-    found = []
+    found: list[Site] = []
     for bearing in spec.bearings:
         ratio = tied.shafts[bearing.shaft]
         order = {f.kind: f.order / ratio for f in tied.families if f.site == bearing.name}

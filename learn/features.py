@@ -127,7 +127,7 @@ def vector(bank: Bank, orders: FaultOrders, doubt: float = 0.0) -> tuple[FloatAr
 
 
 def impulsiveness(bank: Bank) -> tuple[float, float, float]:
-    """Log kurtosis of the most impulsive and of the middle band; log of what of the former no line of the envelope makes.
+    """Log kurtosis of the most impulsive and of the middle band; log of what no line of the envelope makes of it.
 
     Squared envelope over its mean m(t) times exponential noise has kurtosis 2 var m; lines of depth d make d^2 / 2 of
     var m. What is left is impulses without a period.
@@ -148,7 +148,7 @@ def _db(depth: float) -> float:
 
 def _side(bank: Bank, band: int, order: float, spacing: float) -> float:
     """Log ratio of the first sidebands to the carrier over three harmonics."""
-    k = np.arange(1, 4) * order
+    k = np.asarray(np.arange(1, 4) * order, dtype=np.float64)
     carrier = float(np.sqrt(np.sum(line_depths(bank, band, k) ** 2)))
     sides = float(np.sqrt(np.sum(line_depths(bank, band, np.concatenate([k - spacing, k + spacing])) ** 2)))
     return float(np.log10((sides + 0.01) / (carrier + 0.01)))

@@ -1,4 +1,4 @@
-"""A trained classifier: standardisation, a few small networks, a temperature. Written as JSON; inference is NumPy alone.
+"""A trained classifier: standardisation, a few small networks, a temperature; a JSON file, read by NumPy alone.
 
 Loading executes nothing: the file is plain numbers, bounded in size and checked shape by shape.
 """
@@ -78,8 +78,11 @@ def save(model: Model, path: Path) -> None:
     path.write_text(json.dumps(document, indent=None, separators=(",", ":"), sort_keys=True) + "\n", encoding="utf-8")
 
 
-def _numbers(values: FloatArray) -> Any:
-    return np.vectorize(lambda v: float(f"{v:.7g}"), otypes=[np.float64])(values).tolist()
+def _numbers(values: FloatArray) -> list[object]:
+    """Seven digits: more than the features have."""
+    rounded = [float(f"{v:.7g}") for v in values.ravel()]
+    found: list[object] = np.reshape(rounded, values.shape).tolist()
+    return found
 
 
 def _written(head: Head) -> dict[str, Any]:
@@ -144,9 +147,7 @@ def _head(name: str, raw: object) -> Head:
         classes=classes,
         mean=_array(raw.get("mean"), f"{at}.mean", (len(features),)),
         scale=scale,
-        networks=tuple(
-            _network(n, f"{at}.networks.{i}", len(features), len(classes)) for i, n in enumerate(networks)
-        ),
+        networks=tuple(_network(n, f"{at}.networks.{i}", len(features), len(classes)) for i, n in enumerate(networks)),
         temperature=temperature,
     )
 

@@ -1,58 +1,27 @@
-"""How long a race's spall is, in degrees of the race: entry and strike of a ball are that far apart.
+"""Which of two race defects on one machine is longer: a rank, not a length.
 
-The measure is `reconcile.kinematics.extent` (Sawalhi and Randall, Mech. Syst. Signal Process. 25 (2011) 846-870): it
-needs no training. Balls have no such measure here.
+A ball's way over a longer spall takes longer, so the two events at its edges move apart and the envelope's pulse widens
+(Sawalhi and Randall, Mech. Syst. Signal Process. 25 (2011) 846-870): its second to fourth harmonic lose against the
+first. On simulated machines of all kinds, each with one defect, the rank correlation of this index with the length is
+0.47 (outer race) and 0.57 (inner): enough to order recordings of one rig, not to state a size.
 """
 
 from __future__ import annotations
 
-import math
+import numpy as np
 
-from learn.features import Found
-from learn.orders import FaultOrders
-from reconcile.kinematics.evidence import Evidence
-from reconcile.kinematics.extent import Extent, spall_extent
-from reconcile.kinematics.families import ties
-from reconcile.kinematics.observe import Observation
-from reconcile.kinematics.spec import BearingOrders, KinematicBearing, KinematicShaft, KinematicSpec
-from reconcile.speed import SpeedEstimate
-from signals.recording import Recording
+from learn.bank import Bank
+from learn.features import Found, line_depths
 
-SHAFT, SITE = "shaft", "bearing"
+RACES = ("outer", "inner")
+WHOLE = 0
+"""The bank's first band: the whole axis, so that no resonance's choice decides."""
+LEAST = 0.02
 
 
-def extent(recording: Recording, found: Found, orders: FaultOrders, speed_hz: float) -> Extent | None:
-    """Extent of the spall whose lines were found; None for balls and where the record does not resolve it."""
-    if found.family not in ("outer", "inner"):
+def severity_index(spectra: Bank, found: Found) -> float | None:
+    """Logarithm of the first harmonic over the sum of the next three; None for other families than races."""
+    if found.family not in RACES:
         return None
-    told = BearingOrders(bpfo=orders.outer, bpfi=orders.inner, bsf=orders.ball / 2, ftf=orders.cage)
-    spec = KinematicSpec(
-        shafts=[KinematicShaft(name=SHAFT, speed_hz=speed_hz)],
-        bearings=[KinematicBearing(name=SITE, shaft=SHAFT, orders=told)],
-    )
-    tied = ties(spec)
-    family = next(f for f in tied.families if f.kind == found.family)
-    channel = recording.names[found.channel]
-    evidence = Evidence(
-        family=family,
-        z=found.z,
-        chance=10.0**-found.chance,
-        slip=found.slip,
-        order=found.order,
-        channel=channel,
-        band_hz=found.band_hz,
-        depth=found.depth,
-        channel_z={channel: found.z},
-    )
-    speed = SpeedEstimate(
-        shaft=SHAFT,
-        speed_hz=speed_hz,
-        low_hz=speed_hz,
-        high_hz=speed_hz,
-        confidence=1.0,
-        method="stated",
-        stated_hz=speed_hz,
-    )
-    seen = Observation(label="recording", recording=recording, speed=speed, doubt=0.0, channels=())
-    answer = spall_extent(evidence, seen, tied)
-    return answer if answer is None or math.isfinite(answer.degrees) else None
+    lines = line_depths(spectra, WHOLE, np.asarray(np.arange(1, 5) * found.order, dtype=np.float64))
+    return float(np.log((lines[0] + LEAST) / (np.sum(lines[1:]) + LEAST)))

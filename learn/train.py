@@ -1,7 +1,6 @@
 """Training on simulated rows: scikit-learn fits, `model.Head` keeps the numbers.
 
-Machines, not rows, are parted into training and validation, and validation machines also differ in kind (ball numbers and
-rates that training never has are kept for it), so what is chosen on them must carry to machines unlike those seen.
+Machines, not rows, are parted wherever something is chosen on rows that a fit has not seen.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from learn.softmax import softmax
 from signals.series import FloatArray
 
 HIDDEN = (16,)
-PENALTY = 0.3
+PENALTY = 20.0
 ITERATIONS = 400
 NETWORKS = 5
 LEAST_SCALE = 1e-3
@@ -43,9 +42,7 @@ def fit_head(
     weights = _balanced(kinds, len(classes))
     found = tuple(_network(z, kinds, weights, seed + i) for i in range(networks))
     temperature = _temperature(z, kinds, owner, weights, seed)
-    return Head(
-        features=features, classes=classes, mean=mean, scale=scale, networks=found, temperature=temperature
-    )
+    return Head(features=features, classes=classes, mean=mean, scale=scale, networks=found, temperature=temperature)
 
 
 def _balanced(kinds: np.ndarray[tuple[int, ...], np.dtype[np.int64]], classes: int) -> FloatArray:
@@ -57,7 +54,12 @@ def _network(
     z: FloatArray, kinds: np.ndarray[tuple[int, ...], np.dtype[np.int64]], weights: FloatArray, seed: int
 ) -> Network:
     fitted = MLPClassifier(
-        hidden_layer_sizes=HIDDEN, activation="tanh", solver="lbfgs", alpha=PENALTY, max_iter=ITERATIONS, random_state=seed
+        hidden_layer_sizes=HIDDEN,
+        activation="tanh",
+        solver="lbfgs",
+        alpha=PENALTY,
+        max_iter=ITERATIONS,
+        random_state=seed,
     )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ConvergenceWarning)  # stopped early on purpose: it regularises

@@ -64,7 +64,7 @@ def prior(family: str, order: float) -> float:
 
 
 def strongest(bank: Bank, s: Search, taken: float | None = None) -> tuple[float, float, int]:
-    """(z, base order, band) of the strongest comb off the shaft's orders; `taken`: a base whose relatives are left out."""
+    """(z, base order, band) of the strongest comb off the shaft's orders; relatives of the base `taken` left out."""
     off = np.abs(s.base - np.rint(s.base)) > max(0.02, 2 * bank.step)
     inside = off & (s.base >= 1.8) & (s.base <= 12.5)
     if taken is not None:
@@ -88,7 +88,7 @@ def _fundamental(bank: Bank, band: int, order: float) -> float:
     return next((c for c, d in zip(candidates, first, strict=True) if d >= 0.4 * most and d > 0), order)
 
 
-def vector(bank: Bank, doubt: float = 0.0) -> tuple[FloatArray, dict[str, float]]:  # noqa: ARG001
+def vector(bank: Bank) -> tuple[FloatArray, dict[str, float]]:
     """(features in the order of `NAMES`, the comb found: order, band, z)."""
     values, base = logs(bank), grid(bank)
     everywhere = away_from(base, ())
@@ -131,7 +131,7 @@ def _best_within(s: Search, family: str) -> float:
 
 def _sides(bank: Bank, band: int, order: float) -> tuple[float, float]:
     """(log ratio of sidebands at one order, at the best cage order) to the carriers over three harmonics."""
-    k = np.arange(1, 4) * order
+    k = np.asarray(np.arange(1, 4) * order, dtype=np.float64)
 
     def size(places: FloatArray) -> float:
         off = places[np.abs(places - np.rint(places)) > 1.5 * bank.step]

@@ -26,9 +26,15 @@ from signals.ingest.file import load_description
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("--recording", metavar="R.json", type=Path, required=True, help="the description; data beside it")
-    parser.add_argument("--model", metavar="M", type=Path, default=None, help="a trained model (default: the shipped one)")
-    parser.add_argument("--machine", metavar="FILE", type=Path, default=None, help="machine or kinematics, for bearings")
+    parser.add_argument(
+        "--recording", metavar="R.json", type=Path, required=True, help="the description; data beside it"
+    )
+    parser.add_argument(
+        "--model", metavar="M", type=Path, default=None, help="a trained model (default: the shipped one)"
+    )
+    parser.add_argument(
+        "--machine", metavar="FILE", type=Path, default=None, help="machine or kinematics, for bearings"
+    )
     parser.add_argument("--channel", metavar="NAME", nargs="+", default=None, help="only these channels")
     parser.add_argument("--trust-speed", action="store_true", help="take the stated speed as exact")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
@@ -49,7 +55,9 @@ def _sites(arguments: argparse.Namespace, shaft: str | None) -> list[Site]:
     """Bearings of the machine file, else of the description."""
     if arguments.machine is not None:
         document = read_json(arguments.machine)
-        spec = read_kinematic_spec(document) if "kinematics" in document else of_machine(read_machine(arguments.machine))
+        spec = (
+            read_kinematic_spec(document) if "kinematics" in document else of_machine(read_machine(arguments.machine))
+        )
     else:
         extra = load_description(arguments.recording).model_extra or {}
         found = kinematics_in(extra, shaft)

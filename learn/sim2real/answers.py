@@ -53,9 +53,7 @@ def units(case: Case) -> list[Unit]:
     starts = np.arange(0, n - size + 1, size)
     if starts.size > MOST_WINDOWS:
         starts = starts[np.linspace(0, starts.size - 1, MOST_WINDOWS).astype(int)]
-    cut = [
-        Unit(case=case, channels=case.channels[:, s : s + size], window=k) for k, s in enumerate(starts.tolist())
-    ]
+    cut = [Unit(case=case, channels=case.channels[:, s : s + size], window=k) for k, s in enumerate(starts.tolist())]
     return [Unit(case=case, channels=case.channels, window=None), *(cut if n > 1.5 * size else [])]
 
 

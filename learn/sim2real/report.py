@@ -8,13 +8,16 @@ from dataclasses import dataclass
 
 from learn.model import Model
 from learn.real.load import Case
-from learn.sim2real.answers import Answer, Way, ask, by_detector, by_model
+from learn.sim2real.answers import Answer, ask, by_detector, by_model
 from learn.sim2real.rivals import rows_of, said_by, trained_on
 from learn.sim2real.scores import confusion, score
 from learn.sim2real.severities import severity_table
 from learn.simulate.machines import CLASSES
 
 KINDS = ("recording", "window")
+INTERVALS = """Balanced accuracy over all rigs (means of the classes' 95 % Wilson bounds; windows of one recording
+are not independent, so their interval is too narrow):
+"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,7 +38,9 @@ def report(model: Model, ablated: Mapping[str, Model], cases: Sequence[Case], *,
         "speed estimated near the stated one": ask(known, by_model(model, speed="near")),
         "speed estimated from nothing": ask(known, by_model(model, speed="none"), windows=False),
         "geometry unknown": ask(cases, by_model(model, geometry=False)),
-        "geometry unknown, speed estimated near the stated one": ask(cases, by_model(model, geometry=False, speed="near")),
+        "geometry unknown, speed estimated near the stated one": ask(
+            cases, by_model(model, geometry=False, speed="near")
+        ),
     }
     for name, other in ablated.items():
         ways[f"smaller data set, {name}"] = ask(known, by_model(other))
@@ -89,19 +94,23 @@ def _pooled(answers: Sequence[Answer]) -> dict[str, object]:
 def _share(one: Mapping[str, object] | None) -> str:
     if one is None:
         return "-"
-    return f"{float(str(one['balanced_accuracy'])):.3f} ({float(str(one['low'])):.2f} to {float(str(one['high'])):.2f}), n {one['n']}"
+    mean, low, high = (float(str(one[key])) for key in ("balanced_accuracy", "low", "high"))
+    return f"{mean:.3f} ({low:.2f} to {high:.2f}), n {one['n']}"
 
 
 def _summary(ways: Mapping[str, Sequence[Answer]]) -> str:
     lines = [
-        "Balanced accuracy over all rigs (means of the classes' 95 % Wilson bounds; windows of one recording are not "
-        "independent, so their interval is too narrow):\n",
+        INTERVALS,
         "| way | recordings | windows of 10 turns |",
         "|---|---|---|",
     ]
     for name, answers in ways.items():
         lines.append(f"| {name} | {_share(_of(answers, None, KINDS[0]))} | {_share(_of(answers, None, KINDS[1]))} |")
-    lines += ["\nBy rig, speed and geometry given:\n", "| rig | recordings | windows | detector: recordings | windows |", "|---|---|---|---|---|"]
+    lines += [
+        "\nBy rig, speed and geometry given:\n",
+        "| rig | recordings | windows | detector: recordings | windows |",
+        "|---|---|---|---|---|",
+    ]
     main, detector = ways["speed and geometry given"], ways["kinematic detector (same information)"]
     for rig in dict.fromkeys(a.unit.case.rig for a in main):
         cells = [_share(_of(answers, rig, kind)) for answers in (main, detector) for kind in KINDS]
@@ -116,7 +125,11 @@ def _summary(ways: Mapping[str, Sequence[Answer]]) -> str:
 def _rivals(cases: Sequence[Case], seed: int) -> str:
     rigs = {r: rows_of([c for c in cases if c.rig == r]) for r in dict.fromkeys(c.rig for c in cases)}
     teachers = [r for r, rows in rigs.items() if len({u.case.label for u, _ in rows}) > 1]
-    lines = ["Trained on another real rig (comparison only), same features:\n", "| trained on | tested on | recordings | windows |", "|---|---|---|---|"]
+    lines = [
+        "Trained on another real rig (comparison only), same features:\n",
+        "| trained on | tested on | recordings | windows |",
+        "|---|---|---|---|",
+    ]
     for teacher in teachers:
         head = trained_on(rigs[teacher], seed)
         for rig, rows in rigs.items():
@@ -154,8 +167,9 @@ def _failures(ways: Mapping[str, Sequence[Answer]]) -> str:
     lines = ["Whole recordings answered wrongly:\n"]
     for name, answers in ways.items():
         for a in answers:
-            if a.unit.window is None and a.label != a.unit.case.label:
-                lines.append(f"* {name}: {a.unit.case.name} is {a.unit.case.label}, said {a.label} ({a.detail})")
+            case = a.unit.case
+            if a.unit.window is None and a.label != case.label:
+                lines += [f"* {name}: {case.name} is {case.label}, said {a.label} ({a.detail})"]
     return "\n".join(lines)
 
 

@@ -33,7 +33,13 @@ def trained_on(rows: Sequence[tuple[Unit, FloatArray]], seed: int) -> Head:
     labels = [unit.case.label for unit, _ in rows]
     classes = tuple(sorted(set(labels)))
     return fit_head(
-        np.stack([row for _, row in rows]), labels, [0] * len(labels), features.NAMES, classes, seed=seed, networks=FEWEST
+        np.stack([row for _, row in rows]),
+        labels,
+        [0] * len(labels),
+        features.NAMES,
+        classes,
+        seed=seed,
+        networks=FEWEST,
     )
 
 

@@ -22,6 +22,7 @@ from signals.series import FloatArray
 WINDOW_TURNS = 10.0
 MIDDLE_TURNS = (15.0, 40.0)
 WINDOWS = 2
+Piece = tuple[FloatArray, FloatArray, str, int, bool]
 PARTS = 8
 """Shares of the machines that processes take in turn."""
 
@@ -46,7 +47,9 @@ def pieces(row: Row) -> list[FloatArray]:
     return [row.samples, *(row.samples[s : s + short] for s in starts), row.samples[:medium]]
 
 
-def part_table(part: int, count: int, seed: int, variant: Variant) -> list[tuple[FloatArray, FloatArray, str, int, bool]]:
+def part_table(
+    part: int, count: int, seed: int, variant: Variant
+) -> list[tuple[FloatArray, FloatArray, str, int, bool]]:
     """Features of one share of the machines."""
     found = []
     for row in rows(count, seed, part, PARTS, variant):

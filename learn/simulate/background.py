@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-
 from scipy.interpolate import CubicSpline
 
 from learn.orders import FaultOrders
@@ -34,7 +33,14 @@ def rolling_noise(rng: np.random.Generator, angle_rad: FloatArray, orders: Fault
     """
     level = np.ones(angle_rad.size)
     foreign = (log_uniform(rng, 0.5, 12.0), 0.15)
-    for order, most in (foreign, (1.0, 0.5), (2.0, 0.3), (orders.outer, 0.2), (orders.inner, 0.15), (orders.cage, 0.15)):
+    for order, most in (
+        foreign,
+        (1.0, 0.5),
+        (2.0, 0.3),
+        (orders.outer, 0.2),
+        (orders.inner, 0.15),
+        (orders.cage, 0.15),
+    ):
         phase = rng.uniform(0, 2 * np.pi)
         level += log_uniform(rng, 0.003, most) * np.cos(order * angle_rad + phase)
     noise = rng.standard_normal((2, angle_rad.size)) * np.sqrt(np.maximum(level, 0.0))

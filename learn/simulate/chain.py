@@ -1,7 +1,7 @@
 """The way from the bearing's ring to the recorder, drawn widely: structure, fastening, noise, hum, filter, converter.
 
-Ranges: resonances of housings and fastenings between 0.6 and 20 kHz with damping ratios of 0.5 to 8 % (Harris' Shock and
-Vibration Handbook, 5th ed. 2002, ch. 12; Ewins, Modal Testing, 2nd ed. 2000); noise from 40 dB below to 26 dB above
+Ranges: resonances of housings and fastenings between 0.6 and 20 kHz, damping ratios of 0.8 to 8 % (Harris' Shock
+and Vibration Handbook, 5th ed. 2002, ch. 12; Ewins, Modal Testing, 2nd ed. 2000); noise from 40 dB below to 26 dB above
 the level that background is drawn around.
 """
 

@@ -153,16 +153,16 @@ def recipe(count: int, *, fast: bool, seed: int = 0, spread: bool = True) -> Rec
     """`count` machines and four recordings of each; without `spread` all are one machine but for their faults."""
     kinds = families() if spread else tuple(f for f in families() if f.name == "usual9")
     total = sum(f.share for f in kinds)
+    instances = [max(1, round(count * kind.share / total)) for kind in kinds]
     members = [
         {
             "name": kind.name,
             "machine": machine(kind).model_dump(mode="json"),
             "vary": vary(kind, fast=fast) if spread else {"operating.speed_hz": {"low": 29.0, "high": 31.0}},
-            "instances": max(1, round(count * kind.share / total)),
+            "instances": number,
         }
-        for kind in kinds
+        for kind, number in zip(kinds, instances, strict=True)
     ]
-    built = sum(int(m["instances"]) for m in members)  # type: ignore[call-overload]
     ring = [
         {"kind": "accelerometer", "name": axis, "place": {"location": f"{BEARINGS[0]}.outer", "direction_deg": angle}}
         for axis, angle in (("x", 0.0), ("y", 90.0))
@@ -171,7 +171,7 @@ def recipe(count: int, *, fast: bool, seed: int = 0, spread: bool = True) -> Rec
         {
             "name": "bearings-fast" if fast else "bearings-slow",
             "seed": seed,
-            "count": len(CLASSES) * built,
+            "count": len(CLASSES) * sum(instances),
             "machines": members,
             "faults": [_fault(name) for name in FAULTS],
             "healthy_share": 1 / len(CLASSES),

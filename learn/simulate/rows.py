@@ -1,4 +1,4 @@
-"""Recordings to train on: the dataset's machines, heard through a drawn chain; faults that nothing shows are left out."""
+"""Recordings to train on: the dataset's machines, heard through a drawn chain, without faults that nothing shows."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ STILL = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class Variant:
-    """What of the recipe is switched on: the measurement chain (with what real bearings add), the spread of machines."""
+    """What of the recipe is on: the measurement chain (with what real bearings add), the spread of machines."""
 
     chain: bool = True
     spread: bool = True
@@ -110,10 +110,8 @@ def _left_out(failure: object) -> None:
 
 def _heard(four: _Four, rng: np.random.Generator, chain: bool) -> Iterator[Row]:
     rate = float(rng.choice(RATES_HZ)) if chain else RATE_HZ
-    if chain:
-        recorded = _recorded(four, rate, rng)
-    else:
-        recorded = {label: motion[1] for label, motion in four.motions.items()}
+    bare = {label: motion[1] for label, motion in four.motions.items()}
+    recorded = _recorded(four, rate, rng) if chain else bare
     sound = recorded[CLASSES[0]]
     for label, samples in recorded.items():
         clear = 0.0 if label == CLASSES[0] else visible_db(sound, samples)
@@ -134,7 +132,7 @@ def _recorded(four: _Four, rate_hz: float, rng: np.random.Generator) -> dict[str
     """All recordings through one chain, with one background and one wander of the speed."""
     sound = four.motions[CLASSES[0]]
     level = _level(four, rng)
-    angle = 2 * np.pi * four.speed_hz / RATE_HZ * np.arange(sound.shape[1])
+    angle = np.asarray(2 * np.pi * four.speed_hz / RATE_HZ * np.arange(sound.shape[1]), dtype=np.float64)
     ground = level * log_uniform(rng, 0.03, 3.0) * rolling_noise(rng, angle, four.orders)
     ground = ground + level * log_uniform(rng, 0.1, 3.0) * knocks(rng, sound.shape[1], RATE_HZ)
     links = drawn_chain(rng, level, rate_hz)
