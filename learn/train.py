@@ -18,7 +18,7 @@ from learn.softmax import softmax
 from signals.series import FloatArray
 
 HIDDEN = (16,)
-PENALTY = 20.0
+PENALTY = 10.0
 ITERATIONS = 400
 NETWORKS = 5
 LEAST_SCALE = 1e-3

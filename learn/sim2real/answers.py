@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -16,7 +18,7 @@ from learn.speed import Speed
 from signals.series import FloatArray
 
 WINDOW_TURNS = 10.0
-MOST_WINDOWS = 20
+MOST_WINDOWS = 15
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +49,7 @@ Way = Callable[[Unit], Answer]
 
 
 def units(case: Case) -> list[Unit]:
-    """The whole recording, then windows one after the other (at most twenty, evenly spread)."""
+    """The whole recording, then windows one after the other (at most fifteen, evenly spread)."""
     n = case.channels.shape[1]
     size = int(WINDOW_TURNS * case.rate_hz / case.speed_hz)
     starts = np.arange(0, n - size + 1, size)
@@ -64,24 +66,33 @@ def by_detector(unit: Unit) -> Answer:
     return Answer(unit=unit, label=label, detail=", ".join(f"{k} {v:.0f} dB" for k, v in levels.items()))
 
 
-def by_model(model: Model, *, geometry: bool = True, speed: str = "given") -> Way:
+@dataclass(frozen=True, kw_only=True)
+class ByModel:
     """The model; `speed`: `given` (as measured), `near` (estimated from the stated one), `none` (estimated alone)."""
 
-    def way(unit: Unit) -> Answer:
+    model: Model
+    geometry: bool = True
+    speed: str = "given"
+
+    def __call__(self, unit: Unit) -> Answer:
+        """What it says of a unit."""
         case = unit.case
-        orders = case.orders if geometry else None
+        orders = case.orders if self.geometry else None
         rows = list(unit.channels)
         found = Speed(speed_hz=case.speed_hz, method="given", standing=0.0)
-        if speed != "given":
-            found = estimated(rows, case.rate_hz, case.stated_hz if speed == "near" else None, orders)
+        if self.speed != "given":
+            found = estimated(rows, case.rate_hz, case.stated_hz if self.speed == "near" else None, orders)
         doubt = {"given": 0.0, "stated": UNSURE}.get(found.method, DOUBT)
-        answer = assess(rows, case.rate_hz, found.speed_hz, model, orders, doubt)
+        answer = assess(rows, case.rate_hz, found.speed_hz, self.model, orders, doubt)
         shares = ", ".join(f"{k} {p:.2f}" for k, p in answer.probabilities.items())
         return Answer(unit=unit, label=answer.label, detail=f"{shares}; {found.speed_hz:.2f} Hz", assessment=answer)
 
-    return way
+
+def _of_case(case: Case, way: Way, windows: bool) -> list[Answer]:
+    return [way(unit) for unit in units(case) if windows or unit.window is None]
 
 
-def ask(cases: Sequence[Case], way: Way, *, windows: bool = True) -> list[Answer]:
-    """Answers on all units."""
-    return [way(unit) for case in cases for unit in units(case) if windows or unit.window is None]
+def ask(cases: Sequence[Case], way: Way, *, windows: bool = True, pool: Executor | None = None) -> list[Answer]:
+    """Answers on all units, recording by recording."""
+    work = partial(_of_case, way=way, windows=windows)
+    return [answer for part in (pool.map(work, cases) if pool is not None else map(work, cases)) for answer in part]

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass
 
 from learn.model import Model
 from learn.real.load import Case
-from learn.sim2real.answers import Answer, ask, by_detector, by_model
+from learn.sim2real.answers import Answer, ByModel, Way, ask, by_detector
 from learn.sim2real.rivals import rows_of, said_by, trained_on
 from learn.sim2real.scores import confusion, score
 from learn.sim2real.severities import severity_table
@@ -28,22 +29,25 @@ class Results:
     line: str
 
 
-def report(model: Model, ablated: Mapping[str, Model], cases: Sequence[Case], *, seed: int) -> Results:
+def report(
+    model: Model, ablated: Mapping[str, Model], cases: Sequence[Case], *, seed: int, pool: Executor | None = None
+) -> Results:
     """Everything."""
     known = [c for c in cases if c.orders is not None]
-    main, detector = ask(known, by_model(model)), ask(known, by_detector)
-    ways: dict[str, list[Answer]] = {
-        "speed and geometry given": main,
-        "kinematic detector (same information)": detector,
-        "speed estimated near the stated one": ask(known, by_model(model, speed="near")),
-        "speed estimated from nothing": ask(known, by_model(model, speed="none"), windows=False),
-        "geometry unknown": ask(cases, by_model(model, geometry=False)),
-        "geometry unknown, speed estimated near the stated one": ask(
-            cases, by_model(model, geometry=False, speed="near")
+    main, detector = ask(known, ByModel(model=model), pool=pool), ask(known, by_detector, pool=pool)
+    plain: dict[str, tuple[Sequence[Case], Way, bool]] = {
+        "speed estimated near the stated one": (known, ByModel(model=model, speed="near"), True),
+        "speed estimated from nothing": (known, ByModel(model=model, speed="none"), False),
+        "geometry unknown": (cases, ByModel(model=model, geometry=False), True),
+        "geometry unknown, speed estimated near the stated one": (
+            cases,
+            ByModel(model=model, geometry=False, speed="near"),
+            True,
         ),
     }
-    for name, other in ablated.items():
-        ways[f"smaller data set, {name}"] = ask(known, by_model(other))
+    plain |= {f"smaller data set, {name}": (known, ByModel(model=other), True) for name, other in ablated.items()}
+    ways = {"speed and geometry given": main, "kinematic detector (same information)": detector}
+    ways |= {name: ask(which, way, windows=cut, pool=pool) for name, (which, way, cut) in plain.items()}
     text = "\n\n".join(
         (
             _summary(ways),

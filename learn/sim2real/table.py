@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import Executor, ProcessPoolExecutor
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 from multiprocessing import get_context
@@ -61,16 +62,20 @@ def part_table(
     return found
 
 
+def pool_of(processes: int) -> AbstractContextManager[Executor | None]:
+    """Processes of one thread each, as another thread costs more than it brings; none for one."""
+    if processes == 1:
+        return nullcontext()
+    for library in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+        os.environ.setdefault(library, "1")
+    return ProcessPoolExecutor(processes, mp_context=get_context("spawn"))
+
+
 def table(count: int, seed: int, variant: Variant, processes: int = 2, parts: Sequence[int] = range(PARTS)) -> Table:
     """Features of a dataset of about `count` machines; the same whatever the number of processes."""
     work = partial(part_table, count=count, seed=seed, variant=variant)
-    if processes > 1:
-        os.environ.setdefault("OMP_NUM_THREADS", "1")
-        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-        with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
-            shares = list(pool.map(work, parts))
-    else:
-        shares = [work(part) for part in parts]
+    with pool_of(processes) as pool:
+        shares = list(pool.map(work, parts) if pool is not None else map(work, parts))
     flat = [one for share in shares for one in share]
     return Table(
         known=np.stack([one[0] for one in flat]),
