@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -88,7 +89,9 @@ def _samples(rig: str, path: Path) -> FloatArray:
     if rig == "ims_healthy":
         return np.asarray(np.loadtxt(path).T, dtype=np.float64)
     if rig == "motor_acoustic":
-        values = np.asarray(wavfile.read(path)[1], dtype=np.float64)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", wavfile.WavFileWarning)  # chunks of the recorder's own
+            values = np.asarray(wavfile.read(path)[1], dtype=np.float64)
         low, high = (int(share * values.shape[0]) for share in MIDDLE)
         return values[low:high].reshape(1, -1)
     raise ValueError(f"{rig}: no way to read its files is written")

@@ -32,27 +32,32 @@ def rolling_noise(rng: np.random.Generator, angle_rad: FloatArray, orders: Fault
     282-289), so sound bearings show weak lines at their own orders too; one line of something else beside them.
     """
     level = np.ones(angle_rad.size)
-    foreign = (log_uniform(rng, 0.5, 12.0), 0.15)
+    foreign = (log_uniform(rng, 0.5, 12.0), 0.3)
     for order, most in (
         foreign,
-        (1.0, 0.5),
-        (2.0, 0.3),
-        (orders.outer, 0.2),
-        (orders.inner, 0.15),
-        (orders.cage, 0.15),
+        (1.0, 0.6),
+        (2.0, 0.4),
+        (orders.outer, 0.5),
+        (orders.inner, 0.4),
+        (orders.ball, 0.3),
+        (orders.cage, 0.4),
     ):
         phase = rng.uniform(0, 2 * np.pi)
-        level += log_uniform(rng, 0.003, most) * np.cos(order * angle_rad + phase)
+        depth = log_uniform(rng, 0.01, most)
+        level += depth * np.cos(order * angle_rad + phase) + 0.3 * depth * np.cos(2 * (order * angle_rad + phase))
     noise = rng.standard_normal((2, angle_rad.size)) * np.sqrt(np.maximum(level, 0.0))
     return np.asarray(noise / np.std(noise), dtype=np.float64)
 
 
 def knocks(rng: np.random.Generator, samples: int, rate_hz: float) -> FloatArray:
-    """Impulses at random times, up to three a second, of exponential height, RMS 1, (2, n); in one of five machines."""
+    """Impulses at random times, up to 500 a second, of exponential height, RMS 1, (2, n); in three of five machines.
+
+    Dirt, rough lubrication, play and neighbours: sound machines are seldom Gaussian.
+    """
     values = np.zeros((2, samples))
-    if rng.random() < 0.8:
+    if rng.random() < 0.4:
         return values
-    count = rng.poisson(log_uniform(rng, 0.2, 3.0) * samples / rate_hz)
+    count = rng.poisson(log_uniform(rng, 0.2, 500.0) * samples / rate_hz)
     if count:
         at = rng.integers(0, samples, count)
         angle = rng.uniform(0, 2 * np.pi)

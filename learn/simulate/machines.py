@@ -133,7 +133,7 @@ def vary(kind: Bearings, *, fast: bool) -> dict[str, object]:
             f"{at}.support.stiffness_y_n_per_m": _log(2e7, 4e8),
             f"{at}.support.damping_x_ns_per_m": _log(200.0, 5e3),
             f"{at}.support.damping_y_ns_per_m": _log(200.0, 5e3),
-            f"cage_slip@{name}.share": {"low": 0.0, "high": 0.02},
+            f"cage_slip@{name}.share": {"low": 0.0, "high": 0.03},
         }
         for term in ("outer_waviness", "inner_waviness"):
             found[f"{term}@{name}.amplitude"] = _log(3e-9, 5e-7)
