@@ -1,3 +1,5 @@
+from itertools import islice
+
 import numpy as np
 import pytest
 
@@ -61,11 +63,11 @@ def test_a_wandering_speed_moves_a_line_by_its_share():
 
 @pytest.mark.slow
 def test_rows_are_reproducible_and_labelled():
-    first = list(rows(18, 3, 0, 24))
-    again = list(rows(18, 3, 0, 24))
+    first = list(islice(rows(18, 3, 0, 24), 3))
+    again = list(islice(rows(18, 3, 0, 24), 3))
     assert [r.label for r in first] == [r.label for r in again]
     assert all(np.array_equal(a.samples, b.samples) for a, b in zip(first, again, strict=True))
     assert {r.label for r in first} <= set(CLASSES)
     assert all(np.all(np.isfinite(r.samples)) for r in first)
-    bare = list(rows(18, 3, 0, 24, Variant(chain=False)))
+    bare = list(islice(rows(18, 3, 0, 24, Variant(chain=False)), 2))
     assert {r.rate_hz for r in bare} == {48_000.0}
