@@ -17,8 +17,11 @@ from learn.speed import Speed, candidates
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
 
-LONGEST_TURNS = 80.0
-"""Longer recordings are read in equal stretches: training has seen 10 to 100 turns."""
+LONGEST_TURNS = 20.0
+"""Longer recordings are read in equal stretches. Over many turns even the faint lines of a sound machine become certain;
+over few only deep ones do, and many short answers together decide."""
+SPEED_TURNS = 80.0
+"""The stretch a speed is read from."""
 MOST_STRETCHES = 12
 MOST_LINES = 15.0
 """Bearing lines count for a speed up to this: a strong fault must not outweigh the shaft's own lines."""
@@ -87,7 +90,7 @@ def estimated(
     best: tuple[float, Speed] | None = None
     for one in candidates(channels, rate_hz, stated_hz):
         try:
-            part = stretches(channels, rate_hz, one.speed_hz)[0]
+            part = stretches(channels, rate_hz, one.speed_hz, SPEED_TURNS)[0]
         except SpecError:
             continue
         _, comb, found = _row(bank(part, rate_hz, one.speed_hz), orders, 0.0)
@@ -119,8 +122,10 @@ def pooled(head: Head, rows: FloatArray) -> FloatArray:
     return np.asarray(mean / np.sum(mean), dtype=np.float64)
 
 
-def stretches(channels: Sequence[FloatArray], rate_hz: float, speed_hz: float) -> list[list[FloatArray]]:
-    """Equal stretches of all channels, none longer than `LONGEST_TURNS`."""
+def stretches(
+    channels: Sequence[FloatArray], rate_hz: float, speed_hz: float, longest: float = LONGEST_TURNS
+) -> list[list[FloatArray]]:
+    """Equal stretches of all channels, none longer than `longest` turns."""
     samples = min(c.size for c in channels)
     turns = samples / rate_hz * speed_hz
     if turns < MIN_TURNS:
@@ -128,6 +133,6 @@ def stretches(channels: Sequence[FloatArray], rate_hz: float, speed_hz: float) -
         raise SpecError(
             Problem(field="samples", message="are too few turns", given=samples / rate_hz, allowed=allowed, unit="s")
         )
-    count = min(max(1, int(np.ceil(turns / LONGEST_TURNS))), MOST_STRETCHES)
-    length = min(samples // count, int(LONGEST_TURNS * rate_hz / speed_hz))
+    count = min(max(1, int(np.ceil(turns / longest))), MOST_STRETCHES)
+    length = min(samples // count, int(longest * rate_hz / speed_hz))
     return [[np.asarray(c[i * length : (i + 1) * length], dtype=np.float64) for c in channels] for i in range(count)]

@@ -18,7 +18,7 @@ from learn.simulate.machines import CLASSES
 from learn.simulate.rows import Variant
 from sim.version import PHYSICS_VERSION
 
-SEED, MACHINES, ABLATED = 1, 180, 40
+SEED, MACHINES, ABLATED = 1, 180, 24
 RIGS = ("cwru", "hit_sm_mfs", "uestc", "ims_healthy", "motor_acoustic")
 
 
