@@ -18,8 +18,8 @@ from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
 
 LONGEST_TURNS = 20.0
-"""Longer recordings are read in equal stretches. Over many turns even the faint lines of a sound machine become certain;
-over few only deep ones do, and many short answers together decide."""
+"""Longer recordings are read in equal stretches. Over many turns even the faint lines of a sound machine become
+certain; over few only deep ones do, and many short answers together decide."""
 SPEED_TURNS = 80.0
 """The stretch a speed is read from."""
 MOST_STRETCHES = 12
