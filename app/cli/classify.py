@@ -59,8 +59,11 @@ def _sites(arguments: argparse.Namespace, shaft: str | None) -> list[Site]:
             read_kinematic_spec(document) if "kinematics" in document else of_machine(read_machine(arguments.machine))
         )
     else:
-        extra = load_description(arguments.recording).model_extra or {}
-        found = kinematics_in(extra, shaft)
+        described = load_description(arguments.recording)
+        told: dict[str, object] = dict(described.model_extra or {})
+        if described.kinematics is not None:
+            told["kinematics"] = described.kinematics
+        found = kinematics_in(told, shaft)
         if found is None:
             return []
         spec = found

@@ -75,6 +75,12 @@ def test_geometry_of_a_machine_file(recording, tmp_path, capsys):
     assert (found["label"], found["bearing"]) == ("outer", "de")
 
 
+def test_kinematics_in_the_description_itself(recording, capsys):
+    kinematics = {"shafts": [{"name": "motor"}], "bearings": [{"name": "de", "shaft": "motor", "catalogue": "6205"}]}
+    found = answer(capsys, "--recording", recording(outer_fault(), kinematics=kinematics))
+    assert (found["label"], found["bearing"]) == ("outer", "de")
+
+
 def test_text_for_people(recording, capsys):
     assert main(["classify", "--recording", recording(outer_fault(), bearing="6205")]) == 0
     out = capsys.readouterr().out
