@@ -56,12 +56,16 @@ can make the cases again. What was not detected stays in every denominator. Inte
 
 **Design.** {n_dev} cases for development, {n_sealed} sealed. The full crossing of one effect would be {laws} laws x 4
 severities x 27 combinations of (1, 3, 8) sensors, (30, 20, 10) dB and (1, 3, 5) speeds = {crossing} cases; {n_single}
-are run: half at the target condition (3 sensors, 20 dB, 3 speeds, baseline), half over the rows of an orthogonal array.
+are planned: half at the target condition (3 sensors, 20 dB, 3 speeds, baseline), half over the rows of an orthogonal
+array. A case that was looked at has served: sealed cases up to s040 were run with earlier engines (0 of 11 mechanisms),
+then used for development, and are not counted. Counted are cases from s041 on that need no atlas but those of the
+nominal machine at three speeds, each at its first run (`--budget quick`, physics 1.2.0). What was changed because of
+them since (channels that a sensor fault spoiled are left out) has not changed a figure here.
 """
 
 
 def write_page(docs: Path, results: Path) -> Path:
-    """Write the page and its pictures; a split without stored summary is said to be missing."""
+    """Write the page and its pictures; a split without stored summary has no section."""
     laws = len(FIRST) + len(OTHERS) + len(OPEN)
     single = COUNTS["sealed"]["single"] + COUNTS["sealed"]["open"]
     counts = {f"n_{split}": sum(groups.values()) for split, groups in COUNTS.items()}
@@ -73,7 +77,6 @@ def write_page(docs: Path, results: Path) -> Path:
     for split in ("sealed", "dev"):
         stored = results / f"{split}.json"
         if not stored.exists():
-            parts.append(f"\n## Split `{split}`\n\nNot run yet.\n")
             continue
         summary = json.loads(stored.read_text(encoding="utf-8"))
         picture = docs / "proof" / f"{split}.svg"

@@ -143,9 +143,11 @@ def answer(
     fitted = _fitted_change(found, decision.chosen[0], observed) if decision.chosen else None
     severity: Severity | None = causes[0].severity if causes else None
     word, text, fault = decision.word, sentence(decision, severity, held), None
-    if not missing and gate.fault is not None:
+    if gate.fault is not None and word in ("nothing_missing", "not_decidable"):
+        # a fault that is sure goes before a rest of which nothing can be told
+        rest = "" if not missing else " What differs on the other channels is too faint to tell."
         word, fault = "measurement_fault", gate.fault
-        text = f"The mismatch is in the measurement: {gate.fault.detail}."
+        text = f"The mismatch is in the measurement: {gate.fault.detail}.{rest}"
     lead = _lead(found, decision)
     named = decision.chosen[0] if decision.word == "explained" else None
     return Report(

@@ -16,6 +16,7 @@ from reconcile.atlas.plan import AtlasPlan, atlas_plan, with_tooth_pairs
 from reconcile.calibrate.uncertain import uncertain_numbers
 from reconcile.gate import inspect_measurement
 from reconcile.gate.findings import Gate
+from reconcile.gate.spoiled import without_spoiled
 from reconcile.judge.changes import lenses, observed_changes
 from reconcile.judge.screen import fit_space, judge
 from reconcile.machine.answer import answer, fault_answer
@@ -77,6 +78,7 @@ def reconcile_machine(
     gate = _gate(machine, tests, baselines, seed)
     if not gate.usable:
         return fault_answer(gate, level="machine")
+    gate = without_spoiled(gate)
     paired = with_tooth_pairs(machine)
     chosen = candidates(paired) if nominated is None else tuple(nominated)
     plan = atlas_plan(paired, uncertain_numbers(paired), chosen, seed=seed)

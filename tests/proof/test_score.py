@@ -135,7 +135,7 @@ def test_the_page_is_written_from_a_summary(tmp_path):
     (tmp_path / "results" / "dev.json").write_text(json.dumps(document))
     page = write_page(tmp_path / "docs", tmp_path / "results")
     text = page.read_text()
-    assert "Not run yet" in text
+    assert "Split `sealed`" not in text
     assert "said failed" in text
     assert (tmp_path / "docs" / "proof" / "dev.svg").exists()
     assert any(map(at_target, scores))
