@@ -43,7 +43,7 @@ class SidebandWorker(Worker):
         self._watch = JobWatch(context)
         self._stop_at: float | None = None
         super().__init__(
-            [context.stores.queue.queue],
+            context.stores.queue.queues,
             name=context.name,
             connection=context.stores.queue.connection,
             serializer=JSONSerializer,
