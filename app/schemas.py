@@ -22,8 +22,8 @@ class ProgressView(Reply):
 
     fraction: Annotated[float, Field(ge=0, le=1)]
     stage: str
-    """`waiting`, `starting`, `simulating`, `analysing`, `storing`, `done`; a reconciliation and a dataset name their own
-    stages."""
+    """`waiting`, `starting`, `simulating`, `analysing`, `storing`, `done`; reconciliations and datasets
+    name their own."""
     eta_s: float | None
     """Estimated time left, s."""
 
