@@ -62,8 +62,8 @@ def divide(request: DatasetRequest) -> Division:
         cost = estimate(plan, 1)
     except UnknownName as error:
         message = f"is not a known {error.kind}{did_you_mean(error.name, error.known)}"
-        field = error.kind if error.kind in ("format", "recipe") else f"recipe.{error.kind}"
-        problem = Problem(field=field, message=message, given=error.name, allowed=", ".join(error.known))
+        allowed = ", ".join(error.known)
+        problem = Problem(field=_place(error, request), message=message, given=error.name, allowed=allowed)
         raise SpecError(problem) from None
     except SpecError as error:
         raise SpecError([replace(p, field=_within(p.field)) for p in error.problems]) from None
@@ -93,6 +93,17 @@ def balance_of(plan: Plan) -> dict[str, dict[str, int]]:
 
 def _recipe(form: object) -> Recipe:
     return recipe_named(form) if isinstance(form, str) else read_recipe(form)
+
+
+def _place(error: UnknownName, request: DatasetRequest) -> str:
+    """Where the name that does not exist was given."""
+    if error.kind in ("format", "recipe"):
+        return error.kind
+    families = request.recipe.get("machines", ()) if isinstance(request.recipe, Mapping) else ()
+    for number, family in enumerate(families):
+        if family.get(error.kind) == error.name:
+            return f"recipe.machines.{number}.{error.kind}"
+    return f"recipe.{error.kind}"
 
 
 def _within(field: str) -> str:
