@@ -22,7 +22,7 @@ from jobs.datasets.stored import StoredDataset
 router = APIRouter(tags=["datasets"])
 ERRORS = problems(401, 404, 409, 410, 422, 503)
 FILE = {200: {"description": "The content.", "content": {"application/octet-stream": {}}}, **problems(416)}
-TAR: dict[int | str, dict[str, Any]] = {200: {"description": "The dataset's folder.", "content": {"application/x-tar": {}}}}
+TAR: dict[int | str, dict[str, Any]] = {200: {"description": "The folder.", "content": {"application/x-tar": {}}}}
 TYPES = {".json": "application/json", ".jsonl": "application/jsonl", ".md": "text/markdown; charset=utf-8"}
 
 

@@ -11,7 +11,8 @@ SET = (
 )
 WIDTH = "return document.documentElement.scrollWidth"
 INK = (
-    "const c = document.querySelector(arguments[0]); const d = c.getContext('2d').getImageData(0, 0, c.width, c.height);"
+    "const c = document.querySelector(arguments[0]);"
+    "const d = c.getContext('2d').getImageData(0, 0, c.width, c.height);"
     "return new Set(new Uint32Array(d.data.buffer)).size"
 )
 
@@ -26,7 +27,7 @@ def test_a_dataset_from_a_recipe_to_its_rows(browser: Browser, service: Service)
     assert all("422" in told for told in browser.complaints()), "the refusal was asked for"
     browser.run(SET, "#dataset-count", "8")
     browser.run(SET, "#dataset-healthy_share", "50")
-    eventually(lambda: browser.text("[aria-label='Planned rows'] tr[data-class=outer]").split()[0] == "outer", what="it")
+    eventually(lambda: "outer" in browser.text("[aria-label='Planned rows']"), what="the balance")
     assert '"healthy_share": 0.5' in browser.run("return document.querySelector('#dataset-json').value")
     browser.run(SET, "#dataset-format", "npz")
     browser.size(360)

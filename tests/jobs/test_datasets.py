@@ -169,7 +169,7 @@ def test_goes_from_shards_to_assembly_to_the_end(house: House) -> None:
 
 def test_failed_shard_fails_the_dataset_and_the_next_attempt_makes_only_what_is_missing(house: House) -> None:
     dataset = house.ask()
-    first, second, third, fourth = house.parts(dataset)
+    first, second, third, _ = house.parts(dataset)
     house.done(first)
     house.start(third)
     house.failed(second)
@@ -238,7 +238,7 @@ def test_everything_expires_together_and_is_made_anew(house: House) -> None:
     house.now = 6000.0
     assert expire_results(house.catalogue, house.artefacts, house.clock) == 1
     assert {part.gone for part in house.parts(dataset)} == {"expired"}
-    assert not [p for p in (house.artefacts._root).rglob("data")]
+    assert not list(house.artefacts._root.rglob("data"))
     again = house.ask()
     assert again.attempt == 2 and {part.attempt for part in house.parts(dataset)} == {2}
     assert house.finish(again).status is Status.SUCCESSFUL

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import tarfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,8 +19,8 @@ from tests.service.parts import LiveServer, Parts, eventually, open_parts
 from tests.sideband_datasets.small import document
 
 ADDRESS = "/v1/datasets"
-REQUEST = {"recipe": document(peaks={"spectra": []}), "format": "npz", "shard_recordings": 2}
-SHARDS = 6
+REQUEST = {"recipe": document(count=8, peaks={"spectra": []}), "format": "npz", "shard_recordings": 2}
+SHARDS = 4
 
 
 @pytest.fixture
@@ -140,7 +141,5 @@ def test_rows_archive_and_deletion(parts: Parts, tmp_path: Path) -> None:
 
 
 def unpacked(archive: Path, folder: Path) -> None:
-    import tarfile
-
     with tarfile.open(archive) as file:
         file.extractall(folder, filter="data")

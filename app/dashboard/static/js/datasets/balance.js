@@ -3,9 +3,11 @@
 import { h } from "/js/lib/dom.js";
 import { plainNumber } from "/js/lib/format.js";
 
+const ORDER = ["train", "validation", "test"];
+
 /** `balance`: split -> class -> rows; `machines`: split -> number, where known. */
 export function balanceTable(label, balance, machines = {}) {
-  const splits = Object.keys(balance);
+  const splits = Object.keys(balance).sort((a, b) => ORDER.indexOf(a) - ORDER.indexOf(b));
   const classes = Object.keys(balance[splits[0]] ?? {});
   const most = Math.max(1, ...splits.flatMap((split) => Object.values(balance[split])));
   const cell = (rows) => {

@@ -16,7 +16,7 @@ export function datasetPage(main, { id }) {
   let unfollow = () => {};
   let rows = null;
   const title = h("h1", {}, "Dataset");
-  const body = h("div", { class: "result-body" });
+  const body = h("div", { class: "result-body dataset-body" });
   const cancel = h("button", { type: "button", class: "button", hidden: true }, "Cancel");
   main.append(h("div", { class: "reconcile-row" }, title, h("a", { href: "#/datasets" }, "All of them"), cancel), body);
 
@@ -50,7 +50,7 @@ export function datasetPage(main, { id }) {
   function showResult(found) {
     rows = rowsCard(path, found.manifest.rows);
     replace(body, facts(found), h("section", { class: "card", "aria-label": "Class balance" }, h("div", { class: "card-head" }, h("h2", {}, "Rows by class and split")),
-      h("div", { class: "card-body" }, balanceTable("Rows", found.balance, Object.fromEntries(Object.entries(found.manifest.splits).map(([name, split]) => [name, split.machines]))))), rows.element);
+      h("div", { class: "card-body" }, balanceTable("Rows", ordered(found), Object.fromEntries(Object.entries(found.manifest.splits).map(([name, split]) => [name, split.machines]))))), rows.element);
   }
 
   function resumed({ shards }) {
@@ -63,6 +63,11 @@ export function datasetPage(main, { id }) {
     unfollow();
     rows?.stop();
   };
+}
+
+/** Classes as the recipe has them, the healthy first: documents on the way sort their keys. */
+function ordered({ balance, job }) {
+  return Object.fromEntries(Object.entries(balance).map(([split, rows]) => [split, Object.fromEntries(job.request.classes.map((name) => [name, rows[name]]))]));
 }
 
 function facts({ id, manifest, links, job }) {

@@ -46,7 +46,7 @@ export function rowsCard(path, total) {
     const factor = draw(spectrum, f, row.spectrum.values, row.spectrum.unit, { domain: [0, f.at(-1)], view: [0, f.at(-1)] });
     spectrum.above = [markers(row.columns.peaks.filter((peak) => peak.spectrum === "amplitude" && peak.amplitude !== null), factor)];
     replace(columns, SHOWN.filter((name) => filled(row.columns[name])).map((name) => [h("dt", {}, name), h("dd", {}, shown(row.columns[name], name))]));
-    replace(peaks, row.columns.peaks.filter((peak) => peak.amplitude !== null).map((peak) => h("tr", {}, h("td", {}, peak.label), h("td", { class: "num" }, quantity(peak.frequency_hz, "Hz", 5)),
+    replace(peaks, row.columns.peaks.filter((peak) => peak.amplitude !== null).sort((a, b) => b.amplitude - a.amplitude).map((peak) => h("tr", {}, h("td", {}, peak.label), h("td", { class: "num" }, quantity(peak.frequency_hz, "Hz", 5)),
       h("td", { class: "num" }, `${number(peak.amplitude, 3)} ${unit(row.columns.unit)}`), h("td", {}, peak.spectrum), h("td", {}, peak.status))));
   }
 
