@@ -74,7 +74,14 @@ def run(bench: Bench, job_id: str, attempt: int, worker: str) -> JobRecord | Non
 
 def _work(bench: Bench, record: JobRecord) -> JobRecord:
     job_id, attempt = record.id, record.attempt
-    reporter = Reporter(bench.catalogue, bench.clock, job_id=job_id, attempt=attempt, lease_s=bench.lease_s)
+    reporter = Reporter(
+        bench.catalogue,
+        bench.clock,
+        job_id=job_id,
+        attempt=attempt,
+        lease_s=bench.lease_s,
+        seldom=record.kind == SHARD,
+    )
     now = bench.clock
     try:
         reference = _KINDS[record.kind](bench, reporter, job_id, attempt)

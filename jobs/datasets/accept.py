@@ -13,7 +13,7 @@ from jobs.datasets.words import ASSEMBLY, DATASET, METHOD_VERSION, SHARD
 from jobs.errors import QueueFull, StoreFull
 from jobs.identity import digest, job_id
 from jobs.limits import Limits
-from jobs.ports import Part
+from jobs.parts import Part
 from jobs.record import Cost
 from jobs.status import Status
 from sim.core.errors import Problem, SpecError

@@ -9,7 +9,8 @@ from jobs import transitions
 from jobs.datasets import family
 from jobs.datasets.words import ASSEMBLY, DATASET, PARTS, SHARD
 from jobs.errors import IllegalTransition
-from jobs.ports import Clock, JobCatalogue, Tally
+from jobs.parts import Tally
+from jobs.ports import Clock, JobCatalogue
 from jobs.record import Failure, JobRecord, Progress
 from jobs.status import Status
 

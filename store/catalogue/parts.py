@@ -8,7 +8,7 @@ from sqlalchemy import Connection, Engine, func, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
 from jobs.identity import canonical_json
-from jobs.ports import Part, Tally, Transition
+from jobs.parts import Part, Tally, Transition
 from jobs.record import JobRecord
 from jobs.status import Status
 from store.catalogue import events, schema

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from jobs import transitions as t
-from jobs.ports import Part
+from jobs.parts import Part
 from jobs.record import Cost, JobRecord, ResultRef
 from jobs.status import Status
 from store.catalogue import engine, schema
