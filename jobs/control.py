@@ -11,7 +11,8 @@ from jobs.datasets import family
 from jobs.datasets.settle import settle
 from jobs.datasets.words import DATASET, SHARD
 from jobs.errors import BrokerAway, IllegalTransition
-from jobs.ports import ArtefactStore, Clock, JobCatalogue, Queue, Ticket, Transition
+from jobs.parts import Transition
+from jobs.ports import ArtefactStore, Clock, JobCatalogue, Queue, Ticket
 from jobs.record import JobRecord
 from jobs.status import Status
 

@@ -12,7 +12,8 @@ from jobs.control import expire_results
 from jobs.datasets.settle import settle_all
 from jobs.datasets.words import SHARD
 from jobs.errors import BrokerAway, IllegalTransition
-from jobs.ports import Clock, JobCatalogue, Transition
+from jobs.parts import Transition
+from jobs.ports import Clock, JobCatalogue
 from jobs.record import Failure, JobRecord
 
 log = logging.getLogger(__name__)

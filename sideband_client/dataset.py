@@ -90,4 +90,4 @@ def _there(path: Path, entry: Mapping[str, Any]) -> bool:
     with path.open("rb") as stream:
         while block := stream.read(_BLOCK):
             digest.update(block)
-    return digest.hexdigest() == entry["sha256"]
+    return bool(digest.hexdigest() == entry["sha256"])

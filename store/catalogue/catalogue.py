@@ -12,7 +12,8 @@ from sqlalchemy.exc import IntegrityError
 from jobs.datasets.words import PARTS
 from jobs.errors import UnknownJob
 from jobs.identity import canonical_json
-from jobs.ports import JobQuery, Remembered, Transition
+from jobs.parts import Transition
+from jobs.ports import JobQuery, Remembered
 from jobs.record import JobEvent, JobRecord
 from jobs.status import Status
 from store.catalogue import events, keys, schema
