@@ -24,7 +24,7 @@ SHARD_S = 120.0
 LEAST_RECORDINGS = 4 * WIDTH
 """Below that, few machines of one structure meet in a shard, and the lanes stay empty."""
 MOST_SHARDS = 4096
-STARTING_S = 1.0
+STARTING_S = 2.0
 """Of each shard: a process, the plan, the upload."""
 
 
@@ -50,7 +50,7 @@ class Division:
 
     def wall_s(self, workers: int) -> float:
         """Time with so many workers, s: no shard is made by two."""
-        rounds = max(1.0, len(self.shards) / max(workers, 1))
+        rounds = math.ceil(len(self.shards) / max(workers, 1))
         return rounds * (self.cost.core_seconds / len(self.shards) + STARTING_S)
 
 
