@@ -13,7 +13,12 @@ from sim.core.errors import Problem, SpecError
 
 def cursor_of(record: JobRecord, field: str) -> str:
     """Where a page ended that is sorted by `field`."""
-    text = json.dumps([getattr(record, field), record.id])
+    return mark_of(getattr(record, field), record.id)
+
+
+def mark_of(value: float, name: str) -> str:
+    """The same of any row: its sort value, and a name that tells it from others of that value."""
+    text = json.dumps([value, name])
     return base64.urlsafe_b64encode(text.encode()).decode().rstrip("=")
 
 

@@ -60,6 +60,9 @@ class RecordingDetail(RecordingView):
 
     report: dict[str, object] | None
     """Channels with levels in SI units, sampling rate, duration, findings with their places, mains hum, remarks."""
+    condition: dict[str, object] | None
+    """Features by channel, and named `lines` with their amplitudes; none for a recording that was read before there
+    were any."""
 
 
 class SentView(RecordingView):

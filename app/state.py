@@ -11,6 +11,7 @@ from fastapi import Depends, Request
 from app.instruments import Instruments
 from app.settings import Settings
 from jobs.accept import Desk
+from jobs.health.watch import Watch
 from jobs.kept import Kept
 from jobs.ports import Engine
 from jobs.slices import Encoder
@@ -29,6 +30,8 @@ class AppState:
     started_at: float
     labels: Kept = field(default_factory=Kept)
     """Labels of channels that are not stored with their result."""
+    watch: Watch = field(default_factory=Watch)
+    """Machines as their recordings show them."""
 
     def desk(self) -> Desk:
         """For accepting and recovering."""

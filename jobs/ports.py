@@ -136,6 +136,7 @@ class JobQuery:
 
     statuses: tuple[Status, ...] = ()
     preset: str | None = None
+    """The preset of a simulation, the machine of a recording."""
     kind: str | None = None
     other_than: tuple[str, ...] = ()
     """Kinds that are left out."""
@@ -168,6 +169,9 @@ class JobCatalogue(Protocol):
 
     def query(self, query: JobQuery) -> tuple[list[JobRecord], int]:
         """A page, and how many match."""
+
+    def names(self, kind: str) -> list[str]:
+        """What the listed jobs of a kind are about (preset, machine), each once, by name."""
 
     def outbox(self, now: float, limit: int) -> list[JobRecord]:
         """Accepted, not with the broker, due."""

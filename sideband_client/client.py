@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Iterator, Mapping, Sequence
+from datetime import datetime
 from types import TracebackType
 from typing import Any, Literal, Self
 from urllib.parse import urlsplit
@@ -146,9 +147,7 @@ class Client:
             following = page["next"]
             if following is None:
                 return
-            if not str(following).startswith("/v1/jobs?"):
-                raise BadReply(f"the next page of the list has a strange address: {following}")
-            page = self._transport.json("GET", str(following))
+            page = self._transport.json("GET", _following(following, "/v1/jobs?"))
 
     def presets(self) -> list[dict[str, Any]]:
         """The preset machines: `name`, `title`, `notes`."""
@@ -170,12 +169,50 @@ class Client:
         """The bearing catalogue."""
         return list(self._transport.json("GET", "/v1/bearings")["bearings"])
 
+    def machines(self) -> Iterator[dict[str, Any]]:
+        """The machines that recordings name: `name`, `recordings`, `last_seen`, `state`, `worst`, by name."""
+        page = self._transport.json("GET", "/v1/machines", query={"limit": PAGE})
+        while True:
+            yield from page["machines"]
+            if page["next"] is None:
+                return
+            page = self._transport.json("GET", _following(page["next"], "/v1/machines?"))
+
+    def machine_health(
+        self,
+        name: str,
+        *,
+        start: datetime | str | None = None,
+        end: datetime | str | None = None,
+        channels: Sequence[str] | None = None,
+        features: Sequence[str] | None = None,
+        limit: int = PAGE,
+    ) -> dict[str, Any]:
+        """A machine over time: `points` (recordings), `series` of features with limits, `alarms`, `verdicts`.
+
+        The latest `limit` recordings (500 at most) from `start` to `end` (with an offset from UTC); `end` at the first
+        point's time asks for those before. Raises NotFound for an unknown machine or channel.
+        """
+        query = {"from": _moment(start), "to": _moment(end), "channel": channels, "feature": features, "limit": limit}
+        return self._transport.json("GET", f"/v1/machines/{_segment(name)}/health", query=query)
+
     def health(self) -> dict[str, Any]:
         """How the service and each part of it is; `status` is ok, degraded or away.
 
         Asked once: a server that is not there is told (Unreachable) within `Timing.probe_connect_s`.
         """
         return self._transport.json("GET", "/v1/health", probe=True)
+
+
+def _following(address: object, start: str) -> str:
+    """The next page's address, which must be of the same list."""
+    if not str(address).startswith(start):
+        raise BadReply(f"the next page of the list has a strange address: {address}")
+    return str(address)
+
+
+def _moment(time: datetime | str | None) -> str | None:
+    return time.isoformat() if isinstance(time, datetime) else time
 
 
 def _choice(machine: str | Mapping[str, Any], changes: Changes | None, older_name: Changes | None) -> dict[str, Any]:

@@ -22,6 +22,7 @@ from app.routes.simulations import SubmitterName, named
 from app.state import AppState, Principal, State
 from jobs.control import delete
 from jobs.errors import JobGone, UnknownJob
+from jobs.health.words import CONDITION
 from jobs.ports import JobQuery
 from jobs.record import JobRecord
 from jobs.recordings.accept import Upload, accept_recording
@@ -99,6 +100,7 @@ def list_recordings(
     request: Request,
     response: Response,
     state: State,
+    machine: Annotated[str | None, Query(max_length=80, description="Of this machine only.")] = None,
     sort: Annotated[Sort, Query()] = "-created_at",
     limit: Annotated[int, Query(ge=1, le=200)] = 50,
     cursor: Annotated[str | None, Query(max_length=300)] = None,
@@ -107,6 +109,7 @@ def list_recordings(
     field = sort.removeprefix("-")
     query = JobQuery(
         kind=RECORDING,
+        preset=machine,
         sort=field,
         descending=sort.startswith("-"),
         limit=limit,
@@ -127,8 +130,10 @@ def get_recording(job_id: JobId, state: State, response: Response) -> RecordingD
     record = _record(state, job_id)
     response.headers["Cache-Control"] = "no-store"
     ready = stage_of(record) == "ready"
-    report = stored(state, job_id).reader.document("summary") if ready else None
-    return RecordingDetail.model_validate({**fields(record), "report": report})
+    reader = stored(state, job_id).reader if ready else None
+    report = reader.document("summary") if reader is not None else None
+    condition = reader.document(CONDITION) if reader is not None and reader.has(CONDITION) else None
+    return RecordingDetail.model_validate({**fields(record), "report": report, "condition": condition})
 
 
 @router.get(f"{ADDRESS}/{{job_id}}/signals", responses={**results.ERRORS, **results.FILE})

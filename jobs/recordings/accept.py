@@ -15,6 +15,8 @@ from jobs.errors import StoreFull
 from jobs.identity import job_id
 from jobs.record import Cost
 from jobs.recordings.words import READERS_VERSION, RECORDING, upload_key
+from reconcile.kinematics import read_kinematic_spec
+from reconcile.kinematics.families import ties
 from signals.ingest import FORMATS, Bounds, check_units, read_description, suffix_of
 from sim.core.errors import Problem, SpecError
 
@@ -34,7 +36,7 @@ class Upload:
 
 def accept_recording(desk: Desk, document: object, upload: Upload, *, submitter: str) -> Acceptance:
     """Keep the file, then the job; SpecError when the description cannot describe any file."""
-    check_units(read_description(document))
+    _check_description(document)
     assert isinstance(document, Mapping)
     about = {key: value for key, value in document.items() if key != "data"}
     suffix = _suffix(upload.name, document.get("data"))
@@ -66,6 +68,17 @@ def accept_recording(desk: Desk, document: object, upload: Upload, *, submitter:
         again=lambda present: transitions.submit_again(present, submitter, now),
     )
     return Acceptance(record=hand_over(desk, record), created=created, replayed=False)
+
+
+def _check_description(document: object) -> None:
+    """Whatever can be refused before the file is looked at."""
+    description = read_description(document)
+    check_units(description)
+    if description.kinematics is None:
+        return
+    spec = read_kinematic_spec({"kinematics": description.kinematics})
+    if description.operating is not None:
+        ties(spec, description.operating.shaft)
 
 
 def _suffix(name: str, data: object) -> str:

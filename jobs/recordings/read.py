@@ -10,11 +10,14 @@ from pathlib import Path
 import numpy as np
 
 from jobs.errors import RecordingRefused, UnknownArtefact
+from jobs.health.features import condition_document
+from jobs.health.words import CONDITION
 from jobs.ports import ArtefactStore
 from jobs.record import ResultRef
 from jobs.recordings.words import READERS_VERSION, RECORDING, upload_key
 from jobs.reporter import Reporter
 from jobs.results import ChannelEntry, Manifest, json_bytes, put_file
+from reconcile.kinematics import KinematicSpec, read_kinematic_spec
 from signals.encode import describe
 from signals.ingest import Bounds, Ingested, parse, read_description, report
 from signals.readers.guard import load_apart
@@ -33,8 +36,15 @@ def read_upload(
         raise RecordingRefused(error.problems) from error
     reporter.stage("analysing", 0.6)
     summary = report(found)
+    condition = condition_document(found.recording, _spec(request["description"]))
     reporter.stage("storing", 0.8)
-    return _kept(artefacts, f"{job_id}/{attempt}", attempt, found, summary)
+    return _kept(artefacts, f"{job_id}/{attempt}", attempt, found, {"summary": summary, CONDITION: condition})
+
+
+def _spec(description: object) -> KinematicSpec | None:
+    """The machine's kinematics, where the description has them."""
+    given = description.get("kinematics") if isinstance(description, Mapping) else None
+    return None if given is None else read_kinematic_spec({"kinematics": given})
 
 
 def _parsed(artefacts: ArtefactStore, request: Mapping[str, object], job_id: str) -> Ingested:
@@ -53,15 +63,17 @@ def _parsed(artefacts: ArtefactStore, request: Mapping[str, object], job_id: str
 
 
 def _kept(
-    artefacts: ArtefactStore, prefix: str, attempt: int, found: Ingested, summary: Mapping[str, object]
+    artefacts: ArtefactStore, prefix: str, attempt: int, found: Ingested, documents: Mapping[str, Mapping[str, object]]
 ) -> ResultRef:
     """As a simulation's result is kept (`jobs.results`), with the description in place of spectra and labels."""
     recording = found.recording
     rows = (np.ascontiguousarray(row, dtype="<f8").tobytes() for row in recording.samples)
     files = {
         "signals.f64": put_file(artefacts, f"{prefix}/signals.f64", rows),
-        "summary.json": put_file(artefacts, f"{prefix}/summary.json", [json_bytes(summary)]),
-        f"{RECORDING}.json": put_file(artefacts, f"{prefix}/{RECORDING}.json", [json_bytes(describe(recording))]),
+        **{
+            f"{name}.json": put_file(artefacts, f"{prefix}/{name}.json", [json_bytes(document)])
+            for name, document in {**documents, RECORDING: describe(recording)}.items()
+        },
     }
     manifest = Manifest(
         physics_version=READERS_VERSION,

@@ -5,7 +5,7 @@ Rates and units are never guessed; what is wrong is refused with its place. See 
 
 from __future__ import annotations
 
-from signals.ingest.description import Description, read_description
+from signals.ingest.description import Description, moment, read_description
 from signals.ingest.file import data_file, ingest, load_description, read_recording
 from signals.ingest.parse import Ingested, check_units, parse
 from signals.ingest.report import report
@@ -21,6 +21,7 @@ __all__ = [
     "data_file",
     "ingest",
     "load_description",
+    "moment",
     "parse",
     "read_description",
     "read_recording",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from datetime import datetime
 from typing import Annotated, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
@@ -21,6 +22,8 @@ Text = Annotated[str, Field(max_length=200)]
 ColumnName = Annotated[str, Field(min_length=1, max_length=200)]
 ColumnIndex = Annotated[int, Field(ge=0, lt=100_000)]
 Column = ColumnName | ColumnIndex
+MachineName = Annotated[str, Field(min_length=1, max_length=80, pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]
+VibrationClass = Literal["group1-rigid", "group1-flexible", "group2-rigid", "group2-flexible"]
 Pulses = Annotated[tuple[Annotated[float, Field(allow_inf_nan=False)], ...], Field(max_length=MAX_PULSES, strict=False)]
 
 
@@ -101,6 +104,16 @@ class Description(_Part):
     operating: OperatingEntry | None = None
     tacho: TachoEntry | None = None
     time: TimeEntry | None = None
+    machine: MachineName | None = None
+    """Short name of the machine it is of: recordings of one name are followed together (`/v1/machines`)."""
+    recorded_at: Annotated[str, Field(max_length=40)] | None = None
+    """When the first sample was taken: ISO 8601 with its offset from UTC, `2026-03-01T08:30:00Z`."""
+    kinematics: dict[str, object] | None = None
+    """Shafts, bearings and teeth of the machine, by which its lines are named: what docs/reconcile.md puts behind
+    `kinematics`."""
+    vibration_class: VibrationClass | None = None
+    """Group and foundation of ISO 10816-3:2009, where its limits are to be applied: `group1` above 300 kW, `group2`
+    from 15 to 300 kW, channels on bearing housings."""
     condition: Literal["baseline", "unknown"] = "unknown"
     origin: Literal["measured", "simulated"] = "measured"
     start_s: Annotated[float, Field(allow_inf_nan=False)] = 0.0
@@ -109,12 +122,28 @@ class Description(_Part):
     data: Annotated[str, Field(min_length=1, max_length=400)] | None = None
     """The file, relative to the description; default: the one beside it with the same stem."""
 
+    @field_validator("recorded_at")
+    @classmethod
+    def _moment(cls, text: str | None) -> str | None:
+        if text is not None and moment(text) is None:
+            raise ValueError("must be ISO 8601 with an offset from UTC, as 2026-03-01T08:30:00Z")
+        return text
+
     @field_validator("channels")
     @classmethod
     def _some(cls, channels: tuple[ChannelEntry, ...]) -> tuple[ChannelEntry, ...]:
         if not channels:
             raise ValueError("give at least one channel")
         return channels
+
+
+def moment(text: str) -> datetime | None:
+    """A point in time with its offset from UTC; None for what is none."""
+    try:
+        found = datetime.fromisoformat(text)
+        return found if found.tzinfo is not None and found.timestamp() is not None else None
+    except (ValueError, OverflowError):
+        return None
 
 
 def read_description(document: object) -> Description:

@@ -120,6 +120,14 @@ class SqlCatalogue:
             total = connection.execute(select(func.count()).select_from(schema.jobs).where(*matching)).scalar_one()
             return [from_row(row) for row in connection.execute(page)], int(total)
 
+    def names(self, kind: str) -> list[str]:
+        """What the listed jobs of a kind are about (preset, machine), each once, by name."""
+        table = schema.jobs.c
+        listed = (table.gone.is_(None)) | (table.gone != "deleted")
+        chosen = select(table.preset).where(table.kind == kind, table.preset.is_not(None), listed).distinct()
+        with translated(), self._reading.connect() as connection:
+            return sorted(str(name) for name in connection.execute(chosen).scalars())
+
     def outbox(self, now: float, limit: int) -> list[JobRecord]:
         """Accepted jobs that the broker does not have and that may start now, oldest first."""
         table = schema.jobs.c

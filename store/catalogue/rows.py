@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -30,15 +31,21 @@ _SEARCHED = (
 
 def to_row(record: JobRecord) -> dict[str, Any]:
     """Column values, the request left out: it never changes for an id."""
-    preset = record.source.get("preset")
     return {
         **{name: getattr(record, name) for name in _SEARCHED},
         "status": record.status.value,
-        "preset": preset if isinstance(preset, str) else None,
+        "preset": _named(record),
         "failure_code": record.failure.code if record.failure else None,
         "expires_at": record.result.expires_at if record.result and record.gone is None else None,
         "record": _RECORD.dump_json(record).decode(),
     }
+
+
+def _named(record: JobRecord) -> str | None:
+    """What a job is about, where it has a name: the preset of a simulation, the machine of a recording."""
+    description = record.source.get("description")
+    about = description.get("machine") if isinstance(description, Mapping) else record.source.get("preset")
+    return about if isinstance(about, str) else None
 
 
 def from_row(row: Row[Any, Any]) -> JobRecord:

@@ -185,3 +185,25 @@ def test_jobs_by_status_word(catalogue: SqlCatalogue) -> None:
     page, total = catalogue.query(JobQuery(statuses=(Status.ACCEPTED,), preset="p"))
     assert total == 1 and page[0].id == "a"
     assert catalogue.query(JobQuery(statuses=(Status.FAILED,)))[1] == 0
+
+
+def test_recordings_are_found_by_the_machine_they_name(catalogue: SqlCatalogue) -> None:
+    def sent(job_id: str, description: dict[str, object]) -> None:
+        record = t.new(
+            job_id=job_id,
+            kind="recording",
+            submitter="a",
+            source={"name": "r.npz", "description": description},
+            cost=Cost(steps=0, memory_bytes=1, seconds=1.0),
+            now=1.0,
+        )
+        catalogue.put(job_id, {}, first=lambda: record, again=lambda r: r)
+
+    sent("r1", {"machine": "pump"})
+    sent("r2", {"machine": "fan"})
+    sent("r3", {})
+    sent("r4", {"machine": {"a person's own": 1}})
+    put(catalogue, "s1")
+    assert catalogue.names("recording") == ["fan", "pump"]
+    found, total = catalogue.query(JobQuery(kind="recording", preset="pump"))
+    assert ([r.id for r in found], total) == (["r1"], 1)

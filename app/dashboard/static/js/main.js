@@ -9,6 +9,8 @@ import { apiPage } from "/js/api/page.js";
 import { datasetsPage } from "/js/datasets/page.js";
 import { datasetPage } from "/js/datasets/result.js";
 import { formPage } from "/js/form/page.js";
+import { machinesPage } from "/js/machines/list.js";
+import { machinePage } from "/js/machines/page.js";
 import { overviewPage } from "/js/overview/page.js";
 import { reconcilePage } from "/js/reconcile/page.js";
 import { reconciliationPage } from "/js/reconcile/result.js";
@@ -25,6 +27,8 @@ const ROUTES = [
   [/^\/datasets\/([A-Za-z0-9_-]+)$/, "datasets", datasetPage, "Dataset"],
   [/^\/reconcile$/, "reconcile", reconcilePage, "Reconcile"],
   [/^\/reconcile\/([A-Za-z0-9_-]+)$/, "reconcile", reconciliationPage, "Reconciliation"],
+  [/^\/machines$/, "machines", machinesPage, "Machines"],
+  [/^\/machines\/([A-Za-z0-9][A-Za-z0-9._-]*)$/, "machines", machinePage, "Machine"],
   [/^\/jobs\/([A-Za-z0-9_-]+)$/, "result", resultPage, "Result"],
 ];
 

@@ -1,0 +1,1 @@
+"""Health of a machine over time: features kept with each of its recordings, baselines, alarms with their rules."""

@@ -1,0 +1,109 @@
+"""What is compared with what, and which alarms a recording gets."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from jobs.health.alarms import assess
+from jobs.health.baselines import Baselines, alike
+from jobs.health.words import STATES
+from tests.jobs.health.points import point, sound_points
+
+CLIPPED = {"channel": "de", "kind": "clipping", "message": "the signal is cut off", "count": 3}
+STUCK = {"channel": "de", "kind": "stuck", "message": "the signal holds one value", "count": 1}
+
+
+def told(found: Any) -> list[tuple[str, str, str]]:
+    return [(a.kind, a.feature, a.severity) for a in found.alarms]
+
+
+def test_a_step_of_level_is_an_alarm_with_its_rule_and_numbers() -> None:
+    found = assess(point("t", {"rms": 2.0, "bearing1.outer": 0.1}), Baselines(sound_points()))
+    assert told(found) == [("level", "rms", "alarm")] and found.state == "alarm" and found.baselines == 12
+    alarm = found.alarms[0]
+    assert alarm.baselines == 12 and alarm.rise_db == pytest.approx(6.0, abs=0.5) and alarm.unit == "m/s^2"
+    assert alarm.limit is not None and 1.0 < alarm.limit < 2.0
+    assert "MAD" in alarm.rule and "at least 8 baseline recordings" in alarm.rule and "2 dB" in alarm.rule
+
+
+def test_a_drift_within_the_spread_is_none() -> None:
+    baselines = Baselines(sound_points())
+    for k in range(20):
+        assert assess(point("t", {"rms": 10 ** (0.03 * k / 20)}), baselines).state == "ok"
+
+
+def test_a_family_needs_six_decibels_and_says_its_part() -> None:
+    baselines = Baselines(sound_points())
+    assert assess(point("t", {"bearing1.outer": 0.1 * 10 ** (5.0 / 20)}), baselines).alarms == ()
+    found = assess(point("t", {"bearing1.outer": 0.1 * 10 ** (8.0 / 20)}), baselines)
+    assert told(found) == [("family", "bearing1.outer", "warning")]
+    assert "bearing1: outer race" in found.alarms[0].message and found.alarms[0].unit == "1"
+    assert told(assess(point("t", {"bearing1.outer": 0.9}), baselines)) == [("family", "bearing1.outer", "alarm")]
+
+
+def test_too_few_baselines_give_no_alarm_and_no_all_clear() -> None:
+    found = assess(point("t", {"rms": 100.0}), Baselines(sound_points(7)))
+    assert found.alarms == () and found.limits == {} and found.state == "unknown" and found.baselines == 7
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "same"),
+    [
+        ({"speed_hz": 25.0}, {"speed_hz": 25.7}, True),
+        ({"speed_hz": 25.0}, {"speed_hz": 25.9}, False),
+        ({"torque_nm": 100.0}, {"torque_nm": 109.0}, True),
+        ({"torque_nm": 100.0}, {"torque_nm": 112.0}, False),
+        ({"torque_nm": 100.0}, {}, False),
+        ({"speed_hz": None}, {"speed_hz": None}, True),
+        ({"speed_hz": None}, {}, False),
+        ({"sampling_rate_hz": 25_600.0}, {}, False),
+        ({"version": ""}, {}, False),
+    ],
+)
+def test_only_like_recordings_are_compared(a: dict[str, Any], b: dict[str, Any], same: bool) -> None:
+    one, other = point("a", {"rms": 1.0}, **a), point("b", {"rms": 1.0}, **b)
+    assert alike(one, other) is alike(other, one) is same
+
+
+def test_baselines_of_another_speed_or_unit_count_for_nothing() -> None:
+    baselines = Baselines(sound_points() + sound_points(8, 1, speed_hz=40.0))
+    assert assess(point("t", {"rms": 5.0}, speed_hz=32.0), baselines).state == "unknown"
+    assert assess(point("t", {"rms": 5.0}, unit="g"), baselines).state == "unknown"
+
+
+def test_a_baseline_is_not_judged_by_the_others() -> None:
+    outlier = point("x", {"rms": 9.0}, baseline=True)
+    found = assess(outlier, Baselines([*sound_points(), outlier]))
+    assert found.alarms == () and found.state == "ok"
+
+
+def test_a_spoilt_channel_is_told_and_not_judged() -> None:
+    found = assess(point("t", {"rms": 5.0}, findings=[STUCK]), Baselines(sound_points()))
+    assert told(found) == [("measurement", "stuck", "measurement")] and found.state == "measurement"
+    assert "not judged" in found.alarms[0].message
+
+
+def test_a_clipped_level_is_at_least_what_it_reads() -> None:
+    found = assess(point("t", {"rms": 5.0, "bearing1.outer": 0.9}, findings=[CLIPPED]), Baselines(sound_points()))
+    assert told(found) == [("level", "rms", "alarm"), ("measurement", "clipping", "measurement")]
+
+
+def test_a_spoilt_channel_is_no_baseline() -> None:
+    spoilt = [point(f"s{i}", {"rms": 50.0}, baseline=True, findings=[CLIPPED]) for i in range(30)]
+    assert told(assess(point("t", {"rms": 2.0}), Baselines(sound_points() + spoilt))) == [("level", "rms", "alarm")]
+
+
+def test_fixed_limits_need_a_class_and_cite_the_standard() -> None:
+    values = {"velocity_rms": 5e-3}
+    assert assess(point("t", values), Baselines([])).state == "unknown"
+    found = assess(point("t", values, vibration_class="group2-rigid"), Baselines([]))
+    assert told(found) == [("limit", "velocity_rms", "alarm")]
+    assert found.alarms[0].limit == 4.5e-3 and "ISO 10816-3:2009" in found.alarms[0].rule
+    calm = assess(point("t", {"velocity_rms": 1e-3}, vibration_class="group2-rigid"), Baselines([]))
+    assert calm.state == "ok" and calm.alarms == ()
+
+
+def test_states_are_in_order_of_gravity() -> None:
+    assert STATES == ("unknown", "ok", "measurement", "warning", "alarm")
