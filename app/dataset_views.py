@@ -125,6 +125,8 @@ class FormatView(Reply):
 
     name: str
     sentence: str
+    installed: bool
+    """False: this server refuses it, for want of a package."""
 
 
 class RecipesView(Reply):

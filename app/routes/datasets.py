@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import time
 import uuid
 from typing import Annotated, Any, cast
@@ -119,9 +120,16 @@ def recipes() -> RecipesView:
             ReadyRecipe(name=ready.name, sentence=ready.sentence, recipe=document_of(ready.read()))
             for ready in RECIPES.values()
         ],
-        formats=[FormatView(name=found.name, sentence=found.sentence) for found in FORMATS.values()],
+        formats=[
+            FormatView(name=found.name, sentence=found.sentence, installed=_installed(found.package))
+            for found in FORMATS.values()
+        ],
         recipe_schema=Recipe.model_json_schema(),
     )
+
+
+def _installed(package: str) -> bool:
+    return not package or importlib.util.find_spec(package) is not None
 
 
 @router.get(f"{ADDRESS}/{{job_id}}", response_model=DatasetView, responses=problems(401, 404, 410, 503))

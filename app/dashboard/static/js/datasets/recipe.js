@@ -14,7 +14,7 @@ export function recipeForm(found, changed) {
   const notice = h("p", { class: "field-error", role: "alert" });
   const text = h("textarea", { id: "dataset-json", rows: "18", spellcheck: "false", "aria-label": "The whole recipe, JSON", onchange: fromText });
   const preset = select(found.recipes.map((ready) => [ready.name, ready.name]), recipe.name, { id: "dataset-preset", onchange: choose });
-  const format = select(found.formats.map(({ name }) => [name, name]), "parquet", { id: "dataset-format", onchange: told });
+  const format = select(found.formats.filter(({ installed }) => installed).map(({ name }) => [name, name]), "parquet", { id: "dataset-format", onchange: told });
   const shard = h("input", { type: "number", id: "dataset-shard", min: "1", step: "1", placeholder: "chosen by the server", onchange: told });
 
   function told() {
