@@ -129,6 +129,14 @@ def test_rows_archive_and_deletion(parts: Parts, tmp_path: Path) -> None:
         assert page["total"] == 16 and len(page["rows"]) == 2
         assert page["rows"][0]["signal"] is None and page["rows"][0]["spectrum"]["unit"] == "m/s^2"
         assert page["rows"][0]["columns"]["split"] in ("train", "test") and "signal" not in page["rows"][0]["columns"]
+        result = client.get(f"/v1/jobs/{dataset_id}/result").json()
+        assert result["links"] == {} and result["rows"] == 16 and "README.md" in result["files"]
+        part = client.get(f"{ADDRESS}/{dataset_id}/files/README.md", headers={"Range": "bytes=0-2"})
+        assert (part.status_code, part.content) == (206, b"---")
+        same = {"If-None-Match": part.headers["ETag"]}
+        assert client.get(f"{ADDRESS}/{dataset_id}/files/README.md", headers=same).status_code == 304
+        unknown = client.get(f"{ADDRESS}/{dataset_id}/files/data/none.parquet")
+        assert unknown.status_code == 404 and "manifest.json" in unknown.json()["errors"][0]["allowed"]
         reply = client.get(f"{ADDRESS}/{dataset_id}/archive.tar")
         (tmp_path / "a.tar").write_bytes(reply.content)
         unpacked(tmp_path / "a.tar", tmp_path)
