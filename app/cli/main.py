@@ -32,6 +32,9 @@ COMMANDS = {
         module="app.cli.reconcile", sentence="find what a machine's model lacks against recordings, and name it"
     ),
     "dataset": Command(module="app.cli.dataset", sentence="plan, make, resume and verify a dataset for training"),
+    "classify": Command(
+        module="app.cli.classify", sentence="name a recording's bearing fault, by a model trained on simulations"
+    ),
     "recording": Command(module="app.cli.recording", sentence="read a recording by its description; say what is in it"),
     "presets": Command(module="app.cli.presets", sentence="list the ready machines, or print one"),
     "terms": Command(module="app.cli.terms", sentence="list the physical effects and their parameters"),

@@ -1,0 +1,94 @@
+"""Classify a measured recording with a model that was trained on simulated ones: healthy, outer, inner or ball.
+
+R.json is the description of a recording (the data file beside it). Where it says the bearing (`bearing`: a catalogue
+name or its sizes; or `kinematics` as in a machine file) or --machine does, its lines are looked for; otherwise any
+usual bearing is thought possible. The stated speed is where the search for the true one starts, unless --trust-speed.
+
+Example: sideband classify --recording R.json --json
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from app.cli.choice import read_machine
+from app.cli.files import json_text, read_json
+from learn.classify import classify
+from learn.describe import Site, kinematics_in, sites
+from learn.model import default_model, load
+from reconcile.kinematics import of_machine, read_kinematic_spec
+from signals.ingest import read_recording
+from signals.ingest.file import load_description
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument(
+        "--recording", metavar="R.json", type=Path, required=True, help="the description; data beside it"
+    )
+    parser.add_argument(
+        "--model", metavar="M", type=Path, default=None, help="a trained model (default: the shipped one)"
+    )
+    parser.add_argument(
+        "--machine", metavar="FILE", type=Path, default=None, help="machine or kinematics, for bearings"
+    )
+    parser.add_argument("--channel", metavar="NAME", nargs="+", default=None, help="only these channels")
+    parser.add_argument("--trust-speed", action="store_true", help="take the stated speed as exact")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the command."""
+    model = load(arguments.model) if arguments.model is not None else default_model()
+    recording = read_recording(arguments.recording)
+    shaft = recording.operating.shaft if recording.operating is not None else None
+    known = _sites(arguments, shaft)
+    found = classify(recording, model, known, channels=arguments.channel, trust_speed=arguments.trust_speed)
+    print(json_text(found) if arguments.json else _text(found), end="")
+    return 0
+
+
+def _sites(arguments: argparse.Namespace, shaft: str | None) -> list[Site]:
+    """Bearings of the machine file, else of the description."""
+    if arguments.machine is not None:
+        document = read_json(arguments.machine)
+        spec = (
+            read_kinematic_spec(document) if "kinematics" in document else of_machine(read_machine(arguments.machine))
+        )
+    else:
+        described = load_description(arguments.recording)
+        told: dict[str, object] = dict(described.model_extra or {})
+        if described.kinematics is not None:
+            told["kinematics"] = described.kinematics
+        found = kinematics_in(told, shaft)
+        if found is None:
+            return []
+        spec = found
+    return sites(spec, shaft)
+
+
+def _text(found: Mapping[str, Any]) -> str:
+    shares = ", ".join(f"{name} {p:.2f}" for name, p in sorted(found["probabilities"].items(), key=lambda x: -x[1]))
+    at = f" at {found['bearing']}" if found["bearing"] else ""
+    lines = [f"{found['label']}{at} ({shares})"]
+    speed = found["speed"]
+    how = {"tacho": "by its pulses", "given": "as stated", "stated": "as stated, no lines confirm it"}
+    told = how.get(speed["method"], "read from its lines")
+    lines.append(f"speed {speed['speed_hz']:.5g} Hz, {told}; {found['turns']:.0f} turns; geometry {found['geometry']}")
+    lines += [_line(line) for line in found["lines"]]
+    lines += [f"note: {remark}" for remark in found["remarks"]]
+    return "\n".join(lines) + "\n"
+
+
+def _line(line: Mapping[str, Any]) -> str:
+    where = f"  {line['family']:<8} order {line['order']:.4g}, {line['frequency_hz']:.5g} Hz"
+    if "slip" not in line:
+        return f"{where}: {line['z']:.1f} deviations over other orders"
+    low, high = line["band_hz"]
+    return (
+        f"{where} ({line['slip']:+.2%}): {line['z']:.1f} deviations over other orders, depth {line['depth']:.2g} "
+        f"of the envelope in {low:.0f}-{high:.0f} Hz of {line['channel']}"
+    )

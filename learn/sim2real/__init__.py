@@ -1,0 +1,1 @@
+"""`make sim2real`: trained on simulations only, tested on measured recordings."""

@@ -1,0 +1,106 @@
+"""`python -m learn.sim2real`: simulate, train, test on measured recordings; tables, then one line of JSON.
+
+Nothing of the measured recordings is ever fitted to or normalised with. Where they are absent, the training alone runs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+from learn.model import Model, load, save
+from learn.real.load import RECORDINGS, Case, available, case, index
+from learn.sim2real.report import Results, report
+from learn.sim2real.table import Table, pool_of, table, train
+from learn.simulate.machines import CLASSES
+from learn.simulate.rows import Variant
+from sim.version import PHYSICS_VERSION
+
+SEED, MACHINES, ABLATED = 1, 180, 24
+RIGS = ("cwru", "hit_sm_mfs", "uestc", "ims_healthy", "motor_acoustic")
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run; 0 also where the recordings are absent, with the reason."""
+    parser = argparse.ArgumentParser(prog="learn.sim2real", description=__doc__)
+    parser.add_argument("--model", type=Path, default=None, help="write the trained model here")
+    parser.add_argument("--from-model", type=Path, default=None, help="do not train: test this model")
+    parser.add_argument("--machines", type=int, default=MACHINES, help="simulated machines, about")
+    parser.add_argument("--ablated", type=int, default=ABLATED, help="machines of the reduced data sets; 0: none")
+    parser.add_argument("--seed", type=int, default=SEED)
+    parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--docs", type=Path, default=None, help="also write the tables to this page")
+    given = parser.parse_args(argv)
+    began = time.monotonic()
+    model, held = (load(given.from_model), "") if given.from_model else _trained(given, began)
+    if given.model is not None:
+        save(model, given.model)
+    if not available():
+        print(f"skipped: there are no recordings at {RECORDINGS}")
+        return 0
+    ablated = _ablated(given, began) if given.ablated and not given.from_model else {}
+    cases = [case(e) for e in index() if e["dataset"] in RIGS]
+    _tell(began, f"{len(cases)} measured recordings read")
+    labelled = [c for c in cases if c.label in CLASSES]
+    with pool_of(given.processes) as pool:
+        results = report(model, ablated, labelled, seed=given.seed, pool=pool)
+    _write(results, held, cases, given.docs)
+    _tell(began, "done")
+    print(results.line)
+    return 0
+
+
+def _trained(given: argparse.Namespace, began: float) -> tuple[Model, str]:
+    found = table(given.machines, given.seed, Variant(), given.processes)
+    _tell(began, f"{len(set(found.machines))} machines simulated, {len(found.labels)} pieces of recordings")
+    model = train(found, seed=given.seed, made_by=_made_by(given, found))
+    _tell(began, "trained")
+    return model, f"{len(set(found.machines))} machines, {len(found.labels)} pieces"
+
+
+def _made_by(given: argparse.Namespace, found: Table) -> dict[str, object]:
+    return {
+        "command": f"python -m learn.sim2real --machines {given.machines} --seed {given.seed}",
+        "physics_version": PHYSICS_VERSION,
+        "machines": len(set(found.machines)),
+        "rows": len(found.labels),
+        "real_samples": 0,
+    }
+
+
+def _ablated(given: argparse.Namespace, began: float) -> dict[str, Model]:
+    """Models of smaller data sets: all of the recipe, without the chain, without the spread of machines."""
+    kinds = {
+        "recipe as it is": Variant(),
+        "without the measurement chain": Variant(chain=False),
+        "without the spread of machines": Variant(spread=False),
+    }
+    models = {}
+    for name, variant in kinds.items():
+        found = table(given.ablated, given.seed + 1, variant, given.processes)
+        models[name] = train(found, seed=given.seed, made_by={})
+        _tell(began, f"{name}: {len(found.labels)} pieces")
+    return models
+
+
+def _tell(began: float, what: str) -> None:
+    print(f"[{time.monotonic() - began:5.0f} s] {what}", file=sys.stderr, flush=True)
+
+
+def _write(results: Results, held: str, cases: list[Case], docs: Path | None) -> None:
+    text = results.text
+    if held:
+        text = f"Training: {held}; measured recordings: {len(cases)}.\n\n{text}"
+    print(text)
+    if docs is not None:
+        page = docs.read_text(encoding="utf-8")
+        head = page.split(MARK)[0]
+        docs.write_text(f"{head}{MARK}\n\n{text}\n", encoding="utf-8")
+
+
+MARK = "<!-- results -->"
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,185 @@
+"""The Sideband dataset behind the classifier: recipes of bearing machines drawn over wide ranges, four recordings each.
+
+Every machine is recorded sound and with a spall on the outer race, the inner race and a ball. Speed, load, sizes,
+stiffnesses and what is never perfect in a sound machine differ from machine to machine only, so the four recordings
+of one machine differ by the fault alone. No chain is in the recipe: the ring's motion is kept, and heard in `hearing`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cache
+
+from sideband_datasets import Recipe, read_recipe
+from sim.core.spec import (
+    BallGeometry,
+    BearingSpec,
+    BodySpec,
+    MachineSpec,
+    OperatingSpec,
+    ShaftSpec,
+    SupportSpec,
+)
+from sim.parts.bearing.catalogue import CatalogueRow, catalogue
+
+CLASSES = ("healthy", "outer", "inner", "ball")
+FAULTS = CLASSES[1:]
+BEARINGS = ("bearing1", "bearing2")
+RATE_HZ = 48_000.0
+SETTLE_S = 0.15
+SLOW_HZ, SPLIT_HZ, FAST_HZ = 9.0, 22.0, 62.0
+SLOW_S, FAST_S = 3.0, 1.6
+"""Length of a recording below and above the split: 27 to 100 turns."""
+UNUSUAL = ((6, 0.28, 0.0), (7, 0.25, 20.0), (8, 0.28, 0.0), (9, 0.18, 15.0), (10, 0.24, 0.0), (11, 0.2, 25.0),
+           (12, 0.19, 0.0), (13, 0.16, 15.0), (14, 0.17, 0.0), (16, 0.13, 12.0))  # fmt: skip
+"""Beside the catalogue: balls, diameter ratio, contact angle (degrees)."""
+PITCH_M = 0.045
+RARE = 0.35
+"""Machines of each unusual geometry, relative to those of a catalogue size."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bearings:
+    """Bearings of one family: sizes of the catalogue with as many balls, or one free geometry."""
+
+    name: str
+    sizes: tuple[str, ...] = ()
+    geometry: BallGeometry | None = None
+    share: float = 1.0
+    """How many machines, relative to the other families."""
+
+
+@cache
+def families() -> tuple[Bearings, ...]:
+    """Catalogue bearings by number of balls, as common as the catalogue has them, then unusual ones."""
+    rows: dict[int, list[CatalogueRow]] = {}
+    for row in catalogue().values():
+        if row.element == "ball" and row.contact_angle_rad == 0.0:
+            rows.setdefault(row.balls, []).append(row)
+    usual = [
+        Bearings(name=f"usual{z}", sizes=tuple(sorted(r.designation for r in found)), share=float(len(found)))
+        for z, found in sorted(rows.items())
+    ]
+    free = [
+        Bearings(
+            name=f"free{k}",
+            geometry=BallGeometry(
+                balls=z, ball_diameter_m=ratio * PITCH_M, pitch_diameter_m=PITCH_M, contact_angle_deg=angle
+            ),
+            share=RARE,
+        )
+        for k, (z, ratio, angle) in enumerate(UNUSUAL)
+    ]
+    return (*usual, *free)
+
+
+def _bearing(name: str, kind: Bearings) -> BearingSpec:
+    return BearingSpec(
+        name=name,
+        body="disc",
+        catalogue=kind.sizes[0] if kind.sizes else None,
+        geometry=kind.geometry,
+        inner_mass_kg=0.1,
+        outer_mass_kg=0.5,
+        shaft_stiffness_n_per_m=1e8,
+        shaft_damping_ns_per_m=600.0,
+        support=SupportSpec(
+            stiffness_x_n_per_m=1e8, stiffness_y_n_per_m=1e8, damping_x_ns_per_m=1e3, damping_y_ns_per_m=1e3
+        ),
+    )
+
+
+def machine(kind: Bearings) -> MachineSpec:
+    """A disc on a shaft in two bearings under a radial load."""
+    return MachineSpec(
+        name=kind.name,
+        shafts=[ShaftSpec(name="input", length_m=0.3)],
+        bodies=[BodySpec(name="disc", mass_kg=5.0, shaft="input", axes="xy")],
+        bearings=[_bearing(name, kind) for name in BEARINGS],
+        gravity_m_per_s2=9.80665,
+        operating=OperatingSpec(shaft="input", speed_hz=30.0, rotation="geared"),
+    )
+
+
+def _log(low: float, high: float) -> dict[str, object]:
+    return {"low": low, "high": high, "scale": "log"}
+
+
+def vary(kind: Bearings, *, fast: bool) -> dict[str, object]:
+    """What differs from machine to machine. Gravity stands for any radial load (belts, weights, neighbours), clearance
+    below zero for preload, under which all balls carry and a defect is struck alike wherever it stands."""
+    found: dict[str, object] = {
+        "operating.speed_hz": _log(SPLIT_HZ, FAST_HZ) if fast else _log(SLOW_HZ, SPLIT_HZ),
+        "gravity_m_per_s2": _log(9.8, 100.0),
+        "bodies.disc.mass_kg": _log(1.0, 20.0),
+        "unbalance@disc.moment": _log(1e-6, 5e-4),
+        "parallel_misalignment@input.offset": _log(1e-6, 1e-5),
+        "parallel_misalignment@input.stiffness": _log(1e4, 1e6),
+        "parallel_misalignment@input.odd": {"low": 0.0, "high": 0.6},
+    }
+    for name in BEARINGS:
+        at = f"bearings.{name}"
+        if kind.sizes:
+            found[f"{at}.catalogue"] = {"choices": list(kind.sizes)}
+        found |= {
+            f"{at}.radial_clearance_m": {"low": -8e-6, "high": 7e-6},
+            f"{at}.inner_mass_kg": _log(0.03, 0.3),
+            f"{at}.outer_mass_kg": _log(0.1, 2.0),
+            f"{at}.shaft_stiffness_n_per_m": _log(3e7, 4e8),
+            f"{at}.shaft_damping_ns_per_m": _log(200.0, 2e3),
+            f"{at}.cage_phase_rad": {"low": 0.0, "high": 6.28},
+            f"{at}.support.stiffness_x_n_per_m": _log(2e7, 4e8),
+            f"{at}.support.stiffness_y_n_per_m": _log(2e7, 4e8),
+            f"{at}.support.damping_x_ns_per_m": _log(200.0, 5e3),
+            f"{at}.support.damping_y_ns_per_m": _log(200.0, 5e3),
+            f"cage_slip@{name}.share": {"low": 0.0, "high": 0.03},
+        }
+        for term in ("outer_waviness", "inner_waviness"):
+            found[f"{term}@{name}.amplitude"] = _log(3e-9, 5e-7)
+            found[f"{term}@{name}.order"] = {"choices": [float(k) for k in range(2, 60)]}
+    return found
+
+
+def _fault(name: str) -> dict[str, object]:
+    """A spall 0.15 to 3 mm long; on the outer race within 70 degrees of the load."""
+    angle = {"low": -math.pi / 2 - 1.2, "high": -math.pi / 2 + 1.2} if name == "outer" else {"low": 0.0, "high": 6.28}
+    longest = 2e-3 if name == "ball" else 3e-3
+    values = {"width": _log(1.5e-4, longest), "depth": _log(3e-5, 4e-4), "angle": angle}
+    return {"name": name, "terms": [{"term": f"{name}_spall", "sites": [BEARINGS[0]], "parameters": values}]}
+
+
+def recipe(count: int, *, fast: bool, seed: int = 0, spread: bool = True) -> Recipe:
+    """`count` machines and four recordings of each; without `spread` all are one machine but for their faults."""
+    kinds = families() if spread else tuple(f for f in families() if f.name == "usual9")
+    total = sum(f.share for f in kinds)
+    instances = [max(1, round(count * kind.share / total)) for kind in kinds]
+    members = [
+        {
+            "name": kind.name,
+            "machine": machine(kind).model_dump(mode="json"),
+            "vary": vary(kind, fast=fast) if spread else {"operating.speed_hz": {"low": 29.0, "high": 31.0}},
+            "instances": number,
+        }
+        for kind, number in zip(kinds, instances, strict=True)
+    ]
+    ring = [
+        {"kind": "accelerometer", "name": axis, "place": {"location": f"{BEARINGS[0]}.outer", "direction_deg": angle}}
+        for axis, angle in (("x", 0.0), ("y", 90.0))
+    ]
+    return read_recipe(
+        {
+            "name": "bearings-fast" if fast else "bearings-slow",
+            "seed": seed,
+            "count": len(CLASSES) * sum(instances),
+            "machines": members,
+            "faults": [_fault(name) for name in FAULTS],
+            "healthy_share": 1 / len(CLASSES),
+            "measurement": [{"name": "ring", "chain": {"channels": ring}}],
+            "sampling_rate_hz": RATE_HZ,
+            "duration_s": FAST_S if fast else SLOW_S,
+            "settle_s": SETTLE_S,
+            "peaks": {"spectra": []},
+            "splits": {"train": 1.0},
+        }
+    )

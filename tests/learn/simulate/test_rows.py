@@ -1,0 +1,73 @@
+from itertools import islice
+
+import numpy as np
+import pytest
+
+from learn.orders import of_ratio
+from learn.simulate.background import free_axis, knocks, rolling_noise, warped
+from learn.simulate.machines import CLASSES, families, recipe
+from learn.simulate.rows import Variant, rows
+from learn.simulate.visible import SHOWS_DB, visible_db
+from sideband_datasets import make_plan
+
+
+def test_each_machine_is_recorded_once_in_every_class():
+    plan = make_plan(recipe(30, fast=True))
+    for m in range(len(plan.machines)):
+        assert sorted(plan.kind[plan.machine == m]) == [0, 1, 2, 3]
+
+
+def test_every_family_of_bearings_has_a_machine():
+    plan = make_plan(recipe(30, fast=False))
+    assert {m.family for m in plan.machines} == {f.name for f in families()}
+
+
+def test_no_two_machines_are_alike():
+    plan = make_plan(recipe(40, fast=True))
+    assert len({m.content for m in plan.machines}) == len(plan.machines)
+
+
+def test_a_fault_as_strong_as_the_background_shows_and_none_does_not():
+    rng = np.random.default_rng(0)
+    sound = rng.standard_normal(4096)
+    assert visible_db(sound, sound) < -100
+    assert visible_db(sound, sound + rng.standard_normal(4096)) > SHOWS_DB
+    assert visible_db(sound, sound + 0.05 * rng.standard_normal(4096)) < SHOWS_DB
+
+
+def test_backgrounds_have_the_level_they_are_scaled_from():
+    angle = 2 * np.pi * 25 / 48_000 * np.arange(48_000)
+    noise = rolling_noise(np.random.default_rng(0), angle, of_ratio(9, 0.2))
+    assert np.std(noise) == pytest.approx(1.0, rel=1e-6)
+    some = [knocks(np.random.default_rng(k), 48_000, 48_000.0) for k in range(40)]
+    levels = [float(np.sqrt(np.mean(s**2))) for s in some]
+    assert {round(v, 6) for v in levels} == {0.0, 1.0}
+
+
+def test_a_free_axis_adds_nothing_of_its_own():
+    fault = np.random.default_rng(0).standard_normal((2, 20_000))
+    moved = free_axis(np.random.default_rng(1), fault, 48_000.0, 60.0, 10.0)
+    assert moved.shape == fault.shape
+    assert np.std(moved) <= np.std(fault)
+    assert not np.any(free_axis(np.random.default_rng(1), 0 * fault, 48_000.0, 60.0, 10.0))
+
+
+def test_a_wandering_speed_moves_a_line_by_its_share():
+    t = np.arange(48_000) / 48_000
+    x = np.stack([np.sin(2 * np.pi * 500 * t)] * 2)
+    still = warped(x, 48_000.0, 1e-9, 0.5, 3)
+    np.testing.assert_allclose(still, x, atol=1e-4)
+    spread = np.abs(np.fft.rfft(warped(x, 48_000.0, 5e-3, 0.3, 3)[0])) ** 2
+    assert spread[500] < 0.9 * np.sum(spread)
+
+
+@pytest.mark.slow
+def test_rows_are_reproducible_and_labelled():
+    first = list(islice(rows(18, 3, 0, 24), 3))
+    again = list(islice(rows(18, 3, 0, 24), 3))
+    assert [r.label for r in first] == [r.label for r in again]
+    assert all(np.array_equal(a.samples, b.samples) for a, b in zip(first, again, strict=True))
+    assert {r.label for r in first} <= set(CLASSES)
+    assert all(np.all(np.isfinite(r.samples)) for r in first)
+    bare = list(islice(rows(18, 3, 0, 24, Variant(chain=False)), 2))
+    assert {r.rate_hz for r in bare} == {48_000.0}
