@@ -11,6 +11,7 @@ COPY sim sim
 COPY signals signals
 COPY reconcile reconcile
 COPY sideband_datasets sideband_datasets
+COPY learn learn
 COPY jobs jobs
 COPY store store
 COPY workers workers
