@@ -10,6 +10,8 @@ COPY pyproject.toml README.md LICENSE THIRD_PARTY_NOTICES.md ./
 COPY sim sim
 COPY signals signals
 COPY reconcile reconcile
+COPY sideband_datasets sideband_datasets
+COPY learn learn
 COPY jobs jobs
 COPY store store
 COPY workers workers

@@ -20,6 +20,8 @@ from app.instruments import Instruments, Measured
 from app.query import only_known_query
 from app.recovery import RecoveryThread
 from app.routes import (
+    dataset_files,
+    datasets,
     estimate,
     events,
     health,
@@ -50,6 +52,8 @@ _MODULES = (
     plots,
     recordings,
     reconciliations,
+    datasets,
+    dataset_files,
     machines,
     terms,
     reference,

@@ -22,7 +22,8 @@ class ProgressView(Reply):
 
     fraction: Annotated[float, Field(ge=0, le=1)]
     stage: str
-    """`waiting`, `starting`, `simulating`, `analysing`, `storing`, `done`; a reconciliation names its own stages."""
+    """`waiting`, `starting`, `simulating`, `analysing`, `storing`, `done`; reconciliations and datasets
+    name their own."""
     eta_s: float | None
     """Estimated time left, s."""
 
@@ -32,7 +33,7 @@ class FailureView(Reply):
 
     code: str
     """`diverged`, `invalid-machine`, `worker-lost`, `timeout`, `out-of-memory`, `store-full`, `store-away`,
-    `not-reconcilable` or `internal`."""
+    `not-reconcilable`, `not-makeable` or `internal`."""
     message: str
     advice: str
     detail: dict[str, object] | None = None

@@ -63,7 +63,8 @@ class Settings:
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> Settings:
         """`SIDEBAND_HOST`, `SIDEBAND_PORT`, `SIDEBAND_API_KEYS` (`name:sha256,...`), `SIDEBAND_ALLOWED_HOSTS`; limits:
         `SIDEBAND_MAX_DURATION_S`, `SIDEBAND_MAX_MEMORY_BYTES`, `SIDEBAND_MAX_STEPS`, `SIDEBAND_MAX_SECONDS`,
-        `SIDEBAND_MAX_WAITING`, `SIDEBAND_MAX_UPLOAD_BYTES`. `SIDEBAND_PAGES_DIR`: the pages of the effects, where they
+        `SIDEBAND_MAX_WAITING`, `SIDEBAND_MAX_DATASET_CORE_HOURS`, `SIDEBAND_MAX_DATASET_BYTES`,
+        `SIDEBAND_MAX_DATASETS`, `SIDEBAND_MAX_UPLOAD_BYTES`. `SIDEBAND_PAGES_DIR`: the pages of the effects, where they
         lie elsewhere."""
         env = os.environ if environment is None else environment
         read, base = Numbers(env), Limits()
@@ -73,6 +74,9 @@ class Settings:
             memory_bytes=read.whole("SIDEBAND_MAX_MEMORY_BYTES", base.memory_bytes, unit="bytes"),
             seconds=read.number("SIDEBAND_MAX_SECONDS", base.seconds, unit="s"),
             waiting_jobs=read.whole("SIDEBAND_MAX_WAITING", base.waiting_jobs),
+            dataset_core_hours=read.number("SIDEBAND_MAX_DATASET_CORE_HOURS", base.dataset_core_hours, unit="h"),
+            dataset_bytes=read.whole("SIDEBAND_MAX_DATASET_BYTES", base.dataset_bytes, unit="bytes"),
+            datasets=read.whole("SIDEBAND_MAX_DATASETS", base.datasets),
         )
         port = read.whole("SIDEBAND_PORT", cls.port, most=65535)
         upload = read.whole("SIDEBAND_MAX_UPLOAD_BYTES", cls.max_upload_bytes, unit="bytes")

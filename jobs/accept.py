@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from jobs import transitions
+from jobs.datasets.words import SHARD
 from jobs.errors import BrokerAway, IdempotencyConflict, QueueFull, StoreFull, UnknownJob
 from jobs.identity import digest, job_id
 from jobs.limits import Limits
@@ -89,7 +90,9 @@ def hand_over(desk: Desk, record: JobRecord) -> JobRecord:
 
 def ticket_of(record: JobRecord, limits: Limits) -> Ticket:
     """The broker's ticket. The time allowed is the server's bound: an estimate must not kill a slow machine's job."""
-    return Ticket(job_id=record.id, attempt=record.attempt, timeout_s=int(limits.seconds * 2) + 60)
+    return Ticket(
+        job_id=record.id, attempt=record.attempt, timeout_s=int(limits.seconds * 2) + 60, bulk=record.kind == SHARD
+    )
 
 
 def replayed(desk: Desk, scope: str, key: str, body: str) -> Acceptance | None:

@@ -7,7 +7,11 @@ import logging
 from dataclasses import dataclass
 
 from jobs import transitions
+from jobs.datasets import family
+from jobs.datasets.settle import settle
+from jobs.datasets.words import DATASET, SHARD
 from jobs.errors import BrokerAway, IllegalTransition
+from jobs.parts import Transition
 from jobs.ports import ArtefactStore, Clock, JobCatalogue, Queue, Ticket
 from jobs.record import JobRecord
 from jobs.status import Status
@@ -30,11 +34,28 @@ def cancel(catalogue: JobCatalogue, queue: Queue, clock: Clock, job_id: str, cal
     The catalogue decides: a ticket that the broker still holds for a dismissed job does nothing when it is drawn.
     """
     now = clock()
+    record = catalogue.get(job_id)
+    family.refuse_part(record, catalogue.parts.parent_of(job_id))
+    if record.kind == DATASET:
+        return _cancel_dataset(catalogue, queue, clock, job_id, caller)
     record = catalogue.change(job_id, lambda r: transitions.withdraw(r, leaving(r, caller), now))
     if record.status is Status.DISMISSED:
         with contextlib.suppress(BrokerAway):
             queue.withdraw(Ticket(job_id=job_id, attempt=record.attempt, timeout_s=0))
     return record
+
+
+def _cancel_dataset(catalogue: JobCatalogue, queue: Queue, clock: Clock, job_id: str, caller: Caller) -> JobRecord:
+    now = clock()
+    record = catalogue.change(job_id, lambda r: family.withdrawn(r, leaving(r, caller), now))
+    if record.cancel_requested_at is None:
+        return record
+    waiting = [part for part in catalogue.parts.of(job_id, Status.ACCEPTED) if part.enqueued_at is not None]
+    settle(catalogue, clock, job_id)
+    with contextlib.suppress(BrokerAway):
+        for part in waiting:
+            queue.withdraw(Ticket(job_id=part.id, attempt=part.attempt, timeout_s=0, bulk=part.kind == SHARD))
+    return catalogue.get(job_id)
 
 
 def leaving(record: JobRecord, caller: Caller) -> frozenset[str]:
@@ -53,9 +74,20 @@ def leaving(record: JobRecord, caller: Caller) -> frozenset[str]:
 def delete(catalogue: JobCatalogue, artefacts: ArtefactStore, clock: Clock, job_id: str) -> JobRecord:
     """Forget a finished job and remove its result."""
     now = clock()
+    family.refuse_part(catalogue.get(job_id), catalogue.parts.parent_of(job_id))
     record = catalogue.change(job_id, lambda r: transitions.delete(r, now))
+    _forget_parts(catalogue, artefacts, record, lambda r: transitions.delete(r, now))
     artefacts.delete_prefix(f"{job_id}/")
     return record
+
+
+def _forget_parts(catalogue: JobCatalogue, artefacts: ArtefactStore, record: JobRecord, forget: Transition) -> None:
+    """What a dataset's parts left goes with it; one that still runs ends by itself and expires."""
+    if record.kind != DATASET:
+        return
+    catalogue.parts.change(record.id, lambda r: r if r.status.active or r.gone is not None else forget(r))
+    for part in catalogue.parts.of(record.id):
+        artefacts.delete_prefix(f"{part.id}/")
 
 
 def expire_results(catalogue: JobCatalogue, artefacts: ArtefactStore, clock: Clock, limit: int = 100) -> int:
@@ -64,5 +96,6 @@ def expire_results(catalogue: JobCatalogue, artefacts: ArtefactStore, clock: Clo
     gone = catalogue.expired(now, limit)
     for record in gone:
         catalogue.change(record.id, lambda r: transitions.expire(r, now))
+        _forget_parts(catalogue, artefacts, record, lambda r: transitions.expire(r, now))
         artefacts.delete_prefix(f"{record.id}/")
     return len(gone)

@@ -14,6 +14,7 @@ JobError
  +- UnknownArtefact        the result has no such part
  +- RecordingRefused       what was sent is no recording; carries field problems
  +- NotReconcilable        recordings and machine do not go together; carries field problems
+ +- DatasetRefused         a worker cannot make the rows that were asked for; carries field problems
 """
 
 from __future__ import annotations
@@ -107,6 +108,14 @@ class RecordingRefused(JobError):
 
 class NotReconcilable(JobError):
     """Recordings cannot be reconciled with the machine as it is given; `problems` say which field stands in the way."""
+
+    def __init__(self, problems: Sequence[Problem]) -> None:
+        self.problems = tuple(problems)
+        super().__init__("; ".join(str(p) for p in self.problems))
+
+
+class DatasetRefused(JobError):
+    """A worker cannot make the rows that were asked for; `problems` say what stands in the way."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
         self.problems = tuple(problems)

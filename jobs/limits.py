@@ -25,6 +25,10 @@ class Limits:
     memory_bytes: int = 4 * 2**30
     seconds: float = 1800.0
     waiting_jobs: int = 1000
+    dataset_core_hours: float = 200.0
+    dataset_bytes: int = 100_000_000_000
+    datasets: int = 20
+    """Datasets under way at once."""
 
 
 LEAST_SAMPLES = 64

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import BinaryIO, Protocol
 
 from jobs.documents import ResultDocuments
+from jobs.parts import PartCatalogue, Transition
 from jobs.record import Cost, JobEvent, JobRecord
 from jobs.status import Status
 from sim.core.response import Response
@@ -15,8 +16,6 @@ from sim.core.spec import MachineSpec
 
 Clock = Callable[[], float]
 """Seconds since the epoch, UTC."""
-
-Transition = Callable[[JobRecord], JobRecord]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,6 +99,8 @@ class Ticket:
     job_id: str
     attempt: int
     timeout_s: int
+    bulk: bool = False
+    """Part of something large: drawn only where nothing else waits."""
 
 
 class Queue(Protocol):
@@ -137,8 +138,8 @@ class JobQuery:
     preset: str | None = None
     """The preset of a simulation, the machine of a recording."""
     kind: str | None = None
-    other_than: str | None = None
-    """A kind that is left out."""
+    other_than: tuple[str, ...] = ()
+    """Kinds that are left out."""
     sort: str = "created_at"
     descending: bool = True
     limit: int = 50
@@ -147,6 +148,10 @@ class JobQuery:
 
 class JobCatalogue(Protocol):
     """The system of record. Raises StoreAway or StoreFull when it cannot answer."""
+
+    @property
+    def parts(self) -> PartCatalogue:
+        """Jobs that are made in parts."""
 
     def get(self, job_id: str) -> JobRecord:
         """The record; raises UnknownJob."""

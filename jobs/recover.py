@@ -9,8 +9,11 @@ from dataclasses import dataclass
 from jobs import transitions
 from jobs.accept import Desk, hand_over, ticket_of
 from jobs.control import expire_results
+from jobs.datasets.settle import settle_all
+from jobs.datasets.words import SHARD
 from jobs.errors import BrokerAway, IllegalTransition
-from jobs.ports import Clock, JobCatalogue, Transition
+from jobs.parts import Transition
+from jobs.ports import Clock, JobCatalogue
 from jobs.record import Failure, JobRecord
 
 log = logging.getLogger(__name__)
@@ -62,16 +65,23 @@ def tick(desk: Desk, *, max_losses: int) -> Recovered:
     """
     reclaimed = reclaim(desk.catalogue, desk.clock, max_losses=max_losses)
     expired = expire_results(desk.catalogue, desk.artefacts, desk.clock)
+    settle_all(desk.catalogue, desk.clock)
     try:
         desk.queue.ping()
         refilled = refill(desk)
-        handed = sum(
-            hand_over(desk, record).enqueued_at is not None for record in desk.catalogue.outbox(desk.clock(), BATCH)
-        )
+        handed = sum(hand_over(desk, record).enqueued_at is not None for record in due(desk))
     except BrokerAway as error:
         log.warning("the broker is away: %s", error)
         refilled = handed = 0
     return Recovered(handed_over=handed, refilled=refilled, reclaimed=reclaimed, expired=expired)
+
+
+def due(desk: Desk) -> list[JobRecord]:
+    """What the broker should be given now: parts of large jobs only as many as keep its queue within a batch."""
+    found = desk.catalogue.outbox(desk.clock(), BATCH)
+    room = max(0, BATCH - desk.queue.length())
+    bulk = [record for record in found if record.kind == SHARD]
+    return [record for record in found if record.kind != SHARD] + bulk[:room]
 
 
 def refill(desk: Desk) -> int:

@@ -16,6 +16,8 @@ log = logging.getLogger(__name__)
 MIN_INTERVAL_S = 0.2
 LOOK_INTERVAL_S = 0.25
 """Longer than between reports, so that a solver that reports need not ask as well."""
+SELDOM_S = 2.0
+"""Between two looks or reports of a part of something large: a thousand workers ask one catalogue."""
 SIMULATION_SHARE = 0.85
 """Part of the whole that the simulation takes; analysis and storing share the rest."""
 
@@ -23,17 +25,20 @@ SIMULATION_SHARE = 0.85
 class Reporter:
     """Writes progress and the lease into the catalogue and remembers whether the work is still wanted."""
 
-    def __init__(self, catalogue: JobCatalogue, clock: Clock, *, job_id: str, attempt: int, lease_s: float) -> None:
+    def __init__(
+        self, catalogue: JobCatalogue, clock: Clock, *, job_id: str, attempt: int, lease_s: float, seldom: bool = False
+    ) -> None:
         self._catalogue, self._clock = catalogue, clock
         self._job_id, self._attempt, self._lease_s = job_id, attempt, lease_s
         self._started = self._told = self._looked = clock()
+        self._report_s, self._look_s = (SELDOM_S, SELDOM_S) if seldom else (MIN_INTERVAL_S, LOOK_INTERVAL_S)
         self._stop = False
         self._stale: StaleAttempt | None = None
 
     def simulating(self, fraction: float) -> None:
         """Called by the solver with its own fraction 0..1."""
         now = self._clock()
-        if now - self._told < MIN_INTERVAL_S:
+        if now - self._told < self._report_s:
             return
         done = min(max(fraction, 0.0), 1.0) * SIMULATION_SHARE
         eta = (now - self._started) * (1 - done) / done if done > 0.01 else None
@@ -42,7 +47,7 @@ class Reporter:
     def cancelled(self) -> bool:
         """Whether to stop; called by the solver. Asks the catalogue at most five times a second."""
         now = self._clock()
-        if not self._stop and now - self._looked >= LOOK_INTERVAL_S:
+        if not self._stop and now - self._looked >= self._look_s:
             self._look(lambda: self._catalogue.get(self._job_id))
         return self._stop
 

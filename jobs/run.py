@@ -9,7 +9,10 @@ from dataclasses import dataclass, field
 from jobs import transitions
 from jobs.accept import KIND
 from jobs.carry_out import carry_out, completed
-from jobs.errors import NotReconcilable, RecordingRefused, StaleAttempt, StoreAway, StoreFull
+from jobs.datasets.assemble import assemble_dataset
+from jobs.datasets.shard import make_part
+from jobs.datasets.words import ASSEMBLY, SHARD
+from jobs.errors import DatasetRefused, NotReconcilable, RecordingRefused, StaleAttempt, StoreAway, StoreFull
 from jobs.ports import Analyser, ArtefactStore, Clock, Engine, JobCatalogue
 from jobs.reconciliations.carry_out import reconcile_stored
 from jobs.reconciliations.words import RECONCILIATION
@@ -44,6 +47,10 @@ class Bench:
     keeper: Keeper = field(default_factory=Forgetful)
     """Where the atlases of reconciliations are kept between jobs."""
 
+    def expires_at(self) -> float | None:
+        """When a result that is stored now is not kept any longer."""
+        return None if self.keep_s is None else self.clock() + self.keep_s
+
 
 def run(bench: Bench, job_id: str, attempt: int, worker: str) -> JobRecord | None:
     """Carry out one attempt; returns how the job stands then, None when the ticket was stale.
@@ -67,7 +74,14 @@ def run(bench: Bench, job_id: str, attempt: int, worker: str) -> JobRecord | Non
 
 def _work(bench: Bench, record: JobRecord) -> JobRecord:
     job_id, attempt = record.id, record.attempt
-    reporter = Reporter(bench.catalogue, bench.clock, job_id=job_id, attempt=attempt, lease_s=bench.lease_s)
+    reporter = Reporter(
+        bench.catalogue,
+        bench.clock,
+        job_id=job_id,
+        attempt=attempt,
+        lease_s=bench.lease_s,
+        seldom=record.kind == SHARD,
+    )
     now = bench.clock
     try:
         reference = _KINDS[record.kind](bench, reporter, job_id, attempt)
@@ -104,14 +118,13 @@ def _simulated(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> R
     documents = bench.analyse(response, discard_transient=request.discard_transient)
     documents = completed(documents, outcome.extras)
     reporter.stage("storing", 0.95)
-    finished = bench.clock()
     return write_result(
         bench.artefacts,
         f"{job_id}/{attempt}",
         attempt=attempt,
         response=response,
         documents=documents,
-        expires_at=None if bench.keep_s is None else finished + bench.keep_s,
+        expires_at=bench.expires_at(),
     )
 
 
@@ -128,7 +141,30 @@ def _reconciled(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> 
         bench.catalogue.request_of(job_id),
         prefix=f"{job_id}/{attempt}",
         attempt=attempt,
-        expires_at=lambda: None if bench.keep_s is None else bench.clock() + bench.keep_s,
+        expires_at=bench.expires_at,
+    )
+
+
+def _sharded(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> ResultRef:
+    return make_part(
+        bench.catalogue,
+        bench.artefacts,
+        reporter,
+        bench.catalogue.request_of(job_id),
+        prefix=f"{job_id}/{attempt}",
+        attempt=attempt,
+        expires_at=bench.expires_at,
+    )
+
+
+def _assembled(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> ResultRef:
+    return assemble_dataset(
+        bench.catalogue,
+        bench.artefacts,
+        reporter,
+        bench.catalogue.request_of(job_id),
+        attempt=attempt,
+        expires_at=bench.expires_at,
     )
 
 
@@ -136,12 +172,15 @@ _KINDS: Mapping[str, Callable[[Bench, Reporter, str, int], ResultRef]] = {
     KIND: _simulated,
     RECORDING: _recorded,
     RECONCILIATION: _reconciled,
+    SHARD: _sharded,
+    ASSEMBLY: _assembled,
 }
 """How each kind of job comes to its result."""
 
 
 _WRONG: Mapping[type[BaseException], tuple[str, str]] = {
     RecordingRefused: ("refused", "change the fields named, or send a sound file"),
+    DatasetRefused: ("not-makeable", "change what is named, then submit again"),
     NotReconcilable: ("not-reconcilable", "change the fields named, or choose other recordings"),
 }
 """Code and advice of what the sender can put right."""
@@ -160,7 +199,7 @@ def failure_of(error: BaseException, timeouts: tuple[type[BaseException], ...]) 
     """How an error is told to the person who asked; no traceback, no paths."""
     if isinstance(error, Diverged | Meaningless):
         return _unusable(error)
-    if isinstance(error, SpecError | RecordingRefused | NotReconcilable):
+    if isinstance(error, SpecError | RecordingRefused | NotReconcilable | DatasetRefused):
         code, advice = _WRONG.get(type(error), ("invalid-machine", "change the fields named"))
         errors = [plain(problem.to_dict()) for problem in error.problems]
         return Failure(code=code, message=str(error), advice=advice, detail={"errors": errors})

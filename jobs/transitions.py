@@ -41,6 +41,11 @@ def submit_again(record: JobRecord, submitter: str, now: float) -> JobRecord:
         if len(record.submitters) >= MAX_SUBMITTERS:
             raise QueueFull(len(record.submitters), MAX_SUBMITTERS, retry_after_s=30)
         return replace(record, submitters=(*record.submitters, submitter), updated_at=now)
+    return restart(record, submitter, now)
+
+
+def restart(record: JobRecord, submitter: str, now: float) -> JobRecord:
+    """A new attempt under the same id, whatever became of the one before."""
     return replace(_waiting(record, now), submitters=(submitter,), losses=0, accepted_at=now, result=None, gone=None)
 
 

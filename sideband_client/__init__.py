@@ -12,6 +12,7 @@ It needs httpx and NumPy and nothing of the server's own code. Errors: `sideband
 
 from sideband_client.client import Client, connect
 from sideband_client.data import Channel, Signals, Spectrum
+from sideband_client.dataset import Dataset
 from sideband_client.errors import ClientError
 from sideband_client.job import Job
 from sideband_client.result import Result
@@ -22,6 +23,7 @@ __all__ = [
     "Channel",
     "Client",
     "ClientError",
+    "Dataset",
     "Job",
     "JobState",
     "Progress",

@@ -11,6 +11,7 @@ from urllib.parse import urlsplit
 
 import httpx
 
+from sideband_client.dataset import Dataset
 from sideband_client.errors import BadReply
 from sideband_client.job import Job
 from sideband_client.state import JobState, state_of
@@ -82,10 +83,43 @@ class Client:
             body["sensors"] = dict(sensors)
         if causes:
             body["causes"] = True
+        return self._submitted("/v1/simulations", body, idempotency_key)
+
+    def make_dataset(
+        self,
+        recipe: str | Mapping[str, Any],
+        *,
+        format: str = "parquet",
+        shard_recordings: int | None = None,
+        idempotency_key: str | None = None,
+    ) -> Job:
+        """Ask for a dataset by the name of a ready recipe or by a whole one (docs/datasets.md).
+
+        The same recipe and format share one dataset; one that failed or was cancelled is taken up where it stopped.
+        `job.wait().dataset().download(folder)` fetches it. Raises as `simulate`.
+        """
+        return self._submitted("/v1/datasets", _recipe(recipe, format, shard_recordings), idempotency_key)
+
+    def estimate_dataset(
+        self, recipe: str | Mapping[str, Any], *, format: str = "parquet", shard_recordings: int | None = None
+    ) -> dict[str, Any]:
+        """Rows, bytes, core-seconds, time with the workers there are, class balance, warnings; nothing is made."""
+        body = _recipe(recipe, format, shard_recordings)
+        return self._transport.json("POST", "/v1/datasets/estimate", body=body)
+
+    def recipes(self) -> dict[str, Any]:
+        """Ready `recipes` as a whole, the `formats`, and the `recipe_schema`."""
+        return self._transport.json("GET", "/v1/datasets/recipes")
+
+    def dataset(self, dataset_id: str) -> Dataset:
+        """A finished dataset by its id."""
+        return Dataset(self._transport, _segment(dataset_id))
+
+    def _submitted(self, address: str, body: Mapping[str, Any], key: str | None) -> Job:
         # A name of its own for every submission: cancelling this job withdraws this submission and no other.
         submitter = f"client-{uuid.uuid4().hex[:16]}"
-        headers = {"Idempotency-Key": idempotency_key or uuid.uuid4().hex, "X-Submitter": submitter}
-        document = self._transport.json("POST", "/v1/simulations", body=body, headers=headers)
+        headers = {"Idempotency-Key": key or uuid.uuid4().hex, "X-Submitter": submitter}
+        document = self._transport.json("POST", address, body=body, headers=headers)
         return Job(self._transport, state_of(document), submitter=submitter)
 
     def check(
@@ -187,6 +221,11 @@ def _choice(machine: str | Mapping[str, Any], changes: Changes | None, older_nam
         raise ValueError("give `set` or its older name `overrides`, not both")
     body: dict[str, Any] = {"preset": machine} if isinstance(machine, str) else {"machine": dict(machine)}
     return {**body, "set": dict(changes or older_name or {})}
+
+
+def _recipe(recipe: str | Mapping[str, Any], format: str, shard_recordings: int | None) -> dict[str, Any]:
+    body: dict[str, Any] = {"recipe": recipe if isinstance(recipe, str) else dict(recipe), "format": format}
+    return body if shard_recordings is None else {**body, "shard_recordings": shard_recordings}
 
 
 def _segment(text: str) -> str:

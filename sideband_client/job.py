@@ -8,6 +8,7 @@ from typing import Self
 
 import httpx
 
+from sideband_client.dataset import Dataset
 from sideband_client.errors import (
     BadReply,
     Busy,
@@ -84,6 +85,15 @@ class Job:
 
     def result(self) -> Result:
         """The result, at once: JobFailed, JobDismissed, NotReady (under way) or Gone say why there is none."""
+        self._raise_unless_there()
+        return Result(self._transport, self.id)
+
+    def dataset(self) -> Dataset:
+        """The result of `make_dataset`, as `result` is had."""
+        self._raise_unless_there()
+        return Dataset(self._transport, self.id)
+
+    def _raise_unless_there(self) -> None:
         state = self.state if self.state.ended else self.refresh()
         if state.gone is not None:
             message = f"the result of job {self.id} is {state.gone}; submitting again makes it again"
@@ -92,7 +102,6 @@ class Job:
         if not state.ended:
             message = f"job {self.id} is {state.status} and has no result yet; wait() for it"
             raise NotReady(message, status=409, problem="not-ready", retry_after_s=POLL_S)
-        return Result(self._transport, self.id)
 
     def cancel(self, *, everyone: bool = False) -> JobState:
         """Withdraw this submission; the work stops when nobody else waits for it. `everyone`: stop it for all."""

@@ -26,6 +26,7 @@ from workers.watch import JobWatch, Verdict, death
 log = logging.getLogger(__name__)
 
 LOOK_EVERY_S = 1
+RECOVERY_KEY = "sideband:recovery"
 WORKER_TTL_S = 30
 """An idle worker leaves its blocking wait at half this time, to report itself and to look after the registries."""
 
@@ -43,7 +44,7 @@ class SidebandWorker(Worker):
         self._watch = JobWatch(context)
         self._stop_at: float | None = None
         super().__init__(
-            [context.stores.queue.queue],
+            context.stores.queue.queues,
             name=context.name,
             connection=context.stores.queue.connection,
             serializer=JSONSerializer,
@@ -59,9 +60,18 @@ class SidebandWorker(Worker):
         self._watch.report("busy" if self._horse_pid else "idle")
 
     def run_maintenance_tasks(self) -> None:
-        """The broker's registries, and one pass of recovery over the catalogue."""
+        """The broker's registries, and one pass of recovery over the catalogue, if no other worker makes one now."""
         super().run_maintenance_tasks()  # type: ignore[no-untyped-call]
-        self._watch.recover()
+        if self._my_turn():
+            self._watch.recover()
+
+    def _my_turn(self) -> bool:
+        """One worker of all in each interval: a thousand of them would ask catalogue and broker for nothing else."""
+        try:
+            soon = max(1, int(self._context.settings.maintenance_s) - 1)
+            return bool(self.connection.set(RECOVERY_KEY, self.name, nx=True, ex=soon))
+        except RedisError:
+            return True
 
     def main_work_horse(self, job: Job, queue: Queue) -> None:
         """In the forked child: end with the worker, whatever happens to it."""

@@ -29,6 +29,12 @@ class LimitsView(Reply):
     seconds: float
     """Longest estimated computation on one core, s."""
     waiting_jobs: int
+    dataset_core_hours: float
+    """Most estimated work of one dataset."""
+    dataset_bytes: int
+    """Largest estimated size of one dataset."""
+    datasets: int
+    """Datasets under way at once."""
 
 
 class EstimateView(Reply):

@@ -13,6 +13,7 @@ from app.routes.simulations import SubmitterName, named
 from app.schemas import JobPage, JobView, Reply, job_view
 from app.state import Principal, State
 from jobs.control import Caller, cancel, delete
+from jobs.datasets.words import PARTS
 from jobs.errors import JobGone
 from jobs.ports import JobQuery
 from jobs.recordings.words import RECORDING
@@ -52,7 +53,7 @@ def list_jobs(
         statuses=tuple(status or ()),
         preset=preset,
         kind=kind,
-        other_than=RECORDING if kind is None else None,
+        other_than=(RECORDING, *PARTS) if kind is None else (),
         sort=field,
         descending=sort.startswith("-"),
         limit=limit,

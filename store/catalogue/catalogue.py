@@ -9,13 +9,16 @@ from typing import Any
 from sqlalchemy import ColumnElement, Connection, Engine, Select, func, insert, select, tuple_, update
 from sqlalchemy.exc import IntegrityError
 
+from jobs.datasets.words import PARTS
 from jobs.errors import UnknownJob
 from jobs.identity import canonical_json
-from jobs.ports import JobQuery, Remembered, Transition
+from jobs.parts import Transition
+from jobs.ports import JobQuery, Remembered
 from jobs.record import JobEvent, JobRecord
 from jobs.status import Status
 from store.catalogue import events, keys, schema
 from store.catalogue.engine import translated
+from store.catalogue.parts import SqlParts
 from store.catalogue.rows import event_of, from_row, to_row
 
 _LIGHT = (schema.jobs.c.id, schema.jobs.c.record)
@@ -30,11 +33,17 @@ class SqlCatalogue:
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
         self._reading = engine.execution_options(read_only=True)
+        self._parts = SqlParts(engine)
 
     @property
     def engine(self) -> Engine:
         """The database engine (health queries use it; a forked child must dispose of it)."""
         return self._engine
+
+    @property
+    def parts(self) -> SqlParts:
+        """Jobs that are made in parts."""
+        return self._parts
 
     def get(self, job_id: str) -> JobRecord:
         """The record; raises UnknownJob."""
@@ -99,8 +108,8 @@ class SqlCatalogue:
             matching.append(table.preset == query.preset)
         if query.kind is not None:
             matching.append(table.kind == query.kind)
-        if query.other_than is not None:
-            matching.append(table.kind != query.other_than)
+        if query.other_than:
+            matching.append(table.kind.not_in(query.other_than))
         key = table[query.sort]
         page = select(*_LIGHT).where(*matching).limit(query.limit)
         page = page.order_by(*((key.desc(), table.id.desc()) if query.descending else (key.asc(), table.id.asc())))
@@ -126,8 +135,12 @@ class SqlCatalogue:
         return self._select(select(*_LIGHT).where(_ACCEPTED, table.enqueued_at.is_(None), due), limit)
 
     def enqueued(self, limit: int) -> list[JobRecord]:
-        """Accepted jobs that the broker should have, oldest first."""
-        return self._select(select(*_LIGHT).where(_ACCEPTED, schema.jobs.c.enqueued_at.is_not(None)), limit)
+        """Accepted jobs that the broker should have, those first that it was given first.
+
+        A job that had to be given again comes last: a broker that forgot more than a batch gets all of it in turn.
+        """
+        table = schema.jobs.c
+        return self._select(select(*_LIGHT).where(_ACCEPTED, table.enqueued_at.is_not(None)), limit, table.enqueued_at)
 
     def lapsed(self, now: float, limit: int) -> list[JobRecord]:
         """Running jobs whose lease is over."""
@@ -142,9 +155,11 @@ class SqlCatalogue:
         return self._select(select(*_LIGHT).where(schema.jobs.c.expires_at < now), limit)
 
     def waiting(self) -> int:
-        """Number of accepted jobs."""
+        """Number of accepted jobs; what waits as part of another is not counted."""
+        whole = schema.jobs.c.kind.not_in(PARTS)
+        statement = select(func.count()).select_from(schema.jobs).where(_ACCEPTED, whole)
         with translated(), self._reading.connect() as connection:
-            return int(connection.execute(select(func.count()).select_from(schema.jobs).where(_ACCEPTED)).scalar_one())
+            return int(connection.execute(statement).scalar_one())
 
     def events_after(self, job_id: str, sequence: int, limit: int) -> list[JobEvent]:
         """The job's events after a sequence number, oldest first."""
@@ -165,7 +180,9 @@ class SqlCatalogue:
             # Another request kept the key between our look and our insert (PostgreSQL).
             return self.recall(scope, key)
 
-    def _select(self, statement: Select[Any], limit: int) -> list[JobRecord]:
+    def _select(
+        self, statement: Select[Any], limit: int, order: ColumnElement[float] = schema.jobs.c.accepted_at
+    ) -> list[JobRecord]:
         with translated(), self._reading.connect() as connection:
-            rows = connection.execute(statement.order_by(schema.jobs.c.accepted_at).limit(limit))
+            rows = connection.execute(statement.order_by(order).limit(limit))
             return [from_row(row) for row in rows]

@@ -54,6 +54,15 @@ jobs = Table(
     Index("jobs_by_updated", "updated_at", "id"),
 )
 
+parts = Table(
+    "job_parts",
+    metadata,
+    Column("parent_id", String(32), primary_key=True),
+    Column("number", Integer, primary_key=True, autoincrement=False),
+    Column("part_id", String(32), nullable=False),
+    Index("parts_by_part", "part_id"),
+)
+
 events = Table(
     "job_events",
     metadata,

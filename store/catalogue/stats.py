@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from sqlalchemy import Engine, func, select
 
+from jobs.datasets.words import DATASET, PARTS
 from jobs.status import Status
 from store.catalogue import schema
 from store.catalogue.engine import translated
@@ -34,11 +35,15 @@ def job_stats(engine: Engine, now: float) -> JobStats:
     recent = table.finished_at >= now - 3600
     count = func.count()
     with translated(), engine.execution_options(read_only=True).connect() as connection:
-        statuses = connection.execute(select(table.status, count).where(table.gone.is_(None)).group_by(table.status))
+        whole = table.kind.not_in(PARTS)
+        present = select(table.status, count).where(table.gone.is_(None), whole)
+        statuses = connection.execute(present.group_by(table.status))
         by_status = {status.value: 0 for status in Status} | {str(name): int(n) for name, n in statuses}
         oldest = connection.execute(select(func.min(table.accepted_at)).where(waits)).scalar()
         outbox = connection.execute(
-            select(count).select_from(schema.jobs).where(waits, table.enqueued_at.is_(None))
+            select(count)
+            .select_from(schema.jobs)
+            .where(waits, table.enqueued_at.is_(None), whole, table.kind != DATASET)
         ).scalar_one()
         minute = connection.execute(
             select(count).select_from(schema.jobs).where(done, table.finished_at >= now - 60)

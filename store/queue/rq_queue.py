@@ -48,6 +48,7 @@ class RqQueue:
     def __init__(self, connection: Redis, name: str = QUEUE_NAME) -> None:
         self._connection = connection
         self._queue = Queue(name, connection=connection, serializer=JSONSerializer)
+        self._bulk = Queue(f"{name}-bulk", connection=connection, serializer=JSONSerializer)
 
     @property
     def connection(self) -> Redis:
@@ -55,9 +56,12 @@ class RqQueue:
         return self._connection
 
     @property
-    def queue(self) -> Queue:
-        """The queue as workers listen to it."""
-        return self._queue
+    def queues(self) -> list[Queue]:
+        """The queues as workers listen to them: the second is drawn from when the first is empty."""
+        return [self._queue, self._bulk]
+
+    def _lane(self, ticket: Ticket) -> Queue:
+        return self._bulk if ticket.bulk else self._queue
 
     def ping(self) -> None:
         """Raise BrokerAway unless the server answers and can write."""
@@ -67,7 +71,7 @@ class RqQueue:
     def submit(self, ticket: Ticket) -> None:
         """Put the ticket at the end of the queue. A second copy does no harm: it is taken once."""
         with _translated():
-            self._queue.enqueue_call(
+            self._lane(ticket).enqueue_call(
                 ENTRY_POINT,
                 args=(ticket.job_id, ticket.attempt),
                 job_id=name_of(ticket),
@@ -86,25 +90,25 @@ class RqQueue:
                 return False
             status = job.get_status(refresh=False)
             if status is JobStatus.QUEUED:
-                return self._listed(job.id)
+                return self._listed(self._lane(ticket), job.id)
             return status is JobStatus.STARTED and _fresh(job)
 
-    def _listed(self, name: str) -> bool:
+    def _listed(self, queue: Queue, name: str) -> bool:
         """In the queue, or between it and a worker; both asked at one moment."""
         with self._connection.pipeline(transaction=True) as pipeline:
-            pipeline.lpos(self._queue.key, name)
-            pipeline.lpos(self._queue.intermediate_queue_key, name)
+            pipeline.lpos(queue.key, name)
+            pipeline.lpos(queue.intermediate_queue_key, name)
             return any(place is not None for place in pipeline.execute())
 
     def withdraw(self, ticket: Ticket) -> None:
         """Take the ticket out, if it is there."""
         with _translated():
-            self._queue.remove(name_of(ticket))
+            self._lane(ticket).remove(name_of(ticket))
 
     def length(self) -> int:
         """Number of tickets waiting."""
         with _translated():
-            return int(self._queue.count)
+            return sum(int(queue.count) for queue in self.queues)
 
 
 def _fresh(job: Job) -> bool:

@@ -30,6 +30,7 @@ def pages(service: Service) -> list[tuple[str, str]]:
     return [
         ("/", ".presets a"),
         ("/reconcile", "[aria-label='Start a reconciliation'] button"),
+        ("/datasets", "#dataset-count"),
         ("/machines", "[aria-label=Machines] .empty a, [aria-label=Machines] tr[data-machine]"),
         ("/new", "[aria-label='Machine check'] .facts"),
         (f"/jobs/{service.demo}", ".peaks-table tr[data-label]"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import httpx
@@ -10,10 +11,12 @@ import numpy as np
 import pytest
 
 import sideband_client
+from sideband_datasets.folder import verify
 from store.settings import StoreSettings
 from tests.service import postgresql
 from tests.service.buckets import bucket_server, raw_client
 from tests.service.parts import LiveServer, Parts, open_parts
+from tests.sideband_datasets.small import document
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(bool(postgresql.missing()), reason=postgresql.missing() or "-")]
 
@@ -50,6 +53,29 @@ def test_nothing_lies_in_the_data_folder(parts: Parts, monkeypatch: pytest.Monke
             assert _names(endpoint) == set()
             assert not (parts.folder / "catalogue.sqlite").exists() and not (parts.folder / "artefacts").exists()
             _gone_bucket_is_told(http, endpoint)
+        for worker in parts.workers:
+            worker.terminate()
+            worker.wait(20)
+
+
+def test_a_dataset_needs_no_shared_folder(parts: Parts, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    pytest.importorskip("zarr", reason="the extra `datasets` is not installed")
+    with postgresql.cluster() as database, bucket_server(BUCKET) as endpoint:
+        bucket = f"s3://{BUCKET}/jobs?endpoint={endpoint}"
+        stores = StoreSettings(data_dir=parts.folder, redis_url=parts.url, database_url=database, artefact_url=bucket)
+        monkeypatch.setenv("DATABASE_URL", database)
+        monkeypatch.setenv("ARTEFACT_URL", bucket)
+        for name in ("w1", "w2"):
+            replace(parts, folder=tmp_path / name).start_worker(name)
+        with LiveServer(parts.app(stores=stores)) as http, sideband_client.connect(str(http.base_url)) as client:
+            recipe = document(count=4, peaks={"spectra": []})
+            job = client.make_dataset(recipe, format="zarr").wait(timeout_s=120)
+            folder = job.dataset().download(tmp_path / "made")
+            assert verify(folder) == [] and job.dataset().rows(5, 1)[0]["columns"]["fault_origin"] == "simulated"
+            assert len(list((folder / "data").iterdir())) == 2
+            assert _names(endpoint)
+            job.delete()
+            assert _names(endpoint) == set(), "the shards go with the dataset"
         for worker in parts.workers:
             worker.terminate()
             worker.wait(20)

@@ -6,6 +6,8 @@ import { clearBanner, problemBox, showBanner } from "/js/lib/problem.js";
 import { cataloguePage } from "/js/catalogue/page.js";
 import { termPage } from "/js/catalogue/term-page.js";
 import { apiPage } from "/js/api/page.js";
+import { datasetsPage } from "/js/datasets/page.js";
+import { datasetPage } from "/js/datasets/result.js";
 import { formPage } from "/js/form/page.js";
 import { machinesPage } from "/js/machines/list.js";
 import { machinePage } from "/js/machines/page.js";
@@ -21,6 +23,8 @@ const ROUTES = [
   [/^\/catalogue\/([a-z0-9_]+)\/page$/, "catalogue", termPage, "Effect"],
   [/^\/api$/, "api", apiPage, "API"],
   [/^\/catalogue(?:\/([a-z0-9_]+))?$/, "catalogue", cataloguePage, "Physical effects"],
+  [/^\/datasets$/, "datasets", datasetsPage, "Datasets"],
+  [/^\/datasets\/([A-Za-z0-9_-]+)$/, "datasets", datasetPage, "Dataset"],
   [/^\/reconcile$/, "reconcile", reconcilePage, "Reconcile"],
   [/^\/reconcile\/([A-Za-z0-9_-]+)$/, "reconcile", reconciliationPage, "Reconciliation"],
   [/^\/machines$/, "machines", machinesPage, "Machines"],

@@ -2,7 +2,7 @@
 
 import { cancelJob, deleteJob } from "/js/lib/jobs.js";
 import { h, icon, replace } from "/js/lib/dom.js";
-import { ago, clock, duration, quantity } from "/js/lib/format.js";
+import { ago, clock, duration, plainNumber, quantity } from "/js/lib/format.js";
 import { statusPill } from "/js/lib/status.js";
 import { changesText } from "/js/lib/jobs.js";
 
@@ -34,11 +34,10 @@ export function jobRow(refresh) {
     const active = job.status === "accepted" || job.status === "running";
     element.dataset.job = job.id;
     element.dataset.status = job.status;
-    const reconciled = job.kind === "reconciliation";
-    name.href = reconciled ? `#/reconcile/${job.id}` : `#/jobs/${job.id}`;
-    name.textContent = request.preset ?? request.machine;
+    name.href = `#/${{ reconciliation: "reconcile", dataset: "datasets" }[job.kind] ?? "jobs"}/${job.id}`;
+    name.textContent = request.preset ?? request.machine ?? request.name;
     changes.textContent = changesText(request) || job.id.slice(0, 8);
-    settings.textContent = reconciled ? `${request.recordings.length} recordings reconciled, ${request.budget}, seed ${request.seed}` : `${quantity(request.duration_s, "s")} at ${quantity(request.sampling_rate_hz, "Hz")}, seed ${request.seed}`;
+    settings.textContent = settingsText(job);
     replace(pill, statusPill(job));
     eta.textContent = job.status === "running" ? `${Math.round(job.progress.fraction * 100)} %${job.progress.eta_s ? ` · ${duration(job.progress.eta_s)} left` : ""}` : "";
     progress.hidden = !active;
@@ -55,4 +54,10 @@ export function jobRow(refresh) {
   }
 
   return { element, update };
+}
+
+function settingsText({ kind, request }) {
+  if (kind === "reconciliation") return `${request.recordings.length} recordings reconciled, ${request.budget}, seed ${request.seed}`;
+  if (kind === "dataset") return `dataset of ${plainNumber(request.rows)} rows, ${request.format}, seed ${request.seed}`;
+  return `${quantity(request.duration_s, "s")} at ${quantity(request.sampling_rate_hz, "Hz")}, seed ${request.seed}`;
 }

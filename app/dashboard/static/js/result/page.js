@@ -22,8 +22,9 @@ export function resultPage(main, { id }) {
     unfollow = () => {};
     try {
       const job = await getJson(path, { signal: abort.signal });
-      if (job.kind === "reconciliation") {
-        location.replace(`#/reconcile/${job.id}`);
+      const elsewhere = { reconciliation: "reconcile", dataset: "datasets" }[job.kind];
+      if (elsewhere) {
+        location.replace(`#/${elsewhere}/${job.id}`);
         return;
       }
       document.title = `${job.request.preset ?? job.request.machine} – Sideband`;

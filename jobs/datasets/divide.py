@@ -1,0 +1,119 @@
+"""From a request to a plan and its shards: the same division wherever and whenever it is made."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import cast
+
+from jobs.datasets.request import DatasetRequest
+from sideband_datasets import Recipe, make_plan, read_recipe, recipe_named
+from sideband_datasets.folder.manifest import versions
+from sideband_datasets.folder.shards import Shard, shards_of
+from sideband_datasets.formats.format import format_named
+from sideband_datasets.make.stream import batch_size
+from sideband_datasets.plan import Estimate, Plan, estimate
+from sideband_datasets.recipe.read import document_of
+from sim.core.errors import Problem, SpecError, UnknownName
+from sim.core.lanes import WIDTH
+from sim.core.near import did_you_mean
+
+SHARD_S = 120.0
+"""Core-seconds that a shard should take: long against starting one, short against losing one."""
+LEAST_RECORDINGS = 4 * WIDTH
+"""Below that, few machines of one structure meet in a shard, and the lanes stay empty."""
+MOST_SHARDS = 4096
+STARTING_S = 2.0
+"""Of each shard: a process, the plan, the upload."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Division:
+    """A plan and the shards that together are its dataset."""
+
+    plan: Plan
+    format: str
+    shard_recordings: int
+    shards: tuple[Shard, ...]
+    cost: Estimate
+
+    @property
+    def document(self) -> dict[str, object]:
+        """The request as the catalogue keeps it: one form a meaning."""
+        return {
+            "recipe": document_of(self.plan.recipe),
+            "format": self.format,
+            "shard_recordings": self.shard_recordings,
+            "versions": versions(),
+        }
+
+    def wall_s(self, workers: int) -> float:
+        """Time with so many workers, s: no shard is made by two."""
+        rounds = math.ceil(len(self.shards) / max(workers, 1))
+        return rounds * (self.cost.core_seconds / len(self.shards) + STARTING_S)
+
+
+def divide(request: DatasetRequest) -> Division:
+    """What the request asks for, divided; SpecError names every field that must change."""
+    try:
+        suffix = format_named(request.format).suffix
+        plan = make_plan(_recipe(request.recipe))
+        cost = estimate(plan, 1)
+    except UnknownName as error:
+        message = f"is not a known {error.kind}{did_you_mean(error.name, error.known)}"
+        allowed = ", ".join(error.known)
+        problem = Problem(field=_place(error, request), message=message, given=error.name, allowed=allowed)
+        raise SpecError(problem) from None
+    except SpecError as error:
+        raise SpecError([replace(p, field=_within(p.field)) for p in error.problems]) from None
+    size = request.shard_recordings or _size(plan, cost)
+    shards = tuple(shards_of(plan, suffix, size))
+    if len(shards) > MOST_SHARDS:
+        message = f"makes {len(shards)} shards"
+        allowed = f"{MOST_SHARDS} or fewer: {math.ceil(plan.recipe.count / MOST_SHARDS) + 1} recordings in each, or so"
+        raise SpecError(Problem(field="shard_recordings", message=message, given=size, allowed=allowed))
+    return Division(plan=plan, format=request.format, shard_recordings=size, shards=shards, cost=cost)
+
+
+def division_of(document: Mapping[str, object]) -> tuple[Plan, list[Shard]]:
+    """Plan and shards of a request as it is kept."""
+    plan = make_plan(read_recipe(document["recipe"]))
+    suffix = format_named(str(document["format"])).suffix
+    return plan, shards_of(plan, suffix, cast(int, document["shard_recordings"]))
+
+
+def balance_of(plan: Plan) -> dict[str, dict[str, int]]:
+    """Planned rows by split and class."""
+    found = {split: dict.fromkeys(plan.recipe.classes, 0) for split in plan.splits}
+    for recording, kind in enumerate(plan.kind.tolist()):
+        found[plan.split(recording)][plan.recipe.classes[kind]] += plan.rows_per_recording
+    return found
+
+
+def _recipe(form: object) -> Recipe:
+    return recipe_named(form) if isinstance(form, str) else read_recipe(form)
+
+
+def _place(error: UnknownName, request: DatasetRequest) -> str:
+    """Where the name that does not exist was given."""
+    if error.kind in ("format", "recipe"):
+        return error.kind
+    families = request.recipe.get("machines", ()) if isinstance(request.recipe, Mapping) else ()
+    for number, family in enumerate(families):
+        if family.get(error.kind) == error.name:
+            return f"recipe.machines.{number}.{error.kind}"
+    return f"recipe.{error.kind}"
+
+
+def _within(field: str) -> str:
+    """Where a field of a recipe stands in the request."""
+    return field if field == "format" or field.partition(".")[0] == "recipe" else f"recipe.{field}"
+
+
+def _size(plan: Plan, cost: Estimate) -> int:
+    """Recordings in a shard, whole lanes."""
+    wanted = SHARD_S * plan.recipe.count / max(cost.core_seconds, 1e-9)
+    fit = max(LEAST_RECORDINGS, min(batch_size(plan), int(wanted) // WIDTH * WIDTH))
+    least = math.ceil(plan.recipe.count / (MOST_SHARDS - len(plan.splits)))
+    return min(max(fit, least), plan.recipe.count)

@@ -1,0 +1,51 @@
+"""Datasets in the dashboard: a recipe is changed, estimated, made, looked at."""
+
+from __future__ import annotations
+
+from tests.browser.conftest import Service
+from tests.browser.driver import Browser, eventually
+
+SET = (
+    "const e = document.querySelector(arguments[0]); e.value = arguments[1];"
+    "e.dispatchEvent(new Event('input')); e.dispatchEvent(new Event('change'));"
+)
+WIDTH = "return document.documentElement.scrollWidth"
+INK = (
+    "const c = document.querySelector(arguments[0]);"
+    "const d = c.getContext('2d').getImageData(0, 0, c.width, c.height);"
+    "return new Set(new Uint32Array(d.data.buffer)).size"
+)
+
+
+def test_a_dataset_from_a_recipe_to_its_rows(browser: Browser, service: Service) -> None:
+    browser.open(service.page("/datasets"))
+    browser.find("#dataset-preset", within_s=30)
+    browser.run(SET, "#dataset-preset", "small")
+    eventually(lambda: "32" in browser.text("#dataset-estimate .facts"), what="the estimate")
+    browser.run(SET, "#dataset-count", "0")
+    eventually(lambda: "Recordings" in browser.text("#dataset-form .message"), what="the refusal at its field")
+    assert all("422" in told for told in browser.complaints()), "the refusal was asked for"
+    browser.run(SET, "#dataset-count", "8")
+    browser.run(SET, "#dataset-healthy_share", "50")
+    eventually(lambda: "outer" in browser.text("[aria-label='Planned rows']"), what="the balance")
+    assert '"healthy_share": 0.5' in browser.run("return document.querySelector('#dataset-json').value")
+    browser.run(SET, "#dataset-format", "npz")
+    browser.size(360)
+    assert browser.run(WIDTH) <= 360
+    browser.cdp("Emulation.clearDeviceMetricsOverride")
+    browser.click("#dataset-form button[type=submit]")
+    browser.find("#dataset-rows[data-row]", within_s=180)
+    assert "npz" in browser.text("#dataset-facts")
+    assert "healthy" in browser.text("[aria-label='Class balance']")
+    eventually(lambda: browser.run(INK, "#dataset-rows canvas") > 5, what="the signal to be drawn")
+    first = browser.text("#dataset-rows .dataset-facts")
+    browser.run(SET, "#row-place", "9")
+    eventually(lambda: browser.text("#dataset-rows .dataset-facts") != first, what="another row")
+    assert browser.text("[aria-label='Labelled peaks'] tbody tr")
+    browser.size(360)
+    assert browser.run(WIDTH) <= 360
+    browser.cdp("Emulation.clearDeviceMetricsOverride")
+    browser.open(service.page("/datasets"))
+    browser.find("[aria-label=Datasets] tr[data-status=successful]")
+    browser.open(service.page("/"))
+    eventually(lambda: "dataset of 16 rows" in browser.text("main"), what="the dataset among the jobs")
