@@ -3,7 +3,8 @@
 A ball's way over a longer spall takes longer, so the two events at its edges move apart and the envelope's pulse widens
 (Sawalhi and Randall, Mech. Syst. Signal Process. 25 (2011) 846-870): its second to fourth harmonic lose against the
 first. On simulated machines of all kinds, each with one defect, the rank correlation of this index with the length is
-0.47 (outer race) and 0.57 (inner): enough to order recordings of one rig, not to state a size.
+0.47 (outer race) and 0.57 (inner), on an earlier draw of the training data: enough to order recordings of one rig, not
+to state a size.
 """
 
 from __future__ import annotations
