@@ -60,7 +60,8 @@ are planned: half at the target condition (3 sensors, 20 dB, 3 speeds, baseline)
 array. A case that was looked at has served: sealed cases up to s040 were run with earlier engines (0 of 11 mechanisms),
 then used for development, and are not counted. Counted are cases from s041 on that need no atlas but those of the
 nominal machine at three speeds, each at its first run (`--budget quick`, physics 1.2.0). What was changed because of
-them since (channels that a sensor fault spoiled are left out) has not changed a figure here.
+them since (channels that a sensor fault spoiled are left out) has not changed a figure here; run again, s054 and s055
+answer `measurement_fault`.
 """
 
 
@@ -103,7 +104,9 @@ def _split(split: str, summary: Mapping[str, Any]) -> str:
     listed = [f"* {line}" for line in failures(scores)] or ["* none"]
     return "\n".join(
         [
-            f"\n## Split `{split}`: {summary['cases']} cases\n", *rows, "", *wide, "",
+            f"\n## Split `{split}`: {summary['cases']} cases\n",
+            f"`make proof SPLIT={split} CASES={','.join(s.name for s in scores)}` runs them again.\n",
+            *rows, "", *wide, "",
             f"Severity error: {_quantiles(error)}. Held-out gain: {_quantiles(gain)}.\n",
             f"![curves](proof/{split}.svg)\n", "### Every case that is wrong in something\n", *listed, "",
         ]
