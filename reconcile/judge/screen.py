@@ -164,30 +164,36 @@ def fit_space(changes: Changes, library: Library, *, seed: int) -> Fitted:
 
 @dataclass(frozen=True, kw_only=True)
 class Screen:
-    """`evidence` (effects,): drop of the squared distance against no change, over twice the overdispersion.
+    """`evidence` (effects,): drop of the squared distance against no change, over twice the overdispersion, and the
+    `direct` evidence of what strikes at its own frequency.
 
     `p_any`: chance of such a change in a healthy machine, by the most changed group of features (one point, channel
-    and kind), `strongest` in standard deviations; `p_best`: by the best candidate's evidence.
+    and kind), `strongest` in standard deviations; `p_best`: by the best candidate's evidence; `p_direct`: by impacts.
     `weights` sum to 1 over the effects. `misfit`: quantile of the best distance among draws of known effects.
     """
 
     names: tuple[str, ...]
     evidence: FloatArray
+    direct: FloatArray
     weights: FloatArray
     nearest: np.ndarray
     p_any: float
     strongest: float
     p_best: float
+    p_direct: float
     misfit: float
     length: float
 
 
-def judge(fitted: Fitted, observed: FloatArray) -> Screen:
-    """`observed` (F,) in dB against all paths."""
+def judge(
+    fitted: Fitted, observed: FloatArray, direct: Mapping[str, float] | None = None, p_direct: float = 1.0
+) -> Screen:
+    """`observed` (F,) in dB against all paths; `direct`: log evidence of effects that needs no simulation."""
     x = fitted.place(observed)
     nothing = float(np.sum(x**2))
     best, which = fitted.paths.nearest(fitted.paths.distances(x))
-    evidence = (nothing - best) / (2.0 * fitted.overdispersion)
+    shown = np.array([(direct or {}).get(name, 0.0) for name in fitted.paths.names])
+    evidence = (nothing - best) / (2.0 * fitted.overdispersion) + shown
     log = evidence - evidence.max()
     weights = np.exp(log) / np.exp(log).sum()
     lengths = np.sum(fitted.null**2, axis=1)
@@ -199,11 +205,13 @@ def judge(fitted: Fitted, observed: FloatArray) -> Screen:
     return Screen(
         names=fitted.paths.names,
         evidence=evidence,
+        direct=shown,
         weights=weights,
         nearest=which,
         p_any=float((1 + np.sum(_largest(fitted.resting, fitted.resting) >= strongest)) / count),
         strongest=strongest,
         p_best=float((1 + np.sum(gains >= nothing - found)) / count),
+        p_direct=p_direct,
         misfit=quantile_of_misfit(fitted, found, nothing),
         length=nothing,
     )

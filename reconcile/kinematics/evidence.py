@@ -67,7 +67,7 @@ def comb(family: Family, base: FloatArray) -> tuple[FloatArray, FloatArray]:
     """(orders (trials, lines), weights (lines,)) of the family's lines at base orders (trials,)."""
     lines: list[FloatArray] = []
     weights: list[float] = []
-    for k in range(1, family.harmonics + 1):
+    for k in range(family.lowest, family.harmonics + 1):
         lines.append(k * base)
         weights.append(float(1 / np.sqrt(k)))
         for m in range(1, family.sidebands + 1):

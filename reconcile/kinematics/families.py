@@ -36,6 +36,8 @@ class Family:
     sidebands: int
     slip: float
     """Share by which the order may differ from the drawing's; 0 where teeth and shafts fix it."""
+    lowest: int = 1
+    """Harmonic from which on the family is looked for."""
 
     @property
     def key(self) -> str:

@@ -12,6 +12,8 @@ from reconcile.verdict import Word
 from sim.terms import REGISTRY
 
 DETECT_P = 0.01
+LOOKS = 3.0
+"""Chances are of three looks; the smallest counts, so many times."""
 ALSO_P = 0.05
 """A pattern counts only if the whole change is unusual too."""
 GLARING = 8.0
@@ -77,22 +79,23 @@ def credible_set(weights: dict[str, float], level: float = SET_WEIGHT) -> tuple[
 
 
 def chance(screen: Screen) -> float:
-    """Chance that a healthy machine shows as much: by a known effect's pattern, or by any change that is glaring."""
+    """Chance that a healthy machine shows as much: by a known effect's pattern, by any change that is glaring, or by
+    impacts at a part's own frequency."""
     pattern = screen.p_best if screen.p_any <= ALSO_P else 1.0
     glaring = screen.p_any if screen.strongest > GLARING else 1.0
-    return min(1.0, 2.0 * min(pattern, glaring))
+    return min(1.0, LOOKS * min(pattern, glaring, screen.p_direct))
 
 
 def remarkable(screen: Screen) -> bool:
     """Whether it is worth a closer look: a pattern, or a change, that few healthy machines show."""
-    return screen.p_any <= ALSO_P or screen.p_best <= ALSO_P
+    return min(screen.p_any, screen.p_best, screen.p_direct) <= ALSO_P
 
 
 def decide(screen: Screen, *, views: int, strange: float = STRANGE) -> Decision:
     """Nothing missing, one name, a set, or none of the known. `views`: sensors times operating points."""
     p = chance(screen)
     if p > DETECT_P:
-        shown = max(p, 2.0 * min(screen.p_best, 0.5))
+        shown = max(p, LOOKS * screen.p_best)
         reason = f"a healthy machine of this kind shows as much with p = {min(shown, 1.0):.2g}"
         return Decision(word="nothing_missing", chosen=(), p=min(shown, 1.0), reasons=(reason,))
     weights = merged_weights(screen)

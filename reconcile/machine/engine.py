@@ -20,6 +20,7 @@ from reconcile.gate.spoiled import without_spoiled
 from reconcile.judge.changes import lenses, observed_changes
 from reconcile.judge.screen import fit_space, judge
 from reconcile.machine.answer import answer, fault_answer
+from reconcile.machine.direct import direct_evidence
 from reconcile.machine.decide import credible_set, merged_weights, remarkable
 from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import around_baseline, first_heat, ordered_draws, second_heat, simulated_banks, told
@@ -135,12 +136,14 @@ def _setting(
         seen_through=seen,
         changes=observed_changes(data, seen, banks, plan),
         seed=plan.seed,
+        direct=direct_evidence(machine, data, recorded, seed=plan.seed),
     )
 
 
 def _fit(setting: Setting, known: Catalogued) -> Found:
     fitted = fit_space(setting.changes, known.library, seed=setting.seed)
-    return Found(known=known, fitted=fitted, screen=judge(fitted, setting.changes.observed))
+    direct = setting.direct
+    return Found(known=known, fitted=fitted, screen=judge(fitted, setting.changes.observed, direct.evidence, direct.p))
 
 
 def _screened(setting: Setting) -> Found:

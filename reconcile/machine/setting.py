@@ -8,6 +8,7 @@ from reconcile.atlas.bank import Bank
 from reconcile.atlas.plan import AtlasPlan
 from reconcile.judge.changes import Changes, Lens
 from reconcile.judge.screen import Fitted, Screen
+from reconcile.machine.direct import NOTHING, Direct
 from reconcile.machine.library import Catalogued
 from reconcile.observe.observation import PointData
 from sim.core.spec import MachineSpec
@@ -26,6 +27,7 @@ class Setting:
     seen_through: tuple[Lens, ...]
     changes: Changes
     seed: int
+    direct: Direct = NOTHING
     fitted_machine: MachineSpec | None = None
     """The mean of the machines that agree with the baseline."""
 

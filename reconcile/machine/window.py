@@ -26,7 +26,7 @@ def angle_window(machine: MachineSpec, data: Sequence[PointData], channels: Sequ
         now, before = one.spectra
         if before is None:
             continue
-        for shaft, teeth, ratio in _gears(machine, now.speed_hz):
+        for _, shaft, teeth, ratio in _gears(machine, now.speed_hz):
             for c, name in enumerate(channels):
                 energy = _energy(now, c, name, shaft, ratio, teeth)
                 height = prominence(energy, _energy(before, c, name, shaft, ratio, teeth))
@@ -35,14 +35,29 @@ def angle_window(machine: MachineSpec, data: Sequence[PointData], channels: Sequ
     return best[1] if best else None
 
 
-def _gears(machine: MachineSpec, speed_hz: float) -> Iterator[tuple[str, int, float]]:
-    """Shaft, teeth and turns a revolution of the drive shaft of every gear in a mesh."""
+def turn_heights(machine: MachineSpec, data: Sequence[PointData], channels: Sequence[str]) -> dict[str, float]:
+    """How far the fullest window of each gear's mean turn stands out; 0 where the baseline's is as uneven."""
+    heights = {gear.name: 0.0 for gear in machine.gears}
+    for one in data:
+        now, before = one.spectra
+        if before is None:
+            continue
+        for gear, shaft, teeth, ratio in _gears(machine, now.speed_hz):
+            for c, name in enumerate(channels):
+                energy = _energy(now, c, name, shaft, ratio, teeth)
+                if prominence(energy, _energy(before, c, name, shaft, ratio, teeth)) and energy is not None:
+                    heights[gear] = max(heights[gear], float(np.max(energy)))
+    return heights
+
+
+def _gears(machine: MachineSpec, speed_hz: float) -> Iterator[tuple[str, str, int, float]]:
+    """Name, shaft, teeth and turns a revolution of the drive shaft of every gear in a mesh."""
     bases = bases_at(machine, speed_hz)
     ratios = {s.name: bases[f"f_r{i}"] / speed_hz for i, s in enumerate(machine.shafts, start=1)}
     meshing = {name for mesh in machine.meshes for name in (mesh.pinion, mesh.gear)}
     for gear in machine.gears:
         if gear.name in meshing:
-            yield gear.shaft, gear.teeth, ratios[gear.shaft]
+            yield gear.name, gear.shaft, gear.teeth, ratios[gear.shaft]
 
 
 def _energy(one: Steady, channel: int, name: str, shaft: str, ratio: float, teeth: int) -> FloatArray | None:

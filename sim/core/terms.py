@@ -101,6 +101,8 @@ class Term:
     order: int = 100
     excludes: tuple[str, ...] = field(default=())
     """Keys that cannot act at the same site."""
+    strikes: Literal["outer", "inner", "ball", "tooth"] | None = None
+    """The part whose every passage gives an impact, for local defects; none for what acts all the time."""
     repeats: str | None = None
     """Parameter that tells several effects of this kind at one site apart; none: one a site."""
     demo: Demo = field(default_factory=Demo)

@@ -74,6 +74,7 @@ TERM = BallSpall(
         "Harris & Kotzalas, Essential Concepts of Bearing Technology, 5th ed., ch. 10 (ball spin)",
     ),
     severity="width",
+    strikes="ball",
     order=30,
     demo=Demo(machine="rotor", values={"width": 1.5e-3}),
     validation=(

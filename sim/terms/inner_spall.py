@@ -71,6 +71,7 @@ TERM = InnerSpall(
         "Randall & Antoni 2011, Mech. Syst. Signal Process. 25(2), 485-520, eqs (1)-(4)",
     ),
     severity="width",
+    strikes="inner",
     order=30,
     demo=Demo(machine="rotor", values={"width": 1.5e-3}),
     validation=(

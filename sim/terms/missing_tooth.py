@@ -72,6 +72,7 @@ TERM = MissingTooth(
     ),
     references=("Chaari, Baccar, Abbes & Haddar 2008, Eur. J. Mech. A/Solids 27(4), 691-705 (spalling and breakage)",),
     severity="width",
+    strikes="tooth",
     order=20,
     demo=Demo(),
     validation=(

@@ -69,6 +69,7 @@ TERM = ToothCrack(
         "Chaari, Fakhfakh & Haddar 2009, Eur. J. Mech. A/Solids 28(3), 461-468 (crack and mesh stiffness)",
     ),
     severity="depth",
+    strikes="tooth",
     order=20,
     demo=Demo(),
     validation=(

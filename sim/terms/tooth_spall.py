@@ -86,6 +86,7 @@ TERM = ToothSpall(
         "Yang & Sun 1985, J. Mech. Trans. Autom. Des. 107(4), 529-535 (contact of the flanks)",
     ),
     severity="width",
+    strikes="tooth",
     order=20,
     demo=Demo(),
     validation=(

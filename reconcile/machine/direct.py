@@ -1,0 +1,137 @@
+"""Stage 3 without simulations: impacts at a part's own frequency, and what comes back once a turn of a gear.
+
+A local defect strikes each time it passes. How deep a band is modulated at that frequency, and whether the baseline is
+too, needs no model of path or gain: what `reconcile.kinematics` says of a machine of which nothing else is known is
+evidence here too. The level of the features cannot say it as sharply: lines of inner ring and balls lie within each
+other's slip.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reconcile.kinematics.envelopes import envelopes
+from reconcile.kinematics.families import Ties, ties
+from reconcile.kinematics.judge import Candidate, candidates, same
+from reconcile.kinematics.observe import Observation, reach_of
+from reconcile.kinematics.spec import of_machine
+from reconcile.machine.window import turn_heights
+from reconcile.observe.observation import PointData
+from reconcile.observe.steady import Steady
+from signals.recording import Operating, Recording
+from sim.core.response import Channel
+from sim.core.spec import MachineSpec
+from sim.terms import REGISTRY
+
+DOUBT = 3e-4
+"""Relative error of the speed of recordings whose angle was followed."""
+SCATTER = 2.0
+"""Squared score of a family that counts as one unit of twice the evidence: their tails are wider than Gaussian."""
+TURNS_SHARE = 2.0
+"""A struck inner ring modulates once a turn too: by no more than this share of its own lines' score."""
+IMPACTS_FROM = 3
+"""Harmonic of a shaft from which on its modulation is that of impacts."""
+UNMOVED = 4.0
+"""Height of the fullest window of a mean turn that 14 concealed healthy cases of development reach."""
+PER_HEIGHT = 2.0
+MOST_TURNS = 8.0
+"""Of impacts once a turn alone: unbalance in a clearance and a rub strike as often."""
+MOST = 25.0
+"""Log evidence beyond which more impacts prove no more."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Direct:
+    """`evidence`: log evidence of effects (`effect@site`) that strike, 0 for all others.
+
+    `p`: chance that a sound machine shows the firmest of what has risen; 1 where nothing has.
+    """
+
+    evidence: Mapping[str, float]
+    p: float
+    told: tuple[str, ...]
+
+
+NOTHING = Direct(evidence={}, p=1.0, told=())
+
+
+def direct_evidence(
+    machine: MachineSpec, data: Sequence[PointData], channels: Sequence[Channel], *, seed: int
+) -> Direct:
+    """What struck, in the recordings of all operating points against their baselines."""
+    known = of_machine(machine)
+    tie = _impulsive(ties(known, machine.operating.shaft if machine.operating else None))
+    if not _reachable(data, tie):
+        return NOTHING
+    tests = [_observation(d.spectra[0], f"test {k}", channels, tie) for k, d in enumerate(data, 1)]
+    rested = [d.spectra[1] for d in data]
+    baselines = [_observation(b, f"baseline {k}", channels, tie) for k, b in enumerate(rested, 1) if b is not None]
+    every = candidates(tests, baselines, tie, seed)
+    heights = turn_heights(machine, data, [c.name for c in channels])
+    evidence = {}
+    for term in REGISTRY:
+        if term.strikes == "tooth":
+            evidence |= {f"{term.key}@{g.name}": _tooth(every, g.name, g.shaft, heights) for g in machine.gears}
+        elif term.strikes is not None:
+            evidence |= {f"{term.key}@{b.name}": _ball(every, tie, term.strikes, b.name) for b in machine.bearings}
+    firm = [c for c in every if c.present and c.risen and c.deep]
+    return Direct(
+        evidence={name: min(value, MOST) for name, value in evidence.items() if value > 0.0},
+        p=min((c.chance for c in firm), default=1.0),
+        told=tuple(f"{c.family.key}: {c.z:.1f} deviations of control lines" for c in every if c.risen and c.z > 2.0),
+    )
+
+
+def _impulsive(tie: Ties) -> Ties:
+    """Of what comes once a turn only impacts: unbalance and run-out modulate at the shaft's first two orders."""
+    families = tuple(replace(f, lowest=IMPACTS_FROM) if f.kind == "turn" else f for f in tie.families)
+    return replace(tie, families=families)
+
+
+def _reachable(data: Sequence[PointData], tie: Ties) -> bool:
+    """Whether the sampling rate covers the envelope lines of all parts."""
+    _, top = reach_of(tie.families)
+    return bool(tie.families) and all(2 * top * d.spectra[0].speed_hz < d.spectra[0].rate_hz for d in data)
+
+
+def _observation(one: Steady, label: str, channels: Sequence[Channel], tie: Ties) -> Observation:
+    recording = Recording(
+        sampling_rate_hz=one.rate_hz,
+        channels=tuple(channels),
+        samples=one.samples,
+        operating=Operating(shaft=tie.reference, speed_hz=one.speed_hz),
+    )
+    angle = np.asarray(2 * np.pi * one.speed_hz / one.rate_hz * np.arange(one.samples.shape[1]), dtype=np.float64)
+    base, top = reach_of(tie.families)
+    found = tuple(envelopes(recording, c.name, angle, highest_base=base, highest_order=top) for c in channels)
+    return Observation(label=label, recording=recording, speed=one.estimate, doubt=DOUBT, channels=found)
+
+
+def _score(candidate: Candidate | None) -> float:
+    return candidate.z if candidate is not None and candidate.risen else 0.0
+
+
+def _turn(every: Sequence[Candidate], shaft: str) -> float:
+    return _score(next((c for c in every if c.family.kind == "turn" and c.family.site == shaft), None))
+
+
+def _tooth(every: Sequence[Candidate], gear: str, shaft: str, heights: Mapping[str, float]) -> float:
+    """By impacts once a turn, or by the place in the mean turn, whichever says more."""
+    impacts = _turn(every, shaft) ** 2 / (2 * SCATTER)
+    return max(min(impacts, MOST_TURNS), PER_HEIGHT * (heights.get(gear, 0.0) - UNMOVED))
+
+
+def _ball(every: Sequence[Candidate], tie: Ties, kind: str, site: str) -> float:
+    """Of a defect that balls meet; bearings with the same lines share it."""
+    family = next((f for f in tie.families if f.kind == kind and f.site == site), None)
+    if family is None:
+        return 0.0
+    own = _score(next((c for c in every if c.family.kind == kind and same(c.family, family)), None))
+    turn = 0.0
+    if kind == "inner":
+        shaft = next(s for s, ratio in tie.shafts.items() if abs(ratio - family.spacing) < 1e-9)
+        turn = min(_turn(every, shaft), TURNS_SHARE * own)
+    return (own**2 + turn**2) / (2 * SCATTER)
