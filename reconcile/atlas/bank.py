@@ -10,6 +10,7 @@ import numpy as np
 
 from reconcile.atlas.plan import AtlasPlan, Draw, Point
 from reconcile.observe.extract import extract
+from reconcile.observe.mean_turn import Turning
 from reconcile.observe.slack import slack
 from reconcile.observe.statistics import Statistics
 from reconcile.observe.watch import WatchList, bases_at, watch_list
@@ -27,7 +28,7 @@ SPAN_S = 1.0
 FEW = 2
 """So many machines of one structure cost less one by one than in eight lanes of which the others idle."""
 SETTINGS = Settings(rtol=1e-3, estimate_error=False)
-ARRAYS = ("line", "floor", "total", "band", "depth", "kurtosis", "skewness")
+ARRAYS = ("line", "floor", "total", "band", "depth", "turn", "kurtosis", "skewness")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,6 +44,7 @@ class Bank:
     total: FloatArray
     band: FloatArray
     depth: FloatArray
+    turn: FloatArray
     kurtosis: FloatArray
     skewness: FloatArray
     resolution_hz: float
@@ -94,7 +96,13 @@ def _empty(channels: int, watched: WatchList) -> Statistics:
     lines, modulations = np.full(len(watched.lines), np.nan), np.full(len(watched.modulations), np.nan)
     nothing = np.zeros((channels, round((SPAN_S) * RATE_HZ)))
     return extract(
-        nothing, RATE_HZ, lines_hz=lines, line_slack=lines, modulations_hz=modulations, modulation_slack=modulations
+        nothing,
+        RATE_HZ,
+        lines_hz=lines,
+        line_slack=lines,
+        modulations_hz=modulations,
+        modulation_slack=modulations,
+        turning=tuple(Turning(hz=np.nan, teeth=teeth) for _, teeth in watched.gears),
     )
 
 
@@ -109,6 +117,7 @@ def measure(response: Response, watched: WatchList, bases_hz: dict[str, float]) 
         line_slack=slack(watched.lines, lines),
         modulations_hz=modulations,
         modulation_slack=slack(watched.modulations, modulations),
+        turning=watched.turning(bases_hz),
     )
 
 

@@ -15,7 +15,8 @@ from sim.terms import REGISTRY
 
 BELOW = 10.0
 ABOVE = 6.0
-"""A candidate's size is sought from a tenth of the declared default to six times it, within the bounds."""
+"""A candidate's size is sought from a tenth of the declared default to six times it, within the bounds, where its
+parameter does not say otherwise."""
 COUNTED = 2.0
 """Dimensionless parameters with a whole default from here on are orders: drawn whole."""
 FREE = ("custom_force",)
@@ -69,6 +70,8 @@ def size_parameter(term: Term) -> Param:
 
 def size_range(param: Param) -> tuple[float, float]:
     """Smallest and largest size sought."""
+    if param.sought is not None:
+        return max(param.sought[0], param.low), min(param.sought[1], param.high)
     high = min(param.default * ABOVE, param.high)
     low = max(param.default / BELOW, param.low, high / 1e4)
     return low, high

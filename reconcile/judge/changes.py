@@ -16,7 +16,7 @@ from reconcile.judge.pooled import Pooling, pooling
 from reconcile.observe.features import Layout, Scale, scale_of, soft_features, through
 from reconcile.observe.observation import PointData
 from reconcile.observe.statistics import Statistics
-from reconcile.observe.watch import watch_list
+from reconcile.observe.watch import bases_at, watch_list
 from signals.series import FloatArray
 
 
@@ -78,7 +78,7 @@ def lenses(data: Sequence[PointData], banks: Sequence[Bank], plan: AtlasPlan) ->
     found = []
     rows = [k for k, d in enumerate(plan.draws) if d.candidate is None and not d.twin]
     for one, chain, bank, seen in zip(data, chains, banks, recorded, strict=True):
-        scale = scale_of(chain, one.lines_hz, seen.resolution_hz)
+        scale = scale_of(chain, one.lines_hz, seen.resolution_hz, half_turns(one, plan))
         passed = through(chain, bank.at(rows, range(bank.band.shape[1])), one.lines_hz, seen.resolution_hz)
         found.append(
             Lens(
@@ -92,8 +92,14 @@ def lenses(data: Sequence[PointData], banks: Sequence[Bank], plan: AtlasPlan) ->
     return tuple(found)
 
 
+def half_turns(one: PointData, plan: AtlasPlan) -> FloatArray:
+    """Turns of each watched shaft in half of the test, (S,)."""
+    bases = bases_at(plan.machine, one.point.speed_hz)
+    return np.array([0.5 * one.test.duration_s * t.hz for t in watch_list(plan.machine).turning(bases)])
+
+
 def _of(seen: Statistics, lens: Lens) -> FloatArray:
-    return soft_features(seen.line, seen.floor, seen.total, seen.depth, seen.kurtosis, seen.skewness, lens.scale)
+    return soft_features(seen.line, seen.floor, seen.total, seen.depth, seen.turn, seen.kurtosis, seen.skewness, lens.scale)
 
 
 def observed_changes(
@@ -109,9 +115,9 @@ def observed_changes(
         reference = _of(one.baseline, lens) if one.baseline is not None else lens.nominal
         observed.append((_of(one.test, lens) - reference).ravel())
         halves.append(np.stack([(_of(h, lens) - reference).ravel() for h in one.halves]))
-        spread = measured_db(one.test, lens.chain, lens.lines_hz) ** 2
+        spread = measured_db(one.test, lens.chain, lens.lines_hz, lens.scale) ** 2
         if one.baseline is not None:
-            spread = spread + measured_db(one.baseline, lens.chain, lens.lines_hz) ** 2
+            spread = spread + measured_db(one.baseline, lens.chain, lens.lines_hz, lens.scale) ** 2
         steady = unsteady_db(one.test, watched, one.lines_hz)
         measured.append(np.sqrt(spread + steady**2).ravel())
         wander.append(np.tile(wander_patterns(watched, one.lines_hz, steady.size), spread.shape[0]))
@@ -137,6 +143,7 @@ def _layout(seen: Statistics) -> Layout:
         bands=seen.floor.shape[1],
         shapes=seen.band.shape[1],
         modulations=seen.depth.shape[2],
+        shafts=seen.turn.shape[2],
     )
 
 
@@ -144,7 +151,8 @@ def _groups(seen: Statistics) -> np.ndarray:
     """(C * F,): channel and part of each feature of a point, counted from 0."""
     channels = seen.line.shape[0]
     sizes = [seen.line.shape[1], seen.floor.shape[1], seen.total.shape[1]]
-    sizes += [seen.depth.shape[1] * seen.depth.shape[2], seen.kurtosis.shape[1], seen.skewness.shape[1]]
+    sizes += [seen.depth.shape[1] * seen.depth.shape[2], seen.turn.shape[1] * seen.turn.shape[2]]
+    sizes += [seen.kurtosis.shape[1], seen.skewness.shape[1]]
     one = np.repeat(np.arange(len(sizes)), sizes)
     return np.concatenate([one + len(sizes) * c for c in range(channels)])
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from reconcile.calibrate.chain import Chain
-from reconcile.observe.features import SHAPE_DB, SOFT
+from reconcile.observe.features import SHAPE_DB, SOFT, Scale
 from reconcile.observe.statistics import LOBE, LOBE_SCATTER, SHAPE_BANDS_HZ, Statistics, third_octaves
 from reconcile.observe.watch import WatchList
 from signals.series import FloatArray
 
-UNSTEADY_DB = {"line": 1.0, "floor": 0.7, "total": 0.7, "depth": 1.0, "kurtosis": 3.0, "skewness": 3.0}
+UNSTEADY_DB = {"line": 1.0, "floor": 0.7, "total": 0.7, "depth": 1.0, "turn": 2.0, "kurtosis": 3.0, "skewness": 3.0}
 """What repeated recordings of a sound machine differ by beside noise and drift: speed wander left after tracking,
 phases of balls, which moments of few impacts feel most. Set on the development nulls."""
 LOW_SHAPE_DB = {"kurtosis": 12.0, "skewness": 18.0}
@@ -24,7 +24,7 @@ MEDIAN_LOSS = 1.44
 """Standard deviation of the logarithm of a median of exponentials over that of their mean: 1/ln 2."""
 
 
-def measured_db(seen: Statistics, chain: Chain, lines_hz: FloatArray) -> FloatArray:
+def measured_db(seen: Statistics, chain: Chain, lines_hz: FloatArray, scale: Scale) -> FloatArray:
     """(C, F): deviations of the soft features. A line of power P in noise n varies by sqrt(2 P n + n^2)."""
     noise = chain.line_noise(lines_hz) * seen.resolution_hz
     lobe, scatter = LOBE * noise, LOBE_SCATTER * noise
@@ -35,8 +35,11 @@ def measured_db(seen: Statistics, chain: Chain, lines_hz: FloatArray) -> FloatAr
     shapes = np.array([high - low for low, high in SHAPE_BANDS_HZ])
     deep = np.broadcast_to((2.0 * seen.resolution_hz / shapes)[None, :, None], seen.depth.shape)
     depth = DB * np.sqrt(2.0 * seen.depth * deep + (LOBE_SCATTER * deep) ** 2) / (seen.depth + SOFT * LOBE * deep)
+    still = np.broadcast_to(scale.turn_noise, seen.turn.shape)
+    turn = DB * np.sqrt(2.0 * seen.turn * still + still**2) / (seen.turn + SOFT * still)
+    turn = turn.reshape(turn.shape[0], -1)
     moment = np.broadcast_to(SHAPE_DB * np.sqrt(12.0 / (shapes * seen.duration_s)), seen.kurtosis.shape)
-    parts = [line, MEDIAN_LOSS * band, band, depth.reshape(depth.shape[0], -1), moment, moment]
+    parts = [line, MEDIAN_LOSS * band, band, depth.reshape(depth.shape[0], -1), turn, moment, moment]
     return np.concatenate(parts, axis=-1)
 
 
@@ -47,6 +50,7 @@ def unsteady_db(seen: Statistics, watched: WatchList, lines_hz: FloatArray) -> F
         "floor": seen.floor.shape[1],
         "total": seen.total.shape[1],
         "depth": seen.depth.shape[1] * seen.depth.shape[2],
+        "turn": seen.turn.shape[1] * seen.turn.shape[2],
         "kurtosis": seen.kurtosis.shape[1],
         "skewness": seen.skewness.shape[1],
     }

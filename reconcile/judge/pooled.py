@@ -72,6 +72,8 @@ def pooling(watched: WatchList, layout: Layout, *, points: int, channels: int) -
     for shape in range(layout.shapes):
         half = "low" if shape < layout.shapes // 2 else "high"
         labels += [f"modulation {half} {_modulation_family(line)}" for line in watched.modulations]
+    for _ in range(layout.shapes):
+        labels += [f"turn {base}" for base, _ in watched.gears]
     labels += [f"{kind} {shape}" for kind in ("kurtosis", "skewness") for shape in range(layout.shapes)]
     names = tuple(sorted(set(labels)))
     place = {name: k for k, name in enumerate(names)}

@@ -61,6 +61,7 @@ def _layout(watched: WatchList, setting: Setting) -> Layout:
         bands=bank.floor.shape[2],
         shapes=bank.band.shape[2],
         modulations=len(watched.modulations),
+        shafts=len(watched.gears),
     )
 
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy import fft
 
+from reconcile.observe.mean_turn import Turning, turn_powers
 from reconcile.observe.statistics import SHAPE_BANDS_HZ, Statistics, third_octaves
 from signals.series import FloatArray
 
@@ -90,6 +93,14 @@ def _shapes(
     return mean_square, depth, kurtosis, skewness
 
 
+def _turns(samples: FloatArray, rate_hz: float, turning: Sequence[Turning], top_hz: float) -> FloatArray:
+    """(C, E, S)."""
+    found = np.full((samples.shape[0], len(SHAPE_BANDS_HZ), len(turning)), np.nan)
+    for s, one in enumerate(turning):
+        found[:, :, s] = turn_powers(samples, rate_hz, one, SHAPE_BANDS_HZ, top_hz)
+    return found
+
+
 def extract(
     samples: FloatArray,
     rate_hz: float,
@@ -98,6 +109,7 @@ def extract(
     line_slack: FloatArray,
     modulations_hz: FloatArray,
     modulation_slack: FloatArray,
+    turning: Sequence[Turning] = (),
 ) -> Statistics:
     """`samples` (C, n) at constant speed; slack: share of its frequency by which a line may be off, per line."""
     top = USABLE * rate_hz
@@ -110,6 +122,7 @@ def extract(
         total=total,
         band=band,
         depth=depth,
+        turn=_turns(samples, rate_hz, turning, top),
         kurtosis=kurtosis,
         skewness=skewness,
         resolution_hz=HANN_NOISE_BINS * bin_hz,

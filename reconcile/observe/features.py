@@ -29,19 +29,21 @@ class Layout:
     bands: int
     shapes: int
     modulations: int
+    shafts: int = 0
 
     @property
     def size(self) -> int:
         """Features a channel."""
-        return self.lines + 2 * self.bands + self.shapes * self.modulations + 2 * self.shapes
+        return self.lines + 2 * self.bands + self.shapes * (self.modulations + self.shafts + 2)
 
     def slices(self) -> dict[str, slice]:
-        """`line`, `floor`, `total`, `depth`, `kurtosis`, `skewness`."""
+        """`line`, `floor`, `total`, `depth`, `turn`, `kurtosis`, `skewness`."""
         sizes = {
             "line": self.lines,
             "floor": self.bands,
             "total": self.bands,
             "depth": self.shapes * self.modulations,
+            "turn": self.shapes * self.shafts,
             "kurtosis": self.shapes,
             "skewness": self.shapes,
         }
@@ -54,18 +56,20 @@ class Layout:
 
 @dataclass(frozen=True, kw_only=True)
 class Scale:
-    """What the soft decibels lean on at one point: noise of lines (C, L), widths and depths of noise (E,)."""
+    """What the soft decibels lean on at one point: noise of lines (C, L), depths of noise (E,), of mean turns (C, E, S)."""
 
     line_noise: FloatArray
     depth_noise: FloatArray
+    turn_noise: FloatArray
 
 
-def scale_of(chain: Chain, lines_hz: FloatArray, resolution_hz: float) -> Scale:
-    """Reference levels from the noise the chain adds."""
+def scale_of(chain: Chain, lines_hz: FloatArray, resolution_hz: float, turns: FloatArray) -> Scale:
+    """Reference levels from the noise the chain adds; `turns` (S,) of each shaft in half a record."""
     widths = np.array([high - low for low, high in SHAPE_BANDS_HZ])
     return Scale(
         line_noise=chain.line_noise(lines_hz) * LOBE * resolution_hz,
         depth_noise=2.0 * LOBE * resolution_hz / widths + LEAST_DEPTH,
+        turn_noise=chain.shape_noise()[:, :, None] / np.maximum(turns, 1.0),
     )
 
 
@@ -74,6 +78,7 @@ def soft_features(
     floor: FloatArray,
     total: FloatArray,
     depth: FloatArray,
+    turn: FloatArray,
     kurtosis: FloatArray,
     skewness: FloatArray,
     scale: Scale,
@@ -87,6 +92,8 @@ def soft_features(
     ]
     deep = 10.0 * np.log10(depth + SOFT * scale.depth_noise[:, None])
     parts.append(deep.reshape(*deep.shape[:-2], -1))
+    local = 10.0 * np.log10(turn + SOFT * scale.turn_noise)
+    parts.append(local.reshape(*local.shape[:-2], -1))
     parts.append(SHAPE_DB * np.arcsinh(kurtosis))
     parts.append(SHAPE_DB * np.arcsinh(2.0 * skewness))
     return np.concatenate(parts, axis=-1)
@@ -100,12 +107,15 @@ class Passed:
     floor: FloatArray
     total: FloatArray
     depth: FloatArray
+    turn: FloatArray
     kurtosis: FloatArray
     skewness: FloatArray
 
     def features(self, scale: Scale) -> FloatArray:
         """(N, C, F)."""
-        return soft_features(self.line, self.floor, self.total, self.depth, self.kurtosis, self.skewness, scale)
+        return soft_features(
+            self.line, self.floor, self.total, self.depth, self.turn, self.kurtosis, self.skewness, scale
+        )
 
 
 def through(
@@ -127,6 +137,7 @@ def through(
         line=line,
         floor=gain * bank.floor + noise,  # type: ignore[attr-defined]
         total=gain * bank.total + noise * widths,  # type: ignore[attr-defined]
+        turn=chain.shape_gain()[..., None] * bank.turn,  # type: ignore[attr-defined]
         depth=bank.depth * share[..., None] ** 2 + depth_noise[..., None],  # type: ignore[attr-defined]
         kurtosis=bank.kurtosis * share**2,  # type: ignore[attr-defined]
         skewness=bank.skewness * share**1.5,  # type: ignore[attr-defined]

@@ -70,6 +70,7 @@ def _measured(one: Steady, machine: MachineSpec, watched: WatchList, part: slice
         line_slack=slack(watched.lines, lines),
         modulations_hz=modulations,
         modulation_slack=slack(watched.modulations, modulations),
+        turning=watched.turning(bases),
     )
 
 

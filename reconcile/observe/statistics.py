@@ -26,12 +26,12 @@ def third_octaves() -> FloatArray:
 
 @dataclass(frozen=True, kw_only=True)
 class Statistics:
-    """Of C channels over L watched lines, B third octaves, E shape bands and M modulations.
+    """Of C channels over L watched lines, B third octaves, E shape bands, M modulations and S shafts with gears.
 
     `line`: mean square of each line, (C, L), unit^2. `floor`: density between lines, (C, B), unit^2/Hz.
     `total`: mean square in the band, (C, B). `band`: mean square in the shape band, (C, E).
     `depth`: (C, E, M) squared amplitude of a modulation of the squared envelope over its mean squared.
-    `kurtosis` (excess) and `skewness`: (C, E). `resolution_hz`: noise bandwidth of one line, Hz.
+    `turn`: (C, E, S) mean square in the fullest window of the mean turn. `kurtosis` (excess) and `skewness`: (C, E). `resolution_hz`: noise bandwidth of one line, Hz.
     NaN marks what the sampling rate or the duration does not cover.
     """
 
@@ -40,6 +40,7 @@ class Statistics:
     total: FloatArray
     band: FloatArray
     depth: FloatArray
+    turn: FloatArray
     kurtosis: FloatArray
     skewness: FloatArray
     resolution_hz: float
@@ -60,6 +61,7 @@ def averaged(several: list[Statistics]) -> Statistics:
         total=mean("total"),
         band=mean("band"),
         depth=mean("depth"),
+        turn=mean("turn"),
         kurtosis=mean("kurtosis"),
         skewness=mean("skewness"),
         resolution_hz=float(np.mean([s.resolution_hz for s in several])),

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from reconcile.observe.mean_turn import Turning
 from signals.series import FloatArray
 from sim.assembly.assemble import predicted_lines
 from sim.core.spec import MachineSpec, OperatingSpec
@@ -44,6 +45,8 @@ class WatchList:
 
     lines: tuple[Watched, ...]
     modulations: tuple[Watched, ...]
+    gears: tuple[tuple[str, tuple[int, ...]], ...] = ()
+    """Shafts (base of their speed) with gears in mesh, and the numbers of teeth."""
 
     @cached_property
     def slips(self) -> np.ndarray:
@@ -57,6 +60,10 @@ class WatchList:
     def modulation_hz(self, bases_hz: Mapping[str, float]) -> FloatArray:
         """Frequencies of the modulations, shape (modulations,), Hz."""
         return np.array([w.frequency_hz(bases_hz) for w in self.modulations])
+
+    def turning(self, bases_hz: Mapping[str, float]) -> tuple[Turning, ...]:
+        """The shafts whose mean turns are watched."""
+        return tuple(Turning(hz=bases_hz[base], teeth=teeth) for base, teeth in self.gears)
 
 
 def bases_at(machine: MachineSpec, speed_hz: float) -> dict[str, float]:
@@ -126,6 +133,17 @@ def _bearing_shafts(machine: MachineSpec) -> dict[str, str]:
     return {names[b.name]: order.get(bodies.get(b.body) or "", "") for b in machine.bearings}
 
 
+def _geared(machine: MachineSpec) -> tuple[tuple[str, tuple[int, ...]], ...]:
+    """Shafts with gears in mesh, and the numbers of teeth."""
+    meshing = {name for m in machine.meshes for name in (m.pinion, m.gear)}
+    found = []
+    for i, shaft in enumerate(machine.shafts, 1):
+        teeth = tuple(sorted({g.teeth for g in machine.gears if g.shaft == shaft.name and g.name in meshing}))
+        if teeth:
+            found.append((f"f_r{i}", teeth))
+    return tuple(found)
+
+
 def watch_list(machine: MachineSpec) -> WatchList:
     """Everything watched on this machine; the same list at every speed."""
     if machine.operating is None:
@@ -141,4 +159,8 @@ def watch_list(machine: MachineSpec) -> WatchList:
             rolling += _bearing_lines(number, shaft)
     modulations = [_watched({s: k}, "shaft") for s in shafts for k in (1, 2, 3)]
     modulations += [w for w in rolling if _modulates(w)]
-    return WatchList(lines=_distinct(lines + rolling, bases, speed), modulations=_distinct(modulations, bases, speed))
+    return WatchList(
+        lines=_distinct(lines + rolling, bases, speed),
+        modulations=_distinct(modulations, bases, speed),
+        gears=_geared(machine),
+    )

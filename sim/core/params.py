@@ -26,6 +26,8 @@ class Param:
     sentence: str
     scale: Scale = "linear"
     choices: tuple[float, ...] = ()
+    sought: tuple[float, float] | None = None
+    """Sizes a search for the effect covers, where what is met in practice spans more than the default's surroundings."""
 
     def problem(self, value: object, field: str) -> Problem | None:
         """Return what is wrong with `value`, or None when it is allowed."""

@@ -135,6 +135,7 @@ TERM = AngularMisalignment(
             low=0.0,
             high=0.52,
             sentence="Angle between the axes of the two shafts (0.52 rad is 30 degrees).",
+            sought=(0.01, 0.3),
             scale="log",
         ),
         Param(

@@ -79,6 +79,7 @@ TERM = BentShaft(
             low=0.0,
             high=1e-3,
             sentence="Distance by which the unloaded shaft's centre line misses the axis at the gear or disc.",
+            sought=(5e-6, 8e-4),
             scale="log",
         ),
         Param(name="phase", unit="rad", default=0.0, low=-6.2832, high=6.2832, sentence="Angle of the bow at t = 0."),

@@ -63,6 +63,7 @@ TERM = Eccentricity(
             low=0.0,
             high=5e-4,
             sentence="Distance of the base circle's centre from the axis of rotation.",
+            sought=(2e-6, 1.5e-4),
             scale="log",
         ),
         Param(

@@ -99,6 +99,7 @@ TERM = ParallelMisalignment(
             low=0.0,
             high=2e-3,
             sentence="Distance between the axes of the two shafts at the coupling.",
+            sought=(5e-5, 2e-3),
             scale="log",
         ),
         Param(

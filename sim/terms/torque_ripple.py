@@ -71,6 +71,7 @@ TERM = TorqueRipple(
             low=0.0,
             high=1e3,
             sentence="Peak of the varying part of the torque.",
+            sought=(0.2, 20.0),
             scale="log",
         ),
         Param(

@@ -107,6 +107,7 @@ TERM = Unbalance(
             low=0.0,
             high=1e-1,
             sentence="Unbalance U = mass times radius (ISO 21940-2).",
+            sought=(1e-5, 2e-2),
             scale="log",
         ),
         Param(name="phase", unit="rad", default=0.0, low=-6.2832, high=6.2832, sentence="Angle at t = 0."),

@@ -1,0 +1,81 @@
+"""What comes back at one angle of a gear's turn, band by band: how much power the fullest two teeth hold.
+
+The mean turns of the first and the second half of a record are multiplied, without the lines of the mesh and the
+sidebands next to them: balls and noise are in either mean turn, but not in both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import fft
+from scipy.signal import CZT
+
+from signals.series import FloatArray
+
+LEAST_TURNS = 3
+"""Turns a half record must hold."""
+OVERSAMPLING = 2.2
+WINDOW_TEETH = 2
+"""Width of the window: a tooth is in mesh for one and a half to two pitches."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Turning:
+    """A shaft with gears in mesh: its speed and their numbers of teeth."""
+
+    hz: float
+    teeth: tuple[int, ...]
+
+
+def _kept(orders: np.ndarray, teeth: Sequence[int]) -> np.ndarray:
+    """Mask of the orders that are neither the mesh nor next to it."""
+    kept = np.ones(orders.size, dtype=bool)
+    for z in teeth:
+        kept &= np.abs((orders + z // 2) % z - z // 2) > 1
+    return kept
+
+
+def turn_powers(
+    samples: FloatArray, rate_hz: float, turning: Turning, bands_hz: Sequence[tuple[float, float]], top_hz: float
+) -> FloatArray:
+    """Power in the fullest window of the mean turn, `samples` (C, n) -> (C, bands); NaN where it cannot be told."""
+    channels, n = samples.shape
+    found = np.full((channels, len(bands_hz)), np.nan)
+    turns = int(np.nan_to_num(n / 2 * turning.hz / rate_hz))
+    if turns < LEAST_TURNS:
+        return found
+    length = round(turns * rate_hz / turning.hz)
+    second = min(length, n - length)
+    count = int(min(top_hz, max(high for _, high in bands_hz)) / turning.hz)
+    if count < 2:
+        return found
+    transform = CZT(length, count + 1, np.exp(-2j * np.pi * turning.hz / rate_hz))
+    orders = np.arange(count + 1)
+    early = transform(samples[:, :length], axis=1) * (2.0 / length)
+    late = transform(samples[:, second : second + length], axis=1) * (2.0 / length)
+    late = late * np.exp(-2j * np.pi * turning.hz / rate_hz * second * orders)
+    kept = _kept(orders, turning.teeth)
+    for e, (low, high) in enumerate(bands_hz):
+        inside = kept & (orders * turning.hz >= low) & (orders * turning.hz < high)
+        if high <= top_hz and inside.any():
+            found[:, e] = _fullest(early, late, inside, min(turning.teeth))
+    return found
+
+
+def _fullest(early: np.ndarray, late: np.ndarray, inside: np.ndarray, teeth: int) -> FloatArray:
+    """Largest mean over a window of the product of two turns, (C,)."""
+    first, last = int(np.flatnonzero(inside)[0]), int(np.flatnonzero(inside)[-1])
+    points = fft.next_fast_len(max(int(OVERSAMPLING * (last - first + 1)), 4 * teeth))
+    halves = []
+    for part in (early, late):
+        row = np.zeros((part.shape[0], points), dtype=np.complex128)
+        row[:, : last - first + 1] = np.where(inside, part, 0.0)[:, first : last + 1]
+        halves.append(fft.ifft(row, axis=1) * points)
+    power = 0.5 * np.real(halves[0] * np.conj(halves[1]))
+    width = max(1, WINDOW_TEETH * points // teeth)
+    total = np.cumsum(np.concatenate([power, power[:, :width]], axis=1), axis=1)
+    smooth = (total[:, width:] - total[:, :-width]) / width
+    return np.asarray(np.maximum(smooth.max(axis=1), 0.0), dtype=np.float64)
