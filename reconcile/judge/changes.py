@@ -99,7 +99,9 @@ def half_turns(one: PointData, plan: AtlasPlan) -> FloatArray:
 
 
 def _of(seen: Statistics, lens: Lens) -> FloatArray:
-    return soft_features(seen.line, seen.floor, seen.total, seen.depth, seen.turn, seen.kurtosis, seen.skewness, lens.scale)
+    return soft_features(
+        seen.line, seen.floor, seen.total, seen.depth, seen.turn, seen.kurtosis, seen.skewness, lens.scale
+    )
 
 
 def observed_changes(

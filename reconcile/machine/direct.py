@@ -77,7 +77,7 @@ def direct_evidence(
             evidence |= {f"{term.key}@{g.name}": _tooth(every, g.name, g.shaft, heights) for g in machine.gears}
         elif term.strikes is not None:
             evidence |= {f"{term.key}@{b.name}": _ball(every, tie, term.strikes, b.name) for b in machine.bearings}
-    firm = [c for c in every if c.present and c.risen and c.deep]
+    firm = [c for c in every if c.present and c.risen]
     return Direct(
         evidence={name: min(value, MOST) for name, value in evidence.items() if value > 0.0},
         p=min((c.chance for c in firm), default=1.0),

@@ -20,8 +20,8 @@ from reconcile.gate.spoiled import without_spoiled
 from reconcile.judge.changes import lenses, observed_changes
 from reconcile.judge.screen import fit_space, judge
 from reconcile.machine.answer import answer, fault_answer
-from reconcile.machine.direct import direct_evidence
 from reconcile.machine.decide import credible_set, merged_weights, remarkable
+from reconcile.machine.direct import direct_evidence
 from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import around_baseline, first_heat, ordered_draws, second_heat, simulated_banks, told
 from reconcile.machine.meter import Meter

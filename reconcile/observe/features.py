@@ -56,7 +56,7 @@ class Layout:
 
 @dataclass(frozen=True, kw_only=True)
 class Scale:
-    """What the soft decibels lean on at one point: noise of lines (C, L), depths of noise (E,), of mean turns (C, E, S)."""
+    """What the soft decibels lean on at one point: noise of lines (C, L) and of mean turns (C, E, S), depths (E,)."""
 
     line_noise: FloatArray
     depth_noise: FloatArray

@@ -31,7 +31,8 @@ class Statistics:
     `line`: mean square of each line, (C, L), unit^2. `floor`: density between lines, (C, B), unit^2/Hz.
     `total`: mean square in the band, (C, B). `band`: mean square in the shape band, (C, E).
     `depth`: (C, E, M) squared amplitude of a modulation of the squared envelope over its mean squared.
-    `turn`: (C, E, S) mean square in the fullest window of the mean turn. `kurtosis` (excess) and `skewness`: (C, E). `resolution_hz`: noise bandwidth of one line, Hz.
+    `turn`: (C, E, S) mean square in the fullest window of the mean turn.
+    `kurtosis` (excess) and `skewness`: (C, E). `resolution_hz`: noise bandwidth of one line, Hz.
     NaN marks what the sampling rate or the duration does not cover.
     """
 

@@ -27,7 +27,7 @@ class Param:
     scale: Scale = "linear"
     choices: tuple[float, ...] = ()
     sought: tuple[float, float] | None = None
-    """Sizes a search for the effect covers, where what is met in practice spans more than the default's surroundings."""
+    """Sizes a search for the effect covers, where what is met spans more than the default's surroundings."""
 
     def problem(self, value: object, field: str) -> Problem | None:
         """Return what is wrong with `value`, or None when it is allowed."""

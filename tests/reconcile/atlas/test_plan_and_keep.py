@@ -89,6 +89,7 @@ def statistics(k: int) -> Statistics:
         total=rng.uniform(size=(1, 6)),
         band=rng.uniform(size=(1, 4)),
         depth=rng.uniform(size=(1, 4, 3)),
+        turn=rng.uniform(size=(1, 4, 2)),
         kurtosis=rng.uniform(size=(1, 4)),
         skewness=rng.uniform(size=(1, 4)),
         resolution_hz=1.5,

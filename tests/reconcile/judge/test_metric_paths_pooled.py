@@ -84,7 +84,7 @@ def test_pooling_keeps_noise_small_and_sees_a_rise_of_a_family() -> None:
 
 def test_every_feature_of_a_machine_has_a_family() -> None:
     watched = watch_list(preset("paper-lightly-damped"))
-    layout = Layout(lines=len(watched.lines), bands=25, shapes=4, modulations=len(watched.modulations))
+    layout = Layout(lines=len(watched.lines), bands=25, shapes=4, modulations=len(watched.modulations), shafts=2)
     found = pooling(watched, layout, points=1, channels=2)
     assert found.family.size == layout.size
     assert set(found.family) == set(range(len(found.names)))

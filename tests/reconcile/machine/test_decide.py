@@ -35,10 +35,11 @@ NAMES = (
 def screen(evidence: list[float], names: tuple[str, ...] = NAMES, **how: float) -> Screen:
     values = np.array(evidence + [-5.0] * (len(names) - len(evidence)))
     weights = np.exp(values - values.max())
-    usual = {"p_any": 0.003, "strongest": 40.0, "p_best": 0.003, "misfit": 0.4, "length": 90.0}
+    usual = {"p_any": 0.003, "strongest": 40.0, "p_best": 0.003, "p_direct": 1.0, "misfit": 0.4, "length": 90.0}
     return Screen(
         names=names,
         evidence=values,
+        direct=np.zeros(len(names)),
         weights=weights / weights.sum(),
         nearest=np.zeros(len(names), dtype=int),
         **{**usual, **how},  # type: ignore[arg-type]
@@ -86,9 +87,10 @@ def test_what_healthy_machines_show_too_is_nothing() -> None:
     assert decide(screen([20.0], p_best=0.3, strongest=GLARING + 1), views=9).word == "explained"
 
 
-def test_two_looks_cost_a_factor_of_two() -> None:
-    assert chance(screen([1.0], p_any=0.02, p_best=0.004, strongest=1.0)) == pytest.approx(0.008)
-    assert chance(screen([1.0], p_any=0.002, p_best=0.5)) == pytest.approx(0.004)
+def test_three_looks_cost_a_factor_of_three() -> None:
+    assert chance(screen([1.0], p_any=0.02, p_best=0.003, strongest=1.0)) == pytest.approx(0.009)
+    assert chance(screen([1.0], p_any=0.002, p_best=0.5)) == pytest.approx(0.006)
+    assert chance(screen([1.0], p_any=0.5, p_best=0.5, p_direct=1e-4)) == pytest.approx(3e-4)
     assert chance(screen([1.0], p_any=0.5, p_best=0.5, strongest=1.0)) == 1.0
 
 

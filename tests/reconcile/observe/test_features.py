@@ -18,6 +18,7 @@ SHAPES = len(SHAPE_BANDS_HZ)
 LINES_HZ = np.array([50.0, 333.0, 2345.0])
 WIDTHS = np.array([high - low for low, high in SHAPE_BANDS_HZ])
 RESOLUTION_HZ = 1.5
+TURNS = np.array([18.0, 5.0])
 
 
 def bank(seed: int, n: int = 2, modulations: int = 4) -> SimpleNamespace:
@@ -28,6 +29,7 @@ def bank(seed: int, n: int = 2, modulations: int = 4) -> SimpleNamespace:
         total=rng.uniform(0.1, 2.0, (n, 1, BANDS)),
         band=rng.uniform(0.1, 2.0, (n, 1, SHAPES)),
         depth=rng.uniform(0.0, 0.5, (n, 1, SHAPES, modulations)),
+        turn=rng.uniform(0.0, 0.5, (n, 1, SHAPES, TURNS.size)),
         kurtosis=rng.uniform(-1.0, 20.0, (n, 1, SHAPES)),
         skewness=rng.uniform(-2.0, 2.0, (n, 1, SHAPES)),
     )
@@ -43,7 +45,7 @@ def test_a_noiseless_chain_scales_powers_and_keeps_shapes(seed: int, gain_db: fl
     here = bank(seed)
     passed = through(chain(gain_db, 1e-30), here, LINES_HZ, RESOLUTION_HZ)
     g = 10 ** (gain_db / 10)
-    for name in ("line", "floor", "total"):
+    for name in ("line", "floor", "total", "turn"):
         np.testing.assert_allclose(getattr(passed, name), g * getattr(here, name), rtol=1e-9)
     np.testing.assert_allclose(passed.depth, here.depth, rtol=1e-9, atol=1e-12)
     np.testing.assert_allclose(passed.kurtosis, here.kurtosis, rtol=1e-9)
@@ -84,17 +86,18 @@ def test_the_dilution_of_moments_is_that_of_sums_of_independent_signals() -> Non
 
 def test_what_noise_buries_changes_no_feature() -> None:
     here = chain(0.0, 1e-3)
-    scale = scale_of(here, LINES_HZ, RESOLUTION_HZ)
+    scale = scale_of(here, LINES_HZ, RESOLUTION_HZ, TURNS)
     one, two = bank(3), bank(3)
+    one.turn, two.turn = np.full_like(one.turn, 1e-7), np.full_like(one.turn, 1e-6)
     one.line, two.line = np.full_like(one.line, 1e-9), np.full_like(one.line, 1e-7)
     features = [through(here, b, LINES_HZ, RESOLUTION_HZ).features(scale) for b in (one, two)]
     assert np.abs(features[0] - features[1]).max() < 1e-3
 
 
 def test_features_are_laid_out_as_declared() -> None:
-    layout = Layout(lines=LINES_HZ.size, bands=BANDS, shapes=SHAPES, modulations=4)
+    layout = Layout(lines=LINES_HZ.size, bands=BANDS, shapes=SHAPES, modulations=4, shafts=TURNS.size)
     here = chain(0.0, 1e-9)
-    scale = scale_of(here, LINES_HZ, RESOLUTION_HZ)
+    scale = scale_of(here, LINES_HZ, RESOLUTION_HZ, TURNS)
     base = bank(4)
     first = through(here, base, LINES_HZ, RESOLUTION_HZ).features(scale)
     assert first.shape == (2, 1, layout.size)
@@ -107,6 +110,6 @@ def test_features_are_laid_out_as_declared() -> None:
 def test_nothing_measured_stays_nan() -> None:
     here = bank(5)
     here.line[0, 0, 1] = np.nan
-    scale = scale_of(chain(0.0, 1e-6), LINES_HZ, RESOLUTION_HZ)
-    found = soft_features(here.line, here.floor, here.total, here.depth, here.kurtosis, here.skewness, scale)
+    scale = scale_of(chain(0.0, 1e-6), LINES_HZ, RESOLUTION_HZ, TURNS)
+    found = soft_features(here.line, here.floor, here.total, here.depth, here.turn, here.kurtosis, here.skewness, scale)
     assert np.isnan(found).sum() == 1 and np.isnan(found[0, 0, 1])

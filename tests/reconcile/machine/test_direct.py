@@ -1,0 +1,90 @@
+"""Impacts at a part's own frequency speak for the effects that strike there, and for nothing else."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from reconcile.machine.direct import MOST, MOST_TURNS, Direct, direct_evidence
+from reconcile.observe.observation import observe
+from reconcile.observe.watch import bases_at, watch_list
+from signals.recording import Operating, Recording
+from sim.core.response import Channel
+from sim.core.spec import MachineSpec
+from sim.presets import preset
+from sim.terms import REGISTRY
+
+RATE_HZ, SPEED_HZ, SECONDS = 20480.0, 30.0, 2.0
+TIME = np.arange(round(RATE_HZ * SECONDS)) / RATE_HZ
+CHANNELS = tuple(
+    Channel(name=p, quantity="acceleration", unit="m/s^2", location=p, axis="y") for p in ("bearing1", "bearing3")
+)
+
+
+@pytest.fixture(scope="module")
+def machine() -> MachineSpec:
+    return preset("paper-lightly-damped")
+
+
+def sound(seed: int) -> np.ndarray:
+    rng = np.random.default_rng(seed)
+    mesh = sum(np.sin(2 * np.pi * 690.0 * k * TIME + k) / k for k in range(1, 6))
+    return mesh + 0.2 * rng.normal(size=(2, TIME.size))
+
+
+def struck(hz: float, *, loads_hz: float | None = None, slip: float = 0.0) -> np.ndarray:
+    """Bursts of 3 kHz on the first channel; heavier once a turn of `loads_hz`."""
+    phase = (hz * (1 + slip) * TIME) % 1.0
+    after = phase / hz
+    burst = np.exp(-after / 4e-4) * np.sin(2 * np.pi * 3000.0 * after)
+    weight = 1.0 if loads_hz is None else 1.0 + 0.9 * np.cos(2 * np.pi * loads_hz * TIME)
+    return np.array([[1.5], [0.2]]) * burst * weight
+
+
+def recording(samples: np.ndarray) -> Recording:
+    return Recording(
+        sampling_rate_hz=RATE_HZ,
+        channels=CHANNELS,
+        samples=samples,
+        operating=Operating(shaft="input", speed_hz=SPEED_HZ, torque_nm=25.0),
+    )
+
+
+def found(machine: MachineSpec, now: np.ndarray, before: np.ndarray) -> Direct:
+    data = observe(machine, watch_list(machine), [recording(now)], [recording(before)])
+    return direct_evidence(machine, data, CHANNELS, seed=0)
+
+
+@pytest.mark.parametrize(("kind", "base", "loads"), [("outer", "f_o1", None), ("inner", "f_i1", 30.0)])
+def test_a_struck_race_speaks_for_its_spall_at_the_bearings_that_share_the_frequency(
+    machine: MachineSpec, kind: str, base: str, loads: float | None
+) -> None:
+    hz = bases_at(machine, SPEED_HZ)[base]
+    direct = found(machine, sound(1) + struck(hz, loads_hz=loads, slip=0.007), sound(2))
+    assert direct.p < 0.01 and any(f"bearing1.{kind}" in line for line in direct.told)
+    best = {name for name, value in direct.evidence.items() if value > 0.5 * max(direct.evidence.values())}
+    assert best == {f"{kind}_spall@bearing1", f"{kind}_spall@bearing2"}
+    assert max(direct.evidence.values()) <= MOST
+
+
+def test_a_tooth_that_strikes_speaks_for_the_teeth_of_its_gear(machine: MachineSpec) -> None:
+    direct = found(machine, sound(1) + struck(SPEED_HZ), sound(2))
+    teeth = {t.key for t in REGISTRY if t.strikes == "tooth"}
+    assert teeth == {"tooth_crack", "tooth_spall", "missing_tooth"}
+    for term in teeth:
+        assert direct.evidence[f"{term}@pinion"] >= MOST_TURNS
+        assert direct.evidence.get(f"{term}@gear", 0.0) < 2.0
+
+
+def test_what_the_baseline_has_too_is_no_evidence(machine: MachineSpec) -> None:
+    hz = bases_at(machine, SPEED_HZ)["f_o1"]
+    direct = found(machine, sound(1) + struck(hz), sound(2) + struck(hz))
+    assert max(direct.evidence.values(), default=0.0) < 2.0
+    assert direct.p == 1.0
+
+
+def test_sound_machines_say_nothing(machine: MachineSpec) -> None:
+    for seed in range(3):
+        direct = found(machine, sound(10 + seed), sound(20 + seed))
+        assert max(direct.evidence.values(), default=0.0) < 3.0
+        assert direct.p == 1.0
