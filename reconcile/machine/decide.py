@@ -21,6 +21,10 @@ GLARING = 8.0
 parameters did on the development nulls."""
 STRANGE = 0.98
 """Quantile of the misfit among known effects above which no known effect is adequate."""
+STRUCK = 8.0
+"""Log evidence of impacts at its own frequency from which an effect is there, whatever else is."""
+HOPELESS = 12.0
+"""Log evidence behind the best effect from which one is not simulated again."""
 SET_WEIGHT = 0.9
 """The answer is the smallest set of candidates that carries this weight."""
 LEAST_EVIDENCE = 3.0
@@ -78,6 +82,12 @@ def credible_set(weights: dict[str, float], level: float = SET_WEIGHT) -> tuple[
     return tuple(chosen)
 
 
+def plausible(screen: Screen) -> list[str]:
+    """Effects that are not out of the question, the best first."""
+    order = [int(k) for k in np.argsort(-screen.evidence)]
+    return [screen.names[k] for k in order if screen.evidence[k] >= screen.evidence[order[0]] - HOPELESS]
+
+
 def chance(screen: Screen) -> float:
     """Chance that a healthy machine shows as much: by a known effect's pattern, by any change that is glaring, or by
     impacts at a part's own frequency."""
@@ -107,14 +117,22 @@ def decide(screen: Screen, *, views: int, strange: float = STRANGE) -> Decision:
     if weak and screen.strongest < FAINT:
         reason = "the change is too faint to tell one effect from another"
         return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(reason,))
-    if screen.misfit > strange or weak:
-        reason = f"the best known effect fits worse than {screen.misfit:.0%} of simulated ones do"
-        return Decision(word="unknown_physics", chosen=chosen[:3], p=p, reasons=(reason,))
+    struck = float(screen.direct[screen.names.index(chosen[0])])
+    alone = evidence[chosen[0]] - struck < LEAST_EVIDENCE and screen.strongest > FAINT
+    if weak or alone or (screen.misfit > strange and struck < STRUCK):
+        return Decision(word="unknown_physics", chosen=chosen[:3], p=p, reasons=(_misfit(screen, alone and not weak),))
     if len(chosen) == 1:
-        return Decision(word="explained", chosen=chosen, p=p, reasons=())
+        rest = () if screen.misfit <= strange else ("a part of the change is left that this effect does not bring",)
+        return Decision(word="explained", chosen=chosen, p=p, reasons=rest)
     if len(chosen) <= MOST_NAMED:
         return Decision(word="ambiguous", chosen=chosen, p=p, reasons=(_why(chosen),))
     return Decision(word="not_decidable", chosen=chosen, p=p, reasons=(f"{len(chosen)} effects look alike",))
+
+
+def _misfit(screen: Screen, alone: bool) -> str:
+    if alone:
+        return "impacts come at a known frequency, but the rest of the change is not what such an effect brings"
+    return f"the best known effect fits worse than {screen.misfit:.0%} of simulated ones do"
 
 
 def _not_excluded(screen: Screen, weights: dict[str, float], chosen: tuple[str, ...]) -> tuple[str, ...]:

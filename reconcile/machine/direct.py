@@ -71,7 +71,7 @@ def direct_evidence(
     baselines = [_observation(b, f"baseline {k}", channels, tie) for k, b in enumerate(rested, 1) if b is not None]
     every = candidates(tests, baselines, tie, seed)
     heights = turn_heights(machine, data, [c.name for c in channels])
-    evidence = {}
+    evidence: dict[str, float] = {}
     for term in REGISTRY:
         if term.strikes == "tooth":
             evidence |= {f"{term.key}@{g.name}": _tooth(every, g.name, g.shaft, heights) for g in machine.gears}

@@ -6,8 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
-
 from reconcile.atlas.bank import Mapper
 from reconcile.atlas.candidates import Candidate, candidates
 from reconcile.atlas.keep import Forgetful, Keeper, kept_bank
@@ -20,7 +18,7 @@ from reconcile.gate.spoiled import without_spoiled
 from reconcile.judge.changes import lenses, observed_changes
 from reconcile.judge.screen import fit_space, judge
 from reconcile.machine.answer import answer, fault_answer
-from reconcile.machine.decide import credible_set, merged_weights, remarkable
+from reconcile.machine.decide import credible_set, merged_weights, plausible, remarkable
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import around_baseline, first_heat, ordered_draws, second_heat, simulated_banks, told
@@ -160,13 +158,13 @@ def _screened(setting: Setting) -> Found:
 
 def _located(setting: Setting, screened: Found, atlas: AtlasPlan, budget: Budget, mapper: Mapper) -> Found:
     """The best of the screened candidates, simulated on the setting's own machines alone, the best of them more."""
-    ranked = [screened.screen.names[k] for k in np.argsort(-screened.screen.evidence)]
+    ranked = plausible(screened.screen)
     shown = [t for t, seen in zip(screened.known.terms, screened.fitted.visible, strict=True) if seen]
     draws = ordered_draws(atlas, shown)
     first = first_heat(setting.plan, ranked, draws, budget.terms)
     known = _simulated(setting, first, mapper)
     found = _fit(setting, known)
-    best = [found.screen.names[k] for k in np.argsort(-found.screen.evidence)[: budget.candidates]]
+    best = plausible(found.screen)[: budget.candidates]
     second = second_heat(setting.plan, best, draws, first)
     return _fit(setting, joined(known, _simulated(setting, second, mapper)))
 
