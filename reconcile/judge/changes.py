@@ -12,7 +12,7 @@ from reconcile.atlas.bank import Bank
 from reconcile.atlas.plan import AtlasPlan
 from reconcile.calibrate.chain import Chain, Healthy, calibrate_chain
 from reconcile.judge.measured import measured_db, unsteady_db, wander_patterns
-from reconcile.judge.pooled import Pooling, pooling
+from reconcile.judge.pooled import OneByOne, Pooling, mesh_lines, pooling
 from reconcile.observe.features import Layout, Scale, scale_of, soft_features, through
 from reconcile.observe.observation import PointData
 from reconcile.observe.statistics import Statistics
@@ -37,6 +37,7 @@ class Changes:
     groups: np.ndarray
     """(F,): number of the group a feature belongs to: one point, one channel, one part."""
     pooling: Pooling
+    single: OneByOne
     wander: FloatArray
     """(k, F): changes that speed wander brings about, one deviation each; signs and sizes are free."""
 
@@ -126,6 +127,7 @@ def observed_changes(
         groups.append(_groups(one.test) + (groups[-1].max() + 1 if groups else 0))
         null.append(_null(lens, bank, plan, based=based))
         starts.append(starts[-1] + observed[-1].size)
+    layout, channels = _layout(data[0].test), data[0].test.line.shape[0]
     return Changes(
         observed=np.concatenate(observed),
         halves=np.concatenate(halves, axis=1),
@@ -134,7 +136,8 @@ def observed_changes(
         starts=tuple(starts),
         with_baseline=based,
         groups=np.concatenate(groups),
-        pooling=pooling(watched, _layout(data[0].test), points=len(data), channels=data[0].test.line.shape[0]),
+        pooling=pooling(watched, layout, points=len(data), channels=channels),
+        single=mesh_lines(watched, layout, points=len(data), channels=channels),
         wander=block_diag(*wander),
     )
 

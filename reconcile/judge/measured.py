@@ -7,7 +7,7 @@ import numpy as np
 from reconcile.calibrate.chain import Chain
 from reconcile.observe.features import SHAPE_DB, SOFT, Scale
 from reconcile.observe.statistics import LOBE, LOBE_SCATTER, SHAPE_BANDS_HZ, Statistics, third_octaves
-from reconcile.observe.watch import WatchList
+from reconcile.observe.watch import MESH_ORDERS, WatchList
 from signals.series import FloatArray
 
 UNSTEADY_DB = {"line": 1.0, "floor": 0.7, "total": 0.7, "depth": 1.0, "turn": 2.0, "kurtosis": 3.0, "skewness": 3.0}
@@ -17,6 +17,9 @@ LOW_SHAPE_DB = {"kurtosis": 12.0, "skewness": 18.0}
 """The same in the lowest band, where the moments are those of few lines and follow their phases."""
 WANDER_DB = 4.0
 """Sidebands of the mesh at a shaft's multiples rise and fall together with slow wander of the speed."""
+SMEAR_DB = 3.0
+"""What is left of the wander takes from the highest watched mesh harmonic, on all sensors alike: as the square of the
+order, since the phase of a harmonic errs in proportion to it."""
 WANDER_HZ = 13.0
 """Wander left after following the angle reaches this far from the lines."""
 DB = 10.0 / np.log(10.0)
@@ -72,8 +75,18 @@ def wandering(watched: WatchList, lines_hz: FloatArray) -> np.ndarray:
     return found
 
 
+def smear_pattern(watched: WatchList, features: int) -> FloatArray:
+    """(F,): what one deviation of unsteadiness left after following the angle takes from the mesh, dB."""
+    pattern = np.zeros(features)
+    for i, line in enumerate(watched.lines):
+        if line.family == "mesh":
+            pattern[i] = SMEAR_DB * (max(line.orders.values()) / MESH_ORDERS) ** 2
+    return pattern
+
+
 def wander_patterns(watched: WatchList, lines_hz: FloatArray, features: int) -> FloatArray:
-    """(shafts, F): what one deviation of wander does around each shaft's sidebands of one channel, dB."""
+    """(shafts + 1, F): what one deviation of wander does around each shaft's sidebands of one channel, dB, and what
+    is left of it takes from the mesh itself."""
     near = wandering(watched, lines_hz)
     shafts = sorted({b for w in watched.lines if w.family == "sideband" for b in w.orders if b.startswith("f_r")})
     patterns = np.zeros((len(shafts), features))
@@ -81,4 +94,4 @@ def wander_patterns(watched: WatchList, lines_hz: FloatArray, features: int) -> 
         for i, line in enumerate(watched.lines):
             if near[i] and shaft in line.orders:
                 patterns[row, i] = WANDER_DB
-    return patterns
+    return np.concatenate([patterns, smear_pattern(watched, features)[None]])

@@ -18,6 +18,7 @@ from signals.series import FloatArray
 BANDS_TOGETHER = 4
 DEAD = 2.0
 """Changes below this many deviations are noise: how large the noise is exactly must not matter."""
+LARGE = 3.0
 LOW_MESH = 2
 """Mesh harmonics up to here are one family, higher ones another: tooth shapes act on the higher ones."""
 
@@ -62,6 +63,32 @@ class Pooling:
             found += [rise.mean(axis=1), size.mean(axis=1), size.max(axis=1)]
         pooled = np.concatenate(found, axis=1)
         return np.asarray(np.sign(pooled) * np.log1p(np.abs(pooled)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class OneByOne:
+    """Whitened features of a channel that count each for itself, at every point: `chosen` (F,) is a mask.
+
+    On machines that agree with the baseline the pattern of single mesh lines is that of the effect: which resonance
+    each of them meets is known. Changes much larger than `LARGE` deviations count by their logarithm.
+    """
+
+    chosen: np.ndarray
+    points: int
+    channels: int
+
+    def __call__(self, z: FloatArray) -> FloatArray:
+        """(n, P * C * F) -> (n, P * C * chosen)."""
+        cube = np.nan_to_num(z).reshape(z.shape[0], self.points, self.channels, self.chosen.size)
+        kept = cube[..., self.chosen].reshape(z.shape[0], -1)
+        return np.asarray(np.sign(kept) * LARGE * np.log1p(np.abs(kept) / LARGE))
+
+
+def mesh_lines(watched: WatchList, layout: Layout, *, points: int, channels: int) -> OneByOne:
+    """The mesh harmonics, one by one."""
+    chosen = np.zeros(layout.size, dtype=bool)
+    chosen[: layout.lines] = [line.family == "mesh" for line in watched.lines]
+    return OneByOne(chosen=chosen, points=points, channels=channels)
 
 
 def pooling(watched: WatchList, layout: Layout, *, points: int, channels: int) -> Pooling:

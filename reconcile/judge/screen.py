@@ -2,164 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from reconcile.judge.changes import Changes
-from reconcile.judge.metric import Metric, Whitening, fit_metric, neighbour_scatter, whitening
-from reconcile.judge.paths import Paths, build_paths
-from reconcile.judge.pooled import Pooling
+from reconcile.judge.space import Fitted, group_lengths, squared_distances
 from signals.series import FloatArray
-
-FULL_PATH = 6
-"""Draws from which an effect's path is known well enough to judge how far a draw lies from the others."""
-NULL_COPIES = 16
-"""Noisy copies of each simulated healthy pair, of either sign: the bank of nulls."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Library:
-    """Simulated changes: `changes` (m, F), the effect each row belongs to, its logarithmic size 0..1."""
-
-    changes: FloatArray
-    groups: Mapping[str, tuple[int, ...]]
-    shares: FloatArray
-
-
-@dataclass(frozen=True, kw_only=True)
-class Fitted:
-    """The space in which a reconciliation compares."""
-
-    whiten: Whitening
-    pool: Pooling
-    metric: Metric
-    paths: Paths
-    null: FloatArray
-    """(n, D): what healthy machines with measurement noise look like."""
-    resting: FloatArray
-    """(n, groups): lengths of the same, group by group, before the metric."""
-    groups: np.ndarray
-    overdispersion: float
-    """Squared distance that counts as one unit of evidence, from leaving draws out."""
-    own: FloatArray
-    """(k,): squared distance of each draw that stands out from its own effect's path without it."""
-    size: FloatArray
-    """(k,): squared length of the same draws."""
-    visible: np.ndarray
-    """(m,): draws larger than 95 % of the nulls."""
-
-    def place(self, changes: FloatArray) -> FloatArray:
-        """(F,) -> (D,)."""
-        return np.asarray(self.metric(self.pool(self.whiten(changes)[None]))[0])
-
-
-def _telling(groups: Mapping[str, tuple[int, ...]], visible: np.ndarray) -> dict[str, tuple[int, ...]]:
-    """Without draws that show nothing where others show something: a defect outside the load zone bends the path."""
-    found = {}
-    for name, members in groups.items():
-        shown = tuple(k for k in members if visible[k])
-        found[name] = shown if len(shown) >= 2 else tuple(members)
-    return found
-
-
-def _well_known(visible: np.ndarray, library: Library) -> np.ndarray:
-    """Rows that stand out, of effects whose path without the row is still one; others would look too strange."""
-    draws = np.zeros(visible.size, dtype=int)
-    for members in library.groups.values():
-        draws[list(members)] = len(members)
-    rows = np.flatnonzero(visible & (draws >= FULL_PATH))
-    return rows if rows.size >= FULL_PATH else np.flatnonzero(visible)
-
-
-def _softness(distances: FloatArray, truth: np.ndarray) -> float:
-    """The scale at which exp(-d^2 / 2 scale), normalised over effects, is the best forecast of the true one."""
-    scales = np.geomspace(0.3, 300.0, 31)
-    best, chosen = -np.inf, 1.0
-    for scale in scales:
-        log = -0.5 * distances / scale
-        log = log - log.max(axis=1, keepdims=True)
-        forecast = log[np.arange(truth.size), truth] - np.log(np.exp(log).sum(axis=1))
-        value = float(np.mean(np.maximum(forecast, -20.0)))
-        if value > best:
-            best, chosen = value, float(scale)
-    return chosen
-
-
-def _squared(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Squared distances of the rows of two arrays, (n, m); single precision is plenty and half the time."""
-    one, other = a.astype(np.float32), b.astype(np.float32)
-    lengths = np.sum(one**2, axis=1)[:, None] + np.sum(other**2, axis=1)[None, :]
-    return np.maximum(np.asarray(lengths - 2.0 * one @ other.T, dtype=np.float64), 0.0)
-
-
-def _between(points: FloatArray, paths: Paths) -> FloatArray:
-    """Least squared distance of every draw to every effect, its own without itself, (m, effects)."""
-    squared = _squared(points, paths.points)
-    rows = np.arange(points.shape[0])[:, None]
-    squared[(paths.low[None, :] == rows) | (paths.high[None, :] == rows)] = np.inf
-    found = np.full((points.shape[0], len(paths.names)), np.inf)
-    for c in range(len(paths.names)):
-        found[:, c] = squared[:, paths.owner == c].min(axis=1)
-    return found
-
-
-def _resting(changes: Changes, rng: np.random.Generator) -> FloatArray:
-    """Healthy pairs with noise and wander of their own, (n, F): one set to learn from, another to compare with."""
-    copies = changes.null.shape[0] * NULL_COPIES
-    drift = np.repeat(changes.null, NULL_COPIES, axis=0) * rng.choice([-1.0, 1.0], (copies, 1))
-    noise = rng.normal(size=drift.shape) * np.nan_to_num(changes.measured)
-    return np.asarray(drift + noise + rng.normal(size=(copies, changes.wander.shape[0])) @ changes.wander)
-
-
-def _group_lengths(z: FloatArray, groups: np.ndarray) -> FloatArray:
-    """(n, F) -> (n, groups): squared length of the compressed features of each group."""
-    compressed = np.log1p(np.abs(z))
-    count = int(groups.max()) + 1
-    return np.stack([np.sum(compressed[:, groups == g] ** 2, axis=1) for g in range(count)], axis=1)
-
-
-def _largest(lengths: FloatArray, resting: FloatArray) -> FloatArray:
-    """Largest standardised group length of each row."""
-    spread = np.maximum(resting.std(axis=0), 1e-9)
-    return np.asarray(((lengths - resting.mean(axis=0)) / spread).max(axis=1))
-
-
-def fit_space(changes: Changes, library: Library, *, seed: int) -> Fitted:
-    """Whiten, learn what scatters, lay out the paths and the bank of nulls."""
-    whiten = whitening(changes.observed, changes.measured, changes.null, library.changes)
-    pool = changes.pooling
-    rng = np.random.default_rng([seed, 3])
-    learned, fresh = _resting(changes, rng), _resting(changes, rng)
-    noise = rng.normal(size=library.changes.shape) * np.nan_to_num(changes.measured)
-    drawn, resting = pool(whiten(library.changes + noise)), pool(whiten(learned))
-    centre = resting.mean(axis=0)
-    scatter = [neighbour_scatter(drawn[list(g)], library.shares[list(g)]) for g in library.groups.values()]
-    metric = fit_metric(centre, [*scatter, resting - centre])
-    points, null = metric(drawn), metric(pool(whiten(fresh)))
-    size = np.sum(points**2, axis=1)
-    visible = size > np.quantile(np.sum(null**2, axis=1), 0.95)
-    paths = build_paths(points, _telling(library.groups, visible), library.shares)
-    distances = _between(points, paths)
-    truth = np.zeros(points.shape[0], dtype=int)
-    for c, members in enumerate(library.groups.values()):
-        truth[list(members)] = c
-    seen = _well_known(visible, library)
-    groups = np.where(np.isfinite(whiten.sigma), changes.groups, -1)
-    return Fitted(
-        whiten=whiten,
-        pool=pool,
-        metric=metric,
-        paths=paths,
-        null=null,
-        resting=_group_lengths(whiten(fresh), groups),
-        groups=groups,
-        overdispersion=_softness(distances[seen], truth[seen]) if seen.size else 10.0,
-        own=distances[seen, truth[seen]] if seen.size else distances[np.arange(truth.size), truth],
-        size=size[seen] if seen.size else size,
-        visible=visible,
-    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -169,14 +18,15 @@ class Screen:
 
     `p_any`: chance of such a change in a healthy machine, by the most changed group of features (one point, channel
     and kind), `strongest` in standard deviations; `p_best`: by the best candidate's evidence; `p_direct`: by impacts.
-    `weights` sum to 1 over the effects. `misfit`: quantile of the best distance among draws of known effects.
+    `by` (effects,): the view (0, 1) that speaks for each. `weights` sum to 1 over the effects.
+    `misfit`: quantile of the best distance among draws of known effects.
     """
 
     names: tuple[str, ...]
     evidence: FloatArray
     direct: FloatArray
     weights: FloatArray
-    nearest: np.ndarray
+    by: np.ndarray
     p_any: float
     strongest: float
     p_best: float
@@ -185,36 +35,68 @@ class Screen:
     length: float
 
 
-def judge(
-    fitted: Fitted, observed: FloatArray, direct: Mapping[str, float] | None = None, p_direct: float = 1.0
-) -> Screen:
-    """`observed` (F,) in dB against all paths; `direct`: log evidence of effects that needs no simulation."""
+@dataclass(frozen=True, kw_only=True)
+class _Look:
+    """One view's answer: evidence (effects,) over no change, its best for every null (n,), lengths and the misfit."""
+
+    evidence: FloatArray
+    null: FloatArray
+    length: float
+    misfit: float
+
+
+def _looked(fitted: Fitted, observed: FloatArray) -> _Look:
     x = fitted.place(observed)
     nothing = float(np.sum(x**2))
-    best, which = fitted.paths.nearest(fitted.paths.distances(x))
-    shown = np.array([(direct or {}).get(name, 0.0) for name in fitted.paths.names])
-    evidence = (nothing - best) / (2.0 * fitted.overdispersion) + shown
-    log = evidence - evidence.max()
-    weights = np.exp(log) / np.exp(log).sum()
+    best, _ = fitted.paths.nearest(fitted.paths.distances(x))
     lengths = np.sum(fitted.null**2, axis=1)
-    gains = lengths - _squared(fitted.null, fitted.paths.points).min(axis=1)
-    count = lengths.size + 1.0
-    own = _group_lengths(fitted.whiten(observed)[None], fitted.groups)
-    strongest = float(_largest(own, fitted.resting)[0])
-    found = float(best.min())
+    gains = lengths - squared_distances(fitted.null, fitted.paths.points).min(axis=1)
+    return _Look(
+        evidence=(nothing - best) / (2.0 * fitted.overdispersion),
+        null=gains / (2.0 * fitted.overdispersion),
+        length=nothing,
+        misfit=quantile_of_misfit(fitted, float(best.min()), nothing),
+    )
+
+
+def judge(
+    views: Sequence[Fitted], observed: FloatArray, direct: Mapping[str, float] | None = None, p_direct: float = 1.0
+) -> Screen:
+    """`observed` (F,) in dB against all paths in one or two views; `direct`: log evidence that needs no simulation.
+
+    An effect counts by the view that speaks louder for it: what the other one sees may be what the model has not.
+    """
+    first = views[0]
+    looks = [_looked(v, observed) for v in views]
+    told = np.stack([look.evidence for look in looks])
+    by = told.argmax(axis=0)
+    shown = np.array([(direct or {}).get(name, 0.0) for name in first.paths.names])
+    patterns = told.max(axis=0)
+    evidence = patterns + shown
+    log = evidence - evidence.max()
+    resting = np.max([look.null for look in looks], axis=0)
+    own = group_lengths(first.whiten(observed)[None], first.groups)
+    strongest = float(_largest(own, first.resting)[0])
+    count = resting.size + 1.0
     return Screen(
-        names=fitted.paths.names,
+        names=first.paths.names,
         evidence=evidence,
         direct=shown,
-        weights=weights,
-        nearest=which,
-        p_any=float((1 + np.sum(_largest(fitted.resting, fitted.resting) >= strongest)) / count),
+        by=by,
+        weights=np.exp(log) / np.exp(log).sum(),
+        p_any=float((1 + np.sum(_largest(first.resting, first.resting) >= strongest)) / count),
         strongest=strongest,
-        p_best=float((1 + np.sum(gains >= nothing - found)) / count),
+        p_best=float((1 + np.sum(resting >= patterns.max())) / count),
         p_direct=p_direct,
-        misfit=quantile_of_misfit(fitted, found, nothing),
-        length=nothing,
+        misfit=looks[int(by[int(np.argmax(evidence))])].misfit,
+        length=looks[0].length,
     )
+
+
+def _largest(lengths: FloatArray, resting: FloatArray) -> FloatArray:
+    """Largest standardised group length of each row."""
+    spread = np.maximum(resting.std(axis=0), 1e-9)
+    return np.asarray(((lengths - resting.mean(axis=0)) / spread).max(axis=1))
 
 
 def quantile_of_misfit(fitted: Fitted, found: float, length: float) -> float:

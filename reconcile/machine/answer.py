@@ -70,13 +70,13 @@ def _causes(found: Found, decision: Decision, weights: Mapping[str, float], obse
     causes = []
     for name in listed[:MOST_CAUSES]:
         term, site = name.split("@")
-        drawn = best_draws(found.fitted, found.known, name, observed, count=1)
+        drawn = best_draws(found.view(name), found.known, name, observed, count=1)
         causes.append(
             Cause(
                 term=term,
                 site=site,
                 score=float(found.screen.evidence[found.screen.names.index(name)]),
-                severity=estimated_severity(found.fitted, found.known, name, observed),
+                severity=estimated_severity(found.view(name), found.known, name, observed),
                 named=decision.word == "explained" and name == decision.chosen[0],
                 reasons=decision.reasons,
                 values=dict(drawn[0].parameters) if drawn else {},
@@ -121,10 +121,11 @@ def _limits(setting: Setting) -> tuple[str, ...]:
 
 
 def _fitted_change(found: Found, name: str, observed: np.ndarray) -> np.ndarray:
-    squared = found.fitted.paths.distances(found.fitted.place(observed))
-    owner = found.fitted.paths.names.index(name)
-    rows = [k for k in np.argsort(squared) if found.fitted.paths.owner[k] == owner][:1]
-    first, second = int(found.fitted.paths.low[rows[0]]), int(found.fitted.paths.high[rows[0]])
+    fitted = found.view(name)
+    squared = fitted.paths.distances(fitted.place(observed))
+    owner = fitted.paths.names.index(name)
+    rows = [k for k in np.argsort(squared) if fitted.paths.owner[k] == owner][:1]
+    first, second = int(fitted.paths.low[rows[0]]), int(fitted.paths.high[rows[0]])
     changes = found.known.library.changes
     return np.asarray(0.5 * (changes[max(first, 0)] + changes[second]) if first >= 0 else 0.5 * changes[second])
 

@@ -16,7 +16,8 @@ from reconcile.gate import inspect_measurement
 from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import without_spoiled
 from reconcile.judge.changes import lenses, observed_changes
-from reconcile.judge.screen import fit_space, judge
+from reconcile.judge.screen import judge
+from reconcile.judge.space import fit_space
 from reconcile.machine.answer import answer, fault_answer
 from reconcile.machine.decide import credible_set, merged_weights, plausible, remarkable
 from reconcile.machine.direct import direct_evidence
@@ -139,9 +140,14 @@ def _setting(
 
 
 def _fit(setting: Setting, known: Catalogued) -> Found:
-    fitted = fit_space(setting.changes, known.library, seed=setting.seed)
-    direct = setting.direct
-    return Found(known=known, fitted=fitted, screen=judge(fitted, setting.changes.observed, direct.evidence, direct.p))
+    """Families of features; on machines that agree with the baseline single lines beside them."""
+    changes, direct = setting.changes, setting.direct
+    fitted = fit_space(changes, known.library, seed=setting.seed)
+    local = setting.fitted_machine is not None
+    fine = fit_space(changes, known.library, seed=setting.seed, view=changes.single) if local else None
+    views = (fitted,) if fine is None else (fitted, fine)
+    screen = judge(views, changes.observed, direct.evidence, direct.p)
+    return Found(known=known, fitted=fitted, screen=screen, fine=fine)
 
 
 def _screened(setting: Setting) -> Found:
@@ -187,7 +193,7 @@ def _refined(setting: Setting, found: Found, budget: Budget, mapper: Mapper, tur
     leading = list(weights)[: budget.effects]
     if len(credible_set(weights, 0.999)) == 1:
         leading = leading[:2]
-    around = [(name, best_draws(found.fitted, found.known, name, setting.changes.observed)) for name in leading]
+    around = [(name, best_draws(found.view(name), found.known, name, setting.changes.observed)) for name in leading]
     pairs = len(setting.plan.offsets)
     plan = refined_plan(setting.plan, around, draws=REFINED_DRAWS, pairs=pairs, seed=setting.seed + turn)
     return _fit(setting, joined(found.known, _simulated(setting, plan, mapper)))

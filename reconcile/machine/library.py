@@ -11,7 +11,7 @@ from reconcile.atlas.bank import Bank
 from reconcile.atlas.candidates import size_parameter, size_range
 from reconcile.atlas.plan import AtlasPlan, Draw
 from reconcile.judge.changes import Lens, signatures
-from reconcile.judge.screen import Library
+from reconcile.judge.space import Library
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import TermSpec
 from sim.terms import REGISTRY

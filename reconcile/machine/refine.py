@@ -8,7 +8,7 @@ import numpy as np
 
 from reconcile.atlas.candidates import Candidate, size_parameter
 from reconcile.atlas.plan import AtlasPlan, Draw
-from reconcile.judge.screen import Fitted
+from reconcile.judge.space import Fitted
 from reconcile.machine.library import Catalogued
 from signals.series import FloatArray
 from sim.core.params import Param

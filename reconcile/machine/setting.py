@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from reconcile.atlas.bank import Bank
 from reconcile.atlas.plan import AtlasPlan
 from reconcile.judge.changes import Changes, Lens
-from reconcile.judge.screen import Fitted, Screen
+from reconcile.judge.screen import Screen
+from reconcile.judge.space import Fitted
 from reconcile.machine.direct import NOTHING, Direct
 from reconcile.machine.library import Catalogued
 from reconcile.observe.observation import PointData
@@ -39,3 +40,11 @@ class Found:
     known: Catalogued
     fitted: Fitted
     screen: Screen
+    fine: Fitted | None = None
+    """The view of single lines, on machines that agree with the baseline."""
+
+    def view(self, name: str) -> Fitted:
+        """The view that speaks for an effect."""
+        if self.fine is None or not self.screen.by[self.screen.names.index(name)]:
+            return self.fitted
+        return self.fine

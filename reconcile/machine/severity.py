@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from reconcile.atlas.candidates import size_parameter
-from reconcile.judge.screen import Fitted
+from reconcile.judge.space import Fitted
 from reconcile.machine.library import Catalogued
 from reconcile.verdict import Severity
 from signals.series import FloatArray

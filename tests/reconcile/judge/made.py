@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from reconcile.judge.changes import Changes
-from reconcile.judge.pooled import Pooling
-from reconcile.judge.screen import Library
+from reconcile.judge.pooled import OneByOne, Pooling
+from reconcile.judge.space import Library
 
 FAMILIES, MEMBERS = 12, 5
 FEATURES = FAMILIES * MEMBERS
@@ -77,5 +77,6 @@ def changes(made: World, observed: np.ndarray, seed: int = 0, *, points: int = 1
         with_baseline=True,
         groups=(np.arange(FEATURES) >= FEATURES // 2).astype(int),
         pooling=Pooling(family=family, names=names, points=points, channels=1),
+        single=OneByOne(chosen=np.ones(FEATURES, dtype=bool), points=points, channels=1),
         wander=np.zeros((1, FEATURES)),
     )

@@ -7,7 +7,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from reconcile.judge.screen import Fitted, Screen, fit_space, judge
+from reconcile.judge.screen import Screen, judge
+from reconcile.judge.space import Fitted, fit_space
 from reconcile.machine.decide import DETECT_P, chance
 from tests.reconcile.judge.made import EFFECTS, FAMILIES, FEATURES, MEMBERS, changes, library, world
 
@@ -20,7 +21,7 @@ def space() -> Fitted:
 
 
 def screened(observed: np.ndarray) -> Screen:
-    return judge(space(), observed)
+    return judge((space(),), observed)
 
 
 @pytest.mark.parametrize("c", range(len(EFFECTS)))
@@ -73,7 +74,7 @@ def test_what_was_not_measured_is_left_out() -> None:
     observed[:3] = np.nan
     fitted = fit_space(changes(MADE, observed), library(MADE), seed=1)
     assert np.isinf(fitted.whiten.sigma[:3]).all()
-    found = judge(fitted, observed)
+    found = judge((fitted,), observed)
     assert np.isfinite(found.evidence).all() and found.names[int(np.argmax(found.weights))] == EFFECTS[2]
 
 

@@ -41,7 +41,7 @@ def screen(evidence: list[float], names: tuple[str, ...] = NAMES, **how: float) 
         evidence=values,
         direct=np.zeros(len(names)),
         weights=weights / weights.sum(),
-        nearest=np.zeros(len(names), dtype=int),
+        by=np.zeros(len(names), dtype=int),
         **{**usual, **how},  # type: ignore[arg-type]
     )
 

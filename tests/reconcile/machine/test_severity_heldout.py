@@ -9,7 +9,7 @@ import pytest
 
 from reconcile.atlas.candidates import size_parameter, size_range
 from reconcile.judge.paths import build_paths
-from reconcile.judge.screen import Library
+from reconcile.judge.space import Library
 from reconcile.machine.heldout import LATER, held_out, spectral_mask, splits
 from reconcile.machine.library import Catalogued, joined
 from reconcile.machine.severity import estimated_severity

@@ -1,0 +1,162 @@
+"""The space in which a reconciliation compares: effects as paths, healthy machines as the bank of nulls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.judge.changes import Changes
+from reconcile.judge.metric import Metric, Whitening, fit_metric, neighbour_scatter, whitening
+from reconcile.judge.paths import Paths, build_paths
+from signals.series import FloatArray
+
+FULL_PATH = 6
+"""Draws from which an effect's path is known well enough to judge how far a draw lies from the others."""
+NULL_COPIES = 16
+"""Noisy copies of each simulated healthy pair, of either sign: the bank of nulls."""
+
+
+View = Callable[[FloatArray], FloatArray]
+"""Whitened changes (n, F) to what is compared, (n, D): families of features, or some features one by one."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Library:
+    """Simulated changes: `changes` (m, F), the effect each row belongs to, its logarithmic size 0..1."""
+
+    changes: FloatArray
+    groups: Mapping[str, tuple[int, ...]]
+    shares: FloatArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fitted:
+    """The space in which a reconciliation compares."""
+
+    whiten: Whitening
+    view: View
+    metric: Metric
+    paths: Paths
+    null: FloatArray
+    """(n, D): what healthy machines with measurement noise look like."""
+    resting: FloatArray
+    """(n, groups): lengths of the same, group by group, before the metric."""
+    groups: np.ndarray
+    overdispersion: float
+    """Squared distance that counts as one unit of evidence, from leaving draws out."""
+    own: FloatArray
+    """(k,): squared distance of each draw that stands out from its own effect's path without it."""
+    size: FloatArray
+    """(k,): squared length of the same draws."""
+    visible: np.ndarray
+    """(m,): draws larger than 95 % of the nulls."""
+
+    def place(self, changes: FloatArray) -> FloatArray:
+        """(F,) -> (D,)."""
+        return np.asarray(self.metric(self.view(self.whiten(changes)[None]))[0])
+
+
+def _telling(groups: Mapping[str, tuple[int, ...]], visible: np.ndarray) -> dict[str, tuple[int, ...]]:
+    """Without draws that show nothing where others show something: a defect outside the load zone bends the path."""
+    found = {}
+    for name, members in groups.items():
+        shown = tuple(k for k in members if visible[k])
+        found[name] = shown if len(shown) >= 2 else tuple(members)
+    return found
+
+
+def _well_known(visible: np.ndarray, library: Library) -> np.ndarray:
+    """Rows that stand out, of effects whose path without the row is still one; others would look too strange."""
+    draws = np.zeros(visible.size, dtype=int)
+    for members in library.groups.values():
+        draws[list(members)] = len(members)
+    rows = np.flatnonzero(visible & (draws >= FULL_PATH))
+    return rows if rows.size >= FULL_PATH else np.flatnonzero(visible)
+
+
+def _softness(distances: FloatArray, truth: np.ndarray) -> float:
+    """The scale at which exp(-d^2 / 2 scale), normalised over effects, is the best forecast of the true one."""
+    scales = np.geomspace(0.3, 300.0, 31)
+    best, chosen = -np.inf, 1.0
+    for scale in scales:
+        log = -0.5 * distances / scale
+        log = log - log.max(axis=1, keepdims=True)
+        forecast = log[np.arange(truth.size), truth] - np.log(np.exp(log).sum(axis=1))
+        value = float(np.mean(np.maximum(forecast, -20.0)))
+        if value > best:
+            best, chosen = value, float(scale)
+    return chosen
+
+
+def squared_distances(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Squared distances of the rows of two arrays, (n, m); single precision is plenty and half the time."""
+    one, other = a.astype(np.float32), b.astype(np.float32)
+    lengths = np.sum(one**2, axis=1)[:, None] + np.sum(other**2, axis=1)[None, :]
+    return np.maximum(np.asarray(lengths - 2.0 * one @ other.T, dtype=np.float64), 0.0)
+
+
+def _between(points: FloatArray, paths: Paths) -> FloatArray:
+    """Least squared distance of every draw to every effect, its own without itself, (m, effects)."""
+    squared = squared_distances(points, paths.points)
+    rows = np.arange(points.shape[0])[:, None]
+    squared[(paths.low[None, :] == rows) | (paths.high[None, :] == rows)] = np.inf
+    found = np.full((points.shape[0], len(paths.names)), np.inf)
+    for c in range(len(paths.names)):
+        found[:, c] = squared[:, paths.owner == c].min(axis=1)
+    return found
+
+
+def _resting(changes: Changes, rng: np.random.Generator) -> FloatArray:
+    """Healthy pairs with noise and wander of their own, (n, F): one set to learn from, another to compare with."""
+    copies = changes.null.shape[0] * NULL_COPIES
+    drift = np.repeat(changes.null, NULL_COPIES, axis=0) * rng.choice([-1.0, 1.0], (copies, 1))
+    noise = rng.normal(size=drift.shape) * np.nan_to_num(changes.measured)
+    return np.asarray(drift + noise + rng.normal(size=(copies, changes.wander.shape[0])) @ changes.wander)
+
+
+def group_lengths(z: FloatArray, groups: np.ndarray) -> FloatArray:
+    """(n, F) -> (n, groups): squared length of the compressed features of each group."""
+    compressed = np.log1p(np.abs(z))
+    count = int(groups.max()) + 1
+    return np.stack([np.sum(compressed[:, groups == g] ** 2, axis=1) for g in range(count)], axis=1)
+
+
+def fit_space(changes: Changes, library: Library, *, seed: int, view: View | None = None) -> Fitted:
+    """Whiten, learn what scatters, lay out the paths and the bank of nulls. `view`: the families if not given.
+
+    Rows of the nulls are the same machines in every view.
+    """
+    whiten = whitening(changes.observed, changes.measured, changes.null, library.changes)
+    view = view or changes.pooling
+    rng = np.random.default_rng([seed, 3])
+    learned, fresh = _resting(changes, rng), _resting(changes, rng)
+    noise = rng.normal(size=library.changes.shape) * np.nan_to_num(changes.measured)
+    drawn, resting = view(whiten(library.changes + noise)), view(whiten(learned))
+    centre = resting.mean(axis=0)
+    scatter = [neighbour_scatter(drawn[list(g)], library.shares[list(g)]) for g in library.groups.values()]
+    metric = fit_metric(centre, [*scatter, resting - centre])
+    points, null = metric(drawn), metric(view(whiten(fresh)))
+    size = np.sum(points**2, axis=1)
+    visible = size > np.quantile(np.sum(null**2, axis=1), 0.95)
+    paths = build_paths(points, _telling(library.groups, visible), library.shares)
+    distances = _between(points, paths)
+    truth = np.zeros(points.shape[0], dtype=int)
+    for c, members in enumerate(library.groups.values()):
+        truth[list(members)] = c
+    seen = _well_known(visible, library)
+    groups = np.where(np.isfinite(whiten.sigma), changes.groups, -1)
+    return Fitted(
+        whiten=whiten,
+        view=view,
+        metric=metric,
+        paths=paths,
+        null=null,
+        resting=group_lengths(whiten(fresh), groups),
+        groups=groups,
+        overdispersion=_softness(distances[seen], truth[seen]) if seen.size else 10.0,
+        own=distances[seen, truth[seen]] if seen.size else distances[np.arange(truth.size), truth],
+        size=size[seen] if seen.size else size,
+        visible=visible,
+    )
