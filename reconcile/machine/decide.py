@@ -136,10 +136,15 @@ def _misfit(screen: Screen, alone: bool) -> str:
 
 
 def _not_excluded(screen: Screen, weights: dict[str, float], chosen: tuple[str, ...]) -> tuple[str, ...]:
-    """The set with everything that explains nearly as much: few views make wrong effects fit by chance."""
+    """The set with everything that explains nearly as much: few views make wrong effects fit by chance.
+
+    Impacts do not: what is far behind in them stays out.
+    """
     value = {name: float(screen.evidence[screen.names.index(name)]) for name in weights}
-    least = FEW_SHARE * max(value.values())
-    return (*chosen, *(n for n in weights if n not in chosen and value[n] >= least))
+    struck = {name: float(screen.direct[screen.names.index(name)]) for name in weights}
+    least, heard = FEW_SHARE * max(value.values()), struck[chosen[0]] - STRUCK
+    near = [n for n in weights if n not in chosen and value[n] >= least and struck[n] >= heard]
+    return (*chosen, *near)
 
 
 def _why(chosen: Sequence[str]) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -14,6 +16,7 @@ from reconcile.machine.decide import (
     credible_set,
     decide,
     merged_weights,
+    plausible,
     remarkable,
     variants,
 )
@@ -158,3 +161,35 @@ def test_a_change_without_a_pattern_is_faint_or_unknown(strongest: float, word: 
 def test_a_closer_look_is_taken_only_where_something_is_unusual() -> None:
     assert not remarkable(screen([1.0], p_any=0.3, p_best=0.2))
     assert remarkable(screen([1.0], p_any=0.01, p_best=0.5)) and remarkable(screen([1.0], p_any=0.5, p_best=0.01))
+
+
+def struck(evidence: list[float], direct: list[float], **how: float) -> Screen:
+    made = screen(evidence, **how)
+    shown = np.array(direct + [0.0] * (len(NAMES) - len(direct)))
+    return replace(made, direct=shown)
+
+
+def test_impacts_without_the_change_they_bring_are_unknown_physics() -> None:
+    alone = struck([12.0, 1.0], [11.0])
+    found = decide(alone, views=9)
+    assert found.word == "unknown_physics" and "impacts" in found.reasons[0]
+    faint = struck([12.0, 1.0], [11.0], strongest=10.0)
+    assert decide(faint, views=9).word == "explained", "a change too faint to tell may be all impacts"
+    assert decide(struck([16.0, 1.0], [11.0]), views=9).word == "explained"
+
+
+def test_sure_impacts_are_named_though_something_else_is_left() -> None:
+    made = struck([30.0, 5.0], [20.0], misfit=1.0)
+    found = decide(made, views=9)
+    assert found.word == "explained" and "left" in found.reasons[0]
+    assert decide(struck([30.0, 5.0], [2.0], misfit=1.0), views=9).word == "unknown_physics"
+
+
+def test_few_views_exclude_what_does_not_strike() -> None:
+    evidence, views = [30.0, 5.0, 20.0], 1
+    assert decide(screen(evidence), views=views).word == "ambiguous"
+    assert decide(struck(evidence, [20.0]), views=views).chosen == NAMES[:1]
+
+
+def test_what_is_far_behind_is_not_simulated_again() -> None:
+    assert plausible(screen([20.0, 9.0, 7.0])) == list(NAMES[:2])
