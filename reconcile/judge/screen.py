@@ -10,6 +10,8 @@ import numpy as np
 from reconcile.judge.space import Fitted, group_lengths, squared_distances
 from signals.series import FloatArray
 
+OTHER_VIEW = 0.5
+
 
 @dataclass(frozen=True, kw_only=True)
 class Screen:
@@ -37,7 +39,7 @@ class Screen:
 
 @dataclass(frozen=True, kw_only=True)
 class _Look:
-    """One view's answer: evidence (effects,) over no change, its best for every null (n,), lengths and the misfit."""
+    """One view's answer: evidence over no change (effects,), of every null (n, effects), length and misfit."""
 
     evidence: FloatArray
     null: FloatArray
@@ -50,13 +52,21 @@ def _looked(fitted: Fitted, observed: FloatArray) -> _Look:
     nothing = float(np.sum(x**2))
     best, _ = fitted.paths.nearest(fitted.paths.distances(x))
     lengths = np.sum(fitted.null**2, axis=1)
-    gains = lengths - squared_distances(fitted.null, fitted.paths.points).min(axis=1)
+    squared = squared_distances(fitted.null, fitted.paths.points)
+    nearest = [squared[:, fitted.paths.owner == c].min(axis=1) for c in range(len(fitted.paths.names))]
     return _Look(
         evidence=(nothing - best) / (2.0 * fitted.overdispersion),
-        null=gains / (2.0 * fitted.overdispersion),
+        null=(lengths[:, None] - np.stack(nearest, axis=1)) / (2.0 * fitted.overdispersion),
         length=nothing,
         misfit=quantile_of_misfit(fitted, float(best.min()), nothing),
     )
+
+
+def _together(told: Sequence[FloatArray]) -> FloatArray:
+    """The louder view and a share of the other."""
+    if len(told) == 1:
+        return told[0]
+    return np.asarray(np.maximum(*told) + OTHER_VIEW * np.minimum(*told))
 
 
 def judge(
@@ -64,17 +74,17 @@ def judge(
 ) -> Screen:
     """`observed` (F,) in dB against all paths in one or two views; `direct`: log evidence that needs no simulation.
 
-    An effect counts by the view that speaks louder for it: what the other one sees may be what the model has not.
+    An effect counts by the view that speaks louder for it, and half by the other: what that one sees may be what the
+    model has not, and it sees much of the same.
     """
     first = views[0]
     looks = [_looked(v, observed) for v in views]
-    told = np.stack([look.evidence for look in looks])
-    by = told.argmax(axis=0)
+    by = np.argmax([look.evidence for look in looks], axis=0)
     shown = np.array([(direct or {}).get(name, 0.0) for name in first.paths.names])
-    patterns = told.max(axis=0)
+    patterns = _together([look.evidence for look in looks])
     evidence = patterns + shown
     log = evidence - evidence.max()
-    resting = np.max([look.null for look in looks], axis=0)
+    resting = _together([look.null for look in looks]).max(axis=1)
     own = group_lengths(first.whiten(observed)[None], first.groups)
     strongest = float(_largest(own, first.resting)[0])
     count = resting.size + 1.0
