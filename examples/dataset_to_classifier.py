@@ -3,9 +3,8 @@
     python examples/dataset_to_classifier.py --recording R.json    # R.json: docs/recordings.md
     python examples/dataset_to_classifier.py                       # without one: tested on simulated machines left out
 
-Two core-minutes. It shows the way, and why the way is long: all 24 simulated recordings left out were named rightly, but
-of four measured ones (CWRU, 7 mil) sound and outer race only. The shipped model (`sideband classify`) has seen more
-machines and livelier backgrounds (docs/sim2real.md).
+Two core-minutes. All 24 simulated recordings left out were named rightly, but of four measured ones (CWRU, 7 mil) sound
+and outer race only: the shipped model (`sideband classify`) has seen livelier backgrounds (docs/sim2real.md).
 """
 
 from __future__ import annotations
@@ -34,8 +33,6 @@ from sideband_datasets.recipe.read import document_of
 from signals.ingest.file import load_description, read_recording
 from sim.core.errors import SidebandError
 
-Rows = list[dict[str, Any]]
-
 
 def small_recipe() -> Recipe:
     """The ready bearing rig with fewer recordings, and without labelled peaks, which training does not need."""
@@ -43,8 +40,8 @@ def small_recipe() -> Recipe:
     return read_recipe({**document_of(recipe_named("bearing-rig")), **changes})
 
 
-def rows_of(folder: Path, split: str) -> Rows:
-    """Rows of one split. Machines never are in two: what `test` holds, training has not seen."""
+def rows_of(folder: Path, split: str) -> list[dict[str, Any]]:
+    """list[dict[str, Any]] of one split. Machines never are in two: what `test` holds, training has not seen."""
     return [row for path in sorted(folder.glob(f"data/{split}-*.parquet")) for row in pq.read_table(path).to_pylist()]
 
 
@@ -57,7 +54,7 @@ def features_of(row: dict[str, Any]) -> tuple[Any, Any]:
     return features.vector(spectra, orders)[0], unknown.vector(spectra)[0]
 
 
-def trained(rows: Rows) -> Model:
+def trained(rows: list[dict[str, Any]]) -> Model:
     """Two small classifiers: one for bearings whose geometry is told, one for all others."""
     labels = [row["fault_type"] for row in rows]
     classes = tuple(sorted(set(labels), key=lambda label: (label != "healthy", label)))
@@ -68,7 +65,7 @@ def trained(rows: Rows) -> Model:
     return Model(heads=heads, made_by={"rows": len(rows), "machines": len(set(machines)), "real_samples": 0})
 
 
-def tested_on_simulations(model: Model, rows: Rows) -> None:
+def tested_on_simulations(model: Model, rows: list[dict[str, Any]]) -> None:
     """How often each class of the machines left out is named rightly."""
     head = model.heads["known"]
     p = head.probabilities(np.stack([features_of(row)[0] for row in rows]))
@@ -89,7 +86,7 @@ def tested_on_recording(model: Model, path: Path) -> None:
 
 
 def told(progress: Progress) -> None:
-    """Rows done, on one line."""
+    """list[dict[str, Any]] done, on one line."""
     print(f"\r   {progress.rows} of {progress.total} rows", end="", flush=True)
 
 
