@@ -11,6 +11,7 @@ import argparse  # noqa: E402
 import json  # noqa: E402
 
 from bench.cases import CHANNELS, START_S, cases  # noqa: E402
+from bench.dataset import datasets  # noqa: E402
 from bench.ensemble import MEMBERS, ensemble, prices  # noqa: E402
 from bench.precision import STRETCH_S, our_rows, scipy_rows  # noqa: E402
 from bench.process import cold_first_step_s, fresh_compile_s, peak_memory_mb  # noqa: E402
@@ -92,21 +93,29 @@ def processes() -> dict[str, float]:
     return {"cold_first_step_s": cold, "fresh_compile_s": fresh, "peak_memory_mb": peaks[40.0][0]}
 
 
+def service() -> dict[str, float]:
+    """What the service adds to a simulation."""
+    accept_ms, overhead_ms = service_times_ms()
+    print(f"\nService, medians: a submission takes {accept_ms:.1f} ms, a job {overhead_ms:.0f} ms beyond simulating")
+    return {"api_accept_p50_ms": accept_ms, "job_overhead_ms": overhead_ms}
+
+
 def main() -> None:
     """Run what is asked for; everything by default."""
     parser = argparse.ArgumentParser(prog="python -m bench", description=__doc__)
-    parser.add_argument("--quick", action="store_true", help="only speed, error and ratio")
-    quick = parser.parse_args().quick
-    result: dict[str, float | None] = dict(singles())
-    result |= ensembles(with_prices=not quick)
-    if not quick:
-        work_precision()
-        result |= processes()
-        accept_ms, overhead_ms = service_times_ms()
-        print(
-            f"\nService, medians: a submission takes {accept_ms:.1f} ms, a job {overhead_ms:.0f} ms beyond simulating"
-        )
-        result |= {"api_accept_p50_ms": accept_ms, "job_overhead_ms": overhead_ms}
+    parser.add_argument("--quick", action="store_true", help="only speed, error and ratio; a small dataset")
+    parser.add_argument("--only", choices=("dataset",), help="nothing but the rows per second of a dataset")
+    parser.add_argument("--rows", type=int, default=None, metavar="N", help="of the dataset, instead of its default")
+    given = parser.parse_args()
+    result: dict[str, float | None] = {}
+    if given.only is None:
+        result |= singles()
+        result |= ensembles(with_prices=not given.quick)
+        if not given.quick:
+            work_precision()
+            result |= processes()
+            result |= service()
+    result |= datasets(quick=given.quick, rows=given.rows)
     rounded = {name: None if value is None else float(f"{value:.4g}") for name, value in result.items()}
     print("\nBENCH " + json.dumps(rounded))
 

@@ -25,8 +25,8 @@ from scipy.optimize import nnls  # noqa: E402
 from bench.work import Counted, count_work  # noqa: E402
 from jobs.analysis import analyse  # noqa: E402
 from jobs.cost import CALIBRATION, KINDS, Run, calibration, counted, expected, rest_features, step_features  # noqa: E402
-from jobs.overrides import apply_overrides  # noqa: E402
 from jobs.results import write_result  # noqa: E402
+from signals.overrides import apply_overrides  # noqa: E402
 from sim import presets  # noqa: E402
 from sim.assembly.assemble import assemble  # noqa: E402
 from sim.core.system import System  # noqa: E402

@@ -1,14 +1,26 @@
-"""A dataset made by workers against a plain loop over single simulations of the same rows."""
+"""`sideband dataset make` on one and two processes against a plain loop over single simulations of the same rows.
+
+All in one run, after each other. Machines of one structure fill eight lanes; a small dataset of many structures leaves
+most of them empty, so the quick variant has one structure (one bearing, one fault, one chain, one split). Core-seconds
+are CPU time of all processes of a command, its start included.
+"""
 
 from __future__ import annotations
 
+import json
+import os
+import subprocess
+import sys
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
+from bench.process import ROOT
 from sideband_datasets import Recipe, read_recipe, recipe_named
-from sideband_datasets.folder import Progress, Settings, make
+from sideband_datasets import rows as dataset_rows
 from sideband_datasets.make.batch import Made
 from sideband_datasets.make.stream import cut
 from sideband_datasets.plan import Plan, drawing, make_plan
@@ -20,28 +32,40 @@ from sim.assembly.assemble import assemble
 from sim.solve.api import simulate
 
 RECIPE = "bearing-rig"
-ROWS = 1000
-LOOPED = 16
+ROWS, QUICK_ROWS = 200, 32
+LOOPED, QUICK_LOOPED = 32, 8
 """Rows of the plain loop: enough for its rate."""
+WORKERS = (1, 2)
 
 
 @dataclass(frozen=True, kw_only=True)
-class DatasetTiming:
-    """Rows per second of wall time with `workers`, started and written; of a plain loop in one process; their ratio."""
+class Rate:
+    """`rows` made in `wall_s` on the clock and `core_s` of CPU time."""
 
-    workers: int
-    rows_per_s: float
-    loop_rows_per_s: float
+    rows: int
+    wall_s: float
+    core_s: float
 
     @property
-    def vs_loop(self) -> float:
-        """How many times faster the dataset is made."""
-        return self.rows_per_s / self.loop_rows_per_s
+    def per_s(self) -> float:
+        """Rows a second on the clock."""
+        return self.rows / self.wall_s
+
+    @property
+    def per_core_s(self) -> float:
+        """Rows a core-second."""
+        return self.rows / self.core_s
 
 
-def recipe(rows: int) -> Recipe:
+def recipe(rows: int, *, one_structure: bool = False) -> Recipe:
     """The bearing rig's with so many recordings, one row each."""
-    return read_recipe({**document_of(recipe_named(RECIPE)), "count": rows})
+    document: dict[str, Any] = {**document_of(recipe_named(RECIPE)), "count": rows}
+    if one_structure:
+        family = document["machines"][0]
+        vary = {**family["vary"], "bearings.drive_end.catalogue": {"choices": ["6205"]}}
+        document |= {"machines": [{**family, "vary": vary}], "faults": document["faults"][:1], "healthy_share": 0}
+        document |= {"measurement": document["measurement"][:1], "splits": {"train": 1.0}}
+    return read_recipe(document)
 
 
 def made_singly(plan: Plan, number: int) -> Made:
@@ -62,25 +86,66 @@ def made_singly(plan: Plan, number: int) -> Made:
     return Made(drawing=drawn, system=system, response=slim, recording=recording)
 
 
-def loop_rows_per_s(plan: Plan, rows: int = LOOPED) -> float:
-    """One recording after the other: simulated, measured, cut and labelled as in the dataset."""
-    cut(plan, made_singly(plan, 0), [0])  # kernels loaded
-    begun = time.perf_counter()
-    for number in range(1, rows + 1):
-        cut(plan, made_singly(plan, number), [number * plan.rows_per_recording])
-    return rows / (time.perf_counter() - begun)
+def _core_s() -> float:
+    """CPU time of this process and of the children that have ended, s."""
+    return sum(os.times()[:4])
 
 
-def _unwatched(progress: Progress) -> None:
-    """Nobody looks."""
+def _timed(rows: int, work: Callable[[], object]) -> Rate:
+    wall, core = time.perf_counter(), _core_s()
+    work()
+    return Rate(rows=rows, wall_s=time.perf_counter() - wall, core_s=_core_s() - core)
 
 
-def dataset(rows: int = ROWS, workers: int = 2) -> DatasetTiming:
-    """Both rates. Takes minutes."""
-    wanted = recipe(rows)
-    slow = loop_rows_per_s(make_plan(wanted))
-    with tempfile.TemporaryDirectory() as folder:
-        begun = time.perf_counter()
-        make(wanted, Path(folder) / "set", Settings(workers=workers), _unwatched)
-        took = time.perf_counter() - begun
-    return DatasetTiming(workers=workers, rows_per_s=rows / took, loop_rows_per_s=slow)
+def looped(wanted: Recipe, rows: int) -> Rate:
+    """One recording after the other: simulated, measured, cut and labelled as in the dataset; kernels loaded before."""
+    plan = make_plan(wanted)
+
+    def work() -> None:
+        for number in range(1, rows + 1):
+            cut(plan, made_singly(plan, number), [number * plan.rows_per_recording])
+
+    cut(plan, made_singly(plan, 0), [0])
+    return _timed(rows, work)
+
+
+def made(wanted: Recipe, workers: int) -> Rate:
+    """The command in a process of its own, from its start to the finished folder."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "recipe.json").write_text(json.dumps(document_of(wanted)), encoding="utf-8")
+        command = [sys.executable, "-m", "app.cli.main", "dataset", "make", str(folder / "recipe.json")]
+        command += ["--out", str(folder / "set"), "--workers", str(workers)]
+        if len(wanted.splits) == 1:  # else a shard for each split, at least
+            command += ["--shard-recordings", str(wanted.count // max(WORKERS))]
+        environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+
+        def work() -> None:
+            subprocess.run(command, check=True, cwd=ROOT, env=environment, capture_output=True)
+
+        return _timed(wanted.count, work)
+
+
+def datasets(*, quick: bool, rows: int | None = None) -> dict[str, float | None]:
+    """Print the table; its rates and ratios."""
+    wanted = recipe(rows or (QUICK_ROWS if quick else ROWS), one_structure=quick)
+    next(iter(dataset_rows(wanted, [0])))  # whatever has to be compiled is
+    loop = looped(wanted, min(QUICK_LOOPED if quick else LOOPED, wanted.count - 1))
+    kind = "one structure of machines" if quick else "all its machines"
+    print(f"\nDataset `{RECIPE}`, {kind}, one row a recording, 10 turns at 20 kHz with labelled peaks; in one run:")
+    print(f"{'':42s}{'rows':>6s}{'rows/s':>9s}{'rows/core-s':>13s}{'x loop':>8s}{'x loop a core':>15s}")
+    print(_line("plain loop over single simulations", loop, loop), flush=True)
+    result: dict[str, float | None] = {"dataset_loop_rows_per_core_s": loop.per_core_s}
+    for workers in WORKERS:
+        rate = made(wanted, workers)
+        print(_line(f"sideband dataset make --workers {workers}", rate, loop), flush=True)
+        result[f"dataset_rows_per_s_{workers}"] = rate.per_s
+        result[f"dataset_rows_per_core_s_{workers}"] = rate.per_core_s
+        result[f"dataset_vs_loop_{workers}"] = rate.per_s / loop.per_s
+        result[f"dataset_vs_loop_per_core_{workers}"] = rate.per_core_s / loop.per_core_s
+    return result
+
+
+def _line(what: str, rate: Rate, loop: Rate) -> str:
+    ratios = f"{rate.per_s / loop.per_s:8.2f}{rate.per_core_s / loop.per_core_s:15.2f}"
+    return f"{what:42s}{rate.rows:6d}{rate.per_s:9.2f}{rate.per_core_s:13.2f}{ratios}"

@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 
 from jobs.cause_plan import further_runs
 from jobs.limits import Limits, check_cost, check_request, check_sampling
-from jobs.overrides import apply_overrides, told_by_key
 from jobs.ports import Engine, MachineReport
 from jobs.record import Cost
 from jobs.request import ALL, MAX_CHANNELS, MachineChoice, SimulationRequest
 from jobs.sensing import check_sensors, told_shortly, with_sensors
 from jobs.validation import Findings, shown
+from signals.overrides import apply_overrides, told_by_key
 from sim.core.errors import Problem, SpecError, UnknownName
 from sim.core.near import did_you_mean
 from sim.core.spec import MachineSpec

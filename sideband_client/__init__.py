@@ -15,6 +15,7 @@ from sideband_client.data import Channel, Signals, Spectrum
 from sideband_client.dataset import Dataset
 from sideband_client.errors import ClientError
 from sideband_client.job import Job
+from sideband_client.reconciliation import Reconciliation
 from sideband_client.result import Result
 from sideband_client.state import JobState, Progress
 from sideband_client.transport import Timing
@@ -27,6 +28,7 @@ __all__ = [
     "Job",
     "JobState",
     "Progress",
+    "Reconciliation",
     "Result",
     "Signals",
     "Spectrum",

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import uuid
 from collections.abc import Iterator, Mapping, Sequence
-from datetime import datetime
 from types import TracebackType
 from typing import Any, Literal, Self
 from urllib.parse import urlsplit
 
 import httpx
 
+from sideband_client.asking import segment
 from sideband_client.dataset import Dataset
-from sideband_client.errors import BadReply
 from sideband_client.job import Job
+from sideband_client.measured import Measured
 from sideband_client.state import JobState, state_of
 from sideband_client.transport import Timing, Transport
 
-PAGE = 100
 Changes = Mapping[str, bool | float | str | Mapping[str, Any] | None]
 """`term@site.parameter`, a short name (`speed_hz`, `torque_nm`, `profile`, `gravity`) or a dotted path; SI units."""
 
@@ -35,11 +33,8 @@ def connect(url: str, *, api_key: str | None = None, timing: Timing | None = Non
     return Client(Transport(http, chosen))
 
 
-class Client:
+class Client(Measured):
     """Use it in a `with` block or close it. Not to be shared between processes; threads may share it."""
-
-    def __init__(self, transport: Transport) -> None:
-        self._transport = transport
 
     def __enter__(self) -> Self:
         return self
@@ -83,7 +78,7 @@ class Client:
             body["sensors"] = dict(sensors)
         if causes:
             body["causes"] = True
-        return self._submitted("/v1/simulations", body, idempotency_key)
+        return self.submitted("/v1/simulations", body, idempotency_key)
 
     def make_dataset(
         self,
@@ -98,7 +93,7 @@ class Client:
         The same recipe and format share one dataset; one that failed or was cancelled is taken up where it stopped.
         `job.wait().dataset().download(folder)` fetches it. Raises as `simulate`.
         """
-        return self._submitted("/v1/datasets", _recipe(recipe, format, shard_recordings), idempotency_key)
+        return self.submitted("/v1/datasets", _recipe(recipe, format, shard_recordings), idempotency_key)
 
     def estimate_dataset(
         self, recipe: str | Mapping[str, Any], *, format: str = "parquet", shard_recordings: int | None = None
@@ -113,14 +108,7 @@ class Client:
 
     def dataset(self, dataset_id: str) -> Dataset:
         """A finished dataset by its id."""
-        return Dataset(self._transport, _segment(dataset_id))
-
-    def _submitted(self, address: str, body: Mapping[str, Any], key: str | None) -> Job:
-        # A name of its own for every submission: cancelling this job withdraws this submission and no other.
-        submitter = f"client-{uuid.uuid4().hex[:16]}"
-        headers = {"Idempotency-Key": key or uuid.uuid4().hex, "X-Submitter": submitter}
-        document = self._transport.json("POST", address, body=body, headers=headers)
-        return Job(self._transport, state_of(document), submitter=submitter)
+        return Dataset(self._transport, segment(dataset_id))
 
     def check(
         self,
@@ -134,20 +122,14 @@ class Client:
 
     def job(self, job_id: str) -> Job:
         """A job by its id; raises NotFound, Gone."""
-        return Job(self._transport, state_of(self._transport.json("GET", f"/v1/jobs/{_segment(job_id)}")))
+        return Job(self._transport, state_of(self._transport.json("GET", f"/v1/jobs/{segment(job_id)}")))
 
     def jobs(
         self, *, status: Sequence[str] | None = None, preset: str | None = None, sort: str = "-created_at"
     ) -> Iterator[JobState]:
         """Jobs, the newest first; pages are fetched as they are needed."""
-        query = {"status": status, "preset": preset, "sort": sort, "limit": PAGE}
-        page = self._transport.json("GET", "/v1/jobs", query=query)
-        while True:
-            yield from (state_of(document) for document in page["jobs"])
-            following = page["next"]
-            if following is None:
-                return
-            page = self._transport.json("GET", _following(following, "/v1/jobs?"))
+        query = {"status": status, "preset": preset, "sort": sort}
+        return map(state_of, self.listed("/v1/jobs", "jobs", query))
 
     def presets(self) -> list[dict[str, Any]]:
         """The preset machines: `name`, `title`, `notes`."""
@@ -155,7 +137,7 @@ class Client:
 
     def preset(self, name: str) -> dict[str, Any]:
         """A preset as a whole machine specification, to be changed and simulated."""
-        return self._transport.json("GET", f"/v1/presets/{_segment(name)}")
+        return self._transport.json("GET", f"/v1/presets/{segment(name)}")
 
     def terms(self) -> list[dict[str, Any]]:
         """The physical effects a machine can have, with parameters, units and bounds."""
@@ -169,50 +151,12 @@ class Client:
         """The bearing catalogue."""
         return list(self._transport.json("GET", "/v1/bearings")["bearings"])
 
-    def machines(self) -> Iterator[dict[str, Any]]:
-        """The machines that recordings name: `name`, `recordings`, `last_seen`, `state`, `worst`, by name."""
-        page = self._transport.json("GET", "/v1/machines", query={"limit": PAGE})
-        while True:
-            yield from page["machines"]
-            if page["next"] is None:
-                return
-            page = self._transport.json("GET", _following(page["next"], "/v1/machines?"))
-
-    def machine_health(
-        self,
-        name: str,
-        *,
-        start: datetime | str | None = None,
-        end: datetime | str | None = None,
-        channels: Sequence[str] | None = None,
-        features: Sequence[str] | None = None,
-        limit: int = PAGE,
-    ) -> dict[str, Any]:
-        """A machine over time: `points` (recordings), `series` of features with limits, `alarms`, `verdicts`.
-
-        The latest `limit` recordings (500 at most) from `start` to `end` (with an offset from UTC); `end` at the first
-        point's time asks for those before. Raises NotFound for an unknown machine or channel.
-        """
-        query = {"from": _moment(start), "to": _moment(end), "channel": channels, "feature": features, "limit": limit}
-        return self._transport.json("GET", f"/v1/machines/{_segment(name)}/health", query=query)
-
     def health(self) -> dict[str, Any]:
         """How the service and each part of it is; `status` is ok, degraded or away.
 
         Asked once: a server that is not there is told (Unreachable) within `Timing.probe_connect_s`.
         """
         return self._transport.json("GET", "/v1/health", probe=True)
-
-
-def _following(address: object, start: str) -> str:
-    """The next page's address, which must be of the same list."""
-    if not str(address).startswith(start):
-        raise BadReply(f"the next page of the list has a strange address: {address}")
-    return str(address)
-
-
-def _moment(time: datetime | str | None) -> str | None:
-    return time.isoformat() if isinstance(time, datetime) else time
 
 
 def _choice(machine: str | Mapping[str, Any], changes: Changes | None, older_name: Changes | None) -> dict[str, Any]:
@@ -226,10 +170,3 @@ def _choice(machine: str | Mapping[str, Any], changes: Changes | None, older_nam
 def _recipe(recipe: str | Mapping[str, Any], format: str, shard_recordings: int | None) -> dict[str, Any]:
     body: dict[str, Any] = {"recipe": recipe if isinstance(recipe, str) else dict(recipe), "format": format}
     return body if shard_recordings is None else {**body, "shard_recordings": shard_recordings}
-
-
-def _segment(text: str) -> str:
-    """Refuse what would be another address."""
-    if not text or not all(c.isalnum() or c in "-_." for c in text) or text.strip(".") == "":
-        raise ValueError(f"not a name: {text!r}")
-    return text

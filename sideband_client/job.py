@@ -22,6 +22,7 @@ from sideband_client.errors import (
     WaitedTooLong,
 )
 from sideband_client.events import HEARTBEAT, parse
+from sideband_client.reconciliation import Reconciliation
 from sideband_client.result import Result
 from sideband_client.state import JobState, Progress, progress_of, state_of
 from sideband_client.transport import Transport
@@ -92,6 +93,11 @@ class Job:
         """The result of `make_dataset`, as `result` is had."""
         self._raise_unless_there()
         return Dataset(self._transport, self.id)
+
+    def reconciliation(self) -> Reconciliation:
+        """The result of `reconcile`, as `result` is had."""
+        self._raise_unless_there()
+        return Reconciliation(self._transport, self.id)
 
     def _raise_unless_there(self) -> None:
         state = self.state if self.state.ended else self.refresh()

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, BinaryIO
 
 import httpx
 
@@ -31,6 +31,14 @@ class Timing:
     """As `retry_for_s`, where nobody listens and nothing was ever heard of the server: a wrong address, mostly."""
     probe_connect_s: float = 2.5
     """To be connected when asked how the service is; that question is never repeated."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Form:
+    """Fields and files (name and stream, read from its start at every try) of a multipart body."""
+
+    fields: Mapping[str, str]
+    files: Mapping[str, tuple[str, BinaryIO]]
 
 
 class Transport:
@@ -58,6 +66,7 @@ class Transport:
         *,
         query: Query | None = None,
         body: object = None,
+        form: Form | None = None,
         headers: Mapping[str, str] | None = None,
         repeatable: bool = True,
         probe: bool = False,
@@ -66,7 +75,9 @@ class Transport:
 
         `probe`: the answer tells how things stand now, so the question is put once and quickly.
         """
-        reply = self.send(method, path, query=query, body=body, headers=headers, repeatable=repeatable, probe=probe)
+        reply = self.send(
+            method, path, query=query, body=body, form=form, headers=headers, repeatable=repeatable, probe=probe
+        )
         try:
             document = reply.json()
         except ValueError as error:
@@ -82,13 +93,21 @@ class Transport:
         *,
         query: Query | None = None,
         body: object = None,
+        form: Form | None = None,
         headers: Mapping[str, str] | None = None,
         repeatable: bool = True,
         probe: bool = False,
     ) -> httpx.Response:
         """The whole reply."""
         request = self._http.build_request(
-            method, path, params=_given(query), json=body, headers=headers, timeout=self._timeout(probe)
+            method,
+            path,
+            params=_given(query),
+            json=body,
+            data=None if form is None else form.fields,
+            files=None if form is None else form.files,
+            headers=headers,
+            timeout=self._timeout(probe),
         )
 
         def once() -> httpx.Response:

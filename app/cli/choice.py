@@ -11,8 +11,8 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from app.cli.files import read_json, strict_json
-from jobs.overrides import apply_overrides, told_by_key
 from jobs.validation import problems_of, shown
+from signals.overrides import apply_overrides, told_by_key
 from sim import presets
 from sim.assembly.assemble import assemble
 from sim.core.errors import Problem, SpecError

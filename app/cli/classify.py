@@ -17,9 +17,9 @@ from typing import Any
 from app.cli.choice import read_machine
 from app.cli.files import json_text, read_json
 from learn.classify import classify
-from learn.describe import Site, kinematics_in, sites
+from learn.describe import Site, sites
 from learn.model import default_model, load
-from reconcile.kinematics import of_machine, read_kinematic_spec
+from reconcile.kinematics import described_kinematics, of_machine, read_kinematic_spec
 from signals.ingest import read_recording
 from signals.ingest.file import load_description
 
@@ -59,11 +59,7 @@ def _sites(arguments: argparse.Namespace, shaft: str | None) -> list[Site]:
             read_kinematic_spec(document) if "kinematics" in document else of_machine(read_machine(arguments.machine))
         )
     else:
-        described = load_description(arguments.recording)
-        told: dict[str, object] = dict(described.model_extra or {})
-        if described.kinematics is not None:
-            told["kinematics"] = described.kinematics
-        found = kinematics_in(told, shaft)
+        found = described_kinematics(load_description(arguments.recording))
         if found is None:
             return []
         spec = found

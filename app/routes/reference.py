@@ -8,12 +8,12 @@ from app.routes.documents import document
 from app.routes.responses import problems
 from app.schemas import Reply
 from app.state import State
-from jobs.overrides import told_by_key
 from jobs.ports import MachineReport
 from jobs.request import MachineChoice
 from jobs.resolve import machine_of, report_of
 from jobs.sensor_document import sensor_document, sensor_preset
 from jobs.sensor_documents import sensor_documents
+from signals.overrides import told_by_key
 from sim.core.errors import UnknownName
 
 router = APIRouter(tags=["reference"])

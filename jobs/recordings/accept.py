@@ -15,7 +15,7 @@ from jobs.errors import StoreFull
 from jobs.identity import job_id
 from jobs.record import Cost
 from jobs.recordings.words import READERS_VERSION, RECORDING, upload_key
-from reconcile.kinematics import read_kinematic_spec
+from reconcile.kinematics import described_kinematics
 from reconcile.kinematics.families import ties
 from signals.ingest import FORMATS, Bounds, check_units, read_description, suffix_of
 from sim.core.errors import Problem, SpecError
@@ -74,10 +74,8 @@ def _check_description(document: object) -> None:
     """Whatever can be refused before the file is looked at."""
     description = read_description(document)
     check_units(description)
-    if description.kinematics is None:
-        return
-    spec = read_kinematic_spec({"kinematics": description.kinematics})
-    if description.operating is not None:
+    spec = described_kinematics(description)
+    if spec is not None and description.operating is not None:
         ties(spec, description.operating.shaft)
 
 

@@ -17,7 +17,7 @@ from jobs.record import ResultRef
 from jobs.recordings.words import READERS_VERSION, RECORDING, upload_key
 from jobs.reporter import Reporter
 from jobs.results import ChannelEntry, Manifest, json_bytes, put_file
-from reconcile.kinematics import KinematicSpec, read_kinematic_spec
+from reconcile.kinematics import described_kinematics
 from signals.encode import describe
 from signals.ingest import Bounds, Ingested, parse, read_description, report
 from signals.readers.guard import load_apart
@@ -31,20 +31,15 @@ def read_upload(
     reporter.stage("reading", 0.1)
     try:
         found = _parsed(artefacts, request, job_id)
+        spec = described_kinematics(read_description(request["description"]))
     except SpecError as error:
         artefacts.delete_prefix(f"{job_id}/")
         raise RecordingRefused(error.problems) from error
     reporter.stage("analysing", 0.6)
     summary = report(found)
-    condition = condition_document(found.recording, _spec(request["description"]))
+    condition = condition_document(found.recording, spec)
     reporter.stage("storing", 0.8)
     return _kept(artefacts, f"{job_id}/{attempt}", attempt, found, {"summary": summary, CONDITION: condition})
-
-
-def _spec(description: object) -> KinematicSpec | None:
-    """The machine's kinematics, where the description has them."""
-    given = description.get("kinematics") if isinstance(description, Mapping) else None
-    return None if given is None else read_kinematic_spec({"kinematics": given})
 
 
 def _parsed(artefacts: ArtefactStore, request: Mapping[str, object], job_id: str) -> Ingested:

@@ -33,6 +33,11 @@ RECIPES: Mapping[str, Ready] = {
             name="gearbox",
             sentence="The paper's gearbox: healthy, loose fit, crack, broken tooth, unbalance, spall with crack.",
         ),
+        Ready(
+            name="two-stage",
+            sentence="A two-stage gearbox, two sensors: healthy, crack, broken tooth, outer race, in either stage.",
+        ),
+        Ready(name="overhung", sentence="An overhung pinion: healthy, crack, unbalance, outer race beside it."),
         Ready(name="small", sentence="Eight short recordings of the smallest rotor: to try the doors."),
     )
 }

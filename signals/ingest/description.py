@@ -15,6 +15,7 @@ from sim.core.spec.base import WHOLE
 
 MAX_CHANNELS = 512
 MAX_PULSES = 1_000_000
+MOST_NAME = 80
 ALIKE = 0.8
 """An unknown key this similar to a known one (difflib's ratio) is taken for a slip of the pen and refused."""
 
@@ -23,6 +24,7 @@ ColumnName = Annotated[str, Field(min_length=1, max_length=200)]
 ColumnIndex = Annotated[int, Field(ge=0, lt=100_000)]
 Column = ColumnName | ColumnIndex
 MachineName = Annotated[str, Field(min_length=1, max_length=80, pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]
+BearingName = Annotated[str, Field(min_length=1, max_length=MOST_NAME)]
 VibrationClass = Literal["group1-rigid", "group1-flexible", "group2-rigid", "group2-flexible"]
 Pulses = Annotated[tuple[Annotated[float, Field(allow_inf_nan=False)], ...], Field(max_length=MAX_PULSES, strict=False)]
 
@@ -111,6 +113,9 @@ class Description(_Part):
     kinematics: dict[str, object] | None = None
     """Shafts, bearings and teeth of the machine, by which its lines are named: what docs/reconcile.md puts behind
     `kinematics`."""
+    bearing: BearingName | dict[str, object] | None = None
+    """The one bearing of the machine, in place of `kinematics`: a catalogue number (`6205`), or an object as in
+    `kinematics.bearings` without name and shaft."""
     vibration_class: VibrationClass | None = None
     """Group and foundation of ISO 10816-3:2009, where its limits are to be applied: `group1` above 300 kW, `group2`
     from 15 to 300 kW, channels on bearing housings."""
@@ -128,6 +133,14 @@ class Description(_Part):
         if text is not None and moment(text) is None:
             raise ValueError("must be ISO 8601 with an offset from UTC, as 2026-03-01T08:30:00Z")
         return text
+
+    @field_validator("bearing", mode="before")
+    @classmethod
+    def _one_bearing(cls, given: object) -> object:
+        named = isinstance(given, str) and 0 < len(given) <= MOST_NAME
+        if given is not None and not isinstance(given, Mapping) and not named:
+            raise ValueError("must be a catalogue number, or an object as in kinematics.bearings")
+        return given
 
     @field_validator("channels")
     @classmethod

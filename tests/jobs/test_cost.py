@@ -6,7 +6,7 @@ import pytest
 
 from bench.work import count_work
 from jobs.cost import CALIBRATION, KINDS, Run, calibration, counted, expected
-from jobs.overrides import apply_overrides
+from signals.overrides import apply_overrides
 from sim import presets
 from sim.assembly.assemble import assemble
 from sim.core.system import System

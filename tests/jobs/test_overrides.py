@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from jobs.limits import LEAST_SAMPLES, Limits
-from jobs.overrides import apply_overrides, told_by_key
 from jobs.physics import PhysicsEngine
 from jobs.request import SimulationRequest
 from jobs.resolve import resolve
+from signals.overrides import apply_overrides, told_by_key
 from sim.core.errors import Problem, SpecError
 from sim.presets import preset
 

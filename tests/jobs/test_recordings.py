@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,7 @@ from jobs.run import Bench
 from jobs.status import Status
 from signals.encode import describe, encode
 from signals.recording import Operating, Recording, Tacho
-from sim.core.errors import SpecError
+from sim.core.errors import SpecError, UnknownName
 from sim.core.response import Channel
 from store.artefacts.folder import FolderStore
 from store.catalogue import engine, schema
@@ -144,6 +145,21 @@ def test_refused_is_an_end_with_reasons_and_sent_again_is_a_new_attempt(world: W
     assert not (world.folder / "artefacts" / record.id).exists()
     again = world.send(b"no archive", about())
     assert (again.id, again.attempt, again.status) == (record.id, 2, Status.ACCEPTED)
+
+
+def test_a_described_bearing_names_its_lines(world: World) -> None:
+    long = replace(RECORDING, samples=np.random.default_rng(1).normal(size=(2, 1400)), tacho=None)
+    for wrong, told in (("no such size", "unknown bearing"), ({"balls": 9}, "bearing"), (7, "bearing")):
+        with pytest.raises((SpecError, UnknownName), match=told):
+            world.send(encode(long, "npz"), {**about(long), "bearing": wrong})
+    record = world.send(encode(long, "npz"), {**about(long), "bearing": "6205"})
+    done = run.run(world.bench, record.id, 1, "w")
+    assert done is not None and done.status is Status.SUCCESSFUL
+    document = json.loads((world.folder / "artefacts" / record.id / "1" / "condition.json").read_text())
+    assert document["reasons"] == []
+    assert {"bearing.outer", "bearing.inner", "bearing.ball", "input.shaft"} <= set(
+        document["channels"]["a"]["features"]
+    )
 
 
 def test_a_file_that_is_gone_before_it_was_read_is_told(world: World) -> None:

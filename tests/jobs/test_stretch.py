@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from jobs.analysis import analyse
-from jobs.overrides import apply_overrides
 from jobs.stretch import at_stretch
+from signals.overrides import apply_overrides
 from sim.core.spec import MachineSpec, MeasuredSpeed, RampSpeed, SpeedProfile
 from sim.presets import preset
 from sim.solve.api import simulate

@@ -1,4 +1,4 @@
-"""The example of docs/client.md, run as it stands against the real physics."""
+"""The first example of docs/client.md, run as it stands against the real physics."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tests.service.parts import ROOT, LiveServer, open_parts
 
 @pytest.mark.slow
 def test_example_of_the_page_runs(tmp_path: Path) -> None:
-    (code,) = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "client.md").read_text(encoding="utf-8"), re.DOTALL)
+    code, _ = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "client.md").read_text(encoding="utf-8"), re.DOTALL)
     parts = open_parts(tmp_path)
     env = {**os.environ, "REDIS_URL": parts.url, "SIDEBAND_DATA_DIR": str(tmp_path)}
     parts.workers.append(subprocess.Popen([sys.executable, "-m", "workers"], env=env, cwd=ROOT))

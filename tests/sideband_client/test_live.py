@@ -173,7 +173,7 @@ def test_deleted_job_is_gone(client: Client) -> None:
 def test_list_goes_over_pages(client: Client, monkeypatch: pytest.MonkeyPatch) -> None:
     for seed in range(5):
         client.simulate("oscillator", duration_s=0.1, seed=100 + seed).wait()
-    monkeypatch.setattr("sideband_client.client.PAGE", 2)
+    monkeypatch.setattr("sideband_client.asking.PAGE", 2)
     listed = [state.id for state in client.jobs(status=["successful"], preset="oscillator")]
     assert len(listed) == len(set(listed)) >= 5
     oldest = [state.created_at for state in client.jobs(sort="created_at")]

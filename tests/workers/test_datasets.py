@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
-import hashlib
 import tarfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
-import httpx
 import pytest
 
-from sideband_datasets import read_recipe
-from sideband_datasets.folder import Settings, make, verify
-from sideband_datasets.folder.layout import files_below
+from sideband_datasets.folder import verify
+from tests.service.datasets import (
+    ADDRESS,
+    SHARDS,
+    attempts,
+    dataset,
+    download,
+    finished_shards,
+    made_alone,
+    submit,
+    until,
+)
 from tests.service.parts import LiveServer, Parts, eventually, open_parts
 from tests.sideband_datasets.small import document
-
-ADDRESS = "/v1/datasets"
-REQUEST = {"recipe": document(count=8, peaks={"spectra": []}), "format": "npz", "shard_recordings": 2}
-SHARDS = 4
 
 
 @pytest.fixture
@@ -30,47 +32,9 @@ def parts(tmp_path: Path) -> Iterator[Parts]:
     opened.close()
 
 
-def submit(client: httpx.Client, **changes: object) -> str:
-    reply = client.post(ADDRESS, json={**REQUEST, **changes})
-    assert reply.status_code == 202, reply.text
-    assert reply.headers["Location"] == f"{ADDRESS}/{reply.json()['id']}"
-    return str(reply.json()["id"])
-
-
-def dataset(client: httpx.Client, dataset_id: str) -> dict[str, Any]:
-    found: dict[str, Any] = client.get(f"{ADDRESS}/{dataset_id}").json()
-    return found
-
-
-def until(client: httpx.Client, dataset_id: str, word: str, within_s: float = 120) -> dict[str, Any]:
-    ended = ("successful", "failed", "dismissed")
-    eventually(lambda: dataset(client, dataset_id)["status"] in (word, *ended), within_s=within_s)
-    found = dataset(client, dataset_id)
-    assert found["status"] == word, found["job"]["failure"]
-    return found
-
-
-def download(client: httpx.Client, dataset_id: str, out: Path) -> dict[str, bytes]:
-    found = {}
-    for entry in client.get(f"{ADDRESS}/{dataset_id}/files").json()["files"]:
-        content = client.get(entry["href"]).content
-        assert hashlib.sha256(content).hexdigest() == entry["sha256"] and len(content) == entry["bytes"]
-        (out / entry["path"]).parent.mkdir(parents=True, exist_ok=True)
-        (out / entry["path"]).write_bytes(content)
-        found[entry["path"]] = content
-    return found
-
-
 @pytest.fixture(scope="module")
 def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
-    """What the command line makes of the same recipe, in one process."""
-    out = tmp_path_factory.mktemp("made") / "tiny"
-    make(read_recipe(REQUEST["recipe"]), out, Settings(format="npz", shard_recordings=2), lambda progress: None)
-    return {path.relative_to(out).as_posix(): path.read_bytes() for path in files_below(out)}
-
-
-def finished_shards(client: httpx.Client, dataset_id: str) -> int:
-    return int(dataset(client, dataset_id)["shards"]["successful"])
+    return made_alone(tmp_path_factory.mktemp("made") / "tiny")
 
 
 @pytest.mark.slow
@@ -89,8 +53,7 @@ def test_killed_worker_changes_no_byte(parts: Parts, undisturbed: dict[str, byte
         assert download(client, dataset_id, tmp_path / "tiny") == undisturbed
         assert verify(tmp_path / "tiny") == []
         assert done["shards"] == {"total": SHARDS, "waiting": 0, "running": 0, "successful": SHARDS, "failed": 0}
-        parts_made = client.get("/v1/jobs", params={"kind": "dataset-shard"}).json()["jobs"]
-        assert sorted(part["attempt"] for part in parts_made) == [1] * (SHARDS - 1) + [2], "only its own shard again"
+        assert attempts(client) == [1] * (SHARDS - 1) + [2], "only its own shard again"
 
 
 @pytest.mark.slow

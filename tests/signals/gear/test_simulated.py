@@ -6,8 +6,8 @@ from functools import cache
 
 import pytest
 
-from jobs.overrides import apply_overrides
 from signals.gear import GearIndicators, gear_indicators
+from signals.overrides import apply_overrides
 from signals.recording import from_response
 from signals.synchronous import SynchronousAverage, synchronous_average
 from sim.presets import preset
