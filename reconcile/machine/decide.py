@@ -32,6 +32,8 @@ LEAST_EVIDENCE = 3.0
 FEW_VIEWS = 2
 """So few sensors and operating points together cannot exclude what explains half as much."""
 FEW_SHARE = 0.5
+GREAT = 25.0
+"""Deviations of the most changed group that impacts of a known effect do not bring without its pattern."""
 FAINT = 14.0
 """Deviations of the most changed group below which a change that no effect explains may be too faint to tell."""
 MOST_NAMED = 6
@@ -118,7 +120,7 @@ def decide(screen: Screen, *, views: int, strange: float = STRANGE) -> Decision:
         reason = "the change is too faint to tell one effect from another"
         return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(reason,))
     struck = float(screen.direct[screen.names.index(chosen[0])])
-    alone = evidence[chosen[0]] - struck < LEAST_EVIDENCE and screen.strongest > FAINT
+    alone = evidence[chosen[0]] - struck < LEAST_EVIDENCE and screen.strongest > GREAT
     if weak or alone or (screen.misfit > strange and struck < STRUCK):
         return Decision(word="unknown_physics", chosen=chosen[:3], p=p, reasons=(_misfit(screen, alone and not weak),))
     if len(chosen) == 1:
