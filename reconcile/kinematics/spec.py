@@ -139,11 +139,11 @@ def _fields(place: tuple[int | str, ...]) -> tuple[str, ...]:
 
 
 def of_machine(machine: MachineSpec) -> KinematicSpec:
-    """What of a full machine specification is kinematics; bearings on bodies without a shaft are left out."""
+    """What of a full machine specification is kinematics; bearings without a shaft or sizes are left out."""
     carrier = {g.name: g.shaft for g in machine.gears} | {b.name: b.shaft for b in machine.bodies if b.shaft}
     bearings = []
     for b in machine.bearings:
-        if b.body not in carrier:
+        if b.body not in carrier or (b.geometry is None and b.catalogue is None):
             continue
         if b.geometry is None:
             bearings.append(KinematicBearing(name=b.name, shaft=carrier[b.body], catalogue=b.catalogue))

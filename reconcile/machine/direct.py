@@ -22,6 +22,7 @@ from reconcile.machine.window import turn_heights
 from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
 from signals.recording import Operating, Recording
+from sim.core.errors import SpecError
 from sim.core.response import Channel
 from sim.core.spec import MachineSpec
 from sim.terms import REGISTRY
@@ -62,10 +63,12 @@ def direct_evidence(
     machine: MachineSpec, data: Sequence[PointData], channels: Sequence[Channel], *, seed: int
 ) -> Direct:
     """What struck, in the recordings of all operating points against their baselines."""
-    known = of_machine(machine)
-    tie = _impulsive(ties(known, machine.operating.shaft if machine.operating else None))
+    try:
+        tie = _impulsive(ties(of_machine(machine), machine.operating.shaft if machine.operating else None))
+    except SpecError as error:  # shafts whose speeds nothing ties together
+        return Direct(evidence={}, p=1.0, told=(f"not looked for: {error}",))
     if not _reachable(data, tie):
-        return NOTHING
+        return Direct(evidence={}, p=1.0, told=("not looked for: the sampling rate is too low for their lines",))
     tests = [_observation(d.spectra[0], f"test {k}", channels, tie) for k, d in enumerate(data, 1)]
     rested = [d.spectra[1] for d in data]
     baselines = [_observation(b, f"baseline {k}", channels, tie) for k, b in enumerate(rested, 1) if b is not None]

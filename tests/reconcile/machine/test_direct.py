@@ -16,6 +16,7 @@ from sim.terms import REGISTRY
 
 RATE_HZ, SPEED_HZ, SECONDS = 20480.0, 30.0, 2.0
 TIME = np.arange(round(RATE_HZ * SECONDS)) / RATE_HZ
+OPERATING = Operating(shaft="input", speed_hz=SPEED_HZ, torque_nm=25.0)
 CHANNELS = tuple(
     Channel(name=p, quantity="acceleration", unit="m/s^2", location=p, axis="y") for p in ("bearing1", "bearing3")
 )
@@ -46,7 +47,7 @@ def recording(samples: np.ndarray) -> Recording:
         sampling_rate_hz=RATE_HZ,
         channels=CHANNELS,
         samples=samples,
-        operating=Operating(shaft="input", speed_hz=SPEED_HZ, torque_nm=25.0),
+        operating=OPERATING,
     )
 
 
@@ -88,3 +89,16 @@ def test_sound_machines_say_nothing(machine: MachineSpec) -> None:
         direct = found(machine, sound(10 + seed), sound(20 + seed))
         assert max(direct.evidence.values(), default=0.0) < 3.0
         assert direct.p == 1.0
+
+
+def test_where_nothing_can_be_looked_for_the_reason_is_told(machine: MachineSpec) -> None:
+    slow = [
+        Recording(sampling_rate_hz=512.0, channels=CHANNELS, samples=sound(k)[:, ::40], operating=OPERATING)
+        for k in (1, 2)
+    ]
+    data = observe(machine, watch_list(machine), slow[:1], slow[1:])
+    direct = direct_evidence(machine, data, CHANNELS, seed=0)
+    assert not direct.evidence and direct.p == 1.0 and "sampling rate" in direct.told[0]
+    untied = machine.model_copy(update={"meshes": [], "loads": []})
+    direct = direct_evidence(untied, data, CHANNELS, seed=0)
+    assert not direct.evidence and "tied" in direct.told[0]
