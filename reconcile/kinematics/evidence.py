@@ -14,6 +14,7 @@ import numpy as np
 
 from reconcile.kinematics.envelopes import Envelopes
 from reconcile.kinematics.families import Family, Ties
+from reconcile.tail import tail_chance
 from signals.series import FloatArray
 
 NOISE_LOG = 1.5
@@ -23,13 +24,9 @@ CONTROLS = 300
 AWAY = 0.035
 """Share by which a control order must differ from orders of parts, their halves and multiples."""
 SHAFT_BINS = 2.0
-TAIL = 0.1
-LEAST_SCALE = 0.5
 LEAST_SPREAD = 0.7
 CERTAIN_Z = 6.0
 """Robust deviations that noise does not reach."""
-LEAST_CHANCE = 1e-6
-"""A tail read off 300 controls carries no further."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -199,20 +196,3 @@ def comb_depth(envelopes: Envelopes, band: int, family: Family, order: float) ->
     square = envelopes.depth[band][pick] ** 2
     noise = square / np.maximum(envelopes.excess[band][pick], 1e-12)
     return float(np.sqrt(np.sum(np.maximum(square - 2 * noise, 0.0))))
-
-
-def tail_chance(controls: FloatArray, value: float) -> float:
-    """Chance that a control reaches `value`: the rank, beyond the controls an exponential tail through their top tenth.
-
-    The tail's rate is that of maximum likelihood for the excesses, which Pickands' theorem makes a generalised Pareto
-    law; its shape is taken as 0 (the clipped scores have bounded tails, so this errs on the safe side).
-    """
-    n = controls.size
-    above = int(np.sum(controls >= value))
-    count = max(10, int(TAIL * n))
-    if above >= count // 2:
-        return (1 + above) / (1 + n)
-    top = np.sort(controls)[-count - 1 :]
-    scale = max(float(np.mean(top[1:] - top[0])), LEAST_SCALE)
-    tail = count / n * np.exp(-(value - top[0]) / scale)
-    return float(max(min((1 + above) / (1 + n), tail), LEAST_CHANCE))

@@ -16,7 +16,7 @@ import numpy as np
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.lines import OrderLines, level_changes, matched, order_lines
 from reconcile.kinematics.observe import Observation
-from reconcile.observe.turn import local_energy, prominence, window_of
+from reconcile.observe.turn import LocalEnergy, local_energy, prominence, window_of
 from reconcile.verdict import AngleWindow
 from signals.series import FloatArray
 
@@ -135,7 +135,7 @@ def _window(
     return window_of(now, shaft=shaft)
 
 
-def _energy(observation: Observation, channel: str, shaft: str, ratio: float, teeth: int) -> FloatArray | None:
+def _energy(observation: Observation, channel: str, shaft: str, ratio: float, teeth: int) -> LocalEnergy | None:
     e = observation.channel(channel)
     assert e is not None
     series = observation.recording.series(channel)

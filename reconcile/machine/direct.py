@@ -83,7 +83,7 @@ def direct_evidence(
     firm = [c for c in every if c.present and c.risen]
     return Direct(
         evidence={name: min(value, MOST) for name, value in evidence.items() if value > 0.0},
-        p=min((c.chance for c in firm), default=1.0),
+        p=min([1.0, *(c.chance for c in firm), *(chance for _, chance in heights.values())]),
         told=tuple(f"{c.family.key}: {c.z:.1f} deviations of control lines" for c in every if c.risen and c.z > 2.0),
     )
 
@@ -121,10 +121,10 @@ def _turn(every: Sequence[Candidate], shaft: str) -> float:
     return _score(next((c for c in every if c.family.kind == "turn" and c.family.site == shaft), None))
 
 
-def _tooth(every: Sequence[Candidate], gear: str, shaft: str, heights: Mapping[str, float]) -> float:
+def _tooth(every: Sequence[Candidate], gear: str, shaft: str, heights: Mapping[str, tuple[float, float]]) -> float:
     """By impacts once a turn, or by the place in the mean turn, whichever says more."""
     impacts = _turn(every, shaft) ** 2 / (2 * SCATTER)
-    return max(min(impacts, MOST_TURNS), PER_HEIGHT * (heights.get(gear, 0.0) - UNMOVED))
+    return max(min(impacts, MOST_TURNS), PER_HEIGHT * (heights.get(gear, (0.0, 1.0))[0] - UNMOVED))
 
 
 def _ball(every: Sequence[Candidate], tie: Ties, kind: str, site: str) -> float:

@@ -48,7 +48,7 @@ class Budget:
     rounds: int
 
 
-QUICK = Budget(name="quick", terms=16, candidates=8, effects=3, rounds=1)
+QUICK = Budget(name="quick", terms=12, candidates=6, effects=3, rounds=1)
 FULL = Budget(name="full", terms=100, candidates=20, effects=6, rounds=2)
 BUDGETS = {"quick": QUICK, "full": FULL}
 

@@ -8,10 +8,10 @@ import numpy as np
 
 from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
-from reconcile.observe.turn import local_energy, prominence, window_of
+from reconcile.observe.turn import LocalEnergy, local_energy, prominence, window_of
 from reconcile.observe.watch import bases_at
 from reconcile.verdict import AngleWindow
-from signals.series import FloatArray, Series
+from signals.series import Series
 from sim.core.spec import MachineSpec
 
 
@@ -35,9 +35,13 @@ def angle_window(machine: MachineSpec, data: Sequence[PointData], channels: Sequ
     return best[1] if best else None
 
 
-def turn_heights(machine: MachineSpec, data: Sequence[PointData], channels: Sequence[str]) -> dict[str, float]:
-    """How far the fullest window of each gear's mean turn stands out; 0 where the baseline's is as uneven."""
-    heights = {gear.name: 0.0 for gear in machine.gears}
+def turn_heights(
+    machine: MachineSpec, data: Sequence[PointData], channels: Sequence[str]
+) -> dict[str, tuple[float, float]]:
+    """How far the fullest window of each gear's mean turn stands out, 0 where the baseline's is as uneven; and the
+    chance of it, with all the turns that were looked at."""
+    heights = {gear.name: (0.0, 1.0) for gear in machine.gears}
+    looks = len(data) * len(channels) * len(machine.gears)
     for one in data:
         now, before = one.spectra
         if before is None:
@@ -46,7 +50,8 @@ def turn_heights(machine: MachineSpec, data: Sequence[PointData], channels: Sequ
             for c, name in enumerate(channels):
                 energy = _energy(now, c, name, shaft, ratio, teeth)
                 if prominence(energy, _energy(before, c, name, shaft, ratio, teeth)) and energy is not None:
-                    heights[gear] = max(heights[gear], float(np.max(energy)))
+                    height, chance = heights[gear]
+                    heights[gear] = max(height, energy.height), min(chance, looks * energy.chance())
     return heights
 
 
@@ -60,7 +65,7 @@ def _gears(machine: MachineSpec, speed_hz: float) -> Iterator[tuple[str, str, in
             yield gear.name, gear.shaft, gear.teeth, ratios[gear.shaft]
 
 
-def _energy(one: Steady, channel: int, name: str, shaft: str, ratio: float, teeth: int) -> FloatArray | None:
+def _energy(one: Steady, channel: int, name: str, shaft: str, ratio: float, teeth: int) -> LocalEnergy | None:
     angle = np.asarray(2 * np.pi * one.speed_hz / one.rate_hz * np.arange(one.samples.shape[1]), dtype=np.float64)
     series = Series(samples=one.samples[channel], sampling_rate_hz=one.rate_hz, unit="m/s^2", name=name)
     return local_energy(series, shaft=shaft, rotation=angle, ratio=ratio, teeth=teeth)

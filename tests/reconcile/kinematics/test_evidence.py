@@ -10,7 +10,7 @@ import pytest
 from reconcile.kinematics import read_kinematic_spec
 from reconcile.kinematics.combs import Stretch, Train, comb_power, fitted, predicted
 from reconcile.kinematics.envelopes import envelopes
-from reconcile.kinematics.evidence import family_evidence, tail_chance
+from reconcile.kinematics.evidence import family_evidence
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.gears import gear_evidence
 from reconcile.kinematics.judge import fisher, holm
@@ -54,13 +54,6 @@ def test_evidence_grows_with_the_defect_and_finds_the_slip() -> None:
     assert z[0] < z[1] < z[2]
     assert found.slip == pytest.approx(-0.015, abs=0.002)
     assert found.band_hz[0] < 4200 < found.band_hz[1] or found.band_hz[1] > 3000
-
-
-def test_tail_chance_follows_an_exponential_tail() -> None:
-    controls = np.random.default_rng(4).exponential(size=300)
-    for value in (1.0, 4.0, 8.0):
-        assert np.log(tail_chance(controls, value)) == pytest.approx(-value, abs=0.35 + 0.12 * value)
-    assert tail_chance(controls, 1e3) == 1e-6
 
 
 def test_fisher_and_holm() -> None:

@@ -50,6 +50,13 @@ def test_healthy_turns_and_bursts_out_of_step_have_no_place():
     assert prominence(energy(balls), before) == 0.0
 
 
+def test_the_chance_of_a_height_is_small_for_bursts_and_fair_without():
+    assert energy(healthy(1) + struck(TURNS, 50.0)).chance() < 1e-4
+    fair = [energy(0.3 * np.random.default_rng(k).standard_normal(TIME.size)).chance() for k in range(20)]
+    assert 0.2 < np.mean(fair) < 0.8
+    assert min(fair) > 1e-3
+
+
 def test_too_short_a_recording_says_nothing():
     series = Series(samples=healthy(1)[:1500], sampling_rate_hz=RATE, unit="m/s^2")
     angle = 2 * np.pi * TURNS[:1500]
