@@ -57,11 +57,10 @@ can make the cases again. What was not detected stays in every denominator. Inte
 **Design.** {n_dev} cases for development, {n_sealed} sealed. The full crossing of one effect would be {laws} laws x 4
 severities x 27 combinations of (1, 3, 8) sensors, (30, 20, 10) dB and (1, 3, 5) speeds = {crossing} cases; {n_single}
 are planned: half at the target condition (3 sensors, 20 dB, 3 speeds, baseline), half over the rows of an orthogonal
-array. A case that was looked at has served: sealed cases up to s040 were run with earlier engines (0 of 11 mechanisms),
-then used for development, and are not counted. Counted are cases from s041 on that need no atlas but those of the
-nominal machine at three speeds, each at its first run (`--budget quick`, physics 1.2.0). What was changed because of
-them since (channels that a sensor fault spoiled are left out) has not changed a figure here; run again, s054 and s055
-answer `measurement_fault`.
+array. A case that was looked at has served: sealed cases up to s074 were run with earlier engines (up to s040: 0 of 11
+mechanisms at the target condition, s041 to s074: 1 of 6), then used for development, and are not counted. Counted are
+later ones, in their order, that need no atlas but those of the nominal machine at up to three speeds, each at its first
+run (`--budget quick`, physics 1.2.0).
 """
 
 

@@ -15,6 +15,9 @@ from sim.solve.ensemble import Member
 
 DRAWS = 8
 """Draws a candidate: a full set of vector lanes."""
+CAGE_SLIP = "cage_slip"
+SLIP = 0.02
+"""Share by which cages lag in sound bearings (Randall & Antoni 2011, section 2)."""
 NULL_PAIRS = 48
 """Healthy machines, each with a drifted twin."""
 
@@ -52,9 +55,23 @@ class AtlasPlan:
         """The machine of this draw at this point."""
         offsets = (self.twins if draw.twin else self.offsets)[draw.pair]
         machine = at_point(moved(self.machine, self.numbers, offsets), point)
-        if draw.term is not None:
-            machine = machine.model_copy(update={"terms": [*machine.terms, draw.term]})
+        terms = slips(machine, self.seed, draw.pair) if draw.twin else ()
+        terms = terms if draw.term is None else (*terms, draw.term)
+        if terms:
+            machine = machine.model_copy(update={"terms": [*machine.terms, *terms]})
         return Member(machine=machine, seed=self.seed + 1000 * draw.pair + (1 if draw.twin else 0))
+
+
+def slips(machine: MachineSpec, seed: int, pair: int) -> tuple[TermSpec, ...]:
+    """Cages of a sound machine lag by another share in every recording."""
+    rng = np.random.default_rng([seed, 13, pair])
+    shares = rng.uniform(0.0, SLIP, len(machine.bearings))
+    present = {t.site for t in machine.terms if t.term == CAGE_SLIP}
+    return tuple(
+        TermSpec(term=CAGE_SLIP, site=b.name, parameters={"share": float(share)})
+        for b, share in zip(machine.bearings, shares, strict=True)
+        if b.name not in present and (b.geometry is not None or b.catalogue is not None)
+    )
 
 
 def with_tooth_pairs(machine: MachineSpec) -> MachineSpec:

@@ -26,7 +26,13 @@ TERM = CageSlip(
     sites=("bearing",),
     params=(
         Param(
-            name="share", unit="1", default=0.01, low=0.0, high=0.5, sentence="Share of the cage speed that is lost."
+            name="share",
+            unit="1",
+            default=0.01,
+            low=0.0,
+            high=0.5,
+            sentence="Share of the cage speed that is lost.",
+            sought=(0.025, 0.3),
         ),
     ),
     references=("Randall & Antoni 2011, Mech. Syst. Signal Process. 25(2), 485-520 (slip of 1 to 2 %)",),

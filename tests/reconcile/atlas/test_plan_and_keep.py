@@ -7,9 +7,9 @@ import pytest
 
 from reconcile.atlas import keep
 from reconcile.atlas.bank import ARRAYS, Bank, Task, tasks
-from reconcile.atlas.candidates import Candidate
+from reconcile.atlas.candidates import Candidate, candidates
 from reconcile.atlas.keep import Forgetful, atlas_key, kept_bank
-from reconcile.atlas.plan import AtlasPlan, Point, at_point, atlas_plan
+from reconcile.atlas.plan import SLIP, AtlasPlan, Point, at_point, atlas_plan, slips
 from reconcile.calibrate.uncertain import uncertain_numbers
 from reconcile.observe.statistics import Statistics
 from sim.core.errors import SpecError
@@ -154,3 +154,16 @@ def test_a_machine_that_never_runs_is_said_and_not_kept() -> None:
             mapper=lambda _run, todo: [[None] * len(t.draws) for t in todo],
         )
     assert not shelf.kept
+
+
+def test_cages_of_a_sound_machine_lag_by_another_share_in_every_recording() -> None:
+    machine = preset("paper-lightly-damped")
+    plan = atlas_plan(machine, uncertain_numbers(machine), candidates(machine)[:2], seed=3)
+    point = Point(speed_hz=30.0)
+    first = [plan.member(d, point) for d in plan.draws if d.candidate is None and d.pair == 5]
+    assert [len(m.machine.terms) for m in first] == [0, 4]
+    shares = [t.parameters["share"] for t in first[1].machine.terms]
+    assert all(t.term == "cage_slip" for t in first[1].machine.terms) and len(set(shares)) == 4
+    assert min(shares) >= 0.0 and max(shares) <= SLIP
+    lagging = machine.model_copy(update={"terms": list(first[1].machine.terms[:1])})
+    assert {t.site for t in slips(lagging, 3, 5)} == {"bearing2", "bearing3", "bearing4"}
