@@ -145,7 +145,7 @@ def answer(
     fitted = _fitted_change(found, decision.chosen[0], observed) if decision.chosen else None
     severity: Severity | None = causes[0].severity if causes else None
     word, text, fault = decision.word, sentence(decision, severity, held), None
-    if gate.fault is not None and word in ("nothing_missing", "not_decidable"):
+    if gate.fault is not None and word in ("nothing_missing", "not_decidable") and not _doubtful(gate, setting, word):
         # a fault that is sure goes before a rest of which nothing can be told
         rest = "" if not missing else " What differs on the other channels is too faint to tell."
         word, fault = "measurement_fault", gate.fault
@@ -176,6 +176,12 @@ def answer(
         },
         provenance=_provenance(setting, cost),
     )
+
+
+def _doubtful(gate: Gate, setting: Setting, word: str) -> bool:
+    """At one operating point a machine's own resonance may move as a loose sensor's does, within what is usual."""
+    fault = gate.fault
+    return fault is not None and fault.kind == "loose_sensor" and len(setting.data) == 1 and word == "nothing_missing"
 
 
 def _lead(found: Found, decision: Decision) -> float:
