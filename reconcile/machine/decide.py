@@ -16,6 +16,8 @@ LOOKS = 3.0
 """Chances are of three looks; the smallest counts, so many times."""
 ALSO_P = 0.05
 """A pattern counts only if the whole change is unusual too."""
+CLOSER_P = 0.2
+"""Chance from which machines that agree with the baseline are asked: they see more than machines of the kind."""
 GLARING = 8.0
 """Deviations of the most changed group of features from which a change needs no known pattern: beyond what mis-set
 parameters did on the development nulls."""
@@ -100,7 +102,7 @@ def chance(screen: Screen) -> float:
 
 def remarkable(screen: Screen) -> bool:
     """Whether it is worth a closer look: a pattern, or a change, that few healthy machines show."""
-    return min(screen.p_any, screen.p_best, screen.p_direct) <= ALSO_P
+    return min(screen.p_any, screen.p_best, screen.p_direct) <= CLOSER_P
 
 
 def decide(screen: Screen, *, views: int, strange: float = STRANGE) -> Decision:

@@ -159,7 +159,7 @@ def test_a_change_without_a_pattern_is_faint_or_unknown(strongest: float, word: 
 
 
 def test_a_closer_look_is_taken_only_where_something_is_unusual() -> None:
-    assert not remarkable(screen([1.0], p_any=0.3, p_best=0.2))
+    assert not remarkable(screen([1.0], p_any=0.3, p_best=0.25))
     assert remarkable(screen([1.0], p_any=0.01, p_best=0.5)) and remarkable(screen([1.0], p_any=0.5, p_best=0.01))
 
 
