@@ -38,7 +38,7 @@ class Screen:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Look:
+class Look:
     """One view's answer: evidence over no change (effects,), of every null (n, effects), length and misfit."""
 
     evidence: FloatArray
@@ -47,14 +47,15 @@ class _Look:
     misfit: float
 
 
-def _looked(fitted: Fitted, observed: FloatArray) -> _Look:
+def looked(fitted: Fitted, observed: FloatArray) -> Look:
+    """All effects in one view; `observed` (F,) in dB."""
     x = fitted.place(observed)
     nothing = float(np.sum(x**2))
     best, _ = fitted.paths.nearest(fitted.paths.distances(x))
     lengths = np.sum(fitted.null**2, axis=1)
     squared = squared_distances(fitted.null, fitted.paths.points)
     nearest = [squared[:, fitted.paths.owner == c].min(axis=1) for c in range(len(fitted.paths.names))]
-    return _Look(
+    return Look(
         evidence=(nothing - best) / (2.0 * fitted.overdispersion),
         null=(lengths[:, None] - np.stack(nearest, axis=1)) / (2.0 * fitted.overdispersion),
         length=nothing,
@@ -78,7 +79,7 @@ def judge(
     model has not, and it sees much of the same.
     """
     first = views[0]
-    looks = [_looked(v, observed) for v in views]
+    looks = [looked(v, observed) for v in views]
     by = np.argmax([look.evidence for look in looks], axis=0)
     shown = np.array([(direct or {}).get(name, 0.0) for name in first.paths.names])
     patterns = _together([look.evidence for look in looks])

@@ -8,18 +8,17 @@ import numpy as np
 
 from reconcile.atlas.keep import ATLAS_VERSION
 from reconcile.gate.findings import Gate
+from reconcile.machine.causes import ranked_causes, revised_document
 from reconcile.machine.decide import Decision, decide, merged_weights
 from reconcile.machine.heldout import feature_frequencies, held_out, spectral_mask
 from reconcile.machine.pictures import line_changes, ranking, spectra, turn_map
-from reconcile.machine.refine import best_draws
+from reconcile.machine.second import fitted_change, second_effect
 from reconcile.machine.setting import Found, Setting
-from reconcile.machine.severity import estimated_severity
 from reconcile.machine.window import angle_window
-from reconcile.machine.words import next_experiment, sentence
+from reconcile.machine.words import next_experiment, sentence, size, title
 from reconcile.observe.features import Layout
 from reconcile.observe.watch import WatchList, watch_list
 from reconcile.verdict import (
-    Cause,
     HeldOut,
     Level,
     PlaceWeight,
@@ -28,10 +27,8 @@ from reconcile.verdict import (
     Severity,
     Where,
 )
-from sim.core.spec import MachineSpec, TermSpec
 from sim.version import PHYSICS_VERSION
 
-MOST_CAUSES = 10
 ONE_SENSOR = "one sensor cannot locate a broadband force: places rest on the spectra the machine model predicts"
 NO_BASELINE = "without a baseline the machine's parameters and the sensors' paths were fitted to the test itself"
 ONE_POINT = "one operating point: the held-out data are a later time of the same record"
@@ -65,41 +62,6 @@ def _layout(watched: WatchList, setting: Setting) -> Layout:
     )
 
 
-def _causes(found: Found, decision: Decision, weights: Mapping[str, float], observed: np.ndarray) -> tuple[Cause, ...]:
-    listed = list(decision.chosen) + [n for n in weights if n not in decision.chosen]
-    causes = []
-    for name in listed[:MOST_CAUSES]:
-        term, site = name.split("@")
-        drawn = best_draws(found.view(name), found.known, name, observed, count=1)
-        causes.append(
-            Cause(
-                term=term,
-                site=site,
-                score=float(found.screen.evidence[found.screen.names.index(name)]),
-                severity=estimated_severity(found.view(name), found.known, name, observed),
-                named=decision.word == "explained" and name == decision.chosen[0],
-                reasons=decision.reasons,
-                values=dict(drawn[0].parameters) if drawn else {},
-            )
-        )
-    return tuple(causes)
-
-
-def revised(machine: MachineSpec, cause: Cause) -> MachineSpec:
-    """The machine with the named effect at its estimated size."""
-    values = dict(cause.values)
-    if cause.severity is not None:
-        values[cause.severity.name] = cause.severity.value
-    term = TermSpec(term=cause.term, site=cause.site, parameters=values)
-    return machine.model_copy(update={"terms": [*machine.terms, term]})
-
-
-def _revised_document(setting: Setting, causes: Sequence[Cause]) -> dict[str, object] | None:
-    if not causes:
-        return None
-    return revised(setting.fitted_machine or setting.machine, causes[0]).model_dump(mode="json")
-
-
 def _sites(weights: Mapping[str, float]) -> tuple[PlaceWeight, ...]:
     total: dict[str, float] = {}
     for name, weight in weights.items():
@@ -120,16 +82,6 @@ def _limits(setting: Setting) -> tuple[str, ...]:
     return tuple(limits)
 
 
-def _fitted_change(found: Found, name: str, observed: np.ndarray) -> np.ndarray:
-    fitted = found.view(name)
-    squared = fitted.paths.distances(fitted.place(observed))
-    owner = fitted.paths.names.index(name)
-    rows = [k for k in np.argsort(squared) if fitted.paths.owner[k] == owner][:1]
-    first, second = int(fitted.paths.low[rows[0]]), int(fitted.paths.high[rows[0]])
-    changes = found.known.library.changes
-    return np.asarray(0.5 * (changes[max(first, 0)] + changes[second]) if first >= 0 else 0.5 * changes[second])
-
-
 def answer(
     setting: Setting, found: Found, gate: Gate, cost: Mapping[str, object], fit: Mapping[str, object] | None = None
 ) -> Report:
@@ -140,11 +92,14 @@ def answer(
     layout = _layout(watched, setting)
     weights = merged_weights(found.screen)
     missing = decision.word != "nothing_missing"
-    causes = _causes(found, decision, weights, observed) if missing else ()
+    other = second_effect(setting, found, decision)
+    causes = ranked_causes(found, decision, weights, observed, other) if missing else ()
     held = _held(setting, found, decision, layout) if decision.chosen else None
-    fitted = _fitted_change(found, decision.chosen[0], observed) if decision.chosen else None
+    fitted = fitted_change(found, decision.chosen[0], observed) if decision.chosen else None
     severity: Severity | None = causes[0].severity if causes else None
     word, text, fault = decision.word, sentence(decision, severity, held), None
+    if other is not None:
+        text = f"{text} Beside it: {title(other[0])}{size(causes[1].severity)}."
     if gate.fault is not None and word in ("nothing_missing", "not_decidable") and not _doubtful(gate, setting, word):
         # a fault that is sure goes before a rest of which nothing can be told
         rest = "" if not missing else " What differs on the other channels is too faint to tell."
@@ -167,7 +122,7 @@ def answer(
         held_out=held,
         undecidable=tuple(decision.reasons) if decision.word in ("ambiguous", "not_decidable") else (),
         next_experiment=next_experiment(decision.chosen, lead, len(setting.data), setting.channels),
-        machine=_revised_document(setting, causes),
+        machine=revised_document(setting, causes),
         stages=_stages(setting, found, gate, decision, fit or {}),
         pictures={
             "spectra": spectra(setting.data, setting.seen_through, fitted, layout, setting.channels),

@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from reconcile.atlas.bank import Mapper
 from reconcile.atlas.candidates import Candidate, candidates
 from reconcile.atlas.keep import Forgetful, Keeper, kept_bank
@@ -25,6 +27,7 @@ from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import around_baseline, first_heat, ordered_draws, second_heat, simulated_banks, told
 from reconcile.machine.meter import Meter
 from reconcile.machine.refine import best_draws, refined_plan
+from reconcile.machine.second import beside, looks_for_second, strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import watch_list
@@ -34,6 +37,8 @@ from sim.core.spec import MachineSpec
 
 Progress = Callable[[float, str], None]
 REFINED_DRAWS = 8
+SECONDS = 3
+"""Candidates for a second effect that are simulated with all their draws."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -164,15 +169,28 @@ def _screened(setting: Setting) -> Found:
 
 def _located(setting: Setting, screened: Found, atlas: AtlasPlan, budget: Budget, mapper: Mapper) -> Found:
     """The best of the screened candidates, simulated on the setting's own machines alone, the best of them more."""
-    ranked = plausible(screened.screen)
+    ranked = _with_others(screened)
     shown = [t for t, seen in zip(screened.known.terms, screened.fitted.visible, strict=True) if seen]
     draws = ordered_draws(atlas, shown)
     first = first_heat(setting.plan, ranked, draws, budget.terms)
     known = _simulated(setting, first, mapper)
     found = _fit(setting, known)
     best = plausible(found.screen)[: budget.candidates]
+    if looks_for_second(found):
+        others = beside(setting, found, best[0])
+        best += [n for n in (others.names[:SECONDS] if others else ()) if n not in best]
     second = second_heat(setting.plan, best, draws, first)
     return _fit(setting, joined(known, _simulated(setting, second, mapper)))
+
+
+def _with_others(screened: Found) -> list[str]:
+    """What is plausible; where impacts are sure and something is left beside them, what strikes nowhere too."""
+    ranked = plausible(screened.screen)
+    if not looks_for_second(screened):
+        return ranked
+    names = screened.screen.names
+    quiet = [names[k] for k in np.argsort(-screened.screen.evidence) if not strikes(names[k])]
+    return ranked + [n for n in quiet if n not in ranked]
 
 
 def _simulated(setting: Setting, plan: AtlasPlan, mapper: Mapper) -> Catalogued:

@@ -16,7 +16,8 @@ def title(label: str) -> str:
     return f"{term.title if term else key} at {site}"
 
 
-def _size(severity: Severity | None) -> str:
+def size(severity: Severity | None) -> str:
+    """`, width 0.001 m (90 %: 0.0009 to 0.0011)`, or nothing."""
     if severity is None:
         return ""
     unit = "" if severity.unit == "1" else f" {severity.unit}"
@@ -29,7 +30,7 @@ def sentence(decision: Decision, severity: Severity | None, held: HeldOut | None
         return f"Nothing is missing: {decision.reasons[0]}."
     if decision.word == "explained":
         gain = "" if held is None else f"; it takes {held.gain:.0%} off the spectral distance on data not fitted"
-        return f"{title(decision.chosen[0])}{_size(severity)}{gain}."
+        return f"{title(decision.chosen[0])}{size(severity)}{gain}."
     if decision.word == "unknown_physics":
         return f"Something is missing that no known effect explains: {decision.reasons[0]}."
     listed = ", or ".join(title(c).lower() for c in decision.chosen[:4])

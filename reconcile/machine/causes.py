@@ -1,0 +1,81 @@
+"""The causes of a report, with their sizes, and the machine that has them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from reconcile.judge.screen import looked
+from reconcile.judge.space import Fitted
+from reconcile.machine.decide import Decision
+from reconcile.machine.refine import best_draws
+from reconcile.machine.setting import Found, Setting
+from reconcile.machine.severity import estimated_severity
+from reconcile.verdict import Cause
+from sim.core.spec import MachineSpec, TermSpec
+
+MOST_CAUSES = 10
+
+
+def ranked_causes(
+    found: Found,
+    decision: Decision,
+    weights: Mapping[str, float],
+    observed: np.ndarray,
+    other: tuple[str, np.ndarray] | None,
+) -> tuple[Cause, ...]:
+    """The effects the verdict stands on, a second one with what it explains, and the rest by weight."""
+    apart = {*decision.chosen, *(other or ())[:1]}
+    listed = list(decision.chosen) + [n for n in weights if n not in apart]
+    causes = []
+    for name in listed[:MOST_CAUSES]:
+        term, site = name.split("@")
+        drawn = best_draws(found.view(name), found.known, name, observed, count=1)
+        causes.append(
+            Cause(
+                term=term,
+                site=site,
+                score=float(found.screen.evidence[found.screen.names.index(name)]),
+                severity=estimated_severity(found.view(name), found.known, name, observed),
+                named=decision.word == "explained" and name == decision.chosen[0],
+                reasons=decision.reasons,
+                values=dict(drawn[0].parameters) if drawn else {},
+            )
+        )
+    if other is not None and found.fine is not None:
+        causes.insert(1, _beside(found, found.fine, *other))
+    return tuple(causes)
+
+
+def _beside(found: Found, fine: Fitted, name: str, left: np.ndarray) -> Cause:
+    """The second named cause, measured by what the first one leaves."""
+    term, site = name.split("@")
+    drawn = best_draws(fine, found.known, name, left, count=1)
+    return Cause(
+        term=term,
+        site=site,
+        score=float(looked(fine, left).evidence[fine.paths.names.index(name)]),
+        severity=estimated_severity(fine, found.known, name, left),
+        named=True,
+        reasons=("it explains what the first effect leaves of the mesh lines",),
+        values=dict(drawn[0].parameters) if drawn else {},
+    )
+
+
+def revised(machine: MachineSpec, causes: Sequence[Cause]) -> MachineSpec:
+    """The machine with the named effects, or else the likeliest, at their estimated sizes."""
+    terms = []
+    for cause in [c for c in causes if c.named] or causes[:1]:
+        values = dict(cause.values)
+        if cause.severity is not None:
+            values[cause.severity.name] = cause.severity.value
+        terms.append(TermSpec(term=cause.term, site=cause.site, parameters=values))
+    return machine.model_copy(update={"terms": [*machine.terms, *terms]})
+
+
+def revised_document(setting: Setting, causes: Sequence[Cause]) -> dict[str, object] | None:
+    """The revised machine, ready for JSON; None where nothing is named or likely."""
+    if not causes:
+        return None
+    return revised(setting.fitted_machine or setting.machine, causes).model_dump(mode="json")

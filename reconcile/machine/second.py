@@ -1,0 +1,94 @@
+"""A second effect beside one that strikes: what the mesh lines keep when the first one's change is taken off.
+
+A local defect brings impacts, and little to the mesh lines of a machine that agrees with its baseline; a loose seat, a
+clearance or an eccentric gear changes these lines and strikes nowhere. Found together they are told apart without
+simulating all pairs.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.judge.screen import Look, looked
+from reconcile.machine.decide import DETECT_P, LEAST_EVIDENCE, LOOKS, SET_WEIGHT, STRANGE, STRUCK, Decision, variants
+from reconcile.machine.setting import Found, Setting
+from signals.series import FloatArray
+from sim.terms import REGISTRY
+
+LEFT = 0.9
+"""Quantile of the misfit above which something besides the best effect is looked for."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Beside:
+    """What is left, `left` (F,) dB, and the effects that do not strike, the best first, with their evidence in it."""
+
+    left: FloatArray
+    names: tuple[str, ...]
+    evidence: FloatArray
+    p: float
+    misfit: float
+
+
+def strikes(name: str) -> bool:
+    """Whether the effect (`effect@site`) is a local defect."""
+    term = REGISTRY.get(name.split("@", maxsplit=1)[0])
+    return term is not None and term.strikes is not None
+
+
+def fitted_change(found: Found, name: str, observed: FloatArray) -> FloatArray:
+    """The change (F,) of the point of an effect's path that is nearest to what was observed."""
+    fitted = found.view(name)
+    squared = fitted.paths.distances(fitted.place(observed))
+    owner = fitted.paths.names.index(name)
+    row = next(int(k) for k in np.argsort(squared) if fitted.paths.owner[k] == owner)
+    first, second = int(fitted.paths.low[row]), int(fitted.paths.high[row])
+    changes = found.known.library.changes
+    return np.asarray(0.5 * (changes[max(first, 0)] + changes[second]) if first >= 0 else 0.5 * changes[second])
+
+
+def sure(found: Found, name: str) -> bool:
+    """Whether an effect is there by its impacts alone."""
+    return bool(found.screen.direct[found.screen.names.index(name)] >= STRUCK)
+
+
+def looks_for_second(found: Found) -> bool:
+    """Whether impacts are sure and the change they bring is not all that changed."""
+    best = found.screen.names[int(np.argmax(found.screen.evidence))]
+    return sure(found, best) and found.screen.misfit > LEFT
+
+
+def beside(setting: Setting, found: Found, first: str) -> Beside | None:
+    """Effects that might explain what the mesh lines keep; None without the view of single lines."""
+    if found.fine is None:
+        return None
+    left = setting.changes.observed - np.nan_to_num(fitted_change(found, first, setting.changes.observed))
+    look: Look = looked(found.fine, left)
+    order = [int(k) for k in np.argsort(-look.evidence) if not strikes(found.fine.paths.names[k])]
+    if not order:
+        return None
+    null = look.null[:, order].max(axis=1)
+    best = float(look.evidence[order[0]])
+    return Beside(
+        left=left,
+        names=tuple(found.fine.paths.names[k] for k in order),
+        evidence=look.evidence[order],
+        p=min(1.0, LOOKS * float((1 + np.sum(null >= best)) / (null.size + 1))),
+        misfit=look.misfit,
+    )
+
+
+def second_effect(setting: Setting, found: Found, decision: Decision) -> tuple[str, FloatArray] | None:
+    """The second effect that may be named, and the change it explains."""
+    if decision.word != "explained" or not sure(found, decision.chosen[0]):
+        return None
+    seen = beside(setting, found, decision.chosen[0])
+    if seen is None or seen.p > DETECT_P or seen.misfit > STRANGE or seen.evidence[0] < LEAST_EVIDENCE:
+        return None
+    weights = np.exp(seen.evidence - seen.evidence[0])
+    forms = np.array([n == seen.names[0] or variants(n, seen.names[0]) for n in seen.names])
+    if float(weights[forms].sum() / weights.sum()) < SET_WEIGHT:
+        return None
+    return seen.names[0], seen.left

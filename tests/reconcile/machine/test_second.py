@@ -1,0 +1,80 @@
+"""A second effect is named where the mesh lines keep a change, and only beside an effect whose impacts are sure."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+
+from reconcile.judge.screen import judge
+from reconcile.judge.space import Library, fit_space
+from reconcile.machine.decide import decide
+from reconcile.machine.library import Catalogued
+from reconcile.machine.second import LEFT, beside, looks_for_second, second_effect
+from reconcile.machine.setting import Found
+from tests.reconcile.judge.made import EFFECTS, FEATURES, MEMBERS, changes, library, world
+
+MADE = world()
+NAMES = ("outer_spall@bearing1", "pedestal_looseness@bearing2", "unbalance@pinion", "rub@gear")
+LINES = np.arange(FEATURES) >= 5 * MEMBERS
+"""The spall moves none of them, the loose support (third of the made effects) and the fourth move only them."""
+ORDER = (0, 2, 3, 1)
+
+
+def found_in(observed: np.ndarray, direct: float) -> tuple[SimpleNamespace, Found]:
+    here = changes(MADE, observed)
+    here = replace(here, single=replace(here.single, chosen=LINES))
+    made = library(MADE)
+    groups = {name: made.groups[EFFECTS[k]] for name, k in zip(NAMES, ORDER, strict=True)}
+    rows = [k for name in NAMES for k in groups[name]]
+    count = len(rows) // len(NAMES)
+    ordered = {name: tuple(range(c * count, (c + 1) * count)) for c, name in enumerate(NAMES)}
+    known = Library(changes=made.changes[rows], groups=ordered, shares=made.shares[rows])
+    fitted = fit_space(here, known, seed=1)
+    fine = fit_space(here, known, seed=1, view=here.single)
+    screen = judge((fitted, fine), observed, {NAMES[0]: direct}, 1e-6)
+    found = Found(known=Catalogued(library=known, terms=()), fitted=fitted, screen=screen, fine=fine)
+    return SimpleNamespace(changes=here), found
+
+
+def seen(effects: tuple[int, ...], seed: int) -> np.ndarray:
+    rng = np.random.default_rng([5, seed])
+    return sum((MADE.effect(c, 0.7, rng) for c in effects), start=MADE.noise(rng))
+
+
+def named(effects: tuple[int, ...], seed: int, direct: float = 20.0) -> str | None:
+    setting, found = found_in(seen(effects, seed), direct)
+    decision = decide(found.screen, views=9)
+    decision = replace(decision, word="explained", chosen=(NAMES[0],))
+    second = second_effect(setting, found, decision)  # type: ignore[arg-type]
+    return second[0] if second else None
+
+
+def test_what_the_first_effect_leaves_is_named() -> None:
+    assert [named((0, 2), seed) for seed in range(8)].count(NAMES[1]) >= 7
+    assert [named((0, 3), seed) for seed in range(8)].count(NAMES[2]) >= 7
+
+
+def test_one_effect_alone_has_no_second() -> None:
+    assert sum(named((0,), seed) is not None for seed in range(20)) <= 1
+
+
+def test_without_sure_impacts_there_is_no_second() -> None:
+    assert named((0, 2), 1, direct=2.0) is None
+
+
+def test_what_is_left_is_without_the_first_effect() -> None:
+    observed = seen((0, 2), 3)
+    setting, found = found_in(observed, 20.0)
+    here = beside(setting, found, NAMES[0])  # type: ignore[arg-type]
+    assert here is not None and NAMES[0] not in here.names and here.names[0] == NAMES[1]
+    spall = slice(0, 3 * MEMBERS)
+    assert np.mean(here.left[spall] ** 2) < 0.3 * np.mean(observed[spall] ** 2)
+    assert beside(setting, replace(found, fine=None), NAMES[0]) is None  # type: ignore[arg-type]
+
+
+def test_a_second_is_looked_for_where_something_is_left() -> None:
+    _, found = found_in(seen((0,), 4), 20.0)
+    assert looks_for_second(replace(found, screen=replace(found.screen, misfit=LEFT + 0.05)))
+    assert not looks_for_second(replace(found, screen=replace(found.screen, misfit=LEFT - 0.05)))
