@@ -172,6 +172,8 @@ def _located(setting: Setting, screened: Found, atlas: AtlasPlan, budget: Budget
     found = _fit(setting, known)
     best = plausible(found.screen)[: budget.candidates]
     second = second_heat(setting.plan, best, draws, first)
+    if not second.draws:
+        return found  # effects with one place only: the first heat had all of their draws
     return _fit(setting, joined(known, _simulated(setting, second, mapper)))
 
 
