@@ -65,7 +65,9 @@ run (`--budget quick`, physics 1.2.0).
 **In the test command.** Six further cases, of neither split, run from the generator to the verdict in `make test`
 (`tests/proof/test_small_cases.py`): nothing, four strong effects and a sensor fault at 30 Hz, three sensors, 20 dB,
 with 12 effects to choose from. Their atlas stands beside them (`tests/proof/atlas`); where physics or atlas
-changed they fail and name the command that makes it again, `make proof-atlas`.
+changed they fail and name the command that makes it again, `make proof-atlas`. They are the easy end: the same six with
+three other seeds were answered rightly in 16 of 18 (the inner pit at bearing 3 was once taken for a loose pedestal,
+once for a sensor's fault).
 """
 
 
