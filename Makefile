@@ -11,7 +11,7 @@ FETCHED = { n=0; while read -r word rest; do case "$$word $$rest" in \
 PIP = PYTHONUNBUFFERED=1 $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 
 .DELETE_ON_ERROR:
-.PHONY: run setup env dev browser lint fast test bench cost paper proof proof-real sim2real openapi lock clean help
+.PHONY: run setup env dev browser lint fast test bench cost paper proof proof-atlas proof-real sim2real openapi lock clean help
 
 run: setup  ## start the service, simulate the demo through the queue, open its page (PORT=8001, OPEN= for no browser)
 	@echo "[4/4] starting broker, workers and HTTP server on port $(PORT)"
@@ -74,6 +74,9 @@ proof: dev setup  ## concealed cases: make them, run the engine, score, write do
 	$(BIN)/python -m proof run --split $(SPLIT) --cases "$(CASES)" --budget $(BUDGET) $(if $(CASES),--fresh)
 	$(BIN)/python -m proof score --split $(SPLIT) --cases "$(CASES)" $(if $(CASES),,--keep) > /dev/null
 	$(if $(CASES),,$(BIN)/python -m proof page)
+
+proof-atlas: dev setup  ## simulate again the small atlas of the cases that run in `make test`
+	$(BIN)/python -m tests.proof.make_atlas
 
 proof-real: dev setup  ## the engine on real recordings beside the project, labels withheld; writes docs/proof-real.md
 	$(BIN)/python -m proof.real --docs docs/proof-real.md

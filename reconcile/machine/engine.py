@@ -180,6 +180,8 @@ def _located(setting: Setting, screened: Found, atlas: AtlasPlan, budget: Budget
         others = beside(setting, found, best[0])
         best += [n for n in (others.names[:SECONDS] if others else ()) if n not in best]
     second = second_heat(setting.plan, best, draws, first)
+    if not second.draws:
+        return found  # effects with one place only: the first heat had all of their draws
     return _fit(setting, joined(known, _simulated(setting, second, mapper)))
 
 

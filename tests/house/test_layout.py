@@ -65,6 +65,9 @@ def test_every_folder_with_code_is_a_package(room):
 
 def test_nothing_large_or_generated_is_committed():
     large = {str(name): (ROOT / name).stat().st_size for name in tracked() if (ROOT / name).stat().st_size > 600_000}
-    generated = [str(name) for name in tracked() if name.suffix in {".pyc", ".npz", ".wav", ".parquet", ".db", ".log"}]
+    suffixes = {".pyc", ".npz", ".wav", ".parquet", ".db", ".log"}
+    # the atlas is generated, but making it would cost the test command a minute; its own test says when it is stale
+    kept = Path("tests/proof/atlas")
+    generated = [str(name) for name in tracked() if name.suffix in suffixes and name.parent != kept]
     assert not large
     assert not generated

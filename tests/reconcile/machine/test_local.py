@@ -48,6 +48,12 @@ def test_the_second_heat_simulates_what_the_first_did_not(atlas: AtlasPlan) -> N
     assert share_of(first.draws[0]) > float(np.median(known)), "large sizes first"
 
 
+def test_an_effect_with_one_place_needs_no_second_heat(atlas: AtlasPlan) -> None:
+    drawn = ordered_draws(atlas, ())
+    first = first_heat(atlas, ("tooth_crack@gear",), drawn, terms=1)
+    assert second_heat(atlas, ("tooth_crack@gear",), drawn, first).draws == ()
+
+
 def test_draws_that_showed_something_come_first(atlas: AtlasPlan) -> None:
     drawn = [d for d in atlas.draws if d.candidate is not None and d.candidate.label == RANKED[0]]
     smallest = min(drawn, key=share_of)
