@@ -14,6 +14,8 @@ from signals.series import FloatArray
 
 FULL_PATH = 6
 """Draws from which an effect's path is known well enough to judge how far a draw lies from the others."""
+LEAST_OVERDISPERSION = 2.0
+"""Few and far effects would make every difference proof."""
 NULL_COPIES = 16
 """Noisy copies of each simulated healthy pair, of either sign: the bank of nulls."""
 
@@ -78,7 +80,7 @@ def _well_known(visible: np.ndarray, library: Library) -> np.ndarray:
 
 def _softness(distances: FloatArray, truth: np.ndarray) -> float:
     """The scale at which exp(-d^2 / 2 scale), normalised over effects, is the best forecast of the true one."""
-    scales = np.geomspace(0.3, 300.0, 31)
+    scales = np.geomspace(LEAST_OVERDISPERSION, 300.0, 25)
     best, chosen = -np.inf, 1.0
     for scale in scales:
         log = -0.5 * distances / scale

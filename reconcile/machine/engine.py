@@ -33,10 +33,13 @@ from reconcile.observe.observation import observe
 from reconcile.observe.watch import watch_list
 from reconcile.verdict import Report
 from signals.recording import Recording
+from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
 
 Progress = Callable[[float, str], None]
 REFINED_DRAWS = 8
+LEAST_TERMS = 5
+"""Effects that are simulated at all their places, however far ahead the best is."""
 SECONDS = 3
 """Candidates for a second effect that are simulated with all their draws."""
 
@@ -182,29 +185,40 @@ def _located(setting: Setting, screened: Found, atlas: AtlasPlan, budget: Budget
     second = second_heat(setting.plan, best, draws, first)
     if not second.draws:
         return found  # effects with one place only: the first heat had all of their draws
-    return _fit(setting, joined(known, _simulated(setting, second, mapper)))
+    return _fit(setting, _simulated(setting, second, mapper, known))
 
 
 def _with_others(screened: Found) -> list[str]:
-    """What is plausible; where impacts are sure and something is left beside them, what strikes nowhere too."""
+    """What is plausible, and so much more that the metric learns what differs; where impacts are sure and something is
+    left beside them, all that strikes nowhere."""
     ranked = plausible(screened.screen)
-    if not looks_for_second(screened):
-        return ranked
     names = screened.screen.names
-    quiet = [names[k] for k in np.argsort(-screened.screen.evidence) if not strikes(names[k])]
-    return ranked + [n for n in quiet if n not in ranked]
+    rest = [names[k] for k in np.argsort(-screened.screen.evidence) if names[k] not in ranked]
+    second = looks_for_second(screened)
+    for name in rest:
+        known = {n.split("@")[0] for n in ranked}
+        if len(known) < LEAST_TERMS or name.split("@")[0] in known or (second and not strikes(name)):
+            ranked.append(name)
+    return ranked
 
 
-def _simulated(setting: Setting, plan: AtlasPlan, mapper: Mapper) -> Catalogued:
+def _simulated(setting: Setting, plan: AtlasPlan, mapper: Mapper, known: Catalogued | None = None) -> Catalogued:
+    """The plan's draws, with what was `known` before; that alone where none of them runs."""
     banks = simulated_banks(setting, plan, mapper)
-    return catalogued(
-        plan,
-        banks,
-        setting.seen_through,
-        setting.plan,
-        setting.banks,
-        with_baseline=setting.changes.with_baseline,
-    )
+    try:
+        more = catalogued(
+            plan,
+            banks,
+            setting.seen_through,
+            setting.plan,
+            setting.banks,
+            with_baseline=setting.changes.with_baseline,
+        )
+    except SpecError:
+        if known is None:
+            raise
+        return known
+    return more if known is None else joined(known, more)
 
 
 def _refined(setting: Setting, found: Found, budget: Budget, mapper: Mapper, turn: int) -> Found:
@@ -216,4 +230,4 @@ def _refined(setting: Setting, found: Found, budget: Budget, mapper: Mapper, tur
     around = [(name, best_draws(found.view(name), found.known, name, setting.changes.observed)) for name in leading]
     pairs = len(setting.plan.offsets)
     plan = refined_plan(setting.plan, around, draws=REFINED_DRAWS, pairs=pairs, seed=setting.seed + turn)
-    return _fit(setting, joined(found.known, _simulated(setting, plan, mapper)))
+    return _fit(setting, _simulated(setting, plan, mapper, found.known))
