@@ -7,13 +7,20 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 
+from app.guards.access import needs_key
+from app.guards.scopes import needed
 from app.problems import ProblemDocument
+from app.routes.responses import problems
 from app.version import VERSION
 from signals.ingest import Description
 
 DESCRIPTION = (
     "Simulates gear-rotor-bearing machines and serves signals, spectra and labelled peaks. "
     "All values are SI; every quantity's name or neighbour states its unit. Errors are problem documents (RFC 9457)."
+)
+_KEY = (
+    "Needed as soon as the server can be reached from other machines. The role of an operation is the scope its key must "
+    "have. `X-API-Key: KEY` means the same as `Authorization: Bearer KEY`."
 )
 _TEMPLATE = "#/components/schemas/{model}"
 
@@ -47,9 +54,11 @@ def build(app: FastAPI) -> dict[str, Any]:
     schemas.update(sent.pop("$defs"))
     schemas["Description"] = sent
     reference = {"schema": {"$ref": "#/components/schemas/ProblemDocument"}}
-    for operations in document["paths"].values():
-        for operation in operations.values():
+    for path, operations in document["paths"].items():
+        for method, operation in operations.items():
             replies = operation.get("responses", {})
+            if needs_key(path):
+                _guarded(operation, method.upper(), path)
             # Every address refuses query parameters that it does not have.
             if "422" not in replies or "HTTPValidationError" in str(replies["422"]):
                 replies["422"] = {
@@ -58,6 +67,16 @@ def build(app: FastAPI) -> dict[str, Any]:
                 }
     schemas.pop("HTTPValidationError", None)
     schemas.pop("ValidationError", None)
-    document["components"]["securitySchemes"] = {"key": {"type": "http", "scheme": "bearer"}}
+    document["components"]["securitySchemes"] = {
+        "key": {"type": "http", "scheme": "bearer", "description": _KEY},
+    }
     document["security"] = [{}, {"key": []}]
     return document
+
+
+def _guarded(operation: dict[str, Any], method: str, path: str) -> None:
+    """What a key must be for, named as roles (OpenAPI 3.1, Security Requirement Object), and what guards may answer."""
+    operation["security"] = [{}, {"key": list(needed(method, path))}]
+    replies = operation.setdefault("responses", {})
+    for status, declared in problems(401, 403, 429).items():
+        replies.setdefault(str(status), declared)

@@ -63,6 +63,8 @@ _CLASSES: tuple[tuple[type[SidebandError], str, int], ...] = (
     (errors.IllegalTransition, "conflict", 409),
     (errors.IdempotencyConflict, "idempotency-conflict", 422),
     (errors.QueueFull, "queue-full", 429),
+    (errors.BudgetSpent, "cost-limit", 429),
+    (errors.BudgetTooSmall, "beyond-cost-limit", 403),
     (errors.BrokerAway, "broker-away", 503),
     (errors.StoreFull, "storage-full", 507),
     (errors.StoreAway, "store-away", 503),
@@ -102,7 +104,22 @@ def _fields(error: SidebandError, location: str) -> Sequence[FieldError]:
     if isinstance(error, errors.IdempotencyConflict):
         message = "was used with another request"
         return [FieldError(field="Idempotency-Key", location="header", message=message, given=error.key)]
+    if isinstance(error, errors.BudgetSpent | errors.BudgetTooSmall):
+        return [_over_budget(error)]
     return ()
+
+
+def _over_budget(error: errors.BudgetSpent | errors.BudgetTooSmall) -> FieldError:
+    """`given` is what was used before, or what one request would take."""
+    spent = isinstance(error, errors.BudgetSpent)
+    return FieldError(
+        field="core_seconds_per_day",
+        location="header",
+        message="of the API key are used" if spent else "of the API key are fewer than this request takes",
+        given=round(error.used if isinstance(error, errors.BudgetSpent) else error.asked, 3),
+        allowed=f"<= {error.limit:g}",
+        unit="core-seconds in 24 h",
+    )
 
 
 def _choice(kind: str, name: str, known: Sequence[str], location: str) -> FieldError:
@@ -111,7 +128,7 @@ def _choice(kind: str, name: str, known: Sequence[str], location: str) -> FieldE
 
 
 def _headers(error: SidebandError, status: int) -> dict[str, str]:
-    if isinstance(error, errors.QueueFull):
+    if isinstance(error, errors.QueueFull | errors.BudgetSpent):
         return {"Retry-After": str(error.retry_after_s)}
     if status == 503 or (isinstance(error, errors.ResultNotReady) and error.status.active):
         return {"Retry-After": str(RETRY_AFTER_S)}

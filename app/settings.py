@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from app.key_file import VARIABLE, read_keys
 from jobs.limits import Limits
 from sim.core.errors import Problem, SpecError
 from store.environment import Numbers
@@ -23,6 +24,8 @@ class Settings:
     host: str = "127.0.0.1"
     port: int = 8000
     api_keys: Mapping[str, str] = field(default_factory=dict)
+    api_keys_file: Path | None = None
+    """Further keys, with scopes, end and limits; read again when it changes (`app.key_file`)."""
     allowed_hosts: tuple[str, ...] = ()
     """Names under which a server without keys may be called, besides loopback ones. With keys any name will do."""
     limits: Limits = field(default_factory=Limits)
@@ -44,16 +47,18 @@ class Settings:
 
     @property
     def keys_required(self) -> bool:
-        """Keys are needed as soon as others can reach the server, or when any are set."""
-        return bool(self.api_keys) or not is_loopback(self.host)
+        """Keys are needed as soon as others can reach the server, or when any are set; a file counts even if empty."""
+        return bool(self.api_keys) or self.api_keys_file is not None or not is_loopback(self.host)
 
     def check(self) -> None:
-        """Refuse to be reachable from other machines without keys."""
-        if not is_loopback(self.host) and not self.api_keys:
+        """Refuse to be reachable from other machines without keys, and a file of keys that cannot be used."""
+        in_file = {} if self.api_keys_file is None else read_keys(self.api_keys_file)
+        if not is_loopback(self.host) and not self.api_keys and not in_file:
+            message = "can be reached from other machines, so API keys are needed (SIDEBAND_API_KEYS"
             raise SpecError(
                 Problem(
                     field="host",
-                    message="can be reached from other machines, so API keys are needed (SIDEBAND_API_KEYS)",
+                    message=f"{message}, {VARIABLE})",
                     given=self.host,
                     allowed="a loopback address, or any address with at least one key",
                 )
@@ -61,9 +66,9 @@ class Settings:
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> Settings:
-        """`SIDEBAND_HOST`, `SIDEBAND_PORT`, `SIDEBAND_API_KEYS` (`name:sha256,...`), `SIDEBAND_ALLOWED_HOSTS`; limits:
-        `SIDEBAND_MAX_DURATION_S`, `SIDEBAND_MAX_MEMORY_BYTES`, `SIDEBAND_MAX_STEPS`, `SIDEBAND_MAX_SECONDS`,
-        `SIDEBAND_MAX_WAITING`, `SIDEBAND_MAX_DATASET_CORE_HOURS`, `SIDEBAND_MAX_DATASET_BYTES`,
+        """`SIDEBAND_HOST`, `SIDEBAND_PORT`, `SIDEBAND_API_KEYS` (`name:sha256,...`), `SIDEBAND_API_KEYS_FILE`,
+        `SIDEBAND_ALLOWED_HOSTS`; limits: `SIDEBAND_MAX_DURATION_S`, `SIDEBAND_MAX_MEMORY_BYTES`, `SIDEBAND_MAX_STEPS`,
+        `SIDEBAND_MAX_SECONDS`, `SIDEBAND_MAX_WAITING`, `SIDEBAND_MAX_DATASET_CORE_HOURS`, `SIDEBAND_MAX_DATASET_BYTES`,
         `SIDEBAND_MAX_DATASETS`, `SIDEBAND_MAX_UPLOAD_BYTES`. `SIDEBAND_PAGES_DIR`: the pages of the effects, where they
         lie elsewhere."""
         env = os.environ if environment is None else environment
@@ -86,6 +91,7 @@ class Settings:
             host=env.get("SIDEBAND_HOST", cls.host),
             port=port,
             api_keys=parse_keys(env.get("SIDEBAND_API_KEYS", "")),
+            api_keys_file=Path(env[VARIABLE]) if env.get(VARIABLE) else None,
             pages_folder=Path(env.get("SIDEBAND_PAGES_DIR") or cls.pages_folder),
             allowed_hosts=tuple(h.strip() for h in env.get("SIDEBAND_ALLOWED_HOSTS", "").split(",") if h.strip()),
             limits=limits,

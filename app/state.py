@@ -9,8 +9,10 @@ from typing import Annotated, cast
 from fastapi import Depends, Request
 
 from app.instruments import Instruments
+from app.key_file import Key
 from app.settings import Settings
 from jobs.accept import Desk
+from jobs.budget import Budget
 from jobs.health.watch import Watch
 from jobs.kept import Kept
 from jobs.ports import Engine
@@ -33,8 +35,8 @@ class AppState:
     watch: Watch = field(default_factory=Watch)
     """Machines as their recordings show them."""
 
-    def desk(self) -> Desk:
-        """For accepting and recovering."""
+    def desk(self, budget: Budget | None = None) -> Desk:
+        """For accepting and recovering; `budget`: of whoever asks."""
         return Desk(
             catalogue=self.stores.catalogue,
             queue=self.stores.queue,
@@ -42,6 +44,7 @@ class AppState:
             engine=self.engine,
             limits=self.settings.limits,
             clock=time.time,
+            budget=budget,
         )
 
 
@@ -50,10 +53,25 @@ def state_of(request: Request) -> AppState:
     return cast(AppState, request.app.state.sideband)
 
 
+def _key_of(request: Request) -> Key | None:
+    return cast(Key | None, request.scope.get("state", {}).get("key"))
+
+
 def principal_of(request: Request) -> str:
     """Holder of the API key; empty without keys."""
-    return str(request.scope.get("state", {}).get("principal", ""))
+    key = _key_of(request)
+    return "" if key is None else key.name
+
+
+def budget_of(request: Request) -> Budget | None:
+    """What the holder of the API key may have computed; None without keys."""
+    key = _key_of(request)
+    if key is None:
+        return None
+    ledger = state_of(request).stores.ledger
+    return Budget(holder=key.name, core_seconds_per_day=key.core_seconds_per_day, ledger=ledger)
 
 
 State = Annotated[AppState, Depends(state_of)]
 Principal = Annotated[str, Depends(principal_of)]
+HolderBudget = Annotated[Budget | None, Depends(budget_of)]

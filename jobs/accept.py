@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from jobs import transitions
+from jobs.budget import Budget
 from jobs.datasets.words import SHARD
 from jobs.errors import BrokerAway, IdempotencyConflict, QueueFull, StoreFull, UnknownJob
 from jobs.identity import digest, job_id
@@ -34,6 +36,8 @@ class Desk:
     engine: Engine
     limits: Limits
     clock: Clock
+    budget: Budget | None = None
+    """Of whoever asks; None: nobody counts."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,19 +63,21 @@ def accept(desk: Desk, request: SimulationRequest, *, submitter: str, scope: str
             return earlier
     resolved = resolve(request, desk.engine, desk.limits)
     identifier = job_id(KIND, resolved.document, desk.engine.version)
-    if needs_work(desk.catalogue, identifier):
+    new_work = needs_work(desk.catalogue, identifier)
+    if new_work:
         _check_room(desk, resolved)
     now = desk.clock()
-    if key is not None:
-        reserve(desk, scope, key, body, identifier)
-    record, created = desk.catalogue.put(
-        identifier,
-        resolved.document,
-        first=lambda: transitions.new(
-            job_id=identifier, kind=KIND, submitter=submitter, source=resolved.source, cost=resolved.cost, now=now
-        ),
-        again=lambda present: transitions.submit_again(present, submitter, now),
-    )
+    with charged(desk, identifier, resolved.cost.seconds if new_work else None):
+        if key is not None:
+            reserve(desk, scope, key, body, identifier)
+        record, created = desk.catalogue.put(
+            identifier,
+            resolved.document,
+            first=lambda: transitions.new(
+                job_id=identifier, kind=KIND, submitter=submitter, source=resolved.source, cost=resolved.cost, now=now
+            ),
+            again=lambda present: transitions.submit_again(present, submitter, now),
+        )
     return Acceptance(record=hand_over(desk, record), created=created, replayed=False)
 
 
@@ -122,6 +128,13 @@ def needs_work(catalogue: JobCatalogue, identifier: str) -> bool:
     except UnknownJob:
         return True
     return record.gone is not None or record.status in (Status.FAILED, Status.DISMISSED)
+
+
+def charged(desk: Desk, identifier: str, core_seconds: float | None) -> contextlib.AbstractContextManager[None]:
+    """Charge new work to whoever asks while it is accepted; None: the work is under way or done, nothing is charged."""
+    if desk.budget is None or core_seconds is None:
+        return contextlib.nullcontext()
+    return desk.budget.charged(identifier, core_seconds, desk.clock())
 
 
 def check_queue(desk: Desk) -> None:

@@ -8,6 +8,8 @@ JobError
  |   +- StaleAttempt       a worker reports for an attempt that is no longer its own
  +- IdempotencyConflict    the same key was used with another request
  +- QueueFull              too much work is waiting; try later
+ +- BudgetSpent            the API key's core-seconds of a day are used; try later
+ +- BudgetTooSmall         one request is beyond the API key's core-seconds of a day
  +- BrokerAway             the queue's server cannot be reached
  +- StoreAway              the catalogue or the artefact store cannot be reached
  |   +- StoreFull          no space left
@@ -76,6 +78,28 @@ class QueueFull(JobError):
     def __init__(self, waiting: int, allowed: int, retry_after_s: int) -> None:
         self.waiting, self.allowed, self.retry_after_s = waiting, allowed, retry_after_s
         super().__init__(f"{waiting} jobs are waiting, {allowed} may; try again in {retry_after_s} s")
+
+
+class BudgetSpent(JobError):
+    """The holder of an API key must wait until enough of what was charged is older than a day; core-seconds."""
+
+    def __init__(self, *, limit: float, used: float, asked: float, retry_after_s: int) -> None:
+        self.limit, self.used, self.asked, self.retry_after_s = limit, used, asked, retry_after_s
+        super().__init__(
+            f"this request is estimated at {asked:.4g} core-seconds; of the key's {limit:g} in 24 hours {used:.4g} "
+            f"are used; try again in {retry_after_s} s"
+        )
+
+
+class BudgetTooSmall(JobError):
+    """One request is more than the API key may have in a whole day: waiting would not help; core-seconds."""
+
+    def __init__(self, *, limit: float, asked: float) -> None:
+        self.limit, self.asked = limit, asked
+        super().__init__(
+            f"this request is estimated at {asked:.4g} core-seconds, more than the {limit:g} that the key may have in "
+            "24 hours; ask for less"
+        )
 
 
 class BrokerAway(JobError):

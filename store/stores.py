@@ -10,6 +10,7 @@ from jobs.ports import ArtefactStore
 from store.artefacts.choose import open_artefacts
 from store.catalogue import engine, schema
 from store.catalogue.catalogue import SqlCatalogue
+from store.catalogue.ledger import SqlLedger
 from store.queue import rq_queue
 from store.settings import StoreSettings
 
@@ -21,6 +22,11 @@ class Stores:
     catalogue: SqlCatalogue
     artefacts: ArtefactStore
     queue: rq_queue.RqQueue
+
+    @property
+    def ledger(self) -> SqlLedger:
+        """What was charged to holders of API keys."""
+        return SqlLedger(self.catalogue.engine)
 
     def close(self) -> None:
         """Give back connections."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hmac
 from collections.abc import Mapping
 from urllib.parse import urlsplit
 
@@ -10,6 +9,9 @@ from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from app import problems
+from app.guards.admission import admission
+from app.guards.ring import KeyRing
+from app.guards.scopes import needed
 from app.keys import digest_of
 from app.problems import Told
 from app.settings import Settings, is_loopback
@@ -19,10 +21,12 @@ _OPEN = ("/healthz", "/readyz")
 
 
 class AccessGuard:
-    """Lets a call through with `scope["state"]["principal"]` set to the key's holder (empty: nobody in particular)."""
+    """Lets a call through with `scope["state"]["key"]` set to what the key allows (None: nobody in particular)."""
 
     def __init__(self, app: ASGIApp, *, settings: Settings) -> None:
         self._app, self._settings = app, settings
+        self._ring = KeyRing(settings.api_keys, settings.api_keys_file)
+        self._admission = admission()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Handle one connection."""
@@ -41,16 +45,12 @@ class AccessGuard:
             return Told(slug="wrong-host", status=421, detail="this server is not called by that name")
         if scope["method"] not in _SAFE and _foreign(headers):
             return Told(slug="foreign-page", status=403, detail="calls from pages of other origins are refused")
-        principal = self._principal(headers)
-        if principal is None and self._settings.keys_required and _needs_key(scope["path"]):
-            return Told(
-                slug="unauthorized",
-                status=401,
-                detail="send an API key as `Authorization: Bearer KEY`",
-                headers={"WWW-Authenticate": 'Bearer realm="sideband"'},
-            )
-        scope.setdefault("state", {})["principal"] = principal or ""
-        return None
+        text = _given_key(headers)
+        key = self._ring.find(digest_of(text)) if text else None
+        scope.setdefault("state", {})["key"] = key
+        if not (self._settings.keys_required and needs_key(scope["path"])):
+            return None
+        return self._admission.refusal(key, given=bool(text), scopes=needed(scope["method"], scope["path"]))
 
     def _host_known(self, header: str) -> bool:
         # DNS rebinding: a page whose name an attacker points at 127.0.0.1 must not reach a server without keys.
@@ -59,15 +59,10 @@ class AccessGuard:
         name = urlsplit(f"//{header}").hostname or ""
         return is_loopback(name) or name in self._settings.allowed_hosts
 
-    def _principal(self, headers: Mapping[str, str]) -> str | None:
-        scheme, _, given = headers.get("authorization", "").partition(" ")
-        key = given.strip() if scheme.lower() == "bearer" else headers.get("x-api-key", "")
-        if not key:
-            return None
-        digest = digest_of(key)
-        return next(
-            (name for known, name in self._settings.api_keys.items() if hmac.compare_digest(known, digest)), None
-        )
+
+def _given_key(headers: Mapping[str, str]) -> str:
+    scheme, _, given = headers.get("authorization", "").partition(" ")
+    return given.strip() if scheme.lower() == "bearer" else headers.get("x-api-key", "")
 
 
 def _foreign(headers: Mapping[str, str]) -> bool:
@@ -77,5 +72,6 @@ def _foreign(headers: Mapping[str, str]) -> bool:
     return headers.get("sec-fetch-site") == "cross-site"
 
 
-def _needs_key(path: str) -> bool:
+def needs_key(path: str) -> bool:
+    """Whether an address asks for a key where keys are needed; the dashboard's own files do not."""
     return path not in _OPEN and (path.startswith("/v1") or path in ("/metrics", "/openapi.json"))

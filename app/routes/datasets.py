@@ -25,7 +25,7 @@ from app.routes.jobs import JobId, Sort, list_jobs
 from app.routes.responses import problems
 from app.routes.simulations import KeyName, SubmitterName, named
 from app.schemas import JobPage, SubmittedView, submitted_view
-from app.state import AppState, Principal, State
+from app.state import AppState, HolderBudget, Principal, State
 from jobs.datasets.accept import accept_dataset, check_bounds
 from jobs.datasets.divide import balance_of, divide
 from jobs.datasets.request import DatasetRequest
@@ -53,6 +53,7 @@ def submit(
     request: DatasetRequest,
     state: State,
     principal: Principal,
+    budget: HolderBudget,
     response: Response,
     submitter: SubmitterName = None,
     key: KeyName = None,
@@ -62,7 +63,7 @@ def submit(
     The same request shares one dataset. One that failed or was cancelled is taken up where it stopped.
     """
     name = named(principal, submitter) or f"anonymous-{uuid.uuid4().hex[:12]}"
-    taken = accept_dataset(state.desk(), request, submitter=name, scope=principal, key=key)
+    taken = accept_dataset(state.desk(budget), request, submitter=name, scope=principal, key=key)
     response.headers["Location"] = f"{ADDRESS}/{taken.record.id}"
     if taken.replayed:
         response.headers["Idempotency-Replayed"] = "true"

@@ -13,7 +13,7 @@ from app.routes.jobs import JobId, Sort, list_jobs
 from app.routes.responses import problems
 from app.routes.simulations import KeyName, SubmitterName, named
 from app.schemas import JobPage, JobView, Reply, SubmittedView, job_view, submitted_view
-from app.state import AppState, Principal, State
+from app.state import AppState, HolderBudget, Principal, State
 from jobs.errors import JobGone, UnknownArtefact, UnknownJob
 from jobs.reconciliations.accept import accept_reconciliation
 from jobs.reconciliations.request import ReconciliationRequest
@@ -66,6 +66,7 @@ def submit(
     request: ReconciliationRequest,
     state: State,
     principal: Principal,
+    budget: HolderBudget,
     response: Response,
     submitter: SubmitterName = None,
     key: KeyName = None,
@@ -75,7 +76,7 @@ def submit(
     The recordings must have been sent in and read (`ready`). The same request shares one job and one answer.
     """
     name = named(principal, submitter) or f"anonymous-{uuid.uuid4().hex[:12]}"
-    taken = accept_reconciliation(state.desk(), request, submitter=name, scope=principal, key=key)
+    taken = accept_reconciliation(state.desk(budget), request, submitter=name, scope=principal, key=key)
     response.headers["Location"] = f"{ADDRESS}/{taken.record.id}"
     if taken.replayed:
         response.headers["Idempotency-Replayed"] = "true"

@@ -9,7 +9,7 @@ from fastapi import APIRouter, Header, Response
 
 from app.routes.responses import problems
 from app.schemas import SubmittedView, submitted_view
-from app.state import Principal, State
+from app.state import HolderBudget, Principal, State
 from jobs.accept import accept
 from jobs.request import SimulationRequest
 
@@ -34,6 +34,7 @@ def submit(
     request: SimulationRequest,
     state: State,
     principal: Principal,
+    budget: HolderBudget,
     response: Response,
     submitter: SubmitterName = None,
     key: KeyName = None,
@@ -44,7 +45,7 @@ def submit(
     made for this request; cancelling withdraws one of them.
     """
     name = named(principal, submitter) or f"anonymous-{uuid.uuid4().hex[:12]}"
-    taken = accept(state.desk(), request, submitter=name, scope=principal, key=key)
+    taken = accept(state.desk(budget), request, submitter=name, scope=principal, key=key)
     response.headers["Location"] = f"/v1/jobs/{taken.record.id}"
     if taken.replayed:
         response.headers["Idempotency-Replayed"] = "true"

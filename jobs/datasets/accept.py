@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import islice
 
 from jobs import transitions
-from jobs.accept import RESERVED_BYTES, Acceptance, Desk, hand_over, needs_work, replayed, reserve
+from jobs.accept import RESERVED_BYTES, Acceptance, Desk, charged, hand_over, needs_work, replayed, reserve
 from jobs.datasets import family
 from jobs.datasets.divide import Division, divide
 from jobs.datasets.request import DatasetRequest
@@ -35,17 +35,19 @@ def accept_dataset(desk: Desk, request: DatasetRequest, *, submitter: str, scope
     division = divide(request)
     check_bounds(division, desk.limits)
     identifier = job_id(DATASET, division.document, f"{desk.engine.version} {METHOD_VERSION}")
-    if needs_work(desk.catalogue, identifier):
+    new_work = needs_work(desk.catalogue, identifier)
+    if new_work:
         _check_room(desk, division)
-    if key is not None:
-        reserve(desk, scope, key, body, identifier)
     now = desk.clock()
-    record, created = desk.catalogue.parts.put(
-        _parent(division, identifier, submitter, now),
-        lambda present: family.again(present, submitter, now),
-        _parts(division, identifier, now),
-        lambda part: family.revived(part, identifier, now),
-    )
+    with charged(desk, identifier, division.cost.core_seconds if new_work else None):
+        if key is not None:
+            reserve(desk, scope, key, body, identifier)
+        record, created = desk.catalogue.parts.put(
+            _parent(division, identifier, submitter, now),
+            lambda present: family.again(present, submitter, now),
+            _parts(division, identifier, now),
+            lambda part: family.revived(part, identifier, now),
+        )
     if record.status is Status.ACCEPTED:
         waiting = (part for part in desk.catalogue.parts.of(identifier, Status.ACCEPTED) if part.kind == SHARD)
         for part in islice(waiting, AT_ONCE):

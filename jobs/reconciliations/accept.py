@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from jobs import transitions
-from jobs.accept import Acceptance, Desk, check_queue, hand_over, needs_work, replayed, reserve
+from jobs.accept import Acceptance, Desk, charged, check_queue, hand_over, needs_work, replayed, reserve
 from jobs.identity import digest, job_id
 from jobs.reconciliations.chosen import choose
 from jobs.reconciliations.machine import Known, read_known, stored_form
@@ -38,27 +38,29 @@ def accept_reconciliation(
     settings = request.model_dump(mode="json", exclude={"machine"})
     document = {"machine": stored_form(known), **settings}
     identifier = job_id(RECONCILIATION, document, f"{desk.engine.version} {METHOD_VERSION}")
-    if needs_work(desk.catalogue, identifier):
+    new_work = needs_work(desk.catalogue, identifier)
+    if new_work:
         check_queue(desk)
     now = desk.clock()
-    if key is not None:
-        reserve(desk, scope, key, body, identifier)
     name = known.name or "kinematics"
     preset = request.machine if isinstance(request.machine, str) else None
     cost = _cost(known, request, chosen.samples)
-    record, created = desk.catalogue.put(
-        identifier,
-        document,
-        first=lambda: transitions.new(
-            job_id=identifier,
-            kind=RECONCILIATION,
-            submitter=submitter,
-            source={"preset": preset, "machine": name, **settings},
-            cost=cost,
-            now=now,
-        ),
-        again=lambda present: transitions.submit_again(present, submitter, now),
-    )
+    with charged(desk, identifier, cost.seconds if new_work else None):
+        if key is not None:
+            reserve(desk, scope, key, body, identifier)
+        record, created = desk.catalogue.put(
+            identifier,
+            document,
+            first=lambda: transitions.new(
+                job_id=identifier,
+                kind=RECONCILIATION,
+                submitter=submitter,
+                source={"preset": preset, "machine": name, **settings},
+                cost=cost,
+                now=now,
+            ),
+            again=lambda present: transitions.submit_again(present, submitter, now),
+        )
     return Acceptance(record=hand_over(desk, record), created=created, replayed=False)
 
 

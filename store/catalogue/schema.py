@@ -85,6 +85,18 @@ keys = Table(
     Column("created_at", Float(53), nullable=False),
 )
 
+charges = Table(
+    "charges",
+    metadata,
+    Column("number", _SEQUENCE, primary_key=True, autoincrement=True),
+    Column("holder", String(120), nullable=False),
+    Column("job_id", String(32), nullable=False),
+    Column("core_seconds", Float(53), nullable=False),
+    Column("time", Float(53), nullable=False),
+    Index("charges_by_holder", "holder", "time"),
+    Index("charges_by_time", "time"),
+)
+
 workers = Table(
     "workers",
     metadata,
