@@ -19,8 +19,8 @@ DESCRIPTION = (
     "All values are SI; every quantity's name or neighbour states its unit. Errors are problem documents (RFC 9457)."
 )
 _KEY = (
-    "Needed as soon as the server can be reached from other machines. The role of an operation is the scope its key must "
-    "have. `X-API-Key: KEY` means the same as `Authorization: Bearer KEY`."
+    "Needed as soon as the server can be reached from other machines. The role of an operation is the scope its key "
+    "must have. `X-API-Key: KEY` means the same as `Authorization: Bearer KEY`."
 )
 _TEMPLATE = "#/components/schemas/{model}"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import zlib
 
-from sqlalchemy import Connection, Engine, delete, func, insert, select
+from sqlalchemy import BigInteger, Connection, Engine, delete, func, insert, literal, select
 
 from jobs.budget import WINDOW_S, Charge, wait_s
 from jobs.errors import BudgetSpent, BudgetTooSmall
@@ -32,7 +32,7 @@ class SqlLedger:
         with translated(), self._engine.begin() as connection:
             if self._engine.dialect.name == "postgresql":
                 lock = _LOCK + zlib.crc32(charge.holder.encode())
-                connection.execute(select(func.pg_advisory_xact_lock(lock)))
+                connection.execute(select(func.pg_advisory_xact_lock(literal(lock, BigInteger()))))
             connection.execute(delete(schema.charges).where(table.time <= charge.time - WINDOW_S))
             if limit is not None:
                 _check(connection, charge, limit)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import httpx
 import pytest
 
+from app.key_file import Key, parse_key_file
 from app.keys import digest_of, main
 from app.settings import Settings, parse_keys
 from sim.core.errors import SpecError
@@ -72,8 +73,38 @@ def test_loopback_needs_none(parts: Parts, host: str) -> None:
 
 def test_made_key_fits_its_entry(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["carl"]) == 0
-    key_line, entry_line = capsys.readouterr().out.splitlines()
+    key_line, file_line, entry_line = capsys.readouterr().out.splitlines()
     entry = entry_line.split("entry: ")[1]
+    in_file = parse_key_file(f'{{"keys": [{file_line.split("entry: ")[1]}]}}'.encode())
+    assert in_file == {digest_of(key_line.split(": ")[1]): Key(name="carl")}
     assert parse_keys(entry) == {digest_of(key_line.split(": ")[1]): "carl"}
     with pytest.raises(SpecError):
         parse_keys("carl:abc")
+
+
+def test_made_key_with_bounds_is_for_the_file_alone(capsys: pytest.CaptureFixture[str]) -> None:
+    bounds = [
+        "--scopes",
+        "read,submit",
+        "--days",
+        "90",
+        "--requests-per-minute",
+        "60",
+        "--core-seconds-per-day",
+        "3600",
+    ]
+    assert main(["carl", *bounds], now=1000.0) == 0
+    _, line = capsys.readouterr().out.splitlines()
+    (key,) = parse_key_file(f'{{"keys": [{line.split("entry: ")[1]}]}}'.encode()).values()
+    assert key.scopes == {"read", "submit"} and key.not_after == 1000.0 + 90 * 86400
+    assert (key.requests_per_minute, key.core_seconds_per_day) == (60, 3600.0)
+
+
+@pytest.mark.parametrize("wrong", [["a b"], ["ann", "--scopes", "read,rit"], ["ann", "--requests-per-minute", "0"]])
+def test_a_key_that_cannot_be_is_refused(wrong: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(wrong) == 2
+    told = capsys.readouterr()
+    assert not told.out and "allowed" in told.err
+    for days in ("0", "nan", "1e9"):
+        with pytest.raises(SystemExit):
+            main(["ann", "--days", days])

@@ -57,7 +57,10 @@ def test_workers_can_be_scaled_and_broker_keeps_what_it_accepts(compose: dict[st
 def test_only_loopback_is_published_and_keys_are_demanded(compose: dict[str, Any]) -> None:
     published = [port for service in compose["services"].values() for port in service.get("ports", [])]
     assert len(published) == 1 and published[0].startswith("127.0.0.1:")
-    assert ":?" in compose["services"]["api"]["environment"]["SIDEBAND_API_KEYS"]
+    environment = compose["services"]["api"]["environment"]
+    # It must be set, if only to nothing beside a file; the API itself refuses to start without any key.
+    assert environment["SIDEBAND_API_KEYS"].startswith("${SIDEBAND_API_KEYS?")
+    assert environment["SIDEBAND_HOST"] == "0.0.0.0" and "SIDEBAND_API_KEYS_FILE" in environment
 
 
 def test_containers_stand_by_what_the_image_is(compose: dict[str, Any]) -> None:
