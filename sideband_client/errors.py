@@ -5,7 +5,7 @@ ClientError
  +- BadReply               a reply this client does not understand, or bytes that do not match their digest
  +- Refused                the server said no; status, problem, detail, fields, retry_after_s
  |   +- BadRequest         400, 405, 415, 416: what was sent is not a request of this interface
- |   +- NotAllowed         401, 403, 421: a key is missing or wrong, or the server is not called by that name
+ |   +- NotAllowed         401, 403, 421: a key is missing, wrong or not for this; or a wrong host name
  |   +- NotFound           404: no such job, part or preset (also a LookupError)
  |   +- Conflict           409: the job's state does not allow this
  |   |   +- NotReady       409: the job has no result yet
@@ -13,7 +13,7 @@ ClientError
  |   +- TooLarge           413: the request's body
  |   +- InvalidRequest     422: `fields` names what must change (also a ValueError)
  |   |   +- KeyReused      422: the idempotency key was used with another request
- |   +- Busy               429: too much is waiting
+ |   +- Busy               429: too much is waiting, or a limit of the key is reached
  |   +- ServiceAway        503: broker or store away; nothing was accepted
  |   +- StorageFull        507: no space for the result
  |   +- ServerFault        any other status
@@ -80,7 +80,7 @@ class BadRequest(Refused):
 
 
 class NotAllowed(Refused):
-    """A key is missing or wrong."""
+    """A key is missing or wrong, has ended, or is not for this."""
 
 
 class NotFound(Refused, LookupError):

@@ -33,3 +33,8 @@ def test_numbers_are_taken_and_an_empty_text_is_the_default() -> None:
     assert settings.port == 8001
     assert settings.limits.steps == 2_000_000
     assert settings.limits.waiting_jobs == Settings.from_environment({}).limits.waiting_jobs
+
+
+def test_a_file_of_keys_makes_keys_needed_and_none_does_not() -> None:
+    assert Settings.from_environment({"SIDEBAND_API_KEYS_FILE": "keys.json"}).keys_required
+    assert not Settings.from_environment({"SIDEBAND_API_KEYS_FILE": ""}).keys_required

@@ -13,7 +13,8 @@ import pytest
 
 from jobs import run, transitions
 from jobs.accept import Desk
-from jobs.errors import IdempotencyConflict, ResultNotReady
+from jobs.budget import Budget
+from jobs.errors import BudgetSpent, IdempotencyConflict, ResultNotReady
 from jobs.limits import Limits
 from jobs.ports import Ticket
 from jobs.reconciliations import carry_out
@@ -32,6 +33,7 @@ from sim.core.response import Channel
 from store.artefacts.folder import FolderStore
 from store.catalogue import engine, schema
 from store.catalogue.catalogue import SqlCatalogue
+from store.catalogue.ledger import SqlLedger
 from tests.service.fakes import FakeEngine, analyse, machine
 
 KINEMATICS: dict[str, Any] = {
@@ -262,3 +264,22 @@ def test_progress_goes_through_the_parts_of_an_atlas(world: World, monkeypatch: 
     fractions = [fraction for fraction, _ in told]
     assert fractions == sorted(fractions) and len(set(fractions)) == 8 and fractions[-1] < 0.97
     assert not ResultReader(world.artefacts, f"{record.id}/1").has("machine")
+
+
+def test_what_is_accepted_is_charged_once_and_a_refusal_costs_nothing(world: World) -> None:
+    ledger = SqlLedger(world.catalogue.engine)
+    world.desk = replace(world.desk, budget=Budget(holder="me", core_seconds_per_day=24.0, ledger=ledger))
+    a = world.recording(1)
+    assert ledger.used("me", world.now) == 0, "reading a recording is not charged"
+    for _ in range(2):
+        record = world.ask([a], key="k")
+        assert ledger.used("me", world.now) == record.cost.seconds == 5.0
+    with pytest.raises(IdempotencyConflict):
+        world.ask([a], key="k", seed=1)
+    assert ledger.used("me", world.now) == 5.0
+    b = world.recording(2)
+    world.ask([a, b], seed=2)
+    with pytest.raises(BudgetSpent):
+        world.ask([a, b], key="late", seed=3)
+    world.desk = replace(world.desk, budget=None)
+    assert world.ask([a, b], key="late", seed=3).status is Status.ACCEPTED
