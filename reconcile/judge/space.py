@@ -125,10 +125,18 @@ def group_lengths(z: FloatArray, groups: np.ndarray) -> FloatArray:
     return np.stack([np.sum(compressed[:, groups == g] ** 2, axis=1) for g in range(count)], axis=1)
 
 
-def fit_space(changes: Changes, library: Library, *, seed: int, view: View | None = None) -> Fitted:
+def fit_space(
+    changes: Changes,
+    library: Library,
+    *,
+    seed: int,
+    view: View | None = None,
+    least: float = LEAST_OVERDISPERSION,
+) -> Fitted:
     """Whiten, learn what scatters, lay out the paths and the bank of nulls. `view`: the families if not given.
 
-    Rows of the nulls are the same machines in every view.
+    Rows of the nulls are the same machines in every view. `least` overdispersion: few effects simulated on few machines
+    look farther apart than they are.
     """
     whiten = whitening(changes.observed, changes.measured, changes.null, library.changes)
     view = view or changes.pooling
@@ -157,7 +165,7 @@ def fit_space(changes: Changes, library: Library, *, seed: int, view: View | Non
         null=null,
         resting=group_lengths(whiten(fresh), groups),
         groups=groups,
-        overdispersion=_softness(distances[seen], truth[seen]) if seen.size else 10.0,
+        overdispersion=max(least, _softness(distances[seen], truth[seen])) if seen.size else 10.0,
         own=distances[seen, truth[seen]] if seen.size else distances[np.arange(truth.size), truth],
         size=size[seen] if seen.size else size,
         visible=visible,

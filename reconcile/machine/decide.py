@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,9 +18,9 @@ ALSO_P = 0.05
 """A pattern counts only if the whole change is unusual too."""
 CLOSER_P = 0.2
 """Chance from which machines that agree with the baseline are asked: they see more than machines of the kind."""
-GLARING = 8.0
-"""Deviations of the most changed group of features from which a change needs no known pattern: beyond what mis-set
-parameters did on the development nulls."""
+GLARING = 14.0
+"""Deviations of the most changed group of features from which a change needs no known pattern: healthy machines with
+eight sensors reach 13."""
 STRANGE = 0.98
 """Quantile of the misfit among known effects above which no known effect is adequate."""
 STRUCK = 8.0
@@ -98,6 +98,11 @@ def chance(screen: Screen) -> float:
     pattern = screen.p_best if screen.p_any <= ALSO_P else 1.0
     glaring = screen.p_any if screen.strongest > GLARING else 1.0
     return min(1.0, LOOKS * min(pattern, glaring, screen.p_direct))
+
+
+def tempered(screen: Screen, first: Screen) -> Screen:
+    """A change is no more unusual for machines that agree with the baseline than it was for all of the kind."""
+    return replace(screen, strongest=min(screen.strongest, first.strongest))
 
 
 def remarkable(screen: Screen) -> bool:

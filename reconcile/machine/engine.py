@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -21,7 +21,7 @@ from reconcile.judge.changes import lenses, observed_changes
 from reconcile.judge.screen import judge
 from reconcile.judge.space import fit_space
 from reconcile.machine.answer import answer, fault_answer
-from reconcile.machine.decide import credible_set, merged_weights, plausible, remarkable
+from reconcile.machine.decide import credible_set, merged_weights, plausible, remarkable, tempered
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import around_baseline, first_heat, ordered_draws, second_heat, simulated_banks, told
@@ -38,6 +38,8 @@ from sim.core.spec import MachineSpec
 
 Progress = Callable[[float, str], None]
 REFINED_DRAWS = 8
+LEAST_OF_LINES = 4.0
+"""Overdispersion of single lines: that of sixteen effects on development cases was 4 to 8."""
 LEAST_TERMS = 5
 """Effects that are simulated at all their places, however far ahead the best is."""
 SECONDS = 3
@@ -95,16 +97,19 @@ def reconcile_machine(
     progress(0.6, "candidates")
     found = _screened(setting)
     fit: Mapping[str, object] = {}
+    screened = found
     if remarkable(found.screen):
         progress(0.62, "machines that agree with the baseline")
         local = around_baseline(setting, meter)
         if local is not None:
             progress(0.7, "candidates on these machines")
             fit = told(local)
-            setting, found = local.setting, _located(local.setting, found, plan, budget, meter)
+            setting = replace(local.setting, overdispersion=found.fitted.overdispersion)
+            found = _located(setting, found, plan, budget, meter)
         for turn in range(budget.rounds):
             progress(0.8 + 0.1 * turn / budget.rounds, "refining the best candidates")
             found = _refined(setting, found, budget, meter, turn)
+        found = replace(found, screen=tempered(found.screen, screened.screen))
     progress(0.9, "held-out data")
     cost = {"core_s": meter.spent_s(), "until_atlas_core_s": atlas_s, "budget": budget.name}
     report = answer(setting, found, gate, cost, fit)
@@ -150,9 +155,10 @@ def _setting(
 def _fit(setting: Setting, known: Catalogued) -> Found:
     """Families of features; on machines that agree with the baseline single lines beside them."""
     changes, direct = setting.changes, setting.direct
-    fitted = fit_space(changes, known.library, seed=setting.seed)
-    local = setting.fitted_machine is not None
-    fine = fit_space(changes, known.library, seed=setting.seed, view=changes.single) if local else None
+    fitted = fit_space(changes, known.library, seed=setting.seed, least=setting.overdispersion)
+    fine = None
+    if setting.fitted_machine is not None:
+        fine = fit_space(changes, known.library, seed=setting.seed, view=changes.single, least=LEAST_OF_LINES)
     views = (fitted,) if fine is None else (fitted, fine)
     screen = judge(views, changes.observed, direct.evidence, direct.p)
     return Found(known=known, fitted=fitted, screen=screen, fine=fine)

@@ -8,7 +8,7 @@ from reconcile.atlas.bank import Bank
 from reconcile.atlas.plan import AtlasPlan
 from reconcile.judge.changes import Changes, Lens
 from reconcile.judge.screen import Screen
-from reconcile.judge.space import Fitted
+from reconcile.judge.space import LEAST_OVERDISPERSION, Fitted
 from reconcile.machine.direct import NOTHING, Direct
 from reconcile.machine.library import Catalogued
 from reconcile.observe.observation import PointData
@@ -29,6 +29,8 @@ class Setting:
     changes: Changes
     seed: int
     direct: Direct = NOTHING
+    overdispersion: float = LEAST_OVERDISPERSION
+    """At least that of the atlas, whose many effects on many machines know it best."""
     fitted_machine: MachineSpec | None = None
     """The mean of the machines that agree with the baseline."""
 
