@@ -28,6 +28,7 @@ def statistics(line: np.ndarray, floor: np.ndarray) -> Statistics:
         total=floor[None] * 0.2 * CENTRES,
         band=shapes,
         depth=np.zeros((1, len(SHAPE_BANDS_HZ), 1)),
+        turn=np.zeros((1, len(SHAPE_BANDS_HZ), 1)),
         kurtosis=0 * shapes,
         skewness=0 * shapes,
         resolution_hz=RESOLUTION_HZ,

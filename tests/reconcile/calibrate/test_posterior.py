@@ -26,7 +26,7 @@ def bank(theta: np.ndarray) -> Bank:
     rest = np.zeros((n, CHANNELS, 1))
     return Bank(
         alive=np.ones(n, dtype=bool), line=10.0 ** (level / 10.0), floor=rest, total=rest, band=rest,
-        depth=rest[..., None], kurtosis=rest, skewness=rest, resolution_hz=1.0, duration_s=1.0,
+        depth=rest[..., None], turn=rest[..., None], kurtosis=rest, skewness=rest, resolution_hz=1.0, duration_s=1.0,
     )  # fmt: skip
 
 
@@ -78,10 +78,10 @@ def test_only_lines_that_stand_out_are_evidence() -> None:
     line[0, 3] = 1000.0
     rest = np.zeros((CHANNELS, 1))
     seen = Statistics(
-        line=line, floor=rest, total=rest, band=rest, depth=rest[..., None], kurtosis=rest, skewness=rest,
+        line=line, floor=rest, total=rest, band=rest, depth=rest[..., None], turn=rest[..., None], kurtosis=rest, skewness=rest,
         resolution_hz=1.0, duration_s=1.0,
     )  # fmt: skip
-    scale = Scale(line_noise=np.ones((CHANNELS, LINES)), depth_noise=np.ones(1))
+    scale = Scale(line_noise=np.ones((CHANNELS, LINES)), depth_noise=np.ones(1), turn_noise=np.ones((CHANNELS, 1, 1)))
     found = mesh_evidence([seen], [scale], [np.arange(1.0, LINES + 1)], np.ones(LINES, dtype=bool))
     assert found.channel.tolist() == [0] and found.line.tolist() == [3]
     assert found.levels_db[0] == pytest.approx(10 * np.log10(999.0))
