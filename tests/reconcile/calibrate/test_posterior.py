@@ -78,7 +78,8 @@ def test_only_lines_that_stand_out_are_evidence() -> None:
     line[0, 3] = 1000.0
     rest = np.zeros((CHANNELS, 1))
     seen = Statistics(
-        line=line, floor=rest, total=rest, band=rest, depth=rest[..., None], turn=rest[..., None], kurtosis=rest, skewness=rest,
+        line=line, floor=rest, total=rest, band=rest, depth=rest[..., None], turn=rest[..., None],
+        kurtosis=rest, skewness=rest,
         resolution_hz=1.0, duration_s=1.0,
     )  # fmt: skip
     scale = Scale(line_noise=np.ones((CHANNELS, LINES)), depth_noise=np.ones(1), turn_noise=np.ones((CHANNELS, 1, 1)))
