@@ -31,7 +31,7 @@ SET_WEIGHT = 0.9
 """The answer is the smallest set of candidates that carries this weight."""
 LEAST_EVIDENCE = 3.0
 """Log evidence a named cause needs over nothing missing."""
-FEW_VIEWS = 3
+FEW_VIEWS = 2
 """So few sensors and operating points together cannot exclude what explains half as much."""
 FEW_SHARE = 0.5
 GREAT = 25.0

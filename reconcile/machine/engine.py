@@ -38,6 +38,8 @@ from sim.core.spec import MachineSpec
 
 Progress = Callable[[float, str], None]
 REFINED_DRAWS = 8
+POINTS_OF_LINES = 2
+"""Operating points from which single lines have a pattern: at one, each meets its resonance by chance."""
 LEAST_OF_LINES = 4.0
 """Overdispersion of single lines: that of sixteen effects on development cases was 4 to 8."""
 LEAST_TERMS = 5
@@ -157,7 +159,7 @@ def _fit(setting: Setting, known: Catalogued) -> Found:
     changes, direct = setting.changes, setting.direct
     fitted = fit_space(changes, known.library, seed=setting.seed, least=setting.overdispersion)
     fine = None
-    if setting.fitted_machine is not None:
+    if setting.fitted_machine is not None and len(setting.data) >= POINTS_OF_LINES:
         fine = fit_space(changes, known.library, seed=setting.seed, view=changes.single, least=LEAST_OF_LINES)
     views = (fitted,) if fine is None else (fitted, fine)
     screen = judge(views, changes.observed, direct.evidence, direct.p)
