@@ -38,7 +38,7 @@ IMPACTS_FROM = 3
 UNMOVED = 4.0
 """Height of the fullest window of a mean turn that 14 concealed healthy cases of development reach."""
 PER_HEIGHT = 2.0
-MOST_TURNS = 8.0
+MOST_TURNS = 4.0
 """Of impacts once a turn alone: unbalance in a clearance and a rub strike as often."""
 MOST = 25.0
 """Log evidence beyond which more impacts prove no more."""
