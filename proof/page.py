@@ -57,13 +57,14 @@ can make the cases again. What was not detected stays in every denominator. Inte
 **Design.** {n_dev} cases for development, {n_sealed} sealed. The full crossing of one effect would be {laws} laws x 4
 severities x 27 combinations of (1, 3, 8) sensors, (30, 20, 10) dB and (1, 3, 5) speeds = {crossing} cases; {n_single}
 are planned: half at the target condition (3 sensors, 20 dB, 3 speeds, baseline), half over the rows of an orthogonal
-array. A case that was looked at has served: sealed cases up to s074 were run with earlier engines (up to s040: 0 of 11
-mechanisms at the target condition, s041 to s074: 1 of 6), then used for development, and are not counted. Counted are
-later ones, in their order, that need no atlas but those of the nominal machine at up to three speeds, each at its first
-run (`--budget quick`, physics 1.2.0). After s136 the engine was mended because of what these had shown: few effects
-simulated on few machines looked farther apart than they are (s124 named the wrong race; run again it names the right one and
-its place), and eight quiet sensors made a healthy machine's drift glaring (s106). Cases from s138 on ran with that. Later still
-impacts once a turn were halved as evidence, and single lines left out at one operating point: no case here was run with it.
+array. A case that was looked at has served: sealed cases up to s074 were run with earlier engines (up to s040: 0 of
+11 mechanisms at the target condition, s041 to s074: 1 of 6), then used for development, and are not counted. Counted
+are later ones, in their order, that need no atlas but those of the nominal machine at up to three speeds, each at its
+first run (`--budget quick`, physics 1.2.0). After s136 the engine was mended because of what these had shown: few
+effects simulated on few machines looked farther apart than they are (s124 named the wrong race; run again it names
+the right one and its place), and eight quiet sensors made a healthy machine's drift glaring (s106). Cases from s138
+on ran with that. Later still impacts once a turn were halved as evidence, and single lines left out at one operating
+point: no case here was run with it.
 """
 
 
