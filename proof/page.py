@@ -65,6 +65,11 @@ effects simulated on few machines looked farther apart than they are (s124 named
 the right one and its place), and eight quiet sensors made a healthy machine's drift glaring (s106). Cases from s138
 on ran with that. Later still impacts once a turn were halved as evidence, and single lines left out at one operating
 point: no case here was run with it.
+
+**In the test command.** Six further cases, of neither split, run from the generator to the verdict in `make test`
+(`tests/proof/test_small_cases.py`): nothing, four strong effects and a sensor fault at 30 Hz, three sensors, 20 dB,
+with 12 effects to choose from: the easy end. Their atlas stands beside them (`tests/proof/atlas`); where physics or
+atlas changed they fail and name the command that makes it again, `make proof-atlas`.
 """
 
 

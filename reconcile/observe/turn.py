@@ -15,9 +15,10 @@ from sim.core.errors import SpecError
 
 LOCAL = 2.0
 """A window of the mean turn is a place if it stands out this many times more than in the baseline."""
-TURNED = 200
 LOCAL_LEAST = 5.0
 """The same over the mean of its own turn: 14 concealed healthy cases of development reach 4.0, faulty teeth 6 to 39."""
+TURNED = 200
+"""Angles by which the halves are turned against each other for the chance of a height."""
 
 
 @dataclass(frozen=True, kw_only=True)

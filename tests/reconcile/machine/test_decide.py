@@ -18,6 +18,7 @@ from reconcile.machine.decide import (
     merged_weights,
     plausible,
     remarkable,
+    tempered,
     variants,
 )
 from reconcile.machine.words import next_experiment, sentence, title
@@ -193,3 +194,10 @@ def test_few_views_exclude_what_does_not_strike() -> None:
 
 def test_what_is_far_behind_is_not_simulated_again() -> None:
     assert plausible(screen([20.0, 9.0, 7.0])) == list(NAMES[:2])
+
+
+def test_fitted_machines_make_no_change_more_glaring_than_it_was() -> None:
+    first, local = screen([1.0], strongest=9.0, p_best=0.5), screen([1.0], strongest=30.0, p_best=0.5)
+    assert decide(local, views=9).word == "unknown_physics"
+    assert decide(tempered(local, first), views=9).word == "nothing_missing"
+    assert tempered(first, local).strongest == 9.0
