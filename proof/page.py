@@ -62,9 +62,9 @@ array. A case that was looked at has served: sealed cases up to s074 were run wi
 are later ones, in their order, that need no atlas but those of the nominal machine at up to three speeds, each at its
 first run (`--budget quick`, physics 1.2.0). After s136 the engine was mended because of what these had shown: few
 effects simulated on few machines looked farther apart than they are (s124 named the wrong race; run again it names
-the right one and its place), and eight quiet sensors made a healthy machine's drift glaring (s106). Cases from s138
-on ran with that. Later still impacts once a turn were halved as evidence, and single lines left out at one operating
-point: no case here was run with it.
+the right one and its place), and eight quiet sensors made a healthy machine's drift glaring (s106; run again it is
+not decidable, not yet nothing missing). Cases from s138 on ran with that. Later still impacts once a turn were halved
+as evidence, and single lines left out at one operating point: no case here was run with it.
 
 **In the test command.** Six further cases, of neither split, run from the generator to the verdict in `make test`
 (`tests/proof/test_small_cases.py`): nothing, four strong effects and a sensor fault at 30 Hz, three sensors, 20 dB,
