@@ -9,7 +9,8 @@ from reconcile.atlas.candidates import Candidate
 from reconcile.atlas.keep import Keeper
 from reconcile.driven import reconcile_driven
 from reconcile.kinematics import KinematicSpec, reconcile_kinematics
-from reconcile.machine.engine import QUICK, Budget, Progress, reconcile_machine
+from reconcile.machine.budget import QUICK, Budget
+from reconcile.machine.engine import Progress, reconcile_machine
 from reconcile.verdict import Report
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError

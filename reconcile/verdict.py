@@ -103,6 +103,8 @@ class HeldOut:
     placebo: float | None
     held: str = ""
     """What was held out: an unseen speed, load, a later time."""
+    ceiling: float | None = None
+    """Gain of a perfect model: drift between the recordings and noise stay, known from healthy machines."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -21,7 +21,7 @@ from app.cli.files import read_json
 from app.cli.parameters import read_parameters
 from reconcile.entry import reconcile_recordings
 from reconcile.kinematics import KinematicSpec, read_kinematic_spec
-from reconcile.machine.engine import BUDGETS
+from reconcile.machine.budget import BUDGETS
 from reconcile.report import write_report
 from signals.ingest import read_recording
 from sim.core.errors import Problem, SpecError

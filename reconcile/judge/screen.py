@@ -7,7 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reconcile.judge.adequacy import unmet
 from reconcile.judge.space import Fitted, group_lengths, squared_distances
+from reconcile.tail import tail_chance
 from signals.series import FloatArray
 
 OTHER_VIEW = 0.5
@@ -21,7 +23,9 @@ class Screen:
     `p_any`: chance of such a change in a healthy machine, by the most changed group of features (one point, channel
     and kind), `strongest` in standard deviations; `p_best`: by the best candidate's evidence; `p_direct`: by impacts.
     `by` (effects,): the view (0, 1) that speaks for each. `weights` sum to 1 over the effects.
-    `misfit`: quantile of the best distance among draws of known effects.
+    `misfit`: quantile of the best distance among draws of known effects; `unmet`: what the best leaves of single lines
+    over what its own draws leave of each other, 0 where that view is missing or nothing is left. `p_lines`: chance of
+    such a change of single lines, whatever its pattern.
     """
 
     names: tuple[str, ...]
@@ -35,6 +39,10 @@ class Screen:
     p_direct: float
     misfit: float
     length: float
+    unmet: float = 0.0
+    p_lines: float = 1.0
+    p_first: float = 1.0
+    """`p_best` among all machines of the kind, where the rest is of those that agree with the baseline."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,6 +97,7 @@ def judge(
     own = group_lengths(first.whiten(observed)[None], first.groups)
     strongest = float(_largest(own, first.resting)[0])
     count = resting.size + 1.0
+    best = first.paths.names[int(np.argmax(evidence))]
     return Screen(
         names=first.paths.names,
         evidence=evidence,
@@ -97,10 +106,12 @@ def judge(
         weights=np.exp(log) / np.exp(log).sum(),
         p_any=float((1 + np.sum(_largest(first.resting, first.resting) >= strongest)) / count),
         strongest=strongest,
-        p_best=float((1 + np.sum(resting >= patterns.max())) / count),
+        p_best=tail_chance(resting, float(patterns.max())),
         p_direct=p_direct,
         misfit=looks[int(by[int(np.argmax(evidence))])].misfit,
         length=looks[0].length,
+        unmet=unmet(views[1], observed, best) if len(views) > 1 else 0.0,
+        p_lines=tail_chance(np.sum(views[1].null ** 2, axis=1), looks[1].length) if len(views) > 1 else 1.0,
     )
 
 

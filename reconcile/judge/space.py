@@ -54,6 +54,12 @@ class Fitted:
     """(k,): squared length of the same draws."""
     visible: np.ndarray
     """(m,): draws larger than 95 % of the nulls."""
+    points: FloatArray
+    """(m, D): all draws."""
+    truth: np.ndarray
+    """(m,): number of the effect each is a draw of."""
+    apart: FloatArray
+    """(m,): squared distance of each to its own effect's path without it."""
 
     def place(self, changes: FloatArray) -> FloatArray:
         """(F,) -> (D,)."""
@@ -169,4 +175,7 @@ def fit_space(
         own=distances[seen, truth[seen]] if seen.size else distances[np.arange(truth.size), truth],
         size=size[seen] if seen.size else size,
         visible=visible,
+        points=points,
+        truth=truth,
+        apart=distances[np.arange(truth.size), truth],
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,7 +15,9 @@ from reconcile.verdict import HeldOut
 from signals.series import FloatArray
 from sim.terms import REGISTRY
 
-NEAREST = 3
+NEAREST = 5
+FARTHEST = 25.0
+"""Squared deviations of one feature that count at most."""
 STANDS_OUT_DB = 6.0
 BLOCKS = 40
 COPIES = 300
@@ -69,10 +71,22 @@ def _prediction(changes: FloatArray, rows: Sequence[int], split: Split, sigma: F
     drawn = changes[np.asarray(rows)]
     part = split.fit & np.isfinite(split.fitted) & np.isfinite(drawn).all(axis=0)
     away = (drawn[:, part] - split.fitted[part]) / sigma[part]
-    distance = np.mean(np.log1p(np.abs(away)) ** 2, axis=1)
+    distance = np.mean(np.minimum(away**2, FARTHEST), axis=1)
     best = np.argsort(distance)[:NEAREST]
     weights = 1.0 / np.maximum(distance[best], 1e-6)
     return np.asarray(weights @ drawn[best] / weights.sum())
+
+
+def _levels(split: Split, spectral: np.ndarray) -> Split:
+    """To fit an effect: levels of lines and bands alone, which are what is scored, where the fitted part has any."""
+    levels = split.fit & spectral & np.isfinite(split.fitted)
+    return replace(split, fit=levels) if levels.any() else split
+
+
+def _ceiling(before: FloatArray, ways: Sequence[Split], sigma: FloatArray) -> float:
+    """Gain of a perfect prediction, after which drift and noise stay (`sigma` (F,), dB)."""
+    stays = np.concatenate([sigma[w.score & np.isfinite(w.scored)] for w in ways])
+    return _gain(before, stays)
 
 
 def _retuned(null: FloatArray, split: Split, sigma: FloatArray) -> FloatArray:
@@ -116,7 +130,9 @@ def held_out(
     changes: Changes, known: Catalogued, name: str, *, spectral: np.ndarray, frequency: FloatArray, seed: int
 ) -> HeldOut:
     """Log-spectral distance before and after adding the effect, with a 90 % block-bootstrap interval of the gain."""
-    sigma = np.sqrt(np.nan_to_num(changes.measured, nan=10.0) ** 2 + 1.0)
+    noise = np.nan_to_num(changes.measured, nan=10.0) ** 2
+    drift = np.mean(np.nan_to_num(changes.null) ** 2, axis=0)
+    sigma, both = np.sqrt(noise + 1.0), np.sqrt(noise + drift + 1.0)
     ways, how = splits(changes, spectral)
     groups = known.library.groups
     term, site = name.split("@", maxsplit=1)[0], name.split("@")[1]
@@ -127,11 +143,13 @@ def held_out(
     for way in ways:
         nothing = np.zeros(changes.observed.size)
         before.append(_distance(way.scored, nothing, way))
-        after.append(_distance(way.scored, _prediction(known.library.changes, groups[name], way, sigma), way))
+        after.append(
+            _distance(way.scored, _prediction(known.library.changes, groups[name], _levels(way, spectral), both), way)
+        )
         retuned.append(_distance(way.scored, _retuned(changes.null, way, sigma), way))
         box.append(_distance(way.scored, _black_box(way, frequency, parameters), way))
         for k, other in enumerate(wrong):
-            guess = _prediction(known.library.changes, groups[other], way, sigma)
+            guess = _prediction(known.library.changes, groups[other], _levels(way, spectral), both)
             placebos[k].append(_distance(way.scored, guess, way))
     first = np.concatenate(before)
     low, high = _interval(before, after, np.random.default_rng([seed, 5]))
@@ -148,6 +166,7 @@ def held_out(
         black_box=_gain(first, np.concatenate(box)),
         placebo=float(np.median(gains)) if gains else None,
         held=how,
+        ceiling=_ceiling(first, ways, np.sqrt(noise + drift)),
     )
 
 

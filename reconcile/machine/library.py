@@ -45,11 +45,21 @@ def catalogued(
     *,
     with_baseline: bool,
 ) -> Catalogued:
-    """Rows of all candidates that could be simulated at every point, with their own healthy machines subtracted."""
+    """Rows of all candidates that could be simulated at every point, with their own healthy machines subtracted.
+
+    Against a baseline without what a machine has from its first day: it cannot have come since.
+    """
     alive = np.all([b.alive for b in banks], axis=0)
     rested = np.all([b.alive for b in healthy_banks], axis=0)
     first = {d.pair: k for k, d in enumerate(healthy_plan.draws) if d.candidate is None and not d.twin}
-    rows = [k for k, d in enumerate(plan.draws) if d.candidate is not None and alive[k] and rested[first[d.pair]]]
+    rows = [
+        k
+        for k, d in enumerate(plan.draws)
+        if d.candidate is not None
+        and alive[k]
+        and rested[first[d.pair]]
+        and not (with_baseline and _lasting(d.candidate.term))
+    ]
     if not rows:
         message = "no candidate effect could be simulated on this machine"
         raise SpecError(Problem(field="machine", message=message, allowed="a machine whose effects can be simulated"))
@@ -67,6 +77,11 @@ def catalogued(
         shares=np.array([share_of(plan.draws[k]) for k in rows]),
     )
     return Catalogued(library=library, terms=tuple(terms))
+
+
+def _lasting(key: str) -> bool:
+    term = REGISTRY.get(key)
+    return term is not None and term.lasting
 
 
 def joined(first: Catalogued, second: Catalogued) -> Catalogued:

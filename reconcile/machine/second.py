@@ -12,8 +12,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from reconcile.judge.screen import Look, looked
-from reconcile.machine.decide import DETECT_P, LEAST_EVIDENCE, LOOKS, SET_WEIGHT, STRANGE, STRUCK, Decision, variants
+from reconcile.machine.decide import (
+    DETECT_P,
+    LEAST_EVIDENCE,
+    LOOKS,
+    SET_WEIGHT,
+    STRANGE,
+    STRUCK,
+    UNMET,
+    Decision,
+    variants,
+)
 from reconcile.machine.setting import Found, Setting
+from reconcile.tail import tail_chance
 from signals.series import FloatArray
 from sim.terms import REGISTRY
 
@@ -57,7 +68,7 @@ def sure(found: Found, name: str) -> bool:
 def looks_for_second(found: Found) -> bool:
     """Whether impacts are sure and the change they bring is not all that changed."""
     best = found.screen.names[int(np.argmax(found.screen.evidence))]
-    return sure(found, best) and found.screen.misfit > LEFT
+    return sure(found, best) and (found.screen.misfit > LEFT or found.screen.unmet > UNMET)
 
 
 def beside(setting: Setting, found: Found, first: str) -> Beside | None:
@@ -75,7 +86,7 @@ def beside(setting: Setting, found: Found, first: str) -> Beside | None:
         left=left,
         names=tuple(found.fine.paths.names[k] for k in order),
         evidence=look.evidence[order],
-        p=min(1.0, LOOKS * float((1 + np.sum(null >= best)) / (null.size + 1))),
+        p=min(1.0, LOOKS * tail_chance(null, best)),
         misfit=look.misfit,
     )
 

@@ -121,9 +121,11 @@ def held_out_table(found: HeldOut | None) -> Markup:
         ("black box with as many parameters", "", percent(found.black_box)),
         ("placebo", "", percent(found.placebo)),
     ]
+    if found.ceiling is not None:
+        rows.append(("a perfect model: drift and noise stay", "", percent(found.ceiling)))
     said = tag("p", f"Held out: {found.held}. Measure: {found.metric}." if found.held else f"Measure: {found.metric}.")
     return Markup(
-        said + table(("model", found.metric, "gain over without it"), rows, [False, True, False, False, False])
+        said + table(("model", found.metric, "gain over without it"), rows, [False, True, *[False] * (len(rows) - 2)])
     )
 
 

@@ -103,6 +103,8 @@ class Term:
     """Keys that cannot act at the same site."""
     strikes: Literal["outer", "inner", "ball", "tooth"] | None = None
     """The part whose every passage gives an impact, for local defects; none for what acts all the time."""
+    lasting: bool = False
+    """A machine has it from its first day or never: it does not come between a baseline and a later recording."""
     repeats: str | None = None
     """Parameter that tells several effects of this kind at one site apart; none: one a site."""
     demo: Demo = field(default_factory=Demo)

@@ -57,6 +57,7 @@ TERM = Gravity(
     ),
     references=("standard acceleration of free fall, 3rd CGPM 1901",),
     severity="share",
+    lasting=True,
     order=20,
     validation=(
         Validation(

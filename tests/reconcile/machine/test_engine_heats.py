@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from reconcile.machine import engine
+from reconcile.machine import search
 from sim.core.errors import Problem, SpecError
 
 NAMES = (
@@ -24,28 +24,28 @@ EVIDENCE = np.array([40.0, 20.0, 6.0, 5.0, 4.0, 3.0, 2.0])
 
 def screened(misfit: float, direct: float) -> SimpleNamespace:
     shown = np.array([direct, *[0.0] * (len(NAMES) - 1)])
-    return SimpleNamespace(screen=SimpleNamespace(names=NAMES, evidence=EVIDENCE, direct=shown, misfit=misfit))
+    return SimpleNamespace(screen=SimpleNamespace(names=NAMES, evidence=EVIDENCE, direct=shown, misfit=misfit, unmet=0.0))
 
 
 def test_the_metric_gets_five_effects_however_far_ahead_the_best_is() -> None:
-    ranked = engine._with_others(screened(0.3, 25.0))  # type: ignore[arg-type]
+    ranked = search.with_others(screened(0.3, 25.0))  # type: ignore[arg-type]
     assert ranked == [*NAMES[:6]], "five effects, the best first, with the other place of the best"
 
 
 def test_what_strikes_nowhere_is_asked_where_something_is_left() -> None:
-    assert "rub@gear" in engine._with_others(screened(0.95, 25.0))  # type: ignore[arg-type]
-    assert "rub@gear" not in engine._with_others(screened(0.95, 2.0))  # type: ignore[arg-type]
+    assert "rub@gear" in search.with_others(screened(0.95, 25.0))  # type: ignore[arg-type]
+    assert "rub@gear" not in search.with_others(screened(0.95, 2.0))  # type: ignore[arg-type]
 
 
 def test_draws_of_which_none_runs_leave_what_was_known(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_args: object, **_how: object) -> None:
         raise SpecError(Problem(field="machine", message="no candidate effect could be simulated on this machine"))
 
-    monkeypatch.setattr(engine, "simulated_banks", lambda *_: ())
-    monkeypatch.setattr(engine, "catalogued", refuse)
+    monkeypatch.setattr(search, "simulated_banks", lambda *_: ())
+    monkeypatch.setattr(search, "catalogued", refuse)
     changes = SimpleNamespace(with_baseline=True)
     setting = SimpleNamespace(seen_through=(), plan=None, banks=(), changes=changes)
     known = SimpleNamespace(terms=())
-    assert engine._simulated(setting, None, map, known) is known  # type: ignore[arg-type]
+    assert search.simulated(setting, None, map, known) is known  # type: ignore[arg-type]
     with pytest.raises(SpecError):
-        engine._simulated(setting, None, map)  # type: ignore[arg-type]
+        search.simulated(setting, None, map)  # type: ignore[arg-type]

@@ -57,6 +57,7 @@ function heldOut(found) {
   const rows = [["Before", `${number(found.before)} ${unit(found.unit)}`], ["After", `${number(found.after)} ${unit(found.unit)}`],
     ["Gain (90 %)", `${percent(found.gain)} (${percent(found.gain_low)} to ${percent(found.gain_high)})`],
     ["Gain by retuning alone", percent(found.retuned)], ["Gain of a black box", percent(found.black_box)], ["Gain of a placebo", percent(found.placebo)]];
+  if (found.ceiling != null) rows.push(["Gain of a perfect model (drift and noise stay)", percent(found.ceiling)]);
   return card("Improvement on data never fitted", "held-out", h("p", { class: "muted" }, `${found.metric}${found.held ? `; held out: ${found.held}` : ""}`),
     table("Held-out data", ["", ""], rows));
 }

@@ -1,0 +1,23 @@
+"""How much a reconciliation may simulate beyond the atlas."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True, kw_only=True)
+class Budget:
+    """How much is simulated beyond the atlas, on machines that agree with the baseline: the best `terms` at all sites,
+    more of the best `candidates`, then the `effects` best near their best draws in each of `rounds`."""
+
+    name: Literal["quick", "full"]
+    terms: int
+    candidates: int
+    effects: int
+    rounds: int
+
+
+QUICK = Budget(name="quick", terms=12, candidates=6, effects=3, rounds=1)
+FULL = Budget(name="full", terms=100, candidates=20, effects=6, rounds=2)
+BUDGETS = {"quick": QUICK, "full": FULL}

@@ -1,0 +1,120 @@
+"""Which effects are simulated, on which machines, and what they say of the recordings."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from reconcile.atlas.bank import Mapper
+from reconcile.atlas.plan import AtlasPlan
+from reconcile.judge.screen import judge
+from reconcile.judge.space import fit_space
+from reconcile.machine.budget import Budget
+from reconcile.machine.decide import credible_set, merged_weights, plausible
+from reconcile.machine.library import Catalogued, catalogued, joined
+from reconcile.machine.local import first_heat, ordered_draws, second_heat, simulated_banks
+from reconcile.machine.refine import best_draws, refined_plan
+from reconcile.machine.second import beside, looks_for_second, strikes
+from reconcile.machine.setting import Found, Setting
+from sim.core.errors import SpecError
+
+REFINED_DRAWS = 8
+POINTS_OF_LINES = 2
+"""Operating points from which single lines have a pattern: at one, each meets its resonance by chance."""
+LEAST_OF_LINES = 4.0
+"""Overdispersion of single lines: that of sixteen effects on development cases was 4 to 8."""
+LEAST_TERMS = 5
+"""Effects that are simulated at all their places, however far ahead the best is."""
+SECONDS = 3
+"""Candidates for a second effect that are simulated with all their draws."""
+
+
+def fit_views(setting: Setting, known: Catalogued) -> Found:
+    """Families of features; on machines that agree with the baseline single lines beside them."""
+    changes, direct = setting.changes, setting.direct
+    fitted = fit_space(changes, known.library, seed=setting.seed, least=setting.overdispersion)
+    fine = None
+    if setting.fitted_machine is not None and len(setting.data) >= POINTS_OF_LINES:
+        fine = fit_space(changes, known.library, seed=setting.seed, view=changes.single, least=LEAST_OF_LINES)
+    views = (fitted,) if fine is None else (fitted, fine)
+    screen = judge(views, changes.observed, direct.evidence, direct.p)
+    return Found(known=known, fitted=fitted, screen=screen, fine=fine)
+
+
+def screen_atlas(setting: Setting) -> Found:
+    """All candidates of the atlas against what was observed."""
+    known = catalogued(
+        setting.plan,
+        setting.banks,
+        setting.seen_through,
+        setting.plan,
+        setting.banks,
+        with_baseline=setting.changes.with_baseline,
+    )
+    return fit_views(setting, known)
+
+
+def located(setting: Setting, screened: Found, atlas: AtlasPlan, budget: Budget, mapper: Mapper) -> Found:
+    """The best of the screened candidates, simulated on the setting's own machines alone, the best of them more."""
+    ranked = with_others(screened)
+    shown = [t for t, seen in zip(screened.known.terms, screened.fitted.visible, strict=True) if seen]
+    draws = ordered_draws(atlas, shown)
+    first = first_heat(setting.plan, ranked, draws, budget.terms)
+    known = simulated(setting, first, mapper)
+    found = fit_views(setting, known)
+    best = plausible(found.screen)[: budget.candidates]
+    if looks_for_second(found):
+        others = beside(setting, found, best[0])
+        best += [n for n in (others.names[:SECONDS] if others else ()) if n not in best]
+    second = second_heat(setting.plan, best, draws, first)
+    if not second.draws:
+        return found  # effects with one place only: the first heat had all of their draws
+    return fit_views(setting, simulated(setting, second, mapper, known))
+
+
+def with_others(screened: Found) -> list[str]:
+    """What is plausible, and so much more that the metric learns what differs; where impacts are sure and something is
+    left beside them, all that strikes nowhere."""
+    ranked = plausible(screened.screen)
+    names = screened.screen.names
+    rest = [names[k] for k in np.argsort(-screened.screen.evidence) if names[k] not in ranked]
+    second = looks_for_second(screened)
+    for name in rest:
+        known = {n.split("@")[0] for n in ranked}
+        if len(known) < LEAST_TERMS or name.split("@")[0] in known or (second and not strikes(name)):
+            ranked.append(name)
+    return ranked
+
+
+def simulated(setting: Setting, plan: AtlasPlan, mapper: Mapper, known: Catalogued | None = None) -> Catalogued:
+    """The plan's draws, with what was `known` before; that alone where none of them runs."""
+    banks = simulated_banks(setting, plan, mapper)
+    try:
+        more = catalogued(
+            plan,
+            banks,
+            setting.seen_through,
+            setting.plan,
+            setting.banks,
+            with_baseline=setting.changes.with_baseline,
+        )
+    except SpecError:
+        if known is None:
+            raise
+        return known
+    return more if known is None else joined(known, more)
+
+
+def refined(setting: Setting, found: Found, budget: Budget, mapper: Mapper, turn: int) -> Found:
+    """Simulate the leading candidates again near their best draws, and judge with both libraries."""
+    weights = merged_weights(found.screen)
+    leading = list(weights)[: budget.effects]
+    if len(credible_set(weights, 0.999)) == 1:
+        leading = leading[:2]
+    around = [(name, best_draws(found.view(name), found.known, name, setting.changes.observed)) for name in leading]
+    if found.fine is not None and looks_for_second(found):
+        others = beside(setting, found, leading[0])
+        names = [n for n in (others.names[:SECONDS] if others else ()) if n not in leading]
+        around += [(n, best_draws(found.fine, found.known, n, others.left)) for n in names if others]
+    pairs = len(setting.plan.offsets)
+    plan = refined_plan(setting.plan, around, draws=REFINED_DRAWS, pairs=pairs, seed=setting.seed + turn)
+    return fit_views(setting, simulated(setting, plan, mapper, found.known))
