@@ -96,7 +96,6 @@ def judge(
     resting = _together([look.null for look in looks]).max(axis=1)
     own = group_lengths(first.whiten(observed)[None], first.groups)
     strongest = float(_largest(own, first.resting)[0])
-    count = resting.size + 1.0
     best = first.paths.names[int(np.argmax(evidence))]
     return Screen(
         names=first.paths.names,
@@ -104,7 +103,7 @@ def judge(
         direct=shown,
         by=by,
         weights=np.exp(log) / np.exp(log).sum(),
-        p_any=float((1 + np.sum(_largest(first.resting, first.resting) >= strongest)) / count),
+        p_any=tail_chance(_largest(first.resting, first.resting), strongest),
         strongest=strongest,
         p_best=tail_chance(resting, float(patterns.max())),
         p_direct=p_direct,

@@ -39,7 +39,7 @@ NAMES = (
 def screen(evidence: list[float], names: tuple[str, ...] = NAMES, **how: float) -> Screen:
     values = np.array(evidence + [-5.0] * (len(names) - len(evidence)))
     weights = np.exp(values - values.max())
-    usual = {"p_any": 0.003, "strongest": 40.0, "p_best": 0.003, "p_direct": 1.0, "misfit": 0.4, "length": 90.0}
+    usual = {"p_any": 0.002, "strongest": 40.0, "p_best": 0.002, "p_direct": 1.0, "misfit": 0.4, "length": 90.0}
     return Screen(
         names=names,
         evidence=values,
@@ -91,11 +91,30 @@ def test_what_healthy_machines_show_too_is_nothing() -> None:
     assert decide(screen([20.0], p_best=0.3, strongest=GLARING + 1), views=9).word == "explained"
 
 
-def test_three_looks_cost_a_factor_of_three() -> None:
-    assert chance(screen([1.0], p_any=0.02, p_best=0.003, strongest=1.0)) == pytest.approx(0.009)
-    assert chance(screen([1.0], p_any=0.002, p_best=0.5)) == pytest.approx(0.006)
-    assert chance(screen([1.0], p_any=0.5, p_best=0.5, p_direct=1e-4)) == pytest.approx(3e-4)
+def test_four_looks_cost_a_factor_of_four() -> None:
+    assert chance(screen([1.0], p_any=0.02, p_best=0.002, strongest=1.0)) == pytest.approx(0.008)
+    assert chance(screen([1.0], p_any=0.002, p_best=0.5)) == pytest.approx(0.008)
+    assert chance(screen([1.0], p_any=0.5, p_best=0.5, p_direct=1e-4)) == pytest.approx(4e-4)
+    assert chance(screen([1.0], p_any=0.5, p_best=0.5, p_lines=1e-3)) == pytest.approx(4e-3)
     assert chance(screen([1.0], p_any=0.5, p_best=0.5, strongest=1.0)) == 1.0
+
+
+def test_a_pattern_that_stood_out_among_all_machines_needs_no_unusual_change() -> None:
+    assert chance(screen([1.0], p_any=0.3, p_best=0.002, p_first=0.001)) == pytest.approx(0.008)
+    assert chance(screen([1.0], p_any=0.3, p_best=0.002, p_first=0.1)) == 1.0
+
+
+def test_single_lines_that_the_best_effect_leaves_are_unknown_physics() -> None:
+    found = decide(screen([20.0, 9.0], unmet=2.1), views=9)
+    assert found.word == "unknown_physics" and "2.1 times" in found.reasons[0]
+    assert decide(screen([20.0, 9.0], unmet=1.0), views=9).word == "explained"
+    beside = decide(struck([30.0, 5.0], [20.0], unmet=3.0), views=9)
+    assert beside.word == "explained" and "left" in beside.reasons[0]
+
+
+def test_clear_single_lines_are_not_too_faint_to_tell() -> None:
+    assert decide(screen([1.0, 0.5], strongest=5.0, p_lines=0.01), views=9).word == "not_decidable"
+    assert decide(screen([1.0, 0.5], strongest=5.0, p_lines=1e-6), views=9).word == "unknown_physics"
 
 
 def test_forms_of_one_effect_count_together() -> None:
@@ -201,3 +220,4 @@ def test_fitted_machines_make_no_change_more_glaring_than_it_was() -> None:
     assert decide(local, views=9).word == "unknown_physics"
     assert decide(tempered(local, first), views=9).word == "nothing_missing"
     assert tempered(first, local).strongest == 9.0
+    assert tempered(local, replace(first, p_best=0.02)).p_first == 0.02

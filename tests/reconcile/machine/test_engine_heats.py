@@ -24,7 +24,9 @@ EVIDENCE = np.array([40.0, 20.0, 6.0, 5.0, 4.0, 3.0, 2.0])
 
 def screened(misfit: float, direct: float) -> SimpleNamespace:
     shown = np.array([direct, *[0.0] * (len(NAMES) - 1)])
-    return SimpleNamespace(screen=SimpleNamespace(names=NAMES, evidence=EVIDENCE, direct=shown, misfit=misfit, unmet=0.0))
+    return SimpleNamespace(
+        screen=SimpleNamespace(names=NAMES, evidence=EVIDENCE, direct=shown, misfit=misfit, unmet=0.0)
+    )
 
 
 def test_the_metric_gets_five_effects_however_far_ahead_the_best_is() -> None:

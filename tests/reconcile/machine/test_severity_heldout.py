@@ -104,6 +104,8 @@ def test_the_right_effect_explains_held_out_data_and_nothing_else_does(points: i
     assert right.gain_low > 0.8
     for rival in (right.retuned, right.black_box, right.placebo):
         assert rival is not None and rival < 0.3
+    stays = np.sqrt(0.5**2 + 1.0)  # noise and drift of the made-up machines, dB
+    assert right.ceiling == pytest.approx(1 - stays / right.before, abs=0.02)
     wrong = held_out(made, known, WRONG, **how)  # type: ignore[arg-type]
     assert wrong.gain < 0.3 and wrong.before == pytest.approx(right.before)
     assert wrong.placebo == pytest.approx(right.gain)
