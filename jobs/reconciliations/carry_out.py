@@ -16,7 +16,7 @@ from jobs.results import Manifest, json_bytes, put_file
 from reconcile.atlas.bank import Task
 from reconcile.atlas.keep import Keeper
 from reconcile.entry import reconcile_recordings
-from reconcile.machine.engine import BUDGETS
+from reconcile.machine.budget import BUDGETS
 from reconcile.observe.statistics import Statistics
 from reconcile.report import page, strict_json
 from reconcile.verdict import Report

@@ -38,6 +38,8 @@ class Draw:
     twin: bool = False
     candidate: Candidate | None = None
     term: TermSpec | None = None
+    also: Sequence[TermSpec] = ()
+    """Further terms of the same effect: a law of its own on another axis."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,7 +58,7 @@ class AtlasPlan:
         offsets = (self.twins if draw.twin else self.offsets)[draw.pair]
         machine = at_point(moved(self.machine, self.numbers, offsets), point)
         terms = slips(machine, self.seed, draw.pair) if draw.twin else ()
-        terms = terms if draw.term is None else (*terms, draw.term)
+        terms = terms if draw.term is None else (*terms, draw.term, *draw.also)
         if terms:
             machine = machine.model_copy(update={"terms": [*machine.terms, *terms]})
         return Member(machine=machine, seed=self.seed + 1000 * draw.pair + (1 if draw.twin else 0))

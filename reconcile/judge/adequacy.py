@@ -6,6 +6,8 @@ far apart on machines that differ, while draws of one effect on machines that ag
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from reconcile.judge.space import Fitted, squared_distances
@@ -17,17 +19,26 @@ USUAL = 0.95
 """Quantile of the healthy machines' lengths up to which what is left is nothing."""
 
 
-def unmet(fitted: Fitted, observed: FloatArray, effect: str) -> float:
-    """Squared distance from `observed` (F,) to the effect's path, over the median of the same of its nearest draws,
-    each without itself; 0 where what is left is no longer than what healthy machines show."""
+@dataclass(frozen=True, kw_only=True)
+class Rest:
+    """What an effect leaves. `unmet`: squared distance over what is usual, 0 where less than that is left. `kept`:
+    share of the squared change that the effect explains."""
+
+    unmet: float = 0.0
+    kept: float = 1.0
+
+
+def rest_of(fitted: Fitted, observed: FloatArray, effect: str) -> Rest:
+    """What is left of `observed` (F,) at the nearest point of the effect's path. Usual is the larger of the median of
+    the same of its nearest draws, each without itself, and of what healthy machines show."""
     owner = fitted.paths.names.index(effect)
     place = fitted.place(observed)
     left = float(fitted.paths.distances(place)[fitted.paths.owner == owner].min())
-    if left <= float(np.quantile(np.sum(fitted.null**2, axis=1), USUAL)):
-        return 0.0
+    kept = 1.0 - left / max(float(np.sum(place**2)), 1e-300)
+    usual = float(np.quantile(np.sum(fitted.null**2, axis=1), USUAL))
     mine = np.flatnonzero((fitted.truth == owner) & np.isfinite(fitted.apart))
-    if mine.size == 0:
-        return 0.0
+    if mine.size == 0 or left <= usual:
+        return Rest(kept=kept)
     away = squared_distances(fitted.points[mine], place[None])[:, 0]
     near = mine[np.argsort(away)[:NEAR]]
-    return left / max(float(np.median(fitted.apart[near])), 1e-9)
+    return Rest(unmet=left / max(float(np.median(fitted.apart[near])), usual), kept=kept)

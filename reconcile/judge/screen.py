@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from reconcile.judge.adequacy import unmet
+from reconcile.judge.adequacy import Rest, rest_of
 from reconcile.judge.space import Fitted, group_lengths, squared_distances
 from reconcile.tail import tail_chance
 from signals.series import FloatArray
@@ -23,8 +23,8 @@ class Screen:
     `p_any`: chance of such a change in a healthy machine, by the most changed group of features (one point, channel
     and kind), `strongest` in standard deviations; `p_best`: by the best candidate's evidence; `p_direct`: by impacts.
     `by` (effects,): the view (0, 1) that speaks for each. `weights` sum to 1 over the effects.
-    `misfit`: quantile of the best distance among draws of known effects; `unmet`: what the best leaves of single lines
-    over what its own draws leave of each other, 0 where that view is missing or nothing is left. `p_lines`: chance of
+    `misfit`: quantile of the best distance among draws of known effects; `rest`: what the best leaves of single lines,
+    nothing where that view is missing. `p_lines`: chance of
     such a change of single lines, whatever its pattern.
     """
 
@@ -39,7 +39,7 @@ class Screen:
     p_direct: float
     misfit: float
     length: float
-    unmet: float = 0.0
+    rest: Rest = field(default_factory=Rest)
     p_lines: float = 1.0
     p_first: float = 1.0
     """`p_best` among all machines of the kind, where the rest is of those that agree with the baseline."""
@@ -109,7 +109,7 @@ def judge(
         p_direct=p_direct,
         misfit=looks[int(by[int(np.argmax(evidence))])].misfit,
         length=looks[0].length,
-        unmet=unmet(views[1], observed, best) if len(views) > 1 else 0.0,
+        rest=rest_of(views[1], observed, best) if len(views) > 1 else Rest(),
         p_lines=tail_chance(np.sum(views[1].null ** 2, axis=1), looks[1].length) if len(views) > 1 else 1.0,
     )
 

@@ -14,8 +14,9 @@ from reconcile.machine.heldout import feature_frequencies, held_out, spectral_ma
 from reconcile.machine.pictures import line_changes, ranking, spectra, turn_map
 from reconcile.machine.second import fitted_change, second_effect
 from reconcile.machine.setting import Found, Setting
+from reconcile.machine.unknown import Unknown
 from reconcile.machine.window import angle_window
-from reconcile.machine.words import next_experiment, sentence, size, title
+from reconcile.machine.words import law_sentence, next_experiment, sentence, size, title
 from reconcile.observe.features import Layout
 from reconcile.observe.watch import WatchList, watch_list
 from reconcile.verdict import (
@@ -83,9 +84,14 @@ def _limits(setting: Setting) -> tuple[str, ...]:
 
 
 def answer(
-    setting: Setting, found: Found, gate: Gate, cost: Mapping[str, object], fit: Mapping[str, object] | None = None
+    setting: Setting,
+    found: Found,
+    gate: Gate,
+    cost: Mapping[str, object],
+    fit: Mapping[str, object] | None = None,
+    unknown: Unknown | None = None,
 ) -> Report:
-    """The report of a machine-level reconciliation."""
+    """The report of a machine-level reconciliation; `unknown`: what stage 6 says where no known effect is adequate."""
     observed = setting.changes.observed
     decision = decide(found.screen, views=len(setting.channels) * len(setting.data))
     watched = watch_list(setting.machine)
@@ -94,10 +100,12 @@ def answer(
     missing = decision.word != "nothing_missing"
     other = second_effect(setting, found, decision)
     causes = ranked_causes(found, decision, weights, observed, other) if missing else ()
-    held = _held(setting, found, decision, layout) if decision.chosen else None
+    held = _held(setting, found, decision, layout, unknown) if decision.chosen else None
     fitted = fitted_change(found, decision.chosen[0], observed) if decision.chosen else None
     severity: Severity | None = causes[0].severity if causes else None
     word, text, fault = decision.word, sentence(decision, severity, held), None
+    if unknown is not None:
+        text = f"{text} {law_sentence(unknown.force)}"
     if other is not None:
         text = f"{text} Beside it: {title(other[0])}{size(causes[1].severity)}."
     if gate.fault is not None and word in ("nothing_missing", "not_decidable") and not _doubtful(gate, setting, word):
@@ -122,7 +130,10 @@ def answer(
         held_out=held,
         undecidable=tuple(decision.reasons) if decision.word in ("ambiguous", "not_decidable") else (),
         next_experiment=next_experiment(decision.chosen, lead, len(setting.data), setting.channels),
-        machine=revised_document(setting, causes),
+        force=unknown.force if unknown is not None else None,
+        machine=revised_document(setting, causes)
+        if unknown is None or unknown.machine is None
+        else unknown.machine.model_dump(mode="json"),
         stages=_stages(setting, found, gate, decision, fit or {}),
         pictures={
             "spectra": spectra(setting.data, setting.seen_through, fitted, layout, setting.channels),
@@ -147,13 +158,13 @@ def _lead(found: Found, decision: Decision) -> float:
     return abs(first - second)
 
 
-def _held(setting: Setting, found: Found, decision: Decision, layout: Layout) -> HeldOut:
+def _held(setting: Setting, found: Found, decision: Decision, layout: Layout, unknown: Unknown | None) -> HeldOut:
     lines = [d.lines_hz for d in setting.data]
     count = len(setting.channels)
     return held_out(
         setting.changes,
-        found.known,
-        decision.chosen[0],
+        found.known if unknown is None or unknown.known is None else unknown.known,
+        decision.chosen[0] if unknown is None or unknown.label is None else unknown.label,
         spectral=spectral_mask(layout, setting.seen_through),
         frequency=feature_frequencies(layout, lines, count),
         seed=setting.seed,

@@ -9,15 +9,17 @@ from typing import Literal
 @dataclass(frozen=True, kw_only=True)
 class Budget:
     """How much is simulated beyond the atlas, on machines that agree with the baseline: the best `terms` at all sites,
-    more of the best `candidates`, then the `effects` best near their best draws in each of `rounds`."""
+    more of the best `candidates`, then the `effects` best near their best draws in each of `rounds`. Where
+    no known effect is adequate force laws are tried at the likeliest `supports` bearings."""
 
     name: Literal["quick", "full"]
     terms: int
     candidates: int
     effects: int
     rounds: int
+    supports: int
 
 
-QUICK = Budget(name="quick", terms=12, candidates=6, effects=3, rounds=1)
-FULL = Budget(name="full", terms=100, candidates=20, effects=6, rounds=2)
+QUICK = Budget(name="quick", terms=12, candidates=6, effects=3, rounds=1, supports=0)
+FULL = Budget(name="full", terms=100, candidates=20, effects=6, rounds=2, supports=2)
 BUDGETS = {"quick": QUICK, "full": FULL}

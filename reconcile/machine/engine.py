@@ -17,12 +17,13 @@ from reconcile.gate.spoiled import without_spoiled
 from reconcile.judge.changes import lenses, observed_changes
 from reconcile.machine.answer import answer, fault_answer
 from reconcile.machine.budget import QUICK, Budget
-from reconcile.machine.decide import remarkable, tempered
+from reconcile.machine.decide import decide, remarkable, tempered
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
 from reconcile.machine.search import fit_views, located, refined, screen_atlas
 from reconcile.machine.setting import Found, Setting
+from reconcile.machine.unknown import Unknown, unknown_force
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import watch_list
 from reconcile.verdict import Report
@@ -67,9 +68,11 @@ def reconcile_machine(
     atlas_s = meter.spent_s()
     progress(0.6, "candidates")
     setting, found, fit = _answered(setting, budget, meter, progress)
-    progress(0.9, "held-out data")
+    progress(0.9, "laws that nobody listed")
+    unknown = _force(setting, found, budget, meter)
+    progress(0.95, "held-out data")
     cost = {"core_s": meter.spent_s(), "until_atlas_core_s": atlas_s, "budget": budget.name}
-    report = answer(setting, found, gate, cost, fit)
+    report = answer(setting, found, gate, cost, fit, unknown)
     progress(1.0, "done")
     return report
 
@@ -97,6 +100,11 @@ def _answered(
         found = refined(closer, found, budget, meter, turn)
     found = replace(found, screen=tempered(found.screen, atlas.screen))
     return closer, found, told(local) if local is not None else {}
+
+
+def _force(setting: Setting, found: Found, budget: Budget, meter: Meter) -> Unknown | None:
+    decision = decide(found.screen, views=len(setting.channels) * len(setting.data))
+    return unknown_force(setting, found, budget.supports, meter) if decision.word == "unknown_physics" else None
 
 
 def _gate(machine: MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording], seed: int) -> Gate:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reconcile.judge.adequacy import rest_of
 from reconcile.judge.screen import Look, looked
 from reconcile.machine.decide import (
     DETECT_P,
@@ -19,8 +20,8 @@ from reconcile.machine.decide import (
     SET_WEIGHT,
     STRANGE,
     STRUCK,
-    UNMET,
     Decision,
+    leaves_lines,
     variants,
 )
 from reconcile.machine.setting import Found, Setting
@@ -28,6 +29,9 @@ from reconcile.tail import tail_chance
 from signals.series import FloatArray
 from sim.terms import REGISTRY
 
+LEAST_KEPT = 0.5
+"""Share of what is left of the single lines that a second effect must explain: named first ones explain 0.55 to 0.8, and
+not all effects are simulated."""
 LEFT = 0.9
 """Quantile of the misfit above which something besides the best effect is looked for."""
 
@@ -68,7 +72,7 @@ def sure(found: Found, name: str) -> bool:
 def looks_for_second(found: Found) -> bool:
     """Whether impacts are sure and the change they bring is not all that changed."""
     best = found.screen.names[int(np.argmax(found.screen.evidence))]
-    return sure(found, best) and (found.screen.misfit > LEFT or found.screen.unmet > UNMET)
+    return sure(found, best) and (found.screen.misfit > LEFT or leaves_lines(found.screen.rest))
 
 
 def beside(setting: Setting, found: Found, first: str) -> Beside | None:
@@ -97,6 +101,8 @@ def second_effect(setting: Setting, found: Found, decision: Decision) -> tuple[s
         return None
     seen = beside(setting, found, decision.chosen[0])
     if seen is None or seen.p > DETECT_P or seen.misfit > STRANGE or seen.evidence[0] < LEAST_EVIDENCE:
+        return None
+    if found.fine is None or rest_of(found.fine, seen.left, seen.names[0]).kept < LEAST_KEPT:
         return None
     weights = np.exp(seen.evidence - seen.evidence[0])
     forms = np.array([n == seen.names[0] or variants(n, seen.names[0]) for n in seen.names])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from reconcile.machine.decide import Decision
-from reconcile.verdict import HeldOut, NextExperiment, Severity
+from reconcile.verdict import EstimatedForce, HeldOut, NextExperiment, Severity
 from sim.terms import REGISTRY
 
 
@@ -22,6 +22,13 @@ def size(severity: Severity | None) -> str:
         return ""
     unit = "" if severity.unit == "1" else f" {severity.unit}"
     return f", {severity.name} {severity.value:.3g}{unit} (90 %: {severity.low:.2g} to {severity.high:.2g})"
+
+
+def law_sentence(force: EstimatedForce) -> str:
+    """What stage 6 found."""
+    if force.law is None:
+        return f"It acts most likely at {force.site}; no force law that was tried there brings it about."
+    return f"A force at {force.site} brings it about: {force.law}."
 
 
 def sentence(decision: Decision, severity: Severity | None, held: HeldOut | None) -> str:

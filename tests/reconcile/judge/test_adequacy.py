@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from reconcile.judge.adequacy import unmet
+from reconcile.judge.adequacy import Rest, rest_of
 from reconcile.judge.paths import build_paths
 
 SIZE = 30
@@ -36,21 +36,23 @@ def seen(gear: float, other: float) -> np.ndarray:
 
 
 def test_the_right_effect_leaves_what_its_own_draws_leave() -> None:
-    assert unmet(space(1.0), seen(9.0, 0.0), "rub@gear") < 1.6  # type: ignore[arg-type]
+    assert rest_of(space(1.0), seen(9.0, 0.0), "rub@gear").unmet < 1.6  # type: ignore[arg-type]
 
 
 def test_another_direction_stays() -> None:
-    assert unmet(space(1.0), seen(9.0, 12.0), "rub@gear") > 3.0  # type: ignore[arg-type]
-    assert unmet(space(1.0), seen(9.0, 0.0), "rub@pinion") > 1.6  # type: ignore[arg-type]
+    half = rest_of(space(0.1), seen(9.0, 9.0), "rub@gear")  # type: ignore[arg-type]
+    assert half.kept == pytest.approx(0.5, abs=0.2)
+    assert rest_of(space(1.0), seen(9.0, 12.0), "rub@gear").unmet > 3.0  # type: ignore[arg-type]
+    assert rest_of(space(1.0), seen(9.0, 0.0), "rub@pinion").unmet > 1.6  # type: ignore[arg-type]
 
 
 def test_what_healthy_machines_show_is_nothing_left() -> None:
     exact = space(1.0)
-    assert unmet(exact, exact.points[4], "rub@gear") == 0.0  # type: ignore[arg-type]
+    assert rest_of(exact, exact.points[4], "rub@gear") == Rest(unmet=0.0, kept=pytest.approx(1.0))  # type: ignore[arg-type]
 
 
 def test_draws_that_lie_far_apart_forgive_more() -> None:
-    lone, wide = (unmet(space(s), seen(9.0, 12.0), "rub@gear") for s in (1.0, 3.0))  # type: ignore[arg-type]
+    lone, wide = (rest_of(space(s), seen(9.0, 12.0), "rub@gear").unmet for s in (1.0, 3.0))  # type: ignore[arg-type]
     assert lone > 2.0 * wide
 
 
@@ -58,4 +60,4 @@ def test_draws_that_lie_far_apart_forgive_more() -> None:
 def test_without_own_distances_nothing_can_be_said(effect: str) -> None:
     blind = space(1.0)
     blind.apart = np.full(16, np.inf)
-    assert unmet(blind, seen(9.0, 12.0), effect) == 0.0  # type: ignore[arg-type]
+    assert rest_of(blind, seen(9.0, 12.0), effect).unmet == 0.0  # type: ignore[arg-type]

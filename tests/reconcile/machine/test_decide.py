@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from reconcile.judge.adequacy import Rest
 from reconcile.judge.screen import Screen
 from reconcile.machine.decide import (
     GLARING,
@@ -36,7 +37,7 @@ NAMES = (
 )
 
 
-def screen(evidence: list[float], names: tuple[str, ...] = NAMES, **how: float) -> Screen:
+def screen(evidence: list[float], names: tuple[str, ...] = NAMES, **how: object) -> Screen:
     values = np.array(evidence + [-5.0] * (len(names) - len(evidence)))
     weights = np.exp(values - values.max())
     usual = {"p_any": 0.002, "strongest": 40.0, "p_best": 0.002, "p_direct": 1.0, "misfit": 0.4, "length": 90.0}
@@ -100,15 +101,18 @@ def test_four_looks_cost_a_factor_of_four() -> None:
 
 
 def test_a_pattern_that_stood_out_among_all_machines_needs_no_unusual_change() -> None:
-    assert chance(screen([1.0], p_any=0.3, p_best=0.002, p_first=0.001)) == pytest.approx(0.008)
+    assert chance(screen([1.0], p_any=0.3, p_best=0.002, p_first=0.001)) == pytest.approx(0.004)
+    assert chance(screen([1.0], p_any=0.3, p_best=0.03, p_first=0.001)) == pytest.approx(0.004)
+    assert chance(screen([1.0], p_any=0.3, p_best=0.3, p_first=0.001)) == 1.0
     assert chance(screen([1.0], p_any=0.3, p_best=0.002, p_first=0.1)) == 1.0
 
 
 def test_single_lines_that_the_best_effect_leaves_are_unknown_physics() -> None:
-    found = decide(screen([20.0, 9.0], unmet=2.1), views=9)
+    found = decide(screen([20.0, 9.0], rest=Rest(unmet=2.1, kept=0.3)), views=9)
     assert found.word == "unknown_physics" and "2.1 times" in found.reasons[0]
-    assert decide(screen([20.0, 9.0], unmet=1.0), views=9).word == "explained"
-    beside = decide(struck([30.0, 5.0], [20.0], unmet=3.0), views=9)
+    assert decide(screen([20.0, 9.0], rest=Rest(unmet=1.0, kept=0.3)), views=9).word == "explained"
+    assert decide(screen([20.0, 9.0], rest=Rest(unmet=4.5, kept=0.65)), views=9).word == "explained"
+    beside = decide(struck([30.0, 5.0], [20.0], rest=Rest(unmet=3.0, kept=0.3)), views=9)
     assert beside.word == "explained" and "left" in beside.reasons[0]
 
 
@@ -183,7 +187,7 @@ def test_a_closer_look_is_taken_only_where_something_is_unusual() -> None:
     assert remarkable(screen([1.0], p_any=0.01, p_best=0.5)) and remarkable(screen([1.0], p_any=0.5, p_best=0.01))
 
 
-def struck(evidence: list[float], direct: list[float], **how: float) -> Screen:
+def struck(evidence: list[float], direct: list[float], **how: object) -> Screen:
     made = screen(evidence, **how)
     shown = np.array(direct + [0.0] * (len(NAMES) - len(direct)))
     return replace(made, direct=shown)

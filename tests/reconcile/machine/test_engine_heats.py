@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from reconcile.judge.adequacy import Rest
 from reconcile.machine import search
 from sim.core.errors import Problem, SpecError
 
@@ -25,7 +26,7 @@ EVIDENCE = np.array([40.0, 20.0, 6.0, 5.0, 4.0, 3.0, 2.0])
 def screened(misfit: float, direct: float) -> SimpleNamespace:
     shown = np.array([direct, *[0.0] * (len(NAMES) - 1)])
     return SimpleNamespace(
-        screen=SimpleNamespace(names=NAMES, evidence=EVIDENCE, direct=shown, misfit=misfit, unmet=0.0)
+        screen=SimpleNamespace(names=NAMES, evidence=EVIDENCE, direct=shown, misfit=misfit, rest=Rest())
     )
 
 
