@@ -30,8 +30,8 @@ from signals.series import FloatArray
 from sim.terms import REGISTRY
 
 LEAST_KEPT = 0.5
-"""Share of what is left of the single lines that a second effect must explain: named first ones explain 0.55 to 0.8, and
-not all effects are simulated."""
+"""Share of what is left of the single lines that a second effect must explain: named first ones explain 0.55 to 0.8,
+and not all effects are simulated."""
 LEFT = 0.9
 """Quantile of the misfit above which something besides the best effect is looked for."""
 
