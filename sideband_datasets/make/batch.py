@@ -84,7 +84,7 @@ def _simulated(
     plan: Plan, group: Sequence[_Ready], cancelled: Callable[[], bool] | None
 ) -> Iterator[tuple[int, Made | Failure]]:
     responses = simulate_many(
-        [Member(machine=one.drawing.spec, seed=one.drawing.seed) for one in group],
+        [Member(machine=one.drawing.spec, seed=one.drawing.seed, system=one.system) for one in group],
         duration_s=plan.recipe.settle_s + plan.recipe.duration_s,
         output_rate_hz=plan.recipe.sampling_rate_hz,
         channels=group[0].outputs,

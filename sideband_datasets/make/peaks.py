@@ -11,6 +11,7 @@ import numpy as np
 from sideband_datasets.make.batch import Made
 from sideband_datasets.recipe.model import Peaks
 from sideband_datasets.row import Peak
+from signals.labels.canonical import Candidate, merge_lines
 from signals.labels.families import kinematic_lines
 from signals.labels.kinematics import Kinematics
 from signals.labels.machine import machine_kinematics
@@ -36,6 +37,7 @@ class Predicted:
     """What the lines of a recording are predicted from; `mechanisms` are those of its fault."""
 
     lines: Sequence[Line]
+    merged: Sequence[Candidate]
     kinematics: Kinematics
     step_hz: float
     mechanisms: frozenset[str]
@@ -48,7 +50,13 @@ def predicted(made: Made, bases_hz: Mapping[str, float]) -> Predicted | None:
     kinematics = machine_kinematics(made.drawing.spec, bases_hz)
     lines = [*kinematic_lines(kinematics, bases_hz, max_frequency_hz=math.inf), *made.system.lines]
     effects = frozenset(effect.term for effect in made.drawing.effects)
-    return Predicted(lines=lines, kinematics=kinematics, step_hz=1.0 / made.response.quality.step_s, mechanisms=effects)
+    return Predicted(
+        lines=lines,
+        merged=merge_lines(lines, bases_hz, kinematics),
+        kinematics=kinematics,
+        step_hz=1.0 / made.response.quality.step_s,
+        mechanisms=effects,
+    )
 
 
 def steady(series: Series, made: Made) -> bool:
@@ -77,6 +85,7 @@ def peaks_of(
             reference=REFERENCE,
             max_unexplained=0,
             step_hz=known.step_hz,
+            merged=known.merged,
         )
         found += [_peak(peak, name) for peak in _kept(labels.peaks, known, wanted.most)]
     return tuple(found)

@@ -19,8 +19,8 @@ from sim.solve.step_choice import run_cost
 LANES_GAIN = 3.0
 """The solver's own estimate of a single run over what a recording takes in lanes that are nearly full: 3.0 on the
 bearing rig and the rotor, less on the gearbox where classes do not fill them."""
-SECONDS_PER_BASE = 8e-3
-"""Of labelling one spectrum, for each base frequency: 0.077 s for 9, 0.152 s for 19."""
+SECONDS_PER_BASE = 3.5e-3
+"""Of labelling one spectrum, for each base frequency: 0.022 s for 9, 0.097 s for 19."""
 SECONDS_PER_SAMPLE = 2e-6
 """Of one channel: sensors, features, writing."""
 SECONDS_TO_START = 15.0

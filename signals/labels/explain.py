@@ -138,50 +138,81 @@ def neighbourhood_hz(frequency_hz: float, resolution_hz: float) -> float:
     return max(0.05 * frequency_hz, 100 * resolution_hz)
 
 
-def displaced(found: FoundPeaks, resolution_hz: float, top_hz: float, *, round_: int) -> FloatArray:
-    """The peaks moved within their neighbourhoods to places without meaning, the same every time, Hz."""
-    numbers = np.arange(found.frequency_hz.size) + round_ * found.frequency_hz.size + 1
+def displaced(found: FoundPeaks, resolution_hz: float, top_hz: float) -> FloatArray:
+    """The peaks moved within their neighbourhoods to places without meaning, the same every time, Hz; shape (rounds,
+    peaks), `PLACES` of them at least.
+    """
+    peaks = found.frequency_hz.size
+    numbers = np.arange(max(1, -(-PLACES // peaks)) * peaks).reshape(-1, peaks) + 1
     share = 2 * np.mod(numbers * GOLDEN, 1.0) - 1
-    half = np.array([neighbourhood_hz(f, resolution_hz) for f in found.frequency_hz])
+    half = np.maximum(0.05 * found.frequency_hz, 100 * resolution_hz)
     moved = np.abs(found.frequency_hz + share * half)
     return np.asarray(np.where(moved > top_hz, 2 * top_hz - moved, moved), dtype=np.float64)
 
 
-def _rounds(found: FoundPeaks) -> int:
-    return max(1, -(-PLACES // found.frequency_hz.size))
+@dataclass(frozen=True, kw_only=True)
+class Displaced:
+    """What explains peaks that were moved anywhere: the sum that `explained_by` tries first (-1: none within reach) and
+    its chance; shape (rounds, peaks).
+    """
+
+    first: IntArray
+    chance: FloatArray
+
+    def share(self, max_chance: float, proven: BoolArray | None = None) -> float:
+        """Share of displaced peaks that the combinations explain; with `proven` (sums,) those of them that count."""
+        if not self.first.size:
+            return 0.0
+        hit = (self.first >= 0) & (self.chance <= max_chance)
+        if proven is not None:
+            hit &= proven[self.first]
+        return float(np.mean(np.mean(hit, axis=1)))
 
 
-def measured_chance(
-    sums: Sums,
-    found: FoundPeaks,
-    reach_hz: FloatArray,
-    *,
-    resolution_hz: float,
-    top_hz: float,
-    max_chance: float,
-    proven: BoolArray | None = None,
-) -> float:
-    """Share of displaced peaks that the combinations explain; with `proven` (sums,) those of them that count."""
+def displaced_peaks(
+    sums: Sums, found: FoundPeaks, reach_hz: FloatArray, *, resolution_hz: float, top_hz: float
+) -> Displaced:
+    """The first sums of displaced peaks; `explained_by` for thousands of places, without the sums behind the first."""
     if not found.frequency_hz.size or not sums.rank.size:
-        return 0.0
-    hits = []
-    for i in range(_rounds(found)):
-        moved = displaced(found, resolution_hz, top_hz, round_=i)
-        owners, _ = explained_by(sums, moved, reach_hz, resolution_hz=resolution_hz, max_chance=max_chance)
-        hits.append(np.mean([bool(o) and (proven is None or bool(proven[o[0]])) for o in owners]))
-    return float(np.mean(hits))
+        return Displaced(first=np.zeros((0, 0), dtype=np.int64), chance=np.zeros((0, 0)))
+    moved = displaced(found, resolution_hz, top_hz)
+    places, reach = moved.ravel(), np.tile(reach_hz, len(moved))
+    first = _first_within(sums, places, reach)
+    chance = np.ones(places.size)
+    half = np.maximum(0.05 * places, 100 * resolution_hz)
+    width = half + np.minimum(half, places)
+    met = first >= 0
+    ranks = sums.rank[first]
+    for rank in np.unique(ranks[met]):
+        at = np.flatnonzero(met & (ranks == rank))
+        light = sums.frequency_hz[sums.rank <= rank]
+        ends = np.searchsorted(light, (places[at] - half[at], places[at] + half[at]))
+        chance[at] = -np.expm1(-2 * reach[at] * (ends[1] - ends[0]) / width[at])
+    return Displaced(first=first.reshape(moved.shape), chance=chance.reshape(moved.shape))
 
 
-def bounded_chance(
-    sums: Sums, found: FoundPeaks, reach_hz: FloatArray, *, resolution_hz: float, top_hz: float, max_chance: float
-) -> tuple[float, float]:
+def _first_within(sums: Sums, places_hz: FloatArray, reach_hz: FloatArray) -> IntArray:
+    """Of the sums within reach of each place the one of lowest rank, of those the nearest; -1 where there is none."""
+    low, high = np.searchsorted(sums.frequency_hz, (places_hz - reach_hz, places_hz + reach_hz))
+    counts = np.maximum(high - low, 0)
+    place = np.repeat(np.arange(places_hz.size), counts)
+    begins = np.cumsum(counts) - counts
+    each = np.arange(place.size) - begins[place] + low[place]
+    order = np.lexsort((np.abs(sums.frequency_hz[each] - places_hz[place]), sums.rank[each], place))
+    some = np.flatnonzero(counts)
+    first = np.full(places_hz.size, -1, dtype=np.int64)
+    first[some] = each[order[begins[some]]]
+    return first
+
+
+def bounded_chance(moved: Displaced, max_chance: float) -> tuple[float, float]:
     """A limit on the chance that keeps the measured share of false matches within `max_chance`, and that share.
 
     Sums crowd near multiples of each other, so the share can exceed the limit by a little; the limit is then lowered.
     """
     limit = max_chance
     for _ in range(TRIALS):
-        share = measured_chance(sums, found, reach_hz, resolution_hz=resolution_hz, top_hz=top_hz, max_chance=limit)
+        share = moved.share(limit)
         if share <= max_chance:
             return limit, share
         limit *= 0.9 * max_chance / share
@@ -194,9 +225,6 @@ def measured_hits(
     """Share of displaced peaks that some predicted line (sorted, Hz) reaches."""
     if not found.frequency_hz.size or not predicted_hz.size:
         return 0.0
-    hits: list[BoolArray] = []
-    for i in range(_rounds(found)):
-        moved = displaced(found, resolution_hz, top_hz, round_=i)
-        low = np.searchsorted(predicted_hz, moved - reach_hz)
-        hits.append(np.asarray(np.searchsorted(predicted_hz, moved + reach_hz, side="right") > low))
-    return float(np.mean(hits))
+    moved = displaced(found, resolution_hz, top_hz)
+    low = np.searchsorted(predicted_hz, moved - reach_hz)
+    return float(np.mean(np.searchsorted(predicted_hz, moved + reach_hz, side="right") > low))

@@ -11,7 +11,7 @@ from signals.floor import FloorSettings
 from signals.labels.canonical import Candidate, inside, merge_lines
 from signals.labels.entries import Scene, labelled
 from signals.labels.evidence import Evidence, Word
-from signals.labels.explain import SAME_HZ, Sums, bounded_chance, explained_by, measured_chance, proven_sums
+from signals.labels.explain import SAME_HZ, Sums, bounded_chance, displaced_peaks, explained_by, proven_sums
 from signals.labels.families import Bound
 from signals.labels.images import FAMILY as NUMERICAL
 from signals.labels.kinematics import Kinematics
@@ -125,14 +125,15 @@ def _explained(sums: Sums, left: FoundPeaks, spectrum: Spectrum, near: Matching,
     """What the sums say of the peaks `left`, with no more than `max_chance` of lines anywhere named."""
     step, top = spectrum.resolution_hz, float(spectrum.frequency_hz[-1])
     reach = reach_hz(left, step, near)
-    limit, share = bounded_chance(sums, left, reach, resolution_hz=step, top_hz=top, max_chance=max_chance)
+    moved = displaced_peaks(sums, left, reach, resolution_hz=step, top_hz=top)
+    limit, share = bounded_chance(moved, max_chance)
     owners, chance = explained_by(sums, left.frequency_hz, reach, resolution_hz=step, max_chance=limit)
     proven = proven_sums(sums, owners, left, reach, resolution_hz=step, top_hz=top, matching=near)
     good = np.array([bool(o) and bool(proven[o[0]]) for o in owners], dtype=np.bool_)
     # what is not there does not put in doubt what is
     owners = [[i for i in o if proven[i]] if g else o for o, g in zip(owners, good, strict=True)]
-    by_chance = measured_chance(sums, left, reach, resolution_hz=step, top_hz=top, max_chance=limit, proven=proven)
-    return Explained(owners=owners, chance=chance, good=good, present=by_chance, named=share)
+    present = moved.share(limit, proven)
+    return Explained(owners=owners, chance=chance, good=good, present=present, named=share)
 
 
 def _word(peak: int | None, good: BoolArray, series: BoolArray) -> Word:

@@ -41,6 +41,7 @@ def label_peaks(
     reference: str = "f_r1",
     max_unexplained: int = MAX_UNEXPLAINED,
     step_hz: float | None = None,
+    merged: Sequence[Candidate] | None = None,
 ) -> LabelSet:
     """Match the peaks of a line spectrum with `lines`, merged where `kinematics` make them identical.
 
@@ -49,11 +50,12 @@ def label_peaks(
     combinations of `bound` (family `combination`, listed only where found); what is still left is unexplained, the
     `max_unexplained` strongest are listed. `reference` is the shaft that orders are counted by.
     `step_hz`: steps a second of the simulation the spectrum is of, for the lines that its steps make (base `f_s`).
+    `merged`: what `merge_lines` makes of the same lines, where several spectra are labelled with them.
     """
     spectrum.amplitude_factor("peak")  # refuses densities
     _check_bases(lines, bases_hz, reference)
     setting = Setting(matching=matching or Matching(), bound=bound or Bound(), floor=floor or FloorSettings())
-    every = merge_lines(lines, bases_hz, kinematics)
+    every = tuple(merged) if merged is not None else merge_lines(lines, bases_hz, kinematics)
     known = _known(lines, bases_hz, kinematics, step_hz, spectrum)
     further = _further(_scene(spectrum, inside(every, spectrum), bases_hz[reference], setting, known), known, setting)
     scene = further.scene

@@ -15,23 +15,12 @@ import numpy as np
 from sim.assembly.assemble import assemble
 from sim.core.errors import Cancelled, Meaningless, SidebandError
 from sim.core.lanes import WIDTH
-from sim.core.response import Channel, FloatArray, Response
+from sim.core.response import Channel, Response
 from sim.core.spec import MachineSpec
 from sim.core.system import System
-from sim.solve.api import (
-    check_request,
-    default_channels,
-    diverged,
-    drawn_s,
-    resolve_channels,
-    runs_away,
-)
-from sim.solve.lanes.layout import LanePlan, lane_plan, stepped
-from sim.solve.lanes.pointers import LaneWork, new_lane_work
-from sim.solve.lanes.sampling import LaneProbe, begin, new_lane_probe, sample
+from sim.solve.api import check_request, drawn_s, resolve_channels
+from sim.solve.lanes.run import Steps, pilot, pilot_steps, start_lanes, step_errors
 from sim.solve.outcome import Finished, Request, response
-from sim.solve.pilot import pilot_channels, step_difference
-from sim.solve.plan import build_plan
 from sim.solve.settings import PILOT_S, Settings
 from sim.solve.step_choice import steps_per_output
 from sim.solve.streaming import Stream, filtered, instantaneous, jumping
@@ -39,10 +28,11 @@ from sim.solve.streaming import Stream, filtered, instantaneous, jumping
 
 @dataclass(frozen=True, kw_only=True)
 class Member:
-    """One machine of an ensemble and the seed of its random parts."""
+    """One machine of an ensemble and the seed of its random parts; `system`: both assembled, where that is at hand."""
 
     machine: MachineSpec
     seed: int = 0
+    system: System | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,30 +44,6 @@ class _Ready:
     system: System
     factor: int
     channels: tuple[Channel, ...]
-
-
-@dataclass(kw_only=True)
-class _Lanes:
-    """Eight runs under way; `lost` holds the error of a lane whose motion left all bounds."""
-
-    systems: Sequence[System]
-    plan: LanePlan
-    work: LaneWork
-    probe: LaneProbe
-    rtol: float
-    lost: dict[int, SidebandError]
-
-    def advance(self, first: int, count: int, last: int) -> FloatArray:
-        """(8 channels, count): lane after lane of every channel."""
-        channels = self.probe.pointer.size - 1
-        block = np.empty((channels, count, WIDTH))
-        sample(self.plan, self.work, self.probe, first, count, self.rtol, last, block)
-        for lane, system in enumerate(self.systems):
-            displacement = self.work.z[: len(system.dofs), lane]
-            if lane not in self.lost and (self.work.counts[7, lane] == 0.0 or runs_away(system, displacement)):
-                self.work.counts[7, lane] = 0.0
-                self.lost[lane] = diverged(system, displacement, (first + count) * self.plan.base_step)
-        return np.ascontiguousarray(np.moveaxis(block, 2, 1)).reshape(channels * WIDTH, count)
 
 
 def structure(system: System) -> Hashable:
@@ -103,32 +69,6 @@ def structure(system: System) -> Hashable:
     return system.dofs, elements, tuple(system.dynamic_angle.items()), len(system.dampers), system.speed.size
 
 
-def _start(systems: Sequence[System], step_s: float, names: tuple[str, ...], rtol: float, drawn_s: float) -> _Lanes:
-    operators = {id(system): stepped(system, step_s) for system in systems}
-    first = build_plan(systems[0], step_s, drawn_s=drawn_s)
-    plan = lane_plan(systems, [operators[id(system)] for system in systems], first.plan)
-    lanes = _Lanes(
-        systems=systems,
-        plan=plan,
-        work=new_lane_work(plan),
-        probe=new_lane_probe(plan, systems, first, names),
-        rtol=rtol,
-        lost={},
-    )
-    begin(plan, lanes.work, lanes.probe)
-    return lanes
-
-
-def _pilots(systems: Sequence[System], rate_hz: float, rtol: float, span_s: float) -> list[float]:
-    """Step error of each lane, as the single solver measures it."""
-    names = pilot_channels(default_channels(systems[0]))
-    count = max(int(span_s * rate_hz), 8)
-    drawn = 1.0 / rate_hz
-    coarse = _start(systems, 1.0 / rate_hz, names, rtol, drawn).advance(0, count, count)
-    fine = _start(systems, 0.5 / rate_hz, names, rtol, drawn).advance(0, 2 * count, 2 * count)[:, ::2]
-    return [step_difference(coarse[lane::WIDTH], fine[lane::WIDTH]) for lane in range(WIDTH)]
-
-
 @dataclass(frozen=True, kw_only=True)
 class _Call:
     duration_s: float
@@ -144,12 +84,13 @@ def _run_lanes(ready: Sequence[_Ready], call: _Call) -> list[Response | Sideband
     systems = [r.system for r in full]
     rate = call.rate_hz * full[0].factor
     samples = math.ceil(call.duration_s * call.rate_hz - 1e-9)
-    errors: list[float | None] = [None] * WIDTH
-    if call.settings.estimate_error:
-        errors = [*_pilots(systems, rate, call.settings.rtol, min(PILOT_S, call.duration_s))]
     channels = full[0].channels
-    drawn = drawn_s(call.settings, full[0].factor, rate)
-    lanes = _start(systems, 1.0 / rate, tuple(c.name for c in channels), call.settings.rtol, drawn)
+    names = tuple(c.name for c in channels)
+    steps = Steps(step_s=1.0 / rate, drawn_s=drawn_s(call.settings, full[0].factor, rate), rtol=call.settings.rtol)
+    piloted = Steps(step_s=steps.step_s, drawn_s=1.0 / rate, rtol=steps.rtol)
+    judged = pilot_steps(rate, min(PILOT_S, call.duration_s)) if call.settings.estimate_error else 0
+    # The beginning of a run that draws jumps as a pilot does is the pilot.
+    lanes = start_lanes(systems, steps, names, judged if steps == piloted else 0)
     stream = Stream(
         advance=lanes.advance,
         channels=len(channels) * WIDTH,
@@ -161,6 +102,10 @@ def _run_lanes(ready: Sequence[_Ready], call: _Call) -> list[Response | Sideband
     )
     every = tuple(c for c in channels for _ in range(WIDTH))
     signals = filtered(stream, jumping(every)) if call.settings.anti_alias else instantaneous(stream)
+    errors: list[float | None] = [None] * WIDTH
+    if judged:
+        heard = np.concatenate(lanes.heard, axis=1) if lanes.heard else pilot(systems, piloted, judged)
+        errors = [*step_errors(systems, piloted, heard)]
     results: list[Response | SidebandError] = []
     for lane, one in enumerate(ready):
         if lane in lanes.lost:
@@ -191,7 +136,7 @@ def _prepared(
     ready = []
     for place, member in enumerate(members):
         try:
-            system = assemble(member.machine, seed=member.seed)
+            system = member.system or assemble(member.machine, seed=member.seed)
             selected = resolve_channels(system, channels)
         except SidebandError as error:
             results[place] = error

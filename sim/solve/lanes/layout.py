@@ -14,6 +14,7 @@ from sim.core.response import FloatArray
 from sim.core.system import System
 from sim.solve.chunks import IntArray
 from sim.solve.collocation import collocation
+from sim.solve.lanes.product import Blocks, blocks, compressed
 from sim.solve.memory import together
 from sim.solve.operators import Coordinates, StepOperators, coordinates, step_operators
 from sim.solve.plan import LEVELS, Plan, own_compliance, stiff_rows
@@ -22,7 +23,7 @@ KINDS = 3
 
 
 class LanePlan(NamedTuple):
-    """Arrays of the lane loop; as `sim.solve.plan.Plan`, with plain compressed rows instead of chunks.
+    """Arrays of the lane loop; as `sim.solve.plan.Plan`, with blocks of rows instead of chunks.
 
     Integers are the same in every lane. W = 8 lanes.
     """
@@ -35,10 +36,10 @@ class LanePlan(NamedTuple):
     predict: FloatArray
     force_predict: FloatArray
     slope: FloatArray
-    pointer: IntArray  # rows of all products, level after level, kind after kind
+    block: IntArray  # blocks of rows of all products, level after level, kind after kind; `sim.solve.lanes.product`
     column: IntArray
     value: FloatArray  # (entries, W)
-    first_row: IntArray  # (levels, KINDS) first row of a product
+    first_block: IntArray  # (levels * KINDS + 1,) first block of a product
     node_load: FloatArray  # (levels, s R, W)
     end_load: FloatArray  # (levels, Z, W)
     row_place: IntArray  # (R,)
@@ -67,15 +68,6 @@ class LanePlan(NamedTuple):
     stiff_rows: IntArray
 
 
-def compressed(matrices: Sequence[FloatArray]) -> tuple[IntArray, IntArray, FloatArray]:
-    """Rows of equally shaped matrices, one a lane, over the union of their entries: pointer, column, value."""
-    stack = np.stack(matrices, axis=-1)
-    used = np.any(stack != 0, axis=-1)
-    row, column = np.nonzero(used)
-    pointer = np.concatenate([[0], np.cumsum(np.bincount(row, minlength=used.shape[0]))])
-    return pointer.astype(np.int64), column.astype(np.int64), stack[row, column]
-
-
 def _products(built: Sequence[Stepped], level: int, kind: int) -> list[FloatArray]:
     found = []
     for b in built:
@@ -91,19 +83,8 @@ def _products(built: Sequence[Stepped], level: int, kind: int) -> list[FloatArra
     return found
 
 
-def _tables(built: Sequence[Stepped]) -> tuple[IntArray, IntArray, FloatArray, IntArray]:
-    pointers, columns, values, first = [np.zeros(1, dtype=np.int64)], [], [], []
-    rows = entries = 0
-    for level in range(len(built[0].levels)):
-        for kind in range(KINDS):
-            pointer, column, value = compressed(_products(built, level, kind))
-            first.append(rows)
-            pointers.append(pointer[1:] + entries)
-            columns.append(column)
-            values.append(value)
-            rows += pointer.size - 1
-            entries += column.size
-    return np.concatenate(pointers), np.concatenate(columns), np.concatenate(values), np.array(first, dtype=np.int64)
+def _tables(built: Sequence[Stepped]) -> Blocks:
+    return blocks([_products(built, level, kind) for level in range(len(built[0].levels)) for kind in range(KINDS)])
 
 
 def _by_lane(arrays: Sequence[FloatArray]) -> FloatArray:
@@ -145,7 +126,7 @@ def lane_plan(systems: Sequence[System], built: Sequence[Stepped], first: Plan) 
     n = len(systems[0].dofs)
     sizes = first.sizes.copy()
     sizes[3], sizes[4] = rows, 2 * n
-    pointer, column, value, first_row = _tables(built)
+    tables = _tables(built)
     place = [*coords.force_rows, *(u + k for k in coords.rate_rows)]
     o_pointer, o_column, o_value = compressed([b.coords.rows for b in built])
     stiff = stiff_rows(systems[0], coords, first.f_at)
@@ -160,10 +141,10 @@ def lane_plan(systems: Sequence[System], built: Sequence[Stepped], first: Plan) 
         predict=first.predict,
         force_predict=first.force_predict,
         slope=first.slope,
-        pointer=pointer,
-        column=column,
-        value=value,
-        first_row=first_row,
+        block=tables.block,
+        column=tables.column,
+        value=tables.value,
+        first_block=tables.first,
         node_load=_by_lane([np.array([b.levels[k].node_load for k in levels]) for b in built]),
         end_load=_by_lane([np.array([b.levels[k].end_load for k in levels]) for b in built]),
         row_place=np.array(place, dtype=np.int64),

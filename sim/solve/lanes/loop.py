@@ -13,6 +13,7 @@ from sim.core.lanes import call_lane_force, call_lane_prepare, lane_shift, lowes
 from sim.core.speed import warped
 from sim.solve.lanes.commit import accept
 from sim.solve.lanes.newton import solve_stiff
+from sim.solve.lanes.product import add_product
 from sim.solve.loop import MAX_ITERATIONS
 
 TURN = 2.0 * math.pi
@@ -56,16 +57,6 @@ def prepare_all(plan, work, t, h):  # type: ignore[no-untyped-def]  # noqa: ANN0
             lane_shift(plan.par, plan.par_at[e]),
             lane_shift(work.ctx, plan.ctx_at[e]),
         )
-
-
-@inline
-def add_product(plan, first, count, x, y, base):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
-    """y = base + A x over `count` rows of the tables from row `first` on."""
-    for r in range(count):
-        total = base[r]
-        for k in range(plan.pointer[first + r], plan.pointer[first + r + 1]):
-            total += plan.value[k] * x[plan.column[k]]
-        y[r] = total
 
 
 @inline
@@ -169,12 +160,11 @@ def contact_changed(plan, work):  # type: ignore[no-untyped-def]  # noqa: ANN001
 @inline
 def iterate(plan, work, level, rtol, mask):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Fixed-point iteration of the node forces in the lanes of `mask`; returns the status of each lane."""
-    s = plan.stages
     active = mask
     status = NOT_CONVERGED + 0.0 * work.counts[0]
     for iteration in range(MAX_ITERATIONS):
         forces = lane_shift(work.z, plan.states)
-        add_product(plan, plan.first_row[level * 3 + 1], s * plan.rows, forces, work.rows, work.fixed)
+        add_product(plan, level * 3 + 1, forces, work.rows, work.fixed)
         scatter(plan, work, active)
         solved = active
         moved = 0.0 * status
@@ -201,12 +191,12 @@ def try_step(plan, work, t, level, rtol, mask):  # type: ignore[no-untyped-def] 
     s = plan.stages
     prepare_all(plan, work, t, h)
     loads = lane_shift(plan.node_load, level * s * plan.rows)
-    add_product(plan, plan.first_row[level * 3], s * plan.rows, work.z, work.fixed, loads)
+    add_product(plan, level * 3, work.z, work.fixed, loads)
     predict(plan, work, level)
     regular_forces(plan, work, mask)
     status = iterate(plan, work, level, rtol, mask)
     loads = lane_shift(plan.end_load, level * plan.states)
-    add_product(plan, plan.first_row[level * 3 + 2], plan.states, work.z, work.next_z, loads)
+    add_product(plan, level * 3 + 2, work.z, work.next_z, loads)
     if plan.opening > 0:
         status = select((status == OK) & contact_changed(plan, work), CONTACT_CHANGE, status)
     return status

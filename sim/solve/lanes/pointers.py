@@ -78,7 +78,7 @@ def new_lane_work(plan: LanePlan) -> LaneWork:
 LanePlanPointers = namedtuple(
     "LanePlanPointers",
     "elements forces_total coords rows states dofs stages levels stiff outputs opening base_step nodes weights predict "
-    "force_predict slope pointer column value first_row node_load end_load row_place prepare_address force_address "
+    "force_predict slope block column value first_block node_load end_load row_place prepare_address force_address "
     "u_at f_at size forces par_at par ctx_at ctx_width out_at out_count flags turns speed angle_dof carries "
     "observe_pointer observe_column observe_value opens compliance stiff_rows",
 )
@@ -109,10 +109,10 @@ def lane_plan_pointers(p):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN20
         doubles(p.predict.ctypes.data),
         doubles(p.force_predict.ctypes.data),
         doubles(p.slope.ctypes.data),
-        integers(p.pointer.ctypes.data),
+        integers(p.block.ctypes.data),
         integers(p.column.ctypes.data),
         as_lanes(doubles(p.value.ctypes.data)),
-        integers(p.first_row.ctypes.data),
+        integers(p.first_block.ctypes.data),
         as_lanes(doubles(p.node_load.ctypes.data)),
         as_lanes(doubles(p.end_load.ctypes.data)),
         integers(p.row_place.ctypes.data),

@@ -14,9 +14,10 @@ from sim.core.response import FloatArray
 from sim.core.system import System
 from sim.solve.chunks import IntArray
 from sim.solve.lanes.commit import keep_contexts, start_coordinates
-from sim.solve.lanes.layout import LanePlan, compressed
+from sim.solve.lanes.layout import LanePlan
 from sim.solve.lanes.loop import advance_base, evaluate, prepare_all
 from sim.solve.lanes.pointers import lane_plan_pointers, lane_work_pointers
+from sim.solve.lanes.product import compressed
 from sim.solve.memory import together
 from sim.solve.operators import coordinates
 from sim.solve.plan import Built

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from sim.assembly.assemble import assemble
 from sim.core.errors import Cancelled, Diverged, SpecError, UnknownName
 from sim.core.response import Response
 from sim.core.spec import MachineSpec, TermSpec
@@ -151,3 +152,26 @@ def test_an_impossible_request_is_refused():
     with pytest.raises(SpecError):
         simulate_many([Member(machine=preset("rotor"))], duration_s=-1.0, output_rate_hz=20_000.0)
     assert simulate_many([], **SHORT) == []
+
+
+@pytest.mark.parametrize("name", ["paper-demo", "rotor"])
+def test_the_pilot_is_the_beginning_of_the_run(name):
+    """Unfiltered runs draw jumps otherwise than a pilot does and have one of their own: it says the same."""
+    members = [Member(machine=stiffer(preset(name), 1.0 + 0.1 * k)) for k in range(2)]
+    heard = simulate_many(members, duration_s=0.08, output_rate_hz=20_000.0)
+    own = simulate_many(members, duration_s=0.08, output_rate_hz=20_000.0, settings=Settings(anti_alias=False))
+    single = simulate(members[1].machine, duration_s=0.08, output_rate_hz=20_000.0)
+    for one, other in zip(heard, own, strict=True):
+        assert isinstance(one, Response)
+        assert isinstance(other, Response)
+        assert one.quality.step_error == other.quality.step_error
+        assert one.quality.steps > other.quality.steps  # of the filter's tail only
+    assert heard[1].quality.step_error == pytest.approx(single.quality.step_error, rel=1e-3)  # type: ignore[union-attr]
+    same(heard[1], single, REGULAR_TOLERANCE)  # type: ignore[arg-type]
+
+
+def test_a_system_at_hand_is_not_assembled_again():
+    machine = preset("rotor")
+    at_hand = Member(machine=machine, seed=3, system=assemble(machine, seed=3))
+    one, other = simulate_many([at_hand, Member(machine=machine, seed=3)], settings=QUICK, **SHORT)
+    np.testing.assert_array_equal(one.signals, other.signals)  # type: ignore[union-attr]
