@@ -49,6 +49,8 @@ def unknown_force(setting: Setting, found: Found, supports: int, mapper: Mapper)
         return None
     sites = likely_supports(setting, found)
     nowhere = Unknown(force=EstimatedForce(site=sites[0], samples={}, law=None))
+    if supports == 0:
+        return nowhere
     try:
         moving = motions(machine, sites[:supports], setting.seed)
     except SidebandError:

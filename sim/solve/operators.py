@@ -93,7 +93,7 @@ class _Block:
     halvings: int
 
 
-@lru_cache(maxsize=1024)
+@lru_cache(maxsize=256)
 def _kept_responses(block: _Block) -> tuple[tuple[FloatArray, FloatArray], ...]:
     n, m = block.inputs_shape
     return tuple(
