@@ -115,7 +115,8 @@ def _split(split: str, summary: Mapping[str, Any]) -> str:
             f"\n## Split `{split}`: {summary['cases']} cases\n",
             f"`make proof SPLIT={split} CASES={','.join(s.name for s in scores)}` runs them again.\n",
             *rows, "", *wide, "",
-            f"Severity error: {_quantiles(error)}. Held-out gain: {_quantiles(gain)}.\n",
+            f"Severity error: {_quantiles(error)}. Held-out gain: {_quantiles(gain)}. Gain of a perfect model, since",
+            f"drift between the recordings and noise stay: {_quantiles(summary['ceiling'])}.\n",
             f"![curves](proof/{split}.svg)\n", "### Every case that is wrong in something\n", *listed, "",
         ]
     )  # fmt: skip

@@ -43,6 +43,7 @@ class Score:
     severity_covered: bool | None = None
     gain: float | None = None
     gain_low: float | None = None
+    ceiling: float | None = None
     beats_retuned: bool | None = None
     beats_black_box: bool | None = None
     placebo_improves: bool | None = None
@@ -175,6 +176,7 @@ def _held_out(said: Json) -> dict[str, Any]:
     return {
         "gain": gain,
         "gain_low": held.get("gain_low"),
+        "ceiling": held.get("ceiling"),
         "beats_retuned": None if rivals["retuned"] is None else gain > float(rivals["retuned"]),
         "beats_black_box": None if rivals["black_box"] is None else gain > float(rivals["black_box"]),
         "placebo_improves": None if rivals["placebo"] is None else float(rivals["placebo"]) > PLACEBO_GAIN,

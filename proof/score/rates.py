@@ -140,5 +140,6 @@ def summary(scores: Sequence[Score]) -> dict[str, object]:
         "laws": {m: {law: r.document() for law, r in law_rates(scores, m).items()} for m in ("alarm", "verdict_right")},
         "severity_error": quantiles(s.severity_error for s in scores),
         "gain": quantiles(s.gain for s in scores),
+        "ceiling": quantiles(s.ceiling for s in scores),
         "core_seconds": quantiles(s.core_seconds for s in scores),
     }

@@ -92,7 +92,7 @@ def _answered(
         if not remarkable(atlas.screen) and lines > CLOSER_LINES_P:
             return setting, replace(atlas, screen=replace(atlas.screen, p_lines=lines)), told(local)
         progress(0.7, "candidates on these machines")
-        found = located(closer, atlas, setting.plan, budget, meter)
+        found = located(closer, atlas, setting, budget, meter)
     elif not remarkable(atlas.screen):
         return setting, atlas, {}
     for turn in range(budget.rounds):

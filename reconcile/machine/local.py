@@ -6,7 +6,7 @@ changes an effect brings. Machines that agree with the baseline show what the ef
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -112,9 +112,9 @@ def stacked(first: Bank, second: Bank) -> Bank:
     )
 
 
-def ordered_draws(atlas: AtlasPlan, shown: Sequence[TermSpec]) -> dict[str, list[Draw]]:
-    """The atlas' draws of each candidate in the order in which they are worth simulating: those that were `shown` to
-    change something first, middle and large sizes first."""
+def ordered_draws(atlas: AtlasPlan, shown: Sequence[TermSpec], nearest: Collection[int] = ()) -> dict[str, list[Draw]]:
+    """The atlas' draws of each candidate in the order in which they are worth simulating: one whose term is among the
+    `nearest` (their `id`), then those that were `shown` to change something, middle and large sizes first."""
     telling = {id(term) for term in shown}
     known: dict[str, list[Draw]] = {}
     for draw in atlas.draws:
@@ -124,7 +124,8 @@ def ordered_draws(atlas: AtlasPlan, shown: Sequence[TermSpec]) -> dict[str, list
     for name, draws in known.items():
         by_size = sorted(draws, key=share_of)
         order = [k for k in FIRST_SIZES if k < len(by_size)] + list(range(len(FIRST_SIZES), len(by_size)))
-        found[name] = sorted((by_size[k] for k in order), key=lambda d: id(d.term) not in telling)
+        usual = sorted((by_size[k] for k in order), key=lambda d: id(d.term) not in telling)
+        found[name] = sorted(usual, key=lambda d: id(d.term) not in nearest)
     return found
 
 

@@ -38,6 +38,13 @@ def test_the_first_heat_fills_lanes_with_the_best_effects_at_all_their_sites(atl
     assert "backlash@mesh1" not in found
 
 
+def test_the_nearest_draw_comes_first_and_the_rest_as_usual(atlas: AtlasPlan) -> None:
+    usual = ordered_draws(atlas, ())["tooth_crack@gear"]
+    term = usual[-1].term
+    found = ordered_draws(atlas, (), {id(term)})["tooth_crack@gear"]
+    assert found[0].term is term and found[1:] == usual[:-1]
+
+
 def test_the_second_heat_simulates_what_the_first_did_not(atlas: AtlasPlan) -> None:
     first = first_heat(atlas, RANKED, ordered_draws(atlas, ()), terms=1)
     second = second_heat(atlas, RANKED[:2], ordered_draws(atlas, ()), first)
