@@ -19,6 +19,7 @@ from proof.score.one import Score, score
 from proof.score.rates import summary
 from proof.score.table import table
 from proof.seal import broken, seals_of, write_manifest
+from proof.visible import measure, told
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
@@ -33,6 +34,7 @@ def parser() -> argparse.ArgumentParser:
         ("seal", "write the hashes of a split's truths into proof/seals"),
         ("run", "run the engine on cases, one stored JSON each; what is stored is not run again"),
         ("score", "score stored results against the truth"),
+        ("visible", "measure how much of the hidden effects there is to see, for the page"),
         ("page", "write docs/proof.md from the stored summaries"),
     ):
         command = commands.add_parser(name, help=sentence, description=sentence)
@@ -51,6 +53,8 @@ def parser() -> argparse.ArgumentParser:
             command.add_argument("--fresh", action="store_true", help="run again what is stored")
             command.add_argument("--atlas", type=Path, default=ROOT / ".cache" / "proof" / "atlas")
             command.add_argument("--jobs", type=int, help="processes that simulate an atlas")
+        if name == "visible":
+            command.add_argument("--jobs", type=int, default=2, help="processes")
         if name == "score":
             command.add_argument("--keep", action="store_true", help="store the summary in proof/results")
         if name == "page":
@@ -130,6 +134,14 @@ def score_all(given: argparse.Namespace) -> None:
     sys.stdout.write(json.dumps(document, sort_keys=True) + "\n")
 
 
+def visible(given: argparse.Namespace) -> None:
+    """Measure what there is to see in cases with effects; what is stored is left alone."""
+    found = measure(chosen(given), HERE / "results" / f"visible-{given.split}.json", given.jobs)
+    for case in chosen(given):
+        if case.name in found:
+            sys.stdout.write(f"{case.name} {'+'.join(e.law for e in case.effects)}{told(found[case.name])}\n")
+
+
 def page(given: argparse.Namespace) -> None:
     """Write the page."""
     sys.stdout.write(f"{write_page(given.docs, HERE / 'results')}\n")
@@ -138,7 +150,10 @@ def page(given: argparse.Namespace) -> None:
 def main() -> None:
     """Run a command."""
     given = parser().parse_args()
-    {"generate": generate, "seal": seal, "run": run, "score": score_all, "page": page}[given.command](given)
+    commands = {
+        "generate": generate, "seal": seal, "run": run, "score": score_all, "visible": visible, "page": page,
+    }  # fmt: skip
+    commands[given.command](given)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
 
@@ -92,6 +92,27 @@ def recordings(case: Case) -> dict[str, tuple[float, FloatArray]]:
         name: (speed_hz, _plugged(case, name, samples, ways, noises, speed, start))
         for name, (speed_hz, samples, speed, start) in found.items()
     }
+
+
+def quiet_tests(case: Case) -> Iterator[tuple[FloatArray, FloatArray, FloatArray, FloatArray]]:
+    """For every test: samples at the sensors (channels, n) with the effects, without them, without the drift too, all
+    without noise, and the standard deviation of each channel's noise (channels,)."""
+    base = hidden_machine(case.rng(MACHINE))
+    later = base.drifted(case.rng(DRIFT))
+    parameters = dict(NOMINAL) | {"T": case.torque_nm}
+    rows = []
+    for k in range(1, len(case.speeds_hz) + 1):
+        three = []
+        for hidden, effects in ((later, case.effects), (later, ()), (base, ())):
+            machine = changed(arrays_of(hidden, parameters), effects, case)
+            speed, start = _operation(case, machine, k, "test")
+            three.append(_motion(case, machine, speed, start))
+        rows.append(three)
+    ways, _ = _instruments(case, rows[len(rows) // 2][2])
+    heard = [[np.array([through(w, r) for w, r in zip(ways, one, strict=True)]) for one in three] for three in rows]
+    level = np.std(heard[len(heard) // 2][2], axis=1) * 10.0 ** (-case.snr_db / 20.0)
+    for first, second, third in heard:
+        yield first, second, third, level
 
 
 def changed(machine: Arrays, effects: tuple[Hiding, ...], case: Case) -> Arrays:
