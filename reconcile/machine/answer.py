@@ -105,7 +105,7 @@ def answer(
     severity: Severity | None = causes[0].severity if causes else None
     word, text, fault = decision.word, sentence(decision, severity, held), None
     if unknown is not None:
-        text = f"{text} {law_sentence(unknown.force)}"
+        text = f"{text} {law_sentence(unknown.force, tried=unknown.tried)}"
     if other is not None:
         text = f"{text} Beside it: {title(other[0])}{size(causes[1].severity)}."
     if gate.fault is not None and word in ("nothing_missing", "not_decidable") and not _doubtful(gate, setting, word):

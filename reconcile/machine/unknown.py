@@ -6,7 +6,7 @@ of every known effect; else the answer is the likeliest place and "no stable law
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -40,17 +40,19 @@ class Unknown:
     known: Catalogued | None = None
     label: str | None = None
     machine: MachineSpec | None = None
+    tried: bool = True
+    """Whether laws were tried."""
 
 
 def unknown_force(setting: Setting, found: Found, supports: int, mapper: Mapper) -> Unknown | None:
     """Try all laws at the likeliest `supports`; None where single lines cannot be compared."""
     machine = setting.fitted_machine
-    if machine is None or found.fine is None:
+    if machine is None or found.fine is None or not setting.machine.bearings:
         return None
     sites = likely_supports(setting, found)
     nowhere = Unknown(force=EstimatedForce(site=sites[0], samples={}, law=None))
     if supports == 0:
-        return nowhere
+        return replace(nowhere, tried=False)
     try:
         moving = motions(machine, sites[:supports], setting.seed)
     except SidebandError:
@@ -167,6 +169,3 @@ def _size(
     mean = float(weights @ logs)
     step = float(np.log(SHARES[1] / SHARES[0]))
     return float(np.exp(mean)), 1.645 * float(np.sqrt(weights @ (logs - mean) ** 2 + (0.5 * step) ** 2 / 3))
-
-
-__all__: Sequence[str] = ("Unknown", "likely_supports", "unknown_force")

@@ -24,10 +24,11 @@ def size(severity: Severity | None) -> str:
     return f", {severity.name} {severity.value:.3g}{unit} (90 %: {severity.low:.2g} to {severity.high:.2g})"
 
 
-def law_sentence(force: EstimatedForce) -> str:
+def law_sentence(force: EstimatedForce, *, tried: bool) -> str:
     """What stage 6 found."""
     if force.law is None:
-        return f"It acts most likely at {force.site}; no force law that was tried there brings it about."
+        laws = "no force law that was tried brings it about" if tried else "the full budget tries force laws there"
+        return f"Of the supports {force.site} is the likeliest place; {laws}."
     return f"A force at {force.site} brings it about: {force.law}."
 
 

@@ -16,6 +16,7 @@ from reconcile.machine.laws import SHARES, Motion, TrialLaw
 from reconcile.machine.library import Catalogued
 from reconcile.machine.setting import Found
 from reconcile.machine.unknown import likely_supports, unknown_force
+from reconcile.machine.words import law_sentence
 from sim import presets
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import TermSpec
@@ -74,6 +75,7 @@ def test_the_law_that_brings_the_change_stands() -> None:
     setting, found = setting_for(seen(3))
     told = unknown_force(setting, found, 4, map)  # type: ignore[arg-type]
     assert told is not None and told.label == "drag@bearing2" and told.force.site == "bearing2"
+    assert law_sentence(told.force, tried=True).startswith("A force at bearing2 brings it about")
     assert told.force.law is not None and "|dz/dt| dz/dt" in told.force.law
     force, argument = (np.array(told.force.samples[k]) for k in ("force_n", "velocity_m_per_s"))
     assert np.allclose(force, told.force.coefficients["drag"] * np.abs(argument) * argument)
@@ -102,7 +104,8 @@ def test_a_change_that_nothing_brings_gets_a_place_alone() -> None:
 def test_quick_tries_no_law_and_a_machine_that_does_not_run_gets_none(monkeypatch: pytest.MonkeyPatch) -> None:
     setting, found = setting_for(seen(3))
     quick = unknown_force(setting, found, 0, map)  # type: ignore[arg-type]
-    assert quick is not None and quick.force.law is None
+    assert quick is not None and quick.force.law is None and not quick.tried
+    assert "full budget" in law_sentence(quick.force, tried=quick.tried)
 
     def refuse(*_args: object) -> None:
         raise SpecError(Problem(field="machine", message="does not run"))
