@@ -81,7 +81,8 @@ def nearest_terms(screened: Found, observed: FloatArray) -> set[int]:
     the kind that is nearly always one of the right size, of the right effect."""
     fitted = screened.fitted
     place = fitted.place(observed)
-    away = squared_distances(fitted.points, place[None])[:, 0]
+    quiet = fitted.metric(fitted.view(fitted.whiten(screened.known.library.changes)))
+    away = squared_distances(quiet, place[None])[:, 0]
     least = (1.0 - EXPLAINED) * float(np.sum(place**2))
     best = (min(rows, key=lambda k: away[k]) for rows in screened.known.library.groups.values())
     return {id(screened.known.terms[k]) for k in best if away[k] < least}
