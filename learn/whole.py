@@ -91,7 +91,8 @@ def cage(values: FloatArray, step: float, near: BoolArray, away: BoolArray) -> t
     own = [(m * base, 1 / np.sqrt(m)) for m in range(1, CAGE_HARMONICS + 1)]
     about = [(k + s * base, 1.0) for k in range(1, SHAFT_HARMONICS + 1) for s in (-2, -1, 1, 2)]
     width = max(1, int(np.sum(near)))
-    best, every = [], []
+    best: list[float] = []
+    every: list[float] = []
     for lines in (own, about):
         table = np.zeros((values.shape[0], base.size))
         for places, weight in lines:
