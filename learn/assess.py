@@ -98,15 +98,19 @@ def _severity(shown: Sequence[Bank], found: Sequence[dict[str, Found]], label: s
 def estimated(
     channels: Sequence[FloatArray], rate_hz: float, stated_hz: float | None, orders: FaultOrders | None
 ) -> Speed:
-    """The candidate speed under which shaft and bearing lines together stand out most, in the first stretch."""
+    """The candidate speed whose shaft's lines stand out most; without a stated one, bearing lines in the first stretch
+    count too. Near a stated speed they say nothing, as the slip that is searched is as wide as the doubt."""
+    found = candidates(channels, rate_hz, stated_hz)
+    if stated_hz is not None:
+        return max(found, key=lambda one: one.standing)
     best: tuple[float, Speed] | None = None
-    for one in candidates(channels, rate_hz, stated_hz):
+    for one in found:
         try:
             part = stretches(channels, rate_hz, one.speed_hz, SPEED_TURNS)[0]
         except SpecError:
             continue
-        _, comb, found = _row(bank(part, rate_hz, one.speed_hz), orders, 0.0)
-        lines = max((f.z for n, f in found.items() if n != "cage"), default=comb.get("z", 0.0))
+        _, comb, families = _row(bank(part, rate_hz, one.speed_hz), orders, 0.0)
+        lines = max((f.z for n, f in families.items() if n != "cage"), default=comb.get("z", 0.0))
         fit = one.standing + min(lines, MOST_LINES)
         if best is None or fit > best[0]:
             best = (fit, one)
