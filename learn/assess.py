@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from learn import features, unknown
+from learn import features, unknown, whole
 from learn.bank import MIN_TURNS, Bank, bank
 from learn.features import Found
 from learn.model import Head, Model
@@ -19,7 +19,9 @@ from sim.core.errors import Problem, SpecError
 
 LONGEST_TURNS = 20.0
 """Longer recordings are read in equal stretches. Over many turns even the faint lines of a sound machine become
-certain; over few only deep ones do, and many short answers together decide."""
+certain; over few only deep ones do, and many short answers together decide, where `WHOLE` does not."""
+WHOLE = "whole"
+"""Head of the features of `learn.whole`: it answers for recordings longer than a stretch, their geometry known."""
 SPEED_TURNS = 80.0
 """The stretch a speed is read from."""
 MOST_STRETCHES = 12
@@ -61,6 +63,8 @@ def assess(
         rows.append(_row(spectra, orders, doubt))
         shown.append(spectra)
     p = pooled(head, np.stack([r[0] for r in rows]))
+    if orders is not None and len(parts) > 1 and WHOLE in model.heads:
+        p = pooled(model.heads[WHOLE], long_rows(channels, rate_hz, speed_hz, orders, doubt))
     label = head.classes[int(np.argmax(p))]
     strongest = int(
         np.argmax([r[1].get("z", 0.0) if orders is None else max(f.z for f in r[2].values()) for r in rows])
@@ -77,6 +81,14 @@ def assess(
     )
 
 
+def long_rows(
+    channels: Sequence[FloatArray], rate_hz: float, speed_hz: float, orders: FaultOrders, doubt: float = 0.0
+) -> FloatArray:
+    """Features (parts, features) of the recording in as few parts as may be."""
+    parts = stretches(channels, rate_hz, speed_hz, whole.TURNS)
+    return np.stack([whole.vector(bank(part, rate_hz, speed_hz), orders, doubt)[0] for part in parts])
+
+
 def _severity(shown: Sequence[Bank], found: Sequence[dict[str, Found]], label: str) -> float | None:
     values = [severity_index(s, f[label]) for s, f in zip(shown, found, strict=True) if label in f]
     told = [v for v in values if v is not None]
@@ -86,15 +98,19 @@ def _severity(shown: Sequence[Bank], found: Sequence[dict[str, Found]], label: s
 def estimated(
     channels: Sequence[FloatArray], rate_hz: float, stated_hz: float | None, orders: FaultOrders | None
 ) -> Speed:
-    """The candidate speed under which shaft and bearing lines together stand out most, in the first stretch."""
+    """The candidate speed whose shaft's lines stand out most; without a stated one, bearing lines in the first stretch
+    count too. Near a stated speed they say nothing, as the slip that is searched is as wide as the doubt."""
+    found = candidates(channels, rate_hz, stated_hz)
+    if stated_hz is not None:
+        return max(found, key=lambda one: one.standing)
     best: tuple[float, Speed] | None = None
-    for one in candidates(channels, rate_hz, stated_hz):
+    for one in found:
         try:
             part = stretches(channels, rate_hz, one.speed_hz, SPEED_TURNS)[0]
         except SpecError:
             continue
-        _, comb, found = _row(bank(part, rate_hz, one.speed_hz), orders, 0.0)
-        lines = max((f.z for n, f in found.items() if n != "cage"), default=comb.get("z", 0.0))
+        _, comb, families = _row(bank(part, rate_hz, one.speed_hz), orders, 0.0)
+        lines = max((f.z for n, f in families.items() if n != "cage"), default=comb.get("z", 0.0))
         fit = one.standing + min(lines, MOST_LINES)
         if best is None or fit > best[0]:
             best = (fit, one)

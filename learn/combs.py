@@ -18,6 +18,8 @@ from signals.series import BoolArray, FloatArray
 
 NOISE_LOG, LARGEST_LOG = 1.5, 7.0
 SHAFT_BINS = 1.5
+SHAFT_SHARE = 0.0015
+"""Lines of the shaft are left out this much to either side, of their order, for a speed that is not exact."""
 LOW_ORDER, HIGH_ORDER = 1.3, 14.0
 OVERSAMPLING = 2.0
 LEAST_SPREAD = 0.7
@@ -48,7 +50,7 @@ def logs(bank: Bank, *, shaft_lines: bool = False) -> FloatArray:
     values = np.clip(np.log(np.maximum(bank.excess, 1e-12)) - NOISE_LOG, 0.0, LARGEST_LOG)
     orders = np.arange(values.shape[1]) * bank.step
     if not shaft_lines:
-        values[:, np.abs(orders - np.rint(orders)) < SHAFT_BINS * bank.step] = 0.0
+        values[:, np.abs(orders - np.rint(orders)) < SHAFT_BINS * bank.step + SHAFT_SHARE * orders] = 0.0
     values[:, :4] = 0.0
     return np.asarray(maximum_filter1d(values, 3, axis=1), dtype=np.float64)
 
@@ -87,21 +89,29 @@ class Search:
         k = int(inside[np.argmax(self.best[inside])])
         return float(self.best[k]), float(self.base[k]), int(self.band[k])
 
-    def chance(self, value: float, away: BoolArray, reach: float = SLIP) -> float:
-        """Share of equally wide searches at orders `away` from any part that reach `value`, smoothed, log10."""
+    def tops(self, away: BoolArray, reach: float = SLIP) -> FloatArray:
+        """What equally wide searches find at orders `away` from any part."""
         width = max(1, int(2 * reach * np.median(self.base) / (self.base[1] - self.base[0])))
-        tops = maximum_filter1d(self.best, width)[away]
-        return tail(tops, value)
+        return np.asarray(maximum_filter1d(self.best, width)[away], dtype=np.float64)
 
 
 def search(values: FloatArray, step: float, base: FloatArray, comb: Comb, away: BoolArray) -> Search:
     """Scores standardised band by band with the median and robust spread over the orders `away` from all parts."""
-    table = scores(values, step, base, comb)
+    z = standardised(scores(values, step, base, comb), away)
+    return Search(base=base, z=z, best=np.max(z, axis=0), band=np.argmax(z, axis=0))
+
+
+def standardised(table: FloatArray, away: BoolArray) -> FloatArray:
+    """Scores (bands, orders) less their median over the orders `away`, over their robust spread there."""
     control = table[:, away]
     centre = np.median(control, axis=1, keepdims=True)
     spread = np.maximum(1.4826 * np.median(np.abs(control - centre), axis=1, keepdims=True), LEAST_SPREAD)
-    z = (table - centre) / spread
-    return Search(base=base, z=z, best=np.max(z, axis=0), band=np.argmax(z, axis=0))
+    return np.asarray((table - centre) / spread, dtype=np.float64)
+
+
+def lift(tops: FloatArray, value: float) -> float:
+    """`value` over the middle of what is found elsewhere: more bands and channels find more everywhere."""
+    return float(value - np.median(tops)) if tops.size else 0.0
 
 
 def tail(controls: FloatArray, value: float) -> float:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from learn.bank import Bank
-from learn.combs import SLIP, Comb, Search, away_from, grid, logs, search
+from learn.combs import SLIP, Comb, Search, away_from, grid, lift, logs, search, tail
 from learn.orders import FaultOrders
 from signals.series import FloatArray
 
@@ -46,6 +46,7 @@ class Found:
     channel: int
     z: float
     chance: float
+    lift: float
     depth: float
 
 
@@ -95,6 +96,7 @@ def find(bank: Bank, orders: FaultOrders, doubt: float = 0.0) -> dict[str, Found
             order *= 4  # the cage's own order is below the grid: its fourth harmonic is searched as a base
         s: Search = search(values, bank.step, base, comb, away)
         z, at, band = s.near(order, SLIP + doubt)
+        tops = s.tops(away, SLIP + doubt)
         found[family] = Found(
             family=family,
             order=at,
@@ -103,7 +105,8 @@ def find(bank: Bank, orders: FaultOrders, doubt: float = 0.0) -> dict[str, Found
             band_hz=(float(bank.bands_hz[band, 0]), float(bank.bands_hz[band, 1])),
             channel=bank.channel[band],
             z=z,
-            chance=-s.chance(z, away, SLIP + doubt),
+            chance=-tail(tops, z),
+            lift=lift(tops, z),
             depth=comb_depth(bank, band, at, comb),
         )
     return found

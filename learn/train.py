@@ -33,15 +33,19 @@ def fit_head(
     *,
     seed: int = 0,
     networks: int = NETWORKS,
+    hidden: tuple[int, ...] = HIDDEN,
 ) -> Head:
-    """Networks on everything, each from another start; the temperature from machines left out in turn."""
+    """Networks on everything, each from another start; the temperature from machines left out in turn.
+
+    Without `hidden` units a network is a softmax regression, for which every start gives the same.
+    """
     kinds = np.array([classes.index(x) for x in labels])
     owner = np.unique(np.asarray(machines), return_inverse=True)[1]
     mean, scale = np.mean(rows, axis=0), np.maximum(np.std(rows, axis=0), LEAST_SCALE)
     z = np.clip((rows - mean) / scale, -CLIP, CLIP)
     weights = _balanced(kinds, len(classes))
-    found = tuple(_network(z, kinds, weights, seed + i) for i in range(networks))
-    temperature = _temperature(z, kinds, owner, weights, seed)
+    found = tuple(_network(z, kinds, weights, seed + i, hidden) for i in range(networks))
+    temperature = _temperature(z, kinds, owner, weights, seed, hidden)
     return Head(features=features, classes=classes, mean=mean, scale=scale, networks=found, temperature=temperature)
 
 
@@ -51,10 +55,14 @@ def _balanced(kinds: np.ndarray[tuple[int, ...], np.dtype[np.int64]], classes: i
 
 
 def _network(
-    z: FloatArray, kinds: np.ndarray[tuple[int, ...], np.dtype[np.int64]], weights: FloatArray, seed: int
+    z: FloatArray,
+    kinds: np.ndarray[tuple[int, ...], np.dtype[np.int64]],
+    weights: FloatArray,
+    seed: int,
+    hidden: tuple[int, ...],
 ) -> Network:
     fitted = MLPClassifier(
-        hidden_layer_sizes=HIDDEN,
+        hidden_layer_sizes=hidden,
         activation="tanh",
         solver="lbfgs",
         alpha=PENALTY,
@@ -76,6 +84,7 @@ def _temperature(
     owner: np.ndarray[tuple[int, ...], np.dtype[np.int64]],
     weights: FloatArray,
     seed: int,
+    hidden: tuple[int, ...],
     folds: int = 4,
 ) -> float:
     """Temperature (C. Guo et al., ICML 2017) that makes left-out machines likeliest."""
@@ -84,7 +93,7 @@ def _temperature(
         out = owner % folds == fold
         if not np.any(out) or np.unique(kinds[~out]).size <= kinds.max():
             return 1.0
-        scores[out] = _network(z[~out], kinds[~out], weights[~out], seed).scores(z[out])
+        scores[out] = _network(z[~out], kinds[~out], weights[~out], seed, hidden).scores(z[out])
 
     def loss(log_t: float) -> float:
         p = softmax(scores / np.exp(log_t))[np.arange(kinds.size), kinds]

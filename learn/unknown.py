@@ -81,8 +81,8 @@ def strongest(bank: Bank, s: Search, taken: float | None = None) -> tuple[float,
 
 
 def _fundamental(bank: Bank, band: int, order: float) -> float:
-    """The lowest of the order and its double or half whose own first line is not much weaker than the others'."""
-    candidates = [c for c in (0.5 * order, order, 2.0 * order) if 1.8 <= c <= 12.5]
+    """The lowest of the order, its third, half and double whose own first line is not much weaker than the others'."""
+    candidates = [c for c in (order / 3, 0.5 * order, order, 2.0 * order) if 1.8 <= c <= 12.5]
     first = [float(line_depths(bank, band, np.array([c]))[0]) for c in candidates]
     most = max(first)
     return next((c for c, d in zip(candidates, first, strict=True) if d >= 0.4 * most and d > 0), order)

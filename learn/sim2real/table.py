@@ -12,7 +12,8 @@ from multiprocessing import get_context
 
 import numpy as np
 
-from learn import features, unknown
+from learn import features, unknown, whole
+from learn.assess import WHOLE, long_rows, stretches
 from learn.bank import bank
 from learn.model import Model
 from learn.simulate.machines import CLASSES
@@ -21,44 +22,59 @@ from learn.train import fit_head
 from signals.series import FloatArray
 
 WINDOW_TURNS = 10.0
-MIDDLE_TURNS = (15.0, 40.0)
 WINDOWS = 2
-Piece = tuple[FloatArray, FloatArray, str, int, bool]
 PARTS = 8
 """Shares of the machines that processes take in turn."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Table:
-    """`known` (rows, features), `unknown` (rows, features), labels and machines by row."""
+    """`known`, `unknown` (pieces, features), `long` (recordings, features), each with labels and machines by row."""
 
     known: FloatArray
     unknown: FloatArray
     labels: tuple[str, ...]
     machines: tuple[int, ...]
-    whole: tuple[bool, ...]
+    long: FloatArray
+    long_labels: tuple[str, ...]
+    long_machines: tuple[int, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Example:
+    """Features of one simulated recording: of its pieces, and of the whole."""
+
+    label: str
+    machine: int
+    known: list[FloatArray]
+    unknown: list[FloatArray]
+    long: FloatArray
+    """(1, features)."""
 
 
 def pieces(row: Row) -> list[FloatArray]:
-    """The recording, two windows of ten turns and one of medium length, at places the machine's number decides."""
+    """Two windows of ten turns at places the machine's number decides, then the recording in stretches."""
     rng = np.random.default_rng(row.machine)
     short = int(WINDOW_TURNS * row.rate_hz / row.speed_hz)
     starts = rng.integers(0, max(1, row.samples.size - short), WINDOWS)
-    medium = int(rng.uniform(*MIDDLE_TURNS) * row.rate_hz / row.speed_hz)
-    return [row.samples, *(row.samples[s : s + short] for s in starts), row.samples[:medium]]
+    whole_ones = [part[0] for part in stretches([row.samples], row.rate_hz, row.speed_hz)]
+    return [*(row.samples[s : s + short] for s in starts), *whole_ones]
 
 
-def part_table(
-    part: int, count: int, seed: int, variant: Variant
-) -> list[tuple[FloatArray, FloatArray, str, int, bool]]:
+def part_table(part: int, count: int, seed: int, variant: Variant) -> list[Example]:
     """Features of one share of the machines."""
     found = []
     for row in rows(count, seed, part, PARTS, variant):
-        for place, piece in enumerate(pieces(row)):
-            spectra = bank([piece], row.rate_hz, row.speed_hz)
-            known, _ = features.vector(spectra, row.orders)
-            plain, _ = unknown.vector(spectra)
-            found.append((known, plain, row.label, row.machine, place == 0))
+        spectra = [bank([piece], row.rate_hz, row.speed_hz) for piece in pieces(row)]
+        found.append(
+            Example(
+                label=row.label,
+                machine=row.machine,
+                known=[features.vector(one, row.orders)[0] for one in spectra],
+                unknown=[unknown.vector(one)[0] for one in spectra],
+                long=long_rows([row.samples], row.rate_hz, row.speed_hz, row.orders),
+            )
+        )
     return found
 
 
@@ -76,18 +92,24 @@ def table(count: int, seed: int, variant: Variant, processes: int = 2, parts: Se
     work = partial(part_table, count=count, seed=seed, variant=variant)
     with pool_of(processes) as pool:
         shares = list(pool.map(work, parts) if pool is not None else map(work, parts))
-    flat = [one for share in shares for one in share]
+    return joined([one for share in shares for one in share])
+
+
+def joined(found: Sequence[Example]) -> Table:
+    """All examples as one table."""
     return Table(
-        known=np.stack([one[0] for one in flat]),
-        unknown=np.stack([one[1] for one in flat]),
-        labels=tuple(one[2] for one in flat),
-        machines=tuple(one[3] for one in flat),
-        whole=tuple(one[4] for one in flat),
+        known=np.stack([row for one in found for row in one.known]),
+        unknown=np.stack([row for one in found for row in one.unknown]),
+        labels=tuple(one.label for one in found for _ in one.known),
+        machines=tuple(one.machine for one in found for _ in one.known),
+        long=np.concatenate([one.long for one in found]),
+        long_labels=tuple(one.label for one in found for _ in one.long),
+        long_machines=tuple(one.machine for one in found for _ in one.long),
     )
 
 
 def train(found: Table, *, seed: int, made_by: dict[str, object]) -> Model:
-    """Both heads."""
+    """All heads: of pieces with the geometry known and unknown, and of whole recordings with it known."""
     heads = {
         name: fit_head(values, found.labels, found.machines, names, CLASSES, seed=seed)
         for name, values, names in (
@@ -95,4 +117,7 @@ def train(found: Table, *, seed: int, made_by: dict[str, object]) -> Model:
             ("unknown", found.unknown, unknown.NAMES),
         )
     }
+    heads[WHOLE] = fit_head(
+        found.long, found.long_labels, found.long_machines, whole.NAMES, CLASSES, seed=seed, networks=1, hidden=()
+    )
     return Model(heads=heads, made_by=made_by)

@@ -67,6 +67,31 @@ def knocks(rng: np.random.Generator, samples: int, rate_hz: float) -> FloatArray
     return values
 
 
+def neighbours(
+    rng: np.random.Generator, samples: int, rate_hz: float, speed_hz: float, share: float = 0.4
+) -> FloatArray:
+    """Regular impulses of something else (another bearing, a gear, a belt, an inverter), RMS 1, (2, n).
+
+    One to three trains at any rate between 0.3 and 13 a turn, steady or slipping, each impulse as high as the last or
+    up to three times as high once a turn of a slower part; in `share` of the machines, sound or not.
+    """
+    values = np.zeros((2, samples))
+    if rng.random() >= share:
+        return values
+    for _ in range(int(rng.integers(1, 4))):
+        period = rate_hz / (speed_hz * log_uniform(rng, 0.3, 13.0))
+        count = int(samples / period) - 1
+        slip = log_uniform(rng, 1e-4, 0.02) * np.cumsum(rng.standard_normal(count))
+        at = np.rint((np.arange(count) + rng.uniform(0.0, 1.0) + slip) * period).astype(np.int64)
+        inside = (at >= 0) & (at < samples)
+        slow = rng.uniform(0.02, 0.5) * np.arange(count) + rng.uniform(0.0, 1.0)
+        heights = 1 + rng.uniform(0.0, 0.5) * np.cos(2 * np.pi * slow) + 0.2 * rng.standard_normal(count)
+        angle, size = rng.uniform(0, 2 * np.pi), log_uniform(rng, 0.1, 1.0)
+        for row, part in enumerate((np.cos(angle), np.sin(angle))):
+            np.add.at(values[row], at[inside], size * part * heights[inside])
+    return np.asarray(values / max(float(np.sqrt(np.mean(values**2))), 1e-30), dtype=np.float64)
+
+
 def free_axis(
     rng: np.random.Generator, fault: FloatArray, rate_hz: float, spin_hz: float, cage_hz: float
 ) -> FloatArray:

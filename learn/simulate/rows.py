@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from learn.orders import FaultOrders, from_geometry
-from learn.simulate.background import free_axis, knocks, log_uniform, rolling_noise, warped
+from learn.simulate.background import free_axis, knocks, log_uniform, neighbours, rolling_noise, warped
 from learn.simulate.chain import RATES_HZ, drawn_chain
 from learn.simulate.machines import BEARINGS, CLASSES, RATE_HZ, SETTLE_S, recipe
 from learn.simulate.visible import SHOWS_DB, visible_db
@@ -24,6 +24,8 @@ from sim.parts.bearing.from_spec import geometry_from_spec
 SHARE_FAST = 2 / 3
 AT_ONCE = 8
 """Machines simulated and held at once."""
+HEARINGS = 2
+"""Chains and backgrounds drawn for each machine."""
 STILL = 1e-6
 """RMS acceleration, m/s^2, below which the measured bearing carries nothing."""
 
@@ -72,7 +74,9 @@ def rows(count: int, seed: int, part: int, parts: int, variant: Variant = FULL) 
     """Rows of every `parts`-th machine of a dataset of about `count`, from `part` on."""
     for fast in (True, False):
         for four in _fours(count, seed, fast, part, parts, variant):
-            yield from _heard(four, np.random.default_rng([seed, int(fast), four.number]), variant.chain)
+            for hearing in range(HEARINGS if variant.chain else 1):
+                key = [seed, int(fast), four.number, *([hearing] if hearing else [])]
+                yield from _heard(four, np.random.default_rng(key), variant.chain)
 
 
 def _fours(count: int, seed: int, fast: bool, part: int, parts: int, variant: Variant) -> Iterator[_Four]:
@@ -135,6 +139,7 @@ def _recorded(four: _Four, rate_hz: float, rng: np.random.Generator) -> dict[str
     angle = np.asarray(2 * np.pi * four.speed_hz / RATE_HZ * np.arange(sound.shape[1]), dtype=np.float64)
     ground = level * log_uniform(rng, 0.03, 3.0) * rolling_noise(rng, angle, four.orders)
     ground = ground + level * log_uniform(rng, 0.1, 3.0) * knocks(rng, sound.shape[1], RATE_HZ)
+    ground = ground + level * log_uniform(rng, 0.03, 1.5) * neighbours(rng, sound.shape[1], RATE_HZ, four.speed_hz)
     links = drawn_chain(rng, level, rate_hz)
     wander = (log_uniform(rng, 1e-4, 4e-3), log_uniform(rng, 0.1, 2.0), int(rng.integers(2**31)))
     free = np.random.default_rng(int(rng.integers(2**31)))

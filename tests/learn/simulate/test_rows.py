@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from learn.orders import of_ratio
-from learn.simulate.background import free_axis, knocks, rolling_noise, warped
+from learn.simulate.background import free_axis, knocks, neighbours, rolling_noise, warped
 from learn.simulate.machines import CLASSES, families, recipe
 from learn.simulate.rows import Variant, rows
 from learn.simulate.visible import SHOWS_DB, visible_db
@@ -71,3 +71,12 @@ def test_rows_are_reproducible_and_labelled():
     assert all(np.all(np.isfinite(r.samples)) for r in first)
     bare = list(islice(rows(18, 3, 0, 24, Variant(chain=False)), 2))
     assert {r.rate_hz for r in bare} == {48_000.0}
+
+
+def test_neighbours_are_regular_impulses_in_some_machines():
+    found = [neighbours(np.random.default_rng(k), 48_000, 48_000.0, 30.0) for k in range(40)]
+    some = [x for x in found if np.any(x)]
+    assert 6 < len(some) < 30
+    assert all(np.sqrt(np.mean(x**2)) == pytest.approx(1.0) for x in some)
+    np.testing.assert_array_equal(found[3], neighbours(np.random.default_rng(3), 48_000, 48_000.0, 30.0))
+    assert not np.any(neighbours(np.random.default_rng(1), 48_000, 48_000.0, 30.0, share=0.0))
