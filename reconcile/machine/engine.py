@@ -17,7 +17,7 @@ from reconcile.gate.spoiled import without_spoiled
 from reconcile.judge.changes import lenses, observed_changes
 from reconcile.machine.answer import answer, fault_answer
 from reconcile.machine.budget import QUICK, Budget
-from reconcile.machine.decide import decide, remarkable, tempered
+from reconcile.machine.decide import decide, leaves_lines, remarkable, tempered
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
@@ -33,6 +33,8 @@ from sim.core.spec import MachineSpec
 Progress = Callable[[float, str], None]
 CLOSER_LINES_P = 0.05
 """Chance of a change of single lines, on machines that agree with the baseline, from which candidates are asked."""
+FURTHER = 2
+"""Rounds of refining before an effect is said to leave single lines."""
 
 
 def _silent(_share: float, _stage: str) -> None:
@@ -98,6 +100,9 @@ def _answered(
     for turn in range(budget.rounds):
         progress(0.8 + 0.1 * turn / budget.rounds, "refining the best candidates")
         found = refined(closer, found, budget, meter, turn)
+    for turn in range(budget.rounds, budget.rounds + FURTHER):
+        if leaves_lines(found.screen.rest):  # too few draws near the right size look like unknown physics
+            found = refined(closer, found, budget, meter, turn)
     found = replace(found, screen=tempered(found.screen, atlas.screen))
     return closer, found, told(local) if local is not None else {}
 
