@@ -70,7 +70,7 @@ def score(truth: Json, report: Json | None) -> Score:
     }
     found |= _of_group(group)(truth, said, verdict)
     found |= _held_out(said)
-    cost = (said.get("provenance") or {}).get("core_seconds")
+    cost = ((said.get("provenance") or {}).get("cost") or {}).get("core_s")
     found["core_seconds"] = float(cost) if isinstance(cost, int | float) else None
     return Score(**found)
 

@@ -42,7 +42,7 @@ def right(case):
         return {"verdict": "ambiguous", "causes": [cause(t, s, named=False) for t, s in case["causes"]]}
     causes = [cause(e["terms"][0], e["sites"][0], e["value"], name=e["severity"]["name"]) for e in case["effects"]]
     held = {"gain": 0.7, "gain_low": 0.6, "retuned": 0.3, "black_box": 0.5, "placebo": 0.01}
-    return {"verdict": "explained", "causes": causes, "held_out": held, "provenance": {"core_seconds": 50.0}}
+    return {"verdict": "explained", "causes": causes, "held_out": held, "provenance": {"cost": {"core_s": 50.0}}}
 
 
 @pytest.mark.parametrize("split", ["dev", "sealed"])

@@ -108,10 +108,11 @@ def test_a_pattern_that_stood_out_among_all_machines_needs_no_unusual_change() -
 
 
 def test_single_lines_that_the_best_effect_leaves_are_unknown_physics() -> None:
-    found = decide(screen([20.0, 9.0], rest=Rest(unmet=2.1, kept=0.3)), views=9)
+    found = decide(screen([20.0, 15.0], rest=Rest(unmet=2.1, kept=0.3)), views=9)
     assert found.word == "unknown_physics" and "2.1 times" in found.reasons[0]
-    assert decide(screen([20.0, 9.0], rest=Rest(unmet=1.0, kept=0.3)), views=9).word == "explained"
-    assert decide(screen([20.0, 9.0], rest=Rest(unmet=4.5, kept=0.65)), views=9).word == "explained"
+    assert decide(screen([20.0, 15.0], rest=Rest(unmet=1.0, kept=0.3)), views=9).word == "explained"
+    assert decide(screen([30.0, 15.0], rest=Rest(unmet=2.1, kept=0.3)), views=9).word == "explained", "far ahead"
+    assert decide(screen([20.0, 15.0], rest=Rest(unmet=4.5, kept=0.65)), views=9).word == "explained"
     beside = decide(struck([30.0, 5.0], [20.0], rest=Rest(unmet=3.0, kept=0.3)), views=9)
     assert beside.word == "explained" and "left" in beside.reasons[0]
 
