@@ -102,6 +102,8 @@ def answer(
     causes = ranked_causes(found, decision, weights, observed, other) if missing else ()
     held = _held(setting, found, decision, layout, unknown) if decision.chosen else None
     fitted = fitted_change(found, decision.chosen[0], observed) if decision.chosen else None
+    if unknown is not None and unknown.change is not None:
+        fitted = unknown.change
     severity: Severity | None = causes[0].severity if causes else None
     word, text, fault = decision.word, sentence(decision, severity, held), None
     if unknown is not None:

@@ -32,6 +32,8 @@ class TrialLaw:
     key: str
     formula: str
     text: str
+    unit: str
+    """Of the coefficient."""
     rate: bool
 
     def values(self, x: np.ndarray, v: np.ndarray, gap: float) -> np.ndarray:
@@ -47,11 +49,13 @@ class TrialLaw:
 
 
 LAWS = (
-    TrialLaw(key="cubic", formula="x*x*x", text="z^3", rate=False),
-    TrialLaw(key="dead_zone", formula="(max(x-{g},0)+min(x+{g},0))", text="(|z| - {g})_+ sgn z", rate=False),
-    TrialLaw(key="viscous", formula="v", text="dz/dt", rate=True),
-    TrialLaw(key="drag", formula="abs(v)*v", text="|dz/dt| dz/dt", rate=True),
-    TrialLaw(key="rate_free", formula="sign(v)*abs(x)", text="|z| sgn dz/dt", rate=False),
+    TrialLaw(key="cubic", formula="x*x*x", text="z^3", unit="N/m^3", rate=False),
+    TrialLaw(
+        key="dead_zone", formula="(max(x-{g},0)+min(x+{g},0))", text="(|z| - {g})_+ sgn z", unit="N/m", rate=False
+    ),
+    TrialLaw(key="viscous", formula="v", text="dz/dt", unit="N s/m", rate=True),
+    TrialLaw(key="drag", formula="abs(v)*v", text="|dz/dt| dz/dt", unit="N s^2/m^2", rate=True),
+    TrialLaw(key="rate_free", formula="sign(v)*abs(x)", text="|z| sgn dz/dt", unit="N/m", rate=False),
 )
 """Beside what the library has at supports: springs that grow, rates that differ, friction that follows the deflection
 (hysteretic damping, N. O. Myklestad, J. Appl. Mech. 19 (1952) 284-286)."""

@@ -23,6 +23,7 @@ from reconcile.machine.local import simulated_banks
 from reconcile.machine.search import LEAST_OF_LINES
 from reconcile.machine.setting import Found, Setting
 from reconcile.verdict import EstimatedForce
+from signals.series import FloatArray
 from sim.core.errors import SidebandError
 from sim.core.spec import MachineSpec
 
@@ -40,6 +41,8 @@ class Unknown:
     known: Catalogued | None = None
     label: str | None = None
     machine: MachineSpec | None = None
+    change: FloatArray | None = None
+    """(F,) dB: what the law brings, by its draw nearest to the observation."""
     tried: bool = True
     """Whether laws were tried."""
 
@@ -147,17 +150,24 @@ def _standing(
         force=EstimatedForce(
             site=site,
             samples={key: tuple(float(x) for x in values) for key, values in samples.items()},
-            law=f"{coefficient:.3g} {text} on both axes",
+            law=f"{coefficient:.3g} {law.unit} * {text} on both axes",
             coefficients={law.key: coefficient},
         ),
         known=tried,
         label=name,
         machine=machine.model_copy(update=update),
+        change=_nearest_change(fine, tried, name, setting.changes.observed),
     )
 
 
+def _nearest_change(fine: Fitted, tried: Catalogued, name: str, observed: FloatArray) -> FloatArray:
+    rows = np.array(tried.library.groups[name])
+    squared = np.sum((fine.points[rows] - fine.place(observed)) ** 2, axis=1)
+    return np.asarray(tried.library.changes[rows[int(np.argmin(squared))]])
+
+
 def _size(
-    fine: Fitted, tried: Catalogued, name: str, observed: np.ndarray, motion: Motion, law: TrialLaw
+    fine: Fitted, tried: Catalogued, name: str, observed: FloatArray, motion: Motion, law: TrialLaw
 ) -> tuple[float, float]:
     """Coefficient, and the half width of its 90 % interval in logarithm, from the sizes near the observation."""
     rows = np.array(tried.library.groups[name])

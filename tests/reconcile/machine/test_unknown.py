@@ -83,6 +83,7 @@ def test_the_law_that_brings_the_change_stands() -> None:
     assert np.all(force <= np.array(told.force.samples["high_n"]))
     shares = [MOTION.coefficient(next(w for w in unknown.LAWS if w.key == "drag"), s) for s in SHARES]
     assert min(shares) < told.force.coefficients["drag"] < max(shares)
+    assert told.change is not None and told.change.shape == setting.changes.observed.shape
     assert told.machine is not None and [w.dof for w in told.machine.custom_laws] == [
         "bearing2.outer.x",
         "bearing2.outer.y",
