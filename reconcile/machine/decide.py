@@ -18,7 +18,7 @@ LOOKS = 4.0
 ALSO_P = 0.05
 """A pattern counts only if the whole change is unusual too,"""
 FIRST_P = 0.005
-"""or if it stood out already among all machines of the kind: of 40 healthy cases of development one came to 0.0065, the
+"""or if it stood out already among all machines of the kind: of 36 healthy cases of development one came to 0.0065, the
 next to 0.16."""
 CLEAR_P = 1e-4
 """Chance of a change of single lines from which it is too clear to be called faint."""
