@@ -20,6 +20,7 @@ from reconcile.machine.words import law_sentence, next_experiment, sentence, siz
 from reconcile.observe.features import Layout
 from reconcile.observe.watch import WatchList, watch_list
 from reconcile.verdict import (
+    Cause,
     HeldOut,
     Level,
     PlaceWeight,
@@ -27,6 +28,7 @@ from reconcile.verdict import (
     SensorFault,
     Severity,
     Where,
+    Word,
 )
 from sim.version import PHYSICS_VERSION
 
@@ -104,38 +106,21 @@ def answer(
     fitted = fitted_change(found, decision.chosen[0], observed) if decision.chosen else None
     if unknown is not None and unknown.change is not None:
         fitted = unknown.change
-    severity: Severity | None = causes[0].severity if causes else None
-    word, text, fault = decision.word, sentence(decision, severity, held), None
-    if unknown is not None:
-        text = f"{text} {law_sentence(unknown.force, tried=unknown.tried)}"
-    if other is not None:
-        text = f"{text} Beside it: {title(other[0])}{size(causes[1].severity)}."
-    if gate.fault is not None and word in ("nothing_missing", "not_decidable") and not _doubtful(gate, setting, word):
-        # a fault that is sure goes before a rest of which nothing can be told
-        rest = "" if not missing else " What differs on the other channels is too faint to tell."
-        word, fault = "measurement_fault", gate.fault
-        text = f"The mismatch is in the measurement: {gate.fault.detail}.{rest}"
+    word, text, fault = _told(setting, decision, gate, causes, held, other, unknown)
     lead = _lead(found, decision)
     named = decision.chosen[0] if decision.word == "explained" else None
     return Report(
         verdict=word,
         sentence=text,
         level="machine",
-        where=Where(
-            sites=_sites(weights) if missing else (),
-            lines=line_changes(setting.data, setting.changes, layout, watched, setting.channels) if missing else (),
-            angle_window=angle_window(setting.machine, setting.data, setting.channels) if missing else None,
-            limits=_limits(setting),
-        ),
+        where=_where(setting, layout, watched, weights) if missing else Where(limits=_limits(setting)),
         causes=causes,
         fault=fault,
         held_out=held,
         undecidable=tuple(decision.reasons) if decision.word in ("ambiguous", "not_decidable") else (),
         next_experiment=next_experiment(decision.chosen, lead, len(setting.data), setting.channels),
         force=unknown.force if unknown is not None else None,
-        machine=revised_document(setting, causes)
-        if unknown is None or unknown.machine is None
-        else unknown.machine.model_dump(mode="json"),
+        machine=_machine(setting, causes, unknown),
         stages=_stages(setting, found, gate, decision, fit or {}),
         pictures={
             "spectra": spectra(setting.data, setting.seen_through, fitted, layout, setting.channels),
@@ -144,6 +129,44 @@ def answer(
         },
         provenance=_provenance(setting, cost),
     )
+
+
+def _told(
+    setting: Setting,
+    decision: Decision,
+    gate: Gate,
+    causes: Sequence[Cause],
+    held: HeldOut | None,
+    other: tuple[str, np.ndarray] | None,
+    unknown: Unknown | None,
+) -> tuple[Word, str, SensorFault | None]:
+    """Verdict, sentence and sensor fault."""
+    severity: Severity | None = causes[0].severity if causes else None
+    word, text = decision.word, sentence(decision, severity, held)
+    if unknown is not None:
+        text = f"{text} {law_sentence(unknown.force, tried=unknown.tried)}"
+    if other is not None:
+        text = f"{text} Beside it: {title(other[0])}{size(causes[1].severity)}."
+    if gate.fault is None or word not in ("nothing_missing", "not_decidable") or _doubtful(gate, setting, word):
+        return word, text, None
+    # a fault that is sure goes before a rest of which nothing can be told
+    rest = "" if word == "nothing_missing" else " What differs on the other channels is too faint to tell."
+    return "measurement_fault", f"The mismatch is in the measurement: {gate.fault.detail}.{rest}", gate.fault
+
+
+def _where(setting: Setting, layout: Layout, watched: WatchList, weights: Mapping[str, float]) -> Where:
+    return Where(
+        sites=_sites(weights),
+        lines=line_changes(setting.data, setting.changes, layout, watched, setting.channels),
+        angle_window=angle_window(setting.machine, setting.data, setting.channels),
+        limits=_limits(setting),
+    )
+
+
+def _machine(setting: Setting, causes: Sequence[Cause], unknown: Unknown | None) -> dict[str, object] | None:
+    if unknown is not None and unknown.machine is not None:
+        return unknown.machine.model_dump(mode="json")
+    return revised_document(setting, causes)
 
 
 def _doubtful(gate: Gate, setting: Setting, word: str) -> bool:
