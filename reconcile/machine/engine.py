@@ -21,7 +21,7 @@ from reconcile.machine.decide import decide, leaves_lines, remarkable, tempered
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
-from reconcile.machine.search import fit_views, located, refined, screen_atlas
+from reconcile.machine.search import broader, fit_views, located, refined, screen_atlas
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.unknown import Unknown, unknown_force
 from reconcile.observe.observation import observe
@@ -33,8 +33,6 @@ from sim.core.spec import MachineSpec
 Progress = Callable[[float, str], None]
 CLOSER_LINES_P = 0.05
 """Chance of a change of single lines, on machines that agree with the baseline, from which candidates are asked."""
-FURTHER = 2
-"""Rounds of refining before an effect is said to leave single lines."""
 
 
 def _silent(_share: float, _stage: str) -> None:
@@ -100,9 +98,9 @@ def _answered(
     for turn in range(budget.rounds):
         progress(0.8 + 0.1 * turn / budget.rounds, "refining the best candidates")
         found = refined(closer, found, budget, meter, turn)
-    for turn in range(budget.rounds, budget.rounds + FURTHER):
-        if leaves_lines(found.screen.rest):  # too few draws near the right size look like unknown physics
-            found = refined(closer, found, budget, meter, turn)
+    if leaves_lines(found.screen.rest):  # too few draws near the right size look like unknown physics
+        found = broader(closer, found, atlas, setting, meter)
+        found = refined(closer, found, budget, meter, budget.rounds)
     found = replace(found, screen=tempered(found.screen, atlas.screen))
     return closer, found, told(local) if local is not None else {}
 

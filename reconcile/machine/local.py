@@ -146,6 +146,11 @@ def second_heat(
     return _planned(plan, {name: (done.count(name), LANES) for name in best}, atlas)
 
 
+def more_draws(plan: AtlasPlan, done: Mapping[str, int], atlas: Mapping[str, Sequence[Draw]]) -> AtlasPlan:
+    """The rest of the draws of candidates of which so many are `done`."""
+    return _planned(plan, {name: (count, LANES) for name, count in done.items()}, atlas)
+
+
 def _planned(plan: AtlasPlan, wanted: Mapping[str, tuple[int, int]], atlas: Mapping[str, Sequence[Draw]]) -> AtlasPlan:
     """Draws of each candidate from one place in their order to another."""
     planned: list[Draw] = []

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from reconcile.atlas.bank import Mapper
-from reconcile.atlas.plan import AtlasPlan
+from reconcile.atlas.plan import AtlasPlan, Draw
 from reconcile.judge.screen import judge
 from reconcile.judge.space import fit_space, squared_distances
 from reconcile.machine.budget import Budget
 from reconcile.machine.decide import credible_set, merged_weights, plausible
 from reconcile.machine.library import Catalogued, catalogued, joined
-from reconcile.machine.local import first_heat, ordered_draws, second_heat, simulated_banks
+from reconcile.machine.local import LANES, first_heat, more_draws, ordered_draws, second_heat, simulated_banks
 from reconcile.machine.refine import best_draws, refined_plan
 from reconcile.machine.second import beside, looks_for_second, strikes
 from reconcile.machine.setting import Found, Setting
@@ -28,6 +28,8 @@ LEAST_TERMS = 5
 EXPLAINED = 0.15
 """Share of the squared change that a draw must explain for its size to say something: of eleven development cases the
 nearest draw of the right effect explains 0.2 to 0.6 in five, with a size within 30 %, and below 0.1 it says nothing."""
+BROADER = 12
+"""Effects at a place that are simulated with all their draws before the answer is that none is adequate."""
 SECONDS = 3
 """Candidates for a second effect that are simulated with all their draws."""
 
@@ -60,9 +62,7 @@ def screen_atlas(setting: Setting) -> Found:
 def located(setting: Setting, screened: Found, before: Setting, budget: Budget, mapper: Mapper) -> Found:
     """The best of the candidates that were `screened` in the setting `before`, simulated on the setting's own machines
     alone, the best of them more."""
-    ranked = with_others(screened)
-    shown = [t for t, seen in zip(screened.known.terms, screened.fitted.visible, strict=True) if seen]
-    draws = ordered_draws(before.plan, shown, nearest_terms(screened, before.changes.observed))
+    ranked, draws = with_others(screened), _draws(screened, before)
     first = first_heat(setting.plan, ranked, draws, budget.terms)
     known = simulated(setting, first, mapper)
     found = fit_views(setting, known)
@@ -74,6 +74,20 @@ def located(setting: Setting, screened: Found, before: Setting, budget: Budget, 
     if not second.draws:
         return found  # effects with one place only: the first heat had all of their draws
     return fit_views(setting, simulated(setting, second, mapper, known))
+
+
+def _draws(screened: Found, before: Setting) -> dict[str, list[Draw]]:
+    shown = [t for t, seen in zip(screened.known.terms, screened.fitted.visible, strict=True) if seen]
+    return ordered_draws(before.plan, shown, nearest_terms(screened, before.changes.observed))
+
+
+def broader(setting: Setting, found: Found, screened: Found, before: Setting, mapper: Mapper) -> Found:
+    """More draws of the best effects that have few: one that is not met at its size looks like none at all."""
+    groups = found.known.library.groups
+    order = [found.screen.names[k] for k in np.argsort(-found.screen.evidence)]
+    few = {name: len(groups[name]) for name in order if len(groups[name]) < LANES}
+    plan = more_draws(setting.plan, dict(list(few.items())[:BROADER]), _draws(screened, before))
+    return found if not plan.draws else fit_views(setting, simulated(setting, plan, mapper, found.known))
 
 
 def nearest_terms(screened: Found, observed: FloatArray) -> set[int]:

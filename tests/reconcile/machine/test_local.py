@@ -12,7 +12,7 @@ from reconcile.atlas.candidates import candidates
 from reconcile.atlas.plan import AtlasPlan, Point, atlas_plan
 from reconcile.calibrate.uncertain import uncertain_numbers
 from reconcile.machine.library import share_of
-from reconcile.machine.local import LANES, first_heat, ordered_draws, second_heat
+from reconcile.machine.local import LANES, first_heat, more_draws, ordered_draws, second_heat
 from reconcile.machine.meter import Meter
 from reconcile.observe.statistics import Statistics
 from sim import presets
@@ -36,6 +36,12 @@ def test_the_first_heat_fills_lanes_with_the_best_effects_at_all_their_sites(atl
     assert found.count("outer_spall@bearing2") == found.count("outer_spall@bearing1") == LANES // 2
     assert found.count("inner_spall@bearing1") == found.count("tooth_crack@gear") == LANES
     assert "backlash@mesh1" not in found
+
+
+def test_more_draws_are_those_that_are_not_done(atlas: AtlasPlan) -> None:
+    draws = ordered_draws(atlas, ())
+    plan = more_draws(atlas, {"tooth_crack@gear": 2, "backlash@mesh1": LANES}, draws)
+    assert [d.term for d in plan.draws] == [d.term for d in draws["tooth_crack@gear"][2:]]
 
 
 def test_the_nearest_draw_comes_first_and_the_rest_as_usual(atlas: AtlasPlan) -> None:
