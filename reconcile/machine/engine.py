@@ -99,7 +99,7 @@ def _answered(
         progress(0.8 + 0.1 * turn / budget.rounds, "refining the best candidates")
         found = refined(closer, found, budget, meter, turn)
     if leaves_lines(found.screen.rest):  # too few draws near the right size look like unknown physics
-        found = broader(closer, found, atlas, setting, meter)
+        found = broader(closer, found, atlas, setting, budget, meter)
         found = refined(closer, found, budget, meter, budget.rounds)
     found = replace(found, screen=tempered(found.screen, atlas.screen))
     return closer, found, told(local) if local is not None else {}

@@ -28,8 +28,6 @@ LEAST_TERMS = 5
 EXPLAINED = 0.15
 """Share of the squared change that a draw must explain for its size to say something: of eleven development cases the
 nearest draw of the right effect explains 0.2 to 0.6 in five, with a size within 30 %, and below 0.1 it says nothing."""
-BROADER = 12
-"""Effects at a place that are simulated with all their draws before the answer is that none is adequate."""
 SECONDS = 3
 """Candidates for a second effect that are simulated with all their draws."""
 
@@ -81,12 +79,12 @@ def _draws(screened: Found, before: Setting) -> dict[str, list[Draw]]:
     return ordered_draws(before.plan, shown, nearest_terms(screened, before.changes.observed))
 
 
-def broader(setting: Setting, found: Found, screened: Found, before: Setting, mapper: Mapper) -> Found:
+def broader(setting: Setting, found: Found, screened: Found, before: Setting, budget: Budget, mapper: Mapper) -> Found:
     """More draws of the best effects that have few: one that is not met at its size looks like none at all."""
     groups = found.known.library.groups
     order = [found.screen.names[k] for k in np.argsort(-found.screen.evidence)]
     few = {name: len(groups[name]) for name in order if len(groups[name]) < LANES}
-    plan = more_draws(setting.plan, dict(list(few.items())[:BROADER]), _draws(screened, before))
+    plan = more_draws(setting.plan, dict(list(few.items())[: budget.broader]), _draws(screened, before))
     return found if not plan.draws else fit_views(setting, simulated(setting, plan, mapper, found.known))
 
 
