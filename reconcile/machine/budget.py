@@ -11,7 +11,8 @@ class Budget:
     """How much is simulated beyond the atlas, on machines that agree with the baseline: the best `terms` at all sites,
     more of the best `candidates`, then the `effects` best near their best draws in each of `rounds`. Where
     no known effect is adequate force laws are tried at the likeliest `supports` bearings, after
-    the best `broader` effects at a place that have few draws got all of them: one not met at its size looks like none."""
+    the best `broader` effects at a place that have few draws got all of them: one not met at its size looks like
+    none."""
 
     name: Literal["quick", "full"]
     terms: int
