@@ -42,7 +42,8 @@ TARGETS = (
     ("ambiguous", "cannot_tell", '"cannot tell" in at least 90 % of look-alikes'),
 )
 MENDED = """s147 to s158 and s163 ran before the nearest draw of the atlas came first on the fitted machines and
-two more rounds of refining came before "unknown physics" (s152, a fit of 9 um, had been called that)."""
+the leading effects were refined once more before "unknown physics" (s152, a fit of 9 um, had been called that, and is
+still); s159, s164 to s166, s168 and s170 before that refining went with further draws, which `quick` has no more."""
 METHOD = """# Proof: concealed cases
 
 `python -m proof page` writes this page from the stored results; `python -m proof run` and `score` make those. The cases
