@@ -41,9 +41,10 @@ TARGETS = (
     ("single", "placebo_improves", "placebos improve in at most 5 %"),
     ("ambiguous", "cannot_tell", '"cannot tell" in at least 90 % of look-alikes'),
 )
-MENDED = """s147 to s158 and s163 ran before the nearest draw of the atlas came first on the fitted machines and
-the leading effects were refined once more before "unknown physics" (s152, a fit of 9 um, had been called that, and is
-still); s159, s164 to s166, s168 and s170 before that refining went with further draws, which `quick` has no more."""
+MENDED = """s147 to
+s158 and s163 ran before the nearest draw of the atlas came first on the fitted machines and the leading effects were
+refined once more before "unknown physics" (s152, a fit of 9 um, had been called that, and is still); s159, s164 to
+s166, s168 and s170 with further draws at that place, which only `full` has now."""
 METHOD = """# Proof: concealed cases
 
 `python -m proof page` writes this page from the stored results; `python -m proof run` and `score` make those. The cases
