@@ -18,6 +18,14 @@ import httpx
 
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
 ENTER = "\ue007"
+CLICKS = 5
+AIM = """
+    const [element] = arguments;
+    window.clickArrived = false;
+    element.addEventListener("click", () => { window.clickArrived = true; }, { once: true, capture: true });
+    element.scrollIntoView({ block: "center" });
+"""
+MISSED = ("element click intercepted", "stale element reference", "element not interactable")
 FLAGS = (
     "--headless",
     "--no-sandbox",
@@ -105,10 +113,19 @@ class Browser:
         return str(found[0][ELEMENT])
 
     def click(self, css: str) -> None:
-        """A real click, scrolled to first."""
-        handle = self.find(css)
-        self.run("arguments[0].scrollIntoView({block: 'center'})", {ELEMENT: handle})
-        self._call("POST", f"/element/{handle}/click", {})
+        """A real click, scrolled to first; again where the page moved meanwhile and something else was hit."""
+        for _ in range(CLICKS):
+            handle = self.find(css)
+            self.run(AIM, {ELEMENT: handle})
+            try:
+                self._call("POST", f"/element/{handle}/click", {})
+            except WebDriverError as error:
+                if not str(error).startswith(MISSED):
+                    raise
+                continue
+            if self.run("return window.clickArrived !== false"):
+                return
+        raise AssertionError(f"{CLICKS} clicks on {css} hit something else")
 
     def type(self, css: str, text: str, *, clear: bool = False) -> None:
         """Real key strokes into an element."""
