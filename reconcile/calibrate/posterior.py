@@ -147,10 +147,25 @@ def _moved(
     errors: FloatArray,
     rng: np.random.Generator,
 ) -> FloatArray:
-    """One assimilation: every machine against the levels with an error of its own."""
+    """One assimilation of the levels, within what the specification allows."""
+    return np.asarray(
+        np.clip(smoothed(theta, shown, good, evidence.levels_db, errors, rng), -FARTHEST * SPREAD, FARTHEST * SPREAD)
+    )
+
+
+def smoothed(
+    theta: FloatArray,
+    shown: FloatArray,
+    good: np.ndarray,
+    observed: FloatArray,
+    errors: FloatArray,
+    rng: np.random.Generator,
+) -> FloatArray:
+    """One assimilation: members `theta` (N, p) that show `shown` (N, n), those that are `good`, moved towards the
+    `observed` (n,), each with an error of its own drawn from `errors` (n, n)."""
     mean = shown[good].mean(axis=0)
     a, b = theta[good] - theta[good].mean(axis=0), shown[good] - mean
     gain = np.linalg.solve(b.T @ b / (good.sum() - 1) + errors, b.T @ a / (good.sum() - 1))
     noise = rng.standard_normal((theta.shape[0], errors.shape[0])) @ np.linalg.cholesky(errors).T
-    away = evidence.levels_db + noise - np.where(good[:, None], shown, mean)
-    return np.asarray(np.clip(theta + away @ gain, -FARTHEST * SPREAD, FARTHEST * SPREAD))
+    away = observed + noise - np.where(good[:, None], shown, mean)
+    return np.asarray(theta + away @ gain)

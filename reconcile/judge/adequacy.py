@@ -22,10 +22,21 @@ USUAL = 0.95
 @dataclass(frozen=True, kw_only=True)
 class Rest:
     """What an effect leaves. `unmet`: squared distance over what is usual, 0 where less than that is left. `kept`:
-    share of the squared change that the effect explains."""
+    share of the squared change that the effect explains, `pooled`: the same of families of features. `rough`: machine
+    and effect were not fitted together."""
 
     unmet: float = 0.0
     kept: float = 1.0
+    pooled: float = 1.0
+    rough: bool = True
+
+
+def explained(fitted: Fitted, observed: FloatArray, effect: str) -> float:
+    """Share of the squared change (F,) that the nearest point of the effect's path explains."""
+    place = fitted.place(observed)
+    own = fitted.paths.owner == fitted.paths.names.index(effect)
+    left = float(fitted.paths.distances(place)[own].min())
+    return 1.0 - left / max(float(np.sum(place**2)), 1e-300)
 
 
 def rest_of(fitted: Fitted, observed: FloatArray, effect: str) -> Rest:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from reconcile.judge.adequacy import Rest, rest_of
+from reconcile.judge.adequacy import Rest, explained, rest_of
 from reconcile.judge.space import Fitted, group_lengths, squared_distances
 from reconcile.tail import tail_chance
 from signals.series import FloatArray
@@ -24,8 +24,7 @@ class Screen:
     and kind), `strongest` in standard deviations; `p_best`: by the best candidate's evidence; `p_direct`: by impacts.
     `by` (effects,): the view (0, 1) that speaks for each. `weights` sum to 1 over the effects.
     `misfit`: quantile of the best distance among draws of known effects; `rest`: what the best leaves of single lines,
-    nothing where that view is missing. `p_lines`: chance of
-    such a change of single lines, whatever its pattern.
+    nothing where that view is missing. `p_lines`: chance of such a change of single lines, whatever its pattern.
     """
 
     names: tuple[str, ...]
@@ -109,7 +108,9 @@ def judge(
         p_direct=p_direct,
         misfit=looks[int(by[int(np.argmax(evidence))])].misfit,
         length=looks[0].length,
-        rest=rest_of(views[1], observed, best) if len(views) > 1 else Rest(),
+        rest=replace(rest_of(views[1], observed, best), pooled=explained(first, observed, best))
+        if len(views) > 1
+        else Rest(),
         p_lines=tail_chance(np.sum(views[1].null ** 2, axis=1), looks[1].length) if len(views) > 1 else 1.0,
     )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,6 +14,8 @@ from signals.series import FloatArray
 
 FULL_PATH = 6
 """Draws from which an effect's path is known well enough to judge how far a draw lies from the others."""
+STANDS_OUT = 0.95
+"""Quantile of the nulls' lengths from which a draw shows something."""
 LEAST_OVERDISPERSION = 2.0
 """Few and far effects would make every difference proof."""
 NULL_COPIES = 16
@@ -64,6 +66,36 @@ class Fitted:
     def place(self, changes: FloatArray) -> FloatArray:
         """(F,) -> (D,)."""
         return np.asarray(self.metric(self.view(self.whiten(changes)[None]))[0])
+
+
+def with_draws(fitted: Fitted, library: Library) -> Fitted:
+    """The same space with further draws on the paths of effects that are in it; its metric and nulls stay.
+
+    For draws that were led to what was observed: they must not teach how far draws usually lie apart.
+    """
+    points = fitted.metric(fitted.view(fitted.whiten(library.changes)))
+    first, count = fitted.points.shape[0], points.shape[0]
+    owner = np.zeros(count, dtype=int)
+    for name, members in library.groups.items():
+        owner[list(members)] = fitted.paths.names.index(name)
+    rows = np.arange(first, first + count)
+    paths = replace(
+        fitted.paths,
+        points=np.concatenate([fitted.paths.points, points]),
+        owner=np.concatenate([fitted.paths.owner, owner]),
+        low=np.concatenate([fitted.paths.low, rows]),
+        high=np.concatenate([fitted.paths.high, rows]),
+        share=np.concatenate([fitted.paths.share, library.shares]),
+    )
+    large = float(np.quantile(np.sum(fitted.null**2, axis=1), STANDS_OUT))
+    return replace(
+        fitted,
+        paths=paths,
+        points=np.concatenate([fitted.points, points]),
+        visible=np.concatenate([fitted.visible, np.sum(points**2, axis=1) > large]),
+        truth=np.concatenate([fitted.truth, owner]),
+        apart=np.concatenate([fitted.apart, np.full(count, np.inf)]),
+    )
 
 
 def _telling(groups: Mapping[str, tuple[int, ...]], visible: np.ndarray) -> dict[str, tuple[int, ...]]:
@@ -155,7 +187,7 @@ def fit_space(
     metric = fit_metric(centre, [*scatter, resting - centre])
     points, null = metric(drawn), metric(view(whiten(fresh)))
     size = np.sum(points**2, axis=1)
-    visible = size > np.quantile(np.sum(null**2, axis=1), 0.95)
+    visible = size > np.quantile(np.sum(null**2, axis=1), STANDS_OUT)
     paths = build_paths(points, _telling(library.groups, visible), library.shares)
     distances = _between(points, paths)
     truth = np.zeros(points.shape[0], dtype=int)

@@ -120,7 +120,7 @@ def answer(
         undecidable=tuple(decision.reasons) if decision.word in ("ambiguous", "not_decidable") else (),
         next_experiment=next_experiment(decision.chosen, lead, len(setting.data), setting.channels),
         force=unknown.force if unknown is not None else None,
-        machine=_machine(setting, causes, unknown),
+        machine=_machine(setting, found, causes, unknown),
         stages=_stages(setting, found, gate, decision, fit or {}),
         pictures={
             "spectra": spectra(setting.data, setting.seen_through, fitted, layout, setting.channels),
@@ -163,10 +163,12 @@ def _where(setting: Setting, layout: Layout, watched: WatchList, weights: Mappin
     )
 
 
-def _machine(setting: Setting, causes: Sequence[Cause], unknown: Unknown | None) -> dict[str, object] | None:
+def _machine(
+    setting: Setting, found: Found, causes: Sequence[Cause], unknown: Unknown | None
+) -> dict[str, object] | None:
     if unknown is not None and unknown.machine is not None:
         return unknown.machine.model_dump(mode="json")
-    return revised_document(setting, causes)
+    return revised_document(setting, found, causes)
 
 
 def _doubtful(gate: Gate, setting: Setting, word: str) -> bool:
@@ -188,7 +190,7 @@ def _held(setting: Setting, found: Found, decision: Decision, layout: Layout, un
     count = len(setting.channels)
     return held_out(
         setting.changes,
-        found.known if unknown is None or unknown.known is None else unknown.known,
+        found.unled if unknown is None or unknown.known is None else unknown.known,
         decision.chosen[0] if unknown is None or unknown.label is None else unknown.label,
         spectral=spectral_mask(layout, setting.seen_through),
         frequency=feature_frequencies(layout, lines, count),
@@ -219,7 +221,14 @@ def _stages(
             "p": decision.p,
         },
         {"name": "nominate", "candidates": len(found.screen.names), "draws": len(found.known.terms)},
-        {"name": "judge", "misfit": found.screen.misfit, "overdispersion": found.fitted.overdispersion},
+        {
+            "name": "judge",
+            "misfit": found.screen.misfit,
+            "overdispersion": found.fitted.overdispersion,
+            "lines_left": found.screen.rest.unmet,
+            "lines_explained": found.screen.rest.kept,
+            "fitted_with_the_machine": sorted(found.led),
+        },
     )
 
 

@@ -74,8 +74,9 @@ def revised(machine: MachineSpec, causes: Sequence[Cause]) -> MachineSpec:
     return machine.model_copy(update={"terms": [*machine.terms, *terms]})
 
 
-def revised_document(setting: Setting, causes: Sequence[Cause]) -> dict[str, object] | None:
+def revised_document(setting: Setting, found: Found, causes: Sequence[Cause]) -> dict[str, object] | None:
     """The revised machine, ready for JSON; None where nothing is named or likely."""
     if not causes:
         return None
-    return revised(setting.fitted_machine or setting.machine, causes).model_dump(mode="json")
+    machine = found.machine(setting, f"{causes[0].term}@{causes[0].site}")
+    return revised(machine, causes).model_dump(mode="json")

@@ -16,12 +16,13 @@ from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import without_spoiled
 from reconcile.judge.changes import lenses, observed_changes
 from reconcile.machine.answer import answer, fault_answer
+from reconcile.machine.assimilate import assimilated
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.decide import decide, leaves_lines, remarkable, tempered
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
-from reconcile.machine.search import broader, fit_views, located, refined, screen_atlas
+from reconcile.machine.search import broader, fit_views, leaders, located, nearest_effects, refined, screen_atlas
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.unknown import Unknown, unknown_force
 from reconcile.observe.observation import observe
@@ -95,12 +96,17 @@ def _answered(
         found = located(closer, atlas, setting, budget, meter)
     elif not remarkable(atlas.screen):
         return setting, atlas, {}
+    near = nearest_effects(atlas, setting.changes.observed)
     for turn in range(budget.rounds):
         progress(0.8 + 0.1 * turn / budget.rounds, "refining the best candidates")
-        found = refined(closer, found, budget, meter, turn)
-    if leaves_lines(found.screen.rest):  # too few draws near the right size look like unknown physics
+        found = refined(closer, found, budget, meter, turn, near)
+    if budget.broader and leaves_lines(
+        found.screen.rest
+    ):  # too few draws near the right size look like unknown physics
         found = broader(closer, found, atlas, setting, budget, meter)
-        found = refined(closer, found, budget, meter, budget.rounds)
+        found = refined(closer, found, budget, meter, budget.rounds, near)
+    progress(0.87, "machine and effect together")
+    found = assimilated(closer, found, leaders(found, budget), budget.members, budget.assimilations, meter)
     found = replace(found, screen=tempered(found.screen, atlas.screen))
     return closer, found, told(local) if local is not None else {}
 

@@ -63,7 +63,7 @@ LAWS = (
 
 @dataclass(frozen=True, kw_only=True)
 class Motion:
-    """Of a support in the healthy machine: root mean square displacement, m, and velocity, m/s, about the mean."""
+    """Of a support in the healthy machine: displacement, m, and velocity, m/s, (n,), both axes one after the other."""
 
     x: np.ndarray
     v: np.ndarray

@@ -19,10 +19,12 @@ from sim.terms import REGISTRY
 
 @dataclass(frozen=True, kw_only=True)
 class Catalogued:
-    """A library with the simulated terms of each row."""
+    """A library with the simulated term of each row, and the number of the healthy machine it stands on
+    (none where that is not asked)."""
 
     library: Library
     terms: tuple[TermSpec, ...]
+    pairs: tuple[int, ...] = ()
 
 
 def share_of(draw: Draw) -> float:
@@ -76,7 +78,7 @@ def catalogued(
         groups={name: tuple(members) for name, members in groups.items()},
         shares=np.array([share_of(plan.draws[k]) for k in rows]),
     )
-    return Catalogued(library=library, terms=tuple(terms))
+    return Catalogued(library=library, terms=tuple(terms), pairs=tuple(plan.draws[k].pair for k in rows))
 
 
 def _lasting(key: str) -> bool:
@@ -95,4 +97,4 @@ def joined(first: Catalogued, second: Catalogued) -> Catalogued:
         groups=groups,
         shares=np.concatenate([first.library.shares, second.library.shares]),
     )
-    return Catalogued(library=library, terms=(*first.terms, *second.terms))
+    return Catalogued(library=library, terms=(*first.terms, *second.terms), pairs=(*first.pairs, *second.pairs))

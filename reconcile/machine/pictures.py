@@ -64,7 +64,9 @@ def line_changes(
     data: Sequence[PointData], changes: Changes, layout: Layout, watched: WatchList, channels: Sequence[str]
 ) -> tuple[LineChange, ...]:
     """Watched lines that changed by more than three of their deviations, the largest first."""
-    drift = np.nanstd(changes.null, axis=0)
+    known = np.isfinite(changes.null).any(axis=0)
+    drift = np.full(known.size, np.nan)
+    drift[known] = np.nanstd(changes.null[:, known], axis=0)
     z = changes.observed / np.sqrt(changes.measured**2 + drift**2 + 1.0)
     rows: list[tuple[float, LineChange]] = []
     for p, one in enumerate(data):

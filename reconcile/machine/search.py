@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from reconcile.atlas.bank import Mapper
@@ -18,7 +20,6 @@ from reconcile.machine.setting import Found, Setting
 from signals.series import FloatArray
 from sim.core.errors import SpecError
 
-REFINED_DRAWS = 8
 POINTS_OF_LINES = 2
 """Operating points from which single lines have a pattern: at one, each meets its resonance by chance."""
 LEAST_OF_LINES = 4.0
@@ -28,6 +29,7 @@ LEAST_TERMS = 5
 EXPLAINED = 0.15
 """Share of the squared change that a draw must explain for its size to say something: of eleven development cases the
 nearest draw of the right effect explains 0.2 to 0.6 in five, with a size within 30 %, and below 0.1 it says nothing."""
+NEAREST = 2
 SECONDS = 3
 """Candidates for a second effect that are simulated with all their draws."""
 
@@ -65,6 +67,9 @@ def located(setting: Setting, screened: Found, before: Setting, budget: Budget, 
     known = simulated(setting, first, mapper)
     found = fit_views(setting, known)
     best = plausible(found.screen)[: budget.candidates]
+    best += [
+        n for n in nearest_effects(screened, before.changes.observed) if n in known.library.groups and n not in best
+    ]
     if looks_for_second(found):
         others = beside(setting, found, best[0])
         best += [n for n in (others.names[:SECONDS] if others else ()) if n not in best]
@@ -88,16 +93,28 @@ def broader(setting: Setting, found: Found, screened: Found, before: Setting, bu
     return found if not plan.draws else fit_views(setting, simulated(setting, plan, mapper, found.known))
 
 
-def nearest_terms(screened: Found, observed: FloatArray) -> set[int]:
-    """`id` of each effect's draw that is nearest to the observation, where it explains a share of it: on machines of
-    the kind that is nearly always one of the right size, of the right effect."""
+def explained_shares(screened: Found, observed: FloatArray) -> dict[str, tuple[float, int]]:
+    """Of each effect the draw nearest to the observation: share of the squared change it explains, and its row."""
     fitted = screened.fitted
     place = fitted.place(observed)
     quiet = fitted.metric(fitted.view(fitted.whiten(screened.known.library.changes)))
-    away = squared_distances(quiet, place[None])[:, 0]
-    least = (1.0 - EXPLAINED) * float(np.sum(place**2))
-    best = (min(rows, key=lambda k: away[k]) for rows in screened.known.library.groups.values())
-    return {id(screened.known.terms[k]) for k in best if away[k] < least}
+    left = squared_distances(quiet, place[None])[:, 0] / max(float(np.sum(place**2)), 1e-300)
+    best = {name: min(rows, key=lambda k: left[k]) for name, rows in screened.known.library.groups.items()}
+    return {name: (1.0 - float(left[k]), k) for name, k in best.items()}
+
+
+def nearest_effects(screened: Found, observed: FloatArray) -> tuple[str, ...]:
+    """The few effects one of whose draws explains most, on machines of the kind: of seventeen development cases the
+    right one is among the first two in ten, also where its other draws are so far away that its evidence is small."""
+    shares = {n: share for n, (share, _) in explained_shares(screened, observed).items() if share >= EXPLAINED}
+    return tuple(sorted(shares, key=lambda n: -shares[n]))[:NEAREST]
+
+
+def nearest_terms(screened: Found, observed: FloatArray) -> set[int]:
+    """`id` of each effect's draw that is nearest to the observation, where it explains a share of it: on machines of
+    the kind that is nearly always one of the right size, of the right effect."""
+    shares = explained_shares(screened, observed).values()
+    return {id(screened.known.terms[row]) for share, row in shares if share > EXPLAINED}
 
 
 def with_others(screened: Found) -> list[str]:
@@ -133,17 +150,25 @@ def simulated(setting: Setting, plan: AtlasPlan, mapper: Mapper, known: Catalogu
     return more if known is None else joined(known, more)
 
 
-def refined(setting: Setting, found: Found, budget: Budget, mapper: Mapper, turn: int) -> Found:
-    """Simulate the leading candidates again near their best draws, and judge with both libraries."""
+def leaders(found: Found, budget: Budget, near: Sequence[str] = ()) -> list[str]:
+    """The effects that are simulated again, the best first; those `near` the observation in the atlas among them."""
     weights = merged_weights(found.screen)
     leading = list(weights)[: budget.effects]
     if len(credible_set(weights, 0.999)) == 1:
         leading = leading[:2]
+    return leading + [n for n in near if n not in leading and n in found.screen.names]
+
+
+def refined(
+    setting: Setting, found: Found, budget: Budget, mapper: Mapper, turn: int, near: Sequence[str] = ()
+) -> Found:
+    """Simulate the leading candidates again near their best draws, and judge with both libraries."""
+    leading = leaders(found, budget, near)
     around = [(name, best_draws(found.view(name), found.known, name, setting.changes.observed)) for name in leading]
     if found.fine is not None and looks_for_second(found):
         others = beside(setting, found, leading[0])
         names = [n for n in (others.names[:SECONDS] if others else ()) if n not in leading]
         around += [(n, best_draws(found.fine, found.known, n, others.left)) for n in names if others]
     pairs = len(setting.plan.offsets)
-    plan = refined_plan(setting.plan, around, draws=REFINED_DRAWS, pairs=pairs, seed=setting.seed + turn)
+    plan = refined_plan(setting.plan, around, draws=budget.members, pairs=pairs, seed=setting.seed + turn)
     return fit_views(setting, simulated(setting, plan, mapper, found.known))

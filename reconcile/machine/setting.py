@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from reconcile.atlas.bank import Bank
 from reconcile.atlas.plan import AtlasPlan
+from reconcile.calibrate.uncertain import Offsets, moved
 from reconcile.judge.changes import Changes, Lens
 from reconcile.judge.screen import Screen
 from reconcile.judge.space import LEAST_OVERDISPERSION, Fitted
@@ -44,6 +46,21 @@ class Found:
     screen: Screen
     fine: Fitted | None = None
     """The view of single lines, on machines that agree with the baseline."""
+    before: Catalogued | None = None
+    """The draws that were not led to the observation, where others were."""
+    led: Mapping[str, Offsets] = field(default_factory=dict)
+    """Of effects that were fitted together with the machine: its mean offsets then."""
+
+    @property
+    def unled(self) -> Catalogued:
+        """Draws that know nothing of what was observed but where the best lie: for held-out data and comparisons."""
+        return self.before or self.known
+
+    def machine(self, setting: Setting, name: str) -> MachineSpec:
+        """The machine as it fits best with the effect, else with the baseline, else as it was given; no effects."""
+        if name in self.led:
+            return moved(setting.plan.machine, setting.plan.numbers, self.led[name])
+        return setting.fitted_machine or setting.machine
 
     def view(self, name: str) -> Fitted:
         """The view that speaks for an effect."""

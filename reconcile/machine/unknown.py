@@ -31,6 +31,8 @@ POINTS = 41
 REACH = 3.0
 """Deviations of the healthy motion over which a law is shown."""
 LEAST_DRAWS = 3
+LIKELY = 3.0
+"""Log evidence behind the likeliest support up to which laws are tried at another."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,7 +62,7 @@ def unknown_force(setting: Setting, found: Found, supports: int, mapper: Mapper)
         moving = motions(machine, sites[:supports], setting.seed)
     except SidebandError:
         return nowhere
-    tried = _tried(setting, found.known, moving, mapper)
+    tried = _tried(setting, found.unled, moving, mapper)
     if tried is None:
         return nowhere
     changes = setting.changes
@@ -80,13 +82,16 @@ def unknown_force(setting: Setting, found: Found, supports: int, mapper: Mapper)
 
 
 def likely_supports(setting: Setting, found: Found) -> tuple[str, ...]:
-    """Bearings by the evidence of what acts there, the likeliest first."""
+    """Bearings by the evidence of what acts there, the likeliest first; those far behind it are left out, a trial of
+    all laws costs as much as all else."""
     by_site = {b.name: -np.inf for b in setting.machine.bearings}
     for name, value in zip(found.screen.names, found.screen.evidence, strict=True):
         site = name.split("@")[1]
         if site in by_site:
             by_site[site] = max(by_site[site], float(value))
-    return tuple(sorted(by_site, key=lambda s: -by_site[s]))
+    likeliest = max(by_site.values())
+    order = sorted(by_site, key=lambda s: -by_site[s])
+    return tuple(s for s in order if by_site[s] >= likeliest - LIKELY or s == order[0])
 
 
 def _tried(setting: Setting, known: Catalogued, moving: Mapping[str, Motion], mapper: Mapper) -> Catalogued | None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.atlas.bank import Bank
-from reconcile.calibrate.posterior import Evidence, calibrated, mesh_evidence
+from reconcile.calibrate.posterior import Evidence, calibrated, mesh_evidence, smoothed
 from reconcile.calibrate.uncertain import SPREAD, Offsets
 from reconcile.observe.features import Scale
 from reconcile.observe.statistics import Statistics
@@ -86,3 +86,15 @@ def test_only_lines_that_stand_out_are_evidence() -> None:
     found = mesh_evidence([seen], [scale], [np.arange(1.0, LINES + 1)], np.ones(LINES, dtype=bool))
     assert found.channel.tolist() == [0] and found.line.tolist() == [3]
     assert found.levels_db[0] == pytest.approx(10 * np.log10(999.0))
+
+
+def test_one_assimilation_is_bayes_rule_for_straight_lines() -> None:
+    rng = np.random.default_rng(5)
+    slopes, prior, noise = rng.normal(size=(2, 4)), np.diag([0.5, 2.0]), 0.7 * np.eye(4)
+    members = rng.multivariate_normal([1.0, -1.0], prior, 40_000)
+    seen = np.array([0.5, -1.0, 2.0, 0.3])
+    found = smoothed(members, members @ slopes, np.ones(len(members), dtype=bool), seen, noise, rng)
+    gain = prior @ slopes @ np.linalg.inv(slopes.T @ prior @ slopes + noise)
+    mean = np.array([1.0, -1.0]) + gain @ (seen - np.array([1.0, -1.0]) @ slopes)
+    np.testing.assert_allclose(found.mean(axis=0), mean, atol=0.03)
+    np.testing.assert_allclose(np.cov(found.T), prior - gain @ slopes.T @ prior, atol=0.04)

@@ -79,6 +79,9 @@ def test_a_set_too_large_decides_nothing() -> None:
 
 def test_a_bad_fit_is_unknown_whoever_is_nearest() -> None:
     assert decide(screen([20.0, 9.0], misfit=STRANGE + 0.01), views=9).word == "unknown_physics"
+    fitted = Rest(unmet=2.0, kept=0.5, pooled=0.5, rough=False)
+    assert decide(screen([20.0, 9.0], misfit=STRANGE + 0.01, rest=fitted), views=9).word == "explained", "far ahead"
+    assert decide(screen([20.0, 15.0], misfit=STRANGE + 0.01, rest=fitted), views=9).word == "unknown_physics"
     assert decide(screen([2.0, -9.0]), views=9).word == "unknown_physics"
 
 
@@ -113,6 +116,10 @@ def test_single_lines_that_the_best_effect_leaves_are_unknown_physics() -> None:
     assert decide(screen([20.0, 15.0], rest=Rest(unmet=1.0, kept=0.3)), views=9).word == "explained"
     assert decide(screen([30.0, 15.0], rest=Rest(unmet=2.1, kept=0.3)), views=9).word == "explained", "far ahead"
     assert decide(screen([20.0, 15.0], rest=Rest(unmet=4.5, kept=0.65)), views=9).word == "explained"
+    fitted = Rest(unmet=1.0, kept=0.65, pooled=0.4, rough=False)
+    assert decide(screen([20.0, 15.0], rest=fitted), views=9).word == "unknown_physics", "fitted with the machine"
+    assert decide(screen([20.0, 15.0], rest=replace(fitted, pooled=0.55)), views=9).word == "explained"
+    assert decide(screen([20.0, 15.0], rest=replace(fitted, unmet=0.5)), views=9).word == "explained"
     beside = decide(struck([30.0, 5.0], [20.0], rest=Rest(unmet=3.0, kept=0.3)), views=9)
     assert beside.word == "explained" and "left" in beside.reasons[0]
 

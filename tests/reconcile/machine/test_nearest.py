@@ -7,7 +7,7 @@ import numpy as np
 from reconcile.judge.screen import judge
 from reconcile.judge.space import fit_space
 from reconcile.machine.library import Catalogued
-from reconcile.machine.search import nearest_terms
+from reconcile.machine.search import nearest_effects, nearest_terms
 from reconcile.machine.setting import Found
 from sim.core.spec import TermSpec
 from tests.reconcile.judge.made import DRAWS, EFFECTS, changes, library, world
@@ -43,3 +43,16 @@ def test_where_no_draw_explains_anything_no_size_is_known() -> None:
     observed = MADE.noise(np.random.default_rng(3))
     found, _ = found_in(observed)
     assert nearest_terms(found, observed) == set()
+
+
+def test_the_effect_whose_draw_explains_most_comes_first() -> None:
+    first = 0
+    for seed in range(8):
+        rng = np.random.default_rng([7, seed])
+        observed = MADE.effect(1, float(rng.uniform(0.2, 0.9)), rng) + MADE.noise(rng)
+        names = nearest_effects(found_in(observed)[0], observed)
+        assert len(names) <= 2
+        first += names[:1] == (EFFECTS[1],)
+    assert first >= 7
+    quiet = MADE.noise(np.random.default_rng(3))
+    assert nearest_effects(found_in(quiet)[0], quiet) == ()
