@@ -14,6 +14,7 @@ import matplotlib.pyplot as plt
 
 from proof.plan import COUNTS, FIRST, OTHERS
 from proof.score.one import Score
+from proof.score.rates import at_target, group_rates
 from proof.score.table import failures
 from proof.unknown import OPEN
 from proof.visible import stored, told
@@ -41,10 +42,8 @@ TARGETS = (
     ("single", "placebo_improves", "placebos improve in at most 5 %"),
     ("ambiguous", "cannot_tell", '"cannot tell" in at least 90 % of look-alikes'),
 )
-MENDED = """s147 to
-s158 and s163 ran before the nearest draw of the atlas came first on the fitted machines and the leading effects were
-refined once more before "unknown physics" (s152, a fit of 9 um, had been called that, and is still); s159, s164 to
-s166, s168 and s170 with further draws at that place, which only `full` has now."""
+FRESH = {"sealed": "s182"}
+"""Cases from here on were not looked at before their run with the present engine."""
 METHOD = """# Proof: concealed cases
 
 `python -m proof page` writes this page from the stored results; `python -m proof run` and `score` make those. The cases
@@ -70,10 +69,12 @@ from then on. First runs at the target condition (`--budget quick`, physics 1.2.
 | up to s040 | families of features | 0 of 11 | - | - |
 | s041 to s074 | and machines that agree with the baseline | 1 of 6 | - | - |
 | s078 to s146 | and impacts, single mesh lines, mean turns | 6 of 14 | 0 of 5 alarms | 0 of 5 flagged |
-| from s147 | and adequacy and detection by single lines, sizes from the atlas | below | below | below |
+| s147 to s181 | and adequacy by single lines, sizes from the atlas | 3 of 8 | 0 of 4 alarms | 1 of 2 flagged |
+| from s182 | and machine and effect fitted together | below | below | below |
 
-Below are the cases of the last row, in their order, that need no atlas but those of the nominal machine at up to three
-speeds. The engine was mended once within them: {mended}
+Below are the cases from s147 on that need no atlas but those of the nominal machine at up to three speeds, all with the
+engine of the last row (s182 and later in their order). Those up to s181 had been looked at by then, and some thresholds
+were chosen with them in view; those from s182 on had not: their rates stand in a column of their own.
 
 **How much there is to see** stands behind each failure (`python -m proof visible`, made with everything hidden known,
 which no engine has): by how many decibels, root mean square over the bins above the noise, the effect moves the test's
@@ -94,7 +95,7 @@ def write_page(docs: Path, results: Path) -> Path:
     single = COUNTS["sealed"]["single"] + COUNTS["sealed"]["open"]
     counts = {f"n_{split}": sum(groups.values()) for split, groups in COUNTS.items()}
     parts = [
-        METHOD.format(mended=MENDED, laws=laws, crossing=laws * 4 * 27, n_single=single, **counts).replace(
+        METHOD.format(laws=laws, crossing=laws * 4 * 27, n_single=single, **counts).replace(
             "9 combinations", "27 combinations"
         )
     ]
@@ -114,8 +115,13 @@ def write_page(docs: Path, results: Path) -> Path:
 
 
 def _split(split: str, summary: Mapping[str, Any], results: Path) -> str:
-    rows = ["| target (at the target condition) | reached |", "|---|---|"]
-    rows += [f"| {sentence} | {_rate(summary, 'target', group, measure)} |" for group, measure, sentence in TARGETS]
+    scores = [Score(**(s | {"laws": tuple(s["laws"])})) for s in summary["scores"]]
+    fresh = group_rates([s for s in scores if at_target(s) and s.name >= FRESH.get(split, "")])
+    rows = ["| target (at the target condition) | reached | by fresh cases |", "|---|---|---|"]
+    for group, measure, sentence in TARGETS:
+        alone = fresh.get(group, {}).get(measure)
+        told_fresh = "-" if alone is None else f"{alone.hits}/{alone.n}"
+        rows.append(f"| {sentence} | {_rate(summary, 'target', group, measure)} | {told_fresh} |")
     wide = ["| group | cases | verdict right | mechanism | place |", "|---|---|---|---|---|"]
     for group, title in TITLES.items():
         row = summary["groups"]["all"].get(group)
@@ -123,7 +129,6 @@ def _split(split: str, summary: Mapping[str, Any], results: Path) -> str:
             cells = [_rate(summary, "all", group, m) for m in ("verdict_right", "mechanism", "place")]
             wide.append(f"| {title} | {row['alarm']['n']} | {' | '.join(cells)} |")
     error, gain = summary["severity_error"], summary["gain"]
-    scores = [Score(**(s | {"laws": tuple(s["laws"])})) for s in summary["scores"]]
     seen = stored(results / f"visible-{split}.json")
     listed = [f"* {line}{told(seen.get(line.split()[0]))}" for line in failures(scores)] or ["* none"]
     return "\n".join(
