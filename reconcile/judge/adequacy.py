@@ -22,12 +22,13 @@ USUAL = 0.95
 @dataclass(frozen=True, kw_only=True)
 class Rest:
     """What an effect leaves. `unmet`: squared distance over what is usual, 0 where less than that is left. `kept`:
-    share of the squared change that the effect explains, `pooled`: the same of families of features. `rough`: machine
-    and effect were not fitted together."""
+    share of the squared change that the effect explains, `pooled`: the same of families of features. `elsewhere`: the
+    largest `unmet` in any view of single lines. `rough`: machine and effect were not fitted together."""
 
     unmet: float = 0.0
     kept: float = 1.0
     pooled: float = 1.0
+    elsewhere: float = 0.0
     rough: bool = True
 
 

@@ -12,7 +12,7 @@ from reconcile.atlas.bank import Bank
 from reconcile.atlas.plan import AtlasPlan
 from reconcile.calibrate.chain import Chain, Healthy, calibrate_chain
 from reconcile.judge.measured import measured_db, unsteady_db, wander_patterns
-from reconcile.judge.pooled import OneByOne, Pooling, mesh_lines, pooling
+from reconcile.judge.pooled import OneByOne, Pooling, first_sidebands, mesh_lines, pooling
 from reconcile.observe.features import Layout, Scale, scale_of, soft_features, through
 from reconcile.observe.observation import PointData
 from reconcile.observe.statistics import Statistics
@@ -38,6 +38,9 @@ class Changes:
     """(F,): number of the group a feature belongs to: one point, one channel, one part."""
     pooling: Pooling
     single: OneByOne
+    """Mesh harmonics, one by one."""
+    sides: OneByOne
+    """The first sidebands of the shafts around them, one by one."""
     wander: FloatArray
     """(k, F): changes that speed wander brings about, one deviation each; signs and sizes are free."""
 
@@ -127,7 +130,7 @@ def observed_changes(
         groups.append(_groups(one.test) + (groups[-1].max() + 1 if groups else 0))
         null.append(_null(lens, bank, plan, based=based))
         starts.append(starts[-1] + observed[-1].size)
-    layout, channels = _layout(data[0].test), data[0].test.line.shape[0]
+    layout, size = _layout(data[0].test), {"points": len(data), "channels": data[0].test.line.shape[0]}
     return Changes(
         observed=np.concatenate(observed),
         halves=np.concatenate(halves, axis=1),
@@ -136,8 +139,9 @@ def observed_changes(
         starts=tuple(starts),
         with_baseline=based,
         groups=np.concatenate(groups),
-        pooling=pooling(watched, layout, points=len(data), channels=channels),
-        single=mesh_lines(watched, layout, points=len(data), channels=channels),
+        pooling=pooling(watched, layout, **size),
+        single=mesh_lines(watched, layout, **size),
+        sides=first_sidebands(watched, layout, **size),
         wander=block_diag(*wander),
     )
 

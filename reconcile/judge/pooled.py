@@ -27,13 +27,27 @@ def _line_family(line: Watched) -> str:
     if line.family == "mesh":
         return "mesh low" if max(line.orders.values()) <= LOW_MESH else "mesh high"
     if line.family == "sideband":
-        return "sidebands " + next(b for b in line.orders if b.startswith("f_r"))
+        return _sideband_family(line)
     if line.family in ("shaft", "subharmonic"):
         base, order = next(iter(line.orders.items()))
         if order % 1:
             return f"{base} fractions"
         return f"{base} x{order:g}" if order <= LOW_MESH else f"{base} harmonics"
     return line.family + " " + next(b for b in line.orders if not b.startswith("f_r"))
+
+
+def _shaft_order(line: Watched) -> tuple[str, float]:
+    return next((base, order) for base, order in line.orders.items() if base.startswith("f_r"))
+
+
+def _sideband_family(line: Watched) -> str:
+    """The first pair of a shaft's sidebands is a family of its own: what is out of true or out of balance moves it and
+    hardly the others."""
+    base, order = _shaft_order(line)
+    if abs(order) != 1:
+        return f"sidebands {base}"
+    mesh = next(n for b, n in line.orders.items() if b != base)
+    return f"sidebands {base} first, mesh {'low' if mesh <= LOW_MESH else 'high'}"
 
 
 def _modulation_family(line: Watched) -> str:
@@ -88,6 +102,13 @@ def mesh_lines(watched: WatchList, layout: Layout, *, points: int, channels: int
     """The mesh harmonics, one by one."""
     chosen = np.zeros(layout.size, dtype=bool)
     chosen[: layout.lines] = [line.family == "mesh" for line in watched.lines]
+    return OneByOne(chosen=chosen, points=points, channels=channels)
+
+
+def first_sidebands(watched: WatchList, layout: Layout, *, points: int, channels: int) -> OneByOne:
+    """The first pair of every shaft's sidebands around the mesh harmonics, one by one."""
+    chosen = np.zeros(layout.size, dtype=bool)
+    chosen[: layout.lines] = [line.family == "sideband" and abs(_shaft_order(line)[1]) == 1 for line in watched.lines]
     return OneByOne(chosen=chosen, points=points, channels=channels)
 
 

@@ -22,7 +22,7 @@ class Screen:
 
     `p_any`: chance of such a change in a healthy machine, by the most changed group of features (one point, channel
     and kind), `strongest` in standard deviations; `p_best`: by the best candidate's evidence; `p_direct`: by impacts.
-    `by` (effects,): the view (0, 1) that speaks for each. `weights` sum to 1 over the effects.
+    `by` (effects,): the view (0, 1, 2) that speaks for each. `weights` sum to 1 over the effects.
     `misfit`: quantile of the best distance among draws of known effects; `rest`: what the best leaves of single lines,
     nothing where that view is missing. `p_lines`: chance of such a change of single lines, whatever its pattern.
     """
@@ -71,16 +71,18 @@ def looked(fitted: Fitted, observed: FloatArray) -> Look:
 
 
 def _together(told: Sequence[FloatArray]) -> FloatArray:
-    """The louder view and a share of the other."""
+    """The louder view and a share of the other; of the views of single lines the louder one is heard."""
     if len(told) == 1:
         return told[0]
-    return np.asarray(np.maximum(*told) + OTHER_VIEW * np.minimum(*told))
+    families, lines = told[0], np.max(told[1:], axis=0)
+    return np.asarray(np.maximum(families, lines) + OTHER_VIEW * np.minimum(families, lines))
 
 
 def judge(
     views: Sequence[Fitted], observed: FloatArray, direct: Mapping[str, float] | None = None, p_direct: float = 1.0
 ) -> Screen:
-    """`observed` (F,) in dB against all paths in one or two views; `direct`: log evidence that needs no simulation.
+    """`observed` (F,) in dB against all paths in one to three views, the first of families and the others of single
+    lines; `direct`: log evidence that needs no simulation.
 
     An effect counts by the view that speaks louder for it, and half by the other: what that one sees may be what the
     model has not, and it sees much of the same.
@@ -108,11 +110,24 @@ def judge(
         p_direct=p_direct,
         misfit=looks[int(by[int(np.argmax(evidence))])].misfit,
         length=looks[0].length,
-        rest=replace(rest_of(views[1], observed, best), pooled=explained(first, observed, best))
-        if len(views) > 1
-        else Rest(),
-        p_lines=tail_chance(np.sum(views[1].null ** 2, axis=1), looks[1].length) if len(views) > 1 else 1.0,
+        rest=_rest(views, observed, best, int(by[int(np.argmax(evidence))])),
+        p_lines=_of_lines(views[1:], looks[1:]),
     )
+
+
+def _rest(views: Sequence[Fitted], observed: FloatArray, best: str, speaks: int) -> Rest:
+    """Of mesh lines, unless sidebands speak for the effect."""
+    if len(views) == 1:
+        return Rest()
+    lines = [rest_of(view, observed, best) for view in views[1:]]
+    pooled = explained(views[0], observed, best)
+    return replace(lines[max(speaks, 1) - 1], pooled=pooled, elsewhere=max(rest.unmet for rest in lines))
+
+
+def _of_lines(views: Sequence[Fitted], looks: Sequence[Look]) -> float:
+    """Chance of such a change of single lines, the smallest of the views' for as many looks."""
+    chances = [tail_chance(np.sum(v.null**2, axis=1), look.length) for v, look in zip(views, looks, strict=True)]
+    return min([1.0, *(len(chances) * c for c in chances)])
 
 
 def _largest(lengths: FloatArray, resting: FloatArray) -> FloatArray:

@@ -12,7 +12,7 @@ from reconcile.machine.causes import ranked_causes, revised_document
 from reconcile.machine.decide import Decision, decide, merged_weights
 from reconcile.machine.heldout import feature_frequencies, held_out, spectral_mask
 from reconcile.machine.pictures import line_changes, ranking, spectra, turn_map
-from reconcile.machine.second import fitted_change, second_effect
+from reconcile.machine.second import Beside, fitted_change, second_effect
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.unknown import Unknown
 from reconcile.machine.window import angle_window
@@ -137,7 +137,7 @@ def _told(
     gate: Gate,
     causes: Sequence[Cause],
     held: HeldOut | None,
-    other: tuple[str, np.ndarray] | None,
+    other: Beside | None,
     unknown: Unknown | None,
 ) -> tuple[Word, str, SensorFault | None]:
     """Verdict, sentence and sensor fault."""
@@ -146,7 +146,7 @@ def _told(
     if unknown is not None:
         text = f"{text} {law_sentence(unknown.force, tried=unknown.tried)}"
     if other is not None:
-        text = f"{text} Beside it: {title(other[0])}{size(causes[1].severity)}."
+        text = f"{text} Beside it: {title(other.names[0])}{size(causes[1].severity)}."
     if gate.fault is None or word not in ("nothing_missing", "not_decidable") or _doubtful(gate, setting, word):
         return word, text, None
     # a fault that is sure goes before a rest of which nothing can be told

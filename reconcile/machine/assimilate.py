@@ -39,6 +39,17 @@ FEWEST = 6
 
 
 @dataclass(frozen=True, kw_only=True)
+class Task:
+    """An effect that is fitted together with the machine, the `view` of single lines that is compared, and the `target`
+    (F,) in dB that it is fitted to: the whole change, or what another effect leaves of it (`second`)."""
+
+    name: str
+    view: Fitted
+    target: FloatArray
+    second: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
 class Ensemble:
     """Machines with an effect: the `offsets` of each member, its term and the `changes` (n, F) it shows, dB."""
 
@@ -126,21 +137,21 @@ def moved(
 
 
 def assimilated(
-    setting: Setting, found: Found, names: Sequence[str], members: int, rounds: int, mapper: Mapper
+    setting: Setting, found: Found, tasks: Sequence[Task], members: int, rounds: int, mapper: Mapper
 ) -> Found:
-    """What the candidates say when ensembles of some are moved to what was observed, in `rounds` steps.
+    """What the candidates say when ensembles of some are moved to their targets, in `rounds` steps.
 
     How unusual the change is stays as it was: healthy machines were not moved towards anything.
     """
     if found.fine is None:
         return found
     now = replace(found, before=found.known)
-    for name in names:
-        if settled(now, name):
+    for task in tasks:
+        if not task.second and settled(now, task.name):
             continue
-        first = known_ensemble(setting, found.known, name, members)
-        for middle, more in _steps(setting, found.fine, first, rounds, mapper):
-            now = _with(setting, replace(now, led={**now.led, name: middle}), more)
+        first = known_ensemble(setting, found.known, task.name, members)
+        for middle, more in _steps(setting, task.view, first, task.target, rounds, mapper):
+            now = _with(setting, replace(now, led={**now.led, task.name: middle}), more)
     return now
 
 
@@ -153,24 +164,27 @@ def settled(found: Found, name: str) -> bool:
 
 def _with(setting: Setting, found: Found, more: Catalogued) -> Found:
     """The candidates judged anew with draws that were led to the observation."""
-    views = [with_draws(v, more.library) for v in (found.fitted, found.fine) if v is not None]
+    views = [with_draws(v, more.library) for v in found.views]
     before, direct = found.screen, setting.direct
     after = judge(views, setting.changes.observed, direct.evidence, direct.p)
     kept = {n: getattr(before, n) for n in ("p_any", "p_best", "p_direct", "p_lines", "strongest")}
     best = after.names[int(np.argmax(after.evidence))]
     screen = replace(after, rest=replace(after.rest, rough=best not in found.led), **kept)
-    return replace(found, known=joined(found.known, more), fitted=views[0], fine=views[-1], screen=screen)
+    fitted, fine, sides = (*views, None, None)[:3]
+    return replace(
+        found, known=joined(found.known, more), fitted=fitted or found.fitted, fine=fine, sides=sides, screen=screen
+    )
 
 
 def _steps(
-    setting: Setting, fine: Fitted, now: Ensemble | None, rounds: int, mapper: Mapper
+    setting: Setting, fine: Fitted, now: Ensemble | None, target: FloatArray, rounds: int, mapper: Mapper
 ) -> Iterator[tuple[Offsets, Catalogued]]:
     """After each assimilation the mean machine and what the members show, while enough of them run."""
     rng = np.random.default_rng([setting.seed, 21, *(now.candidate.label.encode() if now else b"")])
     for _ in range(rounds):
         if now is None:
             return
-        offsets, terms = moved(now, fine, setting.changes.observed, float(rounds), rng)
+        offsets, terms = moved(now, fine, target, float(rounds), rng)
         more = simulated_again(setting, now.candidate, offsets, terms, mapper)
         if more is None:
             return

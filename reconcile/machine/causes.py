@@ -6,10 +6,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from reconcile.judge.screen import looked
-from reconcile.judge.space import Fitted
 from reconcile.machine.decide import Decision
 from reconcile.machine.refine import best_draws
+from reconcile.machine.second import Beside
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.severity import estimated_severity
 from reconcile.verdict import Cause
@@ -23,10 +22,10 @@ def ranked_causes(
     decision: Decision,
     weights: Mapping[str, float],
     observed: np.ndarray,
-    other: tuple[str, np.ndarray] | None,
+    other: Beside | None,
 ) -> tuple[Cause, ...]:
     """The effects the verdict stands on, a second one with what it explains, and the rest by weight."""
-    apart = {*decision.chosen, *(other or ())[:1]}
+    apart = {*decision.chosen, *(other.names[:1] if other else ())}
     listed = list(decision.chosen) + [n for n in weights if n not in apart]
     causes = []
     for name in listed[:MOST_CAUSES]:
@@ -43,22 +42,23 @@ def ranked_causes(
                 values=dict(drawn[0].parameters) if drawn else {},
             )
         )
-    if other is not None and found.fine is not None:
-        causes.insert(1, _beside(found, found.fine, *other))
+    if other is not None:
+        causes.insert(1, _beside(found, other))
     return tuple(causes)
 
 
-def _beside(found: Found, fine: Fitted, name: str, left: np.ndarray) -> Cause:
+def _beside(found: Found, other: Beside) -> Cause:
     """The second named cause, measured by what the first one leaves."""
+    name, left, view = other.names[0], other.left, other.view
     term, site = name.split("@")
-    drawn = best_draws(fine, found.known, name, left, count=1)
+    drawn = best_draws(view, found.known, name, left, count=1)
     return Cause(
         term=term,
         site=site,
-        score=float(looked(fine, left).evidence[fine.paths.names.index(name)]),
-        severity=estimated_severity(fine, found.known, name, left),
+        score=float(other.evidence[0]),
+        severity=estimated_severity(view, found.known, name, left),
         named=True,
-        reasons=("it explains what the first effect leaves of the mesh lines",),
+        reasons=("it explains what the first effect leaves of the lines of the mesh",),
         values=dict(drawn[0].parameters) if drawn else {},
     )
 

@@ -22,7 +22,16 @@ from reconcile.machine.decide import decide, leaves_lines, remarkable, tempered
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
-from reconcile.machine.search import broader, fit_views, leaders, located, nearest_effects, refined, screen_atlas
+from reconcile.machine.search import (
+    broader,
+    fit_views,
+    located,
+    nearest_effects,
+    possible_seconds,
+    refined,
+    screen_atlas,
+    to_fit,
+)
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.unknown import Unknown, unknown_force
 from reconcile.observe.observation import observe
@@ -89,11 +98,12 @@ def _answered(
     closer, found = setting, atlas
     if local is not None:
         closer = replace(local.setting, overdispersion=atlas.fitted.overdispersion)
-        lines = fit_views(closer, atlas.known).screen.p_lines
+        seen = fit_views(closer, atlas.known)
+        lines = seen.screen.p_lines
         if not remarkable(atlas.screen) and lines > CLOSER_LINES_P:
             return setting, replace(atlas, screen=replace(atlas.screen, p_lines=lines)), told(local)
         progress(0.7, "candidates on these machines")
-        found = located(closer, atlas, setting, budget, meter)
+        found = located(closer, atlas, setting, budget, meter, possible_seconds(closer, seen))
     elif not remarkable(atlas.screen):
         return setting, atlas, {}
     near = nearest_effects(atlas, setting.changes.observed)
@@ -106,7 +116,7 @@ def _answered(
         found = broader(closer, found, atlas, setting, budget, meter)
         found = refined(closer, found, budget, meter, budget.rounds, near)
     progress(0.87, "machine and effect together")
-    found = assimilated(closer, found, leaders(found, budget), budget.members, budget.assimilations, meter)
+    found = assimilated(closer, found, to_fit(closer, found, budget), budget.members, budget.assimilations, meter)
     found = replace(found, screen=tempered(found.screen, atlas.screen))
     return closer, found, told(local) if local is not None else {}
 

@@ -9,13 +9,14 @@ import numpy as np
 from reconcile.atlas.bank import Mapper
 from reconcile.atlas.plan import AtlasPlan, Draw
 from reconcile.judge.screen import judge
-from reconcile.judge.space import fit_space, squared_distances
+from reconcile.judge.space import Fitted, fit_space, squared_distances
+from reconcile.machine.assimilate import Task
 from reconcile.machine.budget import Budget
 from reconcile.machine.decide import credible_set, merged_weights, plausible
 from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import LANES, first_heat, more_draws, ordered_draws, second_heat, simulated_banks
 from reconcile.machine.refine import best_draws, refined_plan
-from reconcile.machine.second import beside, looks_for_second, strikes
+from reconcile.machine.second import beside, looks_for_second, sure
 from reconcile.machine.setting import Found, Setting
 from signals.series import FloatArray
 from sim.core.errors import SpecError
@@ -32,18 +33,24 @@ nearest draw of the right effect explains 0.2 to 0.6 in five, with a size within
 NEAREST = 2
 SECONDS = 3
 """Candidates for a second effect that are simulated with all their draws."""
+FITTED_SECONDS = 2
+"""Of these so many are fitted together with the machine."""
 
 
 def fit_views(setting: Setting, known: Catalogued) -> Found:
     """Families of features; on machines that agree with the baseline single lines beside them."""
     changes, direct = setting.changes, setting.direct
     fitted = fit_space(changes, known.library, seed=setting.seed, least=setting.overdispersion)
-    fine = None
+    lines: list[Fitted] = []
     if setting.fitted_machine is not None and len(setting.data) >= POINTS_OF_LINES:
-        fine = fit_space(changes, known.library, seed=setting.seed, view=changes.single, least=LEAST_OF_LINES)
-    views = (fitted,) if fine is None else (fitted, fine)
-    screen = judge(views, changes.observed, direct.evidence, direct.p)
-    return Found(known=known, fitted=fitted, screen=screen, fine=fine)
+        lines = [
+            fit_space(changes, known.library, seed=setting.seed, view=view, least=LEAST_OF_LINES)
+            for view in (changes.single, changes.sides)
+        ]
+    screen = judge((fitted, *lines), changes.observed, direct.evidence, direct.p)
+    if not lines:
+        return Found(known=known, fitted=fitted, screen=screen)
+    return Found(known=known, fitted=fitted, screen=screen, fine=lines[0], sides=lines[1])
 
 
 def screen_atlas(setting: Setting) -> Found:
@@ -59,10 +66,17 @@ def screen_atlas(setting: Setting) -> Found:
     return fit_views(setting, known)
 
 
-def located(setting: Setting, screened: Found, before: Setting, budget: Budget, mapper: Mapper) -> Found:
+def located(
+    setting: Setting,
+    screened: Found,
+    before: Setting,
+    budget: Budget,
+    mapper: Mapper,
+    seconds: Sequence[str] = (),
+) -> Found:
     """The best of the candidates that were `screened` in the setting `before`, simulated on the setting's own machines
-    alone, the best of them more."""
-    ranked, draws = with_others(screened), _draws(screened, before)
+    alone, the best of them more. `seconds` may stand beside the best."""
+    ranked, draws = with_others(screened, seconds), _draws(screened, before)
     first = first_heat(setting.plan, ranked, draws, budget.terms)
     known = simulated(setting, first, mapper)
     found = fit_views(setting, known)
@@ -117,18 +131,25 @@ def nearest_terms(screened: Found, observed: FloatArray) -> set[int]:
     return {id(screened.known.terms[row]) for share, row in shares if share > EXPLAINED}
 
 
-def with_others(screened: Found) -> list[str]:
-    """What is plausible, and so much more that the metric learns what differs; where impacts are sure and something is
-    left beside them, all that strikes nowhere."""
+def with_others(screened: Found, seconds: Sequence[str] = ()) -> list[str]:
+    """What is plausible, so much more that the metric learns what differs, and what may stand beside the best."""
     ranked = plausible(screened.screen)
     names = screened.screen.names
-    rest = [names[k] for k in np.argsort(-screened.screen.evidence) if names[k] not in ranked]
-    second = looks_for_second(screened)
-    for name in rest:
+    for name in [names[k] for k in np.argsort(-screened.screen.evidence) if names[k] not in ranked]:
         known = {n.split("@")[0] for n in ranked}
-        if len(known) < LEAST_TERMS or name.split("@")[0] in known or (second and not strikes(name)):
+        if len(known) < LEAST_TERMS or name.split("@")[0] in known:
             ranked.append(name)
-    return ranked
+    return ranked + [n for n in seconds if n not in ranked]
+
+
+def possible_seconds(setting: Setting, seen: Found) -> tuple[str, ...]:
+    """What may stand beside an effect whose impacts are sure, by what it leaves of single lines, the best first; draws
+    of the atlas `seen` on machines that agree with the baseline."""
+    if not looks_for_second(seen):
+        return ()
+    best = seen.screen.names[int(np.argmax(seen.screen.evidence))]
+    others = beside(setting, seen, best)
+    return others.names if others else ()
 
 
 def simulated(setting: Setting, plan: AtlasPlan, mapper: Mapper, known: Catalogued | None = None) -> Catalogued:
@@ -159,16 +180,28 @@ def leaders(found: Found, budget: Budget, near: Sequence[str] = ()) -> list[str]
     return leading + [n for n in near if n not in leading and n in found.screen.names]
 
 
+def to_fit(setting: Setting, found: Found, budget: Budget) -> list[Task]:
+    """What is fitted together with the machine: the leaders, to the whole change; where the first strikes for sure,
+    and impacts say more than mesh lines do, only what may be second to it, to what it leaves."""
+    leading = leaders(found, budget)
+    if not sure(found, leading[0]):
+        return [Task(name=n, view=found.lines(n), target=setting.changes.observed) for n in leading]
+    others = beside(setting, found, leading[0]) if looks_for_second(found) else None
+    if others is None:
+        return []
+    return [Task(name=n, view=others.view, target=others.left, second=True) for n in others.names[:FITTED_SECONDS]]
+
+
 def refined(
     setting: Setting, found: Found, budget: Budget, mapper: Mapper, turn: int, near: Sequence[str] = ()
 ) -> Found:
     """Simulate the leading candidates again near their best draws, and judge with both libraries."""
     leading = leaders(found, budget, near)
     around = [(name, best_draws(found.view(name), found.known, name, setting.changes.observed)) for name in leading]
-    if found.fine is not None and looks_for_second(found):
-        others = beside(setting, found, leading[0])
-        names = [n for n in (others.names[:SECONDS] if others else ()) if n not in leading]
-        around += [(n, best_draws(found.fine, found.known, n, others.left)) for n in names if others]
+    others = beside(setting, found, leading[0]) if looks_for_second(found) else None
+    if others is not None:
+        names = [n for n in others.names[:SECONDS] if n not in leading]
+        around += [(n, best_draws(others.view, found.known, n, others.left)) for n in names]
     pairs = len(setting.plan.offsets)
     plan = refined_plan(setting.plan, around, draws=budget.members, pairs=pairs, seed=setting.seed + turn)
     return fit_views(setting, simulated(setting, plan, mapper, found.known))

@@ -7,12 +7,13 @@ simulating all pairs.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from reconcile.judge.adequacy import rest_of
 from reconcile.judge.screen import Look, looked
+from reconcile.judge.space import Fitted
 from reconcile.machine.decide import (
     DETECT_P,
     LEAST_EVIDENCE,
@@ -20,6 +21,7 @@ from reconcile.machine.decide import (
     SET_WEIGHT,
     STRANGE,
     STRUCK,
+    UNMET_ROUGH,
     Decision,
     leaves_lines,
     variants,
@@ -38,8 +40,10 @@ LEFT = 0.9
 
 @dataclass(frozen=True, kw_only=True)
 class Beside:
-    """What is left, `left` (F,) dB, and the effects that do not strike, the best first, with their evidence in it."""
+    """What is left, `left` (F,) dB, and the effects that do not strike, the best first, with their evidence in it, in
+    the `view` of single lines that speaks for the first of them."""
 
+    view: Fitted
     left: FloatArray
     names: tuple[str, ...]
     evidence: FloatArray
@@ -72,40 +76,47 @@ def sure(found: Found, name: str) -> bool:
 def looks_for_second(found: Found) -> bool:
     """Whether impacts are sure and the change they bring is not all that changed."""
     best = found.screen.names[int(np.argmax(found.screen.evidence))]
-    return sure(found, best) and (found.screen.misfit > LEFT or leaves_lines(found.screen.rest))
+    rest = found.screen.rest
+    return sure(found, best) and (found.screen.misfit > LEFT or leaves_lines(rest) or rest.elsewhere > UNMET_ROUGH)
 
 
 def beside(setting: Setting, found: Found, first: str) -> Beside | None:
-    """Effects that might explain what the mesh lines keep; None without the view of single lines."""
-    if found.fine is None:
-        return None
+    """Effects that might explain what mesh lines or sidebands keep; None without views of single lines."""
     left = setting.changes.observed - np.nan_to_num(fitted_change(found, first, setting.changes.observed))
-    look: Look = looked(found.fine, left)
-    order = [int(k) for k in np.argsort(-look.evidence) if not strikes(found.fine.paths.names[k])]
+    seen = [one for one in (_beside_in(view, left) for view in found.views[1:]) if one is not None]
+    if not seen:
+        return None
+    best = max(seen, key=lambda one: float(one.evidence[0]))
+    return replace(best, p=min(1.0, len(seen) * best.p))
+
+
+def _beside_in(view: Fitted, left: FloatArray) -> Beside | None:
+    look: Look = looked(view, left)
+    order = [int(k) for k in np.argsort(-look.evidence) if not strikes(view.paths.names[k])]
     if not order:
         return None
     null = look.null[:, order].max(axis=1)
-    best = float(look.evidence[order[0]])
     return Beside(
+        view=view,
         left=left,
-        names=tuple(found.fine.paths.names[k] for k in order),
+        names=tuple(view.paths.names[k] for k in order),
         evidence=look.evidence[order],
-        p=min(1.0, LOOKS * tail_chance(null, best)),
+        p=min(1.0, LOOKS * tail_chance(null, float(look.evidence[order[0]]))),
         misfit=look.misfit,
     )
 
 
-def second_effect(setting: Setting, found: Found, decision: Decision) -> tuple[str, FloatArray] | None:
-    """The second effect that may be named, and the change it explains."""
+def second_effect(setting: Setting, found: Found, decision: Decision) -> Beside | None:
+    """What is left where its best effect may be named as the second one."""
     if decision.word != "explained" or not sure(found, decision.chosen[0]):
         return None
     seen = beside(setting, found, decision.chosen[0])
     if seen is None or seen.p > DETECT_P or seen.misfit > STRANGE or seen.evidence[0] < LEAST_EVIDENCE:
         return None
-    if found.fine is None or rest_of(found.fine, seen.left, seen.names[0]).kept < LEAST_KEPT:
+    if rest_of(seen.view, seen.left, seen.names[0]).kept < LEAST_KEPT:
         return None
     weights = np.exp(seen.evidence - seen.evidence[0])
     forms = np.array([n == seen.names[0] or variants(n, seen.names[0]) for n in seen.names])
     if float(weights[forms].sum() / weights.sum()) < SET_WEIGHT:
         return None
-    return seen.names[0], seen.left
+    return seen

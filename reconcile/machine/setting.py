@@ -45,7 +45,9 @@ class Found:
     fitted: Fitted
     screen: Screen
     fine: Fitted | None = None
-    """The view of single lines, on machines that agree with the baseline."""
+    """The view of single mesh lines, on machines that agree with the baseline."""
+    sides: Fitted | None = None
+    """The view of single sidebands there."""
     before: Catalogued | None = None
     """The draws that were not led to the observation, where others were."""
     led: Mapping[str, Offsets] = field(default_factory=dict)
@@ -62,8 +64,18 @@ class Found:
             return moved(setting.plan.machine, setting.plan.numbers, self.led[name])
         return setting.fitted_machine or setting.machine
 
+    @property
+    def views(self) -> tuple[Fitted, ...]:
+        """Families, single mesh lines, single sidebands; what there is of them, in this order."""
+        return tuple(v for v in (self.fitted, self.fine, self.sides) if v is not None)
+
     def view(self, name: str) -> Fitted:
         """The view that speaks for an effect."""
-        if self.fine is None or not self.screen.by[self.screen.names.index(name)]:
-            return self.fitted
-        return self.fine
+        return self.views[int(self.screen.by[self.screen.names.index(name)])]
+
+    def lines(self, name: str) -> Fitted:
+        """The view of single lines that an effect is fitted in: mesh lines, unless sidebands speak for it."""
+        view = self.view(name)
+        if view is self.fitted and self.fine is not None:
+            return self.fine
+        return view

@@ -78,5 +78,6 @@ def changes(made: World, observed: np.ndarray, seed: int = 0, *, points: int = 1
         groups=(np.arange(FEATURES) >= FEATURES // 2).astype(int),
         pooling=Pooling(family=family, names=names, points=points, channels=1),
         single=OneByOne(chosen=np.ones(FEATURES, dtype=bool), points=points, channels=1),
+        sides=OneByOne(chosen=np.arange(FEATURES) < MEMBERS, points=points, channels=1),
         wander=np.zeros((1, FEATURES)),
     )

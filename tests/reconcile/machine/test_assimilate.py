@@ -14,7 +14,7 @@ from reconcile.judge.adequacy import rest_of
 from reconcile.judge.screen import judge
 from reconcile.judge.space import Library, fit_space
 from reconcile.machine import assimilate
-from reconcile.machine.assimilate import assimilated, known_ensemble, moved, packed, settled, unpacked
+from reconcile.machine.assimilate import Task, assimilated, known_ensemble, moved, packed, settled, unpacked
 from reconcile.machine.library import Catalogued
 from reconcile.machine.setting import Found
 from sim import presets
@@ -82,6 +82,11 @@ def found_in(observed: np.ndarray) -> tuple[SimpleNamespace, Found]:
     return setting, Found(known=known, fitted=views[0], fine=views[1], screen=screen)
 
 
+def tasks(setting: SimpleNamespace, found: Found, *names: str) -> list[Task]:
+    """The whole change for each."""
+    return [Task(name=n, view=found.lines(n), target=setting.changes.observed) for n in names]
+
+
 @pytest.fixture
 def observed(monkeypatch: pytest.MonkeyPatch) -> np.ndarray:
     """Of a machine that is none of the draws'; simulating again is asking the made world."""
@@ -95,7 +100,7 @@ def observed(monkeypatch: pytest.MonkeyPatch) -> np.ndarray:
 
 def test_the_right_effect_is_met_and_the_wrong_one_is_not(observed: np.ndarray) -> None:
     setting, before = found_in(observed)
-    after = assimilated(setting, before, [RIGHT, WRONG], MEMBERS, 2, map)  # type: ignore[arg-type]
+    after = assimilated(setting, before, tasks(setting, before, RIGHT, WRONG), MEMBERS, 2, map)  # type: ignore[arg-type]
     assert before.fine is not None and after.fine is not None
     right, wrong = (rest_of(after.fine, observed, n) for n in (RIGHT, WRONG))
     assert right.kept > rest_of(before.fine, observed, RIGHT).kept + 0.05 and right.kept > 0.9
@@ -110,9 +115,19 @@ def test_the_right_effect_is_met_and_the_wrong_one_is_not(observed: np.ndarray) 
     assert np.median([abs(np.log(t.parameters["stiffness"] / 2e7)) for t in last]) < 0.5
 
 
+def test_a_second_effect_is_fitted_to_what_the_first_leaves(observed: np.ndarray) -> None:
+    other = MADE.change(WRONG, np.array([0.06, -0.05, 0.03]), 1e8)
+    setting, before = found_in(observed + other)
+    task = Task(name=RIGHT, view=before.lines(RIGHT), target=observed, second=True)
+    after = assimilated(setting, before, [task], MEMBERS, 2, map)  # type: ignore[arg-type]
+    assert before.fine is not None and after.fine is not None
+    assert rest_of(after.fine, observed, RIGHT).kept > rest_of(before.fine, observed, RIGHT).kept + 0.05
+    assert set(after.led) == {RIGHT}
+
+
 def test_how_unusual_the_change_is_stays(observed: np.ndarray) -> None:
     setting, before = found_in(observed)
-    after = assimilated(setting, before, [RIGHT], MEMBERS, 1, map)  # type: ignore[arg-type]
+    after = assimilated(setting, before, tasks(setting, before, RIGHT), MEMBERS, 1, map)  # type: ignore[arg-type]
     for name in ("p_any", "p_best", "p_lines", "p_direct", "strongest"):
         assert getattr(after.screen, name) == getattr(before.screen, name)
     assert after.unled is before.known and len(after.known.terms) == 3 * MEMBERS
@@ -120,15 +135,17 @@ def test_how_unusual_the_change_is_stays(observed: np.ndarray) -> None:
 
 def test_without_single_lines_or_members_nothing_is_moved(observed: np.ndarray) -> None:
     setting, before = found_in(observed)
-    blind = replace(before, fine=None)
-    assert assimilated(setting, blind, [RIGHT], MEMBERS, 1, map) is blind  # type: ignore[arg-type]
+    families = replace(before.screen, by=np.zeros_like(before.screen.by))
+    blind = replace(before, fine=None, screen=families)
+    assert blind.views == (before.fitted,)
+    assert assimilated(setting, blind, tasks(setting, blind, RIGHT), MEMBERS, 1, map) is blind  # type: ignore[arg-type]
     few = replace(before.known.library, groups={RIGHT: (0, 1, 2)})
     assert known_ensemble(setting, replace(before.known, library=few), RIGHT, MEMBERS) is None  # type: ignore[arg-type]
 
 
 def test_what_is_far_behind_one_that_is_met_need_not_be_moved(observed: np.ndarray) -> None:
     setting, before = found_in(observed)
-    after = assimilated(setting, before, [RIGHT], MEMBERS, 2, map)  # type: ignore[arg-type]
+    after = assimilated(setting, before, tasks(setting, before, RIGHT), MEMBERS, 2, map)  # type: ignore[arg-type]
     assert settled(after, WRONG) and not settled(after, RIGHT) and not settled(before, RIGHT)
 
 

@@ -35,9 +35,18 @@ def test_the_metric_gets_five_effects_however_far_ahead_the_best_is() -> None:
     assert ranked == [*NAMES[:6]], "five effects, the best first, with the other place of the best"
 
 
-def test_what_strikes_nowhere_is_asked_where_something_is_left() -> None:
-    assert "rub@gear" in search.with_others(screened(0.95, 25.0))  # type: ignore[arg-type]
-    assert "rub@gear" not in search.with_others(screened(0.95, 2.0))  # type: ignore[arg-type]
+def test_what_may_stand_beside_the_best_is_simulated_too() -> None:
+    ranked = search.with_others(screened(0.95, 25.0), ["rub@gear", "unbalance@pinion"])  # type: ignore[arg-type]
+    assert ranked == list(NAMES), "each once"
+
+
+@pytest.mark.parametrize(("misfit", "direct", "looks"), [(0.95, 25.0, True), (0.95, 2.0, False), (0.3, 25.0, False)])
+def test_a_second_is_thought_of_where_sure_impacts_leave_something(
+    monkeypatch: pytest.MonkeyPatch, misfit: float, direct: float, looks: bool
+) -> None:
+    monkeypatch.setattr(search, "beside", lambda *_: SimpleNamespace(names=("rub@gear",)))
+    expected = ("rub@gear",) if looks else ()
+    assert search.possible_seconds(SimpleNamespace(), screened(misfit, direct)) == expected  # type: ignore[arg-type]
 
 
 def test_draws_of_which_none_runs_leave_what_was_known(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -48,7 +48,7 @@ def named(effects: tuple[int, ...], seed: int, direct: float = 20.0) -> str | No
     decision = decide(found.screen, views=9)
     decision = replace(decision, word="explained", chosen=(NAMES[0],))
     second = second_effect(setting, found, decision)  # type: ignore[arg-type]
-    return second[0] if second else None
+    return second.names[0] if second else None
 
 
 def test_what_the_first_effect_leaves_is_named() -> None:
