@@ -7,7 +7,7 @@ import pytest
 
 from reconcile.judge.metric import LEAST_DB, fit_metric, neighbour_scatter, whitening
 from reconcile.judge.paths import build_paths
-from reconcile.judge.pooled import DEAD, Pooling, pooling
+from reconcile.judge.pooled import DEAD, Pooling, first_sidebands, pooling
 from reconcile.observe.features import Layout
 from reconcile.observe.watch import watch_list
 from sim.presets import preset
@@ -80,6 +80,15 @@ def test_pooling_keeps_noise_small_and_sees_a_rise_of_a_family() -> None:
     assert rise[0] > 3.0 and abs(rise[3]) < 0.3
     np.testing.assert_array_equal(pool(np.full((1, 64), DEAD))[0, [1, 2, 4, 5]], 0.0)
     np.testing.assert_allclose(pool(-noise)[:, [0, 3]], -risen[:, [0, 3]])
+
+
+def test_first_sidebands_are_the_pairs_next_to_the_mesh_harmonics() -> None:
+    watched = watch_list(preset("paper-lightly-damped"))
+    layout = Layout(lines=len(watched.lines), bands=25, shapes=4, modulations=len(watched.modulations), shafts=2)
+    chosen = first_sidebands(watched, layout, points=1, channels=1).chosen
+    labels = {line.label for line, one in zip(watched.lines, chosen, strict=False) if one}
+    assert labels == {f"{k}*f_m{sign}1*f_r{shaft}" for k in range(1, 7) for sign in "+-" for shaft in (1, 2)}
+    assert not chosen[layout.lines :].any()
 
 
 def test_every_feature_of_a_machine_has_a_family() -> None:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 
+from reconcile.judge.pooled import Pooling
 from reconcile.judge.screen import Screen, judge
-from reconcile.judge.space import Fitted, fit_space
+from reconcile.judge.space import Fitted, Library, fit_space
 from reconcile.machine.decide import DETECT_P, chance
 from tests.reconcile.judge.made import EFFECTS, FAMILIES, FEATURES, MEMBERS, changes, library, world
 
@@ -66,6 +68,56 @@ def test_the_strongest_group_is_the_changed_one_and_grows_with_the_change() -> N
     base = MADE.noise(rng)
     sizes = [screened(base + k * np.repeat(MADE.patterns[2], MEMBERS)).strongest for k in (0.0, 0.5, 1.0, 2.0)]
     assert sizes == sorted(sizes) and sizes[-1] > 15.0
+
+
+FEW = np.arange(FEATURES) % (2 * MEMBERS) == 0
+"""One line in ten, which a small effect moves; pooled with the others they are hidden."""
+SIGNS = np.where(np.arange(FEATURES // (2 * MEMBERS)) % 2, 1.0, -1.0)
+COARSE = Pooling(family=np.arange(FEATURES) * 2 // FEATURES, names=("f", "g"), points=1, channels=1)
+
+
+def _moved(rest: np.ndarray, rise: float) -> np.ndarray:
+    moved = rest.copy()
+    moved[FEW] += rise * SIGNS
+    return moved
+
+
+def of_three_views(rise: float, rng: np.random.Generator) -> Screen:
+    """An effect moves a few lines only; the second view sees other lines, the third these."""
+    here = changes(MADE, _moved(MADE.noise(rng), rise))
+    here = replace(here, pooling=COARSE)
+    other = replace(here.single, chosen=np.arange(FEATURES) % MEMBERS == 1)
+    these = replace(here.single, chosen=FEW)
+    made = library(MADE)
+    small = made.changes[: len(made.groups[EFFECTS[0]])].copy()
+    small[:] = MADE.healthy(rng, small.shape[0])
+    small[:, FEW] += np.linspace(2.0, 9.0, small.shape[0])[:, None] * SIGNS
+    rows = tuple(range(made.changes.shape[0], made.changes.shape[0] + small.shape[0]))
+    known = Library(
+        changes=np.concatenate([made.changes, small]),
+        groups={**made.groups, "few@a": rows},
+        shares=np.concatenate([made.shares, np.linspace(0.0, 1.0, small.shape[0])]),
+    )
+    views = [fit_space(here, known, seed=1)]
+    views += [fit_space(here, known, seed=1, view=view, least=4.0) for view in (other, these)]
+    return judge(views, here.observed)
+
+
+def test_the_view_that_sees_an_effect_speaks_for_it() -> None:
+    for seed in range(8):
+        found = of_three_views(6.0, np.random.default_rng([23, seed]))
+        best = int(np.argmax(found.evidence))
+        assert found.names[best] == "few@a" and found.by[best] == 2
+        assert found.p_lines < 1e-3 and chance(found) <= DETECT_P
+        assert found.rest.unmet == 0.0 and found.rest.kept > 0.8
+
+
+def test_a_third_look_makes_no_alarm_of_nothing() -> None:
+    n = 60
+    found = [of_three_views(0.0, np.random.default_rng([29, k])) for k in range(n)]
+    small = sum(s.p_lines <= 0.05 for s in found)
+    assert small <= 0.05 * n + 3.0 * np.sqrt(0.05 * n)
+    assert sum(chance(s) <= DETECT_P for s in found) <= 3
 
 
 def test_what_was_not_measured_is_left_out() -> None:
