@@ -21,8 +21,9 @@ from reconcile.machine.setting import Found, Setting
 from signals.series import FloatArray
 from sim.core.errors import SpecError
 
-POINTS_OF_LINES = 2
-"""Operating points from which single lines have a pattern: at one, each meets its resonance by chance."""
+POINTS_OF_LINES, CHANNELS_OF_LINES = 2, 6
+"""Operating points from which single lines have a pattern: at one, few sensors see each meet its resonance by chance;
+sensors from which one point will do."""
 LEAST_OF_LINES = 4.0
 """Overdispersion of single lines: that of sixteen effects on development cases was 4 to 8."""
 LEAST_TERMS = 5
@@ -42,7 +43,8 @@ def fit_views(setting: Setting, known: Catalogued) -> Found:
     changes, direct = setting.changes, setting.direct
     fitted = fit_space(changes, known.library, seed=setting.seed, least=setting.overdispersion)
     lines: list[Fitted] = []
-    if setting.fitted_machine is not None and len(setting.data) >= POINTS_OF_LINES:
+    told = len(setting.data) >= POINTS_OF_LINES or len(setting.channels) >= CHANNELS_OF_LINES
+    if setting.fitted_machine is not None and told:
         lines = [
             fit_space(changes, known.library, seed=setting.seed, view=view, least=LEAST_OF_LINES)
             for view in (changes.single, changes.sides)
