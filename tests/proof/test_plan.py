@@ -13,7 +13,7 @@ from proof.sensor_faults import FAULTS as KNOWN_FAULTS
 from proof.unknown import OPEN
 
 
-@pytest.mark.parametrize(("split", "least"), [("dev", 60), ("sealed", 200)])
+@pytest.mark.parametrize(("split", "least"), [("dev", 60), ("sealed", 200), ("later", 90)])
 def test_the_plan_is_the_same_every_time_and_as_large_as_stated(split, least):
     cases = plan(split)
     assert cases == plan(split)
@@ -60,9 +60,10 @@ def test_at_least_six_laws_of_no_library():
     assert not any(OPEN[law].terms for law in OPEN)
 
 
-def test_dev_and_sealed_share_no_machine():
-    first = {c.name: c.rng(1).random() for c in plan("dev")}
-    second = {c.name: c.rng(1).random() for c in plan("sealed")}
+@pytest.mark.parametrize(("one", "other"), [("dev", "sealed"), ("dev", "later"), ("sealed", "later")])
+def test_splits_share_no_machine(one, other):
+    first = {c.name: c.rng(1).random() for c in plan(one)}
+    second = {c.name: c.rng(1).random() for c in plan(other)}
     assert not set(first.values()) & set(second.values())
     assert not set(first) & set(second)
 
@@ -72,7 +73,7 @@ def test_tables_agree():
     assert all(law in CLOSED for pair in PAIRS for law in pair)
 
 
-@pytest.mark.parametrize("split", ["dev", "sealed"])
+@pytest.mark.parametrize("split", ["dev", "sealed", "later"])
 def test_every_effect_fits_its_law(split):
     for case in plan(split):
         for hiding in case.effects:

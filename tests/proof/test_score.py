@@ -45,7 +45,7 @@ def right(case):
     return {"verdict": "explained", "causes": causes, "held_out": held, "provenance": {"cost": {"core_s": 50.0}}}
 
 
-@pytest.mark.parametrize("split", ["dev", "sealed"])
+@pytest.mark.parametrize("split", ["dev", "sealed", "later"])
 def test_an_engine_that_knows_everything_is_right_in_everything(split):
     scores = [score(t, right(t)) for t in (json.loads(json.dumps(truth_of(c))) for c in plan(split))]
     assert all(s.verdict_right for s in scores)
