@@ -14,7 +14,6 @@ import matplotlib.pyplot as plt
 
 from proof.plan import COUNTS, FIRST, OTHERS
 from proof.score.one import Score
-from proof.score.rates import at_target, group_rates
 from proof.score.table import failures
 from proof.unknown import OPEN
 from proof.visible import stored, told
@@ -42,8 +41,11 @@ TARGETS = (
     ("single", "placebo_improves", "placebos improve in at most 5 %"),
     ("ambiguous", "cannot_tell", '"cannot tell" in at least 90 % of look-alikes'),
 )
-FRESH = {"sealed": "s182"}
-"""Cases from here on were not looked at before their run with the present engine."""
+SECTIONS = {
+    "later": "No version of the engine had met these before their run.",
+    "sealed": "All of these had been looked at before this run.",
+    "dev": "Cases for development.",
+}
 METHOD = """# Proof: concealed cases
 
 `python -m proof page` writes this page from the stored results; `python -m proof run` and `score` make those. The cases
@@ -58,8 +60,8 @@ The engine is called by its command line on an anonymised copy: nominal machine,
 salted hashes were committed (`proof/seals`) before the run. A seal shows that no label was changed; who has the seed
 can make the cases again. What was not detected stays in every denominator. Intervals are Wilson's, 90 %.
 
-**Design.** {n_dev} cases for development, {n_sealed} sealed. The full crossing of one effect would be {laws} laws x 4
-severities x 27 combinations of (1, 3, 8) sensors, (30, 20, 10) dB and (1, 3, 5) speeds = {crossing} cases; {n_single}
+**Design.** {n_dev} cases for development, {n_sealed} sealed, {n_later} sealed later. The
+full crossing of one effect would be {laws} laws x 4 severities x 27 combinations of (1, 3, 8) sensors, (30, 20, 10) dB and (1, 3, 5) speeds = {crossing} cases; {n_single}
 are planned: half at the target condition (3 sensors, 20 dB, 3 speeds, baseline), half over the rows of an orthogonal
 array. A case that was looked at has served: it counts at its first run, with the engine of that day, and is development
 from then on. First runs at the target condition (`--budget quick`, physics 1.2.0):
@@ -70,11 +72,12 @@ from then on. First runs at the target condition (`--budget quick`, physics 1.2.
 | s041 to s074 | and machines that agree with the baseline | 1 of 6 | - | - |
 | s078 to s146 | and impacts, single mesh lines, mean turns | 6 of 14 | 0 of 5 alarms | 0 of 5 flagged |
 | s147 to s181 | and adequacy by single lines, sizes from the atlas | 3 of 8 | 0 of 4 alarms | 1 of 2 flagged |
-| from s182 | and machine and effect fitted together | below | below | below |
+| s182 to s202 | and machine and effect fitted together | 1 of 5 | 0 of 1 alarms | 1 of 3 flagged |
+| split `later` | and first sidebands of their own | below | below | below |
 
-Below are the cases from s147 on that need no atlas but those of the nominal machine at up to three speeds, all with the
-engine of the last row (s182 and later in their order). Those up to s181 had been looked at by then, and some thresholds
-were chosen with them in view; those from s182 on had not: their rates stand in a column of their own.
+Below are cases that need no atlas but those of the nominal machine at up to three speeds, all with the engine of the
+last row: of the split `later` those at the target condition in their order, as far as the run went, with which in
+view nothing of the engine was chosen; of `sealed` those from s147 on, which had been looked at.
 
 **How much there is to see** stands behind each failure (`python -m proof visible`, made with everything hidden known,
 which no engine has): by how many decibels, root mean square over the bins above the noise, the effect moves the test's
@@ -99,7 +102,7 @@ def write_page(docs: Path, results: Path) -> Path:
             "9 combinations", "27 combinations"
         )
     ]
-    for split in ("sealed", "dev"):
+    for split in SECTIONS:
         kept = results / f"{split}.json"
         if not kept.exists():
             continue
@@ -116,12 +119,8 @@ def write_page(docs: Path, results: Path) -> Path:
 
 def _split(split: str, summary: Mapping[str, Any], results: Path) -> str:
     scores = [Score(**(s | {"laws": tuple(s["laws"])})) for s in summary["scores"]]
-    fresh = group_rates([s for s in scores if at_target(s) and s.name >= FRESH.get(split, "")])
-    rows = ["| target (at the target condition) | reached | by fresh cases |", "|---|---|---|"]
-    for group, measure, sentence in TARGETS:
-        alone = fresh.get(group, {}).get(measure)
-        told_fresh = "-" if alone is None else f"{alone.hits}/{alone.n}"
-        rows.append(f"| {sentence} | {_rate(summary, 'target', group, measure)} | {told_fresh} |")
+    rows = ["| target (at the target condition) | reached |", "|---|---|"]
+    rows += [f"| {sentence} | {_rate(summary, 'target', group, measure)} |" for group, measure, sentence in TARGETS]
     wide = ["| group | cases | verdict right | mechanism | place |", "|---|---|---|---|---|"]
     for group, title in TITLES.items():
         row = summary["groups"]["all"].get(group)
@@ -134,6 +133,7 @@ def _split(split: str, summary: Mapping[str, Any], results: Path) -> str:
     return "\n".join(
         [
             f"\n## Split `{split}`: {summary['cases']} cases\n",
+            f"{SECTIONS[split]}\n",
             f"`make proof SPLIT={split} CASES={','.join(s.name for s in scores)}` runs them again.\n",
             *rows, "", *wide, "",
             f"Severity error: {_quantiles(error)}. Held-out gain: {_quantiles(gain)}. Gain of a perfect model, since",

@@ -30,7 +30,9 @@ COUNTS = {
     "later": {"null": 14, "sensor": 8, "single": 40, "double": 12, "open": 16, "ambiguous": 4},
 }  # fmt: skip
 """`later` was sealed when the cases of `sealed` that share the nominal machine's atlases had been looked at."""
-EXTRA: dict[str, tuple[tuple[Group, int], ...]] = {"dev": (("sensor", 5), ("sensor", 6), ("sensor", 7)), "sealed": (), "later": ()}
+EXTRA: dict[str, tuple[tuple[Group, int], ...]] = {
+    "dev": (("sensor", 5), ("sensor", 6), ("sensor", 7)), "sealed": (), "later": (),
+}  # fmt: skip
 """Cases behind the shuffled ones: the faults that the first five leave out."""
 SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS = (3, 1, 8), (20.0, 30.0, 10.0), (3, 1, 5)
 TARGET = (0, 0, 0)
