@@ -61,7 +61,8 @@ salted hashes were committed (`proof/seals`) before the run. A seal shows that n
 can make the cases again. What was not detected stays in every denominator. Intervals are Wilson's, 90 %.
 
 **Design.** {n_dev} cases for development, {n_sealed} sealed, {n_later} sealed later. The
-full crossing of one effect would be {laws} laws x 4 severities x 27 combinations of (1, 3, 8) sensors, (30, 20, 10) dB and (1, 3, 5) speeds = {crossing} cases; {n_single}
+full crossing of one effect would be {laws} laws x 4
+severities x 27 combinations of (1, 3, 8) sensors, (30, 20, 10) dB and (1, 3, 5) speeds = {crossing} cases; {n_single}
 are planned: half at the target condition (3 sensors, 20 dB, 3 speeds, baseline), half over the rows of an orthogonal
 array. A case that was looked at has served: it counts at its first run, with the engine of that day, and is development
 from then on. First runs at the target condition (`--budget quick`, physics 1.2.0):
@@ -97,11 +98,7 @@ def write_page(docs: Path, results: Path) -> Path:
     laws = len(FIRST) + len(OTHERS) + len(OPEN)
     single = COUNTS["sealed"]["single"] + COUNTS["sealed"]["open"]
     counts = {f"n_{split}": sum(groups.values()) for split, groups in COUNTS.items()}
-    parts = [
-        METHOD.format(laws=laws, crossing=laws * 4 * 27, n_single=single, **counts).replace(
-            "9 combinations", "27 combinations"
-        )
-    ]
+    parts = [METHOD.format(laws=laws, crossing=laws * 4 * 27, n_single=single, **counts)]
     for split in SECTIONS:
         kept = results / f"{split}.json"
         if not kept.exists():
