@@ -12,11 +12,11 @@ from reconcile.judge.screen import judge
 from reconcile.judge.space import Fitted, fit_space, squared_distances
 from reconcile.machine.assimilate import Task
 from reconcile.machine.budget import Budget
-from reconcile.machine.decide import credible_set, merged_weights, plausible
+from reconcile.machine.decide import DETECT_P, LEAST_EVIDENCE, credible_set, merged_weights, plausible
 from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import LANES, first_heat, more_draws, ordered_draws, second_heat, simulated_banks
 from reconcile.machine.refine import best_draws, refined_plan
-from reconcile.machine.second import beside, looks_for_second, sure
+from reconcile.machine.second import beside, looks_for_second
 from reconcile.machine.setting import Found, Setting
 from signals.series import FloatArray
 from sim.core.errors import SpecError
@@ -183,14 +183,12 @@ def leaders(found: Found, budget: Budget, near: Sequence[str] = ()) -> list[str]
 
 
 def to_fit(setting: Setting, found: Found, budget: Budget) -> list[Task]:
-    """What is fitted together with the machine: the leaders, to the whole change; where the first strikes for sure,
-    and impacts say more than mesh lines do, only what may be second to it, to what it leaves."""
+    """What is fitted together with the machine: the leaders, to the whole change. Where the first strikes for sure and
+    what it leaves is another effect's for all one can tell: those that may be second, to what it leaves."""
     leading = leaders(found, budget)
-    if not sure(found, leading[0]):
-        return [Task(name=n, view=found.lines(n), target=setting.changes.observed) for n in leading]
     others = beside(setting, found, leading[0]) if looks_for_second(found) else None
-    if others is None:
-        return []
+    if others is None or others.p > DETECT_P or others.evidence[0] < LEAST_EVIDENCE:
+        return [Task(name=n, view=found.lines(n), target=setting.changes.observed) for n in leading]
     return [Task(name=n, view=others.view, target=others.left, second=True) for n in others.names[:FITTED_SECONDS]]
 
 

@@ -9,8 +9,10 @@ import numpy as np
 
 from reconcile.judge.screen import judge
 from reconcile.judge.space import Library, fit_space
+from reconcile.machine.budget import QUICK
 from reconcile.machine.decide import decide
 from reconcile.machine.library import Catalogued
+from reconcile.machine.search import to_fit
 from reconcile.machine.second import LEFT, beside, looks_for_second, second_effect
 from reconcile.machine.setting import Found
 from tests.reconcile.judge.made import EFFECTS, FEATURES, MEMBERS, changes, library, world
@@ -78,3 +80,31 @@ def test_a_second_is_looked_for_where_something_is_left() -> None:
     _, found = found_in(seen((0,), 4), 20.0)
     assert looks_for_second(replace(found, screen=replace(found.screen, misfit=LEFT + 0.05)))
     assert not looks_for_second(replace(found, screen=replace(found.screen, misfit=LEFT - 0.05)))
+
+
+QUICKLY = replace(QUICK, effects=2)
+
+
+def fitted_names(effects: tuple[int, ...], seed: int, direct: float = 20.0) -> list[tuple[str, bool]]:
+    setting, found = found_in(seen(effects, seed), direct)
+    found = replace(found, screen=replace(found.screen, misfit=LEFT + 0.05))
+    return [(task.name, task.second) for task in to_fit(setting, found, QUICKLY)]  # type: ignore[arg-type]
+
+
+def test_what_may_stand_beside_sure_impacts_is_fitted_to_what_they_leave() -> None:
+    for seed in range(4):
+        tasks = fitted_names((0, 2), seed)
+        assert tasks[0] == (NAMES[1], True) and all(second for _, second in tasks)
+    setting, found = found_in(seen((0, 2), 1), 20.0)
+    found = replace(found, screen=replace(found.screen, misfit=LEFT + 0.05))
+    first = to_fit(setting, found, QUICKLY)[0]  # type: ignore[arg-type]
+    assert np.sum(first.target**2) < np.sum(setting.changes.observed**2) and first.view is found.fine
+
+
+def test_leaders_are_fitted_to_the_whole_where_nothing_stands_beside_them() -> None:
+    for direct in (2.0, 20.0):
+        setting, found = found_in(seen((0,), 2), direct)
+        tasks = to_fit(setting, found, QUICKLY)  # type: ignore[arg-type]
+        assert tasks[0].name == NAMES[0] and not any(task.second for task in tasks)
+        assert all(task.target is setting.changes.observed for task in tasks)
+    assert not any(second for _, second in fitted_names((0, 2), 1, direct=2.0))
