@@ -8,6 +8,7 @@ from typing import Any
 
 from proof.score.equivalence import FAULT_WORDS, same_unit
 
+EFFECTS = ("single", "double", "open", "no_baseline")
 QUIET = ("nothing_missing", "not_decidable")
 PLACEBO_GAIN = 0.05
 """A placebo that improves the fit on held-out data by more than this share counts as improving."""
@@ -35,6 +36,7 @@ class Score:
     top_three: bool | None = None
     unknown_flagged: bool | None = None
     false_unknown: bool | None = None
+    false_name: bool | None = None
     both: bool | None = None
     cannot_tell: bool | None = None
     fault_kind: bool | None = None
@@ -70,6 +72,8 @@ def score(truth: Json, report: Json | None) -> Score:
     }
     found |= _of_group(group)(truth, said, verdict)
     found |= _held_out(said)
+    if found["group"] in EFFECTS and found.get("beats_black_box") is None:
+        found["beats_black_box"] = False
     cost = ((said.get("provenance") or {}).get("cost") or {}).get("core_s")
     found["core_seconds"] = float(cost) if isinstance(cost, int | float) else None
     return Score(**found)
@@ -143,8 +147,10 @@ def _effects(truth: Json, said: Json, verdict: str) -> dict[str, Any]:
     alarmed = verdict not in (*QUIET, "failed", "measurement_fault")
     mechanism = [any(_is(c, e, place=False) for c in stands) for e in effects]
     place = [any(_is(c, e, place=True) for c in stands) for e in effects]
+    false = not all(any(_is(c, e, place=False) for e in effects) for c in stands)
     found: dict[str, Any] = {
-        "verdict_right": verdict == "explained" or (verdict == "ambiguous" and all(place)),
+        "verdict_right": (verdict == "explained" and not false) or (verdict == "ambiguous" and all(place)),
+        "false_name": verdict == "explained" and false,
         "alarm": alarmed,
         "mechanism": all(mechanism) and verdict != "ambiguous",
         "place": all(place) and verdict != "ambiguous",

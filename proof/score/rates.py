@@ -70,6 +70,7 @@ MEASURES: dict[str, Measure] = {
     "both": lambda s: s.both,
     "unknown_flagged": lambda s: s.unknown_flagged,
     "false_unknown": lambda s: s.false_unknown,
+    "false_name": lambda s: s.false_name,
     "cannot_tell": lambda s: s.cannot_tell,
     "fault_kind": lambda s: s.fault_kind,
     "fault_channel": lambda s: s.fault_channel,

@@ -36,6 +36,12 @@ def simulated_channel(machine: MachineSpec, channel: Channel) -> str | None:
     return None
 
 
+def sensor_sites(machine: MachineSpec, simulated: Sequence[str]) -> tuple[str, ...]:
+    """The part that each simulated channel is heard at; a resonator is at its bearing."""
+    at = {r.name: r.bearing for r in machine.resonators}
+    return tuple(at.get(name.split(".")[0], name.split(".")[0]) for name in simulated)
+
+
 def simulated_channels(machine: MachineSpec, channels: Sequence[Channel]) -> tuple[str, ...]:
     """One simulated channel a recorded one; SpecError names locations the machine does not have."""
     found = [simulated_channel(machine, c) for c in channels]

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from reconcile.atlas.keep import ATLAS_VERSION
+from reconcile.atlas.places import sensor_sites
 from reconcile.gate.findings import Gate
 from reconcile.machine.causes import ranked_causes, revised_document
 from reconcile.machine.decide import Decision, decide, merged_weights
@@ -23,6 +24,7 @@ from reconcile.verdict import (
     Cause,
     HeldOut,
     Level,
+    NextExperiment,
     PlaceWeight,
     Report,
     SensorFault,
@@ -118,7 +120,7 @@ def answer(
         fault=fault,
         held_out=held,
         undecidable=tuple(decision.reasons) if decision.word in ("ambiguous", "not_decidable") else (),
-        next_experiment=next_experiment(decision.chosen, lead, len(setting.data), setting.channels),
+        next_experiment=_next(setting, decision, lead),
         force=unknown.force if unknown is not None else None,
         machine=_machine(setting, found, causes, unknown),
         stages=_stages(setting, found, gate, decision, fit or {}),
@@ -198,6 +200,11 @@ def _held(setting: Setting, found: Found, decision: Decision, layout: Layout, un
     )
 
 
+def _next(setting: Setting, decision: Decision, lead: float) -> NextExperiment | None:
+    heard = sensor_sites(setting.machine, setting.simulated)
+    return next_experiment(decision.chosen, lead, len(setting.data), heard)
+
+
 def _stages(
     setting: Setting, found: Found, gate: Gate, decision: Decision, fit: Mapping[str, object]
 ) -> tuple[Mapping[str, object], ...]:
@@ -218,6 +225,8 @@ def _stages(
             "p_any": found.screen.p_any,
             "p_best": found.screen.p_best,
             "p_direct": found.screen.p_direct,
+            "p_lines": found.screen.p_lines,
+            "p_first": found.screen.p_first,
             "p": decision.p,
         },
         {"name": "nominate", "candidates": len(found.screen.names), "draws": len(found.known.terms)},

@@ -151,9 +151,8 @@ def decide(screen: Screen, *, views: int, strange: float = STRANGE) -> Decision:
     """Nothing missing, one name, a set, or none of the known. `views`: sensors times operating points."""
     p = chance(screen)
     if p > DETECT_P:
-        shown = max(p, LOOKS * screen.p_best)
-        reason = f"a healthy machine of this kind shows as much with p = {min(shown, 1.0):.2g}"
-        return Decision(word="nothing_missing", chosen=(), p=min(shown, 1.0), reasons=(reason,))
+        reason = f"a healthy machine of this kind shows as much with p = {p:.2g}"
+        return Decision(word="nothing_missing", chosen=(), p=p, reasons=(reason,))
     weights = merged_weights(screen)
     chosen = credible_set(weights)
     if views <= FEW_VIEWS:
@@ -183,9 +182,8 @@ def _misfit(screen: Screen, alone: bool) -> str:
     if alone:
         return "impacts come at a known frequency, but the rest of the change is not what such an effect brings"
     if leaves_lines(screen.rest):
-        return (
-            f"the best known effect leaves {screen.rest.unmet:.1f} times as much of the mesh lines' change as it should"
-        )
+        left = screen.rest.unmet
+        return f"the best known effect leaves {left:.1f} times as much of the single lines' change as it should"
     return f"the best known effect fits worse than {screen.misfit:.0%} of simulated ones do"
 
 

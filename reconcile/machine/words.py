@@ -47,11 +47,12 @@ def sentence(decision: Decision, severity: Severity | None, held: HeldOut | None
 
 
 def next_experiment(chosen: Sequence[str], lead: float, points: int, sensors: Sequence[str]) -> NextExperiment | None:
-    """What would tell the leading candidates apart, and by how much if evidence grows as it did so far."""
+    """What would tell the leading candidates apart, and by how much if evidence grows as it did so far, in proportion
+    to sensors or operating points. `sensors`: the parts they are at."""
     if len(chosen) < 2:
         return None
     sites = list(dict.fromkeys(c.split("@")[1] for c in chosen))
-    missing = [s for s in sites if not any(name.startswith(s) for name in sensors)]
+    missing = [s for s in sites if s not in sensors]
     if len(sites) > 1 and missing:
         grown = lead * (len(sensors) + 1) / max(len(sensors), 1)
         text = f"An accelerometer at {' or '.join(missing[:2])} would tell these places apart best."

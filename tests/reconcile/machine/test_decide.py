@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from reconcile.atlas.places import sensor_sites
 from reconcile.judge.adequacy import Rest
 from reconcile.judge.screen import Screen
 from reconcile.machine.decide import (
@@ -24,6 +25,7 @@ from reconcile.machine.decide import (
 )
 from reconcile.machine.words import next_experiment, sentence, title
 from reconcile.verdict import HeldOut, Severity
+from sim import presets
 
 NAMES = (
     "outer_spall@bearing1",
@@ -171,11 +173,25 @@ def test_sentences_say_what_where_and_how_large() -> None:
 
 
 def test_the_next_experiment_is_a_sensor_where_places_are_open_else_another_speed() -> None:
-    sensor = next_experiment(NAMES[:2], 0.5, 1, ["bearing1 y"])
+    sensor = next_experiment(NAMES[:2], 0.5, 1, ["bearing1"])
     assert sensor is not None and "bearing3" in sensor.sentence and sensor.separation_expected == pytest.approx(1.0)
-    speed = next_experiment((NAMES[0], NAMES[2]), 0.5, 2, ["bearing1 y"])
+    speed = next_experiment((NAMES[0], NAMES[2]), 0.5, 2, ["bearing1"])
     assert speed is not None and "speed" in speed.sentence and speed.separation_expected == pytest.approx(0.75)
     assert next_experiment(NAMES[:1], 0.5, 1, []) is None
+
+
+def test_no_sensor_is_advised_where_one_is() -> None:
+    machine = presets.preset("paper-lightly-damped")
+    heard = sensor_sites(machine, ["resonator1.y.acceleration", "bearing3.outer.x.acceleration", "gear.y.acceleration"])
+    assert heard == ("bearing1", "bearing3", "gear")
+    told = next_experiment(NAMES[:2], 0.5, 1, heard)
+    assert told is not None and "accelerometer" not in told.sentence
+
+
+def test_a_sound_machine_is_told_the_chance_that_decided() -> None:
+    sound = replace(screen([20.0], p_any=1.0, p_best=1.0, strongest=0.0), p_lines=0.003)
+    told = decide(sound, views=9)
+    assert told.word == "nothing_missing" and told.p == pytest.approx(0.012) and "0.012" in told.reasons[0]
 
 
 def test_few_views_do_not_exclude_what_explains_half_as_much() -> None:
