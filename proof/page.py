@@ -81,7 +81,7 @@ engine of that day, and is development from then on. First runs at the target co
 | split `later` | and first sidebands of their own | below | below | below |
 
 Below are cases that need no atlas but those of the nominal machine at up to three speeds, all with the engine of the
-last row: of the split `later` those at the target condition in their order, as far as the run went, with which in
+last row: of the split `later` those at the target condition in their order, as far as two processes came, with which in
 view nothing of the engine was chosen; of `sealed` those from s147 on, which had been looked at. Cases without a
 baseline or with mis-set parameters have not been run with any engine shown here, nor those at five speeds: nothing is
 known there.

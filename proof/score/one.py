@@ -158,7 +158,7 @@ def _effects(truth: Json, said: Json, verdict: str) -> dict[str, Any]:
         "false_unknown": verdict == "unknown_physics",
     }
     if len(effects) > 1:
-        found["both"] = all(place)
+        found["both"] = all(place) and verdict != "ambiguous"
     elif place[0]:
         found |= _severity(effects[0], next(c for c in stands if _is(c, effects[0], place=True)))
     return found

@@ -208,3 +208,22 @@ def test_unknown_cases_are_named(monkeypatch, tmp_path):
         "d001",
         "d002",
     ]
+
+
+def test_a_name_beside_the_right_one_is_wrong_and_a_set_names_no_pair():
+    case = truth("single", "outer_pit")
+    report = right(case)
+    assert score(case, report).verdict_right and score(case, report).false_name is False
+    report["causes"] = [*report["causes"], cause("rub", "gear")]
+    found = score(case, report)
+    assert not found.verdict_right and found.false_name and found.mechanism
+    pair = truth("double")
+    listed = [cause(e["terms"][0], e["sites"][0], named=False) for e in pair["effects"]]
+    assert score(pair, {"verdict": "ambiguous", "causes": listed}).both is False
+    assert score(pair, right(pair)).both is True
+
+
+def test_what_was_not_detected_beats_no_black_box():
+    case = truth("single", "outer_pit")
+    assert score(case, {"verdict": "nothing_missing"}).beats_black_box is False
+    assert score(truth("null"), {"verdict": "nothing_missing"}).beats_black_box is None
