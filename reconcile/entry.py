@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from reconcile.atlas.bank import Mapper
 from reconcile.atlas.candidates import Candidate
 from reconcile.atlas.keep import Keeper
+from reconcile.atlas.places import simulated_channels
 from reconcile.driven import reconcile_driven
 from reconcile.kinematics import KinematicSpec, reconcile_kinematics
 from reconcile.machine.budget import QUICK, Budget
@@ -87,6 +88,24 @@ def check_channels(tests: Sequence[Recording], baselines: Sequence[Recording]) -
         raise SpecError(problems)
 
 
+def check_shafts(machine: MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording]) -> None:
+    """The shaft that a description states a speed for must be one of the machine's."""
+    known = [s.name for s in machine.shafts]
+    problems = [
+        Problem(
+            field=f"{kind}[{k}].operating.shaft",
+            message="is not a shaft of this machine",
+            given=one.operating.shaft,
+            allowed=", ".join(known),
+        )
+        for kind, several in (("recording", tests), ("baseline", baselines))
+        for k, one in enumerate(several)
+        if one.operating is not None and one.operating.shaft and one.operating.shaft not in known
+    ]
+    if problems:
+        raise SpecError(problems)
+
+
 def reconcile_recordings(
     machine: MachineSpec | KinematicSpec,
     tests: Sequence[Recording],
@@ -108,6 +127,9 @@ def reconcile_recordings(
     check_size(tests, baselines)
     if isinstance(machine, MachineSpec) and not machine.shafts:
         return reconcile_driven(machine, tests, baselines, seed=seed)
+    if isinstance(machine, MachineSpec):
+        check_shafts(machine, tests, baselines)
+        simulated_channels(machine, tests[0].channels)
     check_channels(tests, baselines)
     if isinstance(machine, KinematicSpec):
         return reconcile_kinematics(machine, tests, baselines, seed=seed)

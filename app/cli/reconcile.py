@@ -13,6 +13,7 @@ import argparse
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import nullcontext
+from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -24,6 +25,7 @@ from reconcile.kinematics import KinematicSpec, read_kinematic_spec
 from reconcile.machine.budget import BUDGETS
 from reconcile.report import write_report
 from signals.ingest import read_recording
+from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec
 from sim.presets.reference import KEYS
@@ -56,6 +58,14 @@ def _machine(path: Path) -> MachineSpec | KinematicSpec:
     return read_machine(path)
 
 
+def _recording(path: Path) -> Recording:
+    """A recording; of several files a refusal says which."""
+    try:
+        return read_recording(path)
+    except SpecError as error:
+        raise SpecError([replace(p, field=f"{path.name}: {p.field}") for p in error.problems]) from error
+
+
 def _progress(share: float, stage: str) -> None:
     if sys.stderr.isatty():
         print(f"\r{share:4.0%} {stage:<40}", end="\n" if share >= 1.0 else "", file=sys.stderr, flush=True)
@@ -66,8 +76,8 @@ def run(arguments: argparse.Namespace) -> int:
     if not 1 <= arguments.jobs <= 64:
         raise SpecError(Problem(field="--jobs", message="must fit", given=arguments.jobs, allowed="1 to 64"))
     machine = _machine(arguments.machine)
-    tests = [read_recording(path) for path in arguments.recording]
-    baselines = [read_recording(path) for path in arguments.baseline]
+    tests = [_recording(path) for path in arguments.recording]
+    baselines = [_recording(path) for path in arguments.baseline]
     keeper = AtlasFolder(arguments.atlas or default_atlas_folder())
     several = arguments.jobs > 1
     pool = ProcessPoolExecutor(arguments.jobs, mp_context=get_context("spawn")) if several else nullcontext()

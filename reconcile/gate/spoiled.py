@@ -13,9 +13,13 @@ SPOILING: frozenset[Kind] = frozenset(
 exactly; what looks like a loose sensor may be the machine, so that channel stays, with its transfer undone."""
 
 
-def without_spoiled(gate: Gate) -> Gate:
+GONE: frozenset[Kind] = frozenset(("not_finite", "silence", "stuck", "dropouts"))
+"""Of these the signal was not there: what is computed from it is no machine's."""
+
+
+def without_spoiled(gate: Gate, kinds: frozenset[Kind] = SPOILING) -> Gate:
     """The gate's recordings without the channels of such findings; all of them where none would be left."""
-    spoiled = {f.channel for f in gate.findings if f.fault and f.kind in SPOILING and f.channel}
+    spoiled = {f.channel for f in gate.findings if f.fault and f.kind in kinds and f.channel}
     kept = [name for name in gate.tests[0].names if name not in spoiled]
     if not spoiled or not kept:
         return gate

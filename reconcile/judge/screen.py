@@ -70,7 +70,7 @@ def looked(fitted: Fitted, observed: FloatArray) -> Look:
     )
 
 
-def _together(told: Sequence[FloatArray]) -> FloatArray:
+def together(told: Sequence[FloatArray]) -> FloatArray:
     """The louder view and a share of the other; of the views of single lines the louder one is heard."""
     if len(told) == 1:
         return told[0]
@@ -91,10 +91,10 @@ def judge(
     looks = [looked(v, observed) for v in views]
     by = np.argmax([look.evidence for look in looks], axis=0)
     shown = np.array([(direct or {}).get(name, 0.0) for name in first.paths.names])
-    patterns = _together([look.evidence for look in looks])
+    patterns = together([look.evidence for look in looks])
     evidence = patterns + shown
     log = evidence - evidence.max()
-    resting = _together([look.null for look in looks]).max(axis=1)
+    resting = together([look.null for look in looks]).max(axis=1)
     own = group_lengths(first.whiten(observed)[None], first.groups)
     strongest = float(_largest(own, first.resting)[0])
     best = first.paths.names[int(np.argmax(evidence))]

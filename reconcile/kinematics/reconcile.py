@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from reconcile.gate import Gate, inspect_measurement
+from reconcile.gate.spoiled import GONE, without_spoiled
 from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.contrast import band_turns
 from reconcile.kinematics.envelopes import order_depth
@@ -58,16 +59,31 @@ def reconcile_kinematics(
     )
     if not gate.usable:
         return _finished(_fault(gate), gate, (), (), seed)
+    gate = without_spoiled(gate, GONE)
     stated = {s.name: s.speed_hz for s in known.shafts}[tie.reference]
     try:
-        seen = [observe(r, tie, f"test {i}", stated_hz=stated, seed=seed) for i, r in enumerate(gate.tests, 1)]
-        past = [observe(r, tie, f"baseline {i}", stated_hz=stated, seed=seed) for i, r in enumerate(gate.baselines, 1)]
+        seen = _observed(gate.tests, "test", tie, stated, seed)
+        past = _observed(gate.baselines, "baseline", tie, stated, seed)
     except SpecError as error:
         return _finished(_refused(error), gate, (), (), seed)
     report, every = _judged(known, tie, seen, past, seed)
     if report.verdict in ("nothing_missing", "not_decidable") and gate.fault is not None:
         report = _fault(gate)
     return _finished(report, gate, seen, every, seed, past)
+
+
+def _observed(
+    several: Sequence[Recording], kind: str, tie: Ties, stated_hz: float | None, seed: int
+) -> list[Observation]:
+    """Each recording; SpecError says which one cannot be read."""
+    found = []
+    for i, one in enumerate(several, 1):
+        label = f"{kind} {i}"
+        try:
+            found.append(observe(one, tie, label, stated_hz=stated_hz, seed=seed))
+        except SpecError as error:
+            raise SpecError([replace(p, field=f"{label}: {p.field}") for p in error.problems]) from error
+    return found
 
 
 def _judged(

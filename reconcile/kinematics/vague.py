@@ -158,6 +158,11 @@ def foreign_report(found: Foreign, tests: Sequence[Observation]) -> Report:
     )
 
 
+FULLER = (
+    "Describe the whole machine (masses, stiffnesses, loads): looseness, clearances and shapes show in levels only."
+)
+
+
 def nothing_report(
     every: Sequence[Candidate], old: Sequence[Candidate], tests: Sequence[Observation], with_baseline: bool
 ) -> Report:
@@ -181,11 +186,13 @@ def nothing_report(
     against = "than in the baseline" if with_baseline else "than sound bearings show"
     return Report(
         verdict="nothing_missing",
-        sentence=f"No family of lines is firmer {against}; what changed in level is load, speed or mounting."
+        sentence=f"No family of lines is firmer {against}; changes of level may be load, speed or mounting, or an "
+        "effect that only a machine that can be simulated tells."
         + (
             f" But {', '.join(c.family.key for c in old)} is deep in both: the baseline has that defect." if old else ""
         ),
         level="kinematics",
         where=Where(lines=lines),
-        undecidable=() if with_baseline else ("slow changes of level: there is no baseline",),
+        undecidable=("changes of level",) if with_baseline else ("changes of level: there is no baseline",),
+        next_experiment=NextExperiment(sentence=FULLER),
     )

@@ -126,7 +126,7 @@ def answer(
         stages=_stages(setting, found, gate, decision, fit or {}),
         pictures={
             "spectra": spectra(setting.data, setting.seen_through, fitted, layout, setting.channels),
-            "ranking": ranking(found.screen, max(lead, 1.0), named) if missing else [],
+            "ranking": ranking(setting, found, named) if missing else [],
             "heat": turn_map(setting.data, setting.channels),
         },
         provenance=_provenance(setting, cost),

@@ -8,7 +8,8 @@ import numpy as np
 
 from reconcile.calibrate.chain import band_centres_hz
 from reconcile.judge.changes import Changes, Lens
-from reconcile.judge.screen import Screen
+from reconcile.judge.scatter import evidence_intervals
+from reconcile.machine.setting import Found, Setting
 from reconcile.observe.features import Layout
 from reconcile.observe.observation import PointData
 from reconcile.observe.watch import WatchList
@@ -97,15 +98,17 @@ def locked_to(orders: object) -> str:
     return ""
 
 
-def ranking(screen: Screen, spread: float, named: str | None) -> list[dict[str, object]]:
-    """The best ten candidates with their evidence."""
+def ranking(setting: Setting, found: Found, named: str | None) -> list[dict[str, object]]:
+    """The best ten candidates with their evidence and its 90 % interval."""
+    screen = found.screen
+    intervals = evidence_intervals(found.views, setting.changes, screen.evidence, setting.seed)
     order = np.argsort(-screen.evidence)[:10]
     return [
         {
             "label": screen.names[k],
             "score": float(screen.evidence[k]),
-            "low": float(screen.evidence[k] - spread),
-            "high": float(screen.evidence[k] + spread),
+            "low": float(intervals[0, k]),
+            "high": float(intervals[1, k]),
             "named": screen.names[k] == named,
         }
         for k in map(int, order)

@@ -90,3 +90,18 @@ def test_sensors_stand_where_they_were_mounted(location: str, axis: str, name: s
 def test_a_place_the_machine_does_not_have_is_refused() -> None:
     with pytest.raises(SpecError, match="is not a place of this machine"):
         simulated_channels(MACHINE, [channel(), channel("casing")])
+
+
+@pytest.mark.parametrize("kind", ["recording", "baseline"])
+def test_a_shaft_that_the_machine_has_not_is_refused_with_those_it_has(kind: str) -> None:
+    wrong = replace(recording(), operating=Operating(shaft="nope", speed_hz=30.0))
+    tests, baselines = ([wrong], [recording()]) if kind == "recording" else ([recording()], [wrong])
+    with pytest.raises(SpecError, match=rf"{kind}\[0\]\.operating\.shaft") as refused:
+        reconcile_recordings(MACHINE, tests, baselines)
+    assert refused.value.problems[0].given == "nope" and "input, output" in refused.value.problems[0].allowed
+
+
+def test_a_place_that_is_none_is_blamed_where_it_stands() -> None:
+    with pytest.raises(SpecError, match="bearing9") as refused:
+        reconcile_recordings(MACHINE, [recording(channel("bearing9"))], [recording()])
+    assert "baseline" not in str(refused.value) and "bearing1" in refused.value.problems[0].allowed

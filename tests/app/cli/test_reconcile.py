@@ -97,3 +97,12 @@ def test_a_report_is_written_for_kinematics_alone(tmp_path: Path, capsys: pytest
     assert told.out.startswith("nothing_missing: ")
     assert json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))["verdict"] == "nothing_missing"
     assert (tmp_path / "out" / "report.html").stat().st_size > 1000
+
+
+def test_of_several_recordings_the_one_that_is_refused_is_named(
+    machine: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bad = tmp_path / "second.json"
+    bad.write_text('{"channels": 3}', encoding="utf-8")
+    assert main(asked(machine, bad, tmp_path / "out")) == 2
+    assert "second.json: " in capsys.readouterr().err

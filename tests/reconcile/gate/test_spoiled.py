@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from reconcile.gate.findings import Finding, Gate
-from reconcile.gate.spoiled import without_spoiled
+from reconcile.gate.spoiled import GONE, without_spoiled
 from signals.recording import Recording
 from sim.core.response import Channel
 
@@ -44,3 +44,8 @@ def test_remarks_leave_everything_and_so_do_faults_of_all_channels():
     assert len(without_spoiled(gate(finding("mains_hum", "a1", fault=False))).tests[0].names) == 3
     everywhere = gate(*(finding("mains_hum", f"a{c}") for c in range(3)))
     assert len(without_spoiled(everywhere).tests[0].names) == 3
+
+
+def test_a_level_that_needs_clipped_channels_leaves_out_only_what_has_no_signal():
+    found = without_spoiled(gate(finding("clipped", "a0"), finding("stuck", "a1")), GONE)
+    assert found.tests[0].names == ("a0", "a2")
