@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reconcile.judge.space import Fitted, squared_distances
+from reconcile.judge.nulls import squared_distances
+from reconcile.judge.space import Fitted
 from signals.series import FloatArray
 
 NEAR = 8
@@ -47,7 +48,7 @@ def rest_of(fitted: Fitted, observed: FloatArray, effect: str) -> Rest:
     place = fitted.place(observed)
     left = float(fitted.paths.distances(place)[fitted.paths.owner == owner].min())
     kept = 1.0 - left / max(float(np.sum(place**2)), 1e-300)
-    usual = float(np.quantile(np.sum(fitted.null**2, axis=1), USUAL))
+    usual = float(np.quantile(fitted.null, USUAL))
     mine = np.flatnonzero((fitted.truth == owner) & np.isfinite(fitted.apart))
     if mine.size == 0 or left <= usual:
         return Rest(kept=kept)

@@ -43,6 +43,8 @@ class Changes:
     """The first sidebands of the shafts around them, one by one."""
     wander: FloatArray
     """(k, F): changes that speed wander brings about, one deviation each; signs and sizes are free."""
+    kind: FloatArray
+    """(k, F): what drift changes on other machines of the kind, to learn from and not to compare with; may be empty."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,7 +132,7 @@ def observed_changes(
         groups.append(_groups(one.test) + (groups[-1].max() + 1 if groups else 0))
         null.append(_null(lens, bank, plan, based=based))
         starts.append(starts[-1] + observed[-1].size)
-    layout, size = _layout(data[0].test), {"points": len(data), "channels": data[0].test.line.shape[0]}
+    layout, size = layout_of(data[0].test), {"points": len(data), "channels": data[0].test.line.shape[0]}
     return Changes(
         observed=np.concatenate(observed),
         halves=np.concatenate(halves, axis=1),
@@ -143,10 +145,12 @@ def observed_changes(
         single=mesh_lines(watched, layout, **size),
         sides=first_sidebands(watched, layout, **size),
         wander=block_diag(*wander),
+        kind=np.zeros((0, starts[-1])),
     )
 
 
-def _layout(seen: Statistics) -> Layout:
+def layout_of(seen: Statistics) -> Layout:
+    """How one channel's features lie one after the other."""
     return Layout(
         lines=seen.line.shape[1],
         bands=seen.floor.shape[1],

@@ -39,9 +39,13 @@ def whitening(observed: FloatArray, measured: FloatArray, null: FloatArray, draw
     """From the recordings' own deviations `measured` (F,) and simulated changes `null` (n, F), `drawn` (m, F)."""
     simulated = (np.isfinite(drawn).mean(axis=0) > 0.97) & (np.isfinite(null).mean(axis=0) > 0.97)
     used = np.isfinite(observed) & np.isfinite(measured) & simulated
+    return Whitening(sigma=np.where(used, drift_sigma(measured, null), np.inf))
+
+
+def drift_sigma(measured: FloatArray, null: FloatArray) -> FloatArray:
+    """(F,): deviation of a healthy machine's changes, dB."""
     drift = np.std(np.nan_to_num(null), axis=0)
-    sigma = np.sqrt(np.nan_to_num(measured) ** 2 + drift**2 + LEAST_DB**2)
-    return Whitening(sigma=np.where(used, sigma, np.inf))
+    return np.asarray(np.sqrt(np.nan_to_num(measured) ** 2 + drift**2 + LEAST_DB**2))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from reconcile.judge.changes import Changes
+from reconcile.judge.nulls import squared_distances
 from reconcile.judge.screen import together
-from reconcile.judge.space import Fitted, squared_distances
+from reconcile.judge.space import Fitted
 from signals.series import FloatArray
 
 COPIES = 60

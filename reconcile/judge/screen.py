@@ -8,7 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from reconcile.judge.adequacy import Rest, explained, rest_of
-from reconcile.judge.space import Fitted, group_lengths, squared_distances
+from reconcile.judge.nulls import group_lengths
+from reconcile.judge.space import Fitted
 from reconcile.tail import tail_chance
 from signals.series import FloatArray
 
@@ -42,6 +43,13 @@ class Screen:
     p_lines: float = 1.0
     p_first: float = 1.0
     """`p_best` among all machines of the kind, where the rest is of those that agree with the baseline."""
+    unmoved: float | None = None
+    """Largest evidence of a pattern before machines were fitted to what was observed; none where none were."""
+
+    @property
+    def pattern(self) -> float:
+        """Largest evidence of a pattern alone that nobody has fitted a machine to."""
+        return float((self.evidence - self.direct).max()) if self.unmoved is None else self.unmoved
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,12 +67,9 @@ def looked(fitted: Fitted, observed: FloatArray) -> Look:
     x = fitted.place(observed)
     nothing = float(np.sum(x**2))
     best, _ = fitted.paths.nearest(fitted.paths.distances(x))
-    lengths = np.sum(fitted.null**2, axis=1)
-    squared = squared_distances(fitted.null, fitted.paths.points)
-    nearest = [squared[:, fitted.paths.owner == c].min(axis=1) for c in range(len(fitted.paths.names))]
     return Look(
         evidence=(nothing - best) / (2.0 * fitted.overdispersion),
-        null=(lengths[:, None] - np.stack(nearest, axis=1)) / (2.0 * fitted.overdispersion),
+        null=(fitted.null[:, None] - fitted.near) / (2.0 * fitted.overdispersion),
         length=nothing,
         misfit=quantile_of_misfit(fitted, float(best.min()), nothing),
     )
@@ -126,7 +131,7 @@ def _rest(views: Sequence[Fitted], observed: FloatArray, best: str, speaks: int)
 
 def _of_lines(views: Sequence[Fitted], looks: Sequence[Look]) -> float:
     """Chance of such a change of single lines, the smallest of the views' for as many looks."""
-    chances = [tail_chance(np.sum(v.null**2, axis=1), look.length) for v, look in zip(views, looks, strict=True)]
+    chances = [tail_chance(v.null, look.length) for v, look in zip(views, looks, strict=True)]
     return min([1.0, *(len(chances) * c for c in chances)])
 
 

@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from reconcile.judge.changes import Changes
-from reconcile.judge.metric import Metric, Whitening, fit_metric, neighbour_scatter, whitening
+from reconcile.judge.metric import Metric, Whitening, whitening
+from reconcile.judge.nulls import (
+    Drawn,
+    Fold,
+    View,
+    folds,
+    group_lengths_of,
+    learnt,
+    lengths_of,
+    nearest_of,
+    resting,
+    squared_distances,
+)
 from reconcile.judge.paths import Paths, build_paths
 from signals.series import FloatArray
 
@@ -18,12 +30,6 @@ STANDS_OUT = 0.95
 """Quantile of the nulls' lengths from which a draw shows something."""
 LEAST_OVERDISPERSION = 2.0
 """Few and far effects would make every difference proof."""
-NULL_COPIES = 16
-"""Noisy copies of each simulated healthy pair, of either sign: the bank of nulls."""
-
-
-View = Callable[[FloatArray], FloatArray]
-"""Whitened changes (n, F) to what is compared, (n, D): families of features, or some features one by one."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,8 +49,11 @@ class Fitted:
     view: View
     metric: Metric
     paths: Paths
+    folds: tuple[Fold, ...]
     null: FloatArray
-    """(n, D): what healthy machines with measurement noise look like."""
+    """(n,): squared length of healthy machines' changes with noise, of machines that the metric does not know."""
+    near: FloatArray
+    """(n, effects): squared distance of the same to each effect's path."""
     resting: FloatArray
     """(n, groups): lengths of the same, group by group, before the metric."""
     groups: np.ndarray
@@ -87,9 +96,14 @@ def with_draws(fitted: Fitted, library: Library) -> Fitted:
         high=np.concatenate([fitted.paths.high, rows]),
         share=np.concatenate([fitted.paths.share, library.shares]),
     )
-    large = float(np.quantile(np.sum(fitted.null**2, axis=1), STANDS_OUT))
+    large = float(np.quantile(fitted.null, STANDS_OUT))
+    near = fitted.near.copy()
+    for fold in fitted.folds:
+        led = fold.metric(fitted.view(fold.whiten(library.changes)))
+        near[fold.rows] = np.minimum(near[fold.rows], fold.nearest(led, owner, len(fitted.paths.names)))
     return replace(
         fitted,
+        near=near,
         paths=paths,
         points=np.concatenate([fitted.points, points]),
         visible=np.concatenate([fitted.visible, np.sum(points**2, axis=1) > large]),
@@ -130,13 +144,6 @@ def _softness(distances: FloatArray, truth: np.ndarray) -> float:
     return chosen
 
 
-def squared_distances(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Squared distances of the rows of two arrays, (n, m); single precision is plenty and half the time."""
-    one, other = a.astype(np.float32), b.astype(np.float32)
-    lengths = np.sum(one**2, axis=1)[:, None] + np.sum(other**2, axis=1)[None, :]
-    return np.maximum(np.asarray(lengths - 2.0 * one @ other.T, dtype=np.float64), 0.0)
-
-
 def _between(points: FloatArray, paths: Paths) -> FloatArray:
     """Least squared distance of every draw to every effect, its own without itself, (m, effects)."""
     squared = squared_distances(points, paths.points)
@@ -146,21 +153,6 @@ def _between(points: FloatArray, paths: Paths) -> FloatArray:
     for c in range(len(paths.names)):
         found[:, c] = squared[:, paths.owner == c].min(axis=1)
     return found
-
-
-def _resting(changes: Changes, rng: np.random.Generator) -> FloatArray:
-    """Healthy pairs with noise and wander of their own, (n, F): one set to learn from, another to compare with."""
-    copies = changes.null.shape[0] * NULL_COPIES
-    drift = np.repeat(changes.null, NULL_COPIES, axis=0) * rng.choice([-1.0, 1.0], (copies, 1))
-    noise = rng.normal(size=drift.shape) * np.nan_to_num(changes.measured)
-    return np.asarray(drift + noise + rng.normal(size=(copies, changes.wander.shape[0])) @ changes.wander)
-
-
-def group_lengths(z: FloatArray, groups: np.ndarray) -> FloatArray:
-    """(n, F) -> (n, groups): squared length of the compressed features of each group."""
-    compressed = np.log1p(np.abs(z))
-    count = int(groups.max()) + 1
-    return np.stack([np.sum(compressed[:, groups == g] ** 2, axis=1) for g in range(count)], axis=1)
 
 
 def fit_space(
@@ -179,16 +171,17 @@ def fit_space(
     whiten = whitening(changes.observed, changes.measured, changes.null, library.changes)
     view = view or changes.pooling
     rng = np.random.default_rng([seed, 3])
-    learned, fresh = _resting(changes, rng), _resting(changes, rng)
+    drifts = np.concatenate([changes.null, changes.kind])
+    learned, fresh = resting(changes, drifts, rng), resting(changes, changes.null, rng)
     noise = rng.normal(size=library.changes.shape) * np.nan_to_num(changes.measured)
-    drawn, resting = view(whiten(library.changes + noise)), view(whiten(learned))
-    centre = resting.mean(axis=0)
-    scatter = [neighbour_scatter(drawn[list(g)], library.shares[list(g)]) for g in library.groups.values()]
-    metric = fit_metric(centre, [*scatter, resting - centre])
-    points, null = metric(drawn), metric(view(whiten(fresh)))
+    drawn = Drawn(changes=library.changes + noise, groups=tuple(library.groups.values()), shares=library.shares)
+    metric, points = learnt(whiten, view, drawn, learned)
+    apart = tuple(folds(changes, whiten, view, drawn, learned, fresh))
+    null = lengths_of(apart)
     size = np.sum(points**2, axis=1)
-    visible = size > np.quantile(np.sum(null**2, axis=1), STANDS_OUT)
-    paths = build_paths(points, _telling(library.groups, visible), library.shares)
+    visible = size > np.quantile(null, STANDS_OUT)
+    telling = _telling(library.groups, visible)
+    paths = build_paths(points, telling, library.shares)
     distances = _between(points, paths)
     truth = np.zeros(points.shape[0], dtype=int)
     for c, members in enumerate(library.groups.values()):
@@ -200,8 +193,10 @@ def fit_space(
         view=view,
         metric=metric,
         paths=paths,
+        folds=apart,
         null=null,
-        resting=group_lengths(whiten(fresh), groups),
+        near=nearest_of(apart, paths.names, telling, library.shares),
+        resting=group_lengths_of(apart, fresh, groups),
         groups=groups,
         overdispersion=max(least, _softness(distances[seen], truth[seen])) if seen.size else 10.0,
         own=distances[seen, truth[seen]] if seen.size else distances[np.arange(truth.size), truth],

@@ -221,7 +221,7 @@ def _stages(
         {
             "name": "is anything missing",
             "length": found.screen.length,
-            "null_median": float(np.median(np.sum(found.fitted.null**2, axis=1))),
+            "null_median": float(np.median(found.fitted.null)),
             "p_any": found.screen.p_any,
             "p_best": found.screen.p_best,
             "p_direct": found.screen.p_direct,

@@ -169,7 +169,8 @@ def _with(setting: Setting, found: Found, more: Catalogued) -> Found:
     after = judge(views, setting.changes.observed, direct.evidence, direct.p)
     kept = {n: getattr(before, n) for n in ("p_any", "p_best", "p_direct", "p_lines", "strongest")}
     best = after.names[int(np.argmax(after.evidence))]
-    screen = replace(after, rest=replace(after.rest, rough=best not in found.led), **kept)
+    rest = replace(after.rest, rough=best not in found.led)
+    screen = replace(after, rest=rest, unmoved=before.pattern, **kept)
     fitted, fine, sides = (*views, None, None)[:3]
     return replace(
         found, known=joined(found.known, more), fitted=fitted or found.fitted, fine=fine, sides=sides, screen=screen

@@ -15,10 +15,11 @@ from reconcile.gate import inspect_measurement
 from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import without_spoiled
 from reconcile.judge.changes import lenses, observed_changes
+from reconcile.machine.alone import rise_over_sound
 from reconcile.machine.answer import answer, fault_answer
 from reconcile.machine.assimilate import assimilated
 from reconcile.machine.budget import QUICK, Budget
-from reconcile.machine.decide import decide, leaves_lines, remarkable, tempered
+from reconcile.machine.decide import decide, leaves_lines, remarkable, tempered, unmeasured
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
@@ -105,7 +106,7 @@ def _answered(
         progress(0.7, "candidates on these machines")
         found = located(closer, atlas, setting, budget, meter, possible_seconds(closer, seen))
     elif not remarkable(atlas.screen):
-        return setting, atlas, {}
+        return setting, replace(atlas, screen=unmeasured(atlas.screen)), {}
     near = nearest_effects(atlas, setting.changes.observed)
     for turn in range(budget.rounds):
         progress(0.8 + 0.1 * turn / budget.rounds, "refining the best candidates")
@@ -117,8 +118,9 @@ def _answered(
         found = refined(closer, found, budget, meter, budget.rounds, near)
     progress(0.87, "machine and effect together")
     found = assimilated(closer, found, to_fit(closer, found, budget), budget.members, budget.assimilations, meter)
-    found = replace(found, screen=tempered(found.screen, atlas.screen))
-    return closer, found, told(local) if local is not None else {}
+    based = setting.changes.with_baseline
+    screen = tempered(found.screen, atlas.screen) if based else unmeasured(found.screen)
+    return closer, replace(found, screen=screen), told(local) if local is not None else {}
 
 
 def _force(setting: Setting, found: Found, budget: Budget, meter: Meter) -> Unknown | None:
@@ -147,6 +149,8 @@ def _setting(
         bank = kept_bank(plan, one.point, distinct, keeper=keeper, mapper=mapper)
         banks.append(bank.at(range(len(plan.draws)), [distinct.index(s) for s in simulated]))
     seen = lenses(data, banks, plan)
+    changes = observed_changes(data, seen, banks, plan)
+    rise = rise_over_sound(changes, data, plan)
     return Setting(
         machine=machine,
         data=data,
@@ -155,7 +159,7 @@ def _setting(
         plan=plan,
         banks=tuple(banks),
         seen_through=seen,
-        changes=observed_changes(data, seen, banks, plan),
+        changes=changes,
         seed=plan.seed,
-        direct=direct_evidence(machine, data, recorded, seed=plan.seed),
+        direct=direct_evidence(machine, data, recorded, seed=plan.seed, rise=rise),
     )

@@ -85,13 +85,14 @@ def _with_twins(setting: Setting, posterior: Posterior, mapper: Mapper) -> Local
     both = replace(drifted, draws=(*(Draw(pair=k) for k in pairs), *drifted.draws))
     banks = tuple(stacked(a, b) for a, b in zip(posterior.banks, second, strict=True))
     seen = lenses(setting.data, banks, both)
+    changes = observed_changes(setting.data, seen, banks, both)
     return Local(
         setting=replace(
             setting,
             plan=both,
             banks=banks,
             seen_through=seen,
-            changes=observed_changes(setting.data, seen, banks, both),
+            changes=replace(changes, kind=setting.changes.null),
             fitted_machine=moved(plan.machine, plan.numbers, _middle(posterior)),
         ),
         posterior=posterior,

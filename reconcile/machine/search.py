@@ -8,8 +8,9 @@ import numpy as np
 
 from reconcile.atlas.bank import Mapper
 from reconcile.atlas.plan import AtlasPlan, Draw
+from reconcile.judge.nulls import squared_distances
 from reconcile.judge.screen import judge
-from reconcile.judge.space import Fitted, fit_space, squared_distances
+from reconcile.judge.space import Fitted, fit_space
 from reconcile.machine.assimilate import Task
 from reconcile.machine.budget import Budget
 from reconcile.machine.decide import DETECT_P, LEAST_EVIDENCE, credible_set, merged_weights, plausible

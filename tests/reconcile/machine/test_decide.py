@@ -21,6 +21,7 @@ from reconcile.machine.decide import (
     plausible,
     remarkable,
     tempered,
+    unmeasured,
     variants,
 )
 from reconcile.machine.words import next_experiment, sentence, title
@@ -224,6 +225,25 @@ def test_impacts_without_the_change_they_bring_are_unknown_physics() -> None:
     faint = struck([12.0, 1.0], [11.0], strongest=10.0)
     assert decide(faint, views=9).word == "explained", "a change too faint to tell may be all impacts"
     assert decide(struck([16.0, 1.0], [11.0]), views=9).word == "explained"
+
+
+def test_where_only_impacts_tell_the_machine_chosen_to_fit_decides_nothing() -> None:
+    made = struck([9.0, 4.5, 4.2, -1.0], [4.0, 4.0, 4.0], strongest=3.0, misfit=1.0, p_best=0.7, p_direct=1e-5)
+    fitted = replace(made, unmoved=0.4)
+    found = decide(fitted, views=9)
+    assert (found.word, found.chosen) == ("ambiguous", NAMES[:3]) and "only impacts" in found.reasons[0]
+    assert decide(replace(made, unmoved=3.5), views=9).word == "unknown_physics", "a pattern that was there before"
+    one = replace(struck([9.0, 4.5], [8.0, 1.0], strongest=3.0, p_direct=1e-5), unmoved=0.4)
+    assert decide(one, views=9).chosen == NAMES[:1]
+    loud = replace(fitted, strongest=40.0)
+    assert decide(loud, views=9).word == "unknown_physics", "what impacts do not bring"
+
+
+def test_without_a_baseline_a_pattern_must_explain_something() -> None:
+    weak = unmeasured(screen([2.0], p_any=0.02, p_best=0.001))
+    assert decide(weak, views=9).word == "nothing_missing"
+    sure = screen([12.0], p_any=0.02, p_best=0.001)
+    assert unmeasured(sure) == sure
 
 
 def test_sure_impacts_are_named_though_something_else_is_left() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reconcile.machine.direct import MOST, MOST_TURNS, Direct, direct_evidence
+from reconcile.machine.direct import MODELLED, MOST, MOST_TURNS, Direct, direct_evidence
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
 from signals.recording import Operating, Recording
@@ -66,6 +66,20 @@ def test_a_struck_race_speaks_for_its_spall_at_the_bearings_that_share_the_frequ
     best = {name for name, value in direct.evidence.items() if value > 0.5 * max(direct.evidence.values())}
     assert best == {f"{kind}_spall@bearing1", f"{kind}_spall@bearing2"}
     assert max(direct.evidence.values()) <= MOST
+
+
+def test_without_a_baseline_what_sound_machines_show_too_is_no_evidence(machine: MachineSpec) -> None:
+    now = 0.3 * sound(1) + 3.0 * struck(bases_at(machine, SPEED_HZ)["f_i1"], loads_hz=SPEED_HZ, slip=0.007)
+    data = observe(machine, watch_list(machine), [recording(now)], ())
+    rises = {"bearing1.inner": MODELLED + 1.0}
+
+    def told(least: float) -> Direct:
+        return direct_evidence(machine, data, CHANNELS, seed=0, rise=lambda family: rises.get(family.key, 0.0) - least)
+
+    assert told(0.0).p < 0.01 and "inner_spall@bearing1" in told(0.0).evidence
+    usual = told(2.0)
+    assert usual.p == 1.0 and not usual.evidence
+    assert any("sound machines show as much" in line for line in usual.told)
 
 
 def test_a_tooth_that_strikes_speaks_for_the_teeth_of_its_gear(machine: MachineSpec) -> None:

@@ -12,7 +12,7 @@ from reconcile.judge.space import Library, fit_space
 from reconcile.machine.budget import QUICK
 from reconcile.machine.decide import decide
 from reconcile.machine.library import Catalogued
-from reconcile.machine.search import to_fit
+from reconcile.machine.search import LEAST_OF_LINES, to_fit
 from reconcile.machine.second import LEFT, beside, looks_for_second, second_effect
 from reconcile.machine.setting import Found
 from tests.reconcile.judge.made import EFFECTS, FEATURES, MEMBERS, changes, library, world
@@ -34,7 +34,7 @@ def found_in(observed: np.ndarray, direct: float) -> tuple[SimpleNamespace, Foun
     ordered = {name: tuple(range(c * count, (c + 1) * count)) for c, name in enumerate(NAMES)}
     known = Library(changes=made.changes[rows], groups=ordered, shares=made.shares[rows])
     fitted = fit_space(here, known, seed=1)
-    fine = fit_space(here, known, seed=1, view=here.single)
+    fine = fit_space(here, known, seed=1, view=here.single, least=LEAST_OF_LINES)
     screen = judge((fitted, fine), observed, {NAMES[0]: direct}, 1e-6)
     found = Found(known=Catalogued(library=known, terms=()), fitted=fitted, screen=screen, fine=fine)
     return SimpleNamespace(changes=here), found
@@ -85,7 +85,7 @@ def test_a_second_is_looked_for_where_something_is_left() -> None:
 QUICKLY = replace(QUICK, effects=2)
 
 
-def fitted_names(effects: tuple[int, ...], seed: int, direct: float = 20.0) -> list[tuple[str, bool]]:
+def fitted_names(effects: tuple[int, ...], seed: int, direct: float = 60.0) -> list[tuple[str, bool]]:
     setting, found = found_in(seen(effects, seed), direct)
     found = replace(found, screen=replace(found.screen, misfit=LEFT + 0.05))
     return [(task.name, task.second) for task in to_fit(setting, found, QUICKLY)]  # type: ignore[arg-type]
@@ -95,7 +95,7 @@ def test_what_may_stand_beside_sure_impacts_is_fitted_to_what_they_leave() -> No
     for seed in range(4):
         tasks = fitted_names((0, 2), seed)
         assert tasks[0] == (NAMES[1], True) and all(second for _, second in tasks)
-    setting, found = found_in(seen((0, 2), 1), 20.0)
+    setting, found = found_in(seen((0, 2), 1), 60.0)
     found = replace(found, screen=replace(found.screen, misfit=LEFT + 0.05))
     first = to_fit(setting, found, QUICKLY)[0]  # type: ignore[arg-type]
     assert np.sum(first.target**2) < np.sum(setting.changes.observed**2) and first.view is found.fine

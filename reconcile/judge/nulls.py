@@ -1,0 +1,132 @@
+"""Healthy machines that the metric has not learned from: what a change by drift and noise alone looks like.
+
+A metric learned from some pairs of healthy machines makes just these pairs look small, the more so the more features
+and the fewer pairs there are. Each pair is therefore placed by a metric that was learned without it (cross-conformal
+prediction: V. Vovk, Annals of Mathematics and Artificial Intelligence 74 (2015) 9-28), its chance being the rank of
+the observation among such pairs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reconcile.judge.changes import Changes
+from reconcile.judge.metric import Metric, Whitening, drift_sigma, fit_metric, neighbour_scatter
+from reconcile.judge.paths import build_paths
+from signals.series import FloatArray
+
+NULL_COPIES = 16
+"""Noisy copies of each simulated healthy pair, of either sign: the bank of nulls."""
+FOLDS = 8
+"""Metrics, each learned without its share of the pairs."""
+
+View = Callable[[FloatArray], FloatArray]
+"""Whitened changes (n, F) to what is compared, (n, D): families of features, or some features one by one."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drawn:
+    """Simulated changes with noise of their own: `changes` (m, F), the rows and sizes (m,) of each effect."""
+
+    changes: FloatArray
+    groups: Sequence[Sequence[int]]
+    shares: FloatArray
+
+    def scatter(self, points: FloatArray) -> list[FloatArray]:
+        """Of each effect's points around its path."""
+        return [neighbour_scatter(points[list(g)], self.shares[list(g)]) for g in self.groups]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fold:
+    """One metric and the nulls it has not learned from: `rows` of the bank, `null` (k, D) their places."""
+
+    whiten: Whitening
+    metric: Metric
+    rows: np.ndarray
+    null: FloatArray
+    points: FloatArray
+    """(m, D): the draws, as this metric places them."""
+
+    def nearest(self, points: FloatArray, owner: np.ndarray, count: int) -> FloatArray:
+        """(k, count): least squared distance of each null to the points of each effect."""
+        squared = squared_distances(self.null, points)
+        return np.stack([squared[:, owner == c].min(axis=1, initial=np.inf) for c in range(count)], axis=1)
+
+
+def resting(changes: Changes, drifts: FloatArray, rng: np.random.Generator) -> FloatArray:
+    """Healthy pairs (k, F) with noise and wander of their own, (n, F)."""
+    copies = drifts.shape[0] * NULL_COPIES
+    drift = np.repeat(drifts, NULL_COPIES, axis=0) * rng.choice([-1.0, 1.0], (copies, 1))
+    noise = rng.normal(size=drift.shape) * np.nan_to_num(changes.measured)
+    return np.asarray(drift + noise + rng.normal(size=(copies, changes.wander.shape[0])) @ changes.wander)
+
+
+def learnt(whiten: Whitening, view: View, drawn: Drawn, learned: FloatArray) -> tuple[Metric, FloatArray]:
+    """The metric of draws and of healthy machines `learned` (n, F), and the draws' places (m, D)."""
+    pooled, rest = view(whiten(drawn.changes)), view(whiten(learned))
+    centre = rest.mean(axis=0)
+    metric = fit_metric(centre, [*drawn.scatter(pooled), rest - centre])
+    return metric, metric(pooled)
+
+
+def folds(
+    changes: Changes, whiten: Whitening, view: View, drawn: Drawn, learned: FloatArray, fresh: FloatArray
+) -> Iterator[Fold]:
+    """Metrics without a share of the pairs; `learned` and `fresh` (n, F): two banks of the same pairs, the first with
+    machines of the kind behind them, which all metrics learn from."""
+    share = np.arange(changes.null.shape[0]) % FOLDS
+    number = np.repeat(share, NULL_COPIES)
+    kind = learned[number.size :]
+    for k in range(share.max() + 1):
+        rest = changes.null[share != k] if share.max() else changes.null
+        others = np.concatenate([learned[: number.size][number != k], kind]) if share.max() else learned
+        sigma = np.where(np.isfinite(whiten.sigma), drift_sigma(changes.measured, rest), np.inf)
+        here = replace(whiten, sigma=sigma)
+        metric, points = learnt(here, view, drawn, others)
+        rows = np.flatnonzero(number == k)
+        yield Fold(whiten=here, metric=metric, rows=rows, null=metric(view(here(fresh[rows]))), points=points)
+
+
+def lengths_of(apart: Sequence[Fold]) -> FloatArray:
+    """(n,): squared length of every null."""
+    found = np.zeros(sum(f.rows.size for f in apart))
+    for fold in apart:
+        found[fold.rows] = np.sum(fold.null**2, axis=1)
+    return found
+
+
+def nearest_of(
+    apart: Sequence[Fold], names: Sequence[str], groups: Mapping[str, Sequence[int]], shares: FloatArray
+) -> FloatArray:
+    """(n, effects): squared distance of every null to every effect's path of the draws in `groups`."""
+    found = np.full((sum(f.rows.size for f in apart), len(names)), np.inf)
+    for fold in apart:
+        paths = build_paths(fold.points, groups, shares)
+        found[fold.rows] = fold.nearest(paths.points, paths.owner, len(names))
+    return found
+
+
+def group_lengths(z: FloatArray, groups: np.ndarray) -> FloatArray:
+    """(n, F) -> (n, groups): squared length of the compressed features of each group."""
+    compressed = np.log1p(np.abs(z))
+    count = int(groups.max()) + 1
+    return np.stack([np.sum(compressed[:, groups == g] ** 2, axis=1) for g in range(count)], axis=1)
+
+
+def group_lengths_of(apart: Sequence[Fold], fresh: FloatArray, groups: np.ndarray) -> FloatArray:
+    """(n, groups): the same of every null, by what its fold knows of drift."""
+    found = np.zeros((fresh.shape[0], int(groups.max()) + 1))
+    for fold in apart:
+        found[fold.rows] = group_lengths(fold.whiten(fresh[fold.rows]), groups)
+    return found
+
+
+def squared_distances(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Squared distances of the rows of two arrays, (n, m); single precision is plenty and half the time."""
+    one, other = a.astype(np.float32), b.astype(np.float32)
+    lengths = np.sum(one**2, axis=1)[:, None] + np.sum(other**2, axis=1)[None, :]
+    return np.maximum(np.asarray(lengths - 2.0 * one @ other.T, dtype=np.float64), 0.0)

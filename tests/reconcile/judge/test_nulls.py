@@ -1,0 +1,107 @@
+"""Chances of healthy machines whose drift the metric has not seen: as rare as they say they are."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reconcile.judge.changes import Changes
+from reconcile.judge.nulls import FOLDS, NULL_COPIES
+from reconcile.judge.pooled import OneByOne, Pooling
+from reconcile.judge.screen import looked
+from reconcile.judge.space import Fitted, Library, fit_space, with_draws
+from reconcile.tail import tail_chance
+
+PAIRS, EFFECTS, DRAWS, LINES = 24, 8, 8, 54
+
+
+def _changes(observed: np.ndarray, null: np.ndarray) -> Changes:
+    lines = OneByOne(chosen=np.ones(LINES, dtype=bool), points=1, channels=1)
+    return Changes(
+        observed=observed,
+        halves=np.stack([observed, observed]),
+        measured=np.ones(LINES),
+        null=null,
+        starts=(0, LINES),
+        with_baseline=True,
+        groups=np.zeros(LINES, dtype=int),
+        pooling=Pooling(family=np.zeros(LINES, dtype=int), names=("all",), points=1, channels=1),
+        single=lines,
+        sides=lines,
+        wander=np.zeros((1, LINES)),
+        kind=np.zeros((0, LINES)),
+    )
+
+
+def _world(seed: int, drift_db: float) -> tuple[Changes, Library, np.random.Generator]:
+    """Sixty numbers of the machine drift and move all lines; effects move them in directions of their own."""
+    rng = np.random.default_rng([seed, 1])
+    effect_of = rng.normal(size=(60, LINES)) / np.sqrt(60) * drift_db
+
+    def drifted(count: int) -> np.ndarray:
+        return rng.uniform(-(3**0.5), 3**0.5, (count, 60)) @ effect_of
+
+    made = _changes(drifted(1)[0] + rng.normal(size=LINES), drifted(PAIRS))
+    sizes = (np.arange(DRAWS) + 0.5) / DRAWS
+    patterns = rng.normal(0.0, 6.0, (EFFECTS, LINES))
+    rows = np.concatenate([np.outer(sizes + 0.2, p) + rng.normal(0.0, 2.0, (DRAWS, LINES)) for p in patterns])
+    groups = {f"rub@gear{k}": tuple(range(k * DRAWS, (k + 1) * DRAWS)) for k in range(EFFECTS)}
+    return made, Library(changes=rows, groups=groups, shares=np.tile(sizes, EFFECTS)), rng
+
+
+def _space(made: Changes, library: Library) -> Fitted:
+    return fit_space(made, library, seed=3, view=made.single, least=4.0)
+
+
+@pytest.mark.parametrize(("drift_db", "kind"), [(1.0, 0), (4.0, 0), (4.0, 48)])
+def test_a_machine_that_drifted_as_the_others_is_no_more_unusual(drift_db: float, kind: int) -> None:
+    lengths, patterns = [], []
+    for seed in range(40):
+        made, library, rng = _world(seed, drift_db)
+        made = replace(made, kind=rng.normal(0.0, drift_db, (kind, LINES)))
+        space = _space(made, library)
+        look = looked(space, made.observed)
+        lengths.append(tail_chance(space.null, look.length))
+        patterns.append(tail_chance(look.null.max(axis=1), float(look.evidence.max())))
+    for chances in (np.array(lengths), np.array(patterns)):
+        assert np.mean(chances <= 0.05) <= 0.15
+        assert np.mean(chances <= 0.01) <= 0.1
+        assert np.median(chances) > 0.2
+
+
+def test_every_null_is_placed_once_by_a_metric_without_its_pair() -> None:
+    made, library, _ = _world(1, 4.0)
+    space = _space(made, library)
+    rows = np.concatenate([f.rows for f in space.folds])
+    assert sorted(rows.tolist()) == list(range(PAIRS * NULL_COPIES))
+    for fold in space.folds:
+        assert set(fold.rows // NULL_COPIES) == set(range(int(fold.rows[0]) // NULL_COPIES, PAIRS, FOLDS))
+        assert np.array_equal(space.null[fold.rows], np.sum(fold.null**2, axis=1))
+
+
+def test_a_bank_that_the_metric_knows_would_look_smaller() -> None:
+    made, library, rng = _world(2, 4.0)
+    space = _space(made, library)
+    own = np.repeat(made.null, NULL_COPIES, axis=0) + rng.normal(size=(PAIRS * NULL_COPIES, LINES))
+    known = np.sum(space.metric(space.view(space.whiten(own))) ** 2, axis=1)
+    assert np.median(known) < 0.7 * np.median(space.null)
+
+
+def test_draws_that_are_led_come_nearer_to_the_nulls_too() -> None:
+    made, library, rng = _world(4, 2.0)
+    space = _space(made, library)
+    led = rng.normal(0.0, 0.5, (3, LINES))
+    more = with_draws(space, Library(changes=led, groups={"rub@gear2": (0, 1, 2)}, shares=np.full(3, 0.5)))
+    assert np.all(more.near <= space.near)
+    assert np.all(more.near[:, 2].mean() < space.near[:, 2].mean())
+    assert np.array_equal(np.delete(more.near, 2, axis=1), np.delete(space.near, 2, axis=1))
+
+
+def test_two_pairs_are_enough_to_compare_with() -> None:
+    made, library, _ = _world(5, 1.0)
+    few = _changes(made.observed, made.null[:2])
+    space = _space(few, library)
+    assert space.null.size == 2 * NULL_COPIES
+    assert np.isfinite(space.near).all()
