@@ -43,7 +43,7 @@ MOST_TURNS = 4.0
 """Of impacts once a turn alone: unbalance in a clearance and a rub strike as often."""
 MODELLED = 4.0
 """Deviations of simulated sound machines that a family's modulation must exceed where there is no baseline. Concealed
-development cases: sound bearings at most 2.1, pits 12 or more."""
+development cases: sound bearings at most 2.1, two outer pits 12 and 17."""
 MOST = 25.0
 """Log evidence beyond which more impacts prove no more."""
 
