@@ -88,6 +88,16 @@ class SensorFault:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Placebo:
+    """The right law at a wrong place, or a wrong law at the right place, forecast from so many simulated `draws`."""
+
+    term: str
+    site: str
+    gain: float
+    draws: int
+
+
+@dataclass(frozen=True, kw_only=True)
 class HeldOut:
     """Fit on data the fit never saw. `gain` = 1 - after/before with a 90 % interval; rivals as gains too."""
 
@@ -105,6 +115,10 @@ class HeldOut:
     """What was held out: an unseen speed, load, a later time."""
     ceiling: float | None = None
     """Gain of a perfect model: drift between the recordings and noise stay, known from healthy machines."""
+    numbers: int | None = None
+    """Free numbers of the black box: as many as the effect's forecast uses."""
+    placebos: tuple[Placebo, ...] = ()
+    """All wrong places and laws that were forecast; `placebo` is the median of those with draws enough."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,40 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 
 import numpy as np
 
 from reconcile.calibrate.chain import band_centres_hz
 from reconcile.judge.changes import Changes, Lens
 from reconcile.machine.library import Catalogued
+from reconcile.machine.rivals import Split, black_box, forecast, levels, retuned
 from reconcile.observe.features import SOFT, Layout
-from reconcile.verdict import HeldOut
+from reconcile.verdict import HeldOut, Placebo
 from signals.series import FloatArray
 from sim.terms import REGISTRY
 
-NEAREST = 16
-"""Draws a forecast is made of."""
-MODEL_VARIANCE = 8.0
-"""Of a feature, in squared deviations of measurement and drift: what no draw of the effect has. On sixteen development
-cases 2, 8 and 25 gave much the same gains."""
-FARTHEST = 25.0
-"""Squared deviations of one feature that count at most."""
 STANDS_OUT_DB = 6.0
 BLOCKS = 40
 COPIES = 300
-RETUNE_RIDGE = 3.0
+MANY = 6
+"""Draws from which a placebo has had its chance."""
 LATER = "a later time of the same record"
-
-
-@dataclass(frozen=True, kw_only=True)
-class Split:
-    """One way to hold out: masks (F,) of the features fitted and scored, and the test's change in each part."""
-
-    fit: np.ndarray
-    score: np.ndarray
-    fitted: FloatArray
-    scored: FloatArray
 
 
 def splits(changes: Changes, spectral: np.ndarray) -> tuple[tuple[Split, ...], str]:
@@ -70,52 +54,10 @@ def spectral_mask(layout: Layout, seen_through: Sequence[Lens]) -> np.ndarray:
     return np.concatenate(rows)
 
 
-def _prediction(changes: FloatArray, rows: Sequence[int], split: Split, sigma: FloatArray) -> FloatArray:
-    """Change (F,) that the draws forecast for all features from the fitted ones: their weighted mean, and their
-    departures from it in the linear combination that the fitted part asks for (ensemble Kalman analysis in the space of
-    the members, G. Evensen, Ocean Dynamics 53 (2003) 343-367, section 4)."""
-    drawn = changes[np.asarray(rows)]
-    part = split.fit & np.isfinite(split.fitted) & np.isfinite(drawn).all(axis=0)
-    away = (drawn[:, part] - split.fitted[part]) / sigma[part]
-    distance = np.mean(np.minimum(away**2, FARTHEST), axis=1)
-    best = np.argsort(distance)[:NEAREST]
-    weights = 1.0 / np.maximum(distance[best], 1e-6)
-    mean = weights @ drawn[best] / weights.sum()
-    left = np.clip((split.fitted - mean)[part] / sigma[part], -(FARTHEST**0.5), FARTHEST**0.5)
-    apart = drawn[best] - mean
-    seen = apart[:, part] / sigma[part] / max(best.size - 1, 1) ** 0.5
-    gain = np.linalg.solve(seen @ seen.T + MODEL_VARIANCE * np.eye(best.size), seen @ left)
-    return np.asarray(mean + gain @ apart / max(best.size - 1, 1) ** 0.5)
-
-
-def _levels(split: Split, spectral: np.ndarray) -> Split:
-    """To fit an effect: levels of lines and bands alone, which are what is scored, where the fitted part has any."""
-    levels = split.fit & spectral & np.isfinite(split.fitted)
-    return replace(split, fit=levels) if levels.any() else split
-
-
 def _ceiling(before: FloatArray, ways: Sequence[Split], sigma: FloatArray) -> float:
     """Gain of a perfect prediction, after which drift and noise stay (`sigma` (F,), dB)."""
     stays = np.concatenate([sigma[w.score & np.isfinite(w.scored)] for w in ways])
     return _gain(before, stays)
-
-
-def _retuned(null: FloatArray, split: Split, sigma: FloatArray) -> FloatArray:
-    """The best mixture of parameter drifts: ridge regression on the healthy pairs."""
-    part = split.fit & np.isfinite(split.fitted) & np.isfinite(null).all(axis=0)
-    a, b = (null[:, part] / sigma[part]).T, split.fitted[part] / sigma[part]
-    ridge = RETUNE_RIDGE * np.eye(null.shape[0]) * max(float(np.mean(a**2)) * a.shape[0] * 1e-3, 1e-9)
-    weights = np.linalg.solve(a.T @ a + ridge, a.T @ b)
-    return np.asarray(weights @ np.nan_to_num(null))
-
-
-def _black_box(split: Split, frequency: FloatArray, count: int) -> FloatArray:
-    """`count` cosines over log frequency, fitted to the changes: a smooth spectral correction."""
-    x = (np.log(frequency) - np.log(frequency).min()) / max(float(np.ptp(np.log(frequency))), 1e-9)
-    basis = np.stack([np.cos(np.pi * k * x) for k in range(count)])
-    part = split.fit & np.isfinite(split.fitted)
-    weights, *_ = np.linalg.lstsq(basis[:, part].T, split.fitted[part], rcond=None)
-    return np.asarray(weights @ basis)
 
 
 def feature_frequencies(layout: Layout, lines_hz: Sequence[FloatArray], channels: int) -> FloatArray:
@@ -143,28 +85,19 @@ def held_out(
     """Log-spectral distance before and after adding the effect, with a 90 % block-bootstrap interval of the gain."""
     noise = np.nan_to_num(changes.measured, nan=10.0) ** 2
     drift = np.mean(np.nan_to_num(changes.null) ** 2, axis=0)
-    sigma, both = np.sqrt(noise + 1.0), np.sqrt(noise + drift + 1.0)
+    sigma = np.sqrt(noise + drift + 1.0)
     ways, how = splits(changes, spectral)
-    groups = known.library.groups
-    term, site = name.split("@", maxsplit=1)[0], name.split("@")[1]
-    parameters = len(REGISTRY.get(term).params) if REGISTRY.get(term) is not None else 2  # type: ignore[union-attr]
-    wrong = [n for n in groups if n != name and (n.split("@")[0] == term) != (n.split("@")[1] == site)]
-    before, after, retuned, box = [], [], [], []
-    placebos: list[list[FloatArray]] = [[] for _ in wrong]
-    for way in ways:
-        nothing = np.zeros(changes.observed.size)
-        before.append(_distance(way.scored, nothing, way))
-        after.append(
-            _distance(way.scored, _prediction(known.library.changes, groups[name], _levels(way, spectral), both), way)
-        )
-        retuned.append(_distance(way.scored, _retuned(changes.null, way, sigma), way))
-        box.append(_distance(way.scored, _black_box(way, frequency, parameters), way))
-        for k, other in enumerate(wrong):
-            guess = _prediction(known.library.changes, groups[other], _levels(way, spectral), both)
-            placebos[k].append(_distance(way.scored, guess, way))
+    rows = known.library.groups
+    before = [_distance(w.scored, np.zeros(changes.observed.size), w) for w in ways]
+    after, used = _told(known, rows[name], ways, spectral, sigma)
+    count = max(_parameters(name), round(used))
+    fits = [levels(w, spectral) for w in ways]
+    tuned = [_distance(w.scored, retuned(changes.null, f, sigma), w) for w, f in zip(ways, fits, strict=True)]
+    box = [_distance(w.scored, black_box(f, frequency, count, sigma), w) for w, f in zip(ways, fits, strict=True)]
     first = np.concatenate(before)
     low, high = _interval(before, after, np.random.default_rng([seed, 5]))
-    gains = [_gain(first, np.concatenate(p)) for p in placebos if np.concatenate(p).size == first.size]
+    placebos = _placebos(known, name, ways, spectral, sigma, before)
+    full = [p.gain for p in placebos if p.draws >= MANY] or [p.gain for p in placebos]
     return HeldOut(
         metric="log_spectral_distance",
         unit="dB",
@@ -173,12 +106,49 @@ def held_out(
         gain=_gain(first, np.concatenate(after)),
         gain_low=low,
         gain_high=high,
-        retuned=_gain(first, np.concatenate(retuned)),
+        retuned=_gain(first, np.concatenate(tuned)),
         black_box=_gain(first, np.concatenate(box)),
-        placebo=float(np.median(gains)) if gains else None,
+        placebo=float(np.median(full)) if full else None,
         held=how,
         ceiling=_ceiling(first, ways, np.sqrt(noise + drift)),
+        numbers=count,
+        placebos=placebos,
     )
+
+
+def _parameters(name: str) -> int:
+    term = REGISTRY.get(name.split("@", maxsplit=1)[0])
+    return len(term.params) if term is not None else 2
+
+
+def _told(
+    known: Catalogued, rows: Sequence[int], ways: Sequence[Split], spectral: np.ndarray, sigma: FloatArray
+) -> tuple[list[FloatArray], float]:
+    """What an effect's forecasts leave of each held-out part, and the numbers they have used on average."""
+    made = [forecast(known.library.changes, rows, levels(w, spectral), sigma) for w in ways]
+    left = [_distance(w.scored, guess, w) for w, (guess, _) in zip(ways, made, strict=True)]
+    return left, float(np.mean([used for _, used in made]))
+
+
+def _placebos(
+    known: Catalogued,
+    name: str,
+    ways: Sequence[Split],
+    spectral: np.ndarray,
+    sigma: FloatArray,
+    before: Sequence[FloatArray],
+) -> tuple[Placebo, ...]:
+    """The right law at wrong places and wrong laws at the right place, the best first."""
+    term, site = name.split("@")
+    found = []
+    for other, rows in known.library.groups.items():
+        law, place = other.split("@")
+        if other == name or (law == term) == (place == site):
+            continue
+        left = np.concatenate(_told(known, rows, ways, spectral, sigma)[0])
+        if left.size == sum(b.size for b in before):
+            found.append(Placebo(term=law, site=place, gain=_gain(np.concatenate(before), left), draws=len(rows)))
+    return tuple(sorted(found, key=lambda p: -p.gain))
 
 
 def _interval(

@@ -103,7 +103,10 @@ def test_the_right_effect_explains_held_out_data_and_nothing_else_does(points: i
     assert right.gain > 0.9 and right.gain_low <= right.gain <= right.gain_high
     assert right.gain_low > 0.8
     for rival in (right.retuned, right.black_box, right.placebo):
-        assert rival is not None and rival < 0.3
+        assert rival is not None and rival < 0.4
+    assert right.numbers is not None and right.numbers >= len(REGISTRY.get("outer_spall").params)  # type: ignore[union-attr]
+    assert [(p.term, p.site, p.draws) for p in right.placebos] == [("outer_spall", "bearing3", 8)]
+    assert right.placebos[0].gain == right.placebo
     stays = np.sqrt(0.5**2 + 1.0)  # noise and drift of the made-up machines, dB
     assert right.ceiling == pytest.approx(1 - stays / right.before, abs=0.02)
     wrong = held_out(made, known, WRONG, **how)  # type: ignore[arg-type]
