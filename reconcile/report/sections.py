@@ -144,7 +144,8 @@ def causes_table(causes: Sequence[Cause]) -> Markup:
         return Markup("")
     often = Counter(reason for c in causes for reason in c.reasons)
     common = [r for r, n in often.items() if len(causes) > 1 and 2 * n > len(causes)]
-    own = [[r for r in c.reasons if r not in common] for c in causes]
+    rest = leaves_a_part(causes)
+    own = [[r for r in c.reasons if r not in common and not (rest and r.startswith(PART_LEFT))] for c in causes]
     heads = ["candidate", "score", "severity", "named", *(["why"] if any(own) else [])]
     rows = [
         (
@@ -156,10 +157,10 @@ def causes_table(causes: Sequence[Cause]) -> Markup:
         )
         for c, why in zip(causes, own, strict=True)
     ]
-    left = tag("p", LEFT_OVER, css="note") if leaves_a_part(causes) else Markup("")
-    rest = [r for r in common if not (left and r.startswith(PART_LEFT))]
+    left = tag("p", LEFT_OVER, css="note") if rest else Markup("")
+    most = [r for r in common if not (rest and r.startswith(PART_LEFT))]
     lead = "For most of them" if any(c.named for c in causes) else "Why none is named"
-    why = tag("p", f"{lead}: {'; '.join(rest)}.") if rest else Markup("")
+    why = tag("p", f"{lead}: {'; '.join(most)}.") if most else Markup("")
     notes = [SCORE, *([FORMS] if any(c.forms for c in causes) else [])]
     return Markup(
         left + why + table(heads, rows, [c.named for c in causes]) + "".join(tag("p", n, css="muted") for n in notes)

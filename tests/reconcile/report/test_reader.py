@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -12,10 +13,11 @@ from reconcile.machine.decide import decide
 from reconcile.report import page
 from reconcile.report.panels import MOST_PANELS
 from reconcile.report.plot import Frame, decades
-from reconcile.report.words import FORMS, LEFT_OVER
+from reconcile.report.words import FORMS, LEFT_OVER, PART_LEFT
 from reconcile.verdict import AngleWindow, Cause, HeldOut, LineChange, Report, Where, operating_point
 from tests.reconcile.report.test_report import Balanced, full_report
 
+ROOT = Path(__file__).resolve().parents[3]
 HELD = HeldOut(
     metric="log_spectral_distance", unit="dB", before=7.0, after=4.2, gain=0.4, gain_low=0.2, gain_high=0.55,
     retuned=-3.5, black_box=-0.02, placebo=0.01, ceiling=0.79,
@@ -92,6 +94,7 @@ def test_a_name_with_a_rest_says_what_that_means_and_what_to_do() -> None:
         Cause(term=t, site=s, score=1.0, named=n, reasons=decision.reasons)
         for t, s, n in (("outer_spall", "bearing1", True), ("rub", "pinion", False))
     )
+    assert decision.reasons[0] not in told(replace(drawn(), causes=causes[:1]))
     text = told(replace(drawn(), causes=causes))
     assert text.count(LEFT_OVER) == 1
     assert decision.reasons[0] not in text, "once, in plain words, and not of effects that are not named"
@@ -204,6 +207,11 @@ def test_the_page_of_pictures_leaves_out_words_and_tables() -> None:
         assert left_out in told(report) and left_out not in parser.text, left_out
     for kept in ("angle of shaft input", "share of that error taken off", "score: log evidence", "frequency, Hz"):
         assert kept in parser.text, kept
+
+
+def test_the_dashboard_says_it_in_the_same_words() -> None:
+    script = (ROOT / "app/dashboard/static/js/reconcile/answer.js").read_text(encoding="utf-8")
+    assert FORMS in script and LEFT_OVER in script and f'"{PART_LEFT}"' in script
 
 
 def test_third_octaves_have_a_logarithmic_axis() -> None:
