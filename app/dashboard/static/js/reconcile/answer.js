@@ -38,12 +38,19 @@ function where({ sites, lines, angle_window: angle, limits: told }) {
   });
   return card("Where", "where", bars.length ? bars : h("p", { class: "muted" }, "No place stands out."),
     angle ? h("p", {}, `Around ${number(angle.centre_deg)}° of ${angle.shaft} (${number(angle.low_deg)}° to ${number(angle.high_deg)}°).`) : null,
-    lines.length ? table("Lines", ["Line", "Operating point", "Frequency", "Change", "Channel", "Follows"], lines.map((line) =>
-      [line.label, point(line), quantity(line.frequency_hz, "Hz"), `${number(line.change_db, 3)} dB`, line.channel || "–", line.locked_to || "–"])) : null,
+    lines.length ? lineTable(lines) : null,
     bullets(told));
 }
 
-/** Speed, and load where it is not the machine's own; reports of earlier versions do not say. */
+/** The operating point of each where it is known: not of frequencies alone, nor in reports of earlier versions. */
+function lineTable(lines) {
+  const points = lines.some((line) => line.speed_hz != null);
+  const only = (cell) => (points ? [cell] : []);
+  return table("Lines", ["Line", ...only("Operating point"), "Frequency", "Change", "Channel", "Follows"], lines.map((line) =>
+    [line.label, ...only(point(line)), quantity(line.frequency_hz, "Hz"), `${number(line.change_db, 3)} dB`, line.channel || "–", line.locked_to || "–"]));
+}
+
+/** Speed, and load where it is not the machine's own. */
 function point({ speed_hz: speed, torque_ratio: torque }) {
   if (speed == null) return "–";
   return `${quantity(speed, "Hz")}${torque === 1 ? "" : ` at ${number(torque)} of the torque`}`;
@@ -81,7 +88,7 @@ function heldOut(found) {
     ["Gain (90 %)", `${percent(found.gain)} (${percent(found.gain_low)} to ${percent(found.gain_high)})`],
     ["Gain by retuning alone", percent(found.retuned)], ["Gain of a black box", percent(found.black_box)], ["Gain of a placebo", percent(found.placebo)]];
   if (found.ceiling != null) rows.push(["Gain of a perfect model (drift and noise stay)", percent(found.ceiling)]);
-  return card("Improvement on data never fitted", "held-out", h("p", { class: "muted" }, `${found.metric}${found.held ? `; held out: ${found.held}` : ""}`),
+  return card("Improvement on data never fitted", "held-out", h("p", { class: "muted" }, `${words(found.metric)}${found.held ? `; held out: ${found.held}` : ""}`),
     table("Held-out data", ["", ""], rows));
 }
 
