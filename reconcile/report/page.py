@@ -68,7 +68,9 @@ def _maps(report: Report) -> Markup:
 
 def _ranking(report: Report) -> Markup:
     drawn = several(report.pictures, "ranking")
-    return section("What explains it", ranking(drawn) if drawn else Markup(""), told(causes_table(report.causes)))
+    return section(
+        "What explains it", ranking(drawn) if drawn else Markup(""), told(causes_table(report.causes, report.level))
+    )
 
 
 def _changes(report: Report) -> Markup:

@@ -21,7 +21,7 @@ from reconcile.report.words import (
     percent,
     severity,
 )
-from reconcile.verdict import Cause, HeldOut, Report, Where, operating_point
+from reconcile.verdict import Cause, HeldOut, Level, Report, Where, operating_point
 
 MOST_LINES = 20
 BARS = (
@@ -138,8 +138,11 @@ def where_table(where: Where) -> Markup:
     return Markup(said + table(heads, rows) + (tag("h3", "Limits") + limits if limits else ""))
 
 
-def causes_table(causes: Sequence[Cause]) -> Markup:
-    """Candidates in order with their other forms; why a name was or was not given, once where it goes for most."""
+def causes_table(causes: Sequence[Cause], level: Level) -> Markup:
+    """Candidates in order with their other forms; why a name was or was not given, once where it goes for most.
+
+    From frequencies alone a score is the height of what was found, not evidence over nothing missing.
+    """
     if not causes:
         return Markup("")
     often = Counter(reason for c in causes for reason in c.reasons)
@@ -161,7 +164,7 @@ def causes_table(causes: Sequence[Cause]) -> Markup:
     most = [r for r in common if not (rest and r.startswith(PART_LEFT))]
     lead = "For most of them" if any(c.named for c in causes) else "Why none is named"
     why = tag("p", f"{lead}: {'; '.join(most)}.") if most else Markup("")
-    notes = [SCORE, *([FORMS] if any(c.forms for c in causes) else [])]
+    notes = [*([SCORE] if level != "kinematics" else []), *([FORMS] if any(c.forms for c in causes) else [])]
     return Markup(
         left + why + table(heads, rows, [c.named for c in causes]) + "".join(tag("p", n, css="muted") for n in notes)
     )

@@ -13,6 +13,7 @@ from reconcile.machine.decide import decide
 from reconcile.report import page
 from reconcile.report.panels import MOST_PANELS
 from reconcile.report.plot import Frame, decades
+from reconcile.report.sections import SCORE
 from reconcile.report.words import FORMS, LEFT_OVER, PART_LEFT
 from reconcile.verdict import AngleWindow, Cause, HeldOut, LineChange, Report, Where, operating_point
 from tests.reconcile.report.test_report import Balanced, full_report
@@ -107,6 +108,12 @@ def test_a_reason_of_all_is_said_once() -> None:
     assert text.count("the place is not decided") == 1
     own = (*causes, Cause(term="rub", site="d", score=1.0, reasons=("once a turn",)))
     assert told(replace(drawn(), causes=own)).count("once a turn") == 1
+
+
+def test_a_score_is_evidence_only_where_there_is_a_model() -> None:
+    report = replace(drawn(), causes=(Cause(term="rub", site="pinion", score=9.0),))
+    assert SCORE in told(report)
+    assert SCORE not in told(replace(report, level="kinematics"))
 
 
 def test_every_operating_point_is_there_and_says_which_it_is() -> None:
