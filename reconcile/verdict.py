@@ -11,6 +11,13 @@ Level = Literal["machine", "kinematics", "driven"]
 """What the engine could stand on: a simulated machine, frequencies of a drawing only, or a measured input."""
 
 
+def operating_point(speed_hz: float | None, torque_ratio: float = 1.0) -> str:
+    """`30 Hz`, or `30 Hz at 0.5 of the torque`; nothing where the speed is not known."""
+    if speed_hz is None:
+        return ""
+    return f"{speed_hz:g} Hz" if torque_ratio == 1.0 else f"{speed_hz:g} Hz at {torque_ratio:g} of the torque"
+
+
 @dataclass(frozen=True, kw_only=True)
 class PlaceWeight:
     """A site of the machine spec and the share of the evidence that points there, 0..1."""
@@ -29,6 +36,9 @@ class LineChange:
     channel: str = ""
     locked_to: str = ""
     """`input`, `bearing1.cage`, `mesh1`, `mains` or empty for nothing known."""
+    speed_hz: float | None = None
+    """Operating point: the drive shaft's speed, None where it is not known, and the factor on all torques."""
+    torque_ratio: float = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,6 +86,8 @@ class Cause:
     named: bool = False
     reasons: tuple[str, ...] = ()
     values: Mapping[str, float] = field(default_factory=dict)
+    forms: Mapping[str, float] = field(default_factory=dict)
+    """Scores of other forms of the effect at this site: terms that exclude this one there; judged together with it."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,12 +12,12 @@ from reconcile.gate.findings import Gate
 from reconcile.machine.causes import ranked_causes, revised_document
 from reconcile.machine.decide import Decision, decide, merged_weights
 from reconcile.machine.heldout import feature_frequencies, held_out, spectral_mask
-from reconcile.machine.pictures import line_changes, ranking, spectra, turn_map
+from reconcile.machine.pictures import line_changes, ranking, spectra, turn_maps, with_forms
 from reconcile.machine.second import Beside, fitted_change, second_effect
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.unknown import Unknown
 from reconcile.machine.window import angle_window
-from reconcile.machine.words import law_sentence, next_experiment, sentence, size, title
+from reconcile.machine.words import law_sentence, next_experiment, sentence, size, title, with_points
 from reconcile.observe.features import Layout
 from reconcile.observe.watch import WatchList, watch_list
 from reconcile.verdict import (
@@ -103,7 +103,7 @@ def answer(
     weights = merged_weights(found.screen)
     missing = decision.word != "nothing_missing"
     other = second_effect(setting, found, decision)
-    causes = ranked_causes(found, decision, weights, observed, other) if missing else ()
+    causes = with_forms(ranked_causes(found, decision, weights, observed, other), found.screen) if missing else ()
     held = _held(setting, found, decision, layout, unknown) if decision.chosen else None
     fitted = fitted_change(found, decision.chosen[0], observed) if decision.chosen else None
     if unknown is not None and unknown.change is not None:
@@ -111,11 +111,12 @@ def answer(
     word, text, fault = _told(setting, decision, gate, causes, held, other, unknown)
     lead = _lead(found, decision)
     named = decision.chosen[0] if decision.word == "explained" else None
+    where = _where(setting, layout, watched, weights) if missing else Where(limits=_limits(setting))
     return Report(
         verdict=word,
         sentence=text,
         level="machine",
-        where=_where(setting, layout, watched, weights) if missing else Where(limits=_limits(setting)),
+        where=where,
         causes=causes,
         fault=fault,
         held_out=held,
@@ -127,7 +128,7 @@ def answer(
         pictures={
             "spectra": spectra(setting.data, setting.seen_through, fitted, layout, setting.channels),
             "ranking": ranking(setting, found, named) if missing else [],
-            "heat": turn_map(setting.data, setting.channels),
+            "heat": turn_maps(setting.machine, setting.data, setting.channels, where.angle_window),
         },
         provenance=_provenance(setting, cost),
     )
@@ -190,7 +191,7 @@ def _lead(found: Found, decision: Decision) -> float:
 def _held(setting: Setting, found: Found, decision: Decision, layout: Layout, unknown: Unknown | None) -> HeldOut:
     lines = [d.lines_hz for d in setting.data]
     count = len(setting.channels)
-    return held_out(
+    held = held_out(
         setting.changes,
         found.unled if unknown is None or unknown.known is None else unknown.known,
         decision.chosen[0] if unknown is None or unknown.label is None else unknown.label,
@@ -198,6 +199,7 @@ def _held(setting: Setting, found: Found, decision: Decision, layout: Layout, un
         frequency=feature_frequencies(layout, lines, count),
         seed=setting.seed,
     )
+    return with_points(held, setting.data)
 
 
 def _next(setting: Setting, decision: Decision, lead: float) -> NextExperiment | None:

@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from reconcile.calibrate.chain import band_centres_hz
 from reconcile.judge.changes import Changes, Lens
 from reconcile.judge.scatter import evidence_intervals
+from reconcile.judge.screen import Screen
+from reconcile.machine.decide import variants
 from reconcile.machine.setting import Found, Setting
 from reconcile.observe.features import Layout
 from reconcile.observe.observation import PointData
-from reconcile.observe.watch import WatchList
-from reconcile.verdict import LineChange
+from reconcile.observe.steady import Steady
+from reconcile.observe.watch import WatchList, bases_at
+from reconcile.verdict import AngleWindow, Cause, LineChange
 from signals.series import FloatArray
+from sim.core.spec import MachineSpec
 
-MOST_LINES = 15
+MOST_LINES, MOST_RANKED = 15, 10
 STANDS_OUT = 3.0
 TURN_BINS = 72
 FOLLOWS = {
@@ -42,23 +47,27 @@ def spectra(
     layout: Layout,
     channels: Sequence[str],
 ) -> list[dict[str, object]]:
-    """Third-octave spectra of the first operating point, every channel: observed, without and with the answer."""
+    """Third-octave spectra of every operating point and channel: observed, without and with the answer."""
     part = layout.slices()["total"]
     found = []
-    for c, name in enumerate(channels):
-        before = _reference(data[0], lens[0], c, part)
-        observed = 10.0 * np.log10(np.maximum(data[0].test.total[c], 1e-300))
-        change = None if fitted_db is None else fitted_db[c * layout.size : (c + 1) * layout.size][part]
-        found.append(
-            {
-                "channel": f"{name}, {data[0].point.speed_hz:g} Hz",
-                "frequency_hz": band_centres_hz().tolist(),
-                "observed_db": observed.tolist(),
-                "before_db": before.tolist(),
-                "after_db": (before + (0.0 if change is None else change)).tolist(),
+    for p, one in enumerate(data):
+        for c, name in enumerate(channels):
+            before = _reference(one, lens[p], c, part)
+            start = (p * len(channels) + c) * layout.size
+            change = None if fitted_db is None else fitted_db[start : start + layout.size][part]
+            shown = {
+                "frequency_hz": band_centres_hz(),
+                "observed_db": 10.0 * np.log10(np.maximum(one.test.total[c], 1e-300)),
+                "before_db": before,
+                "after_db": before + (0.0 if change is None else change),
             }
-        )
+            lists = {key: np.round(values, 3).tolist() for key, values in shown.items()}
+            found.append({"channel": name, **_point(one), **lists})
     return found
+
+
+def _point(one: PointData) -> dict[str, float]:
+    return {"speed_hz": one.point.speed_hz, "torque_ratio": one.point.torque_ratio}
 
 
 def line_changes(
@@ -82,6 +91,7 @@ def line_changes(
                         change_db=float(changes.observed[start + i]),
                         channel=name,
                         locked_to=locked_to(line.orders),
+                        **_point(one),
                     )
                     rows.append((abs(float(value)), found))
     rows.sort(key=lambda row: -row[0])
@@ -98,11 +108,39 @@ def locked_to(orders: object) -> str:
     return ""
 
 
+def forms(screen: Screen) -> dict[str, str]:
+    """Label of every form that counts under a stronger one of the same effect, and that one's label."""
+    heads: list[str] = []
+    found = {}
+    for k in np.argsort(-screen.weights):
+        name = screen.names[int(k)]
+        head = next((h for h in heads if variants(h, name)), None)
+        if head is None:
+            heads.append(name)
+        else:
+            found[name] = head
+    return found
+
+
+def with_forms(causes: Sequence[Cause], screen: Screen) -> tuple[Cause, ...]:
+    """The causes with those of their other forms that are among the best, as in `ranking`."""
+    heads = forms(screen)
+    best = [(screen.names[k], float(screen.evidence[k])) for k in _best(screen)]
+    return tuple(
+        replace(c, forms={n.split("@")[0]: score for n, score in best if heads.get(n) == f"{c.term}@{c.site}"})
+        for c in causes
+    )
+
+
+def _best(screen: Screen) -> list[int]:
+    return [int(k) for k in np.argsort(-screen.evidence)[:MOST_RANKED]]
+
+
 def ranking(setting: Setting, found: Found, named: str | None) -> list[dict[str, object]]:
     """The best ten candidates with their evidence and its 90 % interval."""
     screen = found.screen
     intervals = evidence_intervals(found.views, setting.changes, screen.evidence, setting.seed)
-    order = np.argsort(-screen.evidence)[:10]
+    heads = forms(screen)
     return [
         {
             "label": screen.names[k],
@@ -110,32 +148,48 @@ def ranking(setting: Setting, found: Found, named: str | None) -> list[dict[str,
             "low": float(intervals[0, k]),
             "high": float(intervals[1, k]),
             "named": screen.names[k] == named,
+            "form_of": heads.get(screen.names[k], ""),
         }
-        for k in map(int, order)
+        for k in _best(screen)
     ]
 
 
-def turn_map(data: Sequence[PointData], channels: Sequence[str]) -> dict[str, object]:
-    """Energy of the upper half of the spectrum folded on the drive shaft's turn, in dB over the baseline's mean."""
-    now, before = data[0].spectra
-    rows = []
-    for c in range(len(channels)):
-        fold = _folded(now.samples[c], now.rate_hz, now.speed_hz)
-        rest = _folded(before.samples[c], before.rate_hz, before.speed_hz) if before else fold
-        level = 10.0 * np.log10(fold / rest.mean())
-        rows.append(level.tolist())
+def turn_maps(
+    machine: MachineSpec, data: Sequence[PointData], channels: Sequence[str], window: AngleWindow | None
+) -> list[dict[str, object]]:
+    """Energy of the upper half of the spectrum folded on a shaft's turn, at every operating point, in dB over the
+    baseline's mean: on the shaft of `window`, else on the drive shaft."""
+    if machine.operating is None:
+        return []
+    shaft = window.shaft if window is not None else machine.operating.shaft
+    turning = [s.name for s in machine.shafts]
     angle = (np.arange(TURN_BINS) + 0.5) * 360.0 / TURN_BINS
-    return {
-        "shaft": "drive shaft, one row a sensor",
-        "angle_deg": angle.tolist(),
-        "order": [float(k + 1) for k in range(len(channels))],
-        "value": rows,
-    }
+    maps = []
+    for one in data:
+        now, before = one.spectra
+        ratio = bases_at(machine, now.speed_hz)[f"f_r{turning.index(shaft) + 1}"] / now.speed_hz
+        rows = []
+        for c in range(len(channels)):
+            fold = _folded(now, c, ratio)
+            rest = _folded(before, c, ratio) if before else fold
+            rows.append(np.round(10.0 * np.log10(fold / rest.mean()), 3).tolist())
+        maps.append(
+            {
+                "shaft": shaft,
+                **_point(one),
+                "angle_deg": angle.tolist(),
+                "rows": list(channels),
+                "value": rows,
+                "value_label": f"energy, dB over the mean of the {'baseline' if before else 'turn'}",
+            }
+        )
+    return maps
 
 
-def _folded(samples: FloatArray, rate_hz: float, speed_hz: float) -> FloatArray:
-    rough = np.diff(samples)
-    turn = (np.arange(rough.size) * speed_hz / rate_hz) % 1.0
+def _folded(one: Steady, channel: int, ratio: float) -> FloatArray:
+    """Mean energy (TURN_BINS,) over the turn of the shaft that makes `ratio` turns a turn of the drive shaft."""
+    rough = np.diff(one.samples[channel])
+    turn = ratio * (one.start_turns + np.arange(rough.size) * one.speed_hz / one.rate_hz) % 1.0
     bins = np.minimum((turn * TURN_BINS).astype(int), TURN_BINS - 1)
     energy = np.bincount(bins, weights=rough**2, minlength=TURN_BINS)
     return np.asarray(energy / np.maximum(np.bincount(bins, minlength=TURN_BINS), 1) + 1e-300)

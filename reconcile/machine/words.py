@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from reconcile.machine.decide import Decision
-from reconcile.verdict import EstimatedForce, HeldOut, NextExperiment, Severity
+from reconcile.observe.observation import PointData
+from reconcile.verdict import EstimatedForce, HeldOut, NextExperiment, Severity, operating_point
 from sim.terms import REGISTRY
 
 
@@ -22,6 +24,12 @@ def size(severity: Severity | None) -> str:
         return ""
     unit = "" if severity.unit == "1" else f" {severity.unit}"
     return f", {severity.name} {severity.value:.3g}{unit} (90 %: {severity.low:.2g} to {severity.high:.2g})"
+
+
+def with_points(held: HeldOut, data: Sequence[PointData]) -> HeldOut:
+    """The same with the operating points that were held out said by name."""
+    points = ", ".join(operating_point(d.point.speed_hz, d.point.torque_ratio) for d in data)
+    return replace(held, held=f"{held.held}: {points}")
 
 
 def law_sentence(force: EstimatedForce, *, tried: bool) -> str:

@@ -1,16 +1,20 @@
-"""The page: one HTML file with its pictures in it, nothing fetched from elsewhere, no scripts."""
+"""The page: one HTML file with its pictures in it, nothing fetched from elsewhere, no scripts.
+
+At its address with `#pictures` it leaves out what the dashboard tells in its own words and tables.
+"""
 
 from __future__ import annotations
 
 import json
 
 from reconcile.report.figures.bars import changes, ranking
+from reconcile.report.figures.gains import distances, gains
 from reconcile.report.figures.law import from_force, law
-from reconcile.report.figures.maps import force_map, heat
+from reconcile.report.figures.maps import force_map
 from reconcile.report.figures.sketch import sketch
-from reconcile.report.figures.spectrum import spectrum
 from reconcile.report.figures.traces import trace
 from reconcile.report.markup import Markup, figure_text, tag
+from reconcile.report.panels import spectra, turns
 from reconcile.report.pictures import several, text
 from reconcile.report.sections import (
     bullets,
@@ -18,14 +22,17 @@ from reconcile.report.sections import (
     fault,
     head,
     held_out_table,
+    held_out_words,
     provenance,
     section,
     stages,
+    told,
     undecidable,
     where_table,
 )
 from reconcile.report.strict import plain
 from reconcile.report.style import STYLE
+from reconcile.report.words import cause
 from reconcile.verdict import Report
 
 
@@ -39,25 +46,31 @@ def _where(report: Report) -> Markup:
     weights = {p.site: p.weight for p in report.where.sites}
     drawing = sketch(machine, weights) if isinstance(machine, dict) else Markup("")
     sites = bullets(f"{p.site}: {100 * p.weight:.0f} % of the evidence" for p in report.where.sites)
-    return section("Where", drawing, sites, where_table(report.where))
+    return section("Where", drawing, told(sites, where_table(report.where)))
 
 
 def _spectra(report: Report) -> Markup:
-    panels = [
-        Markup(tag("h3", text(p.get("channel"))) + spectrum(p, report.where.lines))
-        for p in several(report.pictures, "spectra")
-    ]
-    return section("Spectra", _key(), *panels) if panels else Markup("")
+    drawn = several(report.pictures, "spectra")
+    without = "without it: the baseline, or the model where there is none"
+    return section("Spectra", _key(without), spectra(drawn, report.where.lines)) if drawn else Markup("")
 
 
 def _maps(report: Report) -> Markup:
-    panels = [heat(p, report.where.angle_window) for p in several(report.pictures, "heat")]
-    return section("Residual over the turn of a shaft", *panels)
+    drawn = several(report.pictures, "heat")
+    if not drawn:
+        return Markup("")
+    angles = "Angles count from the tacho's pulse or, without one, from the first sample on."
+    note = f"{angles} Red: more than the mean, blue: less."
+    window = report.where.angle_window
+    bar = " Bar along the upper edge: the window where the residual sits." if window is not None else ""
+    return section("Over the turn of a shaft", tag("p", note + bar, css="muted"), turns(drawn, window))
 
 
 def _ranking(report: Report) -> Markup:
     drawn = several(report.pictures, "ranking")
-    return section("What explains it", ranking(drawn) if drawn else Markup(""), causes_table(report.causes))
+    return section(
+        "What explains it", ranking(drawn) if drawn else Markup(""), told(causes_table(report.causes, report.level))
+    )
 
 
 def _changes(report: Report) -> Markup:
@@ -71,7 +84,15 @@ def _changes(report: Report) -> Markup:
 def _held_out(report: Report) -> Markup:
     panels = [Markup(tag("h3", text(p.get("title"))) + trace(p)) for p in several(report.pictures, "traces")]
     key = _key("predicted without it", "predicted with it") if panels else Markup("")
-    return section("Improvement on data never fitted", held_out_table(report.held_out), key, *panels)
+    found = report.held_out
+    bars = Markup("")
+    if found is not None:
+        best = report.causes[0] if report.causes and report.verdict in ("explained", "ambiguous") else None
+        subject = "what was found" if best is None else cause(best)
+        bars = Markup(distances(found, subject) + gains(found, subject))
+    return section(
+        "Improvement on data never fitted", held_out_words(found), bars, told(held_out_table(found)), key, *panels
+    )
 
 
 def _force(report: Report) -> Markup:
@@ -87,7 +108,7 @@ def _force(report: Report) -> Markup:
     work = Markup("")
     if found.work_per_cycle_j is not None:
         work = tag("p", f"Work per cycle {figure_text(found.work_per_cycle_j)} J.", css="muted")
-    return section("Estimated force", tag("p", said), terms, work, *drawn, *maps)
+    return section("Estimated force", told(tag("p", said), terms, work), *drawn, *maps)
 
 
 def _machine(report: Report) -> Markup:
@@ -96,7 +117,7 @@ def _machine(report: Report) -> Markup:
     spec = json.dumps(plain(report.machine), allow_nan=False, ensure_ascii=False, indent=1)
     note = "Loads back into the simulator and reproduces the model with it."
     body = tag("details", tag("summary", "Revised machine (JSON)"), tag("pre", spec))
-    return section("Revised machine", tag("p", note, css="muted"), body)
+    return section("Revised machine", told(tag("p", note, css="muted"), body))
 
 
 def page(report: Report) -> str:
@@ -123,4 +144,8 @@ def page(report: Report) -> str:
         tag("title", f"Reconciliation: {report.sentence}"),
         tag("style", Markup(STYLE)),
     )
-    return "<!doctype html>\n" + tag("html", top, tag("body", tag("main", *body)), lang="en") + "\n"
+    return (
+        "<!doctype html>\n"
+        + tag("html", top, tag("body", tag("span", id="pictures"), tag("main", *body)), lang="en")
+        + "\n"
+    )

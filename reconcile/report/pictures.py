@@ -12,8 +12,16 @@ from typing import TypedDict, cast
 from reconcile.report.strict import Plain, plain
 
 
-class Spectrum(TypedDict):
-    """`spectra`: one panel a channel. `before_db`/`after_db`: the model without and with what was found."""
+class Point(TypedDict, total=False):
+    """Operating point of a picture: speed of the drive shaft, factor on all torques."""
+
+    speed_hz: float
+    torque_ratio: float
+
+
+class Spectrum(Point):
+    """`spectra`: one panel a channel and operating point. `before_db`/`after_db`: the baseline (or the model, where
+    there is none) without and with what was found."""
 
     channel: str
     frequency_hz: Sequence[float | None]
@@ -22,13 +30,18 @@ class Spectrum(TypedDict):
     after_db: Sequence[float | None]
 
 
-class Heat(TypedDict):
-    """`heat`: `value[order][angle]`, change in dB of the residual (or its strength) over a shaft's turn."""
+class Heat(Point, total=False):
+    """`heat`: `value[row][angle]` over a shaft's turn; a row is an order of the shaft or has a name (`rows`: sensors).
+
+    `value_label` says what the colours are, else a change in dB.
+    """
 
     shaft: str
     angle_deg: Sequence[float]
     order: Sequence[float]
+    rows: Sequence[str]
     value: Sequence[Sequence[float | None]]
+    value_label: str
 
 
 class Change(TypedDict):
@@ -42,13 +55,17 @@ class Change(TypedDict):
 
 
 class Ranked(TypedDict):
-    """`ranking`: predictive score of a candidate over nothing missing, with its 90 % interval."""
+    """`ranking`: predictive score of a candidate over nothing missing, with its 90 % interval.
+
+    `form_of`: label of the stronger form of the same effect that it counts with; empty where it stands for itself.
+    """
 
     label: str
     score: float
     low: float
     high: float
     named: bool
+    form_of: str
 
 
 class Trace(TypedDict):

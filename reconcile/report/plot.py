@@ -34,6 +34,12 @@ def ticks(low: float, high: float, about: int = 6) -> list[float]:
     return [k * step for k in range(first, math.floor(high / step + 1e-9) + 1)]
 
 
+def decades(low: float, high: float) -> list[float]:
+    """Values 1, 2, 5 times a power of ten, for a logarithmic axis."""
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    return [v for p in powers for m in (1.0, 2.0, 5.0) if low <= (v := m * 10.0**p) <= high]
+
+
 def scaled(low: float, high: float, label: str) -> tuple[float, str]:
     """Factor for tick figures and the label that says so: powers of 1000 where figures would be tiny or huge."""
     most = max(abs(low), abs(high))
@@ -69,10 +75,17 @@ class Frame:
     width: float = 720.0
     height: float = 250.0
     left: float = LEFT
+    x_ticks: Sequence[float] = ()
+    """Where figures stand, instead of round values."""
+    log: bool = False
+    """Whether the horizontal axis is logarithmic; its limits are positive then."""
 
     def px(self, value: float) -> float:
         """Horizontal place of a value, kept within the panel."""
-        share = (value - self.x[0]) / ((self.x[1] - self.x[0]) or 1.0)
+        low, high = self.x
+        if self.log:
+            low, high, value = math.log10(low), math.log10(high), math.log10(max(value, self.x[0]))
+        share = (value - low) / ((high - low) or 1.0)
         return self.left + (self.width - self.left - RIGHT) * min(max(share, 0.0), 1.0)
 
     def py(self, value: float) -> float:
@@ -85,7 +98,7 @@ class Frame:
         parts = []
         bottom = self.height - BOTTOM
         factor, x_label = scaled(*self.x, self.x_label)
-        for value in ticks(*self.x, about=8):
+        for value in self.x_ticks or (decades(*self.x) if self.log else ticks(*self.x, about=8)):
             at = self.px(value)
             parts.append(tag("line", x1=at, x2=at, y1=TOP, y2=bottom, css="grid"))
             parts.append(tag("text", figure_text(value * factor), x=at, y=bottom + 15, css="tick mid"))

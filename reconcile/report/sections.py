@@ -2,19 +2,51 @@
 
 from __future__ import annotations
 
+import math
+from collections import Counter
 from collections.abc import Iterable, Sequence
 
-from reconcile.report.markup import Markup, figure_text, tag
+from reconcile.report.markup import Markup, escaped, figure_text, tag
 from reconcile.report.strict import Plain, plain
-from reconcile.report.words import LEVEL, VERDICT, cause, gain, percent, severity
-from reconcile.verdict import Cause, HeldOut, Report, Where
+from reconcile.report.words import (
+    FORMS,
+    LEFT_OVER,
+    LEVEL,
+    PART_LEFT,
+    VERDICT,
+    cause,
+    forms,
+    gain,
+    leaves_a_part,
+    percent,
+    severity,
+)
+from reconcile.verdict import Cause, HeldOut, Level, Report, Where, operating_point
 
 MOST_LINES = 20
+BARS = (
+    "Line through a bar's end: 90 % interval. Retuned: the model's own numbers moved instead. Black box: a correction "
+    "with as many free numbers and no physics. Placebo: something else in the effect's stead. An effect that is "
+    "there should beat all three. Best that can be reached: what drift between the recordings and noise leave even to "
+    "a perfect model."
+)
+TOLD = '<div class="told">'
+SCORE = (
+    "Score: how much better the recordings are foretold with the effect than with nothing missing, as a logarithm; a "
+    "lead of 3 is twenty times the odds."
+)
 
 
 def section(title: str, *parts: Markup) -> Markup:
-    """A titled card; nothing when it would be empty."""
-    return tag("section", tag("h2", title), *parts) if any(parts) else Markup("")
+    """A titled card; nothing when it would be empty. With words and tables only it counts as `told`."""
+    kept = [part for part in parts if part]
+    only = all(part.startswith(TOLD) for part in kept)
+    return tag("section", tag("h2", title), *kept, css="told" if only else None) if kept else Markup("")
+
+
+def told(*parts: Markup) -> Markup:
+    """What is left out of the page of pictures alone (`report.html#pictures`): who shows that has told it already."""
+    return Markup(TOLD + "".join(parts) + "</div>") if any(parts) else Markup("")
 
 
 def bullets(items: Iterable[object]) -> Markup:
@@ -57,13 +89,18 @@ def head(report: Report) -> Markup:
             ends = f"{low} to {high}"
             tiles.append(_tile(size, f"{c.severity.name} of {cause(c)}, 90 %: {ends}"))
     if report.held_out is not None:
-        tiles.append(_tile(percent(report.held_out.gain), f"less {report.held_out.metric} on data never fitted"))
+        tiles.append(
+            _tile(
+                percent(report.held_out.gain), f"less {report.held_out.metric.replace('_', ' ')} on data never fitted"
+            )
+        )
     return tag(
         "header",
         tag("span", word, css=f"badge {tone}"),
         tag("h1", report.sentence),
         tag("p", f"Recording {LEVEL[report.level]}.", css="muted"),
         tag("div", *tiles, css="tiles") if tiles else None,
+        css="told",
     )
 
 
@@ -72,14 +109,24 @@ def fault(report: Report) -> Markup:
     if report.fault is None:
         return Markup("")
     said = f"{report.fault.kind.replace('_', ' ')} on channel {report.fault.channel}."
-    return section("The measurement", tag("p", said), tag("p", report.fault.detail, css="muted"))
+    return section("The measurement", told(tag("p", said), tag("p", report.fault.detail, css="muted")))
 
 
 def where_table(where: Where) -> Markup:
     """Changed lines as a table, and the limits of the location."""
+    shown = sorted(where.lines, key=lambda x: -abs(x.change_db))[:MOST_LINES]
+    points = any(x.speed_hz is not None for x in shown)
+    heads = ("line", *(("operating point",) if points else ()), "Hz", "change, dB", "channel", "locked to")
     rows = [
-        (x.label, f"{x.frequency_hz:.5g}", f"{x.change_db:+.1f}", x.channel or "–", x.locked_to or "nothing known")
-        for x in sorted(where.lines, key=lambda x: -abs(x.change_db))[:MOST_LINES]
+        (
+            x.label,
+            *((operating_point(x.speed_hz, x.torque_ratio) or "–",) if points else ()),
+            f"{x.frequency_hz:.5g}",
+            f"{x.change_db:+.1f}",
+            x.channel or "–",
+            x.locked_to or "nothing known",
+        )
+        for x in shown
     ]
     window = where.angle_window
     said = Markup("")
@@ -88,26 +135,39 @@ def where_table(where: Where) -> Markup:
         since = "from the tacho's pulse or, without one, from the first sample on"
         said = tag("p", f"The residual sits at {text}, {since}.")
     limits = bullets(where.limits)
-    return Markup(
-        said
-        + table(("line", "Hz", "change, dB", "channel", "locked to"), rows)
-        + (tag("h3", "Limits") + limits if limits else "")
-    )
+    return Markup(said + table(heads, rows) + (tag("h3", "Limits") + limits if limits else ""))
 
 
-def causes_table(causes: Sequence[Cause]) -> Markup:
-    """Candidates in order, why a name was or was not given."""
+def causes_table(causes: Sequence[Cause], level: Level) -> Markup:
+    """Candidates in order with their other forms; why a name was or was not given, once where it goes for most.
+
+    From frequencies alone a score is the height of what was found, not evidence over nothing missing.
+    """
+    if not causes:
+        return Markup("")
+    often = Counter(reason for c in causes for reason in c.reasons)
+    common = [r for r, n in often.items() if len(causes) > 1 and 2 * n > len(causes)]
+    rest = leaves_a_part(causes)
+    own = [[r for r in c.reasons if r not in common and not (rest and r.startswith(PART_LEFT))] for c in causes]
+    heads = ["candidate", "score", "severity", "named", *(["why"] if any(own) else [])]
     rows = [
         (
-            cause(c),
+            Markup(escaped(cause(c)) + (tag("div", forms(c), css="forms") if c.forms else "")),
             f"{c.score:.3g}",
             "–" if c.severity is None else severity(c.severity),
             "yes" if c.named else "no",
-            "; ".join(c.reasons),
+            *(["; ".join(why)] if any(own) else []),
         )
-        for c in causes
+        for c, why in zip(causes, own, strict=True)
     ]
-    return table(("candidate", "score", "severity", "named", "why"), rows, [c.named for c in causes])
+    left = tag("p", LEFT_OVER, css="note") if rest else Markup("")
+    most = [r for r in common if not (rest and r.startswith(PART_LEFT))]
+    lead = "For most of them" if any(c.named for c in causes) else "Why none is named"
+    why = tag("p", f"{lead}: {'; '.join(most)}.") if most else Markup("")
+    notes = [*([SCORE] if level != "kinematics" else []), *([FORMS] if any(c.forms for c in causes) else [])]
+    return Markup(
+        left + why + table(heads, rows, [c.named for c in causes]) + "".join(tag("p", n, css="muted") for n in notes)
+    )
 
 
 def held_out_table(found: HeldOut | None) -> Markup:
@@ -123,10 +183,23 @@ def held_out_table(found: HeldOut | None) -> Markup:
     ]
     if found.ceiling is not None:
         rows.append(("a perfect model: drift and noise stay", "", percent(found.ceiling)))
-    said = tag("p", f"Held out: {found.held}. Measure: {found.metric}." if found.held else f"Measure: {found.metric}.")
-    return Markup(
-        said + table(("model", found.metric, "gain over without it"), rows, [False, True, *[False] * (len(rows) - 2)])
-    )
+    metric = found.metric.replace("_", " ")
+    marked = [False, True, *[False] * (len(rows) - 2)]
+    return Markup(tag("p", f"Measure: {metric}.") + table(("model", metric, "gain over without it"), rows, marked))
+
+
+def held_out_words(found: HeldOut | None) -> Markup:
+    """What was held out, and how to read the bars."""
+    if found is None:
+        return Markup("")
+    held = tag("p", f"Held out: {found.held}.") if found.held else Markup("")
+    if not math.isfinite(found.gain_low):
+        sure = Markup("")
+    elif found.gain_low > 0.0:
+        sure = tag("p", "The whole interval is above zero: the model does foretell such data better with it.")
+    else:
+        sure = tag("p", "The interval reaches zero: on data never fitted it is not sure that it helps.", css="note")
+    return Markup(held + sure + tag("p", BARS, css="muted"))
 
 
 def _short(value: Plain) -> str:
@@ -168,4 +241,4 @@ def undecidable(report: Report) -> Markup:
         if now is not None and then is not None:
             text = f"Separation of the candidates: {now:.1f} standard errors now, {then:.1f} expected."
             parts.append(tag("p", text, css="muted"))
-    return section("What is undecided, and what would decide it", *parts)
+    return section("What is undecided, and what would decide it", told(*parts))

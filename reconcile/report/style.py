@@ -63,6 +63,13 @@ svg .mark-name.up { fill:var(--bad) } svg .mark-name.down { fill:var(--ok) }
  border-top-style:dashed } .key .k-after { border-color:var(--after) }
 code, pre { font-family:ui-monospace,"DejaVu Sans Mono",monospace; font-size:12.5px; } pre { overflow:auto;
  max-height:420px; margin:8px 0 0; }
+.note { border-left:3px solid var(--warn); padding-left:10px; } .forms { color:var(--muted); font-weight:400; }
+.bar.off, .bar.rival { fill:var(--muted); opacity:.55 } .bar.on { fill:var(--accent) }
+svg .said { paint-order:stroke; stroke:var(--surface); stroke-width:5px }
+.whisker { stroke:var(--text); stroke-width:1.5 } .ceiling { stroke:var(--ok); stroke-width:2; stroke-dasharray:6 3 }
+svg .ceiling-name { fill:var(--ok); font-weight:650 } details.point { border-top:1px solid var(--border);
+ padding:8px 0; }
+#pictures:target ~ main .told { display:none }
 summary { cursor:pointer; font-weight:600 }
 @media print { body { background:#fff } section, header { break-inside:avoid; border-color:#bbb } pre {
  max-height:none } }

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 from reconcile.report.markup import figure_text
 from reconcile.verdict import Cause, HeldOut, Level, Severity, Word
 
@@ -22,9 +25,39 @@ LEVEL: dict[Level, str] = {
 }
 
 
+FORMS = (
+    "“or” names another form of the same effect: a law for the same part that excludes it there, so that at most one "
+    "of them is true; their evidence counts together, under the strongest."
+)
+PART_LEFT = "a part of the change is left"
+"""How the reason begins that an effect is named with, although it does not bring all of the change."""
+LEFT_OVER = (
+    "A part of the change is left that the named effect does not bring: either something else has changed as well, or "
+    "the effect is not quite as its law here has it. Take the name as a lead and the size as rough, look for a second "
+    "cause before repairing, and record at one more speed or load to tell."
+)
+
+
+def leaves_a_part(found: Sequence[Cause]) -> bool:
+    """Whether an effect is named although a part of the change is left."""
+    return any(c.named and any(r.startswith(PART_LEFT) for r in c.reasons) for c in found)
+
+
+def readable(label: str) -> str:
+    """`fit_clearance@bearing1` as `fit clearance at bearing1`."""
+    term, _, site = label.partition("@")
+    return f"{term.replace('_', ' ')} at {site}" if site else label
+
+
+def forms(found: Cause) -> str:
+    """`or: bearing stiffness (41.8), squeeze film (33.7)`; nothing where there is one form only."""
+    others = ", ".join(f"{term.replace('_', ' ')} ({score:.3g})" for term, score in found.forms.items())
+    return f"or: {others}" if others else ""
+
+
 def percent(share: float | None) -> str:
     """A share as per cent; a dash where there is none."""
-    return "–" if share is None else f"{100 * share:.0f} %"
+    return "–" if share is None or not math.isfinite(share) else f"{100 * share:.0f} %"
 
 
 def severity(found: Severity) -> str:
@@ -39,5 +72,5 @@ def cause(found: Cause) -> str:
 
 
 def gain(found: HeldOut) -> str:
-    """`31 % (90 %: 25 to 36)`."""
-    return f"{percent(found.gain)} (90 %: {100 * found.gain_low:.0f} to {100 * found.gain_high:.0f})"
+    """`31 % (90 %: 25 % to 36 %)`."""
+    return f"{percent(found.gain)} (90 %: {percent(found.gain_low)} to {percent(found.gain_high)})"

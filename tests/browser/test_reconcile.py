@@ -18,6 +18,11 @@ MACHINE = {
         "bearings": [{"name": "bearing1", "shaft": "shaft", "catalogue": "6205"}],
     }
 }
+HEADS = (
+    "return [...document.querySelectorAll('table')].filter((t) => t.offsetParent)"
+    ".map((t) => [...t.querySelectorAll('th')].map((h) => h.textContent))"
+)
+"""Heads of the tables that are seen."""
 FILL = "const e = document.querySelector(arguments[0]); e.value = arguments[1];"
 
 
@@ -44,6 +49,18 @@ def test_a_recording_is_sent_chosen_and_reconciled(browser: Browser, service: Se
     assert browser.run("return fetch(document.querySelector('iframe.report-frame').src).then((r) => r.status)") == 200
     browser.size(360)
     assert browser.run("return document.documentElement.scrollWidth") <= 360
+    browser.size(1400)
+    pictures = browser.run("return document.querySelector('iframe.report-frame').src")
+    assert pictures.endswith("report.html#pictures")
+    here = browser.run(HEADS)
+    assert ["Effect", "At", "Severity (90 %)", "Score", "Named"] in here
+    browser.open(pictures)
+    framed = browser.run(HEADS)
+    assert framed and not [heads for heads in framed if {"candidate", "line", "model"} & set(heads)]
+    assert not browser.run("return document.querySelector('h1').offsetParent"), "the verdict is told above the frame"
+    browser.open(pictures.removesuffix("#pictures"))
+    assert [heads for heads in browser.run(HEADS) if "candidate" in heads], "by itself the report is whole"
+    browser.size(360)
     browser.open(service.page("/reconcile"))
     browser.find("[aria-label=Reconciliations] tr[data-status=successful]")
     assert browser.run("return document.documentElement.scrollWidth") <= 360

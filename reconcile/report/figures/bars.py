@@ -9,6 +9,7 @@ from reconcile.report.markup import Markup, tag
 from reconcile.report.pictures import number, text
 from reconcile.report.plot import BOTTOM, TOP, Frame, span
 from reconcile.report.strict import Plain
+from reconcile.report.words import readable
 
 ROW, NAME_WIDTH, MOST_ROWS = 22.0, 250.0, 30
 LONGEST_NAME = 38
@@ -25,7 +26,8 @@ def _frame(values: Sequence[float], count: int, label: str) -> Frame:
     )
 
 
-def _name(frame: Frame, at: float, name: str, css: str = "") -> Markup:
+def row_name(frame: Frame, at: float, name: str, css: str = "") -> Markup:
+    """A row's name left of the axes, cut to fit; whole where one rests on it."""
     shown = name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 1]}…"
     return tag("text", shown, tag("title", name), x=frame.left - 8, y=at + 4, css=f"row-name end {css}")
 
@@ -41,16 +43,29 @@ def _zero(frame: Frame) -> Markup:
     return tag("line", x1=at, x2=at, y1=TOP, y2=frame.height - BOTTOM, css="zero")
 
 
+def _with_forms(kept: Sequence[Mapping[str, Plain]]) -> list[tuple[str, Mapping[str, Plain]]]:
+    """Names and rows; other forms of an effect follow the one they count with, as `or: ...`."""
+    labels = {text(item.get("label")) for item in kept}
+    ordered: list[tuple[str, Mapping[str, Plain]]] = []
+    for item in kept:
+        if text(item.get("form_of")) in labels:
+            continue
+        label = text(item.get("label"))
+        ordered.append((readable(label), item))
+        ordered += [(f"or: {readable(text(f.get('label')))}", f) for f in kept if label and f.get("form_of") == label]
+    return ordered
+
+
 def ranking(pictures: Sequence[Mapping[str, Plain]]) -> Markup:
-    """`ranking` as dots with 90 % intervals, the best first; what may be named is filled."""
-    kept = sorted(pictures, key=lambda p: -number(p.get("score"), -math.inf))[:MOST_ROWS]
-    values = [number(p.get(key)) for p in kept for key in ("score", "low", "high")]
-    frame = _frame(values, len(kept), "predictive score over nothing missing, nats")
+    """`ranking` as dots with 90 % intervals, the best first, other forms under theirs; what may be named is filled."""
+    kept = _with_forms(sorted(pictures, key=lambda p: -number(p.get("score"), -math.inf))[:MOST_ROWS])
+    values = [number(p.get(key)) for _, p in kept for key in ("score", "low", "high")]
+    frame = _frame(values, len(kept), "score: log evidence over nothing missing")
     parts = [frame.axes(y_ticks=False), _zero(frame)]
-    for i, item in enumerate(kept):
+    for i, (name, item) in enumerate(kept):
         at = TOP + ROW * (i + 0.5)
         css = "named" if item.get("named") is True else "other"
-        parts += [_name(frame, at, text(item.get("label")), css)]
+        parts += [row_name(frame, at, name, css)]
         parts += [_interval(frame, at, number(item.get("low")), number(item.get("high")), css)]
         score = number(item.get("score"))
         if math.isfinite(score):
@@ -67,7 +82,7 @@ def changes(pictures: Sequence[Mapping[str, Plain]]) -> Markup:
     for i, item in enumerate(kept):
         at = TOP + ROW * (i + 0.5)
         observed, fitted = number(item.get("observed_db")), number(item.get("fitted_db"))
-        parts += [_name(frame, at, text(item.get("feature")))]
+        parts += [row_name(frame, at, text(item.get("feature")))]
         parts += [_interval(frame, at, number(item.get("low")), number(item.get("high")), "null")]
         if math.isfinite(fitted):
             x = frame.px(fitted)

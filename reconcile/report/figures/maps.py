@@ -4,17 +4,34 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 from reconcile.report.figures.colour import diverging
 from reconcile.report.markup import Markup, figure_text, tag
 from reconcile.report.pictures import numbers, rows, text
-from reconcile.report.plot import TOP, Frame
+from reconcile.report.plot import BOTTOM, LEFT, TOP, Frame
 from reconcile.report.strict import Plain
 from reconcile.verdict import AngleWindow
 
 MOST_CELLS = 6000
 LEGEND_STEPS = 21
+SHADES = 24
+"""Steps of the colour to either side."""
+NAMES, LONGEST_NAME = 215.0, 30
+"""Room for the names of rows, pixels and characters."""
+QUARTERS = tuple(45.0 * k for k in range(9))
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Labels:
+    """What the axes and the colours are, and the names of the rows where they have no numbers."""
+
+    x: str
+    y: str
+    value: str
+    title: str
+    rows: tuple[str, ...] = ()
 
 
 def _edges(places: Sequence[float]) -> list[float]:
@@ -25,9 +42,11 @@ def _edges(places: Sequence[float]) -> list[float]:
     return [2 * places[0] - inner[0], *inner, 2 * places[-1] - inner[-1]]
 
 
-def _coarse(x: list[float], y: list[float], table: list[list[float]]) -> tuple[list[float], list[list[float]]]:
+def _coarse(
+    x: list[float], y: list[float], table: list[list[float]], most: int
+) -> tuple[list[float], list[list[float]]]:
     """Every n-th column where there are too many cells for a page."""
-    step = max(1, math.ceil(len(x) * len(y) / MOST_CELLS))
+    step = max(1, math.ceil(len(x) * len(y) / most))
     return x[::step], [row[::step] for row in table]
 
 
@@ -45,51 +64,97 @@ def _legend(frame: Frame, limit: float, label: str) -> Markup:
 
 
 def _cells(frame: Frame, x: Sequence[float], y: Sequence[float], table: Sequence[Sequence[float]], limit: float) -> str:
+    """Cells of one shade are one path: a map takes a quarter of the room."""
     across, up = _edges(x), _edges(y)
-    parts = []
+    shades = dict[str, list[str]]()
     for j, row in enumerate(table[: len(y)]):
+        top, bottom = frame.py(up[j + 1]), frame.py(up[j])
         for i, value in enumerate(row[: len(x)]):
             if not math.isfinite(value):
                 continue
             left, right = frame.px(across[i]), frame.px(across[i + 1])
-            top, bottom = frame.py(up[j + 1]), frame.py(up[j])
-            fill = diverging(value / limit)
-            parts.append(tag("rect", x=left, y=top, width=right - left + 0.3, height=bottom - top + 0.3, fill=fill))
-    return "".join(parts)
+            width, height = right - left + 0.3, bottom - top + 0.3
+            fill = diverging(round(SHADES * value / limit) / SHADES)
+            cell = f"M{left:.1f} {top:.1f}h{width:.1f}v{height:.1f}h-{width:.1f}z"
+            shades.setdefault(fill, []).append(cell)
+    return "".join(tag("path", d="".join(cells), fill=fill) for fill, cells in shades.items())
 
 
-def _map(picture: Mapping[str, Plain], keys: tuple[str, str], labels: tuple[str, str, str], title: str) -> Markup:
-    x, y, table = numbers(picture.get(keys[0])), numbers(picture.get(keys[1])), rows(picture.get("value"))
+def _row_names(frame: Frame, names: Sequence[str]) -> Markup:
+    parts = []
+    for i, name in enumerate(names):
+        shown = name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 1]}…"
+        at = frame.py(i + 1.0) + 4
+        parts.append(tag("text", shown, tag("title", name), x=frame.left - 6, y=at, css="tick end"))
+    return Markup("".join(parts))
+
+
+def _map(
+    x: list[float], y: list[float], table: list[list[float]], labels: _Labels, most: int = MOST_CELLS
+) -> tuple[Frame, Markup] | None:
+    """The panel's frame and what is drawn in it."""
     if not x or not y or not table:
-        return Markup("")
-    x, table = _coarse(x, y, table)
+        return None
+    x, table = _coarse(x, y, table, most)
     limit = max((abs(v) for row in table for v in row if math.isfinite(v)), default=1.0) or 1.0
     across, up = _edges(x), _edges(y)
-    frame = Frame(x=(across[0], across[-1]), y=(up[0], up[-1]), x_label=labels[0], y_label=labels[1], height=280.0)
+    turn = "degrees" in labels.x
+    frame = Frame(
+        x=(across[0], across[-1]),
+        y=(up[0], up[-1]),
+        x_label=labels.x,
+        y_label=labels.y,
+        height=TOP + BOTTOM + max(22.0 * len(y), 44.0) if labels.rows else 280.0,
+        left=NAMES if labels.rows else LEFT,
+        x_ticks=QUARTERS if turn and across[-1] - across[0] > 300.0 else (),
+    )
     cells = Markup(_cells(frame, x, y, table, limit))
-    return frame.svg(cells, frame.axes(), _legend(frame, limit, labels[2]), title=title)
+    names = _row_names(frame, labels.rows[: len(y)])
+    return frame, Markup(cells + frame.axes(y_ticks=not labels.rows) + names + _legend(frame, limit, labels.value))
 
 
-def heat(picture: Mapping[str, Plain], window: AngleWindow | None) -> Markup:
-    """A panel of `heat`, with the located window of the revolution as a bar."""
-    shaft = text(picture.get("shaft"))
-    drawn = _map(picture, ("angle_deg", "order"), (f"angle of {shaft}, degrees", "order", "dB"), f"Residual on {shaft}")
-    if window is None or window.shaft != shaft or not drawn:
-        return drawn
-    angles = numbers(picture.get("angle_deg"))
-    across = _edges(_coarse(angles, numbers(picture.get("order")), [])[0])
-    frame = Frame(x=(across[0], across[-1]), y=(0, 1), x_label="", y_label="", height=280.0)
-    pieces = [(window.low_deg % 360.0, window.high_deg % 360.0)]
-    if pieces[0][0] > pieces[0][1]:
-        pieces = [(0.0, pieces[0][1]), (pieces[0][0], 360.0)]
-    bars = [
-        tag("rect", x=frame.px(a), y=TOP - 4, width=max(frame.px(b) - frame.px(a), 2.0), height=4.0, css="window")
-        for a, b in pieces
-    ]
-    return Markup(drawn[: -len("</svg>")] + "".join(bars) + "</svg>")
+def _window(frame: Frame, window: AngleWindow) -> Markup:
+    """The located window as a bar along the upper edge, in two pieces where it goes over the pulse."""
+    low, high = window.low_deg % 360.0, window.high_deg % 360.0
+    pieces = [(low, high)] if low <= high else [(0.0, high), (low, 360.0)]
+    return Markup(
+        "".join(
+            tag("rect", x=frame.px(a), y=TOP, width=max(frame.px(b) - frame.px(a), 2.0), height=5.0, css="window")
+            for a, b in pieces
+        )
+    )
+
+
+def heat(picture: Mapping[str, Plain], window: AngleWindow | None, most: int = MOST_CELLS) -> Markup:
+    """A panel of `heat` of at most so many cells, with the located window of the revolution as a bar."""
+    shaft, names = text(picture.get("shaft")), picture.get("rows")
+    rows_named = tuple(str(name) for name in names) if isinstance(names, list) else ()
+    labels = _Labels(
+        x=f"angle of shaft {shaft}, degrees",
+        y="sensor" if rows_named else f"order of shaft {shaft}",
+        value=text(picture.get("value_label"), "change, dB"),
+        title=f"Over the turn of shaft {shaft}",
+        rows=rows_named[::-1],
+    )
+    order, value = numbers(picture.get("order")), rows(picture.get("value"))
+    if rows_named:  # the first on top
+        order, value = [k + 1.0 for k in range(len(rows_named))], value[::-1]
+    drawn = _map(numbers(picture.get("angle_deg")), order, value, labels, most)
+    if drawn is None:
+        return Markup("")
+    frame, inside = drawn
+    bar = _window(frame, window) if window is not None and window.shaft == shaft else Markup("")
+    return frame.svg(inside, bar, title=labels.title)
 
 
 def force_map(picture: Mapping[str, Plain]) -> Markup:
     """A panel of `force_map`."""
-    labels = (text(picture.get("x_label")), text(picture.get("y_label")), text(picture.get("value_label")))
-    return _map(picture, ("x", "y"), labels, f"Force over {labels[0]} and {labels[1]}")
+    x_label, y_label = text(picture.get("x_label")), text(picture.get("y_label"))
+    labels = _Labels(
+        x=x_label,
+        y=y_label,
+        value=f"force, {text(picture.get('value_label'))}",
+        title=f"Force over {x_label} and {y_label}",
+    )
+    drawn = _map(numbers(picture.get("x")), numbers(picture.get("y")), rows(picture.get("value")), labels)
+    return Markup("") if drawn is None else drawn[0].svg(drawn[1], title=labels.title)

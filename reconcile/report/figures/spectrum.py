@@ -5,36 +5,56 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from reconcile.report.markup import Markup, tag
-from reconcile.report.pictures import numbers, text
+from reconcile.report.pictures import number, numbers, text
 from reconcile.report.plot import TOP, Frame, span
 from reconcile.report.strict import Plain
 from reconcile.verdict import LineChange
 
 MOST_MARKS = 8
+LETTER = 7.0
+"""Width of a letter, pixels."""
+HEADROOM = 0.12
+"""Share of the height that is kept for the names of lines."""
+WIDE = 30.0
+"""Highest over lowest frequency from which on their axis is logarithmic, as third octaves want it."""
 
 
 def _marks(frame: Frame, lines: Sequence[LineChange]) -> Markup:
     """The largest changes as ticks with names; names that would collide are left to the table."""
     inside = [line for line in lines if frame.x[0] <= line.frequency_hz <= frame.x[1]]
     kept = sorted(inside, key=lambda line: -abs(line.change_db))[:MOST_MARKS]
-    parts, taken = [], list[float]()
+    parts, taken = [], list[tuple[float, float]]()
     for line in kept:
         at = frame.px(line.frequency_hz)
         css = "up" if line.change_db >= 0 else "down"
         parts.append(tag("line", x1=at, x2=at, y1=TOP, y2=TOP + 7, css=f"mark {css}"))
-        if all(abs(at - other) > 62 for other in taken):
-            taken.append(at)
-            parts.append(tag("text", line.label, x=at, y=TOP + 17, css=f"tick mid mark-name {css}"))
+        half = 0.5 * LETTER * len(line.label)
+        if all(abs(at - other) > half + room for other, room in taken):
+            taken.append((at, half))
+            parts.append(tag("text", line.label, x=at, y=TOP + 17, css=f"tick mid said mark-name {css}"))
     return Markup("".join(parts))
 
 
 def spectrum(picture: Mapping[str, Plain], lines: Sequence[LineChange]) -> Markup:
-    """One panel of `spectra`; `lines` are those of this channel or of no channel in particular."""
+    """One panel of `spectra`; of `lines` those of this channel and operating point, or of none in particular."""
     x = numbers(picture.get("frequency_hz"))
     named = (("observed_db", "observed"), ("before_db", "before"), ("after_db", "after"))
     curves = [(numbers(picture.get(key)), css) for key, css in named]
-    frame = Frame(x=span(x, pad=0.0), y=span(*(y for y, _ in curves)), x_label="frequency, Hz", y_label="level, dB")
+    ends, (low, high) = span(x, pad=0.0), span(*(y for y, _ in curves))
+    frame = Frame(
+        x=ends,
+        y=(low, high + HEADROOM * (high - low)),
+        x_label="frequency, Hz",
+        y_label="level, dB",
+        log=0.0 < WIDE * ends[0] <= ends[1],
+    )
     drawn = [frame.curve(x, y, css) for y, css in curves]
     channel = text(picture.get("channel"))
-    here = [line for line in lines if line.channel in ("", channel)]
+    here = [line for line in lines if line.channel in ("", channel) and _at_point(line, picture)]
     return frame.svg(frame.axes(), *drawn, _marks(frame, here), title=f"Spectrum of {channel}")
+
+
+def _at_point(line: LineChange, picture: Mapping[str, Plain]) -> bool:
+    if line.speed_hz is None or picture.get("speed_hz") is None:
+        return True
+    return (line.speed_hz, line.torque_ratio) == (picture["speed_hz"], number(picture.get("torque_ratio"), 1.0))

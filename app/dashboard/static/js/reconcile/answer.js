@@ -6,6 +6,9 @@ import { number, partName, quantity, unit } from "/js/lib/format.js";
 import { toastProblem } from "/js/lib/problem.js";
 
 const TONES = { nothing_missing: "ok", explained: "run", ambiguous: "warn", unknown_physics: "warn", measurement_fault: "bad", not_decidable: "warn" };
+const LEFT_OVER = "A part of the change is left that the named effect does not bring: either something else has changed as well, or the effect is not quite as its law here has it. Take the name as a lead and the size as rough, look for a second cause before repairing, and record at one more speed or load to tell.";
+const FORMS = "“or” names another form of the same effect: a law for the same part that excludes it there, so that at most one of them is true; their evidence counts together, under the strongest.";
+const isRest = (reason) => reason.startsWith("a part of the change is left");
 const words = (text) => text.replace(/_/g, " ");
 const percent = (share) => (share === null || share === undefined ? "–" : `${number(100 * share, 3)} %`);
 
@@ -35,15 +38,42 @@ function where({ sites, lines, angle_window: angle, limits: told }) {
   });
   return card("Where", "where", bars.length ? bars : h("p", { class: "muted" }, "No place stands out."),
     angle ? h("p", {}, `Around ${number(angle.centre_deg)}° of ${angle.shaft} (${number(angle.low_deg)}° to ${number(angle.high_deg)}°).`) : null,
-    lines.length ? table("Lines", ["Line", "Frequency", "Change", "Channel", "Follows"], lines.map((line) =>
-      [line.label, quantity(line.frequency_hz, "Hz"), `${number(line.change_db, 3)} dB`, line.channel || "–", line.locked_to || "–"])) : null,
+    lines.length ? lineTable(lines) : null,
     bullets(told));
+}
+
+/** The operating point of each where it is known: not of frequencies alone, nor in reports of earlier versions. */
+function lineTable(lines) {
+  const points = lines.some((line) => line.speed_hz != null);
+  const only = (cell) => (points ? [cell] : []);
+  return table("Lines", ["Line", ...only("Operating point"), "Frequency", "Change", "Channel", "Follows"], lines.map((line) =>
+    [line.label, ...only(point(line)), quantity(line.frequency_hz, "Hz"), `${number(line.change_db, 3)} dB`, line.channel || "–", line.locked_to || "–"]));
+}
+
+/** Speed, and load where it is not the machine's own. */
+function point({ speed_hz: speed, torque_ratio: torque }) {
+  if (speed == null) return "–";
+  return `${quantity(speed, "Hz")}${torque === 1 ? "" : ` at ${number(torque)} of the torque`}`;
 }
 
 function causes(list) {
   if (!list.length) return null;
-  return card("What explains it", "causes", table("Causes", ["Effect", "At", "Severity (90 %)", "Score", "Named"], list.map((cause) =>
-    [words(cause.term), partName(cause.site), severity(cause.severity), number(cause.score, 3), cause.named ? "yes" : `no${cause.reasons.length ? `: ${cause.reasons.join("; ")}` : ""}`])));
+  const often = (reason) => list.length > 1 && 2 * list.filter((cause) => cause.reasons.includes(reason)).length > list.length;
+  const common = [...new Set(list.flatMap((cause) => cause.reasons.filter(often)))];
+  const left = list.some((cause) => cause.named && cause.reasons.some(isRest));
+  const told = common.filter((reason) => !(left && isRest(reason)));
+  const why = (cause) => cause.reasons.filter((reason) => !common.includes(reason) && !(left && isRest(reason))).join("; ");
+  return card("What explains it", "causes",
+    left ? h("p", { class: "reconcile-note" }, LEFT_OVER) : null,
+    told.length ? h("p", {}, `${list.some((cause) => cause.named) ? "For most of them" : "Why none is named"}: ${told.join("; ")}.`) : null,
+    table("Causes", ["Effect", "At", "Severity (90 %)", "Score", "Named"], list.map((cause) =>
+      [effect(cause), partName(cause.site), severity(cause.severity), number(cause.score, 3), `${cause.named ? "yes" : "no"}${why(cause) && `: ${why(cause)}`}`])),
+    list.some((cause) => Object.keys(cause.forms ?? {}).length) ? h("p", { class: "muted small" }, FORMS) : null);
+}
+
+function effect({ term, forms }) {
+  const others = Object.entries(forms ?? {}).map(([name, score]) => `${words(name)} (${number(score, 3)})`);
+  return [words(term), others.length ? h("div", { class: "muted small" }, `or: ${others.join(", ")}`) : null];
 }
 
 function severity(found) {
@@ -58,7 +88,7 @@ function heldOut(found) {
     ["Gain (90 %)", `${percent(found.gain)} (${percent(found.gain_low)} to ${percent(found.gain_high)})`],
     ["Gain by retuning alone", percent(found.retuned)], ["Gain of a black box", percent(found.black_box)], ["Gain of a placebo", percent(found.placebo)]];
   if (found.ceiling != null) rows.push(["Gain of a perfect model (drift and noise stay)", percent(found.ceiling)]);
-  return card("Improvement on data never fitted", "held-out", h("p", { class: "muted" }, `${found.metric}${found.held ? `; held out: ${found.held}` : ""}`),
+  return card("Improvement on data never fitted", "held-out", h("p", { class: "muted" }, `${words(found.metric)}${found.held ? `; held out: ${found.held}` : ""}`),
     table("Held-out data", ["", ""], rows));
 }
 
@@ -83,9 +113,12 @@ function files(id, links) {
     apiKey() ? null : h("a", { href: links.page, target: "_blank", rel: "noopener" }, "Open the report by itself")));
 }
 
-/** Map of the machine, spectra and heat maps; no scripts run in it. A frame cannot carry a key: then it is a file only. */
+/**
+ * Map of the machine, ranking, gains, spectra, heat maps and steps; what is told above is left out of the page at `#pictures`.
+ * No scripts run in it. A frame cannot carry a key: then it is a file only.
+ */
 function picture(path) {
-  return card("Report with pictures", "page", h("iframe", { class: "report-frame", src: path, sandbox: "", title: "Report with map, spectra and heat maps" }));
+  return card("Pictures and steps", "page", h("iframe", { class: "report-frame", src: `${path}#pictures`, sandbox: "", title: "Report with map, ranking, gains, spectra and heat maps" }));
 }
 
 function table(label, heads, rows) {
