@@ -9,10 +9,12 @@ import numpy as np
 from reconcile.atlas.keep import ATLAS_VERSION
 from reconcile.atlas.places import sensor_sites
 from reconcile.gate.findings import Gate
-from reconcile.machine.causes import ranked_causes, revised_document
+from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import Decision, decide, merged_weights
 from reconcile.machine.heldout import feature_frequencies, held_out, spectral_mask
+from reconcile.machine.meter import Meter
 from reconcile.machine.pictures import line_changes, ranking, spectra, turn_maps, with_forms
+from reconcile.machine.revised import Revised, paths, revised_machine
 from reconcile.machine.second import Beside, fitted_change, second_effect
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.unknown import Unknown
@@ -91,6 +93,7 @@ def answer(
     setting: Setting,
     found: Found,
     gate: Gate,
+    meter: Meter,
     cost: Mapping[str, object],
     fit: Mapping[str, object] | None = None,
     unknown: Unknown | None = None,
@@ -106,6 +109,9 @@ def answer(
     causes = with_forms(ranked_causes(found, decision, weights, observed, other), found.screen) if missing else ()
     held = _held(setting, found, decision, layout, unknown) if decision.chosen else None
     fitted = fitted_change(found, decision.chosen[0], observed) if decision.chosen else None
+    revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter)
+    if revision is not None:
+        fitted = revision.change
     if unknown is not None and unknown.change is not None:
         fitted = unknown.change
     word, text, fault = _told(setting, decision, gate, causes, held, other, unknown)
@@ -123,14 +129,15 @@ def answer(
         undecidable=tuple(decision.reasons) if decision.word in ("ambiguous", "not_decidable") else (),
         next_experiment=_next(setting, decision, lead),
         force=unknown.force if unknown is not None else None,
-        machine=_machine(setting, found, causes, unknown),
-        stages=_stages(setting, found, gate, decision, fit or {}),
+        machine=_machine(revision, unknown),
+        stages=(*_stages(setting, found, gate, decision, fit or {}), *_revisions(revision)),
         pictures={
             "spectra": spectra(setting.data, setting.seen_through, fitted, layout, setting.channels),
             "ranking": ranking(setting, found, named) if missing else [],
+            "paths": paths(setting),
             "heat": turn_maps(setting.machine, setting.data, setting.channels, where.angle_window),
         },
-        provenance=_provenance(setting, cost),
+        provenance=_provenance(setting, {"core_s": meter.spent_s(), **cost}),
     )
 
 
@@ -166,12 +173,10 @@ def _where(setting: Setting, layout: Layout, watched: WatchList, weights: Mappin
     )
 
 
-def _machine(
-    setting: Setting, found: Found, causes: Sequence[Cause], unknown: Unknown | None
-) -> dict[str, object] | None:
+def _machine(revision: Revised | None, unknown: Unknown | None) -> dict[str, object] | None:
     if unknown is not None and unknown.machine is not None:
         return unknown.machine.model_dump(mode="json")
-    return revised_document(setting, found, causes)
+    return None if revision is None else revision.machine.model_dump(mode="json")
 
 
 def _doubtful(gate: Gate, setting: Setting, word: str) -> bool:
@@ -239,6 +244,20 @@ def _stages(
             "lines_left": found.screen.rest.unmet,
             "lines_explained": found.screen.rest.kept,
             "fitted_with_the_machine": sorted(found.led),
+        },
+    )
+
+
+def _revisions(revision: Revised | None) -> tuple[Mapping[str, object], ...]:
+    """How well the revised machine does, simulated: no forecast, on the recordings themselves."""
+    if revision is None:
+        return ()
+    return (
+        {
+            "name": "revised machine",
+            "simulated_forms": revision.forms,
+            "level_change_db": round(revision.before_db, 2),
+            "left_of_it_db": round(revision.after_db, 2),
         },
     )
 

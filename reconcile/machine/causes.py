@@ -9,10 +9,10 @@ import numpy as np
 from reconcile.machine.decide import Decision
 from reconcile.machine.refine import best_draws
 from reconcile.machine.second import Beside
-from reconcile.machine.setting import Found, Setting
+from reconcile.machine.setting import Found
 from reconcile.machine.severity import estimated_severity
 from reconcile.verdict import Cause
-from sim.core.spec import MachineSpec, TermSpec
+from sim.core.spec import TermSpec
 
 MOST_CAUSES = 10
 
@@ -63,20 +63,12 @@ def _beside(found: Found, other: Beside) -> Cause:
     )
 
 
-def revised(machine: MachineSpec, causes: Sequence[Cause]) -> MachineSpec:
-    """The machine with the named effects, or else the likeliest, at their estimated sizes."""
+def cause_terms(causes: Sequence[Cause]) -> tuple[TermSpec, ...]:
+    """The named effects, or else the likeliest, at their estimated sizes."""
     terms = []
     for cause in [c for c in causes if c.named] or causes[:1]:
         values = dict(cause.values)
         if cause.severity is not None:
             values[cause.severity.name] = cause.severity.value
         terms.append(TermSpec(term=cause.term, site=cause.site, parameters=values))
-    return machine.model_copy(update={"terms": [*machine.terms, *terms]})
-
-
-def revised_document(setting: Setting, found: Found, causes: Sequence[Cause]) -> dict[str, object] | None:
-    """The revised machine, ready for JSON; None where nothing is named or likely."""
-    if not causes:
-        return None
-    machine = found.machine(setting, f"{causes[0].term}@{causes[0].site}")
-    return revised(machine, causes).model_dump(mode="json")
+    return tuple(terms)

@@ -82,8 +82,8 @@ def reconcile_machine(
     progress(0.9, "laws that nobody listed")
     unknown = _force(setting, found, budget, meter)
     progress(0.95, "held-out data")
-    cost = {"core_s": meter.spent_s(), "until_atlas_core_s": atlas_s, "budget": budget.name}
-    report = answer(setting, found, gate, cost, fit, unknown)
+    cost = {"until_atlas_core_s": atlas_s, "budget": budget.name}
+    report = answer(setting, found, gate, meter, cost, fit, unknown)
     progress(1.0, "done")
     return report
 

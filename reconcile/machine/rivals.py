@@ -20,7 +20,8 @@ MODEL_VARIANCE = 8.0
 cases 2, 8 and 25 gave much the same gains."""
 FARTHEST = 25.0
 """Squared deviations of one feature that count at most."""
-RETUNE_RIDGE = 3.0
+RETUNING = 3.0
+"""Drifts by which numbers may be retuned: no plausible recording drifts so far."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,12 +62,14 @@ def forecast(changes: FloatArray, rows: Sequence[int], split: Split, sigma: Floa
 
 
 def retuned(null: FloatArray, split: Split, sigma: FloatArray) -> FloatArray:
-    """The best mixture of parameter drifts: ridge regression on the healthy pairs."""
+    """What drift of the machine's numbers makes of the fitted features, by the analysis of `forecast`: healthy pairs
+    around no change, `RETUNING` times as far as they drifted."""
     part = split.fit & np.isfinite(split.fitted) & np.isfinite(null).all(axis=0)
-    a, b = (null[:, part] / sigma[part]).T, split.fitted[part] / sigma[part]
-    ridge = RETUNE_RIDGE * np.eye(null.shape[0]) * max(float(np.mean(a**2)) * a.shape[0] * 1e-3, 1e-9)
-    weights = np.linalg.solve(a.T @ a + ridge, a.T @ b)
-    return np.asarray(weights @ np.nan_to_num(null))
+    apart = RETUNING * null / max(null.shape[0], 1) ** 0.5
+    seen = apart[:, part] / sigma[part]
+    left = np.clip(split.fitted[part] / sigma[part], -(FARTHEST**0.5), FARTHEST**0.5)
+    gain = np.linalg.solve(seen @ seen.T + MODEL_VARIANCE * np.eye(null.shape[0]), seen @ left)
+    return np.asarray(gain @ np.nan_to_num(apart))
 
 
 def black_box(split: Split, frequency: FloatArray, count: int, sigma: FloatArray) -> FloatArray:

@@ -59,10 +59,11 @@ class Found:
         return self.before or self.known
 
     def machine(self, setting: Setting, name: str) -> MachineSpec:
-        """The machine as it fits best with the effect, else with the baseline, else as it was given; no effects."""
+        """The machine as it fits best with the effect, else with the baseline, else as given, by tooth pairs as all
+        effects need them; no effects."""
         if name in self.led:
             return moved(setting.plan.machine, setting.plan.numbers, self.led[name])
-        return setting.fitted_machine or setting.machine
+        return setting.fitted_machine or setting.plan.machine
 
     @property
     def views(self) -> tuple[Fitted, ...]:

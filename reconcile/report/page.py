@@ -11,6 +11,7 @@ from reconcile.report.figures.bars import changes, ranking
 from reconcile.report.figures.gains import distances, gains
 from reconcile.report.figures.law import from_force, law
 from reconcile.report.figures.maps import force_map
+from reconcile.report.figures.path import path
 from reconcile.report.figures.sketch import sketch
 from reconcile.report.figures.traces import trace
 from reconcile.report.markup import Markup, figure_text, tag
@@ -25,6 +26,7 @@ from reconcile.report.sections import (
     held_out_words,
     provenance,
     section,
+    simulated,
     stages,
     told,
     undecidable,
@@ -117,7 +119,21 @@ def _machine(report: Report) -> Markup:
     spec = json.dumps(plain(report.machine), allow_nan=False, ensure_ascii=False, indent=1)
     note = "Loads back into the simulator and reproduces the model with it."
     body = tag("details", tag("summary", "Revised machine (JSON)"), tag("pre", spec))
-    return section("Revised machine", told(tag("p", note, css="muted"), body))
+    return section(
+        "Revised machine", told(tag("p", note, css="muted"), tag("p", simulated(report)), body), _paths(report)
+    )
+
+
+def _paths(report: Report) -> Markup:
+    drawn = several(report.pictures, "paths")[:MOST_PATHS]
+    if not drawn:
+        return Markup("")
+    note = "A spectrum of the simulated machine is recorded higher by so much: add it before comparing levels."
+    panels = [Markup(tag("h3", text(p.get("channel"))) + path(p)) for p in drawn]
+    return tag("details", tag("summary", "Paths to the sensors"), tag("p", note, css="muted"), *panels)
+
+
+MOST_PATHS = 40
 
 
 def page(report: Report) -> str:

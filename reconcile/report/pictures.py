@@ -68,6 +68,16 @@ class Ranked(TypedDict):
     form_of: str
 
 
+class Path(TypedDict):
+    """`paths`: gain from the machine's motion to a channel, in dB, read off sound recordings, and the power of noise in
+    each third octave at the first operating point."""
+
+    channel: str
+    frequency_hz: Sequence[float]
+    gain_db: Sequence[float]
+    noise_db: Sequence[float]
+
+
 class Trace(TypedDict):
     """`traces`: a stretch of held-out signal; `before` and `after` as predicted without and with the answer."""
 
@@ -109,6 +119,7 @@ class Pictures(TypedDict, total=False):
     heat: list[Heat] | Heat
     changes: list[Change]
     ranking: list[Ranked]
+    paths: list[Path]
     traces: list[Trace]
     force_map: list[ForceMap] | ForceMap
     law: list[Law] | Law

@@ -225,6 +225,18 @@ def stages(report: Report) -> Markup:
     return section("Steps", table(("step", "what it found"), rows))
 
 
+def simulated(report: Report) -> str:
+    """How well the revised machine does when it is simulated, on the recordings it was fitted to."""
+    found = next((s for s in report.stages if s.get("name") == "revised machine"), None)
+    if found is None:
+        return ""
+    return (
+        f"Simulated, it leaves {figure_text(float(str(found['left_of_it_db'])))} dB of the "
+        f"{figure_text(float(str(found['level_change_db'])))} dB (root mean square) by which levels of lines and bands "
+        "changed in the recordings that were fitted; the spectra above show it."
+    )
+
+
 def provenance(report: Report) -> Markup:
     """Versions, seeds and cost."""
     found = plain(report.provenance)

@@ -48,9 +48,10 @@ def test_retuning_follows_a_drift_and_not_what_drift_cannot_do() -> None:
     rng = np.random.default_rng(2)
     null, sigma = rng.normal(0.0, 3.0, (24, SIZE)), np.ones(SIZE)
     drifted = 1.5 * null[3] - null[7]
-    assert np.std(retuned(null, split(drifted), sigma) - drifted) < 0.2 * np.std(drifted)
+    assert np.std(retuned(null, split(drifted), sigma) - drifted) < 0.4 * np.std(drifted)
     alien = rng.normal(0.0, 3.0, SIZE)
-    assert np.std(retuned(null, split(alien), sigma)[SIZE // 2 :] - alien[SIZE // 2 :]) > 0.9 * np.std(alien)
+    left = retuned(null, split(alien), sigma)[SIZE // 2 :] - alien[SIZE // 2 :]
+    assert 0.9 * np.std(alien) < np.std(left) < 1.15 * np.std(alien)
 
 
 def test_levels_are_fitted_where_there_are_any() -> None:

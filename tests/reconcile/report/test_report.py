@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -207,3 +208,16 @@ def test_a_gap_in_a_curve_is_a_gap() -> None:
     drawn = frame.curve([0, 1, 2, 3], [0.5, math.nan, 0.5, 0.6], "observed")
     assert drawn.count("M") == 2
     assert tag("p", "a<b") == "<p>a&lt;b</p>"
+
+
+def test_what_the_revised_machine_leaves_and_the_sensors_paths_are_told() -> None:
+    stage = {"name": "revised machine", "simulated_forms": 7, "level_change_db": 6.02, "left_of_it_db": 1.5}
+    path = {"channel": NASTY, "frequency_hz": [100.0, 1000.0], "gain_db": [3.0, -2.0], "noise_db": [-90.0, -80.0]}
+    made = replace(full_report(), stages=(stage,), pictures={"paths": [path, {**path, "channel": "two"}]})
+    parser = Balanced()
+    parser.feed(page(made))
+    assert not parser.open
+    assert "leaves 1.5 dB of the 6.02 dB" in parser.text and "Paths to the sensors" in parser.text
+    assert "script" not in parser.seen and parser.text.count("gain, dB") == 2
+    without = replace(full_report(), stages=(), pictures={})
+    assert "Simulated, it leaves" not in page(without) and "Paths to the sensors" not in page(without)
