@@ -134,12 +134,18 @@ def _gate(machine: MachineSpec, tests: Sequence[Recording], baselines: Sequence[
     return inspect_measurement(baselines, tests, mesh_orders=teeth, lowest_order=0.3, seed=seed)
 
 
+def _place(test: Recording) -> tuple[float, float]:
+    """Tests in the order of their operating points, however they were given: draws depend on the order."""
+    operating = test.operating
+    return (operating.speed_hz, operating.torque_nm or 0.0) if operating is not None else (0.0, 0.0)
+
+
 def _setting(
     machine: MachineSpec, gate: Gate, plan: AtlasPlan, keeper: Keeper, mapper: Mapper, progress: Progress
 ) -> Setting:
     watched = watch_list(machine)
     progress(0.05, "speed and features")
-    data = observe(machine, watched, gate.tests, gate.baselines, seed=plan.seed)
+    data = observe(machine, watched, sorted(gate.tests, key=_place), gate.baselines, seed=plan.seed)
     recorded = gate.tests[0].channels
     simulated = simulated_channels(machine, recorded)
     distinct = standard_channels(machine, simulated)
