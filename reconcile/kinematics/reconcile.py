@@ -242,6 +242,7 @@ def _row(c: Candidate) -> dict[str, object]:
         "z": c.z,
         "chance": c.chance,
         "channel": c.best.channel,
+        "heard": c.best.channel_z,
         "band_hz": list(c.best.band_hz),
         "depth": c.contrasts[c.strongest].depth,
         "growth_db": c.growth_db,
