@@ -1,7 +1,8 @@
 """Reports where half or twice the stated speed explains the lines of the shaft as well.
 
 All orders hang on the speed: a defect that is named at the wrong one may be another, or have another rate. So the
-recordings are judged at the rival speed too, and the lines of the bearings decide, if they can.
+recordings are judged at the rival speed too, and the lines of the bearings decide, if they can. Where no line of the
+shaft confirms the stated speed, it is doubted only if the bearings' lines are clearly firmer at half or twice of it.
 """
 
 from __future__ import annotations
@@ -63,22 +64,30 @@ def doubt_of(tests: Sequence[Observation], ties: Ties) -> tuple[Observation, flo
     return first if 2 * sum(f == first[1] for _, f in open_ones) > len(tests) else None
 
 
+def unconfirmed(tests: Sequence[Observation]) -> bool:
+    """Whether neither pulses nor lines of the shaft say how fast it turned, in most of the tests."""
+    return 2 * sum(t.speed.method == "stated" for t in tests) > len(tests)
+
+
 def doubted(stated: Judged, rival: Judged | None, first: Observation, factor: float) -> Report:
     """The report with the doubt: decided by the bearing's lines, or left open with the causes at both speeds."""
     shaft, speed = first.speed.shaft, first.speed.speed_hz
     other = factor * speed
     if stated.z > 0 and (rival is None or stated.z > rival.z + CLEAR_Z):
         return stated.report
-    note = f"whether {shaft} turns at {speed:.4g} Hz as stated or at {other:.4g} Hz: its lines fit both"
+    by_lines = first.speed.method != "stated"
+    fits = "its lines fit both" if by_lines else "no line of it tells"
+    note = f"whether {shaft} turns at {speed:.4g} Hz as stated or at {other:.4g} Hz: {fits}"
     undecidable = (note, *stated.report.undecidable)
     if rival is None or max(stated.z, rival.z) == 0.0:
         return replace(stated.report, undecidable=undecidable)
     shown, at = (rival.report, other) if rival.z > stated.z else (stated.report, speed)
+    whose, how = (f"the lines of {shaft}", "no worse") if by_lines else ("bearing lines", "better")
     return replace(
         shown,
         verdict="ambiguous",
-        sentence=f"The speed is not decided: the lines of {shaft} fit {other:.4g} Hz, {WORDS[factor]} the stated "
-        f"speed, no worse than {speed:.4g} Hz as stated. At {at:.4g} Hz: {shown.sentence}",
+        sentence=f"The speed is not decided: {whose} fit {other:.4g} Hz, {WORDS[factor]} the stated speed, {how} than "
+        f"{speed:.4g} Hz as stated. At {at:.4g} Hz: {shown.sentence}",
         causes=_both(stated, rival, speed, other),
         undecidable=undecidable,
         next_experiment=NextExperiment(sentence="Record with a tacho, or read the speed once with a strobe."),

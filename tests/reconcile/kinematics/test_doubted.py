@@ -59,6 +59,24 @@ def test_the_bearing_decides_where_the_shaft_does_not() -> None:
     assert (report.verdict, report.causes[0].term) == ("explained", "outer_spall")
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("factor", [0.5, 1.0])
+def test_without_lines_of_the_shaft_the_bearing_tells_a_wrong_speed(factor: float) -> None:
+    """Noise and impacts only: nothing confirms the stated speed."""
+    rng = np.random.default_rng(7)
+    hit = train(np.random.default_rng(2), 0.992 * ORDERS["outer_spall"], 1.0)
+    rows = [0.3 * rng.standard_normal(N) for _ in range(2)]
+    stated = factor * SPEED_HZ
+    report = reconcile_kinematics(SPEC, [recorded(rows[0] + hit, stated)], [recorded(rows[1], stated)], seed=3)
+    assert report.causes[0].term == "outer_spall"
+    if factor == 1.0:
+        assert (report.verdict, report.causes[0].named) == ("explained", True)
+    else:
+        assert report.verdict == "ambiguous" and not report.causes[0].named
+        assert "bearing lines fit 24.3 Hz, twice the stated speed, better than 12.15 Hz" in report.sentence
+        assert "no line of it tells" in report.undecidable[0]
+
+
 def test_a_sound_machine_stays_one_and_the_doubt_is_said() -> None:
     report = reconcile_kinematics(SPEC, [made(None, 0.5, 4)], [made(None, 0.5, 1)], seed=3)
     assert report.verdict == "nothing_missing"
