@@ -74,15 +74,6 @@ def _reconciled(engine: Engine, case: Path, folder: Path) -> dict[str, Any]:
     return {"report": slim(json.loads((out / "report.json").read_text(encoding="utf-8"))), "error": None}
 
 
-def run_kinematic(engine: Engine, folder: Path) -> dict[str, Any]:
-    """`report` and `error` for a folder whose machine.json is given to the engine as it is."""
-    out = folder / "out"
-    error = _failure(engine.call(folder / "machine.json", folder, out), engine.timeout_s)
-    if error is not None:
-        return {"report": None, "error": error}
-    return {"report": slim(json.loads((out / "report.json").read_text(encoding="utf-8"))), "error": None}
-
-
 def _failure(command: Sequence[str], timeout_s: float) -> str | None:
     environment = os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
     try:

@@ -14,11 +14,10 @@ from scipy.optimize import linear_sum_assignment
 
 from reconcile.gate.findings import Finding
 from reconcile.gate.levels import Pair
+from reconcile.gate.units import even_unit_gain, unit_finding, unit_of
 from signals.recording import Recording
 from signals.series import FloatArray
 
-UNIT_RATIOS = {"g against m/s^2": 9.80665, "m against mm": 1000.0, "inch against mm": 25.4, "V against mV": 1000.0}
-UNIT_TOLERANCE_DB = 0.8
 GAIN_DB = 2.0
 GAIN_SPREAD_DB = 1.0
 """Half of all bands within this of the median change: what repetition, load and a drift of a few per cent leave."""
@@ -51,6 +50,7 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
     found: list[Finding] = []
     for c, name in enumerate(names):
         gain = _gain(change, c)
+        gain = even_unit_gain(change, c) if gain is None else gain
         if gain is not None:
             found.append(_gain_finding(gain, change, c, name, len(names)))
         elif len(names) > 1:
@@ -72,18 +72,9 @@ def _gain(change: Sequence[FloatArray], c: int) -> float | None:
 
 
 def _gain_finding(gain: float, change: Sequence[FloatArray], c: int, name: str, channels: int) -> Finding:
-    unit = next((k for k, r in UNIT_RATIOS.items() if abs(abs(gain) - 20 * np.log10(r)) < UNIT_TOLERANCE_DB), None)
+    unit = unit_of(gain) or (unit_of(gain, np.inf) if even_unit_gain(change, c) is not None else None)
     if unit is not None:
-        detail = f"all bands changed by {gain:+.1f} dB, the ratio of {unit}"
-        return Finding(
-            kind="unit_mismatch",
-            channel=name,
-            recording="all tests",
-            detail=detail,
-            severity=1.0,
-            fault=True,
-            gain_db=gain,
-        )
+        return unit_finding(gain, unit, name)
     others = [float(np.median(np.abs(d[k]))) for d in change for k in range(channels) if k != c]
     quiet = bool(others) and max(others) < max(QUIET_DB, 0.3 * abs(gain))
     detail = f"all bands changed by {gain:+.1f} dB alike" + ("" if others else "; there is no other channel to compare")

@@ -81,10 +81,12 @@ class Gate:
 
 
 def worst(findings: tuple[Finding, ...]) -> SensorFault | None:
-    """The fault that spoils most: by kind in the order of `FAULTS`, then by severity."""
+    """The fault that spoils most: by kind in the order of `FAULTS`, then by severity; its detail names all channels."""
     faults = [f for f in findings if f.fault]
     if not faults:
         return None
     first = min(faults, key=lambda f: (FAULTS.index(f.kind), -f.severity))
     place = f"; {first.where}" if first.where else ""
-    return SensorFault(kind=first.kind, channel=first.channel, detail=f"{first.recording}: {first.detail}{place}")
+    others = dict.fromkeys(f.channel for f in faults if f.kind == first.kind and f.channel != first.channel)
+    also = f"; also on {', '.join(c for c in others if c)}" if any(others) else ""
+    return SensorFault(kind=first.kind, channel=first.channel, detail=f"{first.recording}: {first.detail}{place}{also}")

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from reconcile.gate import Gate, inspect_measurement
 from reconcile.gate.spoiled import GONE, without_spoiled
 from reconcile.kinematics.answer import defect_report
-from reconcile.kinematics.contrast import band_turns
-from reconcile.kinematics.envelopes import order_depth
+from reconcile.kinematics.doubted import CLEAR_Z, Judged, doubt_of, doubted, factor_of, restated, unconfirmed
 from reconcile.kinematics.extent import Extent
 from reconcile.kinematics.faint import impulsive_report, shallow_report
 from reconcile.kinematics.families import Ties, ties
+from reconcile.kinematics.finish import finished
 from reconcile.kinematics.foreign import foreign_comb
 from reconcile.kinematics.gears import GearEvidence, gear_evidence
 from reconcile.kinematics.grown import grown_defect, old_defects
@@ -33,8 +34,6 @@ from reconcile.verdict import LineChange, Report
 from signals.recording import Recording
 from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
-
-PICTURE_POINTS = 1200
 
 
 def reconcile_kinematics(
@@ -58,18 +57,20 @@ def reconcile_kinematics(
         seed=seed,
     )
     if not gate.usable:
-        return _finished(_fault(gate), gate, (), (), seed)
+        return finished(_fault(gate), gate, (), (), seed)
     gate = without_spoiled(gate, GONE)
     stated = {s.name: s.speed_hz for s in known.shafts}[tie.reference]
     try:
         seen = _observed(gate.tests, "test", tie, stated, seed)
         past = _observed(gate.baselines, "baseline", tie, stated, seed)
     except SpecError as error:
-        return _finished(_refused(error), gate, (), (), seed)
+        return finished(_refused(error), gate, (), (), seed)
     report, every = _judged(known, tie, seen, past, seed)
+    at = partial(_at_rival, known, tie, (gate.tests, seen), (gate.baselines, past), seed)
+    report = _against_rivals(Judged(report=report, every=every), seen, tie, at)
     if report.verdict in ("nothing_missing", "not_decidable") and gate.fault is not None:
         report = _fault(gate)
-    return _finished(report, gate, seen, every, seed, past)
+    return finished(report, gate, seen, every, seed, past)
 
 
 def _observed(
@@ -105,6 +106,48 @@ def _judged(
     else:
         report = _without_a_part(known, tie, tests, baselines, every, grown, seed)
     return report, every
+
+
+def _against_rivals(
+    stated: Judged, seen: Sequence[Observation], tie: Ties, at: Callable[[float], Judged | None]
+) -> Report:
+    """The answer, held against that at half or twice the speed where the shaft's lines don't decide."""
+    doubt = doubt_of(seen, tie)
+    if doubt is not None:
+        return doubted(stated, at(doubt[1]), *doubt)
+    if stated.report.verdict in ("nothing_missing", "not_decidable") or not unconfirmed(seen):
+        return stated.report
+    rivals = [(one.z, factor, one) for factor in (2.0, 0.5) if (one := at(factor)) is not None]
+    firmest = max(rivals, key=lambda r: r[0], default=None)
+    if firmest is None or firmest[0] <= stated.z + CLEAR_Z:
+        return stated.report
+    return doubted(stated, firmest[2], next(t for t in seen if t.speed.method == "stated"), firmest[1])
+
+
+def _at_rival(
+    known: KinematicSpec,
+    tie: Ties,
+    tests: tuple[Sequence[Recording], Sequence[Observation]],
+    baselines: tuple[Sequence[Recording], Sequence[Observation]],
+    seed: int,
+    factor: float,
+) -> Judged | None:
+    """The answer at `factor` times the speed of the recordings whose lines allow that; None if they can't carry it."""
+    again = [
+        [restated(r, o, factor) if _allows(o, tie, factor) else r for r, o in zip(*several, strict=True)]
+        for several in (tests, baselines)
+    ]
+    try:
+        seen = _observed(again[0], "test", tie, None, seed)
+        past = _observed(again[1], "baseline", tie, None, seed)
+    except SpecError:
+        return None
+    report, every = _judged(known, tie, seen, past, seed)
+    return Judged(report=report, every=every)
+
+
+def _allows(seen: Observation, tie: Ties, factor: float) -> bool:
+    return seen.speed.method == "stated" or factor_of(seen, tie) == factor
 
 
 def _regrown(
@@ -203,60 +246,3 @@ def _refused(error: SpecError) -> Report:
         level="kinematics",
         undecidable=tuple(str(p) for p in error.problems),
     )
-
-
-def _finished(
-    report: Report,
-    gate: Gate,
-    tests: Sequence[Observation],
-    every: Sequence[Candidate],
-    seed: int,
-    baselines: Sequence[Observation] = (),
-) -> Report:
-    """The report with its stages, pictures and provenance."""
-    stages: list[Mapping[str, object]] = [
-        {"name": "gate", "findings": [f"{f.recording} {f.channel}: {f.kind}, {f.detail}" for f in gate.findings]},
-        {
-            "name": "speed",
-            "found": {
-                o.label: {
-                    "speed_hz": o.speed.speed_hz,
-                    "low_hz": o.speed.low_hz,
-                    "high_hz": o.speed.high_hz,
-                    "method": o.speed.method,
-                    "confidence": o.speed.confidence,
-                }
-                for o in (*tests, *baselines)
-            },
-        },
-        {"name": "families", "table": [_row(c) for c in every]},
-    ]
-    pictures = _picture(every[0], tests, baselines) if every else {}
-    return replace(report, stages=tuple(stages), pictures=pictures, provenance={"seed": seed, "level": "kinematics"})
-
-
-def _row(c: Candidate) -> dict[str, object]:
-    return {
-        "family": c.family.key,
-        "order": c.best.order,
-        "z": c.z,
-        "chance": c.chance,
-        "channel": c.best.channel,
-        "band_hz": list(c.best.band_hz),
-        "depth": c.contrasts[c.strongest].depth,
-        "growth_db": c.growth_db,
-        "present": c.present,
-        "risen": c.risen,
-    }
-
-
-def _picture(c: Candidate, tests: Sequence[Observation], baselines: Sequence[Observation]) -> dict[str, object]:
-    """Envelope order spectrum of the firmest family's band, test and baseline."""
-    shown: dict[str, object] = {"family": c.family.key, "order": c.best.order, "band_hz": list(c.best.band_hz)}
-    for name, group in (("test", tests[c.strongest : c.strongest + 1]), ("baseline", baselines[:1])):
-        for o in group:
-            if c.best.channel in o.recording.names and c.best.band_hz[1] < o.recording.sampling_rate_hz / 2:
-                values, per_turn = band_turns(o, c.best.channel, c.best.band_hz)
-                depth, step = order_depth(values, per_turn)
-                shown[name] = {"order_step": step, "depth": [float(round(d, 5)) for d in depth[:PICTURE_POINTS]]}
-    return {"envelope": shown}

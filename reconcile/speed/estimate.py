@@ -16,6 +16,7 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d
 
 from reconcile.speed.excess import line_excess, mains_bins
+from reconcile.speed.octave import octave_rival
 from signals.recording import Recording
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
@@ -46,6 +47,8 @@ class SpeedEstimate:
     confidence: float
     method: Method
     stated_hz: float | None
+    rival_hz: float | None = None
+    """Half or twice the speed, where that explains the shaft's lines as well: harmonics don't decide then."""
 
     @property
     def mismatch(self) -> float | None:
@@ -103,6 +106,7 @@ def estimate_speed(
         confidence=confidence,
         method="harmonics",
         stated_hz=stated,
+        rival_hz=octave_rival(combs, speed, HARMONICS, orders),
     )
 
 

@@ -1,0 +1,78 @@
+"""A channel whose numbers are another unit's: its level changed by the ratio of two units, evenly over the spectrum.
+
+A loose mount is a filter: it changes some bands more than others. Lines that moved with the speed or grew with a defect
+leave single bands uneven, so evenness is asked of most bands, not of all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from reconcile.gate.findings import Finding
+from signals.series import FloatArray
+
+GRAVITY = "g against m/s^2"
+UNIT_RATIOS = {GRAVITY: 9.80665, "m against mm": 1000.0, "inch against mm": 25.4, "V against mV": 1000.0}
+UNIT_TOLERANCE_DB = 0.8
+"""Of the one gain of a channel that all bands share."""
+UNIT_SHARE = 0.15
+"""By which the ratio may be missed where bands scatter: drift of levels and defects move a channel's median by as
+much (made recordings with impacts 15 dB above the noise: 1.5 dB)."""
+EVEN_DB = 1.5
+"""Half of the bands, and the medians of the lower and the upper half of them, within this of the median: a repeat at
+another speed scatters by 0.4 dB, impacts raise it to 0.8; a loose mount falls by 6 dB an octave or more."""
+OTHERS_SHARE = 0.3
+"""Of the change, that other channels may have changed by."""
+
+
+def unit_of(gain_db: float, tolerance_db: float = UNIT_TOLERANCE_DB) -> str | None:
+    """The pair of units whose ratio a gain is, either way."""
+    near = {k: abs(abs(gain_db) - 20 * np.log10(r)) for k, r in UNIT_RATIOS.items()}
+    best = min(near, key=lambda k: near[k])
+    return best if near[best] < tolerance_db else None
+
+
+def even_unit_gain(change: Sequence[FloatArray], c: int) -> float | None:
+    """The gain, dB, of channel `c` if it is a unit's ratio, even over most bands, and other channels kept theirs.
+
+    `change`: dB by channel, mean or floor, and band, of each pair of recordings. A lone channel has nothing to be held
+    against, nor have channels that all changed alike: None.
+    """
+    tolerance = float(20 * np.log10(1 / (1 - UNIT_SHARE)))
+    medians = [float(np.median(np.concatenate([d[k].ravel() for d in change]))) for k in range(change[0].shape[0])]
+    own = medians[c]
+    unit = unit_of(own, tolerance)
+    if unit is None:
+        return None
+    rest = [k for k, m in enumerate(medians) if unit_of(m, tolerance) != unit or m * own < 0]
+    loudest = max((float(np.median(np.abs(d[k]))) for d in change for k in rest), default=np.inf)
+    return own if loudest < OTHERS_SHARE * abs(own) and _even(change, c, own) else None
+
+
+def _even(change: Sequence[FloatArray], c: int, middle: float) -> bool:
+    """Whether the bulk of the bands, and each half of the spectrum, changed by `middle`."""
+    values = np.concatenate([d[c].ravel() for d in change])
+    quarter = float(np.subtract(*np.percentile(values, [75, 25]))) / 2
+    halves = [part for d in change for part in np.array_split(d[c], 2, axis=1)]
+    edge = max(abs(float(np.median(part)) - middle) for part in halves)
+    return quarter < EVEN_DB and edge < EVEN_DB
+
+
+def unit_finding(gain_db: float, unit: str, name: str) -> Finding:
+    """`unit_mismatch`; undoing it takes back the exact ratio."""
+    exact = float(np.sign(gain_db) * 20 * np.log10(UNIT_RATIOS[unit]))
+    detail = f"all bands changed by {gain_db:+.1f} dB, the ratio of {unit}"
+    if unit == GRAVITY:
+        numbers, said = ("g", "m/s^2") if gain_db < 0 else ("m/s^2", "g")
+        detail += f": against the baseline its numbers are {numbers} described as {said}"
+    return Finding(
+        kind="unit_mismatch",
+        channel=name,
+        recording="all tests",
+        detail=detail,
+        severity=1.0,
+        fault=True,
+        gain_db=exact,
+    )

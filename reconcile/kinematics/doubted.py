@@ -1,0 +1,108 @@
+"""Reports where half or twice the stated speed explains the lines of the shaft as well.
+
+All orders hang on the speed: a defect that is named at the wrong one may be another, or have another rate. So the
+recordings are judged at the rival speed too, and the lines of the bearings decide, if they can. Where no line of the
+shaft confirms the stated speed, it is doubted only if the bearings' lines are clearly firmer at half or twice of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from reconcile.kinematics.families import Ties
+from reconcile.kinematics.judge import DEFECTS, Candidate
+from reconcile.kinematics.observe import Observation
+from reconcile.verdict import Cause, NextExperiment, Report
+from signals.recording import Operating, Recording
+
+CLEAR_Z = 3.0
+"""Robust deviations by which the bearing's lines must be firmer at one speed to decide for it: scores of one defect
+scatter by about one from record to record."""
+SAME = 0.02
+"""Relative difference up to which the lines of another shaft are those between the multiples."""
+WORDS = {2.0: "twice", 0.5: "half"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Judged:
+    """A report with the candidates it was drawn from."""
+
+    report: Report
+    every: tuple[Candidate, ...]
+
+    @property
+    def z(self) -> float:
+        """Score of the firmest bearing defect that stands, else 0."""
+        return max(
+            (c.z for c in self.every if c.family.kind in DEFECTS and c.present and c.risen and c.deep), default=0.0
+        )
+
+
+def factor_of(seen: Observation, ties: Ties) -> float | None:
+    """2 or 0.5 where that times the speed explains the lines as well; None where another shaft makes those lines."""
+    if seen.speed.rival_hz is None:
+        return None
+    factor = 2.0 if seen.speed.rival_hz > seen.speed.speed_hz else 0.5
+    others = [r for name, r in ties.shafts.items() if name != ties.reference]
+    told = any(round(0.5 / r) >= 1 and abs(0.5 / r - round(0.5 / r)) < SAME for r in others)
+    return None if factor == 0.5 and told else factor
+
+
+def restated(recording: Recording, seen: Observation, factor: float) -> Recording:
+    """The recording with `factor` times the found speed as the stated one."""
+    operating = recording.operating or Operating(shaft=seen.speed.shaft, speed_hz=seen.speed.speed_hz)
+    return replace(recording, operating=replace(operating, speed_hz=factor * seen.speed.speed_hz))
+
+
+def doubt_of(tests: Sequence[Observation], ties: Ties) -> tuple[Observation, float] | None:
+    """A recording and its factor, where the same factor is open in most of the tests."""
+    open_ones = [(t, f) for t in tests if (f := factor_of(t, ties)) is not None]
+    if not open_ones:
+        return None
+    first = open_ones[0]
+    return first if 2 * sum(f == first[1] for _, f in open_ones) > len(tests) else None
+
+
+def unconfirmed(tests: Sequence[Observation]) -> bool:
+    """Whether neither pulses nor lines of the shaft say how fast it turned, in most of the tests."""
+    return 2 * sum(t.speed.method == "stated" for t in tests) > len(tests)
+
+
+def doubted(stated: Judged, rival: Judged | None, first: Observation, factor: float) -> Report:
+    """The report with the doubt: decided by the bearing's lines, or left open with the causes at both speeds."""
+    shaft, speed = first.speed.shaft, first.speed.speed_hz
+    other = factor * speed
+    if stated.z > 0 and (rival is None or stated.z > rival.z + CLEAR_Z):
+        return stated.report
+    by_lines = first.speed.method != "stated"
+    fits = "its lines fit both" if by_lines else "no line of it tells"
+    note = f"whether {shaft} turns at {speed:.4g} Hz as stated or at {other:.4g} Hz: {fits}"
+    undecidable = (note, *stated.report.undecidable)
+    if rival is None or max(stated.z, rival.z) == 0.0:
+        return replace(stated.report, undecidable=undecidable)
+    shown, at = (rival.report, other) if rival.z > stated.z else (stated.report, speed)
+    whose, how = (f"the lines of {shaft}", "no worse") if by_lines else ("bearing lines", "better")
+    return replace(
+        shown,
+        verdict="ambiguous",
+        sentence=f"The speed is not decided: {whose} fit {other:.4g} Hz, {WORDS[factor]} the stated speed, {how} than "
+        f"{speed:.4g} Hz as stated. At {at:.4g} Hz: {shown.sentence}",
+        causes=_both(stated, rival, speed, other),
+        undecidable=undecidable,
+        next_experiment=NextExperiment(sentence="Record with a tacho, or read the speed once with a strobe."),
+    )
+
+
+def _both(stated: Judged, rival: Judged, speed_hz: float, other_hz: float) -> tuple[Cause, ...]:
+    """Causes at either speed, none named: each says at which speed it holds."""
+    found: dict[tuple[str, str], tuple[Cause, list[float]]] = {}
+    for judged, at in ((stated, speed_hz), (rival, other_hz)):
+        for c in judged.report.causes if judged.z > 0 else ():
+            best, speeds = found.get((c.term, c.site), (c, []))
+            found[c.term, c.site] = (max(best, c, key=lambda x: x.score), [*speeds, at])
+    causes = []
+    for c, speeds in found.values():
+        how = "at either speed, but with another rate" if len(speeds) > 1 else f"only if it turns at {speeds[0]:.4g} Hz"
+        causes.append(replace(c, named=False, reasons=(*c.reasons, how)))
+    return tuple(sorted(causes, key=lambda c: -c.score))

@@ -1,0 +1,74 @@
+"""Stages, pictures and provenance of a report."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from reconcile.gate import Gate
+from reconcile.kinematics.contrast import band_turns
+from reconcile.kinematics.envelopes import order_depth
+from reconcile.kinematics.judge import Candidate
+from reconcile.kinematics.observe import Observation
+from reconcile.verdict import Report
+
+PICTURE_POINTS = 1200
+
+
+def finished(
+    report: Report,
+    gate: Gate,
+    tests: Sequence[Observation],
+    every: Sequence[Candidate],
+    seed: int,
+    baselines: Sequence[Observation] = (),
+) -> Report:
+    """The report with its stages, pictures and provenance."""
+    stages: list[Mapping[str, object]] = [
+        {"name": "gate", "findings": [f"{f.recording} {f.channel}: {f.kind}, {f.detail}" for f in gate.findings]},
+        {
+            "name": "speed",
+            "found": {
+                o.label: {
+                    "speed_hz": o.speed.speed_hz,
+                    "low_hz": o.speed.low_hz,
+                    "high_hz": o.speed.high_hz,
+                    "method": o.speed.method,
+                    "confidence": o.speed.confidence,
+                    "rival_hz": o.speed.rival_hz,
+                }
+                for o in (*tests, *baselines)
+            },
+        },
+        {"name": "families", "table": [_row(c) for c in every]},
+    ]
+    pictures = _picture(every[0], tests, baselines) if every else {}
+    return replace(report, stages=tuple(stages), pictures=pictures, provenance={"seed": seed, "level": "kinematics"})
+
+
+def _row(c: Candidate) -> dict[str, object]:
+    return {
+        "family": c.family.key,
+        "order": c.best.order,
+        "z": c.z,
+        "chance": c.chance,
+        "channel": c.best.channel,
+        "heard": c.best.channel_z,
+        "band_hz": list(c.best.band_hz),
+        "depth": c.contrasts[c.strongest].depth,
+        "growth_db": c.growth_db,
+        "present": c.present,
+        "risen": c.risen,
+    }
+
+
+def _picture(c: Candidate, tests: Sequence[Observation], baselines: Sequence[Observation]) -> dict[str, object]:
+    """Envelope order spectrum of the firmest family's band, test and baseline."""
+    shown: dict[str, object] = {"family": c.family.key, "order": c.best.order, "band_hz": list(c.best.band_hz)}
+    for name, group in (("test", tests[c.strongest : c.strongest + 1]), ("baseline", baselines[:1])):
+        for o in group:
+            if c.best.channel in o.recording.names and c.best.band_hz[1] < o.recording.sampling_rate_hz / 2:
+                values, per_turn = band_turns(o, c.best.channel, c.best.band_hz)
+                depth, step = order_depth(values, per_turn)
+                shown[name] = {"order_step": step, "depth": [float(round(d, 5)) for d in depth[:PICTURE_POINTS]]}
+    return {"envelope": shown}

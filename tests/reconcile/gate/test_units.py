@@ -1,0 +1,98 @@
+"""A channel in another unit is told from a loose sensor, and every channel that shares a fault is named."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reconcile.gate import Gate, inspect_measurement
+from reconcile.gate.units import even_unit_gain, unit_of
+from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from signals.recording import Recording
+from tests.reconcile.gate.test_gate import BASELINES, SPEEDS_HZ, machine, trials
+from tests.strategies.impulses import recorded, sound, train
+
+GRAVITY = 9.80665
+SPEC = read_kinematic_spec(
+    {
+        "kinematics": {
+            "shafts": [{"name": "shaft"}],
+            "bearings": [{"name": "bearing1", "shaft": "shaft", "catalogue": "6205"}],
+        }
+    }
+)
+
+
+def scaled(recordings: tuple[Recording, ...], rows: tuple[int, ...], factor: float) -> tuple[Recording, ...]:
+    found = []
+    for r in recordings:
+        samples = r.samples.copy()
+        samples[list(rows)] *= factor
+        found.append(replace(r, samples=samples))
+    return tuple(found)
+
+
+def judged(tests: tuple[Recording, ...]) -> Gate:
+    return inspect_measurement(BASELINES, tests, mesh_orders=(23.0,), orders=(3.58, 5.42))
+
+
+@pytest.mark.parametrize("factor", [1 / GRAVITY, GRAVITY])
+@pytest.mark.parametrize("defect", [0.0, 60.0])
+def test_g_described_as_metres_is_a_unit(factor: float, defect: float) -> None:
+    """One record at a speed 2 % off: lines move between bands, which is no filter of the mount."""
+    test = machine(1.02 * SPEEDS_HZ[0], 100, drift=1.0, defect=defect)
+    gate = inspect_measurement(BASELINES[:1], scaled((test,), (1,), factor), mesh_orders=(23.0,), orders=(3.58, 5.42))
+    assert gate.fault is not None
+    assert (gate.fault.kind, gate.fault.channel) == ("unit_mismatch", "a1")
+    assert "g against m/s^2" in gate.fault.detail
+    said = "numbers are g described as m/s^2" if factor < 1 else "numbers are m/s^2 described as g"
+    assert said in gate.fault.detail
+    assert np.std(gate.tests[0].samples[1]) == pytest.approx(np.std(test.samples[1]), rel=1e-6)
+
+
+def test_a_slope_over_the_bands_is_a_mount() -> None:
+    """Its median is the unit's ratio."""
+    bands = np.linspace(-5.0, -34.66, 40)
+    assert even_unit_gain([np.stack([np.zeros((2, 40)), np.stack([bands, bands])])], 1) is None
+
+
+def test_all_louder_or_one_alone_is_no_unit_by_its_bulk() -> None:
+    rough = np.full((2, 40), 19.3) + np.random.default_rng(0).normal(0, 1, (2, 40))
+    quiet = np.zeros((2, 40))
+    assert even_unit_gain([np.stack([rough, quiet])], 0) == pytest.approx(19.3, abs=0.5)
+    assert even_unit_gain([np.stack([rough, quiet + 8.0])], 0) is None
+    assert even_unit_gain([rough[np.newaxis]], 0) is None
+    assert unit_of(28.1) == "inch against mm"
+    assert unit_of(12.0) is None
+
+
+def test_every_channel_of_a_fault_is_named() -> None:
+    units = judged(scaled(trials(), (0, 2), 1 / GRAVITY))
+    assert units.fault is not None
+    assert (units.fault.kind, units.fault.channel) == ("unit_mismatch", "a0")
+    assert units.fault.detail.endswith("; also on a2")
+    silent = judged(scaled(trials(), (0, 1), 0.0))
+    assert silent.fault is not None
+    assert (silent.fault.kind, silent.fault.channel) == ("silence", "a0")
+    assert silent.fault.detail.endswith("; also on a1")
+    whole = judged(scaled(trials(), (0, 1, 2), 0.0))
+    assert whole.fault is not None and whole.fault.detail.endswith("; also on a1, a2")
+    alone = judged(scaled(trials(), (1,), 0.0))
+    assert alone.fault is not None and "also on" not in alone.fault.detail
+
+
+@pytest.mark.slow
+def test_a_defect_behind_a_wrong_unit_is_still_named() -> None:
+    rng = np.random.default_rng(1)
+    hit = np.array([1.0, 0.3, 0.1])[:, np.newaxis] * train(rng, 0.992 * 3.5848, 1.0)
+    rows = np.array([sound(s) for s in (2, 12, 22)])
+    factors = np.array([1 / GRAVITY, 1.0, 1.0])[:, np.newaxis]
+    baseline = recorded([sound(s) for s in (1, 11, 21)])
+    named = reconcile_kinematics(SPEC, [recorded(factors * (rows + hit))], [baseline], seed=0)
+    assert (named.verdict, named.causes[0].term) == ("explained", "outer_spall")
+    quiet = reconcile_kinematics(SPEC, [recorded(factors * rows)], [baseline], seed=0)
+    assert quiet.verdict == "measurement_fault"
+    assert quiet.fault is not None and quiet.fault.kind == "unit_mismatch"
+    assert "described as m/s^2" in quiet.sentence
