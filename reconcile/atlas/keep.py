@@ -37,9 +37,9 @@ class Forgetful:
 
 
 def atlas_key(plan: AtlasPlan, point: Point, channels: tuple[str, ...]) -> str:
-    """Hash of everything the simulated statistics depend on."""
+    """Hash of everything the simulated statistics depend on: not of what the machine is called."""
     document = {
-        "machine": plan.machine.model_dump(mode="json"),
+        "machine": plan.machine.model_dump(mode="json", exclude={"name", "notes"}),
         "draws": [
             [d.pair, d.twin, d.candidate.label if d.candidate else "", d.term.model_dump() if d.term else None]
             for d in plan.draws

@@ -81,6 +81,11 @@ def test_the_key_changes_with_whatever_the_numbers_depend_on(monkeypatch: pytest
     assert len({base, *keys}) == len(keys) + 1
 
 
+def test_a_machine_of_another_name_shares_its_atlas() -> None:
+    renamed = MACHINE.model_copy(update={"name": "test rig 7", "notes": "as sent by the customer"})
+    assert atlas_key(plan(machine=renamed), POINT, CHANNELS) == atlas_key(plan(), POINT, CHANNELS)
+
+
 def statistics(k: int) -> Statistics:
     rng = np.random.default_rng(k)
     return Statistics(
