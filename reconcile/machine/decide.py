@@ -70,10 +70,12 @@ class Decision:
 
 
 def leaves_lines(rest: Rest) -> bool:
-    """Whether an effect is not what changed the single lines."""
+    """Whether an effect is not what changed the single lines; one that was fitted to the lines of one view must not
+    leave those of the other, to which it was not fitted, either."""
     if rest.rough:
         return rest.unmet > UNMET_ROUGH and rest.kept < MOST_KEPT_ROUGH
-    return rest.unmet > UNMET and rest.kept + rest.pooled < MOST_KEPT
+    left = rest.unmet > UNMET or rest.elsewhere > UNMET_ROUGH
+    return left and rest.kept + rest.pooled < MOST_KEPT
 
 
 def lead(screen: Screen) -> float:
@@ -208,7 +210,7 @@ def _misfit(screen: Screen, alone: bool) -> str:
     if alone:
         return "impacts come at a known frequency, but the rest of the change is not what such an effect brings"
     if leaves_lines(screen.rest):
-        left = screen.rest.unmet
+        left = max(screen.rest.unmet, screen.rest.elsewhere)
         return f"the best known effect leaves {left:.1f} times as much of the single lines' change as it should"
     return f"the best known effect fits worse than {screen.misfit:.0%} of simulated ones do"
 

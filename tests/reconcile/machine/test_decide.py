@@ -123,6 +123,10 @@ def test_single_lines_that_the_best_effect_leaves_are_unknown_physics() -> None:
     assert decide(screen([20.0, 15.0], rest=fitted), views=9).word == "unknown_physics", "fitted with the machine"
     assert decide(screen([20.0, 15.0], rest=replace(fitted, pooled=0.55)), views=9).word == "explained"
     assert decide(screen([20.0, 15.0], rest=replace(fitted, unmet=0.5)), views=9).word == "explained"
+    other = replace(fitted, unmet=0.0, elsewhere=1.6)
+    assert decide(screen([20.0, 15.0], rest=other), views=9).word == "unknown_physics", "lines of the other view"
+    assert decide(screen([20.0, 15.0], rest=replace(other, elsewhere=1.4)), views=9).word == "explained"
+    assert decide(screen([20.0, 15.0], rest=replace(other, pooled=0.55)), views=9).word == "explained"
     beside = decide(struck([30.0, 5.0], [20.0], rest=Rest(unmet=3.0, kept=0.3)), views=9)
     assert beside.word == "explained" and "left" in beside.reasons[0]
 
