@@ -12,7 +12,7 @@ from pathlib import Path
 from tqdm import tqdm
 
 from proof.case import make
-from proof.page import write_page
+from proof.page import SECTIONS, write_page
 from proof.plan import COUNTS, Case, plan
 from proof.run import Engine, run_case
 from proof.score.one import Score, score
@@ -57,6 +57,7 @@ def parser() -> argparse.ArgumentParser:
             command.add_argument("--jobs", type=int, default=2, help="processes")
         if name == "score":
             command.add_argument("--keep", action="store_true", help="store the summary in proof/results")
+            command.add_argument("--name", choices=tuple(SECTIONS), help="section of the page (default: the split)")
         if name == "page":
             command.add_argument("--docs", type=Path, default=ROOT / "docs")
     return found
@@ -128,7 +129,7 @@ def score_all(given: argparse.Namespace) -> None:
     document = {"split": given.split, **summary(scores), "scores": [asdict(s) for s in scores]}
     sys.stderr.write(table(scores))
     if given.keep:
-        path = HERE / "results" / f"{given.split}.json"
+        path = HERE / "results" / f"{given.name or given.split}.json"
         path.parent.mkdir(exist_ok=True)
         path.write_text(json.dumps(document, sort_keys=True, indent=1) + "\n", encoding="utf-8")
     sys.stdout.write(json.dumps(document, sort_keys=True) + "\n")

@@ -85,7 +85,7 @@ def _failure(command: Sequence[str], timeout_s: float) -> str | None:
 
 def slim(report: Mapping[str, Any]) -> dict[str, Any]:
     """The report without its bulk: pictures, the revised machine and the samples of an estimated force."""
-    kept = {key: value for key, value in report.items() if key not in {"pictures", "machine", "stages"}}
+    kept = {key: value for key, value in report.items() if key not in {"pictures", "machine"}}
     if isinstance(kept.get("force"), dict):
         kept["force"] = {key: value for key, value in kept["force"].items() if key != "samples"}
     return kept

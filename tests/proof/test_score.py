@@ -130,12 +130,12 @@ def test_wilson_agrees_with_its_definition():
 def test_the_page_is_written_from_a_summary(tmp_path):
     scores = [score(t, right(t)) for t in (json.loads(json.dumps(truth_of(c))) for c in plan("dev"))]
     scores.append(score(truth("single", "loose_fit"), None))
-    document = {**summary(scores), "scores": [vars(s) for s in scores]}
+    document = {"split": "dev", **summary(scores), "scores": [vars(s) for s in scores]}
     (tmp_path / "results").mkdir()
     (tmp_path / "results" / "dev.json").write_text(json.dumps(document))
     page = write_page(tmp_path / "docs", tmp_path / "results")
     text = page.read_text()
-    assert "Split `sealed`" not in text
+    assert "of split `dev`" in text and "of split `sealed`" not in text
     assert "said failed" in text
     assert (tmp_path / "docs" / "proof" / "dev.svg").exists()
     assert any(map(at_target, scores))
@@ -192,8 +192,9 @@ def test_an_engine_that_does_not_answer_is_a_failure(tmp_path):
 
 
 def test_slim_keeps_what_is_scored():
-    assert slim({"verdict": "explained", "machine": {}, "stages": [], "causes": []}) == {
+    assert slim({"verdict": "explained", "machine": {}, "stages": [], "pictures": {}, "causes": []}) == {
         "verdict": "explained",
+        "stages": [],
         "causes": [],
     }
 
