@@ -116,6 +116,12 @@ def scored(cases: Sequence[Case], truths: Path, reports: Path) -> list[Score]:
     return found
 
 
+def engines_of(cases: Sequence[Case], reports: Path) -> list[str]:
+    """Which engines made the stored results."""
+    stored = [json.loads((reports / f"{case.name}.json").read_text(encoding="utf-8")) for case in cases]
+    return sorted({str(result.get("engine", "unknown")) for result in stored})
+
+
 def score_all(given: argparse.Namespace) -> None:
     """Score what is stored, after the seals are checked."""
     truths, reports = _folder(given, "truth"), _folder(given, "reports")
@@ -125,8 +131,11 @@ def score_all(given: argparse.Namespace) -> None:
     changed = broken(cases, truths, seals_of(given.split))
     if changed:
         raise SystemExit(f"these truths are not those that were sealed: {', '.join(changed)}")
+    engines = engines_of(cases, reports)
+    if given.keep and len(engines) > 1:
+        raise SystemExit(f"results of several engines ({', '.join(engines)}): run the cases again")
     scores = scored(cases, truths, reports)
-    document = {"split": given.split, **summary(scores), "scores": [asdict(s) for s in scores]}
+    document = {"split": given.split, "engine": engines[0], **summary(scores), "scores": [asdict(s) for s in scores]}
     sys.stderr.write(table(scores))
     if given.keep:
         path = HERE / "results" / f"{given.name or given.split}.json"

@@ -40,7 +40,7 @@ TARGETS = (
     ("single", "severity_covered", "90 % intervals cover 85-95 %"),
     ("single", "beats_black_box", "beats the black box in at least 80 %"),
     ("single", "gain_above_half", "spectral distance cut by at least 50 % where it can be"),
-    ("single", "placebo_improves", "placebos improve in at most 5 %"),
+    ("single", "placebo_improves", "placebos (the median of each case's) improve in at most 5 %"),
     ("ambiguous", "cannot_tell", '"cannot tell" in at least 90 % of look-alikes'),
 )
 SECTIONS = {
@@ -142,7 +142,7 @@ def _split(section: str, summary: Mapping[str, Any], results: Path) -> str:
     return "\n".join(
         [
             f"\n## {section.capitalize()}: {summary['cases']} cases of split `{split}`\n",
-            f"{SECTIONS[section]}\n",
+            f"{SECTIONS[section]} Engine `{summary.get('engine', 'unknown')}` (hash of its source).\n",
             f"`make proof SPLIT={split} CASES={','.join(s.name for s in scores)}` runs them again.\n",
             *rows, "", *wide, "",
             f"Severity error (target: median at most 0.1, 90th percentile 0.3): {_quantiles(error)}.",

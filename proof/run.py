@@ -14,6 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from proof.engine_id import engine_id
+
 TIMEOUT_S = 3_600.0
 KEPT_ERROR = 2_000
 
@@ -43,21 +45,24 @@ class Engine:
 
 
 def run_case(engine: Engine, case: Path, results: Path, *, fresh: bool = False) -> dict[str, Any]:
-    """The stored result of a case: `report` (None if the engine failed), `error`, `wall_s`, `budget`.
+    """The stored result of a case: `report` (None if the engine failed), `error`, `wall_s`, `budget`, `engine`.
+
+    What another engine (`proof.engine_id`) stored is run again.
 
     The engine sees a copy without the case's name.
     """
     stored = results / f"{case.name}.json"
     if stored.exists() and not fresh:
         found: dict[str, Any] = json.loads(stored.read_text(encoding="utf-8"))
-        return found
+        if found.get("engine") == engine_id():
+            return found
     results.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="reconcile-") as temporary:
         copy = Path(temporary) / "data"
         shutil.copytree(case, copy)
         began = time.monotonic()
         result = _reconciled(engine, copy, Path(temporary))
-        result |= {"wall_s": round(time.monotonic() - began, 2), "budget": engine.budget}
+        result |= {"wall_s": round(time.monotonic() - began, 2), "budget": engine.budget, "engine": engine_id()}
     part = stored.with_suffix(".part")
     part.write_text(json.dumps(result, sort_keys=True, indent=1) + "\n", encoding="utf-8")
     part.replace(stored)

@@ -49,10 +49,11 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
     change = [p.test - p.baseline for p in pairs]
     found: list[Finding] = []
     for c, name in enumerate(names):
-        gain = _gain(change, c)
-        gain = even_unit_gain(change, c) if gain is None else gain
+        gain, roughly = _gain(change, c), even_unit_gain(change, c)
         if gain is not None:
             found.append(_gain_finding(gain, change, c, name, len(names)))
+        elif roughly is not None:
+            found.append(unit_finding(roughly, str(unit_of(roughly, np.inf)), name))
         elif len(names) > 1:
             found += _loose(pairs, change, c, name)
     # all channels by one gain is a change of load or level unless it is a unit
@@ -72,7 +73,7 @@ def _gain(change: Sequence[FloatArray], c: int) -> float | None:
 
 
 def _gain_finding(gain: float, change: Sequence[FloatArray], c: int, name: str, channels: int) -> Finding:
-    unit = unit_of(gain) or (unit_of(gain, np.inf) if even_unit_gain(change, c) is not None else None)
+    unit = unit_of(gain)
     if unit is not None:
         return unit_finding(gain, unit, name)
     others = [float(np.median(np.abs(d[k]))) for d in change for k in range(channels) if k != c]

@@ -47,6 +47,8 @@ def even_unit_gain(change: Sequence[FloatArray], c: int) -> float | None:
     if unit is None:
         return None
     rest = [k for k, m in enumerate(medians) if unit_of(m, tolerance) != unit or m * own < 0]
+    if not rest and len(medians) > 1:  # no load raises every sensor's whole spectrum so evenly by ten
+        return own if all(_even(change, k, medians[k]) for k in range(len(medians))) else None
     loudest = max((float(np.median(np.abs(d[k]))) for d in change for k in rest), default=np.inf)
     return own if loudest < OTHERS_SHARE * abs(own) and _even(change, c, own) else None
 

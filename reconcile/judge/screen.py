@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from reconcile.judge.adequacy import Rest, explained, rest_of
-from reconcile.judge.nulls import group_lengths
+from reconcile.judge.nulls import NULL_COPIES, group_lengths
 from reconcile.judge.space import Fitted
 from reconcile.tail import tail_chance
 from signals.series import FloatArray
@@ -109,7 +109,7 @@ def judge(
         direct=shown,
         by=by,
         weights=np.exp(log) / np.exp(log).sum(),
-        p_any=tail_chance(_largest(first.resting, first.resting), strongest),
+        p_any=tail_chance(_largest_of_nulls(first.resting), strongest),
         strongest=strongest,
         p_best=tail_chance(resting, float(patterns.max())),
         p_direct=p_direct,
@@ -139,6 +139,17 @@ def _largest(lengths: FloatArray, resting: FloatArray) -> FloatArray:
     """Largest standardised group length of each row."""
     spread = np.maximum(resting.std(axis=0), 1e-9)
     return np.asarray(((lengths - resting.mean(axis=0)) / spread).max(axis=1))
+
+
+def _largest_of_nulls(resting: FloatArray) -> FloatArray:
+    """The same of every null, by mean and deviation of the other machines: of a few machines none stands out far
+    against a deviation that it has a part in."""
+    machine = np.arange(resting.shape[0]) // NULL_COPIES
+    found = np.empty(resting.shape[0])
+    for k in range(machine[-1] + 1):
+        own = machine == k
+        found[own] = _largest(resting[own], resting[~own] if machine[-1] else resting)
+    return found
 
 
 def quantile_of_misfit(fitted: Fitted, found: float, length: float) -> float:

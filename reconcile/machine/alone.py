@@ -18,8 +18,8 @@ from reconcile.observe.observation import PointData
 from reconcile.observe.watch import bases_at, watch_list
 
 HARMONICS = 2
-"""Of a family that are looked for among the watched modulations."""
-NEAR = 0.01
+"""Of a family that are looked for among the watched modulations, from its lowest on."""
+NEAR = 1e-4
 """Relative difference of orders up to which two lines are one: both come from the same drawing."""
 
 Rise = Callable[[Family], float]
@@ -38,7 +38,9 @@ def rise_over_sound(changes: Changes, data: tuple[PointData, ...], plan: AtlasPl
     deep = deep.reshape(len(data), channels, layout.shapes, layout.modulations)
 
     def rise(family: Family) -> float:
-        own = [np.abs(orders / (k * family.order) - 1.0) < NEAR for k in range(1, HARMONICS + 1)]
+        own = [
+            np.abs(orders / (k * family.order) - 1.0) < NEAR for k in range(family.lowest, family.lowest + HARMONICS)
+        ]
         members = np.any(own, axis=0)
         if not members.any():
             return float("inf")

@@ -11,7 +11,7 @@ from reconcile.atlas.places import sensor_sites
 from reconcile.gate.findings import Gate
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import Decision, decide, merged_weights
-from reconcile.machine.heldout import feature_frequencies, held_out, spectral_mask
+from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
 from reconcile.machine.meter import Meter
 from reconcile.machine.pictures import line_changes, ranking, spectra, turn_maps, with_forms
 from reconcile.machine.revised import Revised, paths, revised_machine
@@ -202,6 +202,7 @@ def _held(setting: Setting, found: Found, decision: Decision, layout: Layout, un
         decision.chosen[0] if unknown is None or unknown.label is None else unknown.label,
         spectral=spectral_mask(layout, setting.seen_through),
         frequency=feature_frequencies(layout, lines, count),
+        channel=feature_channels(layout, len(lines), count),
         seed=setting.seed,
     )
     return with_points(held, setting.data)

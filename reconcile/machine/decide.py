@@ -163,8 +163,7 @@ def decide(screen: Screen, *, views: int, strange: float = STRANGE) -> Decision:
         reason = f"a healthy machine of this kind shows as much with p = {p:.2g}"
         return Decision(word="nothing_missing", chosen=(), p=p, reasons=(reason,))
     weights = merged_weights(screen)
-    impacts = screen.direct.max() >= LEAST_EVIDENCE and screen.strongest <= GREAT
-    if impacts and screen.pattern < LEAST_EVIDENCE:
+    if _only_impacts(screen):
         return _by_impacts(screen, weights, p)
     return _by_patterns(screen, weights, p, views, strange)
 
@@ -195,6 +194,13 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     return Decision(word="not_decidable", chosen=chosen, p=p, reasons=(f"{len(chosen)} effects look alike",))
 
 
+def _only_impacts(screen: Screen) -> bool:
+    """Whether impacts are what is unusual, and neither single lines, nor any group of features, nor a pattern is."""
+    struck = LOOKS * screen.p_direct <= DETECT_P and screen.direct.max() >= LEAST_EVIDENCE
+    quiet = LOOKS * screen.p_lines > DETECT_P and screen.strongest <= GLARING
+    return bool(struck and quiet and screen.pattern < LEAST_EVIDENCE)
+
+
 def _by_impacts(screen: Screen, weights: dict[str, float], p: float) -> Decision:
     """All effects that strike so, where nothing but the impacts tells: how well a machine can be fitted to what is
     within the usual does not choose among them."""
@@ -203,7 +209,8 @@ def _by_impacts(screen: Screen, weights: dict[str, float], p: float) -> Decision
     if len(chosen) == 1:
         return Decision(word="explained", chosen=chosen, p=p, reasons=())
     reason = f"only impacts tell, the rest of the change is within the usual: {_why(chosen)}"
-    return Decision(word="ambiguous", chosen=chosen[:MOST_NAMED], p=p, reasons=(reason,))
+    word: Word = "ambiguous" if len(chosen) <= MOST_NAMED else "not_decidable"
+    return Decision(word=word, chosen=chosen, p=p, reasons=(reason,))
 
 
 def _misfit(screen: Screen, alone: bool) -> str:

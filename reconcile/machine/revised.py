@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -69,12 +70,12 @@ def revised_machine(
     )
     changes = _changes(setting, plan, mapper)
     seen = setting.changes.observed
-    alive = np.isfinite(changes).any(axis=1)
-    if not alive.any():
+    runs = _running(changes, setting.changes.starts)
+    if not runs:
         return None
-    compared = levels & np.isfinite(seen) & np.isfinite(changes[alive]).all(axis=0)
-    left = [_size((seen - change)[compared]) for change in changes]
-    best = int(np.nanargmin(left))
+    compared = levels & np.isfinite(seen) & np.isfinite(changes[runs]).all(axis=0)
+    left = {k: _size((seen - changes[k])[compared]) for k in runs}
+    best = min(left, key=lambda k: left[k])
     return Revised(
         machine=machine.model_copy(update={"terms": [*machine.terms, forms[best], *terms[1:]]}),
         change=changes[best],
@@ -82,6 +83,12 @@ def revised_machine(
         after_db=left[best],
         forms=len(forms),
     )
+
+
+def _running(changes: FloatArray, starts: Sequence[int]) -> list[int]:
+    """Forms (rows) that run at every operating point."""
+    points = [np.isfinite(changes[:, a:b]).any(axis=1) for a, b in pairwise(starts)]
+    return [int(k) for k in np.flatnonzero(np.all(points, axis=0))]
 
 
 def _size(values: FloatArray) -> float:

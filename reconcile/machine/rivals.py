@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import cycle
 
 import numpy as np
 
@@ -72,10 +73,14 @@ def retuned(null: FloatArray, split: Split, sigma: FloatArray) -> FloatArray:
     return np.asarray(gain @ np.nan_to_num(apart))
 
 
-def black_box(split: Split, frequency: FloatArray, count: int, sigma: FloatArray) -> FloatArray:
-    """`count` cosines over log frequency, fitted to the changes: a smooth spectral correction."""
+def black_box(
+    split: Split, frequency: FloatArray, count: int, sigma: FloatArray, channel: np.ndarray | None = None
+) -> FloatArray:
+    """`count` cosines over log frequency, fitted to the changes: a smooth spectral correction, the same for all sensors
+    and points; or with `channel` (F,) one for each sensor, among which the numbers are dealt out."""
     x = (np.log(frequency) - np.log(frequency).min()) / max(float(np.ptp(np.log(frequency))), 1e-9)
-    basis = np.stack([np.cos(np.pi * k * x) for k in range(count)])
+    groups = [np.ones(x.size)] if channel is None else [channel == c for c in np.unique(channel)]
+    basis = np.stack([g * np.cos(np.pi * (k // len(groups)) * x) for k, g in zip(range(count), cycle(groups))])
     part = split.fit & np.isfinite(split.fitted)
     weights, *_ = np.linalg.lstsq((basis[:, part] / sigma[part]).T, split.fitted[part] / sigma[part], rcond=None)
     return np.asarray(weights @ basis)

@@ -10,6 +10,7 @@ import pytest
 
 from proof import __main__ as commands
 from proof.case import truth_of
+from proof.engine_id import engine_id
 from proof.page import write_page
 from proof.plan import plan
 from proof.run import Engine, run_case, slim
@@ -189,6 +190,31 @@ def test_an_engine_that_does_not_answer_is_a_failure(tmp_path):
     engine = Engine(command=(sys.executable, str(script)), timeout_s=0.2)
     result = run_case(engine, made_case(tmp_path), tmp_path / "results")
     assert "no answer" in result["error"]
+
+
+def test_what_another_engine_stored_is_run_again(tmp_path):
+    script = tmp_path / "engine.py"
+    script.write_text(ENGINE)
+    engine, case, results = Engine(command=(sys.executable, str(script))), made_case(tmp_path), tmp_path / "results"
+    first = run_case(engine, case, results)
+    stored = results / f"{case.name}.json"
+    stored.write_text(json.dumps({**first, "wall_s": -1.0}))
+    assert run_case(engine, case, results)["wall_s"] == -1.0
+    stored.write_text(json.dumps({**first, "wall_s": -1.0, "engine": "another"}))
+    assert run_case(engine, case, results)["wall_s"] > 0.0
+
+
+def test_an_engine_is_known_by_its_source(tmp_path):
+    for package in ("reconcile/report", "signals", "sim"):
+        (tmp_path / package).mkdir(parents=True)
+    module, page = tmp_path / "sim" / "law.py", tmp_path / "reconcile" / "report" / "page.py"
+    module.write_text("a = 1\n")
+    page.write_text("b = 1\n")
+    first = engine_id.__wrapped__(tmp_path)
+    page.write_text("b = 2\n")
+    assert engine_id.__wrapped__(tmp_path) == first
+    module.write_text("a = 2\n")
+    assert engine_id.__wrapped__(tmp_path) != first
 
 
 def test_slim_keeps_what_is_scored():
