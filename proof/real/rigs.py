@@ -66,6 +66,8 @@ PAIRS = (
     ("Motor1_Healthy_Yaxis_30Hz", "Motor1_UnbalancedRotor_2Weights_Yaxis_30Hz"),
 )  # fmt: skip
 """Baseline and test, by the stems of their files."""
+TUNED = "hit_sm_mfs"
+"""The rig the engine was tuned on."""
 TERMS = {
     "outer-race fault": ("outer_spall",),
     "inner-race fault": ("inner_spall",),
@@ -109,16 +111,15 @@ def true_width_m(name: str) -> float | None:
 
 
 def judged(rig: str, condition: str, report: Document | None, error: str | None) -> str:
-    """`right`, `undecided` (the truth is one of several) or `wrong`."""
+    """`right`, `undecided` (the truth is one of several), `refused` (for its clock) or `wrong`."""
     if report is None:
-        return "right" if rig == "motor_phone_accel" and "irregular" in (error or "") else "wrong"
+        return "refused" if "stamps are irregular" in (error or "") else "wrong"
     truth = TERMS.get(condition)
     if truth is None:
         return "right" if report["verdict"] == "nothing_missing" else "wrong"
     sites = {c["site"] for c in report["causes"] if c["term"] in truth}
     if not sites or SITES.get(rig, next(iter(sites))) not in sites:
-        unsure = rig == "motor_acoustic" and report["verdict"] == "ambiguous" and "bearing" in report["sentence"]
-        return "undecided" if unsure else "wrong"
+        return "wrong"
     return "right" if report["verdict"] == "explained" else "undecided"
 
 
@@ -132,6 +133,8 @@ WHY = {
     "b30hz80": "As at 50 % load: only the path to a1 changed by more than load changes it.",
     "Motor1_DamagedBearing_SevereHi-Fi_02_7cm_30Hz": "No bearing size is known of this motor, and a microphone hears "
     "impacts once a turn: a rub or a loose part make the same.",
+    "Motor1_UnbalancedRotor_2Weights_Yaxis_30Hz": "The clock of the phone repeats and skips; orders of such a record "
+    "mean nothing.",
     "dataBenchmark": "A tank is no mass on a spring: the ceiling of its level is named, but no force that is tried, a "
     "square root among them, predicts the other recording better than a linear model fitted to it does.",
 }

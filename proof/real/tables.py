@@ -10,7 +10,7 @@ from typing import Any
 from proof.real import told
 from proof.real.call import Answer
 from proof.real.describe import description
-from proof.real.rigs import WHY, judged, stem, true_width_m
+from proof.real.rigs import TUNED, WHY, judged, stem, true_width_m
 
 Document = Mapping[str, Any]
 WIDTH = 120
@@ -33,8 +33,13 @@ class Row:
         return f"{stem(self.test)}{against}"
 
     @property
+    def tuned(self) -> bool:
+        """Whether the engine was tuned on its rig."""
+        return bool(self.test["dataset"] == TUNED)
+
+    @property
     def judged(self) -> str:
-        """`right`, `undecided` or `wrong`."""
+        """`right`, `undecided`, `refused` or `wrong`."""
         return judged(self.test["dataset"], self.test["condition"], self.answer.report, self.answer.error)
 
 
@@ -117,13 +122,18 @@ def summary(rows: Sequence[Row]) -> list[str]:
     known = [(s, t) for s, t in sized if s is not None and t is not None]
     inside = sum(s["low"] <= t <= s["high"] for s, t in known)
     two_sided = sum(s["low"] > 0 for s, _ in known)
-    count = {word: sum(r.judged == word for r in rows) for word in ("right", "undecided", "wrong")}
+    count = {word: sum(r.judged == word for r in rows) for word in ("right", "undecided", "refused", "wrong")}
+    blind = sum(s["low"] > 0 for (s, t), (r, _) in zip(sized, reports, strict=True) if s and t and not r.tuned)
     lead = [h["gain"] - h["black_box"] for h in held]
     firm = sum(h["gain_low"] > max(h["retuned"], h["black_box"]) for h in held)
     text = (
         f"Of {len(rows)} comparisons {count['right']} are right, {count['undecided']} undecided (the truth is one of a "
-        f"set), {count['wrong']} wrong. Of the defects of known length {len(known)} are given a size: {inside} of the "
-        f"intervals hold the truth, {len(known) - two_sided} are upper bounds only. On held-out data the named defect "
+        f"set), {count['refused']} refused for its clock, {count['wrong']} wrong; without the rig the engine was tuned "
+        f"on {sum(r.judged == 'right' for r in rows if not r.tuned)} of {sum(not r.tuned for r in rows)} are right. A "
+        "plain envelope detector is said to name 15 of the 17 bearing recordings of the catalogue. Of the defects of "
+        f"known length {len(known)} are given a size: {inside} of the intervals hold the truth, "
+        f"{len(known) - two_sided} are upper bounds only, and of the two-sided ones {blind} are of rigs that nothing was "
+        "tuned on. On held-out data the named defect "
         f"is ahead of the black box in {sum(x > 0 for x in lead)} of {len(held)}, by {min(lead, default=0.0):.2f} to "
         f"{max(lead, default=0.0):.2f} of gain; in {firm} its whole interval is above retuning and black box."
     )

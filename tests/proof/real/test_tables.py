@@ -84,7 +84,7 @@ def test_reports_are_judged_by_the_truth(
 
 
 def test_irregular_time_must_be_said() -> None:
-    assert judged("motor_phone_accel", "unbalance (2 weights)", None, "error: time: stamps are irregular") == "right"
+    assert judged("motor_phone_accel", "unbalance (2 weights)", None, "error: time: stamps are irregular") == "refused"
     assert judged("motor_phone_accel", "unbalance (2 weights)", None, "error: no such file") == "wrong"
 
 
