@@ -132,8 +132,8 @@ def summary(rows: Sequence[Row]) -> list[str]:
         f"on {sum(r.judged == 'right' for r in rows if not r.tuned)} of {sum(not r.tuned for r in rows)} are right. A "
         "plain envelope detector is said to name 15 of the 17 bearing recordings of the catalogue. Of the defects of "
         f"known length {len(known)} are given a size: {inside} of the intervals hold the truth, "
-        f"{len(known) - two_sided} are upper bounds only, and of the two-sided ones {blind} are of rigs that nothing was "
-        "tuned on. On held-out data the named defect "
+        f"{len(known) - two_sided} are upper bounds only, and of the two-sided ones {blind} are of rigs that nothing "
+        "was tuned on. On held-out data the named defect "
         f"is ahead of the black box in {sum(x > 0 for x in lead)} of {len(held)}, by {min(lead, default=0.0):.2f} to "
         f"{max(lead, default=0.0):.2f} of gain; in {firm} its whole interval is above retuning and black box."
     )

@@ -241,6 +241,18 @@ def test_where_only_impacts_tell_the_machine_chosen_to_fit_decides_nothing() -> 
     assert decide(one, views=9).chosen == NAMES[:1]
     loud = replace(fitted, strongest=40.0)
     assert decide(loud, views=9).word == "unknown_physics", "what impacts do not bring"
+    many = replace(made, direct=np.full(len(NAMES), 4.0), unmoved=0.4)
+    assert decide(many, views=9).word == "not_decidable"
+
+
+@pytest.mark.parametrize("unusual", [{"p_direct": 1.0}, {"p_lines": 1e-6}, {"strongest": GLARING + 1.0}])
+def test_impacts_choose_nothing_where_something_else_is_unusual(unusual: dict[str, float]) -> None:
+    quiet: dict[str, object] = {"strongest": 3.0, "misfit": 1.0, "p_direct": 1e-5, "p_best": 1e-3, "p_lines": 1.0}
+    rest = Rest(unmet=6.0, kept=0.1)
+    made = replace(struck([4.1, 1.0], [3.1], rest=rest, **quiet), unmoved=1.0)
+    assert decide(made, views=9).word == "explained"
+    other = replace(struck([4.1, 1.0], [3.1], rest=rest, **{**quiet, **unusual}), unmoved=1.0)
+    assert decide(other, views=9).word == "unknown_physics"
 
 
 def test_without_a_baseline_a_pattern_must_explain_something() -> None:

@@ -11,6 +11,7 @@ from reconcile.judge.screen import judge
 from reconcile.judge.space import Library, fit_space
 from reconcile.machine.budget import QUICK
 from reconcile.machine.decide import decide
+from reconcile.machine.direct import MOST
 from reconcile.machine.library import Catalogued
 from reconcile.machine.search import LEAST_OF_LINES, to_fit
 from reconcile.machine.second import LEFT, beside, looks_for_second, second_effect
@@ -40,9 +41,11 @@ def found_in(observed: np.ndarray, direct: float) -> tuple[SimpleNamespace, Foun
     return SimpleNamespace(changes=here), found
 
 
-def seen(effects: tuple[int, ...], seed: int) -> np.ndarray:
+def seen(effects: tuple[int, ...], seed: int, second: float = 0.7) -> np.ndarray:
+    """`effects` of the made world, the first of size 0.7 and the others of size `second`."""
     rng = np.random.default_rng([5, seed])
-    return sum((MADE.effect(c, 0.7, rng) for c in effects), start=MADE.noise(rng))
+    sizes = (0.7, *(second for _ in effects[1:]))
+    return sum((MADE.effect(c, size, rng) for c, size in zip(effects, sizes, strict=True)), start=MADE.noise(rng))
 
 
 def named(effects: tuple[int, ...], seed: int, direct: float = 20.0) -> str | None:
@@ -83,10 +86,12 @@ def test_a_second_is_looked_for_where_something_is_left() -> None:
 
 
 QUICKLY = replace(QUICK, effects=2)
+FAINTER = 0.45
+"""Size of a partner that does not drown the first effect, whose impacts count `MOST` at most."""
 
 
-def fitted_names(effects: tuple[int, ...], seed: int, direct: float = 60.0) -> list[tuple[str, bool]]:
-    setting, found = found_in(seen(effects, seed), direct)
+def fitted_names(effects: tuple[int, ...], seed: int, direct: float = MOST) -> list[tuple[str, bool]]:
+    setting, found = found_in(seen(effects, seed, FAINTER), direct)
     found = replace(found, screen=replace(found.screen, misfit=LEFT + 0.05))
     return [(task.name, task.second) for task in to_fit(setting, found, QUICKLY)]  # type: ignore[arg-type]
 
@@ -95,7 +100,7 @@ def test_what_may_stand_beside_sure_impacts_is_fitted_to_what_they_leave() -> No
     for seed in range(4):
         tasks = fitted_names((0, 2), seed)
         assert tasks[0] == (NAMES[1], True) and all(second for _, second in tasks)
-    setting, found = found_in(seen((0, 2), 1), 60.0)
+    setting, found = found_in(seen((0, 2), 1, FAINTER), MOST)
     found = replace(found, screen=replace(found.screen, misfit=LEFT + 0.05))
     first = to_fit(setting, found, QUICKLY)[0]  # type: ignore[arg-type]
     assert np.sum(first.target**2) < np.sum(setting.changes.observed**2) and first.view is found.fine
