@@ -45,7 +45,7 @@ TARGETS = (
 )
 SECTIONS = {
     "fresh": "No version of the engine had met these before their run.",
-    "seen": "These had been looked at before this run.",
+    "seen": "Of those looked at before, the ones that were run again: one that an earlier engine got right, six not.",
     "alone": "These had been looked at before this run; there is no baseline, or the nominal machine is mis-set.",
     "later": "",
     "sealed": "",
@@ -90,6 +90,9 @@ all with the engine of the last row: of the split `later` those at the target co
 of the engine was chosen, and those that had been looked at; of `sealed` those without a baseline and one whose nominal
 machine is mis-set. Cases at five speeds have not been run: nothing is known there. Without a baseline further eight
 healthy cases were run on their tests alone while the rule for that was made: none alarms, four did before.
+
+**Placebos** are the right effect elsewhere and other effects at the right place, of which at least six machines were
+simulated: these are the likeliest rivals, and move some of the same bands. Every one is in the report with its gain.
 
 **How much there is to see** stands behind each failure (`python -m proof visible`, made with everything hidden known,
 which no engine has): by how many decibels, root mean square over the bins above the noise, the effect moves the
@@ -187,7 +190,8 @@ def draw(summary: Mapping[str, Any], path: Path) -> None:
             panel.set_xlabel(label)
             panel.set_ylim(0, 1.02)
         panels[0].set_ylabel("share, 90 % interval")
-        panels[0].legend()
+        if panels[0].get_legend_handles_labels()[1]:
+            panels[0].legend()
         figure.tight_layout()
         figure.savefig(path, metadata={"Date": None})
         plt.close(figure)
