@@ -11,6 +11,7 @@ import numpy as np
 from reconcile.gate import Gate, inspect_measurement
 from reconcile.gate.spoiled import GONE, without_spoiled
 from reconcile.kinematics.answer import defect_report
+from reconcile.kinematics.apart import with_speeds
 from reconcile.kinematics.doubted import CLEAR_Z, Judged, doubt_of, doubted, factor_of, restated, unconfirmed
 from reconcile.kinematics.extent import Extent
 from reconcile.kinematics.faint import impulsive_report, shallow_report
@@ -67,7 +68,7 @@ def reconcile_kinematics(
         return finished(_refused(error), gate, (), (), seed)
     report, every = _judged(known, tie, seen, past, seed)
     at = partial(_at_rival, known, tie, (gate.tests, seen), (gate.baselines, past), seed)
-    report = _against_rivals(Judged(report=report, every=every), seen, tie, at)
+    report = with_speeds(_against_rivals(Judged(report=report, every=every), seen, tie, at), seen, past)
     if report.verdict in ("nothing_missing", "not_decidable") and gate.fault is not None:
         report = _fault(gate)
     return finished(report, gate, seen, every, seed, past)

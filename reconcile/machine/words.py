@@ -40,6 +40,10 @@ def law_sentence(force: EstimatedForce, *, tried: bool) -> str:
     return f"A force at {force.site} brings it about: {force.law}."
 
 
+def _chance(p: float) -> str:
+    return "< 0.001" if p < 0.001 else f"= {p:.2g}"
+
+
 def sentence(decision: Decision, severity: Severity | None, held: HeldOut | None) -> str:
     """The verdict in one sentence."""
     if decision.word == "nothing_missing":
@@ -51,7 +55,7 @@ def sentence(decision: Decision, severity: Severity | None, held: HeldOut | None
         return f"Something is missing that no known effect explains: {decision.reasons[0]}."
     listed = ", or ".join(title(c).lower() for c in decision.chosen[:4])
     more = "" if len(decision.chosen) <= 4 else f" and {len(decision.chosen) - 4} more"
-    return f"Something is missing (p = {decision.p:.3f}), but {decision.reasons[0]}: {listed}{more}."
+    return f"Something is missing (p {_chance(decision.p)}), but {decision.reasons[0]}: {listed}{more}."
 
 
 def next_experiment(chosen: Sequence[str], lead: float, points: int, sensors: Sequence[str]) -> NextExperiment | None:

@@ -86,8 +86,11 @@ def head(report: Report) -> Markup:
             size, low, high = (
                 figure_text(v, c.severity.unit) for v in (c.severity.value, c.severity.low, c.severity.high)
             )
-            ends = f"{low} to {high}"
-            tiles.append(_tile(size, f"{c.severity.name} of {cause(c)}, 90 %: {ends}"))
+            if c.severity.low == 0.0:  # a bound is all that is known
+                size, ends = f"at most {high}", "an upper bound"
+            else:
+                ends = f"90 %: {low} to {high}"
+            tiles.append(_tile(size, f"{c.severity.name} of {cause(c)}, {ends}"))
     if report.held_out is not None:
         tiles.append(
             _tile(

@@ -61,8 +61,10 @@ def percent(share: float | None) -> str:
 
 
 def severity(found: Severity) -> str:
-    """`gap 12 µm (90 %: 10 µm to 14 µm)`."""
+    """`gap 12 µm (90 %: 10 µm to 14 µm)`, or `width at most 2 mm` where a bound is all that is known."""
     value, low, high = (figure_text(v, found.unit) for v in (found.value, found.low, found.high))
+    if found.low == 0.0:
+        return f"{found.name} at most {high} (90 %)"
     return f"{found.name} {value} (90 %: {low} to {high})"
 
 

@@ -95,7 +95,7 @@ def gains(found: HeldOut, subject: str) -> Markup:
     )
     told = [v for b in bars for v in (b.value, *(b.ends or ()))] + ([limit.value] if limit else [])
     finite = [v for v in told if math.isfinite(v)]
-    x = max(min(0.0, *finite), 100 * LOWEST), 1.35 * max(10.0, *finite)
+    x = max(min(0.0, *finite), 100 * LOWEST), 1.6 * max(10.0, *finite)
     return _panel(
         bars, x, "share of that error taken off, % (more is better)", limit, "Gain of the answer and of its rivals"
     )

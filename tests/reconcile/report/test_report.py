@@ -221,3 +221,12 @@ def test_what_the_revised_machine_leaves_and_the_sensors_paths_are_told() -> Non
     assert "script" not in parser.seen and parser.text.count("gain, dB") == 2
     without = replace(full_report(), stages=(), pictures={})
     assert "Simulated, it leaves" not in page(without) and "Paths to the sensors" not in page(without)
+
+
+def test_a_size_of_which_only_a_bound_is_known_is_told_as_a_bound() -> None:
+    size = Severity(name="width", value=1.1e-3, unit="m", low=0.0, high=2.2e-3)
+    made = replace(
+        full_report(), fault=None, causes=(Cause(term="outer_spall", site="a", score=9.0, named=True, severity=size),)
+    )
+    text = page(made)
+    assert "at most 2.2 mm" in text and "1.1 mm" not in text and "0 m" not in text.replace("20 m", "")
