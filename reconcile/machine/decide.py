@@ -51,6 +51,7 @@ LEAST_EVIDENCE = 3.0
 FEW_VIEWS = 2
 """So few sensors and operating points together cannot exclude what explains half as much."""
 FEW_SHARE = 0.5
+FEW_REASON = "so few sensors and operating points do not exclude what has half the evidence, whatever its weight"
 GREAT = 25.0
 """Deviations of the most changed group that impacts of a known effect do not bring without its pattern."""
 FAINT = 14.0
@@ -190,7 +191,8 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
         rest = ("a part of the change is left that this effect does not bring",) if left else ()
         return Decision(word="explained", chosen=chosen, p=p, reasons=rest)
     if len(chosen) <= MOST_NAMED:
-        return Decision(word="ambiguous", chosen=chosen, p=p, reasons=(_why(chosen),))
+        few = (FEW_REASON,) if views <= FEW_VIEWS and len(credible_set(weights)) < len(chosen) else ()
+        return Decision(word="ambiguous", chosen=chosen, p=p, reasons=(_why(chosen), *few))
     return Decision(word="not_decidable", chosen=chosen, p=p, reasons=(f"{len(chosen)} effects look alike",))
 
 

@@ -27,8 +27,8 @@ MOST_LINES = 20
 BARS = (
     "Line through a bar's end: 90 % interval. Retuned: the model's own numbers moved instead. Black box: a correction "
     "with as many free numbers and no physics. Placebo: something else in the effect's stead. An effect that is "
-    "there should beat all three. Best that can be reached: what drift between the recordings and noise leave even to "
-    "a perfect model."
+    "there should beat all three. Expected of a perfect model: what drift between the recordings and noise usually "
+    "leave even to it."
 )
 TOLD = '<div class="told">'
 SCORE = (

@@ -15,7 +15,7 @@ from reconcile.verdict import HeldOut
 ROW = 26.0
 LOWEST = -0.5
 """Gains below are cut off, their figure tells them."""
-REACHED = "best that can be reached"
+REACHED = "expected of a perfect model"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -204,6 +204,8 @@ def test_few_views_do_not_exclude_what_explains_half_as_much() -> None:
     assert decide(one, views=9).word == "explained"
     few = decide(one, views=1)
     assert few.word == "ambiguous" and len(few.chosen) == 2
+    assert "so few sensors" in few.reasons[1], "weights alone would have named one"
+    assert len(decide(screen([20.0, 19.8, 3.0]), views=1).reasons) == 1
 
 
 @pytest.mark.parametrize(("strongest", "word"), [(10.0, "not_decidable"), (30.0, "unknown_physics")])

@@ -155,7 +155,7 @@ def test_held_out_data_are_drawn_with_interval_limit_and_rivals() -> None:
     report = replace(drawn(), held_out=HELD, causes=(Cause(term="rub", site="pinion", score=9.0, named=True),))
     whole, text = page(report), told(report)
     assert "Held out: each operating point in turn, fitted on the others: 22.5 Hz, 30 Hz." in text
-    limits = ("best that can be reached: 1.47 dB", "best that can be reached: 79 %")
+    limits = ("expected of a perfect model: 1.47 dB", "expected of a perfect model: 79 %")
     figures = ("7 dB", "4.2 dB", "40 % (90 %: 20 % to 55 %)", "-350 %, beyond the scale")
     for said in ("without rub at pinion", "with rub at pinion", "placebo", *limits, *figures):
         assert said in text, said
@@ -168,7 +168,7 @@ def test_held_out_data_are_drawn_with_interval_limit_and_rivals() -> None:
 def test_held_out_figures_that_are_none_draw_nothing_wrong() -> None:
     gone = replace(HELD, gain=math.nan, gain_low=math.nan, before=math.nan, after=math.nan, ceiling=None)
     whole = page(replace(drawn(), held_out=gone))
-    assert "nan" not in whole and "best that can be reached:" not in whole
+    assert "nan" not in whole and "expected of a perfect model:" not in whole
 
 
 def test_a_turn_has_sensors_degrees_and_a_scale_with_its_unit() -> None:
