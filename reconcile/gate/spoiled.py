@@ -28,3 +28,19 @@ def without_spoiled(gate: Gate, kinds: frozenset[Kind] = SPOILING) -> Gate:
         tests=tuple(r.select(channels=kept) for r in gate.tests),
         baselines=tuple(r.select(channels=kept) for r in gate.baselines),
     )
+
+
+MOST_TOLD = 6
+HEARD: frozenset[Kind] = frozenset(("loose_sensor", "gain_change"))
+"""What a machine's own fault may look like on one channel."""
+
+
+def doubts(gate: Gate) -> tuple[str, ...]:
+    """What is wrong with the measurement, as limits of an answer that is about the machine."""
+    told = []
+    for found in (f for f in gate.findings if f.fault):
+        where = " of ".join(part for part in (found.channel, found.recording) if part)
+        maybe = " (or what the machine does there)" if found.kind in HEARD else ""
+        told.append(f"{where}: {found.kind.replace('_', ' ')}, {found.detail}{maybe}")
+    more = (f"and {len(told) - MOST_TOLD} more findings of the sensor gate",) if len(told) > MOST_TOLD else ()
+    return (*told[:MOST_TOLD], *more)

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from reconcile.gate import Gate
+from reconcile.gate.spoiled import doubts
 from reconcile.kinematics.contrast import band_turns
 from reconcile.kinematics.envelopes import order_depth
 from reconcile.kinematics.judge import Candidate
@@ -43,6 +44,8 @@ def finished(
         {"name": "families", "table": [_row(c) for c in every]},
     ]
     pictures = _picture(every[0], tests, baselines) if every else {}
+    if report.verdict != "measurement_fault":
+        report = replace(report, where=replace(report.where, limits=(*report.where.limits, *doubts(gate))))
     return replace(report, stages=tuple(stages), pictures=pictures, provenance={"seed": seed, "level": "kinematics"})
 
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from reconcile.atlas.keep import ATLAS_VERSION
 from reconcile.atlas.places import sensor_sites
 from reconcile.gate.findings import Gate
+from reconcile.gate.spoiled import doubts
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import Decision, decide, merged_weights
 from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
@@ -118,6 +120,8 @@ def answer(
     lead = _lead(found, decision)
     named = decision.chosen[0] if decision.word == "explained" else None
     where = _where(setting, layout, watched, weights) if missing else Where(limits=_limits(setting))
+    if word != "measurement_fault":
+        where = replace(where, limits=(*where.limits, *doubts(gate)))
     return Report(
         verdict=word,
         sentence=text,

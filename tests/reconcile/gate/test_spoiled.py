@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from reconcile.gate.findings import Finding, Gate
-from reconcile.gate.spoiled import GONE, without_spoiled
+from reconcile.gate.spoiled import GONE, doubts, without_spoiled
 from signals.recording import Recording
 from sim.core.response import Channel
 
@@ -49,3 +49,15 @@ def test_remarks_leave_everything_and_so_do_faults_of_all_channels():
 def test_a_level_that_needs_clipped_channels_leaves_out_only_what_has_no_signal():
     found = without_spoiled(gate(finding("clipped", "a0"), finding("stuck", "a1")), GONE)
     assert found.tests[0].names == ("a0", "a2")
+
+
+def test_faults_are_told_as_limits_of_what_is_said_of_the_machine():
+    told = doubts(
+        gate(finding("clipped", "a0"), finding("loose_sensor", "a1"), finding("mains_hum", "a2", fault=False))
+    )
+    assert len(told) == 2, "remarks are none"
+    assert told[0].startswith("a0 of test 2: clipped") and "the machine" not in told[0]
+    assert "loose sensor" in told[1] and "what the machine does there" in told[1]
+    many = doubts(gate(*(finding("stuck", f"a{c}") for c in range(9))))
+    assert len(many) == 7 and many[-1].startswith("and 3 more")
+    assert doubts(gate()) == ()
