@@ -4,30 +4,21 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from reconcile.atlas.plan import AtlasPlan, Draw, Point
+from reconcile.atlas.run import RATE_HZ, SETTLE_S, SPAN_S, run_members
 from reconcile.observe.extract import extract
 from reconcile.observe.mean_turn import Turning
 from reconcile.observe.slack import slack
 from reconcile.observe.statistics import Statistics
 from reconcile.observe.watch import WatchList, bases_at, watch_list
 from signals.series import FloatArray
-from sim.core.errors import Diverged, Meaningless, SidebandError, SpecError, UnknownName
+from sim.core.errors import SidebandError
 from sim.core.response import Response
-from sim.solve.api import simulate
-from sim.solve.ensemble import Member, simulate_many
-from sim.solve.settings import Settings
 
-RATE_HZ = 20480.0
-SETTLE_S = 0.2
-"""Left out at the start, beside what the automatic end of the transient would keep: enough for 1e-3 of the level."""
-SPAN_S = 1.0
-FEW = 2
-"""So many machines of one structure cost less one by one than in eight lanes of which the others idle."""
-SETTINGS = Settings(rtol=1e-3, estimate_error=False)
 ARRAYS = ("line", "floor", "total", "band", "depth", "turn", "kurtosis", "skewness")
 
 
@@ -126,38 +117,17 @@ def run_task(task: Task) -> list[Statistics | None]:
     watched = watch_list(task.plan.machine)
     bases = bases_at(task.plan.machine, task.point.speed_hz)
     members = [task.plan.member(task.plan.draws[k], task.point) for k in task.draws]
-    run = _one_by_one if len(members) <= FEW else _side_by_side
-    return [measure(r, watched, bases) if isinstance(r, Response) else None for r in run(members, task.channels)]
-
-
-def _side_by_side(members: Sequence[Member], channels: Sequence[str]) -> list[Response | SidebandError]:
-    return simulate_many(
-        members, duration_s=SETTLE_S + SPAN_S, output_rate_hz=RATE_HZ, channels=list(channels), settings=SETTINGS
-    )
-
-
-def _one_by_one(members: Sequence[Member], channels: Sequence[str]) -> list[Response | SidebandError]:
-    found: list[Response | SidebandError] = []
-    for member in members:
-        try:
-            found.append(
-                simulate(
-                    member.machine,
-                    duration_s=SETTLE_S + SPAN_S,
-                    output_rate_hz=RATE_HZ,
-                    channels=list(channels),
-                    seed=member.seed,
-                    settings=SETTINGS,
-                )
-            )
-        except (SpecError, UnknownName, Diverged, Meaningless) as error:
-            found.append(error)
-    return found
+    found = run_members(members, task.channels)
+    lost = [k for k, r in enumerate(found) if isinstance(r, SidebandError) and task.plan.draws[task.draws[k]].beside]
+    alone = [task.plan.member(replace(task.plan.draws[task.draws[k]], beside=()), task.point) for k in lost]
+    for k, again in zip(lost, run_members(alone, task.channels), strict=True):
+        found[k] = again
+    return [measure(r, watched, bases) if isinstance(r, Response) else None for r in found]
 
 
 def tasks(plan: AtlasPlan, point: Point, channels: tuple[str, ...], together: int = 16) -> list[Task]:
     """Draws grouped by effect and place, which make one structure, so that lanes fill."""
-    groups: dict[tuple[str, str], list[int]] = {}
+    groups: dict[tuple[str, ...], list[int]] = {}
     for k, draw in enumerate(plan.draws):
         groups.setdefault(_kind(draw), []).append(k)
     return [
@@ -167,8 +137,11 @@ def tasks(plan: AtlasPlan, point: Point, channels: tuple[str, ...], together: in
     ]
 
 
-def _kind(draw: Draw) -> tuple[str, str]:
-    return (draw.candidate.term, draw.candidate.site) if draw.candidate is not None else ("", "")
+def _kind(draw: Draw) -> tuple[str, ...]:
+    """Effect and the places where it acts or would show nothing."""
+    if draw.candidate is None:
+        return ("",)
+    return (draw.candidate.term, *sorted({draw.candidate.site, *(t.site for t in draw.beside)}))
 
 
 Mapper = Callable[[Callable[[Task], list[Statistics | None]], Iterable[Task]], Iterable[list[Statistics | None]]]

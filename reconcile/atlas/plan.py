@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from reconcile.calibrate.uncertain import DRIFT, Offsets, Uncertain, draw_offset
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec, TermSpec, TorqueLoad
 from sim.solve.ensemble import Member
+from sim.terms import REGISTRY
 
 DRAWS = 8
 """Draws a candidate: a full set of vector lanes."""
@@ -40,6 +41,8 @@ class Draw:
     term: TermSpec | None = None
     also: Sequence[TermSpec] = ()
     """Further terms of the same effect: a law of its own on another axis."""
+    beside: Sequence[TermSpec] = ()
+    """The same effect at other sites, too faint to show: machines of one structure run side by side."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,7 +61,8 @@ class AtlasPlan:
         offsets = (self.twins if draw.twin else self.offsets)[draw.pair]
         machine = at_point(moved(self.machine, self.numbers, offsets), point)
         terms = slips(machine, self.seed, draw.pair) if draw.twin else ()
-        terms = terms if draw.term is None else (*terms, draw.term, *draw.also)
+        if draw.term is not None:
+            terms = (*terms, *sorted((draw.term, *draw.also, *draw.beside), key=lambda t: t.site))
         if terms:
             machine = machine.model_copy(update={"terms": [*machine.terms, *terms]})
         return Member(machine=machine, seed=self.seed + 1000 * draw.pair + (1 if draw.twin else 0))
@@ -121,3 +125,31 @@ def atlas_plan(
             term = draw_term(candidate, float(shares[j]), own, machine)
             planned.append(Draw(pair=j % pairs, candidate=candidate, term=term))
     return AtlasPlan(machine=machine, numbers=numbers, offsets=offsets, twins=twins, draws=tuple(planned), seed=seed)
+
+
+def side_by_side(plan: AtlasPlan) -> AtlasPlan:
+    """Each draw with its effect at all other sites of the plan, too faint to show: few draws a site then fill lanes."""
+    sites: dict[str, dict[str, TermSpec]] = {}
+    for draw in plan.draws:
+        if draw.term is not None:
+            sites.setdefault(draw.term.term, {}).setdefault(draw.term.site, draw.term)
+    faint = {key: _faint(key, terms) for key, terms in sites.items()}
+
+    def beside(draw: Draw) -> Draw:
+        if draw.term is None:
+            return draw
+        others = faint[draw.term.term]
+        return replace(draw, beside=tuple(t for site, t in others.items() if site != draw.term.site))
+
+    return replace(plan, draws=tuple(beside(d) for d in plan.draws))
+
+
+def _faint(key: str, terms: Mapping[str, TermSpec]) -> dict[str, TermSpec]:
+    """By site; none where an effect has no faint form."""
+    term = REGISTRY.get(key)
+    found = {}
+    for site, one in terms.items():
+        values = term.faint(one.parameters) if term is not None else None
+        if values is not None:
+            found[site] = one.model_copy(update={"parameters": dict(values)})
+    return found

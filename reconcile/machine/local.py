@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reconcile.atlas.bank import ARRAYS, Bank, Mapper, make_bank
-from reconcile.atlas.plan import AtlasPlan, Draw
+from reconcile.atlas.plan import AtlasPlan, Draw, side_by_side
 from reconcile.calibrate.posterior import Posterior, calibrated, mesh_evidence
 from reconcile.calibrate.uncertain import DRIFT, Offsets, draw_offsets, moved
 from reconcile.judge.changes import lenses, observed_changes
@@ -136,7 +136,7 @@ def first_heat(plan: AtlasPlan, ranked: Sequence[str], atlas: Mapping[str, Seque
     for name in ranked:
         sites.setdefault(name.split("@")[0], []).append(name)
     draws = {name: max(LEAST_DRAWS, LANES // len(names)) for names in list(sites.values())[:terms] for name in names}
-    return _planned(plan, {name: (0, count) for name, count in draws.items()}, atlas)
+    return side_by_side(_planned(plan, {name: (0, count) for name, count in draws.items()}, atlas))
 
 
 def second_heat(

@@ -17,6 +17,8 @@ from sim.core.spec import MachineSpec
 
 SiteKind = Literal["bearing", "gear", "body", "mesh", "shaft"]
 Values = Mapping[str, float]
+FAINT = 1e-7
+"""Share of a size that nothing shows: the motion then differs by less than 1e-4, the steps' own error."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -153,6 +155,13 @@ class Term:
     def idle(self, values: Values) -> bool:
         """Whether these values leave the machine as it is: assembly then passes the effect over."""
         return self.severity is not None and self.zero_is_healthy and values[self.severity] == 0.0
+
+    def faint(self, values: Values) -> Values | None:
+        """Values of the same structure that change nothing to speak of, so that machines with the effect at other
+        sites run beside this one; None where there are none."""
+        if self.severity is None or not self.zero_is_healthy:
+            return None
+        return {**values, self.severity: FAINT * values[self.severity]}
 
     def cautions(self, values: Values, site: SiteContext) -> Sequence[str]:  # noqa: ARG002
         """Return sentences about values that are allowed but hardly meant, with the numbers in them."""

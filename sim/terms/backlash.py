@@ -24,6 +24,10 @@ class Backlash(Term):
         wider = replace(law, backlash_m=(law.backlash_m or 0.0) + values["width"])
         return replace(laws, meshes={**laws.meshes, site.site: wider})
 
+    def faint(self, values: Values) -> None:  # noqa: ARG002
+        """Next to no play is still two flanks, where a mesh without play holds its flanks together."""
+        return
+
     def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:
         """Harmonics of the mesh: parting and striking is far from sinusoidal."""
         if values["width"] == 0.0:

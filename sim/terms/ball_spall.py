@@ -19,6 +19,7 @@ from sim.parts.bearing.spall_terms import (
     angle_param,
     contact_of,
     depth_m,
+    faint_pit,
     pitch_values,
     width_rad,
 )
@@ -45,6 +46,10 @@ class BallSpall(Term):
         pit = pit_table_m(at_outer, values["angle"]) + pit_table_m(at_inner, values["angle"] + math.pi)
         law = replace(law, ball_profile_m=added(law.ball_profile_m, pit))
         return replace(laws, balls={**laws.balls, site.site: law})
+
+    def faint(self, values: Values) -> Values:
+        """A pit of no depth keeps its table."""
+        return faint_pit(values)
 
     def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:
         """Even multiples of the ball's spin with sidebands of the cage, which carries the ball through the load."""

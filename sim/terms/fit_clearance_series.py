@@ -55,6 +55,10 @@ class FitClearanceSeries(Term):
         support = replace(laws.supports[site.site], housing_mass_kg=values["housing_mass"])
         return replace(laws, supports={**laws.supports, site.site: support})
 
+    def faint(self, values: Values) -> None:  # noqa: ARG002
+        """A fit with next to no play is a wall that is always met, not a fixed ring."""
+        return
+
     def elements(self, laws: Laws, values: Values, site: SiteContext) -> Sequence[Element]:  # noqa: ARG002
         """The wall between ring and housing; none at zero gap."""
         gap = values["gap"]

@@ -18,6 +18,7 @@ from sim.parts.bearing.spall_terms import (
     angle_param,
     contact_of,
     depth_m,
+    faint_pit,
     pitch_values,
     width_rad,
 )
@@ -42,6 +43,10 @@ class OuterSpall(Term):
         pit = pit_table_m(partial(race_drop_m, at, width_rad=width, depth_m=depth), values["angle"])
         law = replace(law, outer_profile_m=added(law.outer_profile_m, pit))
         return replace(laws, balls={**laws.balls, site.site: law})
+
+    def faint(self, values: Values) -> Values:
+        """A pit of no depth keeps its table."""
+        return faint_pit(values)
 
     def lines(self, values: Values, site: SiteContext) -> Sequence[Line]:
         """Multiples of the outer-race frequency."""

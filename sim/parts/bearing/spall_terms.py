@@ -6,7 +6,7 @@ from sim.core.errors import Problem, SpecError
 from sim.core.laws import BallLaw
 from sim.core.params import Param
 from sim.core.spec import MachineSpec
-from sim.core.terms import SiteContext, Values
+from sim.core.terms import FAINT, SiteContext, Values
 from sim.parts.bearing.frequencies import Ring
 from sim.parts.bearing.from_spec import geometry_from_spec
 from sim.parts.bearing.spall import Contact, contact
@@ -101,3 +101,8 @@ def depth_m(values: Values, at: Contact, site: SiteContext, key: str) -> float:
             )
         )
     return values["depth"]
+
+
+def faint_pit(values: Values) -> Values:
+    """The same pit with next to no depth."""
+    return {**values, DEPTH.name: FAINT * values.get(DEPTH.name, DEPTH.default)}
