@@ -43,6 +43,8 @@ class Screen:
     p_lines: float = 1.0
     p_first: float = 1.0
     """`p_best` among all machines of the kind, where the rest is of those that agree with the baseline."""
+    struck: tuple[frozenset[str], ...] = ()
+    """Effects that strike at the lines of one part each, where impacts come at those of several."""
     unmoved: float | None = None
     """Largest evidence of a pattern before machines were fitted to what was observed; none where none were."""
 

@@ -25,6 +25,8 @@ AWAY = 0.035
 """Share by which a control order must differ from orders of parts, their halves and multiples."""
 SHAFT_BINS = 2.0
 LEAST_SPREAD = 0.7
+WIDE_BINS, LEAN_BINS = 3, 2
+"""To either side of a line that is taken out: as slip smears it, and the main lobe alone."""
 CERTAIN_Z = 6.0
 """Robust deviations that noise does not reach."""
 
@@ -91,13 +93,16 @@ def scores(values: FloatArray, envelopes: Envelopes, family: Family, base: Float
     return np.asarray(np.einsum("btl,l->bt", values[:, place] * inside, weights), dtype=np.float64)
 
 
-def without(values: FloatArray, envelopes: Envelopes, spacings: Sequence[float], order: float) -> FloatArray:
-    """`values` (bands, bins) with all harmonics of an order and two pairs of sidebands of each spacing put to noise."""
+def without(
+    values: FloatArray, envelopes: Envelopes, spacings: Sequence[float], order: float, reach: int = WIDE_BINS
+) -> FloatArray:
+    """`values` (bands, bins) with all harmonics of an order and two pairs of sidebands of each spacing put to noise,
+    `reach` bins to either side."""
     cleared = values.copy()
     top = int(values.shape[1] * envelopes.order_step / order)
     shifts = np.unique([0.0, *(m * s for s in spacings for m in (-2, -1, 1, 2))])
     lines = (np.arange(1, top + 1)[:, np.newaxis] * order + shifts).ravel()
-    for shift in range(-3, 4):
+    for shift in range(-reach, reach + 1):
         place = np.rint(lines / envelopes.order_step).astype(np.int64) + shift
         cleared[:, place[(place >= 0) & (place < values.shape[1])]] = 0.0
     return cleared
@@ -126,10 +131,12 @@ def family_evidence(
     speed_doubt: float,
     rng: np.random.Generator,
     explained: Sequence[tuple[Family, float]] = (),
+    lean: bool = False,
 ) -> Evidence:
     """Evidence of one family over all bands and channels; `speed_doubt`: relative, widens the search.
 
-    `explained`: families (with their order as found) whose lines are taken out first.
+    `explained`: families (with their order as found) whose lines are taken out first; `lean`: only those of the family
+    itself, not what shafts and cage may add, which in short records covers much of what another has.
     """
     turn = family.kind == "turn"
     reach = family.slip + speed_doubt if not turn else speed_doubt
@@ -142,7 +149,9 @@ def family_evidence(
         for other, order in explained:
             # load and shaft modulate any defect: with Z balls BPFO + 2 shafts may come to lie on BPFI
             around = [*ties.shafts.values(), *(f.order for f in ties.families if f.key == f"{other.site}.cage")]
-            values = without(values, e, around, order)
+            if lean:
+                around = [other.spacing] if other.sidebands else []
+            values = without(values, e, around, order, LEAN_BINS if lean else WIDE_BINS)
         base = trials(family, family.order, reach, e.order_step)
         table = scores(values, e, family, base)
         control, centre, spread = _controls(values, e, family, controls, reach)

@@ -92,8 +92,10 @@ def candidates(
     ties: Ties,
     seed: int,
     explained: Sequence[Candidate] = (),
+    *,
+    lean: bool = False,
 ) -> tuple[Candidate, ...]:
-    """All families (but `explained`, whose lines are taken out), the firmest first."""
+    """All families (but `explained`, whose lines are taken out, `lean`: no more than those), the firmest first."""
     left: list[Family] = []
     for f in ties.families:
         if not any(same(f, g) and f.kind == g.kind for g in (*left, *(c.family for c in explained))):
@@ -104,7 +106,7 @@ def candidates(
         for i, t in enumerate(tests):
             rng = np.random.default_rng((seed, i, ties.families.index(f)))
             taken = [(c.family, c.evidence[i].order) for c in explained]
-            found.append(family_evidence(t.channels, ties, f, t.doubt, rng, taken))
+            found.append(family_evidence(t.channels, ties, f, t.doubt, rng, taken, lean))
         rows.append((f, tuple(found)))
     chances = holm([fisher([e.chance for e in found]) for _, found in rows])
     result = [

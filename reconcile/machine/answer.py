@@ -17,7 +17,7 @@ from reconcile.machine.heldout import feature_channels, feature_frequencies, hel
 from reconcile.machine.meter import Meter
 from reconcile.machine.pictures import line_changes, ranking, spectra, turn_maps, with_forms
 from reconcile.machine.revised import Revised, paths, revised_machine
-from reconcile.machine.second import Beside, fitted_change, second_effect
+from reconcile.machine.second import Beside, fitted_change, second_effect, struck_somewhere
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.unknown import Unknown
 from reconcile.machine.window import angle_window
@@ -130,7 +130,7 @@ def answer(
         causes=causes,
         fault=fault,
         held_out=held,
-        undecidable=tuple(decision.reasons) if decision.word in ("ambiguous", "not_decidable") else (),
+        undecidable=_undecidable(setting, found, decision),
         next_experiment=_next(setting, decision, lead),
         force=unknown.force if unknown is not None else None,
         machine=_machine(revision, unknown),
@@ -143,6 +143,13 @@ def answer(
         },
         provenance=_provenance(setting, {"core_s": meter.spent_s(), **cost}),
     )
+
+
+def _undecidable(setting: Setting, found: Found, decision: Decision) -> tuple[str, ...]:
+    if decision.word in ("ambiguous", "not_decidable"):
+        return tuple(decision.reasons)
+    others = struck_somewhere(setting, found, decision)
+    return (f"impacts come from another part too, which these share: {', '.join(others)}",) if others else ()
 
 
 def _told(

@@ -8,13 +8,15 @@ import numpy as np
 
 from reconcile.machine.decide import Decision
 from reconcile.machine.refine import best_draws
-from reconcile.machine.second import Beside
+from reconcile.machine.second import Beside, strikes
 from reconcile.machine.setting import Found
 from reconcile.machine.severity import estimated_severity
 from reconcile.verdict import Cause
 from sim.core.spec import TermSpec
 
 MOST_CAUSES = 10
+WHAT_IS_LEFT = "it explains what the first effect leaves of the lines of the mesh"
+ITS_IMPACTS = "impacts come at the lines of this part too"
 
 
 def ranked_causes(
@@ -58,7 +60,7 @@ def _beside(found: Found, other: Beside) -> Cause:
         score=float(other.evidence[0]),
         severity=estimated_severity(view, found.known, name, left),
         named=True,
-        reasons=("it explains what the first effect leaves of the lines of the mesh",),
+        reasons=(ITS_IMPACTS if strikes(name) else WHAT_IS_LEFT,),
         values=dict(drawn[0].parameters) if drawn else {},
     )
 

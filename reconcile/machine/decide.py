@@ -113,6 +113,18 @@ def merged_weights(screen: Screen) -> dict[str, float]:
     return dict(sorted(merged.items(), key=lambda item: -item[1]))
 
 
+def _of_one_part(weights: dict[str, float], struck: Sequence[frozenset[str]]) -> dict[str, float]:
+    """Where impacts come at the lines of several parts, what strikes at other lines than the likeliest effect is no
+    rival of it but stands beside it."""
+    best = next(iter(weights))
+    if not any(best in part for part in struck):
+        return weights
+    others = {name for part in struck if best not in part for name in part}
+    left = {name: weight for name, weight in weights.items() if name not in others}
+    total = sum(left.values())
+    return {name: weight / total for name, weight in left.items()}
+
+
 def credible_set(weights: dict[str, float], level: float = SET_WEIGHT) -> tuple[str, ...]:
     """The smallest set of effects that carries `level` of the weight."""
     total, chosen = 0.0, []
@@ -163,7 +175,7 @@ def decide(screen: Screen, *, views: int, strange: float = STRANGE) -> Decision:
     if p > DETECT_P:
         reason = f"a healthy machine of this kind shows as much with p = {p:.2g}"
         return Decision(word="nothing_missing", chosen=(), p=p, reasons=(reason,))
-    weights = merged_weights(screen)
+    weights = _of_one_part(merged_weights(screen), screen.struck)
     if _only_impacts(screen):
         return _by_impacts(screen, weights, p)
     return _by_patterns(screen, weights, p, views, strange)
@@ -180,7 +192,7 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
         reason = "the change is too faint to tell one effect from another"
         return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(reason,))
     struck = float(screen.direct[screen.names.index(chosen[0])])
-    alone = evidence[chosen[0]] - struck < LEAST_EVIDENCE and screen.strongest > GREAT
+    alone = evidence[chosen[0]] - struck < LEAST_EVIDENCE and screen.strongest > GREAT and not screen.struck
     far = lead(screen) >= FAR_AHEAD
     odd = screen.misfit > strange and not (far and not screen.rest.rough)
     inadequate = odd or (leaves_lines(screen.rest) and not far)

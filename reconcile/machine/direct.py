@@ -19,6 +19,7 @@ from reconcile.kinematics.judge import Candidate, candidates, same
 from reconcile.kinematics.observe import Observation, reach_of
 from reconcile.kinematics.spec import of_machine
 from reconcile.machine.alone import Rise
+from reconcile.machine.struck import by_comb, combs
 from reconcile.machine.window import turn_heights
 from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
@@ -52,12 +53,14 @@ MOST = 25.0
 class Direct:
     """`evidence`: log evidence of effects (`effect@site`) that strike, 0 for all others.
 
-    `p`: chance that a sound machine shows the firmest of what has risen; 1 where nothing has.
+    `p`: chance that a sound machine shows the firmest of what has risen; 1 where nothing has. `struck`: where impacts
+    come at the lines of several parts, the effects of each with their evidence, the firmest part's first.
     """
 
     evidence: Mapping[str, float]
     p: float
     told: tuple[str, ...]
+    struck: tuple[Mapping[str, float], ...] = ()
 
 
 NOTHING = Direct(evidence={}, p=1.0, told=())
@@ -92,6 +95,7 @@ def direct_evidence(
         elif term.strikes is not None:
             evidence |= {f"{term.key}@{b.name}": _ball(every, tie, term.strikes, b.name) for b in machine.bearings}
     firm = [c for c in every if c.present and c.risen]
+    several = combs(tests, baselines, tie, every, seed) if baselines else ()
     usual = [f"{c.family.key}: {c.z:.1f}, but sound machines show as much" for c in seen if c.risen and c not in every]
     return Direct(
         evidence={name: min(value, MOST) for name, value in evidence.items() if value > 0.0},
@@ -99,7 +103,9 @@ def direct_evidence(
         told=(
             *(f"{c.family.key}: {c.z:.1f} deviations of control lines" for c in every if c.risen and c.z > 2.0),
             *usual,
+            *(f"{c.family.key}: {c.z:.1f} without the lines of {several[0].family.key}" for c in several[1:]),
         ),
+        struck=by_comb(several, machine, tie, evidence, MOST),
     )
 
 

@@ -120,6 +120,7 @@ def _answered(
     found = assimilated(closer, found, to_fit(closer, found, budget), budget.members, budget.assimilations, meter)
     based = setting.changes.with_baseline
     screen = tempered(found.screen, atlas.screen) if based else unmeasured(found.screen)
+    screen = replace(screen, struck=tuple(frozenset(part) for part in setting.direct.struck))
     return closer, replace(found, screen=screen), told(local) if local is not None else {}
 
 

@@ -17,7 +17,7 @@ from reconcile.machine.decide import DETECT_P, LEAST_EVIDENCE, credible_set, mer
 from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import LANES, first_heat, more_draws, ordered_draws, second_heat, simulated_banks
 from reconcile.machine.refine import best_draws, refined_plan
-from reconcile.machine.second import beside, looks_for_second
+from reconcile.machine.second import beside, looks_for_second, struck_too
 from reconcile.machine.setting import Found, Setting
 from signals.series import FloatArray
 from sim.core.errors import SpecError
@@ -148,11 +148,12 @@ def with_others(screened: Found, seconds: Sequence[str] = ()) -> list[str]:
 def possible_seconds(setting: Setting, seen: Found) -> tuple[str, ...]:
     """What may stand beside an effect whose impacts are sure, by what it leaves of single lines, the best first; draws
     of the atlas `seen` on machines that agree with the baseline."""
+    struck = tuple(name for part in setting.direct.struck for name in part if name in seen.screen.names)
     if not looks_for_second(seen):
-        return ()
+        return struck
     best = seen.screen.names[int(np.argmax(seen.screen.evidence))]
     others = beside(setting, seen, best)
-    return others.names if others else ()
+    return (*struck, *(others.names if others else ()))
 
 
 def simulated(setting: Setting, plan: AtlasPlan, mapper: Mapper, known: Catalogued | None = None) -> Catalogued:
@@ -203,6 +204,9 @@ def refined(
     if others is not None:
         names = [n for n in others.names[:SECONDS] if n not in leading]
         around += [(n, best_draws(others.view, found.known, n, others.left)) for n in names]
+    struck = struck_too(setting, found, leading[0])
+    if struck is not None and struck.names[0] not in leading:
+        around.append((struck.names[0], best_draws(struck.view, found.known, struck.names[0], struck.left)))
     pairs = len(setting.plan.offsets)
     plan = refined_plan(setting.plan, around, draws=budget.members, pairs=pairs, seed=setting.seed + turn)
     return fit_views(setting, simulated(setting, plan, mapper, found.known))

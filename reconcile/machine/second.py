@@ -106,17 +106,54 @@ def _beside_in(view: Fitted, left: FloatArray) -> Beside | None:
     )
 
 
+def struck_too(setting: Setting, found: Found, first: str) -> Beside | None:
+    """Effects that strike at the lines of another part than the first, where impacts come at those of several: by
+    these impacts, and among places with the same lines by what the first one leaves."""
+    parts = [part for part in setting.direct.struck if first not in part]
+    known = [n for n in (parts[0] if parts else ()) if n in found.screen.names]
+    if not known or len(parts) == len(setting.direct.struck):
+        return None
+    left = setting.changes.observed - np.nan_to_num(fitted_change(found, first, setting.changes.observed))
+    look = looked(found.fitted, left)
+    evidence = np.array([look.evidence[found.screen.names.index(n)] + parts[0][n] for n in known])
+    order = np.argsort(-evidence)
+    return Beside(
+        view=found.fitted,
+        left=left,
+        names=tuple(known[k] for k in order),
+        evidence=evidence[order],
+        p=setting.direct.p,
+        misfit=look.misfit,
+    )
+
+
 def second_effect(setting: Setting, found: Found, decision: Decision) -> Beside | None:
     """What is left where its best effect may be named as the second one."""
     if decision.word != "explained" or not sure(found, decision.chosen[0]):
         return None
+    struck = struck_too(setting, found, decision.chosen[0])
+    if struck is not None and _outweighs(struck):
+        return struck
     seen = beside(setting, found, decision.chosen[0])
     if seen is None or seen.p > DETECT_P or seen.misfit > STRANGE or seen.evidence[0] < LEAST_EVIDENCE:
         return None
     if rest_of(seen.view, seen.left, seen.names[0]).kept < LEAST_KEPT:
         return None
+    return seen if _outweighs(seen) else None
+
+
+def struck_somewhere(setting: Setting, found: Found, decision: Decision) -> tuple[str, ...]:
+    """Where a second part strikes and its place is not decided: the effects among which it lies."""
+    if decision.word != "explained":
+        return ()
+    struck = struck_too(setting, found, decision.chosen[0])
+    if struck is None or _outweighs(struck):
+        return ()
+    return tuple(n for n, e in zip(struck.names, struck.evidence, strict=True) if e > struck.evidence[0] - STRUCK)
+
+
+def _outweighs(seen: Beside) -> bool:
+    """Whether the first of them and its forms carry what a name needs."""
     weights = np.exp(seen.evidence - seen.evidence[0])
     forms = np.array([n == seen.names[0] or variants(n, seen.names[0]) for n in seen.names])
-    if float(weights[forms].sum() / weights.sum()) < SET_WEIGHT:
-        return None
-    return seen
+    return float(weights[forms].sum() / weights.sum()) >= SET_WEIGHT

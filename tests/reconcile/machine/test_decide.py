@@ -40,6 +40,17 @@ NAMES = (
 )
 
 
+def test_what_strikes_at_another_part_is_no_rival() -> None:
+    two = screen([20.0, 19.5, 4.0])
+    assert decide(two, views=9).word == "ambiguous"
+    apart = replace(two, struck=(frozenset({NAMES[0], NAMES[3]}), frozenset({NAMES[1]})))
+    assert decide(apart, views=9).chosen == (NAMES[0],)
+    rivals = replace(two, struck=(frozenset(NAMES[:2]), frozenset({NAMES[2]})))
+    assert decide(rivals, views=9).chosen == NAMES[:2], "bearings with the same lines stay rivals"
+    none = replace(screen([1.0, 2.0, 3.0, 4.0, 20.0, 19.5]), struck=apart.struck)
+    assert decide(none, views=9).chosen == NAMES[4:6], "the likeliest strikes nowhere"
+
+
 def screen(evidence: list[float], names: tuple[str, ...] = NAMES, **how: object) -> Screen:
     values = np.array(evidence + [-5.0] * (len(names) - len(evidence)))
     weights = np.exp(values - values.max())

@@ -82,6 +82,25 @@ def test_without_a_baseline_what_sound_machines_show_too_is_no_evidence(machine:
     assert any("sound machines show as much" in line for line in usual.told)
 
 
+def test_two_parts_that_strike_are_told_apart(machine: MachineSpec) -> None:
+    hz = bases_at(machine, SPEED_HZ)
+    outer, inner = struck(hz["f_o1"], slip=0.006), struck(hz["f_i3"], loads_hz=hz["f_r2"], slip=0.004)
+    direct = found(machine, sound(1) + 1.2 * outer + inner[::-1], sound(2))
+    parts = [set(part) for part in direct.struck]
+    assert len(parts) == 2
+    assert {"outer_spall@bearing1", "outer_spall@bearing2"} in parts
+    assert {"inner_spall@bearing3", "inner_spall@bearing4"} in parts
+    assert all(0.0 < value <= MOST for part in direct.struck for value in part.values())
+    assert any("without the lines of" in line for line in direct.told)
+
+
+@pytest.mark.parametrize(("base", "loads"), [("f_o1", None), ("f_i1", 30.0), ("f_o3", None), ("f_i3", 21.8)])
+def test_one_part_that_strikes_has_no_second(machine: MachineSpec, base: str, loads: float | None) -> None:
+    for seed in range(2):
+        hit = struck(bases_at(machine, SPEED_HZ)[base], loads_hz=loads, slip=0.007 * seed)
+        assert found(machine, sound(seed) + 2.0 * hit, sound(10 + seed)).struck == ()
+
+
 def test_a_tooth_that_strikes_speaks_for_the_teeth_of_its_gear(machine: MachineSpec) -> None:
     direct = found(machine, sound(1) + struck(SPEED_HZ), sound(2))
     teeth = {t.key for t in REGISTRY if t.strikes == "tooth"}

@@ -11,10 +11,10 @@ from reconcile.judge.screen import judge
 from reconcile.judge.space import Library, fit_space
 from reconcile.machine.budget import QUICK
 from reconcile.machine.decide import decide
-from reconcile.machine.direct import MOST
+from reconcile.machine.direct import MOST, NOTHING
 from reconcile.machine.library import Catalogued
 from reconcile.machine.search import LEAST_OF_LINES, to_fit
-from reconcile.machine.second import LEFT, beside, looks_for_second, second_effect
+from reconcile.machine.second import LEFT, beside, looks_for_second, second_effect, struck_somewhere, struck_too
 from reconcile.machine.setting import Found
 from tests.reconcile.judge.made import EFFECTS, FEATURES, MEMBERS, changes, library, world
 
@@ -38,7 +38,7 @@ def found_in(observed: np.ndarray, direct: float) -> tuple[SimpleNamespace, Foun
     fine = fit_space(here, known, seed=1, view=here.single, least=LEAST_OF_LINES)
     screen = judge((fitted, fine), observed, {NAMES[0]: direct}, 1e-6)
     found = Found(known=Catalogued(library=known, terms=()), fitted=fitted, screen=screen, fine=fine)
-    return SimpleNamespace(changes=here), found
+    return SimpleNamespace(changes=here, direct=NOTHING), found
 
 
 def seen(effects: tuple[int, ...], seed: int, second: float = 0.7) -> np.ndarray:
@@ -113,3 +113,38 @@ def test_leaders_are_fitted_to_the_whole_where_nothing_stands_beside_them() -> N
         assert tasks[0].name == NAMES[0] and not any(task.second for task in tasks)
         assert all(task.target is setting.changes.observed for task in tasks)
     assert not any(second for _, second in fitted_names((0, 2), 1, direct=2.0))
+
+
+OTHER_PARTS = (NAMES[1], NAMES[3])
+"""Taken for two places with the same lines, at which a second part strikes."""
+
+
+def two_parts(effects: tuple[int, ...], seed: int) -> tuple[SimpleNamespace, Found]:
+    setting, found = found_in(seen(effects, seed), MOST)
+    setting.direct = replace(NOTHING, struck=({NAMES[0]: MOST}, dict.fromkeys(OTHER_PARTS, 10.0)), p=1e-6)
+    return setting, found
+
+
+def test_a_second_part_that_strikes_is_named_where_its_pattern_tells_the_place() -> None:
+    right = 0
+    for seed in range(8):
+        setting, found = two_parts((0, 2), seed)
+        decision = replace(decide(found.screen, views=9), word="explained", chosen=(NAMES[0],))
+        second = second_effect(setting, found, decision)  # type: ignore[arg-type]
+        right += second is not None and second.names[0] == NAMES[1]
+    assert right >= 7
+
+
+def test_a_second_part_without_a_pattern_leaves_its_place_open() -> None:
+    left_open = 0
+    for seed in range(6):
+        setting, found = two_parts((0,), seed)
+        struck = struck_too(setting, found, NAMES[0])  # type: ignore[arg-type]
+        assert struck is not None and set(struck.names) == set(OTHER_PARTS)
+        decision = replace(decide(found.screen, views=9), word="explained", chosen=(NAMES[0],))
+        named_too = second_effect(setting, found, decision)  # type: ignore[arg-type]
+        places = struck_somewhere(setting, found, decision)  # type: ignore[arg-type]
+        assert (named_too is None) == (set(places) == set(OTHER_PARTS))
+        left_open += named_too is None
+        assert struck_too(setting, found, NAMES[2]) is None, "strikes at neither part"  # type: ignore[arg-type]
+    assert left_open >= 4
