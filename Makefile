@@ -53,7 +53,7 @@ lint: dev  ## style, types, import rules
 	$(BIN)/lint-imports --no-logo
 
 fast: dev  ## the loop while working: without the slow tests (half a minute on two cores)
-	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 2 --dist loadfile -m "not slow"
+	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 2 -m "not slow"
 
 test: dev browser setup lint  ## lint and every test; what CI runs
 	$(BIN)/python -m pytest -q -n 2 --dist loadgroup
