@@ -2,18 +2,35 @@
 
 from __future__ import annotations
 
+import gc
 import os
+
+# What collecting makes stays to the end: looking through it for garbage would take a fifth of the time.
+gc.disable()
 
 # Before anything loads a linear algebra library: its threads would only wait for those of the other test workers.
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
 
-import matplotlib as mpl  # noqa: E402
-from hypothesis import HealthCheck, settings  # noqa: E402
+os.environ["MPLBACKEND"] = "Agg"
 
-mpl.use("Agg")
+import pytest  # noqa: E402
+from hypothesis import HealthCheck, settings  # noqa: E402
 
 # No deadline: a busy machine must not fail a test. The same examples every time: a red run can be repeated.
 settings.register_profile("house", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("explore", deadline=None, max_examples=1000)
+settings.register_profile("fast", settings.get_profile("house"), max_examples=20)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "house"))
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """The fast loop tries fewer examples where a test does not say how many; `make test` tries all."""
+    if config.option.markexpr == "not slow" and "HYPOTHESIS_PROFILE" not in os.environ:
+        settings.load_profile("fast")
+
+
+def pytest_collection_finish(session: pytest.Session) -> None:
+    """From here on garbage is collected again, though not looked for among modules and tests."""
+    gc.freeze()
+    gc.enable()

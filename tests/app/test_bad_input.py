@@ -198,6 +198,7 @@ def test_results_not_ready_say_so_and_when_to_come_back(client: httpx.Client) ->
     assert client.post(f"/v1/jobs/{job['id']}/cancel").status_code == 202
 
 
+@pytest.mark.slow
 def test_bad_slices_of_a_result(client: httpx.Client) -> None:
     job = post(client, {"preset": "oscillator", "seed": 77}).json()
     assert client.get(job["links"]["events"]).status_code == 200  # Ends with the job.

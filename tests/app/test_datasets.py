@@ -47,6 +47,7 @@ def test_estimate_says_what_it_takes_and_keeps_nothing(client: httpx.Client) -> 
     assert client.get(ADDRESS).json()["total"] == 0
 
 
+@pytest.mark.slow
 def test_accepted_before_the_reply_listed_and_followed(client: httpx.Client) -> None:
     headers = {"Idempotency-Key": "one", "X-Submitter": "ann"}
     reply = client.post(ADDRESS, json=BODY, headers=headers)
@@ -96,6 +97,7 @@ def test_other_jobs_are_no_datasets(client: httpx.Client) -> None:
     assert problem(client.get(f"{ADDRESS}/nonesuch/rows?limit=0"), 422)
 
 
+@pytest.mark.slow
 def test_recipes_are_whole_and_can_be_estimated(client: httpx.Client) -> None:
     found = client.get(f"{ADDRESS}/recipes").json()
     assert {"parquet", "npz"} <= {entry["name"] for entry in found["formats"] if entry["installed"]}

@@ -8,6 +8,8 @@ import pytest
 from jobs.indicators import bounds
 from tests.service.parts import eventually
 
+pytestmark = pytest.mark.slow  # everything here waits for a worker that simulates or reads
+
 
 @pytest.fixture(scope="module")
 def result(client: httpx.Client) -> str:

@@ -92,6 +92,7 @@ def test_calls_a_minute(client: httpx.Client) -> None:
     assert client.get("/v1/limits", headers=bearer("boss")).status_code == 200
 
 
+@pytest.mark.slow
 def test_core_seconds_a_day_outlive_the_server(client: httpx.Client, parts: Parts, file: Path) -> None:
     for seed in (10, 11, 11, 10):
         assert ask(client, "frugal", seed).status_code == 202, "asking again is free"
@@ -133,6 +134,7 @@ def test_datasets_are_charged(client: httpx.Client, parts: Parts) -> None:
     assert used(parts, "boss") - before == pytest.approx(estimate["core_seconds"])
 
 
+@pytest.mark.slow
 def test_rotation_while_it_runs(client: httpx.Client, file: Path) -> None:
     before = file.read_text(encoding="utf-8")
     successor = {"X-API-Key": "successor"}

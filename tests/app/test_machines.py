@@ -13,6 +13,8 @@ import pytest
 import sideband_client
 from tests.service.parts import Parts, eventually
 
+pytestmark = pytest.mark.slow  # everything here waits for a worker that simulates or reads
+
 RATE, N = 4096.0, 8192
 MACHINE = "pump-1"
 

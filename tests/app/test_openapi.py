@@ -5,18 +5,22 @@ from __future__ import annotations
 import json
 
 import httpx
+import pytest
 
 from app.openapi import SNAPSHOT, rendered
 
 
+@pytest.mark.slow
 def test_committed_document_is_up_to_date() -> None:
     assert SNAPSHOT.read_text(encoding="utf-8") == rendered(), "run `python -m app.openapi`"
 
 
+@pytest.mark.slow
 def test_served_document_is_the_committed_one(client: httpx.Client) -> None:
     assert client.get("/openapi.json").json() == json.loads(SNAPSHOT.read_text(encoding="utf-8"))
 
 
+@pytest.mark.slow
 def test_every_operation_declares_its_problems_and_every_reference_resolves() -> None:
     document = json.loads(rendered())
     text = json.dumps(document)

@@ -30,6 +30,7 @@ def test_unknown_query_parameters_are_named(client: httpx.Client, path: str, nam
     assert "is not a query parameter" in error["message"]
 
 
+@pytest.mark.slow
 def test_no_route_ignores_a_query_parameter(client: httpx.Client) -> None:
     """Every route there is, in every method: the refusal comes from the application, not from each route."""
     paths = client.get("/openapi.json").json()["paths"]

@@ -14,6 +14,8 @@ from signals.recording import Recording
 from tests.service.parts import Parts, eventually
 from tests.strategies.impulses import recorded, sound, train
 
+pytestmark = pytest.mark.slow  # everything here waits for a worker that simulates or reads
+
 ADDRESS = "/v1/reconciliations"
 MACHINE: dict[str, Any] = {
     "kinematics": {
@@ -96,7 +98,6 @@ def test_what_the_engine_refuses_fails_with_fields_and_the_worker_lives(
     assert parts.workers[0].poll() is None
 
 
-@pytest.mark.slow
 def test_a_spall_is_found_by_its_kinematics(client: httpx.Client, parts: Parts) -> None:
     made = sound(2) + train(np.random.default_rng(2), 3.5848 * 0.992, 1.0)
     test, baseline = send(client, recorded(made)), send(client, recorded(sound(1)))

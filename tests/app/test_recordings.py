@@ -18,6 +18,8 @@ from scipy.io import savemat
 from signals.checks import STUCK_SAMPLES
 from tests.service.parts import LiveServer, Parts, eventually
 
+pytestmark = pytest.mark.slow  # everything here waits for a worker that simulates or reads
+
 RATE, N = 1000.0, 4000
 X = np.random.default_rng(4).normal(size=N)
 ABOUT: dict[str, Any] = {

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import httpx
+import pytest
 
 from tests.service.parts import LiveServer, Parts
 
@@ -60,6 +61,7 @@ def test_the_page_of_an_effect_is_reached_by_its_key_only(client: httpx.Client) 
         assert client.get(f"/v1/terms/{key}/page").status_code == 404
 
 
+@pytest.mark.slow
 def test_a_page_that_was_not_installed_is_told_as_missing(parts: Parts, tmp_path: Path) -> None:
     with LiveServer(parts.app(pages_folder=tmp_path)) as client:
         reply = client.get("/v1/terms/fit_clearance/page")

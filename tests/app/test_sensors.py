@@ -22,6 +22,7 @@ def result_of(client: httpx.Client, sensors: dict) -> str:
     return f"{address}/result"
 
 
+@pytest.mark.slow
 def test_measured_channels_their_chain_and_their_files(client: httpx.Client) -> None:
     gap = {"dropouts": {"gaps": [{"start_s": 0.1, "duration_s": 0.01}], "fill": "nan"}}
     sensors = {"clock": {"sampling_rate_hz": 10_000.0}, "channels": [CHANNEL, {**CHANNEL, "name": "torn", **gap}]}

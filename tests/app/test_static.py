@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from tests.service.parts import LiveServer, Parts
 
 
+@pytest.mark.slow
 def test_static_files_beside_the_interface(parts: Parts, tmp_path: Path) -> None:
     (tmp_path / "index.html").write_text("<!doctype html><title>Sideband</title>", encoding="utf-8")
     with LiveServer(parts.app(static_folder=tmp_path)) as client:

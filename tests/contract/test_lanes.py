@@ -19,6 +19,7 @@ SPAN = {"duration_s": 0.006, "output_rate_hz": 20_000.0}
 """Short enough that impacts have not yet blown up the rounding by which two runs differ."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("key", [t.key for t in REGISTRY if t.params])
 def test_a_lane_with_the_effect_equals_the_single_run(key):
     term = REGISTRY.get(key)
@@ -35,6 +36,7 @@ def test_a_lane_with_the_effect_equals_the_single_run(key):
     np.testing.assert_allclose(found.signals, single.signals, atol=1e-9 * size)
 
 
+@pytest.mark.slow
 def test_a_lane_with_every_effect_at_once_equals_the_single_run():
     machine = every_term_machine()
     single = simulate(machine, settings=QUICK, **SPAN)

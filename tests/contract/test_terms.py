@@ -222,6 +222,7 @@ def test_zero_severity_predicts_no_line(term):
     assert not [line for line in system.lines if line.mechanism == term.key]
 
 
+@pytest.mark.slow
 def test_every_effect_has_a_place_in_one_machine_and_that_machine_runs():
     machine = every_term_machine()
     assert {spec.term for spec in machine.terms} == set(REGISTRY.keys()) - WITHOUT_ASKING - INSTEAD

@@ -44,6 +44,7 @@ def test_the_way_from_recipe_to_verdict(tmp_path: Path, capsys: pytest.CaptureFi
     assert "is there already" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_its_recipe_can_be_planned_without_a_leak_and_with_all_classes() -> None:
     plan = make_plan(small_recipe())
     assert not plan.warnings and plan.rows == 160

@@ -35,6 +35,7 @@ def _functions(name: Path) -> list[tuple[str, int]]:
     return [(f"{name}:{f.lineno} {f.name}", (f.end_lineno or f.lineno) - f.lineno + 1) for f in found]
 
 
+@pytest.mark.slow
 def test_functions_are_short():
     found = [entry for name in sources() for entry in _functions(name)]
     long = {label: size for label, size in found if size > MOST_FUNCTION_LINES}

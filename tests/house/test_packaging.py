@@ -87,6 +87,7 @@ def _licence(name: str) -> str:
     return str(stated)
 
 
+@pytest.mark.slow
 def test_no_dependency_is_under_the_gpl():
     present = {dist.name: dist.version for dist in installed.distributions()}
     known = {canonicalize_name(name) for name in present}

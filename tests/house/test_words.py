@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import pytest
+
 from tests.house.project import ROOT, text, tracked
 
 REGISTRY = re.compile(r"https?://[^ )\"']+/(?:simple|packages|pool)/|files\.python" + r"hosted\.org")
@@ -26,6 +28,7 @@ def test_no_registry_address_is_committed():
     assert not _hits(REGISTRY)
 
 
+@pytest.mark.slow
 def test_no_path_of_one_machine_is_committed():
     # Dockerfiles may name the folders of the image they build.
     assert not [hit for hit in _hits(HOME) if not hit.startswith(("Dockerfile", "docker-compose"))]

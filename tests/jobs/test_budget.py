@@ -21,6 +21,7 @@ def used(charges: list[tuple[float, float]], at: float) -> float:
     return math.fsum(seconds for time, seconds in charges if time > at - WINDOW_S)
 
 
+@pytest.mark.slow
 @given(charges=CHARGES, asked=st.integers(1, 1000).map(float))
 def test_the_wait_is_the_shortest_after_which_the_request_fits(
     charges: list[tuple[float, float]], asked: float

@@ -46,6 +46,7 @@ def test_pairs_that_make_the_same_lines_are_taken_away_together() -> None:
     assert not [p for p in pairs if ("ball_contact", "bearing2") in p and ("ball_contact", "bearing3") in p]
 
 
+@pytest.mark.slow
 def test_counterfactual_runs_do_not_measure_the_step_error() -> None:
     class Spy(PhysicsEngine):
         def simulate(self, machine: MachineSpec, **options: Any) -> Response:
@@ -108,6 +109,7 @@ def test_twins_of_the_base_machine_have_its_modes(effect) -> None:  # type: igno
     assert {c.name for c in twin.channels} == {c.name for c in own.channels}
 
 
+@pytest.mark.slow
 def test_cancelling_ends_all_runs() -> None:
     spec = machine(RUNOUT)
     told: list[float] = []

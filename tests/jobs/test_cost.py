@@ -26,6 +26,7 @@ def system(name: str, change: dict[str, object]) -> System:
     return assemble(apply_overrides(presets.preset(name), change))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "change"), MACHINES)
 def test_estimated_work_is_within_a_factor_of_two(name: str, change: dict[str, object]) -> None:
     machine = system(name, change)

@@ -231,6 +231,7 @@ def test_nobody_cancels_or_deletes_a_part(house: House) -> None:
         delete(house.catalogue, house.artefacts, house.clock, part.id)
 
 
+@pytest.mark.slow
 def test_everything_expires_together_and_is_made_anew(house: House) -> None:
     dataset = house.finish(house.ask())
     house.now = 4000.0

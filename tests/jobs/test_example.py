@@ -36,6 +36,7 @@ def test_the_effects_without_lines_are_those_that_declare_none():
     assert silent == set(NO_LINES)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("key", "kind"), [("unbalance", "amplitude"), ("outer_spall", "envelope")])
 def test_the_leading_line_rises_with_the_effect(key, kind):
     found = example(REGISTRY.get(key))

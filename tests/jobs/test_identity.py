@@ -25,11 +25,13 @@ documents = st.recursive(
 )
 
 
+@pytest.mark.slow
 @given(documents)
 def test_canonical_text_means_the_document(document: object) -> None:
     assert json.loads(canonical_json(document)) == document
 
 
+@pytest.mark.slow
 @given(st.dictionaries(st.text(), st.integers(), min_size=2, max_size=6))
 def test_order_of_keys_does_not_matter(document: dict[str, int]) -> None:
     assert canonical_json(dict(reversed(document.items()))) == canonical_json(document)

@@ -111,6 +111,7 @@ def test_demo_run_is_kept_with_its_labels(tmp_path: Path) -> None:
     assert again["channel"] == reader.manifest.channels[1].name and again["peaks"]
 
 
+@pytest.mark.slow
 def test_a_contact_that_never_closed_is_told() -> None:
     def warnings(gap_m: float) -> list[str]:
         request = ask(set={"fit_clearance@bearing1.gap": gap_m})

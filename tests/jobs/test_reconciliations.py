@@ -116,6 +116,7 @@ def world(tmp_path: Path) -> World:
 REPORT = Report(verdict="explained", sentence="A <b> spall.", level="machine", machine={"name": "m"}, provenance={})
 
 
+@pytest.mark.slow
 def test_the_answer_is_kept_as_report_page_and_machine(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
     seen: dict[str, Any] = {}
 
@@ -147,6 +148,7 @@ def test_the_answer_is_kept_as_report_page_and_machine(world: World, monkeypatch
     assert "A &lt;b&gt; spall." in page and "<script" not in page
 
 
+@pytest.mark.slow
 def test_the_same_question_is_one_job_another_is_another(world: World) -> None:
     a, b = world.recording(1), world.recording(2)
     first = world.ask([a])
@@ -165,6 +167,7 @@ def test_the_same_question_is_one_job_another_is_another(world: World) -> None:
         world.ask([b], key="k")
 
 
+@pytest.mark.slow
 def test_recordings_that_cannot_be_used_are_named(world: World) -> None:
     a, gone, late = world.recording(1), world.recording(2), world.recording(3, read=False)
     world.catalogue.change(gone, lambda r: transitions.delete(r, 1.0))
@@ -179,6 +182,7 @@ def test_recordings_that_cannot_be_used_are_named(world: World) -> None:
         world.ask([a, late])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("known", "field"),
     [
@@ -196,6 +200,7 @@ def test_a_machine_that_is_none_is_refused_at_once(world: World, known: object, 
     assert field in [p.field for p in refused.value.problems]
 
 
+@pytest.mark.slow
 def test_what_the_engine_refuses_is_told_field_by_field(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: Any, **__: Any) -> Report:
         raise SpecError(Problem(field="recording[0]", message="is too short", given=np.float64(0.5), unit="s"))
@@ -208,6 +213,7 @@ def test_what_the_engine_refuses_is_told_field_by_field(world: World, monkeypatc
     assert (error["field"], error["given"]) == ("recording[0]", 0.5)
 
 
+@pytest.mark.slow
 def test_a_recording_deleted_in_the_meantime_is_told(world: World) -> None:
     a = world.recording(1)
     record = world.ask([a])
@@ -216,6 +222,7 @@ def test_a_recording_deleted_in_the_meantime_is_told(world: World) -> None:
     assert done.failure is not None and done.failure.code == "not-reconcilable" and "deleted" in done.failure.message
 
 
+@pytest.mark.slow
 def test_a_defect_of_ours_tells_no_paths_and_the_worker_goes_on(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(*_: Any, **__: Any) -> Report:
         raise ValueError("/secret/path")
@@ -225,6 +232,7 @@ def test_a_defect_of_ours_tells_no_paths_and_the_worker_goes_on(world: World, mo
     assert done.failure is not None and done.failure.code == "internal" and "/secret" not in done.failure.message
 
 
+@pytest.mark.slow
 def test_a_cancel_is_heard_between_two_simulations(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
     ran: list[int] = []
 
@@ -246,6 +254,7 @@ def test_a_cancel_is_heard_between_two_simulations(world: World, monkeypatch: py
     assert ran == [0, 1, 2]
 
 
+@pytest.mark.slow
 def test_progress_goes_through_the_parts_of_an_atlas(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
     told: list[tuple[float, str]] = []
 
@@ -266,6 +275,7 @@ def test_progress_goes_through_the_parts_of_an_atlas(world: World, monkeypatch: 
     assert not ResultReader(world.artefacts, f"{record.id}/1").has("machine")
 
 
+@pytest.mark.slow
 def test_what_is_accepted_is_charged_once_and_a_refusal_costs_nothing(world: World) -> None:
     ledger = SqlLedger(world.catalogue.engine)
     world.desk = replace(world.desk, budget=Budget(holder="me", core_seconds_per_day=24.0, ledger=ledger))

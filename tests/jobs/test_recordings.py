@@ -105,6 +105,7 @@ def about(recording: Recording = RECORDING) -> Any:
     return json.loads(json.dumps(describe(recording)))
 
 
+@pytest.mark.slow
 def test_a_recording_comes_back_as_it_was_sent(world: World) -> None:
     record = world.send(encode(RECORDING, "npz"), about())
     assert world.artefacts.size(upload_key(record.id, ".npz")) > 0, "kept before the reply"
@@ -136,6 +137,7 @@ def test_who_is_told_no_leaves_nothing_behind(world: World) -> None:
     assert not list((world.folder / "artefacts").iterdir())
 
 
+@pytest.mark.slow
 def test_refused_is_an_end_with_reasons_and_sent_again_is_a_new_attempt(world: World) -> None:
     record = world.send(b"no archive", about())
     done = run.run(world.bench, record.id, 1, "w")
@@ -147,6 +149,7 @@ def test_refused_is_an_end_with_reasons_and_sent_again_is_a_new_attempt(world: W
     assert (again.id, again.attempt, again.status) == (record.id, 2, Status.ACCEPTED)
 
 
+@pytest.mark.slow
 def test_a_described_bearing_names_its_lines(world: World) -> None:
     long = replace(RECORDING, samples=np.random.default_rng(1).normal(size=(2, 1400)), tacho=None)
     for wrong, told in (("no such size", "unknown bearing"), ({"balls": 9}, "bearing"), (7, "bearing")):
@@ -169,6 +172,7 @@ def test_a_file_that_is_gone_before_it_was_read_is_told(world: World) -> None:
     assert done is not None and done.failure is not None and "send it again" in done.failure.message
 
 
+@pytest.mark.slow
 def test_a_lost_worker_loses_no_file(world: World) -> None:
     record = world.send(encode(RECORDING, "csv"), about(), "r.csv")
     (world.folder / "artefacts" / record.id / "1").mkdir()  # a half-written attempt

@@ -44,6 +44,7 @@ def statuses(outcome: Outcome) -> dict[str, dict]:
     return {p["label"]: p for p in peaks if p["label"]}
 
 
+@pytest.mark.slow
 def test_only_what_the_sensors_need_is_simulated_and_an_ideal_one_shows_it() -> None:
     outcome = carried(ask(ACC))
     assert outcome.raw is not None
@@ -53,6 +54,7 @@ def test_only_what_the_sensors_need_is_simulated_and_an_ideal_one_shows_it() -> 
     assert outcome.extras[SENSORS]["channels"][0]["sources"] == {"resonator1.y.acceleration": 1.0}
 
 
+@pytest.mark.slow
 def test_labels_call_absent_what_the_noise_hides() -> None:
     quiet, loud = statuses(noisy(1e-9)), statuses(noisy(0.2))
     seen = {label for label, p in quiet.items() if p["status"] == "present" and label in loud}
@@ -65,6 +67,7 @@ def test_labels_call_absent_what_the_noise_hides() -> None:
         assert loud[label]["detection_limit"] > quiet[label]["amplitude"]
 
 
+@pytest.mark.slow
 def test_a_wrong_clock_loses_the_lines_unless_a_tacho_tells_the_speed() -> None:
     lost, kept = noisy(1e-6, ppm=3000.0), noisy(1e-6, ppm=3000.0, tacho=True)
     assert lost.response.bases_hz["f_m"] == pytest.approx(690.0)
@@ -73,6 +76,7 @@ def test_a_wrong_clock_loses_the_lines_unless_a_tacho_tells_the_speed() -> None:
     assert statuses(kept)["3*f_m"]["status"] == "present"
 
 
+@pytest.mark.slow
 def test_marked_gaps_leave_a_channel_out_of_the_analysis() -> None:
     gap = {"dropouts": {"gaps": [{"start_s": 0.4, "duration_s": 0.01}], "fill": "nan"}}
     outcome = carried(ask({**ACC, **gap}, {**ACC, "name": "whole"}))
@@ -103,6 +107,7 @@ def test_a_request_without_sensors_keeps_its_identity_and_lists_tell_a_chain_sho
     assert found.cost.seconds > resolve(plain, ENGINE, Limits()).cost.seconds
 
 
+@pytest.mark.slow
 def test_tachos_alone_and_a_machine_that_does_not_turn() -> None:
     outcome = carried(ask(TACHO))
     assert [c.name for c in outcome.response.channels] == ["key"]

@@ -33,6 +33,7 @@ def test_a_ramp_that_is_over_leaves_the_frequencies_of_the_new_speed() -> None:
         assert peaks["1*f_m"]["frequency_hz"] == pytest.approx(621.0, abs=2.0)
 
 
+@pytest.mark.slow
 def test_a_long_ramp_is_not_labelled_and_says_why() -> None:
     machine = turning(RampSpeed(end_ratio=1.5, duration_s=0.3))
     response = simulate(machine, duration_s=0.3, output_rate_hz=20_000.0, settings=Settings(estimate_error=False))
@@ -41,6 +42,7 @@ def test_a_long_ramp_is_not_labelled_and_says_why() -> None:
     assert [s.kind for s in documents.spectra if s.kind == "order"]
 
 
+@pytest.mark.slow
 def test_a_shaft_that_stands_still_has_no_order_spectrum() -> None:
     machine = turning(RampSpeed(end_ratio=0.0, duration_s=0.2))
     response = simulate(machine, duration_s=0.3, output_rate_hz=20_000.0, settings=Settings(estimate_error=False))

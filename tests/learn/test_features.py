@@ -45,6 +45,7 @@ def test_features_do_not_know_the_unit(impacts, bearing):
     np.testing.assert_allclose(a, b, atol=1e-4)
 
 
+@pytest.mark.slow
 @settings(max_examples=12, deadline=None)
 @given(seed=st.integers(0, 10_000), turns=st.sampled_from([10.0, 25.0, 60.0]))
 def test_noise_of_any_length_looks_alike(seed, turns):
@@ -56,6 +57,7 @@ def test_noise_of_any_length_looks_alike(seed, turns):
     assert all(f.z < 9.0 for f in found.values())
 
 
+@pytest.mark.slow
 def test_the_chance_level_of_the_search_is_uniform_on_noise(bearing):
     """Over many noises the smoothed rank of BPFO's search is below 0.1 in about a tenth of them."""
     rng = np.random.default_rng(5)

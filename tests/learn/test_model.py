@@ -66,6 +66,7 @@ def test_a_saved_model_answers_the_same(model, tmp_path):
     assert again.made_by == {"command": "test"}
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_bytes(tmp_path):
     for name in ("one", "two"):
         save(Model(heads={"known": head(seed=4)}, made_by={}), tmp_path / name)
@@ -137,6 +138,7 @@ JSON = st.recursive(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(JSON)
 def test_any_head_is_read_or_refused(raw):

@@ -27,6 +27,7 @@ def value(x, bearing, name):
     return float(vector(bank([x], RATE, SPEED), bearing)[0][NAMES.index(name)])
 
 
+@pytest.mark.slow
 def test_a_ball_that_passes_the_load_is_seen_by_the_cages_lines_alone(bearing):
     ball, sound = passing_ball(bearing, 1), noise(1)
     assert value(ball, bearing, "long_cage_all") > value(sound, bearing, "long_cage_all") + 1.0
@@ -57,6 +58,7 @@ def test_the_cage_is_compared_with_orders_that_share_no_line_with_it(bearing):
         assert not np.any(away[np.abs(base / relative - 1) < 0.03])
 
 
+@pytest.mark.slow
 def test_more_channels_of_noise_do_not_look_more_faulty(bearing):
     """The best of many bands is larger, but so it is at foreign orders."""
     rng = np.random.default_rng(7)
@@ -82,6 +84,7 @@ def test_cage_of_an_empty_spectrum_is_nothing(bearing):
     assert cage(np.zeros((3, 3200)), 0.0125, near, foreign(base, bearing.cage)) == (0.0, 0.0)
 
 
+@pytest.mark.slow
 def test_features_know_neither_unit_nor_offset(bearing):
     a = long_rows([noise(5)], RATE, SPEED, bearing)
     np.testing.assert_allclose(a, long_rows([3e-3 * noise(5) + 2.0], RATE, SPEED, bearing), atol=1e-4)
@@ -110,6 +113,7 @@ def model():
     return Model(heads=heads, made_by={})
 
 
+@pytest.mark.slow
 def test_the_whole_decides_for_long_recordings_and_pieces_for_short_ones(model, bearing):
     assert len(model.heads["whole"].networks[0].weights) == 1
     assert assess([noise(6)], RATE, SPEED, model, bearing).label == "ball"

@@ -31,6 +31,7 @@ def files(folder):
     return {p.relative_to(folder): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
 
 
+@pytest.mark.slow
 def test_the_same_case_has_the_same_bytes(short, tmp_path):
     case = of_group("single")
     for name in ("one", "two"):
@@ -39,6 +40,7 @@ def test_the_same_case_has_the_same_bytes(short, tmp_path):
     assert len(files(tmp_path / "one")) == 6
 
 
+@pytest.mark.slow
 def test_what_is_there_is_left_alone(short, tmp_path):
     case = of_group("open")
     made.make(case, tmp_path / "cases", tmp_path / "truth")
@@ -47,6 +49,7 @@ def test_what_is_there_is_left_alone(short, tmp_path):
     assert (tmp_path / "cases" / case.name / "test_1.npz").read_bytes() == b"kept"
 
 
+@pytest.mark.slow
 def test_the_product_reads_machine_and_recordings(short, tmp_path):
     case = of_group("sensor")
     made.make(case, tmp_path / "cases", tmp_path / "truth")
@@ -60,6 +63,7 @@ def test_the_product_reads_machine_and_recordings(short, tmp_path):
     assert [f"{c.location}.{c.axis}" for c in recording.channels] == list(case.sensors)
 
 
+@pytest.mark.slow
 def test_no_file_for_the_engine_tells_what_is_hidden(short, tmp_path):
     case = of_group("single")
     made.make(case, tmp_path / "cases", tmp_path / "truth")

@@ -48,6 +48,7 @@ def motion(machine, **changes):
     return accelerations(machine, steady(30.0), **given)[:, :: given["oversampling"]]
 
 
+@pytest.mark.slow
 def test_the_healthy_machine_is_that_of_the_reference():
     _, machine, theirs = reference("lightly_damped_healthy")
     ours = motion(machine)
@@ -59,6 +60,7 @@ def test_the_healthy_machine_is_that_of_the_reference():
         assert np.linalg.norm(ours[dof] - theirs[dof]) < 0.05 * np.linalg.norm(theirs[dof])
 
 
+@pytest.mark.slow
 def test_a_ring_in_a_rigid_bore_is_that_of_the_reference():
     told, machine, theirs = reference("lightly_damped_clearance_20um")
     b = machine.bearings[0]
@@ -74,6 +76,7 @@ def test_a_ring_in_a_rigid_bore_is_that_of_the_reference():
         assert lines[0] == pytest.approx(lines[1], rel=0.25)
 
 
+@pytest.mark.slow
 def test_halving_the_step_changes_the_motion_by_a_sixteenth_as_much():
     machine = arrays_of(exact_machine())
     runs = {n: motion(machine, duration_s=0.02, settle_s=0.0, oversampling=n) for n in (2, 4, 8, 16)}
@@ -155,6 +158,7 @@ def test_every_law_runs_at_its_corners_and_changes_something(name):
         assert np.linalg.norm(found - sound) > 1e-3 * np.linalg.norm(sound)
 
 
+@pytest.mark.slow
 def test_a_sound_tooth_and_a_zero_severity_change_nothing():
     machine = arrays_of(exact_machine())
     before = motion(machine, duration_s=0.02)

@@ -128,6 +128,7 @@ def test_wilson_agrees_with_its_definition():
     assert Rate(hits=0, n=20).interval[0] == 0.0
 
 
+@pytest.mark.slow
 def test_the_page_is_written_from_a_summary(tmp_path):
     scores = [score(t, right(t)) for t in (json.loads(json.dumps(truth_of(c))) for c in plan("dev"))]
     scores.append(score(truth("single", "loose_fit"), None))
@@ -163,6 +164,7 @@ def made_case(folder):
     return case
 
 
+@pytest.mark.slow
 def test_the_engine_gets_a_copy_without_the_name_and_is_run_once(tmp_path):
     script = tmp_path / "engine.py"
     script.write_text(ENGINE)
@@ -192,6 +194,7 @@ def test_an_engine_that_does_not_answer_is_a_failure(tmp_path):
     assert "no answer" in result["error"]
 
 
+@pytest.mark.slow
 def test_what_another_engine_stored_is_run_again(tmp_path):
     script = tmp_path / "engine.py"
     script.write_text(ENGINE)

@@ -31,6 +31,7 @@ def values(levels: Levels) -> dict[str, float]:
     return {family.key: family.value for family in levels.families}
 
 
+@pytest.mark.slow
 def test_lines_of_shafts_and_meshes_read_their_rms() -> None:
     t = np.arange(N) / RATE_HZ
     mesh = sum(a * np.sin(2 * np.pi * 20 * k * SPEED_HZ * t) for k, a in ((1, 2.0), (2, 1.0)))
@@ -44,6 +45,7 @@ def test_lines_of_shafts_and_meshes_read_their_rms() -> None:
     assert found.speed.speed_hz == pytest.approx(SPEED_HZ, rel=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "order", "load"), [("outer", OUTER, 0.0), ("inner", INNER, 0.6)])
 def test_a_defect_raises_its_own_race_and_no_other(kind: str, order: float, load: float) -> None:
     before = values(family_levels(SPEC, recorded(sound(5))))
@@ -55,6 +57,7 @@ def test_a_defect_raises_its_own_race_and_no_other(kind: str, order: float, load
     assert after["shaft.shaft"] == pytest.approx(before["shaft.shaft"], rel=0.01)
 
 
+@pytest.mark.slow
 def test_a_gain_does_not_move_a_bearing_and_moves_a_shaft() -> None:
     one, other = (values(family_levels(SPEC, recorded(gain * sound(2)))) for gain in (1.0, 10.0))
     assert other["bearing1.outer"] == pytest.approx(one["bearing1.outer"], rel=1e-6)

@@ -9,6 +9,8 @@ import pytest
 import sideband_client
 from sideband_client import Client, Job, errors
 
+pytestmark = pytest.mark.slow  # everything here waits for a worker that simulates or reads
+
 
 @pytest.fixture(scope="module")
 def done(url: str) -> Iterator[Job]:

@@ -17,6 +17,8 @@ from sideband_client.transport import Timing, Transport
 from tests.service.fakes import machine
 from tests.service.parts import LiveServer, Parts
 
+pytestmark = pytest.mark.slow  # everything here waits for a worker that simulates or reads
+
 
 def spec(notes: str) -> dict:
     return machine(notes).model_dump(mode="json")

@@ -56,6 +56,7 @@ def test_a_spall_is_found_and_its_report_saved(client: Client, tmp_path: Path) -
     assert client.reconciliation(job.id).save(folder, overwrite=True) == folder
 
 
+@pytest.mark.slow
 def test_what_is_no_recording_is_refused_with_its_field(client: Client, tmp_path: Path) -> None:
     recording = recorded(np.random.default_rng(1).normal(size=64))
     path = on_disk(tmp_path, "r", recording, channels=[])

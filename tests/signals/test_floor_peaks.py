@@ -74,6 +74,7 @@ def test_one_sine_is_located_between_bins(position: float, amplitude: float, nam
     assert found[0] == pytest.approx(amplitude, rel={"boxcar": 1e-2, "hamming": 3e-3}.get(name, 1e-3))
 
 
+@pytest.mark.slow
 def test_a_line_near_by_pulls_no_further_than_the_neighbours_disagree() -> None:
     """Pairs 1.5 to 4 bins apart, the weaker 6 to 60 dB down; the tie rule allows 0.05 bins besides."""
     n, rng, off, without = 1000, np.random.default_rng(11), 0, 0
@@ -99,6 +100,7 @@ def test_the_neighbours_of_a_lone_sine_agree(name: str) -> None:
         assert disagreement_bins(spectrum, peak)[0] < 2e-2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("level", [0.02, 0.2])
 def test_the_spread_of_the_frequency_is_what_the_tie_rule_assumes(level: float) -> None:
     """Standard deviation over trials against the stated bins times floor over amplitude, Hann."""

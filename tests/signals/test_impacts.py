@@ -71,6 +71,7 @@ def test_random_times_are_not_locked() -> None:
     assert not fold(times, np.ones(300), "f_o1", STRUCK_HZ, SECONDS).locked
 
 
+@pytest.mark.slow
 def test_silence_has_no_events_and_the_list_is_bounded() -> None:
     quiet = found(struck(np.zeros(0)))
     assert sum(quiet.counts.values()) == 0 and quiet.events == () and quiet.folds[0].chance == 1.0

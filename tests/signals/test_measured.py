@@ -48,6 +48,7 @@ def level(found: LabelSet, label: str) -> float:
     return found[label].db_over_floor or 0.0
 
 
+@pytest.mark.slow
 def test_an_outer_race_fault_shows_its_family() -> None:
     found = labels("cwru_1797rpm_outerrace_007in_6oclock")
     assert all(level(found, f"{k}*f_o1") > 30 for k in (1, 2, 3))
@@ -55,6 +56,7 @@ def test_an_outer_race_fault_shows_its_family() -> None:
     assert found.band is not None and found.band.impulsive
 
 
+@pytest.mark.slow
 def test_an_inner_race_fault_shows_its_family_with_shaft_sidebands() -> None:
     found = labels("cwru_1797rpm_innerrace_007in")
     assert level(found, "1*f_i1") > 30

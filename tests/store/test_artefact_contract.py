@@ -21,7 +21,10 @@ def endpoint() -> Iterator[str]:
         yield opened
 
 
-@pytest.fixture(params=["folder", "bucket", "bucket with a prefix"])
+BUCKETS = [pytest.param(name, marks=pytest.mark.slow) for name in ("bucket", "bucket with a prefix")]
+
+
+@pytest.fixture(params=["folder", *BUCKETS])
 def store(tmp_path: Path, request: pytest.FixtureRequest) -> ArtefactStore:
     url = ""
     if request.param != "folder":
@@ -95,6 +98,7 @@ def test_deleting_takes_one_job_and_no_other(store: ArtefactStore) -> None:
             store.size(key)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("key", ["../x", "job/../../x", "/etc/passwd", "job", "job//x", "job/.hidden", "job/a\n"])
 def test_keys_cannot_leave_the_store(store: ArtefactStore, key: str) -> None:
     for ask in (store.read, store.size, lambda k: put(store, k, b"")):

@@ -20,7 +20,7 @@ from store.catalogue.stats import job_stats
 COST = Cost(steps=1, memory_bytes=2, seconds=0.5)
 
 
-@pytest.fixture(params=["sqlite", "postgresql"])
+@pytest.fixture(params=["sqlite", pytest.param("postgresql", marks=pytest.mark.slow)])
 def catalogue(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[SqlCatalogue]:
     url = f"sqlite:///{tmp_path / 'c.sqlite'}"
     if request.param == "postgresql":
@@ -122,6 +122,7 @@ def test_pages_cover_the_list_once_even_with_equal_times(catalogue: SqlCatalogue
         assert seen == sorted(names, reverse=descending)
 
 
+@pytest.mark.slow
 def test_many_writers_lose_nothing(catalogue: SqlCatalogue) -> None:
     def ask(i: int) -> None:
         for k in range(10):
@@ -135,6 +136,7 @@ def test_many_writers_lose_nothing(catalogue: SqlCatalogue) -> None:
     assert len(catalogue.get("shared").submitters) == 80
 
 
+@pytest.mark.slow
 def test_of_many_requests_with_one_key_one_is_the_first(catalogue: SqlCatalogue) -> None:
     earlier: list[object] = []
 

@@ -20,7 +20,7 @@ from store.catalogue.ledger import SqlLedger
 NOW = 1e9
 
 
-@pytest.fixture(params=["sqlite", "postgresql"])
+@pytest.fixture(params=["sqlite", pytest.param("postgresql", marks=pytest.mark.slow)])
 def database(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Engine]:
     url = f"sqlite:///{tmp_path / 'c.sqlite'}"
     if request.param == "postgresql":
@@ -69,6 +69,7 @@ def test_a_refund_makes_room(database: Engine) -> None:
     ledger.charge(charge(100), 100)
 
 
+@pytest.mark.slow
 def test_of_many_at_once_only_as_many_as_fit(database: Engine, monkeypatch: pytest.MonkeyPatch) -> None:
     refused, check = [], module._check
 

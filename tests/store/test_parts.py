@@ -20,7 +20,7 @@ COST = Cost(steps=1, memory_bytes=2, seconds=0.5)
 MANY = 40
 
 
-@pytest.fixture(params=["sqlite", "postgresql"])
+@pytest.fixture(params=["sqlite", pytest.param("postgresql", marks=pytest.mark.slow)])
 def catalogue(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[SqlCatalogue]:
     url = f"sqlite:///{tmp_path / 'c.sqlite'}"
     if request.param == "postgresql":

@@ -17,6 +17,7 @@ from tests.service import postgresql
 from tests.service.parts import eventually
 
 
+@pytest.mark.slow
 def test_processes_that_start_together_create_one_schema(postgresql_url: str) -> None:
     engines = [engine.connect(postgresql_url, pooled=False) for _ in range(6)]
     schema.metadata.drop_all(engines[0])
@@ -36,6 +37,7 @@ def test_processes_that_start_together_create_one_schema(postgresql_url: str) ->
     assert not faults and schema.tables_present(engines[0])
 
 
+@pytest.mark.slow
 def test_second_request_with_a_key_finds_the_first_though_both_looked_before(postgresql_url: str) -> None:
     database = engine.connect(postgresql_url)
     schema.metadata.drop_all(database)
@@ -65,6 +67,7 @@ def _until_blocked(database: Engine) -> None:
     eventually(blocked)
 
 
+@pytest.mark.slow
 def test_statement_that_takes_too_long_is_ended(postgresql_url: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(engine, "BUSY_TIMEOUT_S", 1)
     database = engine.connect(postgresql_url, pooled=False)

@@ -36,6 +36,7 @@ def put(store: s3.S3Store, key: str, content: bytes) -> None:
         stream.write(content)
 
 
+@pytest.mark.slow
 def test_digest_goes_with_the_object_and_damage_is_noticed(endpoint: str) -> None:
     store = at(endpoint)
     put(store, "job/1/a", b"content")
@@ -49,6 +50,7 @@ def test_digest_goes_with_the_object_and_damage_is_noticed(endpoint: str) -> Non
         store.read("job/1/a")
 
 
+@pytest.mark.slow
 def test_listing_by_job_goes_over_pages(endpoint: str) -> None:
     store = at(endpoint, prefix="deep/place")
     for i in range(5):
@@ -58,6 +60,7 @@ def test_listing_by_job_goes_over_pages(endpoint: str) -> None:
     assert "deep/place/many/1/f0" in names
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("endpoint")
 def test_server_that_is_away_is_told_soon() -> None:
     with socket.socket() as silent:
@@ -72,6 +75,7 @@ def test_server_that_is_away_is_told_soon() -> None:
         store.check()
 
 
+@pytest.mark.slow
 def test_bucket_that_is_not_there(endpoint: str) -> None:
     store = at(endpoint, bucket="nobodys")
     for ask in (store.check, lambda: put(store, "job/1/a", b""), lambda: list(store.keys("job/"))):
@@ -96,6 +100,7 @@ def test_refusals_in_our_words(code: str, kind: type[Exception], says: str) -> N
     assert "theirs" not in str(caught.value)
 
 
+@pytest.mark.slow
 def test_object_beyond_the_bound_is_refused_before_it_is_sent(endpoint: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(s3, "MAX_BYTES", 10)
     store = at(endpoint)
@@ -111,6 +116,7 @@ def test_full_local_disk_is_told(endpoint: str, tmp_path: Path) -> None:
         pass
 
 
+@pytest.mark.slow
 def test_health_writes_seldom_but_always_asks(endpoint: str) -> None:
     now = [0.0]
     store = s3.S3Store(S3Place(bucket=BUCKET, endpoint=endpoint, prefix="watched"), monotonic=lambda: now[0])
@@ -125,6 +131,7 @@ def _in_child(store: s3.S3Store, parents: int, told: multiprocessing.Queue[bool]
     told.put(id(store._client()) != parents and store.read("job/7/a") == b"parent's")
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")
 def test_forked_child_has_connections_of_its_own(endpoint: str) -> None:
     store = at(endpoint)

@@ -21,6 +21,7 @@ def server_of(guard: subprocess.Popen[str]) -> psutil.Process:
     return next(c for c in psutil.Process(guard.pid).children() if "valkey" in c.name())
 
 
+@pytest.mark.slow
 def test_settings_that_keep_accepted_work(tmp_path: Path) -> None:
     guard, url = start_broker(tmp_path)
     try:
@@ -37,6 +38,7 @@ def test_settings_that_keep_accepted_work(tmp_path: Path) -> None:
         stop_broker(guard)
 
 
+@pytest.mark.slow
 def test_data_survive_a_stop_and_a_second_server_is_refused(tmp_path: Path) -> None:
     guard, url = start_broker(tmp_path)
     Redis.from_url(url).set("kept", "yes")
@@ -107,6 +109,7 @@ def test_killed_server_comes_back_on_the_same_address(tmp_path: Path) -> None:
         stop_broker(guard)
 
 
+@pytest.mark.slow
 def test_unreadable_file_is_set_aside(tmp_path: Path) -> None:
     guard, url = start_broker(tmp_path)
     Redis.from_url(url).set("a", "b")
@@ -121,6 +124,7 @@ def test_unreadable_file_is_set_aside(tmp_path: Path) -> None:
         stop_broker(guard)
 
 
+@pytest.mark.slow
 def test_ctrl_c_is_for_the_owner_to_handle(tmp_path: Path) -> None:
     guard, url = start_broker(tmp_path)
     try:

@@ -17,6 +17,7 @@ LEASE = ("SIDEBAND_LEASE_S", "soon", "a number, 1 to 86400 s")
 PORT = ("SIDEBAND_PORT", "80.5", "a whole number, 0 to 65535")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("door", "wrong"), [(WORKER, LEASE), (SERVE, LEASE), (SERVE, PORT), (API, PORT)])
 def test_a_wrong_variable(tmp_path: Path, door: tuple[str, ...], wrong: tuple[str, str, str]) -> None:
     name, given, allowed = wrong

@@ -73,6 +73,7 @@ def test_options_that_a_result_answers_itself_are_refused(call: Call, result: Pa
     assert code == 2 and "resonator1.y.acceleration" in err
 
 
+@pytest.mark.slow
 def test_a_described_recording_uses_its_tacho(call: Call, recording: Path) -> None:
     code, out, err = call("analyse", recording, "--teeth", TEETH)
     assert code == 0, err

@@ -30,6 +30,7 @@ def test_recipes(call: Call) -> None:
     assert "did you mean gearbox" in told
 
 
+@pytest.mark.slow
 def test_plan(call: Call, tmp_path: Path) -> None:
     code, told, _ = call("dataset", "plan", _recipe(tmp_path), "--count", "8", "--json")
     answer = json.loads(told)
@@ -40,6 +41,7 @@ def test_plan(call: Call, tmp_path: Path) -> None:
     assert "core-seconds" in call("dataset", "plan", "bearing-rig")[1]
 
 
+@pytest.mark.slow
 def test_make_verify_and_card(call: Call, tmp_path: Path) -> None:
     out = tmp_path / "set"
     code, told, _ = call("dataset", "make", _recipe(tmp_path), "--out", str(out), "--workers", "1")
@@ -72,6 +74,7 @@ def test_wrong_input_is_told_by_its_field(call: Call, tmp_path: Path) -> None:
     assert not list(tmp_path.glob("x*"))
 
 
+@pytest.mark.slow
 def test_an_interruption_says_how_to_go_on(call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     out = tmp_path / "set"
     shown = dataset._show

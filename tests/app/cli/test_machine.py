@@ -17,6 +17,7 @@ Call = Callable[..., tuple[int, str, str]]
 Process = Callable[..., subprocess.CompletedProcess[str]]
 
 
+@pytest.mark.slow
 def test_a_reference_becomes_a_machine_that_can_be_checked(
     sideband: Process, call: Call, reference: Path, tmp_path: Path
 ) -> None:

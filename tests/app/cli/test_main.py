@@ -22,6 +22,7 @@ def test_every_command_has_its_module() -> None:
         assert module.__doc__
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["simulate", "machine", "verify", "mesh"])
 def test_physics_commands_load_no_web_and_no_broker(command: str) -> None:
     code = (

@@ -22,6 +22,7 @@ def written(folder: Path, **chain: object) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_measured_channels_and_the_motion_before_them(call: Call, tmp_path: Path) -> None:
     chain, out = written(tmp_path, clock={"sampling_rate_hz": 12_800.0}), tmp_path / "r"
     assert call(*SHORT, "--sensors", chain, "--keep-raw", "--out", out)[0] == 0
@@ -40,6 +41,7 @@ def test_measured_channels_and_the_motion_before_them(call: Call, tmp_path: Path
     assert summary["channels"][0]["unit"] == "m/s^2" and summary["request"]["sensors"]["channels"][0]["name"] == "acc"
 
 
+@pytest.mark.slow
 def test_the_same_command_gives_the_same_bytes_and_leftovers_go(call: Call, tmp_path: Path) -> None:
     chain = written(tmp_path)
     for name in ("a", "b"):

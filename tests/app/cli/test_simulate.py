@@ -21,6 +21,7 @@ Call = Callable[..., tuple[int, str, str]]
 Process = Callable[..., subprocess.CompletedProcess[str]]
 
 
+@pytest.mark.slow
 def test_a_result_folder(sideband: Process, tmp_path: Path) -> None:
     out = tmp_path / "result"
     done = sideband(
@@ -66,6 +67,7 @@ def test_causes_and_impacts_on_request(sideband: Process, tmp_path: Path) -> Non
         assert "mesh1.contact" not in signals, "only what was asked for is kept"
 
 
+@pytest.mark.slow
 def test_the_written_machine_gives_the_same_signals(call: Call, tmp_path: Path) -> None:
     common = ("--duration", "0.05", "--quiet", "--channels", "pinion.y.displacement,mesh1.force")
     assert call("simulate", "--preset", "gear-pair", "--duration", "0.05", "--quiet", "--out", tmp_path / "x")[0] == 0
@@ -76,6 +78,7 @@ def test_the_written_machine_gives_the_same_signals(call: Call, tmp_path: Path) 
         np.testing.assert_array_equal(a["mesh1.force"], b["mesh1.force"])
 
 
+@pytest.mark.slow
 def test_the_command_told_at_the_end_repeats_everything(call: Call, tmp_path: Path) -> None:
     """Duration, rate, seed, channels, transient, sensors: the machine's file alone does not have them."""
     chain = {"channels": [{"kind": "accelerometer", "name": "acc", "preset": "icp-magnet"}]}
@@ -168,6 +171,7 @@ def test_wrong_requests_are_refused_before_a_folder_is_made(
 SHORT = ("simulate", "--preset", "oscillator", "--duration", "0.05")
 
 
+@pytest.mark.slow
 def test_the_folder_is_named_after_the_machine_unless_it_is_given(
     call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -236,6 +240,7 @@ def test_a_machine_without_lines_says_why(call: Call, tmp_path: Path) -> None:
     assert "no labels: nothing turns" in error
 
 
+@pytest.mark.slow
 def test_a_machine_of_angles_only_is_labelled_by_them(call: Call, tmp_path: Path) -> None:
     assert call("simulate", "--preset", "gear-pair", "--duration", "0.5", "--quiet", "--out", tmp_path / "r")[0] == 0
     labels = json.loads((tmp_path / "r" / "labels.json").read_text())

@@ -42,6 +42,7 @@ def test_every_reference_solution_is_met(sideband: Process, reference: Path) -> 
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.slow
 def test_a_tolerance_that_cannot_be_met_fails(call: Call, reference: Path, tmp_path: Path) -> None:
     _copy(reference, tmp_path, HEALTHY)
     code, out, _ = call("verify", tmp_path, "--tolerance", "1e-12", "--json")
@@ -51,6 +52,7 @@ def test_a_tolerance_that_cannot_be_met_fails(call: Call, reference: Path, tmp_p
     assert 1e-12 < found["files"][0]["error"] < 1e-3
 
 
+@pytest.mark.slow
 def test_a_wrong_parameter_is_found(call: Call, reference: Path, tmp_path: Path) -> None:
     path = _copy(reference, tmp_path, HEALTHY)
     parameters = json.loads(path.read_text())
@@ -58,6 +60,7 @@ def test_a_wrong_parameter_is_found(call: Call, reference: Path, tmp_path: Path)
     assert call("verify", tmp_path)[0] == 1
 
 
+@pytest.mark.slow
 def test_torques_are_those_of_the_reference_equations(call: Call, reference: Path, tmp_path: Path) -> None:
     """Tout repeats T Rb_ge / Rb_pin: another T is another machine, another Tout is a warning."""
     path = _copy(reference, tmp_path, HEALTHY)
@@ -73,6 +76,7 @@ def test_torques_are_those_of_the_reference_equations(call: Call, reference: Pat
     assert "is not T Rb_ge / Rb_pin" in error and "error" not in error
 
 
+@pytest.mark.slow
 def test_other_names_in_the_file_are_the_same_machine(call: Call, reference: Path, tmp_path: Path) -> None:
     """The wrapped form, and without the values that follow from the others."""
     path = _copy(reference, tmp_path, HEALTHY)
@@ -84,6 +88,7 @@ def test_other_names_in_the_file_are_the_same_machine(call: Call, reference: Pat
     assert code == 0, out + error
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("keep", [slice(None, None, 3), slice(0, 3000), slice(1500, None, 2)])
 def test_other_rates_and_durations(call: Call, reference: Path, tmp_path: Path, keep: slice) -> None:
     path = _copy(reference, tmp_path, HEALTHY)
@@ -117,6 +122,7 @@ def test_ring_and_resonator_columns(reference: Path) -> None:
     np.testing.assert_allclose(found[4:].T, arrays["q"][:300][:, RING_1], atol=1e-3 * np.abs(found[4:]).max())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damage", ["json", "npz", "no_npz", "no_a", "shape", "nan", "unknown", "no_grid"])
 def test_a_broken_file_is_named_and_the_others_go_on(call: Call, reference: Path, tmp_path: Path, damage: str) -> None:
     path = _copy(reference, tmp_path, HEALTHY, "a_broken")

@@ -37,6 +37,7 @@ def test_a_key_holds_until_its_end() -> None:
 SETS = st.sets(st.sampled_from(SCOPES))
 
 
+@pytest.mark.slow
 @given(has=SETS, wanted=SETS)
 def test_let_in_for_exactly_what_the_key_is_for(has: set[Scope], wanted: set[Scope]) -> None:
     told = judge().refusal(Key(name="ann", scopes=frozenset(has)), given=True, scopes=sorted(wanted))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -10,6 +11,7 @@ from app.guards.rate import Bucket, Buckets, take
 GAPS = st.lists(st.floats(0.0, 40.0), min_size=1, max_size=80)
 
 
+@pytest.mark.slow
 @given(gaps=GAPS, per_minute=st.integers(1, 200))
 def test_no_stretch_of_time_has_more_calls_than_a_full_bucket_and_its_refill(
     gaps: list[float], per_minute: int

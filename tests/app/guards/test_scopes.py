@@ -36,6 +36,7 @@ def test_what_is_not_listed_needs_every_scope(method: str, path: str) -> None:
     assert needed(method, path) == SCOPES
 
 
+@pytest.mark.slow
 def test_the_document_names_the_scope_of_each_operation() -> None:
     document = json.loads(rendered())
     for path, operations in document["paths"].items():

@@ -78,6 +78,7 @@ def test_a_drift_within_the_spread_is_never_told() -> None:
         assert judge(amplitude(level), base, family=False).severity is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("count", "warning", "alarm"), list(zip(COUNTS, WARNING_FACTORS, ALARM_FACTORS, strict=True)))
 def test_false_alarms_on_gaussian_baselines_are_as_rare_as_stated(count: int, warning: float, alarm: float) -> None:
     """P(x > median + k sigma), the average over baselines, with the tail of x exact: draws other than the table's."""
@@ -96,6 +97,7 @@ def test_between_two_counts_the_factor_of_the_smaller_holds() -> None:
         assert (limit - base.median_db) / base.sigma_db == pytest.approx(expected)
 
 
+@pytest.mark.slow
 @given(st.lists(st.floats(1e-6, 1e3), min_size=8, max_size=60), st.floats(1e-3, 1e3), st.booleans())
 def test_a_gain_common_to_all_changes_no_verdict(values: list[float], gain: float, family: bool) -> None:
     base, scaled = baseline_of(values), baseline_of([gain * v for v in values])

@@ -11,17 +11,20 @@ from learn.simulate.visible import SHOWS_DB, visible_db
 from sideband_datasets import make_plan
 
 
+@pytest.mark.slow
 def test_each_machine_is_recorded_once_in_every_class():
     plan = make_plan(recipe(30, fast=True))
     for m in range(len(plan.machines)):
         assert sorted(plan.kind[plan.machine == m]) == [0, 1, 2, 3]
 
 
+@pytest.mark.slow
 def test_every_family_of_bearings_has_a_machine():
     plan = make_plan(recipe(30, fast=False))
     assert {m.family for m in plan.machines} == {f.name for f in families()}
 
 
+@pytest.mark.slow
 def test_no_two_machines_are_alike():
     plan = make_plan(recipe(40, fast=True))
     assert len({m.content for m in plan.machines}) == len(plan.machines)

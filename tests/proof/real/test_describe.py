@@ -22,6 +22,7 @@ TELLING = ("fault", "healthy", "outer", "inner", "ball", "broken", "spall", "cra
 pytestmark = pytest.mark.skipif(not ENTRIES, reason="the recordings are not beside this project")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("entry", [e for e in ENTRIES if e["dataset"] != IRREGULAR], ids=lambda e: e["file"])
 def test_a_recording_reads_as_the_catalogue_says(tmp_path, entry) -> None:
     found = read_recording(write(RECORDINGS, entry, tmp_path, "case"))

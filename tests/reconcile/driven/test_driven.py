@@ -48,6 +48,7 @@ def reproduced(report: Report) -> float:
     return float(np.max(np.abs(run - shown)) / np.max(np.abs(shown)))
 
 
+@pytest.mark.slow
 def test_linear_model_is_found_from_any_start() -> None:
     data = driven_of(recording(None, seed=3), SPEC)
     start = first_guess(data)
@@ -61,6 +62,7 @@ def test_linear_model_is_found_from_any_start() -> None:
     assert high - low < 0.01 * value
 
 
+@pytest.mark.slow
 def test_free_run_is_its_closed_form() -> None:
     """A step of force on a damped oscillator."""
     data = driven_of(recording(None, seed=3, n=3000), SPEC)
@@ -163,6 +165,7 @@ def test_roles_come_from_quantities_locations_or_are_stated() -> None:
     assert driven_of(told, SPEC).drive_channel.name == "displacement"
 
 
+@pytest.mark.slow
 def test_direction_is_told_by_the_purer_sine() -> None:
     made = recording(None, seed=1, n=4000)
     forced = directed(made, SPEC)
@@ -178,6 +181,7 @@ def test_direction_is_told_by_the_purer_sine() -> None:
     assert directed(made, SPEC.model_copy(update={"loads": [load]})).assumed == ""
 
 
+@pytest.mark.slow
 def test_bad_input_is_refused_with_its_place() -> None:
     made = recording(None, seed=1, n=3200)
     with pytest.raises(SpecError, match="one mass on a spring"):

@@ -46,6 +46,7 @@ def made(law: lib.Law, rng: np.random.Generator, noise: float = 0.5) -> ForceSam
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "law",
     [
@@ -77,6 +78,7 @@ def test_a_law_is_recovered(law: lib.Law) -> None:
         assert abs(found.chosen[0].coefficient - expected) < 4 * found.chosen[0].standard_error + 0.02 * expected
 
 
+@pytest.mark.slow
 def test_a_force_without_a_law_gets_none() -> None:
     """At the stated rate of 5 %: of 60 noises at most 7 may pass (probability 0.02 of more)."""
     named = 0
@@ -91,6 +93,7 @@ def test_a_force_without_a_law_gets_none() -> None:
     assert named <= 7
 
 
+@pytest.mark.slow
 def test_exponent_of_an_odd_law() -> None:
     rng = np.random.default_rng(2)
     found = odd_exponent(made(lib.CUBIC, rng), rng)
@@ -100,6 +103,7 @@ def test_exponent_of_an_odd_law() -> None:
     assert other.low < 2.0 < other.high
 
 
+@pytest.mark.slow
 def test_formulas_are_the_values() -> None:
     """What the specification would simulate is what the search saw."""
     rng = np.random.default_rng(0)

@@ -72,10 +72,12 @@ def judged(tests):  # type: ignore[no-untyped-def]
     return inspect_measurement(BASELINES, tests, mesh_orders=(float(TEETH),), orders=(3.58, 5.42))
 
 
+@pytest.mark.slow
 def test_a_repeat_has_no_fault() -> None:
     assert judged(trials()).fault is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [5.0, 20.0, 60.0, 200.0])
 def test_impacts_near_one_sensor_are_not_a_sensor_fault(size: float) -> None:
     gate = judged(trials(defect=size))
@@ -147,6 +149,7 @@ KINDS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "change"), KINDS)
 def test_each_kind_is_named_at_its_channel(kind, change) -> None:  # type: ignore[no-untyped-def]
     gate = judged(changed(1, change))
@@ -154,6 +157,7 @@ def test_each_kind_is_named_at_its_channel(kind, change) -> None:  # type: ignor
     assert (gate.fault.kind, gate.fault.channel) == (kind, "a1")
 
 
+@pytest.mark.slow
 def test_swapped_channels_are_named_and_put_back() -> None:
     tests = trials()
     gate = judged(tuple(replace(t, samples=t.samples[[1, 0, 2]]) for t in tests))
@@ -162,23 +166,27 @@ def test_swapped_channels_are_named_and_put_back() -> None:
     assert np.array_equal(gate.tests[0].samples, tests[0].samples)
 
 
+@pytest.mark.slow
 def test_gain_is_undone() -> None:
     tests = trials()
     gate = judged(changed(1, lambda x, i: 1.6 * x))
     assert np.std(gate.tests[0].samples[1]) == pytest.approx(np.std(tests[0].samples[1]), rel=0.06)
 
 
+@pytest.mark.slow
 def test_a_loose_mount_is_equalised() -> None:
     gate = judged(changed(1, _loose))
     assert np.std(gate.tests[0].samples[1]) == pytest.approx(np.std(trials()[0].samples[1]), rel=0.35)
 
 
+@pytest.mark.slow
 def test_hum_is_taken_out() -> None:
     gate = judged(changed(1, _hum))
     left = gate.tests[0].samples[1] - trials()[0].samples[1]
     assert np.std(left) < 0.1 * 0.4 / np.sqrt(2)
 
 
+@pytest.mark.slow
 def test_hum_that_the_baseline_has_too_is_a_remark() -> None:
     def hummed(r: Recording) -> Recording:
         samples = r.samples.copy()
@@ -190,6 +198,7 @@ def test_hum_that_the_baseline_has_too_is_a_remark() -> None:
     assert any(f.kind == "mains_hum" for f in gate.findings)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("error", [0.01, 0.05])
 def test_a_jittering_tacho_is_named(error: float) -> None:
     rng = np.random.default_rng(5)
@@ -204,6 +213,7 @@ def test_a_jittering_tacho_is_named(error: float) -> None:
     assert gate.fault is not None and gate.fault.kind == "tacho_jitter"
 
 
+@pytest.mark.slow
 def test_missing_pulses_are_named() -> None:
     t = trials()[0]
     assert t.tacho is not None
@@ -211,6 +221,7 @@ def test_missing_pulses_are_named() -> None:
     assert gate.fault is not None and gate.fault.kind == "tacho_jitter"
 
 
+@pytest.mark.slow
 def test_a_louder_machine_is_no_gain_fault() -> None:
     gate = judged(tuple(replace(t, samples=1.7 * t.samples) for t in trials()))
     assert gate.fault is None
@@ -244,6 +255,7 @@ def test_no_test_recording_is_refused() -> None:
         inspect_measurement(BASELINES, ())
 
 
+@pytest.mark.slow
 def test_faults_are_ranked_by_what_spoils_first() -> None:
     def both(x, i):  # type: ignore[no-untyped-def]
         return _nan(_hum(x, i), i)

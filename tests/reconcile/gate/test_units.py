@@ -38,6 +38,7 @@ def judged(tests: tuple[Recording, ...]) -> Gate:
     return inspect_measurement(BASELINES, tests, mesh_orders=(23.0,), orders=(3.58, 5.42))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [1 / GRAVITY, GRAVITY])
 @pytest.mark.parametrize("defect", [0.0, 60.0])
 def test_g_described_as_metres_is_a_unit(factor: float, defect: float) -> None:
@@ -68,6 +69,7 @@ def test_all_louder_or_one_alone_is_no_unit_by_its_bulk() -> None:
     assert unit_of(12.0) is None
 
 
+@pytest.mark.slow
 def test_every_channel_of_a_fault_is_named() -> None:
     units = judged(scaled(trials(), (0, 2), 1 / GRAVITY))
     assert units.fault is not None

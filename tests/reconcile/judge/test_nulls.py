@@ -55,6 +55,7 @@ def _space(made: Changes, library: Library) -> Fitted:
     return fit_space(made, library, seed=3, view=made.single, least=4.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("drift_db", "kind"), [(1.0, 0), (4.0, 0), (4.0, 48)])
 def test_a_machine_that_drifted_as_the_others_is_no_more_unusual(drift_db: float, kind: int) -> None:
     lengths, patterns = [], []
@@ -71,6 +72,7 @@ def test_a_machine_that_drifted_as_the_others_is_no_more_unusual(drift_db: float
         assert np.median(chances) > 0.2
 
 
+@pytest.mark.slow
 def test_groups_of_features_of_machines_that_drift_by_different_amounts() -> None:
     """Few nulls reach what an observation of the same kind does, unless each is measured by the others."""
     chances = []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from reconcile.judge.scatter import evidence_intervals
 from reconcile.judge.screen import judge
@@ -12,6 +13,7 @@ from tests.reconcile.judge.made import EFFECTS, FEATURES, MEASURED_DB, changes, 
 MADE = world()
 
 
+@pytest.mark.slow
 def test_the_interval_is_that_of_recording_again() -> None:
     rng = np.random.default_rng(3)
     truth = MADE.effect(1, 0.6, rng) + MADE.healthy(rng, 1)[0]

@@ -39,6 +39,7 @@ def test_a_known_effect_is_named_and_known_to_be(c: int) -> None:
     assert right >= 19
 
 
+@pytest.mark.slow
 def test_p_values_of_sound_machines_are_no_smaller_than_they_say() -> None:
     n = 400
     found = [screened(MADE.noise(np.random.default_rng([7, k]))) for k in range(n)]
@@ -51,6 +52,7 @@ def test_p_values_of_sound_machines_are_no_smaller_than_they_say() -> None:
     assert alarms <= 0.01 * n + 3 * np.sqrt(0.01 * n), alarms
 
 
+@pytest.mark.slow
 def test_a_pattern_of_no_known_effect_fits_worse_than_known_ones_do() -> None:
     strange, known = [], []
     for seed in range(20):
@@ -103,6 +105,7 @@ def of_three_views(rise: float, rng: np.random.Generator) -> Screen:
     return judge(views, here.observed)
 
 
+@pytest.mark.slow
 def test_the_view_that_sees_an_effect_speaks_for_it() -> None:
     for seed in range(8):
         found = of_three_views(6.0, np.random.default_rng([23, seed]))
@@ -112,6 +115,7 @@ def test_the_view_that_sees_an_effect_speaks_for_it() -> None:
         assert found.rest.unmet == 0.0 and found.rest.kept > 0.8
 
 
+@pytest.mark.slow
 def test_a_third_look_makes_no_alarm_of_nothing() -> None:
     n = 60
     found = [of_three_views(0.0, np.random.default_rng([29, k])) for k in range(n)]

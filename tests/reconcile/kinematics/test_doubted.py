@@ -77,12 +77,14 @@ def test_without_lines_of_the_shaft_the_bearing_tells_a_wrong_speed(factor: floa
         assert "no line of it tells" in report.undecidable[0]
 
 
+@pytest.mark.slow
 def test_a_sound_machine_stays_one_and_the_doubt_is_said() -> None:
     report = reconcile_kinematics(SPEC, [made(None, 0.5, 4)], [made(None, 0.5, 1)], seed=3)
     assert report.verdict == "nothing_missing"
     assert "whether shaft turns at 12.15 Hz as stated or at 24.3 Hz" in report.undecidable[0]
 
 
+@pytest.mark.slow
 def test_another_shaft_or_a_tacho_decides() -> None:
     """Lines between the multiples are those of a shaft geared down by two; pulses need no harmonics."""
     halves = recorded(sound(4), 2 * SPEED_HZ)

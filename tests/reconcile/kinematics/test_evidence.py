@@ -44,6 +44,7 @@ def test_chances_of_noise_are_uniform() -> None:
     assert np.mean(found < 0.5) == pytest.approx(0.5, abs=2.5 * np.sqrt(0.25 / 100))
 
 
+@pytest.mark.slow
 def test_evidence_grows_with_the_defect_and_finds_the_slip() -> None:
     noise = np.random.default_rng(1).standard_normal(N)
     z = []

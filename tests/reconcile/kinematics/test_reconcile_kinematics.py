@@ -44,6 +44,7 @@ def test_a_defect_is_named_at_its_place(term: str, with_baseline: bool) -> None:
     json.dumps(report.document())
 
 
+@pytest.mark.slow
 def test_a_sound_machine_has_nothing_missing() -> None:
     for seed in (5, 6):
         assert reconcile_kinematics(SPEC, [recorded(sound(seed))], [BASELINE], seed=1).verdict == "nothing_missing"
@@ -130,6 +131,7 @@ def test_unbalance_is_one_of_a_set() -> None:
     assert report.verdict == "ambiguous" and report.causes[0].term == "unbalance"
 
 
+@pytest.mark.slow
 def test_a_sensor_fault_is_the_answer_when_nothing_else_is() -> None:
     rows = sound(8)
     rows[2000:2400] = 0.0
@@ -146,6 +148,7 @@ def test_a_defect_behind_a_bad_sensor_is_still_found() -> None:
     assert report.verdict == "explained" and report.causes[0].term == "outer_spall"
 
 
+@pytest.mark.slow
 def test_what_cannot_carry_the_kinematics_is_said() -> None:
     short = recorded(sound(1)).select(end_s=0.3)
     report = reconcile_kinematics(SPEC, [short], [], seed=0)

@@ -49,11 +49,13 @@ def rise(monkeypatch: pytest.MonkeyPatch, base: str, heights: list[float]) -> tu
     return family(bases["f_o1"] / SPEED_HZ), family(bases["f_o3"] / SPEED_HZ), family(3.333)
 
 
+@pytest.mark.slow
 def test_the_middle_of_the_points_counts_and_only_the_familys_own_lines(monkeypatch: pytest.MonkeyPatch) -> None:
     own, other, unknown = rise(monkeypatch, "f_o1", [0.0, 7.0, 20.0])
     assert own == pytest.approx(7.0, rel=0.05)
     assert other == 0.0 and unknown == float("inf")
 
 
+@pytest.mark.slow
 def test_one_point_of_three_is_not_enough(monkeypatch: pytest.MonkeyPatch) -> None:
     assert rise(monkeypatch, "f_o3", [0.0, 0.0, 30.0])[1] == 0.0

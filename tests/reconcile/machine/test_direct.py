@@ -56,6 +56,7 @@ def found(machine: MachineSpec, now: np.ndarray, before: np.ndarray) -> Direct:
     return direct_evidence(machine, data, CHANNELS, seed=0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "base", "loads"), [("outer", "f_o1", None), ("inner", "f_i1", 30.0)])
 def test_a_struck_race_speaks_for_its_spall_at_the_bearings_that_share_the_frequency(
     machine: MachineSpec, kind: str, base: str, loads: float | None
@@ -68,6 +69,7 @@ def test_a_struck_race_speaks_for_its_spall_at_the_bearings_that_share_the_frequ
     assert max(direct.evidence.values()) <= MOST
 
 
+@pytest.mark.slow
 def test_without_a_baseline_what_sound_machines_show_too_is_no_evidence(machine: MachineSpec) -> None:
     now = 0.3 * sound(1) + 3.0 * struck(bases_at(machine, SPEED_HZ)["f_i1"], loads_hz=SPEED_HZ, slip=0.007)
     data = observe(machine, watch_list(machine), [recording(now)], ())
@@ -82,6 +84,7 @@ def test_without_a_baseline_what_sound_machines_show_too_is_no_evidence(machine:
     assert any("sound machines show as much" in line for line in usual.told)
 
 
+@pytest.mark.slow
 def test_two_parts_that_strike_are_told_apart(machine: MachineSpec) -> None:
     hz = bases_at(machine, SPEED_HZ)
     outer, inner = struck(hz["f_o1"], slip=0.006), struck(hz["f_i3"], loads_hz=hz["f_r2"], slip=0.004)
@@ -94,6 +97,7 @@ def test_two_parts_that_strike_are_told_apart(machine: MachineSpec) -> None:
     assert any("without the lines of" in line for line in direct.told)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("base", "loads"), [("f_o1", None), ("f_i1", 30.0), ("f_o3", None), ("f_i3", 21.8)])
 def test_one_part_that_strikes_has_no_second(machine: MachineSpec, base: str, loads: float | None) -> None:
     for seed in range(2):
@@ -101,6 +105,7 @@ def test_one_part_that_strikes_has_no_second(machine: MachineSpec, base: str, lo
         assert found(machine, sound(seed) + 2.0 * hit, sound(10 + seed)).struck == ()
 
 
+@pytest.mark.slow
 def test_a_tooth_that_strikes_speaks_for_the_teeth_of_its_gear(machine: MachineSpec) -> None:
     direct = found(machine, sound(1) + struck(SPEED_HZ), sound(2))
     teeth = {t.key for t in REGISTRY if t.strikes == "tooth"}
@@ -110,6 +115,7 @@ def test_a_tooth_that_strikes_speaks_for_the_teeth_of_its_gear(machine: MachineS
         assert direct.evidence.get(f"{term}@gear", 0.0) < 2.0
 
 
+@pytest.mark.slow
 def test_what_the_baseline_has_too_is_no_evidence(machine: MachineSpec) -> None:
     hz = bases_at(machine, SPEED_HZ)["f_o1"]
     direct = found(machine, sound(1) + struck(hz), sound(2) + struck(hz))
@@ -117,6 +123,7 @@ def test_what_the_baseline_has_too_is_no_evidence(machine: MachineSpec) -> None:
     assert direct.p == 1.0
 
 
+@pytest.mark.slow
 def test_sound_machines_say_nothing(machine: MachineSpec) -> None:
     for seed in range(3):
         direct = found(machine, sound(10 + seed), sound(20 + seed))

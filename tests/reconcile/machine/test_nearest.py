@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from reconcile.judge.screen import judge
 from reconcile.judge.space import fit_space
@@ -25,6 +26,7 @@ def found_in(observed: np.ndarray) -> tuple[Found, tuple[TermSpec, ...]]:
     return Found(known=made, fitted=fitted, screen=judge((fitted,), observed, {}, 1.0)), terms
 
 
+@pytest.mark.slow
 def test_the_nearest_draw_of_the_right_effect_has_about_its_size() -> None:
     away = []
     for seed in range(12):
@@ -45,6 +47,7 @@ def test_where_no_draw_explains_anything_no_size_is_known() -> None:
     assert nearest_terms(found, observed) == set()
 
 
+@pytest.mark.slow
 def test_the_effect_whose_draw_explains_most_comes_first() -> None:
     first = 0
     for seed in range(8):

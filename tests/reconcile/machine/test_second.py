@@ -6,6 +6,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
 from reconcile.judge.screen import judge
 from reconcile.judge.space import Library, fit_space
@@ -56,11 +57,13 @@ def named(effects: tuple[int, ...], seed: int, direct: float = 20.0) -> str | No
     return second.names[0] if second else None
 
 
+@pytest.mark.slow
 def test_what_the_first_effect_leaves_is_named() -> None:
     assert [named((0, 2), seed) for seed in range(8)].count(NAMES[1]) >= 7
     assert [named((0, 3), seed) for seed in range(8)].count(NAMES[2]) >= 7
 
 
+@pytest.mark.slow
 def test_one_effect_alone_has_no_second() -> None:
     assert sum(named((0,), seed) is not None for seed in range(20)) <= 1
 
@@ -96,6 +99,7 @@ def fitted_names(effects: tuple[int, ...], seed: int, direct: float = MOST) -> l
     return [(task.name, task.second) for task in to_fit(setting, found, QUICKLY)]  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_what_may_stand_beside_sure_impacts_is_fitted_to_what_they_leave() -> None:
     for seed in range(4):
         tasks = fitted_names((0, 2), seed)
@@ -106,6 +110,7 @@ def test_what_may_stand_beside_sure_impacts_is_fitted_to_what_they_leave() -> No
     assert np.sum(first.target**2) < np.sum(setting.changes.observed**2) and first.view is found.fine
 
 
+@pytest.mark.slow
 def test_leaders_are_fitted_to_the_whole_where_nothing_stands_beside_them() -> None:
     for direct in (2.0, 20.0):
         setting, found = found_in(seen((0,), 2), direct)

@@ -26,6 +26,7 @@ def seen(samples: np.ndarray, lines=(100.0,), modulations=(20.0,), rate_hz: floa
     )
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(
     hz=st.floats(60.0, 8000.0),
@@ -38,6 +39,7 @@ def test_a_sine_has_half_its_squared_amplitude_wherever_it_falls_between_bins(hz
     assert found.line[0, 0] == pytest.approx(0.5 * amplitude**2, rel=2e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("off", [-0.9, 0.4, 0.9])
 def test_a_line_is_found_within_its_slack_only(off: float) -> None:
     t = np.arange(4 * N) / RATE_HZ
@@ -47,6 +49,7 @@ def test_a_line_is_found_within_its_slack_only(off: float) -> None:
     assert seen(sine, lines=[hz]).line[0, 0] < 1e-4
 
 
+@pytest.mark.slow
 def test_white_noise_has_its_density_and_its_share_of_every_band() -> None:
     sigma = 3.0
     noise = sigma * np.random.default_rng(1).standard_normal(16 * N)
@@ -65,6 +68,7 @@ def test_white_noise_has_its_density_and_its_share_of_every_band() -> None:
     assert found.resolution_hz == pytest.approx(1.5 * bin_hz)
 
 
+@pytest.mark.slow
 def test_gaussian_noise_has_no_kurtosis_and_no_skewness() -> None:
     found = seen(np.random.default_rng(2).standard_normal((2, 8 * N)))
     assert np.abs(found.kurtosis).max() < 0.15

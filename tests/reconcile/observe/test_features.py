@@ -74,6 +74,7 @@ def test_each_draw_and_channel_may_have_noise_of_its_own() -> None:
     np.testing.assert_allclose((passed.floor - here.floor)[:, 0, 0], [1e-3, 4e-3])
 
 
+@pytest.mark.slow
 def test_the_dilution_of_moments_is_that_of_sums_of_independent_signals() -> None:
     rng = np.random.default_rng(2)
     n = 1_000_000

@@ -50,6 +50,7 @@ def test_healthy_turns_and_bursts_out_of_step_have_no_place():
     assert prominence(energy(balls), before) == 0.0
 
 
+@pytest.mark.slow
 def test_the_chance_of_a_height_is_small_for_bursts_and_fair_without():
     assert energy(healthy(1) + struck(TURNS, 50.0)).chance() < 1e-4
     fair = [energy(0.3 * np.random.default_rng(k).standard_normal(TIME.size)).chance() for k in range(20)]

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from reconcile.judge.screen import Screen
 from reconcile.machine.decide import decide
@@ -130,6 +131,7 @@ def test_every_operating_point_is_there_and_says_which_it_is() -> None:
     assert operating_point(30.0, 0.5) == "30 Hz at 0.5 of the torque"
 
 
+@pytest.mark.slow
 def test_a_page_of_many_points_and_channels_stays_small() -> None:
     whole = page(drawn(**measured(24, 40)))
     assert len(whole) < 3e6
@@ -205,6 +207,7 @@ class Pictures(Balanced):
         self.text += "" if any(self.told) else data
 
 
+@pytest.mark.slow
 def test_the_page_of_pictures_leaves_out_words_and_tables() -> None:
     report = full_report("A sentence.")
     whole, parser = page(report), Pictures()

@@ -31,6 +31,7 @@ def recorded(turns: np.ndarray, *, noise: float, seed: int, orders: list[float])
     return np.array(rows)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rms", [0.001, 0.005])
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_wander_is_found_to_two_hundredths_of_a_tooth(rms: float, seed: int) -> None:
@@ -45,11 +46,13 @@ def test_wander_is_found_to_two_hundredths_of_a_tooth(rms: float, seed: int) -> 
     assert np.sqrt(np.mean((even - even.mean()) ** 2)) * TEETH > 0.1, "there was something to follow"
 
 
+@pytest.mark.slow
 def test_noise_is_not_followed() -> None:
     noise = np.random.default_rng(5).normal(size=(3, 24_000))
     assert followed_angle(noise, RATE_HZ, SPEED_HZ, orders=ORDERS, slowest=0.3) is None
 
 
+@pytest.mark.slow
 def test_a_line_foreign_to_the_shaft_does_not_bend_the_angle() -> None:
     """All orders but one are quiet; that one is a hum fixed in Hz: what follows it makes no other line sharper."""
     t, _ = wandering(0.002, 4)

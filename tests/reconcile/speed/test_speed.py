@@ -55,6 +55,7 @@ def test_mains_lines_are_no_shaft() -> None:
     assert found.speed_hz == pytest.approx(17.3, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_noise_seldom_passes_for_a_speed() -> None:
     rng = np.random.default_rng(4)
     hits = 0
@@ -76,6 +77,7 @@ def test_pulses_come_first() -> None:
     assert np.allclose(np.diff(angle[known]), 2 * np.pi * 13.0 / RATE_HZ)
 
 
+@pytest.mark.slow
 def test_a_wandering_speed_is_followed() -> None:
     t = np.arange(int(8 * RATE_HZ)) / RATE_HZ
     angle = 2 * np.pi * 21.0 * (t + 0.004 * np.sin(2 * np.pi * 0.3 * t) / (2 * np.pi * 0.3))

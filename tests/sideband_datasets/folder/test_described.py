@@ -8,6 +8,7 @@ import pytest
 from sideband_datasets import COLUMNS
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")
 def test_croissant_holds_for_its_own_tool(made):
     mlcroissant = pytest.importorskip("mlcroissant")

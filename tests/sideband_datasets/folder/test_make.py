@@ -113,6 +113,7 @@ def test_every_format_makes_a_sound_folder(kind, tmp_path):
     assert any("differs" in str(finding) for finding in verify(tmp_path / "set"))
 
 
+@pytest.mark.slow
 def test_failed_recordings_are_listed_with_their_reason(tmp_path, monkeypatch):
     solved = batch.simulate_many
 

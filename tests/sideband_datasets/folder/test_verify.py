@@ -34,6 +34,7 @@ def _rewrite(out, path, table) -> None:
     (out / "manifest.json").write_text(json.dumps(manifest))
 
 
+@pytest.mark.slow
 def test_nothing_is_wrong_with_what_was_made(made):
     assert verify(made, remake=3) == []
 
@@ -68,6 +69,7 @@ def test_a_leak_is_found_though_all_checksums_fit(copy, what):
     assert f"leak: {what} {other} occurs in test and in train" in _told(copy)
 
 
+@pytest.mark.slow
 def test_rows_of_another_split_twice_or_missing_are_found(copy):
     path = _shard(copy)
     table = pq.read_table(path)

@@ -33,6 +33,7 @@ def _content(path: Path) -> dict[str, bytes]:
     return {str(p.relative_to(path.parent)): p.read_bytes() for p in files}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(FORMATS))
 @pytest.mark.parametrize("which", ["equal", "ragged", "empty"])
 def test_what_is_written_is_read_back_bit_for_bit(name, which, request, tmp_path):
@@ -45,6 +46,7 @@ def test_what_is_written_is_read_back_bit_for_bit(name, which, request, tmp_path
     assert [fingerprint(record) for record in found] == [fingerprint(record_of(row)) for row in given]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(FORMATS))
 def test_the_same_rows_are_the_same_bytes(name, equal, tmp_path):
     pytest.importorskip(FORMATS[name].package or "numpy")
@@ -92,6 +94,7 @@ def test_h5py_reads_hdf5(equal, ragged, tmp_path):
         assert np.array_equal(file["signal"][ends[0] : ends[1]], ragged[1].signal)
 
 
+@pytest.mark.slow
 def test_zarr_reads_zarr(equal, tmp_path):
     zarr = pytest.importorskip("zarr")
     FORMATS["zarr"].write(tmp_path / "a.zarr", equal)
@@ -108,6 +111,7 @@ for sample in webdataset.WebDataset(sys.argv[1], shardshuffle=False).decode():
 """
 
 
+@pytest.mark.slow
 def test_webdataset_reads_the_tar(equal, tmp_path):
     """In a process of its own: the loader leaves files open."""
     pytest.importorskip("webdataset")

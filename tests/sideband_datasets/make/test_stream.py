@@ -31,6 +31,7 @@ def test_columns_are_the_fields_in_order():
     assert [c.name for c in COLUMNS] == [f.name for f in dataclasses.fields(Row)]
 
 
+@pytest.mark.slow
 def test_every_row_comes_once_in_order(every):
     assert [row.row for row in every] == list(range(48))
     assert len({row.signal_id for row in every}) == 48
@@ -45,6 +46,7 @@ def test_a_row_is_the_same_bytes_alone_in_any_order_and_batch(every, indices, mo
     assert all(_same(row, every[row.row]) for row in found)
 
 
+@pytest.mark.slow
 def test_a_row_is_the_window_of_what_its_sensors_record(every):
     plan = make_plan(RECIPE)
     row = every[3 * 4 + 2]
@@ -59,6 +61,7 @@ def test_a_row_is_the_window_of_what_its_sensors_record(every):
     assert np.allclose(row.signal, expected, rtol=0, atol=1e-4 * np.abs(expected).max())
 
 
+@pytest.mark.slow
 def test_rows_say_what_was_simulated(every):
     plan = make_plan(RECIPE)
     for row in every:
@@ -79,6 +82,7 @@ def test_rows_say_what_was_simulated(every):
             assert row.bearing_id == row.fault_location
 
 
+@pytest.mark.slow
 def test_faulty_rows_carry_the_lines_of_their_fault(every):
     faulty = [row for row in every if row.fault_type == "outer"]
     healthy = [row for row in every if row.fault_type == "healthy"]
@@ -86,6 +90,7 @@ def test_faulty_rows_carry_the_lines_of_their_fault(every):
     assert all(p.status in ("present", "ambiguous") for row in healthy for p in row.peaks)
 
 
+@pytest.mark.slow
 def test_windows_of_revolutions_follow_the_speed():
     recipe = tiny(windows={"length_revolutions": 2}, peaks={"spectra": []}, count=6)
     for row in rows(recipe):
@@ -94,6 +99,7 @@ def test_windows_of_revolutions_follow_the_speed():
         assert row.start_s + row.samples / row.sampling_rate_hz <= 0.15 + 1e-9
 
 
+@pytest.mark.slow
 def test_a_recording_that_fails_is_told_and_the_others_stay(monkeypatch):
     recipe = tiny(peaks={"spectra": []}, count=6)
     whole = list(rows(recipe))

@@ -19,6 +19,7 @@ def _machines(instances: int) -> list[dict[str, object]]:
     return [{**document()["machines"][0], "instances": instances}]
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(
     count=st.integers(1, 300),
@@ -43,6 +44,7 @@ def test_classes_and_splits_are_exact_and_no_machine_stands_in_two(count, instan
     assert set(plan.split_of.tolist()) == set(range(len(shares)))
 
 
+@pytest.mark.slow
 @settings(max_examples=10, deadline=None)
 @given(st.sampled_from(["sobol", "latin_hypercube", "factorial"]), st.integers(0, 100))
 def test_what_is_drawn_lies_in_its_range_and_is_the_same_every_time(kind, seed):
@@ -211,6 +213,7 @@ def test_a_path_drawn_for_every_recording_is_refused():
         make_plan(tiny(measurement=chosen))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(RECIPES))
 def test_ready_recipes_can_be_planned_and_estimated(name):
     plan = make_plan(recipe_named(name))

@@ -38,6 +38,7 @@ SPEEDS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("course", SPEEDS)
 @pytest.mark.parametrize("noise", [0.0, 0.5])
 def test_angle_follows_the_shaft(course: str, noise: float) -> None:
@@ -50,6 +51,7 @@ def test_angle_follows_the_shaft(course: str, noise: float) -> None:
     assert track.spread_rad is not None and track.spread_rad < 0.01
 
 
+@pytest.mark.slow
 def test_orders_are_sharp_in_the_angle_found() -> None:
     series, _ = machine(SPEEDS["ramp"](times()), 0.1)
     track = tacholess_angle(series, orders=(23, 46), low_hz=18, high_hz=42)
@@ -59,6 +61,7 @@ def test_orders_are_sharp_in_the_angle_found() -> None:
     assert np.max(spectrum.values[near]) == pytest.approx(1.0, rel=0.16)
 
 
+@pytest.mark.slow
 def test_several_orders_are_better_than_the_worst_and_weighted() -> None:
     series, angle = machine(SPEEDS["fluctuating"](times()), 0.8, seed=3)
     both = tacholess_angle(series, orders=(1, 23, 46), low_hz=20, high_hz=30)

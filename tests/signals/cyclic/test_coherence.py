@@ -53,6 +53,7 @@ def test_bursts_show_their_rate_in_their_band() -> None:
     assert enhanced_envelope(coherence, (2500.0, 3500.0)).peaks()[0][1] > peaks[0][1]
 
 
+@pytest.mark.slow
 def test_modulated_noise_has_the_coherence_of_theory() -> None:
     """x = (1 + m cos wt) e, white e: S(alpha) / S(0) is m / (1 + m^2 / 2) at w, (m^2 / 4) / (1 + m^2 / 2) at 2w."""
     n, m = 400_000, 0.8
@@ -65,6 +66,7 @@ def test_modulated_noise_has_the_coherence_of_theory() -> None:
         assert float(np.mean(column)) == pytest.approx(expected, abs=0.01)
 
 
+@pytest.mark.slow
 def test_averaged_cyclic_periodogram_gives_the_same_ridge() -> None:
     x = bearing(n=100_000, share=1.5)
     found = cyclic_coherence(x, max_alpha_hz=200.0, bands=39, resolution_hz=0.5)
@@ -77,6 +79,7 @@ def test_averaged_cyclic_periodogram_gives_the_same_ridge() -> None:
     assert np.corrcoef(column, by_welch)[0, 1] > 0.95
 
 
+@pytest.mark.slow
 def test_noise_has_the_stated_mean_and_stays_within_the_threshold() -> None:
     """The stated 1 % a record: 3 or more of 40 has probability 0.7 %."""
     alarms = 0
@@ -94,6 +97,7 @@ def test_single_values_of_noise_exceed_their_level_as_often_as_stated() -> None:
     assert share == pytest.approx(0.05, abs=0.012)
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(n=st.integers(2000, 6000), seed=st.integers(0, 100), gain=st.floats(1e-3, 1e3))
 def test_coherence_lies_between_nothing_and_one_whatever_the_scale(n: int, seed: int, gain: float) -> None:

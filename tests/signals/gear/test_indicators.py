@@ -30,6 +30,7 @@ def gear(fault: float = 0.0, noise: float = 0.02, shift: int = 0, seed: int = 0)
     return mean_turn(np.roll(x, shift))
 
 
+@pytest.mark.slow
 def test_gaussian_difference_has_the_gaussian_moments() -> None:
     found = gear_indicators(mean_turn(np.random.default_rng(4).standard_normal(2**18)), teeth=[TEETH])
     assert found.fm4 == pytest.approx(3, rel=0.02)
@@ -124,6 +125,7 @@ def test_envelope_of_an_amplitude_modulated_mesh() -> None:
     assert np.max(np.abs(mesh_envelope(parts) - 2 * modulation)) < 1e-9
 
 
+@pytest.mark.slow
 @given(
     scale=st.floats(1e-6, 1e6),
     shift=st.integers(0, M - 1),

@@ -181,6 +181,7 @@ def test_unknown_formats_and_missing_files_are_refused(read, tmp_path) -> None:
     assert "no such file" in refusal(read, tmp_path / "nowhere.npz")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fmt", ["csv", "npz", "mat", "wav"])
 @pytest.mark.parametrize("name", ["a", "resonator1.y.acceleration", "a [x]"])
 def test_what_the_encoders_write_comes_back(tmp_path, samples, fmt: str, name: str) -> None:

@@ -77,6 +77,7 @@ def test_every_band_equals_one_cut_by_hand() -> None:
         assert cell.kurtosis == pytest.approx(direct, rel=0.02, abs=0.02)
 
 
+@pytest.mark.slow
 def test_gaussian_noise_stays_below_the_threshold() -> None:
     alarms = sum(
         bool(

@@ -24,6 +24,7 @@ def test_a_label_is_read_back_as_its_sum() -> None:
     assert orders_of("2*f_m-1*f_o1+1*f_r1") == (("f_m", 2), ("f_o1", -1), ("f_r1", 1))
 
 
+@pytest.mark.slow
 def test_lines_follow_another_machines_kinematics() -> None:
     peaks = [p for p in labelled({690.0: 1.0, BASES["f_o1"]: 0.1}).peaks if p.amplitude]
     slower = BASES | {"f_o1": 70.0}

@@ -12,6 +12,7 @@ from sim.core.lines import Line
 F_M, F_R1, F_O1 = BASES["f_m"], BASES["f_r1"], BASES["f_o1"]
 
 
+@pytest.mark.slow
 def test_a_sum_of_three_is_named_with_all_its_parts() -> None:
     found = labelled({F_M: 1.0, 2 * F_M + F_R1 - F_O1: 0.1, 2 * F_M - F_R1 + F_O1: 0.1})
     peak = found["2*f_m-1*f_o1+1*f_r1"]
@@ -25,6 +26,7 @@ def test_a_sum_of_three_is_named_with_all_its_parts() -> None:
     assert (lone.status, lone.evidence) == ("ambiguous", "chance")
 
 
+@pytest.mark.slow
 def test_a_sum_below_zero_folds() -> None:
     found = labelled({F_M: 1.0, 6 * F_O1 + 2 * F_R1 - F_M: 0.1, 4 * F_M - 1 * F_O1 + 2 * F_R1: 0.1}, seconds=20.0)
     assert found["1*f_m-6*f_o1-2*f_r1"].status == "present"
@@ -34,6 +36,7 @@ def test_combinations_are_listed_only_where_found() -> None:
     assert not [p for p in labelled({F_M: 1.0}).peaks if p.family == "combination"]
 
 
+@pytest.mark.slow
 def test_strangers_are_mostly_left_unexplained() -> None:
     """Each of 200 lines anywhere may meet a sum by chance with at most 5 %: 200 trials pass 20 with 0.2 %."""
     places = np.random.default_rng(11).uniform(50.0, 4900.0, 200)
@@ -43,6 +46,7 @@ def test_strangers_are_mostly_left_unexplained() -> None:
     assert found.unexplained > 150
 
 
+@pytest.mark.slow
 def test_the_false_match_rate_is_measured_and_bounded() -> None:
     """The rates told beside the labels are those of lines put anywhere: given a name, and called present."""
     rng = np.random.default_rng(5)
@@ -61,6 +65,7 @@ def test_the_false_match_rate_is_measured_and_bounded() -> None:
     assert abs(hits / 600 - told.ambiguous) < 4 * (told.ambiguous * (1 - told.ambiguous) / 600) ** 0.5
 
 
+@pytest.mark.slow
 def test_many_products_of_few_bases_are_explained() -> None:
     """j f_m + k f_o1 with k far beyond the families, and with a shaft: what clearance and run-out make together."""
     lines = {j * F_M + k * F_O1: 0.01 for j in range(1, 5) for k in (-14, -11, 10, 13, 17)}
@@ -84,6 +89,7 @@ def test_equal_bearings_are_one_modulator_of_two_components() -> None:
     assert found["f_o1"] == ("bearing1", "bearing2")
 
 
+@pytest.mark.slow
 def test_uncertain_speeds_leave_combinations_unproven() -> None:
     """With 1 % of uncertainty a combination is near every peak, so none proves anything."""
     found = labelled({F_M: 1.0, 3456.7: 0.1}, matching=Matching(relative=0.01))

@@ -91,6 +91,7 @@ def test_a_lone_line_of_a_silent_family_is_ambiguous_with_its_chance() -> None:
     assert not [p for p in found.with_status("unexplained") if abs(p.frequency_hz - 3 * F_C1) < 0.1]
 
 
+@pytest.mark.slow
 def test_several_lines_of_a_silent_family_are_present() -> None:
     noise = strangers(3, 40, TRUE)
     inner = {F_I1: 0.05, F_I1 - F_R1: 0.02, F_I1 + F_R1: 0.02, 2 * F_I1: 0.03}
@@ -103,6 +104,7 @@ def test_a_clean_lone_fundamental_needs_no_company() -> None:
     assert labelled({F_O1: 0.1}, seconds=SECONDS)["1*f_o1"].status == "present"
 
 
+@pytest.mark.slow
 def test_a_term_is_evidence_enough() -> None:
     noise = strangers(3, 40, TRUE)
     term = told("bearing1", "cage_unbalance", "cage", f_c1=3)
@@ -154,6 +156,7 @@ def test_a_family_found_whole_is_there_however_many_peaks_there_are() -> None:
     assert whole.all() and not half.any()
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=20)
 @given(st.integers(0, 1000))
 def test_expected_hits_are_those_of_random_peaks(seed: int) -> None:

@@ -32,6 +32,7 @@ def test_a_long_series_of_a_predicted_base_goes_on() -> None:
     assert not [p for p in found.peaks if p.label == "60*f_o1"]  # listed only where found
 
 
+@pytest.mark.slow
 def test_images_of_the_series_are_named_by_the_step_rate() -> None:
     found = labels(SERIES | IMAGES, STEP_HZ)
     assert found.frequencies_hz["f_s"] == STEP_HZ and found.unexplained == 0

@@ -42,6 +42,7 @@ def test_known_lines_are_present_with_their_amplitude() -> None:
     assert found["1*f_o1"].components == ("bearing1", "bearing2")
 
 
+@pytest.mark.slow
 def test_predicted_lines_that_are_not_there_are_absent_with_a_limit() -> None:
     found = labelled({690.0: 1.0})
     sideband = found["1*f_m+1*f_r1"]
@@ -62,6 +63,7 @@ def test_found_lines_nobody_predicts_are_unexplained() -> None:
     assert found.unexplained == 1
 
 
+@pytest.mark.slow
 def test_the_list_of_unexplained_lines_is_bounded_and_says_so() -> None:
     lines = {1000.0 + 37.77 * k: 0.01 for k in range(30)}
     found = labelled(GEAR | lines, max_unexplained=5, matching=Matching(max_chance=0.0))
@@ -70,6 +72,7 @@ def test_the_list_of_unexplained_lines_is_bounded_and_says_so() -> None:
     assert labelled(GEAR | lines, max_unexplained=0).truncated > 0
 
 
+@pytest.mark.slow
 def test_lines_beyond_the_axis_are_listed_as_such() -> None:
     lines = kinematic_lines(KINEMATICS, BASES, max_frequency_hz=np.inf)
     spectrum = amplitude_spectrum(sines(GEAR))
@@ -155,6 +158,7 @@ def test_identical_sums_are_never_ambiguous() -> None:
     assert untied["1*f_m-1*f_r1"].status == "present"
 
 
+@pytest.mark.slow
 def test_a_shifted_speed_is_met_with_a_relative_tolerance() -> None:
     shifted = {f * 1.004: a for f, a in (GEAR | OUTER).items()}
     assert not labelled(shifted)["1*f_o1"].amplitude
@@ -210,6 +214,7 @@ def test_the_document_has_the_agreed_keys_and_is_json() -> None:
     assert document["bound"]["outer"] == 20 and document["floor"]["false_alarm"] == 1e-6
 
 
+@pytest.mark.slow
 def test_thousands_of_sums_on_a_long_axis_are_labelled() -> None:
     """2000 candidate sums over 1e5 bins (its time is kept by the benchmarks, not here)."""
     rich = [

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import pytest
 from gearbox import BASES, KINEMATICS, LINES, RATE, sines
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -13,6 +14,7 @@ GEAR = {690.0: 1.0, 660.0: 0.02, 720.0: 0.03, 1380.0: 0.5}
 OUTER = {BASES["f_o1"]: 0.01, 2 * BASES["f_o1"]: 0.005, 11 * BASES["f_o1"]: 0.004}
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=25)
 @given(
     lines=st.dictionaries(st.floats(20.0, 4900.0), st.floats(1e-3, 10.0), max_size=12),
@@ -35,6 +37,7 @@ def test_every_predicted_line_has_one_entry_and_every_peak_an_owner(lines: dict[
     assert len(owned) == found.found - found.truncated
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=20)
 @given(scale=st.floats(1e-6, 1e6))
 def test_labels_do_not_depend_on_the_unit(scale: float) -> None:

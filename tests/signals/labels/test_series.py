@@ -56,6 +56,7 @@ def labels(lines: dict[float, float], terms: list[Line], step_hz: float | None =
     return label_peaks(spectrum, [*OWN, *terms], HZ, kinematics=BEARING, step_hz=step_hz)
 
 
+@pytest.mark.slow
 def test_an_inner_spall_is_followed_to_the_end_of_the_spectrum() -> None:
     found = labels(ringing(F_I1, F_R1), [*BALLS, *INNER], STEP_HZ)
     assert found.unexplained == 0
@@ -69,6 +70,7 @@ def test_an_inner_spall_is_followed_to_the_end_of_the_spectrum() -> None:
     assert not [p for p in found.peaks if p.family == "numerical"]
 
 
+@pytest.mark.slow
 def test_a_ball_spall_is_followed_with_the_cage() -> None:
     found = labels(ringing(2 * F_B1, F_C1), [*BALLS, *BALL])
     there = [p for p in found.with_status("present") if p.mechanism == "ball_spall"]
@@ -86,6 +88,7 @@ def test_a_measured_series_goes_on_where_its_family_was_found() -> None:
     assert peak.component is None and peak.components == ("bearing1", "bearing2")
 
 
+@pytest.mark.slow
 def test_a_few_strangers_are_no_series() -> None:
     places = np.random.default_rng(5).uniform(1500.0, 4800.0, 200)
     found = labels({float(f): 0.01 for f in places}, [*BALLS, *INNER])

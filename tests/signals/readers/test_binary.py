@@ -36,6 +36,7 @@ def npy(array: np.ndarray) -> bytes:
     return stream.getvalue()
 
 
+@pytest.mark.slow
 def test_a_zip_bomb_is_refused_by_its_directory(tmp_path) -> None:
     path = tmp_path / "bomb.npz"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -70,6 +71,7 @@ def test_fortran_order_and_small_types_are_read(tmp_path) -> None:
         np.testing.assert_array_equal(contents.entries["m"].load(), matrix)
 
 
+@pytest.mark.slow
 def test_complex_numbers_are_refused(tmp_path) -> None:
     np.savez(tmp_path / "r.npz", a=X + 1j)
     refused(tmp_path / "r.npz", "complex")
@@ -77,6 +79,7 @@ def test_complex_numbers_are_refused(tmp_path) -> None:
     refused(tmp_path / "r.mat", "complex")
 
 
+@pytest.mark.slow
 def test_mat_vectors_structures_and_rates(tmp_path) -> None:
     savemat(tmp_path / "r.mat", {"a": X, "s": {"field": 1}, "sampling_rate_hz": 512.0})
     about = read_description({"channels": [{"name": "a", "unit": "g"}]})
@@ -85,6 +88,7 @@ def test_mat_vectors_structures_and_rates(tmp_path) -> None:
     np.testing.assert_allclose(found.samples[0], X * 9.80665)
 
 
+@pytest.mark.slow
 def test_a_mat_that_unpacks_to_too_much_is_refused(tmp_path) -> None:
     savemat(tmp_path / "r.mat", {"a": np.zeros(4_000_000)}, do_compression=True)
     assert (tmp_path / "r.mat").stat().st_size < 100_000

@@ -187,6 +187,7 @@ def test_hdf5_never_reaches_outside_the_file(tmp_path) -> None:
             parse(about, tmp_path / "r.h5", loader=load)
 
 
+@pytest.mark.slow
 def test_an_hdf5_bomb_is_refused_by_its_shape(tmp_path) -> None:
     with needs("h5py").File(tmp_path / "r.h5", "w") as file:
         file.create_dataset("a", shape=(10**10,), dtype="f8", compression="gzip", fillvalue=0.0)

@@ -31,6 +31,7 @@ def breaking(path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_apart_is_the_same_as_here(tmp_path) -> None:
     np.savez(tmp_path / "r.npz", a=X, time_s=np.arange(500.0), sampling_rate_hz=50.0)
     wanted = [Want(field="f", column="a")]
@@ -40,6 +41,7 @@ def test_apart_is_the_same_as_here(tmp_path) -> None:
     assert here.rate_hz == apart.rate_hz == 50.0
 
 
+@pytest.mark.slow
 def test_refusals_come_through_word_by_word(tmp_path) -> None:
     np.savez(tmp_path / "r.npz", b=X)
     told = []
@@ -50,6 +52,7 @@ def test_refusals_come_through_word_by_word(tmp_path) -> None:
     assert told[0] == told[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("loader", [load_apart, load_carefully])
 def test_a_parser_that_breaks_down_is_a_refusal(tmp_path, loader) -> None:
     path = breaking(tmp_path / "r.mat")
@@ -67,6 +70,7 @@ def test_memory_is_bounded(tmp_path) -> None:
         parse(ABOUT, tmp_path / "r.mat", bounds, load_apart)
 
 
+@pytest.mark.slow
 def test_time_is_bounded(tmp_path) -> None:
     os.mkfifo(tmp_path / "r.csv")  # nobody ever writes to it
     begin = time.monotonic()
@@ -75,6 +79,7 @@ def test_time_is_bounded(tmp_path) -> None:
     assert time.monotonic() - begin < 60
 
 
+@pytest.mark.slow
 def test_nothing_is_left_behind(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     with pytest.raises(SpecError):

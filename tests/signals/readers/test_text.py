@@ -94,6 +94,7 @@ def test_what_is_broken_is_refused_with_its_place(tmp_path, text: str, reason: s
     assert caught.value.problems[0].field == "r.csv"
 
 
+@pytest.mark.slow
 def test_a_gzip_bomb_ends_at_the_bound(tmp_path) -> None:
     path = tmp_path / "bomb.csv.gz"
     path.write_bytes(gzip.compress(b"a\n" + b"0\n" * 4_000_000))

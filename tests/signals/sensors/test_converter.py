@@ -34,6 +34,7 @@ def test_codes_beyond_the_range_are_held_and_counted() -> None:
     assert found.clipped == 4
 
 
+@pytest.mark.slow
 @given(bits=st.integers(2, 32), offset=st.floats(-0.5, 0.5), seed=st.integers(0, 50))
 def test_every_value_is_on_the_grid(bits: int, offset: float, seed: int) -> None:
     x = np.random.default_rng(seed).standard_normal(200)
@@ -51,6 +52,7 @@ def test_clipping_is_found_by_the_checks_of_recordings() -> None:
     assert [f.kind for f in findings] == ["clipping"]
 
 
+@pytest.mark.slow
 def test_the_share_of_random_gaps() -> None:
     spec = Dropouts(rate_per_s=5.0, mean_duration_s=0.02)
     shares = [lost(spec, 100_000, 1000.0, np.random.default_rng(k)).mean() for k in range(40)]

@@ -124,6 +124,7 @@ def test_sensitivity_gain_error_and_limit() -> None:
     assert out.saturated == 2
 
 
+@pytest.mark.slow
 @given(a=st.floats(-5, 5), b=st.floats(-5, 5), seed=st.integers(0, 99))
 def test_the_linear_part_is_linear(a: float, b: float, seed: int) -> None:
     x, y = np.random.default_rng(seed).standard_normal((2, 600))

@@ -40,6 +40,7 @@ def test_pulses_of_a_ramp_and_of_torsion() -> None:
     np.testing.assert_allclose(at, 2 * math.pi * np.arange(times.size) / 7, atol=1e-6)
 
 
+@pytest.mark.slow
 @given(pulses=st.integers(1, 20), duty=st.floats(0.05, 0.95), first=st.floats(0, 359))
 def test_the_square_wave_is_high_for_its_duty(pulses: int, duty: float, first: float) -> None:
     spec = Pulser(pulses_per_revolution=pulses, duty=duty, first_pulse_deg=first, low_v=-1.0, high_v=4.0)

@@ -59,6 +59,7 @@ def test_amplitude_of_a_modulated_carrier_is_the_depth() -> None:
     assert squared.values[100] == pytest.approx(2 * 0.2 * 9.0, rel=1e-9)  # (1 + m c)^2 has 2 m c
 
 
+@pytest.mark.slow
 def test_the_rule_is_rarely_fooled_by_stationary_noise() -> None:
     """At 5 % false alarm, 40 trials exceed 6 with probability 1.4 %; an honest threshold stays below."""
     rng = np.random.default_rng(7)

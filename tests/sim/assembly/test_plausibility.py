@@ -36,6 +36,7 @@ def test_presets_are_plausible(name):
     assert assemble(preset(name)).warnings == ()
 
 
+@pytest.mark.slow
 def test_reference_machines_are_plausible():
     files = sorted(REFERENCE.glob("*.json"))
     if not files:

@@ -29,6 +29,7 @@ def test_a_gap_beyond_twice_the_static_motion_is_told(term):
     assert warning.startswith("bearing1: the load carries its loose ring 52.2 um, a clearance of 200 um")
 
 
+@pytest.mark.slow
 def test_a_ring_that_only_its_bore_holds_reaches_it_whatever_the_gap():
     """Flexible shafts tilt about their other bearing until the ring is caught."""
     for base, site in (("bearing-rig", "drive_end"), ("two-stage", "bearing3"), ("overhung", "bearing1")):

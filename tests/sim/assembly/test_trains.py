@@ -36,6 +36,7 @@ def same(found, expected):
     assert found == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rotation", ["printed", "geared"])
 @pytest.mark.parametrize("pairs", [True, False])
 def test_turned_axes_show_the_same_machine(rotation, pairs):

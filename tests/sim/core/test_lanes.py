@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -62,6 +63,7 @@ def choices(given_, table, found):
     return somewhere(a > 5e5), somewhere(a > 2e6)
 
 
+@pytest.mark.slow
 @given(ROWS, st.lists(st.integers(0, 6), min_size=WIDTH, max_size=WIDTH))
 @settings(max_examples=60, deadline=None)
 def test_choices(x, index):

@@ -24,6 +24,7 @@ def curve(ratios, step, t):
     return np.interp(t, np.arange(len(ratios)) * step, ratios)
 
 
+@pytest.mark.slow
 @given(RATIOS, st.floats(0.01, 2.0), st.floats(0.0, 30.0))
 @settings(max_examples=150, deadline=None)
 def test_angle_is_the_integral_of_the_speed(ratios, step, t):

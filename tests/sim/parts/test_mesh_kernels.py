@@ -140,6 +140,7 @@ def test_the_damper_rises_smoothly_from_touch():
     assert share(-3e-7) == share(3e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pairs", [True, False])
 def test_force_is_continuous_at_touch_while_closing_fast(pairs):
     element = mesh_of(system_of(backlash_m=BACKLASH_M, tooth_pairs=pairs, runout=False))
@@ -158,6 +159,7 @@ def test_force_is_continuous_at_touch_while_closing_fast(pairs):
         assert 0.0 < side * forces[3] < 10.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("driver", ["a", "b"])
 @pytest.mark.parametrize("pairs", [True, False])
 def test_tangent_with_backlash_equals_finite_differences(pairs, driver):

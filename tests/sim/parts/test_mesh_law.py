@@ -52,6 +52,7 @@ def test_presets_keep_their_tables():
         assert warnings == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pairs", [True, False])
 def test_rows_cover_run_out_and_clearances(pairs):
     machine = with_terms(
@@ -64,6 +65,7 @@ def test_rows_cover_run_out_and_clearances(pairs):
     assert warnings == []
 
 
+@pytest.mark.slow
 def test_more_than_the_teeth_allow_is_said():
     _, high, warnings = reach(with_runout(LIGHT, 5e-4, 5e-4))
     assert high < 1.5e-3
@@ -103,6 +105,7 @@ def test_linearised_stiffness_is_that_of_the_installed_distance():
     assert element.linear_stiffness[0, 0] == 2e8
 
 
+@pytest.mark.slow
 def test_tilts_cover_the_clearances():
     tilted = changed(LIGHT, offset_angle=True)
     loose = TermSpec(term="fit_clearance", site="bearing1", parameters={"gap": 4e-4})

@@ -26,6 +26,7 @@ def helical(angle_deg, width_m=0.02):
     return machine.model_copy(update={"gears": gears, "gravity_m_per_s2": 0.0, "terms": []})
 
 
+@pytest.mark.slow
 def test_ratio_and_thrust_are_reported():
     derived = assemble(helical(15.0)).derived
     overlap = 0.02 * math.tan(math.radians(15.0)) / (math.pi * 0.0025)
@@ -34,6 +35,7 @@ def test_ratio_and_thrust_are_reported():
     assert derived["mesh1.axial_force_n"].startswith(f"derived: {thrust:.6g} N")
 
 
+@pytest.mark.slow
 def test_more_pairs_than_are_summed_are_refused_and_one_total_curve_is_not():
     machine = helical(35.0, width_m=0.03)
     with pytest.raises(SpecError, match="tooth_pairs"):

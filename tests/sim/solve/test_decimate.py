@@ -32,6 +32,7 @@ def test_unit_gain_up_to_two_fifths_of_the_output_rate(factor):
         assert gain(factor, share) == pytest.approx(1.0, abs=6e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", FACTORS)
 def test_eighty_five_decibels_from_nyquist_itself_on(factor):
     worst = max(gain(factor, share) for share in np.linspace(1.0, factor, 4001))

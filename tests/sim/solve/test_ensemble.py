@@ -47,6 +47,7 @@ def same(one: Response, other: Response, tolerance: float) -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(PRESETS))
 def test_a_lane_equals_the_single_solver(name):
     machine = preset(name)
@@ -58,6 +59,7 @@ def test_a_lane_equals_the_single_solver(name):
     assert lane.warnings == single.warnings
 
 
+@pytest.mark.slow
 def test_every_lane_is_its_own_machine():
     machines = [stiffer(preset("paper-demo"), 0.7 + 0.1 * k) for k in range(8)]
     lanes = simulate_many([Member(machine=m) for m in machines], settings=QUICK, **SHORT)
@@ -66,6 +68,7 @@ def test_every_lane_is_its_own_machine():
         same(lane, simulate(machine, settings=QUICK, **SHORT), REGULAR_TOLERANCE)
 
 
+@pytest.mark.slow
 def test_the_same_bytes_alone_in_any_order_beside_any_others():
     mine = Member(machine=stiffer(preset("paper-demo"), 1.03))
     others = [Member(machine=stiffer(preset("paper-demo"), f)) for f in (0.5, 0.9, 2.0, 1.4)]
@@ -84,6 +87,7 @@ def test_the_same_bytes_alone_in_any_order_beside_any_others():
         assert found.quality == lonely.quality
 
 
+@pytest.mark.slow
 def test_structures_may_be_mixed_and_come_back_in_order():
     names = ["rotor", "paper", "gear-pair", "paper", "oscillator"]
     found = simulate_many([Member(machine=preset(n)) for n in names], settings=QUICK, **SHORT)
@@ -122,6 +126,7 @@ def test_a_diverging_member_leaves_its_error_and_spares_the_others():
     same(found[1], simulate(preset("oscillator"), settings=QUICK, **SHORT), REGULAR_TOLERANCE)
 
 
+@pytest.mark.slow
 def test_step_error_is_the_single_solvers():
     machine = preset("paper-demo")
     (lane,) = simulate_many([Member(machine=machine)], **SHORT)
@@ -139,6 +144,7 @@ def test_instantaneous_values():
     same(lane, simulate(machine, settings=settings, **SHORT), REGULAR_TOLERANCE)
 
 
+@pytest.mark.slow
 def test_progress_and_cancelling():
     members = [Member(machine=preset("rotor"))] * 17
     seen: list[float] = []
@@ -154,6 +160,7 @@ def test_an_impossible_request_is_refused():
     assert simulate_many([], **SHORT) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["paper-demo", "rotor"])
 def test_the_pilot_is_the_beginning_of_the_run(name):
     """Unfiltered runs draw jumps otherwise than a pilot does and have one of their own: it says the same."""

@@ -52,6 +52,7 @@ def test_the_spectrum_does_not_depend_on_the_rate(machine):
     assert np.linalg.norm(both[0] - both[1]) < 1e-3 * np.linalg.norm(both[1])
 
 
+@pytest.mark.slow
 def test_the_step_error_does_not_depend_on_where_jumps_fall_between_samples():
     for rate_hz in (50_000.0, 51_000.0, 52_000.0):
         found = simulate(PAIR, duration_s=0.06, output_rate_hz=rate_hz, channels=(CHANNEL,))

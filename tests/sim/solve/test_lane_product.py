@@ -41,6 +41,7 @@ def random_lanes(rng: np.random.Generator, rows: int, columns: int) -> list[np.n
     return [rng.normal(size=(rows, columns)) * used * (rng.uniform(size=(rows, columns)) < 0.9) for _ in range(WIDTH)]
 
 
+@pytest.mark.slow
 @given(rows=st.integers(1, 30), columns=st.integers(1, 20), seed=st.integers(0, 2**32 - 1))
 @settings(max_examples=40)
 def test_every_lane_has_its_own_dense_product(rows, columns, seed):

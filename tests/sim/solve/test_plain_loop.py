@@ -27,9 +27,8 @@ def run_both(name, *, rtol=1e-8):
     return compiled, plain, len(system.dofs)
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=pytest.mark.slow if name == "every term" else ()) for name in MACHINES]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", MACHINES)
 def test_same_motion(name):
     compiled, plain, n = run_both(name)
     final = compiled.states[-1]
@@ -38,6 +37,7 @@ def test_same_motion(name):
         assert difference <= 1e-12 * np.max(np.abs(plain.state[part]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["paper-demo", "parting flanks"])
 def test_same_decisions_where_contact_opens_or_closes(name):
     compiled, plain, _ = run_both(name)

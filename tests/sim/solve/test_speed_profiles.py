@@ -37,6 +37,7 @@ def test_channels_follow_the_profile():
     assert found.bases_hz["f_r1"] == pytest.approx(30.0 * (0.75 * 0.1 + 0.5 * 0.05) / 0.15)
 
 
+@pytest.mark.slow
 def test_a_ramp_loads_the_teeth_by_the_driven_inertia():
     """Extra mesh force of a steady ramp: the driven side's inertia times its acceleration, over the base radius."""
     still, ramp = (
@@ -91,6 +92,7 @@ def test_energy_closes_under_a_fluctuating_speed():
     assert abs(energy.residual_j) < 1e-3 * energy.scale_j
 
 
+@pytest.mark.slow
 def test_dynamic_angles_do_not_drift():
     """Torques of printed values leave a rest; where angles follow the torsion it would add up to a speed."""
     machine = preset("paper-lightly-damped")

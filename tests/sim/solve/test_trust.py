@@ -40,6 +40,7 @@ def run(machine, seconds=0.1):
     return simulate(machine, duration_s=seconds, output_rate_hz=30_000.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("expression", STEEP)
 def test_a_law_too_steep_for_any_step_is_named(expression):
     machine = with_law("rotor", "bearing1.outer.y", expression)
@@ -73,6 +74,7 @@ def test_a_mass_that_sticks_is_not_irregular():
     assert run(with_terms(preset("oscillator"), stuck)).quality.step_error < 1e-2
 
 
+@pytest.mark.slow
 def test_a_spring_far_stiffer_than_the_step_is_doubtful_and_not_irregular():
     quality = run(with_law("oscillator", "mass.y", "1e12*x")).quality
     assert quality.step_error_kind == "regular" and quality.doubts, "it stands still; its ringing is not resolved"

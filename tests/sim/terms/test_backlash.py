@@ -29,6 +29,7 @@ def machine(*, pairs=True, given=None, damping=None):
     return with_terms(plain, TermSpec(term="backlash", site="mesh1", parameters={"width": WIDTH_M}))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pairs", [True, False])
 @pytest.mark.parametrize("given", [None, 2e-5])
 def test_force_over_deflection_has_a_dead_zone(pairs, given):
@@ -55,6 +56,7 @@ def light(torque_nm, hz, width_m, name="gear-pair"):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["gear-pair", "paper-lightly-damped"])
 @pytest.mark.parametrize("width", [1e-5, 1e-4])
 @pytest.mark.parametrize(("torque", "hz"), [(0.05, 15.0), (0.2, 15.0), (0.2, 30.0), (1.0, 30.0)])
@@ -83,6 +85,7 @@ def test_a_step_is_halved_only_where_flanks_part_or_strike():
     assert found == settled
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rate_hz", [15_000.0, 60_000.0])
 @pytest.mark.parametrize("pairs", [True, False])
 def test_a_strike_without_damper_gives_back_the_speed(pairs, rate_hz):

@@ -60,6 +60,7 @@ def test_a_load_pushes_as_far_as_the_cubic_equation_says():
     assert run.signals[0, -1] == pytest.approx(exact, rel=limit)
 
 
+@pytest.mark.slow
 def test_sensor_on_a_ring_equals_scipy():
     machine = with_terms(GEARBOX, spec("bearing2", cubic=3e17), spec("bearing2", cubic=8e17, spring=SENSOR))
     elements = tuple(e for e in assemble(machine).elements if ".cubic." in e.name)

@@ -56,6 +56,7 @@ def test_tilt_of_the_shafts_counts_as_the_angle_does():
     assert tilted.force[0] == pytest.approx(given.force[0], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_moment_loads_the_bearings_of_a_shaft_unequally():
     term = TermSpec(term="lead_misalignment", site="mesh1", parameters={"angle": 1e-3})
     channels = tuple(f"bearing{i}.inner.y.displacement" for i in range(1, 5))

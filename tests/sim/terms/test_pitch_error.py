@@ -15,6 +15,7 @@ from tests.strategies.systems import with_terms
 RMS_M = 7e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("site", "teeth"), [("pinion", 23), ("gear", 81)])
 def test_the_teeth_touch_where_their_deviations_put_them(site, teeth):
     plain = preset("gear-pair")

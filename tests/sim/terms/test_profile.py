@@ -60,6 +60,7 @@ def independent_error_m(case, phase):
     return root_of(surplus, -1e-4, 1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_static_transmission_error(name):
     case = CASES[name]

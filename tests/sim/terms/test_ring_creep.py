@@ -31,6 +31,7 @@ def test_slip_and_creep_act_together():
     assert bases["f_c1"] == pytest.approx(0.98 * cage, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_balls_pass_the_mark_at_the_predicted_rate():
     machine = bearing_with(("ring_creep", {"ratio": 0.05}), ("outer_spall", {"width": 1e-3}))
     system, element = element_of(machine)

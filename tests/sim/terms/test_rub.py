@@ -37,6 +37,7 @@ def separately(t, state):
     return [rate.real, rate.imag, total.real / MASS, total.imag / MASS]
 
 
+@pytest.mark.slow
 def test_jeffcott_rotor_in_a_ring_equals_scipy():
     step, steps = 5e-6, 24_000
     system = small_system(

@@ -56,6 +56,7 @@ def textbook(hz: float, times):
     return solve_ivp(rhs, (0.0, times[-1]), start, method="DOP853", t_eval=times, rtol=1e-11, atol=1e-16).y.T
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", [1.0 / 2.0, 1.0 / 3.0, 0.8])
 def test_jeffcott_rotor_equals_scipy(part):
     step, steps = 2e-5, 5000

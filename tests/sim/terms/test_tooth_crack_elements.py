@@ -45,6 +45,7 @@ def losses(gear, depth, angle_deg):
     return tuple(c / (sound + c) for c in (ours, np.interp(flank.alpha_1_rad, angles, more)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gear", ["pinion", "gear"])
 @pytest.mark.parametrize(("depth", "anywhere"), [(0.1, 0.035), (0.2, 0.05), (0.3, 0.06), (0.4, 0.09), (0.5, None)])
 def test_loss_of_stiffness_by_finite_elements(gear, depth, anywhere):
@@ -55,6 +56,7 @@ def test_loss_of_stiffness_by_finite_elements(gear, depth, anywhere):
     assert np.mean(elements) > 0.01
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angle", [45.0, 90.0])
 def test_other_angles_lose_about_as_much(angle):
     for depth in (0.2, 0.4):
@@ -62,6 +64,7 @@ def test_other_angles_lose_about_as_much(angle):
         assert abs(np.mean(ours) - np.mean(elements)) < 0.06
 
 
+@pytest.mark.slow
 def test_the_elements_have_converged():
     flank = flank_of(MACHINE, "mesh1", "pinion")
     coarse, fine = (gained(flank, 0.3, 70.0, f) for f in (Fineness(), FINER))

@@ -109,6 +109,7 @@ def test_an_idler_is_loaded_on_either_flank_in_turn(key, both):
     assert changed == (["mesh1", "mesh2"] if both else ["mesh1"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("key", [*TEETH, "tooth_friction", "lead_misalignment"])
 def test_a_mesh_of_one_curve_is_refused(key):
     mesh = MACHINE.meshes[0].model_copy(update={"tooth_pairs": False})
@@ -149,6 +150,7 @@ def everything(angle=3e-4):
     )
 
 
+@pytest.mark.slow
 def test_all_of_it_acts_on_one_mesh():
     run = simulate(
         everything(),
@@ -205,6 +207,7 @@ def test_corners_end_in_finite_signals(key, corner):
         assert run.quality.energy.relative_residual < 1e-2
 
 
+@pytest.mark.slow
 def test_lanes_equal_single_runs_with_all_of_it():
     """Different damage side by side; eight machines of one structure."""
     machines = [everything(angle) for angle in (1e-4, 3e-4, 8e-4)]

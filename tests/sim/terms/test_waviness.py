@@ -28,6 +28,7 @@ def force_over_time(term, order, points=400):
     return np.array([force_at(element, context_at(system, element, t), np.zeros(2)) for t in times]), times, system
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("term", [OUTER, INNER], ids=lambda t: t.key)
 @pytest.mark.parametrize("k", [1, 2])
 def test_loaded_all_round_only_orders_beside_k_z_shake_the_ring(term, k):

@@ -20,6 +20,7 @@ def test_units_of_the_printed_formula() -> None:
     assert line_penetration_m(1000.0, 0.010) == pytest.approx(3.0422e-6, rel=1e-3)
 
 
+@pytest.mark.slow
 @given(st.floats(1e-3, 1e6), st.floats(1e-3, 0.2))
 def test_force_inverts_penetration(force_n: float, length_m: float) -> None:
     assert line_force_n(line_penetration_m(force_n, length_m), length_m) == pytest.approx(force_n, rel=1e-9)

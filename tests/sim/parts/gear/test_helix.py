@@ -106,6 +106,7 @@ def test_half_an_overlap_smooths_the_jumps_to_ramps():
     assert jumps[1].max() / means[1] < 0.005
 
 
+@pytest.mark.slow
 def test_slices_one_by_one_give_the_same_curve():
     """200 thin slices of one width, each a spur pair that starts later by its share of the overlap."""
     helical = with_overlap(0.7)
@@ -120,6 +121,7 @@ def test_slices_one_by_one_give_the_same_curve():
     assert found == pytest.approx(factor * slices, abs=5e-3 * found.max())
 
 
+@pytest.mark.slow
 def test_the_table_of_a_helical_pair_is_as_good_as_its_corners():
     helical = with_overlap(0.7)
     table = build_pair_table(helical, centre_distance_errors_m=np.linspace(-1e-4, 1e-4, 9), points=257)

@@ -54,6 +54,7 @@ def test_bore_effect_agrees_with_the_reading_notes(paper_pair: MakePair) -> None
     assert mesh_summary(paper_pair())["bore_0.5r_over_0.3r"] == pytest.approx(1.14, abs=0.015)
 
 
+@pytest.mark.slow
 def test_summary_matches_a_fine_sample(paper_pair: MakePair) -> None:
     """Mean, extremes and root effect against a table of 20 000 columns."""
     pair = paper_pair()

@@ -20,6 +20,7 @@ def picture(machine: MachineSpec, term: str, site: str, **values: float) -> tupl
     return law_picture(machine.model_copy(update={"terms": [*machine.terms, spec]}), machine, site=site)
 
 
+@pytest.mark.slow
 def test_a_loose_ring_flies_free_and_meets_palmgrens_line_contact():
     gap, length_mm = 3e-5, 12.0
     panel = picture(PAPER, "fit_clearance", "bearing1", gap=gap, length=length_mm)[0]
@@ -32,6 +33,7 @@ def test_a_loose_ring_flies_free_and_meets_palmgrens_line_contact():
     assert curve.without == pytest.approx(support * panel.values, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_clearance_in_series_carries_what_the_support_carries():
     gap = 2e-5
     panel = picture(PAPER, "fit_clearance_series", "bearing1", gap=gap)[0]
@@ -45,6 +47,7 @@ def test_clearance_in_series_carries_what_the_support_carries():
     assert np.all(np.abs(curve.here[~free]) <= held * (1 + 1e-9) + 1e-9)
 
 
+@pytest.mark.slow
 def test_a_loose_pedestal_is_soft_on_one_side():
     panel = picture(PAPER, "pedestal_looseness", "bearing1", loss=0.7)[0]
     k = PAPER.bearings[0].support.stiffness_y_n_per_m
@@ -53,6 +56,7 @@ def test_a_loose_pedestal_is_soft_on_one_side():
     assert curve.here == pytest.approx(expected, rel=1e-9, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_unbalance_turns_with_the_shaft():
     (panel,) = picture(PAPER, "unbalance", "pinion", moment=4e-4, phase=0.3)
     omega = 2 * math.pi * PAPER.operating.speed_hz
@@ -62,6 +66,7 @@ def test_unbalance_turns_with_the_shaft():
     assert by_name["x"] == pytest.approx(size * np.cos(panel.values + 0.3), abs=1e-6 * size)
 
 
+@pytest.mark.slow
 def test_run_out_moves_the_mesh_once_a_turn_by_its_radius():
     panel = picture(PAPER, "eccentricity", "pinion", radius=1e-5)[0]
     (curve,) = panel.curves
@@ -71,6 +76,7 @@ def test_run_out_moves_the_mesh_once_a_turn_by_its_radius():
     assert once == pytest.approx(1e-5, rel=0.12)
 
 
+@pytest.mark.slow
 def test_backlash_leaves_a_dead_zone_of_its_width():
     width = 4e-5
     panel = picture(PAIR, "backlash", "mesh1", width=width)[0]
@@ -81,6 +87,7 @@ def test_backlash_leaves_a_dead_zone_of_its_width():
     assert np.all(curve.without[np.abs(panel.values) > 1e-9] != 0.0)
 
 
+@pytest.mark.slow
 def test_a_crack_softens_one_pair_and_the_mesh_around_it_only():
     pair, mesh, error = picture(PAPER, "tooth_crack", "pinion", depth=0.4)
     (curve,) = pair.curves
@@ -92,6 +99,7 @@ def test_a_crack_softens_one_pair_and_the_mesh_around_it_only():
     assert 0.0 < lost.max() <= np.max(curve.without - curve.here) * (1 + 1e-3)
 
 
+@pytest.mark.slow
 def test_tooth_friction_turns_round_at_the_pitch_point_and_is_mu_n():
     found = picture(PAPER, "tooth_friction", "mesh1", coefficient=0.08, speed=0.01)
     panel = next(p for p in found if p.y.unit == "N" and p.x.unit == "rad")
@@ -116,6 +124,7 @@ def test_an_added_mass_pushes_back_most_at_its_own_frequency():
     assert spring.curves[0].here == pytest.approx(k * spring.values, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_spall_is_drawn_where_it_lies_and_as_deep_as_it_is():
     rotor = preset("rotor")
     panel, force = picture(rotor, "outer_spall", "bearing1", width=1.5e-3, angle=-1.0)
