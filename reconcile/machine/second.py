@@ -49,6 +49,8 @@ class Beside:
     evidence: FloatArray
     p: float
     misfit: float
+    placed: bool = True
+    """Whether a pattern, not only impacts that several places share, speaks for the first of them."""
 
 
 def strikes(name: str) -> bool:
@@ -124,6 +126,7 @@ def struck_too(setting: Setting, found: Found, first: str) -> Beside | None:
         evidence=evidence[order],
         p=setting.direct.p,
         misfit=look.misfit,
+        placed=len(known) == 1 or float(evidence.max()) - parts[0][known[order[0]]] >= LEAST_EVIDENCE,
     )
 
 
@@ -154,6 +157,8 @@ def struck_somewhere(setting: Setting, found: Found, decision: Decision) -> tupl
 
 def _outweighs(seen: Beside) -> bool:
     """Whether the first of them and its forms carry what a name needs."""
+    if not seen.placed:
+        return False
     weights = np.exp(seen.evidence - seen.evidence[0])
     forms = np.array([n == seen.names[0] or variants(n, seen.names[0]) for n in seen.names])
     return float(weights[forms].sum() / weights.sum()) >= SET_WEIGHT
