@@ -153,8 +153,17 @@ def chance(screen: Screen) -> float:
 
 
 def tempered(screen: Screen, first: Screen) -> Screen:
-    """A change is no more unusual for machines that agree with the baseline than it was for all of the kind."""
-    return replace(screen, strongest=min(screen.strongest, first.strongest), p_first=first.p_best)
+    """A change is no more unusual for machines that agree with the baseline than it was for all of the kind, and the
+    best of the effects that were simulated there is the best of all that might have been."""
+    strongest = min(screen.strongest, first.strongest)
+    best = among_all(screen.p_best, asked=len(screen.names), known=len(first.names))
+    return replace(screen, strongest=strongest, p_first=first.p_best, p_best=best)
+
+
+def among_all(p: float, *, asked: int, known: int) -> float:
+    """Chance of the best of the effects that the observation chose, `asked` of `known`: nulls are ranked against these
+    few, though for each of them others would have been chosen (Sidak 1967, J. Am. Stat. Assoc. 62, 626-633)."""
+    return float(-np.expm1(max(known / asked, 1.0) * np.log1p(-min(p, 1.0 - 1e-12))))
 
 
 def unmeasured(screen: Screen) -> Screen:
