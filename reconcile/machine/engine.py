@@ -23,6 +23,7 @@ from reconcile.machine.decide import decide, leaves_lines, remarkable, tempered,
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
+from reconcile.machine.octave import doubted_speed, rival_speed
 from reconcile.machine.search import (
     broader,
     fit_views,
@@ -35,7 +36,7 @@ from reconcile.machine.search import (
 )
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.unknown import Unknown, unknown_force
-from reconcile.observe.observation import observe
+from reconcile.observe.observation import PointData, observe
 from reconcile.observe.watch import watch_list
 from reconcile.verdict import Report
 from signals.recording import Recording
@@ -75,7 +76,12 @@ def reconcile_machine(
     paired = with_tooth_pairs(machine)
     chosen = candidates(paired) if nominated is None else tuple(nominated)
     plan = atlas_plan(paired, uncertain_numbers(paired), chosen, seed=seed)
-    setting = _setting(machine, gate, plan, keeper or Forgetful(), meter, progress)
+    progress(0.05, "speed and features")
+    data = observe(machine, watch_list(machine), sorted(gate.tests, key=_place), gate.baselines, seed=seed)
+    factor = rival_speed(machine, data, gate.tests[0].channels)
+    if factor is not None:
+        return doubted_speed(factor, data)
+    setting = _setting(machine, gate, data, plan, keeper or Forgetful(), meter, progress)
     atlas_s = meter.spent_s()
     progress(0.6, "candidates")
     setting, found, fit = _answered(setting, budget, meter, progress)
@@ -142,11 +148,14 @@ def _place(test: Recording) -> tuple[float, float]:
 
 
 def _setting(
-    machine: MachineSpec, gate: Gate, plan: AtlasPlan, keeper: Keeper, mapper: Mapper, progress: Progress
+    machine: MachineSpec,
+    gate: Gate,
+    data: tuple[PointData, ...],
+    plan: AtlasPlan,
+    keeper: Keeper,
+    mapper: Mapper,
+    progress: Progress,
 ) -> Setting:
-    watched = watch_list(machine)
-    progress(0.05, "speed and features")
-    data = observe(machine, watched, sorted(gate.tests, key=_place), gate.baselines, seed=plan.seed)
     recorded = gate.tests[0].channels
     simulated = simulated_channels(machine, recorded)
     distinct = standard_channels(machine, simulated)

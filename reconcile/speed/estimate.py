@@ -77,7 +77,7 @@ def estimate_speed(
     if recording.tacho is not None and recording.tacho.shaft == name:
         return _by_pulses(recording, name, stated)
     stated = _checked(recording, stated, search)
-    combs = _excesses(recording)
+    combs = line_logs(recording)
     speeds, score = _best_speed(combs, HARMONICS, stated, search)
     best = int(np.argmax(score))
     confidence = _confidence(combs, HARMONICS, float(score[best]), stated, search, seed)
@@ -158,7 +158,7 @@ def _by_pulses(recording: Recording, shaft: str, stated: float | None) -> SpeedE
     )
 
 
-def _excesses(recording: Recording) -> tuple[tuple[FloatArray, float], ...]:
+def line_logs(recording: Recording) -> tuple[tuple[FloatArray, float], ...]:
     """Log power over noise of each channel (0 in noise, mains lines left out) with the resolution, Hz."""
     found = []
     for name in recording.names:
