@@ -56,6 +56,8 @@ class Recording:
     start_s: float = 0.0
     chain: Mapping[str, object] | None = None
     """The measurement chain that made the samples from simulated ones (`signals.sensors`), ready for JSON."""
+    label: str = ""
+    """What the person who sent it knows it by (a file, an id): refusals say it. Nothing is computed from it."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "sampling_rate_hz", checked_rate(self.sampling_rate_hz))

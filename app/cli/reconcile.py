@@ -11,8 +11,9 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
-from contextlib import nullcontext
+from contextlib import contextmanager, nullcontext
 from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
@@ -24,6 +25,7 @@ from reconcile.entry import reconcile_recordings
 from reconcile.kinematics import KinematicSpec, read_kinematic_spec
 from reconcile.machine.budget import BUDGETS
 from reconcile.report import write_report
+from reconcile.told import about
 from signals.ingest import read_recording
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
@@ -49,21 +51,41 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def _machine(path: Path) -> MachineSpec | KinematicSpec:
-    """Any of the three forms: a specification, a parameter file, or kinematics alone."""
+    """Any of the three forms: a specification, a parameter file, or kinematics alone; a refusal says the file."""
     document = read_json(path)
     if "kinematics" in document:
-        return read_kinematic_spec(document)
+        with about(str(path)):
+            return read_kinematic_spec(document)
     if "parameters" in document or len(set(document) & set(KEYS)) > MOST_FOREIGN:
-        return read_parameters(path).machine
+        with about(str(path)):
+            return read_parameters(path).machine
     return read_machine(path)
 
 
 def _recording(path: Path) -> Recording:
-    """A recording; of several files a refusal says which."""
+    """A recording, labelled with its file as it was given; a refusal says which file too."""
     try:
-        return read_recording(path)
+        return replace(read_recording(path), label=str(path))
     except SpecError as error:
-        raise SpecError([replace(p, field=f"{path.name}: {p.field}") for p in error.problems]) from error
+        raise SpecError([replace(p, field=_in_file(path, p.field)) for p in error.problems]) from error
+
+
+def _in_file(path: Path, field: str) -> str:
+    """The reader names a description by its last part, and a data file beside it likewise."""
+    rest = field.removeprefix(str(path)) if field.startswith(str(path)) else field.removeprefix(path.name)
+    return f"{path}{rest}" if rest[:1] in ("", ":") else f"{path}: {field}"
+
+
+@contextmanager
+def _machine_named(path: Path) -> Iterator[None]:
+    """What is refused about the machine once the recordings are known says its file."""
+    try:
+        yield
+    except SpecError as error:
+        about_it = ("machine", "kinematics")
+        raise SpecError(
+            [replace(p, field=f"{path}: {p.field}") if p.field.startswith(about_it) else p for p in error.problems]
+        ) from error
 
 
 def _progress(share: float, stage: str) -> None:
@@ -81,7 +103,7 @@ def run(arguments: argparse.Namespace) -> int:
     keeper = AtlasFolder(arguments.atlas or default_atlas_folder())
     several = arguments.jobs > 1
     pool = ProcessPoolExecutor(arguments.jobs, mp_context=get_context("spawn")) if several else nullcontext()
-    with pool as workers:
+    with pool as workers, _machine_named(arguments.machine):
         report = reconcile_recordings(
             machine,
             tests,

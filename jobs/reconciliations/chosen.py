@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from jobs.errors import ResultNotReady, UnknownJob
 from jobs.ports import ArtefactStore, JobCatalogue
@@ -23,6 +23,8 @@ class Chosen:
 
     recordings: tuple[ResultReader, ...]
     baselines: tuple[ResultReader, ...]
+    labels: tuple[str, ...]
+    """What refusals call each, the recordings first: the name of its file, and its id."""
 
     @property
     def samples(self) -> int:
@@ -31,7 +33,9 @@ class Chosen:
 
     def loaded(self) -> tuple[list[Recording], list[Recording]]:
         """The recordings and the baselines with their samples."""
-        return [stored_recording(r) for r in self.recordings], [stored_recording(r) for r in self.baselines]
+        readers = (*self.recordings, *self.baselines)
+        every = [replace(stored_recording(r), label=label) for r, label in zip(readers, self.labels, strict=True)]
+        return every[: len(self.recordings)], every[len(self.recordings) :]
 
 
 def choose(
@@ -41,6 +45,7 @@ def choose(
     problems = list(_repeated(recordings, baselines))
     waiting: list[JobRecord] = []
     found: dict[str, list[ResultReader]] = {"recordings": [], "baselines": []}
+    labels: list[str] = []
     for field, ids in (("recordings", recordings), ("baselines", baselines)):
         for place, identifier in enumerate(ids):
             record, reason = _looked_up(catalogue, identifier)
@@ -50,11 +55,12 @@ def choose(
                 waiting.append(record)
             elif record is not None and record.result is not None:
                 found[field].append(ResultReader(artefacts, f"{identifier}/{record.result.attempt}"))
+                labels.append(_label(record))
     if problems:
         raise SpecError(problems)
     if waiting:
         raise ResultNotReady(waiting[0].id, waiting[0].status)
-    chosen = Chosen(recordings=tuple(found["recordings"]), baselines=tuple(found["baselines"]))
+    chosen = Chosen(recordings=tuple(found["recordings"]), baselines=tuple(found["baselines"]), labels=tuple(labels))
     if chosen.samples > MOST_SAMPLES:
         message = "the recordings are too long together"
         allowed = f"<= {MOST_SAMPLES}"
@@ -62,6 +68,11 @@ def choose(
             Problem(field="recordings", message=message, given=chosen.samples, allowed=allowed, unit="samples")
         )
     return chosen
+
+
+def _label(record: JobRecord) -> str:
+    name = record.source.get("name")
+    return f"{name} ({record.id})" if isinstance(name, str) and name else record.id
 
 
 def _repeated(recordings: Sequence[str], baselines: Sequence[str]) -> Iterator[Problem]:

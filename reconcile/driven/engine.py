@@ -13,6 +13,7 @@ from reconcile.driven.forced import analyse
 from reconcile.driven.machine import driven_site
 from reconcile.driven.prescribed.answer import reconcile_prescribed
 from reconcile.driven.split import parts_of
+from reconcile.told import about, place
 from reconcile.verdict import Report
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
@@ -28,27 +29,39 @@ def _checked(spec: MachineSpec, recordings: Sequence[Recording]) -> list[Driven]
         raise SpecError(
             Problem(field="recordings", message="there is nothing to compare", given=0, allowed="1 or more")
         )
-    first = directed(recordings[0], spec)
-    rest = [driven_of(r, spec, motion_drives=first.prescribed) for r in recordings[1:]]
+    with about(recordings[0].label):
+        first = directed(recordings[0], spec)
+    rest = [_further(r, spec, first.prescribed) for r in recordings[1:]]
     found = [first, *rest]
-    for i, data in enumerate(found):
+    for i, (one, data) in enumerate(zip(recordings, found, strict=True)):
         least = LEAST_SAMPLES if len(found) == 1 else LEAST_SAMPLES // 3
         if data.answer.size < least:
             message = "is too short for fitting and holding out"
             raise SpecError(
-                Problem(field=f"recordings[{i}]", message=message, given=data.answer.size, allowed=f"{least} samples")
+                Problem(
+                    field=place(one, "recording", i, "samples"),
+                    message=message,
+                    given=data.answer.size,
+                    allowed=f"{least} samples",
+                )
             )
         for name, values in (("input", data.drive), ("output", data.answer)):
             if values.std() == 0.0:
                 channel = data.drive_channel if name == "input" else data.answer_channel
                 message = f"the {name} does not move"
                 raise SpecError(
-                    Problem(field=f"recordings[{i}].{channel.name}", message=message, given=float(values[0]))
+                    Problem(field=place(one, "recording", i, channel.name), message=message, given=float(values[0]))
                 )
         if abs(data.step_s / found[0].step_s - 1.0) > 1e-6:
             message = "sampling rates of the recordings differ"
-            raise SpecError(Problem(field=f"recordings[{i}]", message=message, given=1.0 / data.step_s, unit="Hz"))
+            where, allowed = place(one, "recording", i, "sampling_rate_hz"), f"{1.0 / found[0].step_s:g}"
+            raise SpecError(Problem(field=where, message=message, given=1.0 / data.step_s, allowed=allowed, unit="Hz"))
     return found
+
+
+def _further(recording: Recording, spec: MachineSpec, motion_drives: bool) -> Driven:
+    with about(recording.label):
+        return driven_of(recording, spec, motion_drives=motion_drives)
 
 
 def reconcile_driven(

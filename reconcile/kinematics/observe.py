@@ -33,7 +33,7 @@ class Observation:
 
 
 def observe(recording: Recording, ties: Ties, label: str, *, stated_hz: float | None, seed: int) -> Observation:
-    """Speed, angle and envelopes of a recording that has passed the gate."""
+    """Speed, angle and envelopes of a recording that has passed the gate; SpecError names the field alone."""
     teeth = tuple(z * k for z in ties.mesh_orders for k in (1, 2, 3))
     nyquist = recording.sampling_rate_hz / 2
     stated = recording.operating.speed_hz if recording.operating is not None else stated_hz
@@ -42,8 +42,8 @@ def observe(recording: Recording, ties: Ties, label: str, *, stated_hz: float | 
     if speed.speed_hz * recording.duration_s < MIN_TURNS:
         raise SpecError(
             Problem(
-                field=label,
-                message="holds too few turns of the shaft",
+                field="samples",
+                message="hold too few turns of the shaft",
                 given=round(speed.speed_hz * recording.duration_s, 2),
                 allowed=f"at least {MIN_TURNS:g} turns",
             )
@@ -52,11 +52,9 @@ def observe(recording: Recording, ties: Ties, label: str, *, stated_hz: float | 
     base, top = reach_of(ties.families)
     if top * speed.speed_hz * 2 > recording.sampling_rate_hz:
         allowed = f"at least {2 * top * speed.speed_hz:.5g}"
-        message = "is too low for the envelope lines of these parts"
+        message = f"is too low for the envelope lines of these parts at {speed.speed_hz:.4g} Hz"
         given = recording.sampling_rate_hz
-        raise SpecError(
-            Problem(field=f"{label}.sampling_rate_hz", message=message, given=given, allowed=allowed, unit="Hz")
-        )
+        raise SpecError(Problem(field="sampling_rate_hz", message=message, given=given, allowed=allowed, unit="Hz"))
     doubt = min((speed.high_hz - speed.low_hz) / 2 / speed.speed_hz, MOST_DOUBT)
     found = tuple(
         envelopes(recording, name, np.asarray(angle), highest_base=base, highest_order=top) for name in recording.names

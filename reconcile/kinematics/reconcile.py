@@ -31,6 +31,7 @@ from reconcile.kinematics.vague import (
     shaft_report,
     turn_report,
 )
+from reconcile.told import about
 from reconcile.verdict import LineChange, Report
 from signals.recording import Recording
 from sim.core.errors import SpecError
@@ -81,10 +82,8 @@ def _observed(
     found = []
     for i, one in enumerate(several, 1):
         label = f"{kind} {i}"
-        try:
+        with about(one.label or label):
             found.append(observe(one, tie, label, stated_hz=stated_hz, seed=seed))
-        except SpecError as error:
-            raise SpecError([replace(p, field=f"{label}: {p.field}") for p in error.problems]) from error
     return found
 
 

@@ -13,6 +13,7 @@ from reconcile.observe.slack import slack
 from reconcile.observe.statistics import Statistics, averaged
 from reconcile.observe.steady import Steady, steady
 from reconcile.observe.watch import WatchList, bases_at
+from reconcile.told import about
 from signals.recording import Recording
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
@@ -46,7 +47,9 @@ def _torque(machine: MachineSpec) -> float | None:
 def point_of(machine: MachineSpec, recording: Recording) -> Point:
     """The operating point a recording states; the machine's own where it states none."""
     if machine.operating is None:
-        raise SpecError(Problem(field="operating", message="the machine has no speed", allowed="shaft, speed_hz"))
+        raise SpecError(
+            Problem(field="machine.operating", message="the machine has no speed", allowed="shaft, speed_hz")
+        )
     stated = recording.operating
     speed = stated.speed_hz if stated is not None else machine.operating.speed_hz
     nominal = _torque(machine)
@@ -105,8 +108,7 @@ def observe(
         resting = next((b for p, b in known if _alike(p, point)), None)
         if known and resting is None:
             continue
-        now = [steady(r, orders=orders, slowest=slowest, seed=seed) for r in members]
-        before = [steady(r, orders=orders, slowest=slowest, seed=seed) for r in resting or ()]
+        now, before = ([_steady(r, orders, slowest, seed) for r in several] for several in (members, resting or ()))
         bases = bases_at(machine, point.speed_hz)
         middle = now[0].samples.shape[1] // 2
         found.append(
@@ -124,10 +126,24 @@ def observe(
             )
         )
     if not found:
-        speeds = ", ".join(f"{p.speed_hz:g}" for p, _ in known)
         message = "no baseline was recorded at the speed and load of any test"
-        raise SpecError(Problem(field="baseline", message=message, allowed=f"speeds of the baselines: {speeds} Hz"))
+        given, allowed = _points(_group(machine, tests)), f"the points of the baselines: {_points(known)}"
+        raise SpecError(Problem(field="baseline", message=message, given=given, allowed=allowed))
     return tuple(found)
+
+
+def _points(groups: Sequence[tuple[Point, Sequence[Recording]]]) -> str:
+    """`30 Hz, torque ratio 1 (t1.json, t2.json)` of each."""
+    said = []
+    for point, members in groups:
+        labels = ", ".join(one.label for one in members if one.label)
+        said.append(f"{point.speed_hz:g} Hz, torque ratio {point.torque_ratio:g}" + (f" ({labels})" if labels else ""))
+    return "; ".join(said)
+
+
+def _steady(recording: Recording, orders: Sequence[float], slowest: float, seed: int) -> Steady:
+    with about(recording.label):
+        return steady(recording, orders=orders, slowest=slowest, seed=seed)
 
 
 def _drives(machine: MachineSpec, shaft: str) -> bool:

@@ -89,11 +89,15 @@ def test_what_the_engine_refuses_fails_with_fields_and_the_worker_lives(
     client: httpx.Client, parts: Parts, short: str
 ) -> None:
     other = recorded(np.random.default_rng(2).normal(size=(2, 64)))
-    body = {"machine": MACHINE, "recordings": [short], "baselines": [send(client, other)]}
+    parts_of = MACHINE["kinematics"]
+    second = {**parts_of["bearings"][0], "name": "bearing2"}
+    machine = {"kinematics": {**parts_of, "bearings": [*parts_of["bearings"], second]}}
+    baseline = send(client, other)
+    body = {"machine": machine, "recordings": [short], "baselines": [baseline]}
     found = ended(client, client.post(ADDRESS, json=body))
     assert (found["status"], found["job"]["failure"]["code"]) == ("failed", "not-reconcilable")
     errors = found["job"]["failure"]["detail"]["errors"]
-    assert [e["field"] for e in errors] == ["baseline[0].channels"] and errors[0]["given"] == 2
+    assert [e["field"] for e in errors] == [f"r.npz ({baseline}): channels"] and errors[0]["given"] == 2
     problem(client.get(f"{ADDRESS}/{found['id']}/report.html"), 409)
     assert parts.workers[0].poll() is None
 
