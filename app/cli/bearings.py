@@ -9,6 +9,8 @@ import argparse
 import math
 
 from app.cli.files import json_text
+from reconcile.kinematics.catalogued import uncatalogued
+from sim.core.errors import SpecError
 from sim.parts.bearing import CatalogueRow, catalogue, defect_orders, lookup, missing
 
 
@@ -21,6 +23,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
     if arguments.name is not None:
+        unknown = uncatalogued(arguments.name, "NAME")
+        if unknown is not None:
+            raise SpecError(unknown)
         row = lookup(arguments.name)
         print(json_text(_document(row)) if arguments.json else _explained(row), end="" if arguments.json else "\n")
         return 0

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Annotated
 
 from pydantic import Field, ValidationError, model_validator
+from pydantic_core import ErrorDetails
 
+from reconcile.kinematics.catalogued import uncatalogued
 from sim.core.errors import Problem, SpecError
+from sim.core.near import did_you_mean
 from sim.core.spec import MachineSpec, Name, SpecModel
 from sim.core.spec.base import MAX_ITEMS, WHOLE
 
@@ -81,26 +86,56 @@ class KinematicSpec(SpecModel):
 
     @model_validator(mode="after")
     def _tied(self) -> KinematicSpec:
-        shafts, gears = {s.name for s in self.shafts}, {g.name: g for g in self.gears}
-        sites = [x.name for x in self.shafts] + [x.name for x in self.bearings]
-        sites += [x.name for x in self.gears] + [x.name for x in self.meshes]
-        for name in sites:
-            if sites.count(name) > 1:
-                raise ValueError(f"{name} is used twice: sites need names of their own")
-        carried = [(b.name, b.shaft) for b in self.bearings] + [(g.name, g.shaft) for g in self.gears]
-        for name, shaft in carried:
-            if shaft not in shafts:
-                raise ValueError(f"{name} is on {shaft}, which is no shaft (known: {', '.join(shafts)})")
-        for mesh in self.meshes:
-            for name in mesh.gears:
-                if name not in gears:
-                    raise ValueError(
-                        f"{mesh.name} names {name}, which is no gear (known: {', '.join(gears) or 'none'})"
-                    )
-            a, b = (gears[name] for name in mesh.gears)
-            if a.shaft == b.shaft:
-                raise ValueError(f"{mesh.name} joins two gears of one shaft")
+        problems = [*_repeated(self), *_untied(self)]
+        if problems:
+            raise NotTied(problems)
         return self
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """Names of all parts: what a channel's location may be."""
+        return tuple(x.name for several in (self.shafts, self.bearings, self.gears, self.meshes) for x in several)
+
+
+class NotTied(ValueError):
+    """Parts that name parts which are not there; `problems` say the field within `kinematics`."""
+
+    def __init__(self, problems: Sequence[Problem]) -> None:
+        self.problems = tuple(problems)
+        super().__init__("; ".join(str(p) for p in problems))
+
+
+def _repeated(spec: KinematicSpec) -> Iterator[Problem]:
+    seen: set[str] = set()
+    for kind in ("shafts", "bearings", "gears", "meshes"):
+        for i, part in enumerate(getattr(spec, kind)):
+            if part.name in seen:
+                message = "is used twice: every part needs a name of its own"
+                yield Problem(field=f"{kind}.{i}.name", message=message, given=part.name)
+            seen.add(part.name)
+
+
+def _untied(spec: KinematicSpec) -> Iterator[Problem]:
+    """Shafts of bearings and gears, and gears of meshes, that do not exist."""
+    shafts, gears = [s.name for s in spec.shafts], {g.name: g for g in spec.gears}
+    carried = [(f"bearings.{i}.shaft", b.shaft) for i, b in enumerate(spec.bearings)]
+    carried += [(f"gears.{i}.shaft", g.shaft) for i, g in enumerate(spec.gears)]
+    for field, name in carried:
+        if name not in shafts:
+            message = f"is no shaft{did_you_mean(name, shafts)}"
+            yield Problem(field=field, message=message, given=name, allowed=", ".join(shafts))
+    for i, mesh in enumerate(spec.meshes):
+        for j, name in enumerate(mesh.gears):
+            if name not in gears:
+                allowed = ", ".join(gears) or "none is listed under gears"
+                message = f"is no gear{did_you_mean(name, gears)}"
+                yield Problem(field=f"meshes.{i}.gears.{j}", message=message, given=name, allowed=allowed)
+        turned = [gears[name].shaft for name in mesh.gears if name in gears]
+        if len(turned) == 2 and turned[0] == turned[1]:
+            allowed = "gears of two shafts"
+            yield Problem(
+                field=f"meshes.{i}.gears", message=f"are both on {turned[0]}", given=mesh.gears, allowed=allowed
+            )
 
 
 def read_kinematic_spec(document: object) -> KinematicSpec:
@@ -110,19 +145,34 @@ def read_kinematic_spec(document: object) -> KinematicSpec:
         message = "must be an object with the one key 'kinematics'"
         raise SpecError(Problem(field="machine", message=message, given=given, allowed="kinematics"))
     try:
-        return KinematicSpec.model_validate(document["kinematics"])
+        spec = KinematicSpec.model_validate(document["kinematics"])
     except ValidationError as error:
-        raise SpecError(
-            [
-                Problem(
-                    field=".".join(("kinematics", *map(str, e["loc"]))),
-                    message="is not a known field" if e["type"] == "extra_forbidden" else str(e["msg"]),
-                    given=e["input"] if isinstance(e["input"], str | int | float) else None,
-                    allowed=", ".join(_fields(e["loc"])) if e["type"] == "extra_forbidden" else "",
-                )
-                for e in error.errors()
-            ]
-        ) from None
+        raise SpecError([problem for e in error.errors() for problem in _told(e)]) from None
+    unknown = [
+        problem
+        for i, b in enumerate(spec.bearings)
+        if b.catalogue is not None
+        and (problem := uncatalogued(b.catalogue, f"kinematics.bearings.{i}.catalogue")) is not None
+    ]
+    if unknown:
+        raise SpecError(unknown)
+    return spec
+
+
+def _told(error: ErrorDetails) -> list[Problem]:
+    """One problem of pydantic's, or those of parts that name parts which are not there."""
+    cause = error.get("ctx", {}).get("error")
+    if isinstance(cause, NotTied):
+        return [replace(p, field=f"kinematics.{p.field}") for p in cause.problems]
+    foreign, given = error["type"] == "extra_forbidden", error["input"]
+    return [
+        Problem(
+            field=".".join(("kinematics", *map(str, error["loc"]))),
+            message="is not a known field" if foreign else str(error["msg"]).removeprefix("Value error, "),
+            given=given if isinstance(given, str | int | float) else None,
+            allowed=", ".join(_fields(error["loc"])) if foreign else "",
+        )
+    ]
 
 
 def _fields(place: tuple[int | str, ...]) -> tuple[str, ...]:

@@ -152,7 +152,7 @@ def test_refused_is_an_end_with_reasons_and_sent_again_is_a_new_attempt(world: W
 @pytest.mark.slow
 def test_a_described_bearing_names_its_lines(world: World) -> None:
     long = replace(RECORDING, samples=np.random.default_rng(1).normal(size=(2, 1400)), tacho=None)
-    for wrong, told in (("no such size", "unknown bearing"), ({"balls": 9}, "bearing"), (7, "bearing")):
+    for wrong, told in (("no such size", "in the catalogue"), ({"balls": 9}, "bearing"), (7, "bearing")):
         with pytest.raises((SpecError, UnknownName), match=told):
             world.send(encode(long, "npz"), {**about(long), "bearing": wrong})
     record = world.send(encode(long, "npz"), {**about(long), "bearing": "6205"})

@@ -11,6 +11,7 @@ import pytest
 from reconcile.kinematics import of_machine, read_kinematic_spec
 from reconcile.kinematics.families import ties
 from sim.core.errors import SpecError
+from sim.parts.bearing import catalogue, missing
 from sim.presets import preset
 
 
@@ -110,3 +111,32 @@ def test_the_example_of_the_page_is_read() -> None:
     (example,) = (text for text in re.findall(r"```json\n(.*?)```", page, re.DOTALL) if "kinematics" in text)
     tie = ties(read_kinematic_spec(json.loads(example)))
     assert tie.shafts["output"] == pytest.approx(21 / 64)
+
+
+def problems(document):  # type: ignore[no-untyped-def]
+    with pytest.raises(SpecError) as caught:
+        read_kinematic_spec(document)
+    return caught.value.problems
+
+
+def test_shafts_and_gears_that_are_not_there_are_refused_by_field_with_those_that_are() -> None:
+    gears = [{"name": "pinion", "shaft": "shaft", "teeth": 20}, {"name": "wheel", "shaft": "outt", "teeth": 50}]
+    parts = {"bearings": [{**bearing(catalogue="6205"), "shaft": "shft"}], "gears": gears}
+    shaft, wheel, mesh = problems(spec(**parts, meshes=[{"name": "m", "gears": ["pinion", "weel"]}]))
+    assert (shaft.field, shaft.given, shaft.allowed) == ("kinematics.bearings.0.shaft", "shft", "shaft")
+    assert "did you mean shaft" in shaft.message
+    assert (wheel.field, wheel.given, wheel.allowed) == ("kinematics.gears.1.shaft", "outt", "shaft")
+    assert (mesh.field, mesh.given, mesh.allowed) == ("kinematics.meshes.0.gears.1", "weel", "pinion, wheel")
+
+
+def test_a_bearing_that_the_catalogue_lacks_is_refused_with_what_is_near_and_how_to_list_all() -> None:
+    (problem,) = problems(spec(bearings=[bearing(catalogue="6213")]))
+    assert (problem.field, problem.given) == ("kinematics.bearings.0.catalogue", "6213")
+    count = len(catalogue())
+    assert f"one of {count} that `sideband bearings` lists" in problem.allowed
+    assert problem.allowed.startswith("near it ") and "6203" in problem.allowed and "6211" in problem.allowed
+    (strange,) = problems(spec(bearings=[bearing(catalogue="QQQ")]))
+    assert "near it" not in strange.allowed and f"one of {count}" in strange.allowed
+    # a bearing that the catalogue leaves out says why
+    left_out = next(iter(missing()))
+    assert "left out: " in problems(spec(bearings=[bearing(catalogue=left_out)]))[0].message

@@ -1,0 +1,25 @@
+"""A bearing that the catalogue does not have: what is near it, how many there are, and what else can be given."""
+
+from __future__ import annotations
+
+from sim.core.errors import Problem, UnknownName
+from sim.core.near import near
+from sim.parts.bearing.catalogue import catalogue, lookup, missing
+
+MOST_NEAR = 6
+LIKE = 0.5
+
+
+def uncatalogued(designation: str, field: str) -> Problem | None:
+    """The problem with a designation that stands in `field`; None where the catalogue has it."""
+    try:
+        lookup(designation)
+    except UnknownName:
+        reason = missing().get(designation.strip().upper())
+        message = "is not in the catalogue of bearings" + (f" (left out: {reason})" if reason else "")
+        names = list(catalogue())
+        alike = near(designation, names, most=MOST_NEAR, like=LIKE)
+        shown = f"near it {', '.join(alike)}; " if alike else ""
+        allowed = f"{shown}one of {len(names)} that `sideband bearings` lists; or balls with both diameters, or orders"
+        return Problem(field=field, message=message, given=designation, allowed=allowed)
+    return None
