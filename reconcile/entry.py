@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from reconcile.atlas.bank import Mapper
 from reconcile.atlas.candidates import Candidate
@@ -12,6 +13,8 @@ from reconcile.driven import reconcile_driven
 from reconcile.kinematics import KinematicSpec, reconcile_kinematics
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.engine import Progress, reconcile_machine
+from reconcile.stated import check_locations, check_shafts, check_speeds, given
+from reconcile.told import about, place, sent_as
 from reconcile.verdict import Report
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
@@ -52,6 +55,7 @@ def check_size(tests: Sequence[Recording], baselines: Sequence[Recording]) -> No
 def check_channels(tests: Sequence[Recording], baselines: Sequence[Recording]) -> None:
     """Channels, units and rates must agree between all recordings: nothing is matched by guess."""
     first = tests[0]
+    whose = f"first recording's ({first.label})" if first.label else "first recording's"
     problems = []
     for kind, several in (("recording", tests), ("baseline", baselines)):
         for k, other in enumerate(several):
@@ -59,8 +63,8 @@ def check_channels(tests: Sequence[Recording], baselines: Sequence[Recording]) -
                 if (a.location, a.axis, a.quantity, a.unit) != (b.location, b.axis, b.quantity, b.unit):
                     problems.append(
                         Problem(
-                            field=f"{kind}[{k}].channels[{c}]",
-                            message="differs from the first recording's channel",
+                            field=place(other, kind, k, f"channels[{c}]"),
+                            message=f"differs from the {whose} channel",
                             given=f"{b.location} {b.axis} {b.quantity} {b.unit}",
                             allowed=f"{a.location} {a.axis} {a.quantity} {a.unit}",
                         )
@@ -68,8 +72,8 @@ def check_channels(tests: Sequence[Recording], baselines: Sequence[Recording]) -
             if len(other.channels) != len(first.channels):
                 problems.append(
                     Problem(
-                        field=f"{kind}[{k}].channels",
-                        message="has another number of channels than the first recording",
+                        field=place(other, kind, k, "channels"),
+                        message=f"are not as many as the {whose}",
                         given=len(other.channels),
                         allowed=str(len(first.channels)),
                     )
@@ -77,8 +81,8 @@ def check_channels(tests: Sequence[Recording], baselines: Sequence[Recording]) -
             if abs(other.sampling_rate_hz / first.sampling_rate_hz - 1.0) > 1e-6:
                 problems.append(
                     Problem(
-                        field=f"{kind}[{k}].sampling_rate_hz",
-                        message="differs from the first recording's",
+                        field=place(other, kind, k, "sampling_rate_hz"),
+                        message=f"differs from the {whose}",
                         given=other.sampling_rate_hz,
                         allowed=f"{first.sampling_rate_hz:g}",
                         unit="Hz",
@@ -88,22 +92,23 @@ def check_channels(tests: Sequence[Recording], baselines: Sequence[Recording]) -
         raise SpecError(problems)
 
 
-def check_shafts(machine: MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording]) -> None:
-    """The shaft that a description states a speed for must be one of the machine's."""
-    known = [s.name for s in machine.shafts]
-    problems = [
-        Problem(
-            field=f"{kind}[{k}].operating.shaft",
-            message="is not a shaft of this machine",
-            given=one.operating.shaft,
-            allowed=", ".join(known),
-        )
-        for kind, several in (("recording", tests), ("baseline", baselines))
-        for k, one in enumerate(several)
-        if one.operating is not None and one.operating.shaft and one.operating.shaft not in known
-    ]
-    if problems:
-        raise SpecError(problems)
+def check_descriptions(
+    machine: MachineSpec | KinematicSpec, tests: Sequence[Recording], baselines: Sequence[Recording]
+) -> None:
+    """Shafts, places and speeds that the descriptions state must be those of the machine; speeds are in Hz."""
+    several = given(tests, baselines)
+    check_shafts([s.name for s in machine.shafts], several)
+    if isinstance(machine, KinematicSpec):
+        if len(machine.parts) > len(machine.shafts):  # a file of shafts alone has no place to name
+            check_locations(machine.parts, several)
+        speeds, field = {s.name: s.speed_hz for s in machine.shafts}, "kinematics.shafts.{shaft}.speed_hz"
+    else:
+        with about(tests[0].label):
+            simulated_channels(machine, tests[0].channels)
+        operating = machine.operating
+        speeds = {operating.shaft: operating.speed_hz} if operating is not None else {}
+        field = "machine.operating.speed_hz"
+    check_speeds(speeds, field, several)
 
 
 def reconcile_recordings(
@@ -125,15 +130,15 @@ def reconcile_recordings(
     says what cannot be reconciled and why.
     """
     check_size(tests, baselines)
+    sent = sent_as(tests, baselines)
     if isinstance(machine, MachineSpec) and not machine.shafts:
-        return reconcile_driven(machine, tests, baselines, seed=seed)
-    if isinstance(machine, MachineSpec):
-        check_shafts(machine, tests, baselines)
-        simulated_channels(machine, tests[0].channels)
+        report = reconcile_driven(machine, tests, baselines, seed=seed)
+        return _with_labels(report, sent)
+    check_descriptions(machine, tests, baselines)
     check_channels(tests, baselines)
     if isinstance(machine, KinematicSpec):
-        return reconcile_kinematics(machine, tests, baselines, seed=seed)
-    return reconcile_machine(
+        return _with_labels(reconcile_kinematics(machine, tests, baselines, seed=seed), sent)
+    report = reconcile_machine(
         machine,
         tests,
         baselines,
@@ -144,3 +149,9 @@ def reconcile_recordings(
         progress=progress,
         nominated=nominated,
     )
+    return _with_labels(report, sent)
+
+
+def _with_labels(report: Report, sent: Mapping[str, str]) -> Report:
+    """The report, which says what it calls each recording."""
+    return replace(report, provenance={**report.provenance, "sent_as": dict(sent)}) if sent else report

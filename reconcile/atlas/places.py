@@ -45,7 +45,9 @@ def sensor_sites(machine: MachineSpec, simulated: Sequence[str]) -> tuple[str, .
 def simulated_channels(machine: MachineSpec, channels: Sequence[Channel]) -> tuple[str, ...]:
     """One simulated channel a recorded one; SpecError names locations the machine does not have."""
     found = [simulated_channel(machine, c) for c in channels]
-    known = [b.name for b in machine.bearings] + [r.name for r in machine.resonators] + [g.name for g in machine.gears]
+    known = [b.name for b in machine.bearings] + [r.name for r in machine.resonators]
+    known += [b.name for b in machine.bodies]
+    known += [g.name for g in machine.gears if g.translates]
     problems = [
         Problem(
             field=f"channels.{c.name}.location",

@@ -84,9 +84,13 @@ class Ties:
 
 
 def ties(spec: KinematicSpec, reference: str | None = None) -> Ties:
-    """Families of `spec` over the shaft `reference` (default: the only one, or the first)."""
+    """Families of `spec` over the shaft `reference` (default: the only one, or the first).
+
+    SpecError for a shaft that is not there. That holds for a machine of one shaft too: the speed of a motor is not
+    that of the fan which a belt drives, and pulses of another name would be left unused.
+    """
     names = [s.name for s in spec.shafts]
-    shaft = reference if reference in names else (names[0] if reference is None or len(names) == 1 else None)
+    shaft = names[0] if reference is None else (reference if reference in names else None)
     if shaft is None:
         raise SpecError(
             Problem(
@@ -140,7 +144,9 @@ def _ratios(spec: KinematicSpec, reference: str) -> dict[str, float]:
             continue
         if speed is None or base is None:
             message = f"is tied to {reference} by no mesh: both need speed_hz"
-            raise SpecError(Problem(field=f"shafts.{name}.speed_hz", message=message, allowed="above 0", unit="Hz"))
+            raise SpecError(
+                Problem(field=f"kinematics.shafts.{name}.speed_hz", message=message, allowed="above 0", unit="Hz")
+            )
         ratio[name] = speed / base
     return ratio
 

@@ -293,3 +293,11 @@ def test_what_is_accepted_is_charged_once_and_a_refusal_costs_nothing(world: Wor
         world.ask([a, b], key="late", seed=3)
     world.desk = replace(world.desk, budget=None)
     assert world.ask([a, b], key="late", seed=3).status is Status.ACCEPTED
+
+
+def test_what_a_worker_refuses_names_the_recording(world: World) -> None:
+    id_ = world.recording(1)
+    other = {"kinematics": {"shafts": [{"name": "output"}], "bearings": []}}
+    record = world.carried_out(world.ask([id_], known=other))
+    assert record.status is Status.FAILED and record.failure is not None
+    assert f"r.npz ({id_}): operating.shaft" in str(record.failure)

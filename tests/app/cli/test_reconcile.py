@@ -106,3 +106,99 @@ def test_of_several_recordings_the_one_that_is_refused_is_named(
     bad.write_text('{"channels": 3}', encoding="utf-8")
     assert main(asked(machine, bad, tmp_path / "out")) == 2
     assert "second.json: " in capsys.readouterr().err
+
+
+def written(folder: Path, name: str, *, seconds: float = 2.0, **further: object) -> Path:
+    rate_hz = 20_000
+    np.savetxt(folder / f"{name}.csv", np.random.default_rng(0).normal(size=round(seconds * rate_hz)), header="a")
+    channel = {"name": "a", "quantity": "acceleration", "unit": "m/s^2", "location": "bearing1", "axis": "y"}
+    operating = {"shaft": "input", "speed_hz": 30.0}
+    description = {"sampling_rate_hz": rate_hz, "channels": [channel], "operating": operating, **further}
+    path = folder / f"{name}.json"
+    path.write_text(json.dumps({k: v for k, v in description.items() if v is not None}), encoding="utf-8")
+    return path
+
+
+def kinematics(folder: Path, **shaft: object) -> Path:
+    bearing = {"name": "bearing1", "shaft": "input", "catalogue": "6205"}
+    path = folder / "k.json"
+    document = {"kinematics": {"shafts": [{"name": "input", **shaft}], "bearings": [bearing]}}
+    path.write_text(json.dumps(document), encoding="utf-8")
+    return path
+
+
+def test_a_refusal_says_the_file_as_it_was_given_and_once(
+    machine: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("runs").mkdir()
+    good, out = written(tmp_path, "good"), tmp_path / "out"
+    bad = {
+        "unit": ({"channels": [{"name": "a", "unit": "furlong"}]}, "channels.0.unit"),
+        "shaft": ({"operating": {"shaft": "fan", "speed_hz": 30.0}}, "operating.shaft"),
+        "away": ({"channels": [{"name": "a", "unit": "m/s^2", "location": "roof"}]}, "channels.a.location"),
+        "rpm": ({"operating": {"shaft": "input", "speed_hz": 1800.0}}, "operating.speed_hz"),
+        "other": ({"sampling_rate_hz": 10_000.0}, "sampling_rate_hz"),
+    }
+    for name, (change, field) in bad.items():
+        written(Path("runs"), name, **change)
+        given = f"runs/{name}.json"
+        for known in (machine, kinematics(tmp_path, speed_hz=30.0)):
+            first = [given] if name == "away" else [str(good), given]
+            asked_for = ["reconcile", "--machine", str(known), "--recording", *first, "--out", str(out), "--jobs", "1"]
+            assert main(asked_for) == 2, name
+            said = capsys.readouterr().err
+            assert f"error: {given}: {field}" in said, said
+            assert said.count(given) == 1, said
+
+
+def test_a_broken_description_is_named_as_it_was_given(
+    machine: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("runs").mkdir()
+    Path("runs/a.json").write_text("{", encoding="utf-8")
+    for given in ("runs/a.json", "runs/none.json"):
+        assert main(asked(machine, Path(given), Path("out"))) == 2
+        said = capsys.readouterr().err
+        assert said.startswith(f"error: {given}: ") and said.count(given) == 1
+
+
+def test_what_is_wrong_with_the_machine_says_its_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    written(tmp_path, "t", seconds=0.5)
+    kinematics(tmp_path, speed_hz=1797.0)
+    assert main(asked(Path("k.json"), Path("t.json"), Path("out"), "--jobs", "1")) == 2
+    assert "error: k.json: kinematics.shafts.input.speed_hz: looks like rpm: 1797" in capsys.readouterr().err
+    document = json.loads(Path("k.json").read_text(encoding="utf-8"))
+    document["kinematics"]["bearings"][0]["shaft"] = "fan"
+    Path("k.json").write_text(json.dumps(document), encoding="utf-8")
+    assert main(asked(Path("k.json"), Path("t.json"), Path("out"), "--jobs", "1")) == 2
+    assert "error: k.json: kinematics.bearings.0.shaft: is no shaft" in capsys.readouterr().err
+
+
+def test_recordings_that_cannot_carry_the_kinematics_are_named_once(tmp_path: Path) -> None:
+    """Both levels: no speed is stated, and too few turns."""
+    machine = kinematics(tmp_path)
+    report = tmp_path / "out" / "report.json"
+    for change, field in (({"operating": None}, "operating.speed_hz"), ({"seconds": 0.3}, "samples")):
+        given = written(tmp_path, "t", **change)  # type: ignore[arg-type]
+        assert main(asked(machine, given, report.parent, "--jobs", "1", "--atlas", str(tmp_path / "atlas"))) == 0
+        sentence = json.loads(report.read_text(encoding="utf-8"))["sentence"]
+        assert f"{given}: {field}" in sentence
+        assert sentence.count(str(given)) == 1 and "test 1" not in sentence
+
+
+def test_at_machine_level_a_recording_that_cannot_be_read_is_named(
+    machine: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    given = written(tmp_path, "t", operating=None)
+    assert main(asked(machine, given, tmp_path / "out", "--jobs", "1", "--atlas", str(tmp_path / "atlas"))) == 2
+    assert f"error: {given}: operating.speed_hz" in capsys.readouterr().err
+    slow = written(tmp_path, "b", operating={"shaft": "input", "speed_hz": 20.0})
+    given = written(tmp_path, "t")
+    code = main([*asked(machine, given, tmp_path / "out", "--jobs", "1"), "--baseline", str(slow)])
+    said = capsys.readouterr().err
+    assert code == 2 and str(slow) in said and str(given) in said and "no baseline was recorded" in said

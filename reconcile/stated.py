@@ -1,0 +1,169 @@
+"""What descriptions state, held against the machine: shafts, places of sensors, and speeds that look like rpm."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from reconcile.speed import estimate_speed
+from reconcile.speed.estimate import ENOUGH
+from reconcile.told import place
+from signals.recording import Recording
+from sim.core.errors import Problem, SpecError
+from sim.core.near import did_you_mean
+
+PER_MINUTE = 60.0
+FAST_HZ = 200.0
+"""12000 rpm: machines seldom turn faster, and rpm mistaken for Hz mostly lie above."""
+SAME, ROUGH = 0.05, 0.25
+"""By which a factor of 60 may be missed: slip and labels; above `FAST_HZ` a machine of several speeds too."""
+SURE = 0.99
+"""Confidence from which lines at a sixtieth of the stated speed speak against it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Given:
+    """A recording and where it stands: `kind` (`recording`, `baseline`) and number from 0."""
+
+    kind: str
+    index: int
+    recording: Recording
+
+    def field(self, name: str) -> str:
+        """A field of its description, as refusals say it."""
+        return place(self.recording, self.kind, self.index, name)
+
+
+def given(tests: Sequence[Recording], baselines: Sequence[Recording]) -> tuple[Given, ...]:
+    """All recordings with their places."""
+    groups = (("recording", tests), ("baseline", baselines))
+    return tuple(Given(kind=kind, index=i, recording=r) for kind, group in groups for i, r in enumerate(group))
+
+
+def check_shafts(known: Sequence[str], several: Sequence[Given]) -> None:
+    """SpecError for shafts, of the operating point or the tacho, that are none of `known`."""
+    problems = []
+    for one in several:
+        operating, tacho = one.recording.operating, one.recording.tacho
+        said = [
+            ("operating.shaft", operating.shaft if operating else ""),
+            ("tacho.shaft", tacho.shaft if tacho else ""),
+        ]
+        problems += [
+            Problem(
+                field=one.field(field),
+                message=f"is not a shaft of this machine{did_you_mean(name, known)}",
+                given=name,
+                allowed=", ".join(known),
+            )
+            for field, name in said
+            if name and name not in known
+        ]
+    if problems:
+        raise SpecError(problems)
+
+
+def check_locations(parts: Sequence[str], several: Sequence[Given]) -> None:
+    """SpecError for channels that sit at no part; an empty location is one that is not known."""
+    problems = [
+        Problem(
+            field=one.field(f"channels.{c.name}.location"),
+            message=f"is no part of this machine{did_you_mean(c.location, parts)}",
+            given=c.location,
+            allowed=f"{', '.join(parts)}, or none",
+        )
+        for one in several
+        for c in one.recording.channels
+        if c.location and c.location not in parts
+    ]
+    if problems:
+        raise SpecError(problems)
+
+
+def check_speeds(nominal: Mapping[str, float | None], field: str, several: Sequence[Given]) -> None:
+    """SpecError for speeds that something contradicts by a factor of 60.
+
+    `nominal`: speed of each shaft in Hz as the machine has it (None: not known), in `field`, `{shaft}` standing for
+    the name. A stated speed is held against pulses, the nominal speed, the other recordings, Nyquist's frequency and,
+    above 200 Hz, the lines of the shaft.
+    """
+    problems = []
+    for one in several:
+        stated = _stated(one)
+        why = _contradicted(one, stated, nominal, several) if stated is not None else None
+        if stated is not None and why is not None:
+            problems.append(_rpm(one.field("operating.speed_hz"), stated[1], why))
+    if not problems:
+        problems += _nominal_in_rpm(nominal, field, several)
+    if problems:
+        raise SpecError(problems)
+
+
+def _stated(one: Given) -> tuple[str, float] | None:
+    operating = one.recording.operating
+    return (operating.shaft, operating.speed_hz) if operating is not None and operating.speed_hz > 0 else None
+
+
+def _rpm(field: str, speed: float, why: str) -> Problem:
+    message = f"looks like rpm: {speed:g} rpm = {speed / PER_MINUTE:.4g} Hz ({why})"
+    return Problem(field=field, message=message, given=speed, allowed="revolutions per second")
+
+
+def sixty_times(large: float, small: float) -> bool:
+    """Whether `large` may be `small` in rpm."""
+    miss = abs(large / (PER_MINUTE * small) - 1.0)
+    return miss <= (ROUGH if large > FAST_HZ else SAME)
+
+
+def _contradicted(
+    one: Given, stated: tuple[str, float], nominal: Mapping[str, float | None], several: Sequence[Given]
+) -> str | None:
+    """What says that the stated speed is in rpm, or None."""
+    shaft, speed = stated
+    pulses = _pulses_hz(one.recording, shaft)
+    if pulses is not None:
+        return f"its tacho says {pulses:.4g} Hz" if sixty_times(speed, pulses) else None
+    usual = nominal.get(shaft)
+    if usual and sixty_times(speed, usual):
+        return f"the machine's nominal speed is {usual:.4g} Hz"
+    for other in several:
+        there = _stated(other)
+        # a slow run beside a usual one may well differ by that factor
+        if there is not None and there[0] == shaft and speed > FAST_HZ and sixty_times(speed, there[1]):
+            return f"{other.field('operating.speed_hz')} is {there[1]:.4g}"
+    if speed >= one.recording.sampling_rate_hz / 2:
+        return f"half the sampling rate is {one.recording.sampling_rate_hz / 2:.4g} Hz"
+    return _by_lines(one.recording, speed) if speed > FAST_HZ else None
+
+
+def _pulses_hz(recording: Recording, shaft: str) -> float | None:
+    tacho = recording.tacho
+    if tacho is None or tacho.shaft != shaft or tacho.pulse_times_s.size < 3:
+        return None
+    span = float(tacho.pulse_times_s[-1] - tacho.pulse_times_s[0])
+    return (tacho.pulse_times_s.size - 1) / span / tacho.pulses_per_revolution if span > 0 else None
+
+
+def _by_lines(recording: Recording, speed: float) -> str | None:
+    """Lines of a shaft at a sixtieth of the speed where there are none at the speed."""
+    try:
+        if estimate_speed(recording, stated_hz=speed).confidence >= ENOUGH:
+            return None
+        slow = estimate_speed(recording, stated_hz=speed / PER_MINUTE)
+    except SpecError:
+        return None
+    if slow.confidence < SURE:
+        return None
+    return f"lines of a shaft stand at multiples of {slow.speed_hz:.4g} Hz, none at those of {speed:.4g} Hz"
+
+
+def _nominal_in_rpm(nominal: Mapping[str, float | None], field: str, several: Sequence[Given]) -> Iterator[Problem]:
+    """Speeds of the machine that are 60 times those of a recording, and high."""
+    for shaft, usual in nominal.items():
+        if usual is None or usual <= FAST_HZ:
+            continue
+        for one in several:
+            there = _stated(one)
+            if there is not None and there[0] == shaft and sixty_times(usual, there[1]):
+                yield _rpm(field.format(shaft=shaft), usual, f"{one.field('operating.speed_hz')} is {there[1]:.4g}")
+                break

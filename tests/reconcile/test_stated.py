@@ -1,0 +1,114 @@
+"""What descriptions state is held against the machine: shafts, places of sensors, rpm where Hz is asked."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from reconcile.entry import reconcile_recordings
+from reconcile.kinematics import read_kinematic_spec
+from reconcile.stated import check_speeds, given, sixty_times
+from signals.recording import Operating, Recording, Tacho
+from sim.core.errors import SpecError
+from sim.core.response import Channel
+from tests.strategies.impulses import recorded, shaft_lines
+
+SPEC = read_kinematic_spec(
+    {
+        "kinematics": {
+            "shafts": [{"name": "shaft", "speed_hz": 24.3}],
+            "bearings": [{"name": "bearing1", "shaft": "shaft", "catalogue": "6205"}],
+        }
+    }
+)
+
+
+def quiet(
+    speed_hz: float = 24.3, *, shaft: str = "shaft", rate_hz: float = 20_000.0, location: str = "bearing1"
+) -> Recording:
+    return Recording(
+        sampling_rate_hz=rate_hz,
+        channels=(Channel(name="a", quantity="acceleration", unit="m/s^2", location=location, axis="y"),),
+        samples=np.random.default_rng(0).standard_normal((1, 40_000)),
+        operating=Operating(shaft=shaft, speed_hz=speed_hz),
+    )
+
+
+def refused(*tests: Recording, baselines: tuple[Recording, ...] = (), spec: Any = SPEC) -> SpecError:
+    with pytest.raises(SpecError) as caught:
+        reconcile_recordings(spec, list(tests), list(baselines))
+    return caught.value
+
+
+def test_a_shaft_that_the_machine_lacks_is_refused_even_where_it_has_one_only() -> None:
+    (problem,) = refused(replace(quiet(shaft="motor"), label="t/1.json")).problems
+    assert problem.field == "t/1.json: operating.shaft"
+    assert (problem.given, problem.allowed) == ("motor", "shaft")
+
+
+def test_pulses_of_a_shaft_that_the_machine_lacks_are_not_left_unused() -> None:
+    tacho = Tacho(shaft="motor", pulse_times_s=np.arange(0, 2, 0.04))
+    (problem,) = refused(quiet(), baselines=(replace(quiet(), tacho=tacho),)).problems
+    assert (problem.field, problem.given, problem.allowed) == ("baseline[0].tacho.shaft", "motor", "shaft")
+
+
+def test_a_place_that_is_no_part_is_refused_with_the_parts() -> None:
+    (problem,) = refused(replace(quiet(location="bearing9"), label="t1.json")).problems
+    assert problem.field == "t1.json: channels.a.location"
+    assert problem.given == "bearing9" and problem.allowed.startswith("shaft, bearing1")
+    assert "did you mean bearing1" in problem.message
+
+
+def test_a_place_that_is_not_known_passes() -> None:
+    assert reconcile_recordings(SPEC, [quiet(location="")], [quiet(location="")]).level == "kinematics"
+    alone = read_kinematic_spec({"kinematics": {"shafts": [{"name": "shaft"}]}})
+    assert reconcile_recordings(alone, [quiet(location="near the motor")]).level == "kinematics"
+
+
+@pytest.mark.parametrize(
+    ("one", "why"),
+    [
+        (quiet(1458.0), "nominal speed is 24.3 Hz"),
+        (quiet(1500.0), "nominal speed is 24.3 Hz"),
+        (replace(quiet(1458.0), tacho=Tacho(shaft="shaft", pulse_times_s=np.arange(0, 2, 1 / 24.3))), "its tacho says"),
+    ],
+)
+def test_rpm_is_told_by_the_machine_or_the_pulses(one: Recording, why: str) -> None:
+    (problem,) = refused(replace(one, label="t1.json")).problems
+    assert problem.field == "t1.json: operating.speed_hz"
+    assert f"looks like rpm: {problem.given:g} rpm = {problem.given / 60:.4g} Hz" in problem.message  # type: ignore[operator]
+    assert why in problem.message
+
+
+def test_rpm_is_told_by_the_other_recordings_and_by_the_rate() -> None:
+    for several in (given([quiet(1797.0)], [quiet(29.95)]), given([quiet(1797.0, rate_hz=2000.0)], [])):
+        with pytest.raises(SpecError, match=r"1797 rpm = 29\.95 Hz"):
+            check_speeds({"shaft": None}, "", several)
+
+
+def test_a_nominal_speed_in_rpm_is_refused_at_the_machine() -> None:
+    with pytest.raises(SpecError, match=r"kinematics\.shafts\.shaft\.speed_hz: looks like rpm"):
+        check_speeds({"shaft": 1797.0}, "kinematics.shafts.{shaft}.speed_hz", given([quiet(29.95)], []))
+
+
+def test_rpm_is_told_by_the_lines_alone() -> None:
+    rng = np.random.default_rng(3)
+    rows = shaft_lines(rng) + 0.1 * rng.standard_normal(100_000)
+    check_speeds({"shaft": None}, "", given([recorded(rows)], []))
+    with pytest.raises(SpecError, match=r"lines of a shaft stand at multiples of 24\.3 Hz"):
+        check_speeds({"shaft": None}, "", given([recorded(rows, speed_hz=1458.0)], []))
+
+
+@pytest.mark.parametrize("speed_hz", [0.4, 12.0, 30.0, 150.0, 300.0, 700.0])
+def test_slow_runs_fast_machines_and_noise_are_no_rpm(speed_hz: float) -> None:
+    check_speeds({"shaft": None}, "", given([quiet(speed_hz)], []))
+    check_speeds({"shaft": speed_hz}, "", given([quiet(speed_hz)], [quiet(speed_hz)]))
+    check_speeds({"shaft": 30.0}, "", given([quiet(min(speed_hz, 150.0))], []))
+
+
+def test_sixty_is_met_closely_below_usual_speeds_and_roughly_above() -> None:
+    assert sixty_times(1797, 29.95) and sixty_times(1500, 30) and sixty_times(150, 2.5)
+    assert not sixty_times(150, 3.0) and not sixty_times(300, 30) and not sixty_times(29.95, 29.95)
