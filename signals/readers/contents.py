@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import gzip
+import logging
+import re
 import zipfile
 import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePath
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +21,13 @@ from sim.core.errors import Problem, SidebandError, SpecError
 AnyArray = NDArray[np.generic]
 RATE = "sampling_rate_hz"
 """The one name under which a rate in a file of arrays counts as stated (`signals.encode` writes it)."""
-_SPEAKING = (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error)
+TEXTS = frozenset({".csv", ".tsv", ".txt", ".dat", ".json"})
+"""Formats whose parsers say what is wrong with a line; the words of others say nothing to the person with the file."""
+_SPEAKING = (ValueError, OSError)
 """Errors whose text says something to the person with the file."""
+_NOT_KNOWN = re.compile(r"not supported|unsupported|unknown wave|not registered|required filter|encrypt", re.IGNORECASE)
+"""Words of parsers for files that are whole but of a kind which they do not read."""
+log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,6 +92,24 @@ def told(path: Path) -> Iterator[None]:
     except (SidebandError, MemoryError):
         raise
     except Exception as error:
-        text = str(error).strip() if isinstance(error, _SPEAKING) else ""
-        reason = text.splitlines()[0][:300] if text else f"it is malformed ({type(error).__name__})"
-        raise refused(path, reason) from error
+        log.info("reading %s failed: %s: %s", path.name, type(error).__name__, error)
+        raise refused(path, _reason(path, error)) from error
+
+
+def _reason(path: Path, error: Exception) -> str:
+    """Of binary formats what is wrong with the file, not how its parser stumbled; of texts what the parser says."""
+    if isinstance(error, EOFError):
+        return "it is cut short: it ends within its data"
+    if isinstance(error, zipfile.BadZipFile | gzip.BadGzipFile | zlib.error):
+        return "it is damaged: its packed data do not unpack"
+    if PurePath(path.name.removesuffix(".gz")).suffix.lower() not in TEXTS:
+        text = str(error).strip()
+        if _NOT_KNOWN.search(text) or isinstance(error, NotImplementedError):
+            return f"it holds what is not read here ({_line(text)})"
+        return "it is damaged or cut short: its contents do not fit together"
+    text = str(error).strip() if isinstance(error, _SPEAKING) else ""
+    return _line(text) if text else f"it is malformed ({type(error).__name__})"
+
+
+def _line(text: str) -> str:
+    return text.splitlines()[0][:300] if text else "no reason is given"

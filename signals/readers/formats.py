@@ -57,8 +57,8 @@ def suffix_of(path: PurePath) -> str:
     return path.with_suffix("").suffix.lower() + suffix if suffix == ".gz" else suffix
 
 
-_HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
-_SIGNATURE_AT = (0, 512)
+HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
+SIGNATURE_AT = (0, 512)
 """HDF5 File Format Specification 3.0, II.A: at 0, or after a user block; MATLAB's has 512 bytes."""
 
 
@@ -68,7 +68,7 @@ def _is_hdf5(path: Path) -> bool:
             head = stream.read(1024)
     except OSError:
         return False
-    return any(head[at : at + len(_HDF5_SIGNATURE)] == _HDF5_SIGNATURE for at in _SIGNATURE_AT)
+    return any(head[at : at + len(HDF5_SIGNATURE)] == HDF5_SIGNATURE for at in SIGNATURE_AT)
 
 
 def format_of(path: Path) -> Format:

@@ -77,7 +77,7 @@ def _ask(path: Path, request: str, bounds: Bounds) -> dict[str, Any]:
     if -told.returncode in _OUT_OF_TIME:
         raise _gave_up(path, f"it takes longer than {bounds.seconds:g} s or more memory than allowed")
     how = signal.Signals(-told.returncode).name if told.returncode < 0 else f"exit code {told.returncode}"
-    raise _gave_up(path, f"it is malformed: its parser broke down over it ({how})")
+    raise _gave_up(path, f"it is damaged: its parser broke down over it ({how})")
 
 
 def _gave_up(path: Path, reason: str) -> SpecError:

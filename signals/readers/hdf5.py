@@ -34,7 +34,7 @@ def open_file(path: Path, bounds: Bounds) -> Iterator[Contents]:
             stated = file.attrs.get(RATE)
             if rate is not None and math.prod(rate.shape or (0,)) == 1:
                 stated = np.ravel(rate.load())[0]
-            rate_hz = None if stated is None else _number(stated)
+            rate_hz = None if stated is None else _number(path, stated)
         yield Contents(entries=entries, rate_hz=rate_hz)
 
 
@@ -62,7 +62,7 @@ def _entry(path: Path, name: str, dataset: h5py.Dataset, bounds: Bounds) -> Entr
         load=partial(_load, path, name, dataset),
         shape=tuple(dataset.shape[::-1] if _is_matlab(dataset) else dataset.shape),
         unit=_text(unit),
-        rate_hz=None if rate is None else _number(rate),
+        rate_hz=None if rate is None else _number(path, rate),
     )
 
 
@@ -83,8 +83,8 @@ def _text(value: object) -> str:
     return value.decode("utf-8", errors="replace") if isinstance(value, bytes) else str(value)
 
 
-def _number(value: object) -> float:
+def _number(path: Path, value: object) -> float:
     array = np.ravel(np.asarray(value))
     if array.size != 1 or array.dtype.kind not in "fiu":
-        raise ValueError(f"{RATE} is not one number")
+        raise refused(path, f"{RATE} is not one number")
     return float(array[0])

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from signals.readers.contents import Contents
+from signals.readers.contents import Contents, refused
+from signals.readers.damage import damage
 from signals.readers.formats import reader_of
 from signals.readers.limits import Bounds
 from signals.readers.select import Pick, only_array, pick, take
@@ -63,12 +64,22 @@ def load(path: Path, wanted: Sequence[Want], optional: Collection[str], bounds: 
         reason = (error.strerror or "is away").lower()
         raise SpecError(Problem(field=path.name, message=f"cannot be read: {reason}")) from error
     bounds.check(path.name, message="is too large", given=size, allowed=bounds.file_bytes, unit="bytes")
+    _check_whole(path)
     try:
         with reader(path, bounds) as contents:
             return _loaded(contents, wanted, optional, bounds)
     except MemoryError as error:
         message = "cannot be read: it needs more memory than is allowed"
         raise SpecError(Problem(field=path.name, message=message)) from error
+
+
+def _check_whole(path: Path) -> None:
+    try:
+        wrong = damage(path)
+    except OSError as error:
+        raise refused(path, (error.strerror or "is away").lower()) from error
+    if wrong:
+        raise refused(path, f"it {wrong}")
 
 
 def _loaded(contents: Contents, wanted: Sequence[Want], optional: Collection[str], bounds: Bounds) -> Loaded:

@@ -2,19 +2,30 @@
 
 from __future__ import annotations
 
+import gzip
 import io
 import os
+import re
 import time
 from pathlib import Path
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
+import scipy.io.wavfile
 from scipy.io import savemat
 
+from signals.encode import encode
 from signals.ingest import Bounds, parse, read_description
+from signals.readers.contents import TEXTS
+from signals.readers.damage import damage
+from signals.readers.formats import FORMATS
 from signals.readers.guard import load_apart, load_carefully
 from signals.readers.load import Want, load
+from signals.recording import Recording
 from sim.core.errors import SpecError
+from sim.core.response import Channel
 
 X = np.random.default_rng(3).normal(size=500)
 ABOUT = read_description({"sampling_rate_hz": 1000, "channels": [{"name": "a", "unit": "g"}]})
@@ -85,3 +96,121 @@ def test_nothing_is_left_behind(tmp_path, monkeypatch) -> None:
     with pytest.raises(SpecError):
         parse(ABOUT, breaking(tmp_path / "r.mat"), loader=load_apart)
     assert [f.name for f in tmp_path.iterdir()] == ["r.mat"]
+
+
+def _wav(path: Path) -> None:
+    scipy.io.wavfile.write(path, 1000, np.stack([X, X], axis=1).astype(np.float32))
+
+
+def _hdf5(path: Path) -> None:
+    with pytest.importorskip("h5py").File(path, "w") as file:
+        file["a"] = X
+
+
+def _tdms(path: Path) -> None:
+    nptdms = pytest.importorskip("nptdms")
+    with nptdms.TdmsWriter(path) as writer:
+        writer.write_segment([nptdms.ChannelObject("rig", "a", X, {"wf_increment": 1e-3})])
+
+
+def _mdf(path: Path) -> None:
+    asammdf = pytest.importorskip("asammdf")
+    with asammdf.MDF(version="4.10") as file:
+        file.append([asammdf.Signal(X, np.arange(X.size) / 1000, name="a")])
+        file.save(path, overwrite=True)
+
+
+def _uff(path: Path) -> None:
+    pytest.importorskip("pyuff")
+    channels = (Channel(name="a", quantity="", unit="g", location=""),)
+    path.write_bytes(encode(Recording(sampling_rate_hz=1e3, channels=channels, samples=X[None, :]), "uff"))
+
+
+WHOLE = {
+    "level5.mat": lambda path: savemat(path, {"a": X}),
+    "packed.mat": lambda path: savemat(path, {"a": X}, do_compression=True),
+    "level4.mat": lambda path: savemat(path, {"a": X}, format="4"),
+    "r.npz": lambda path: np.savez(path, a=X),
+    "r.wav": _wav,
+    "r.parquet": lambda path: pq.write_table(pa.table({"a": X}), path),
+    "r.h5": _hdf5,
+    "r.tdms": _tdms,
+    "r.mf4": _mdf,
+    "r.uff": _uff,
+    "r.flac": lambda path: pytest.importorskip("soundfile").write(path, X / 8, 1000),
+}
+LIBRARIES = re.compile(
+    r"numpy|scipy|zip file|utf-8|eof =|sblock|thrift|magic|seek|reshape|understood|Segment|Error|Exception|\[Errno",
+    re.I,
+)
+"""Words of parsers, which say nothing to the person with the file."""
+
+
+@pytest.mark.parametrize("name", WHOLE)
+def test_a_file_that_was_cut_or_is_another_kind_is_told_so_in_plain_words(tmp_path, name: str) -> None:
+    path = tmp_path / name
+    WHOLE[name](path)
+    whole = path.read_bytes()
+    about = read_description(
+        {
+            "sampling_rate_hz": 1000,
+            "channels": [{"name": "a", "unit": "1", "column": 0 if name[2:] in "flac wav" else "a"}],
+        }
+    )
+    assert parse(about, path).recording.samples.shape == (1, X.size), "whole, it is read"
+    for content, words in (
+        (whole[: len(whole) * 6 // 10], "cut short"),
+        (whole[:-9], "cut short"),
+        (b"", "is empty"),
+        (b"<html>404 not found</html>" * 40, "damaged, or of another kind"),
+        (bytes(900), "damaged, or of another kind"),
+    ):
+        path.write_bytes(content)
+        with pytest.raises(SpecError) as caught:
+            parse(about, path)
+        (problem,) = caught.value.problems
+        assert problem.field == name and problem.message.startswith("cannot be read: it "), problem
+        assert words in problem.message and not LIBRARIES.search(problem.message), problem
+
+
+def test_a_byte_that_changed_within_is_told_as_damage(tmp_path) -> None:
+    for name in ("r.npz", "packed.mat"):
+        WHOLE[name](tmp_path / name)
+        content = bytearray((tmp_path / name).read_bytes())
+        content[len(content) // 2] ^= 0xFF
+        (tmp_path / name).write_bytes(content)
+        with pytest.raises(SpecError, match="cannot be read: it is damaged"):
+            parse(ABOUT, tmp_path / name)
+
+
+def test_what_is_whole_but_not_known_keeps_the_parser_s_word(tmp_path) -> None:
+    _wav(tmp_path / "r.wav")
+    content = bytearray((tmp_path / "r.wav").read_bytes())
+    content[20:22] = b"\x06\x00"  # A-law
+    (tmp_path / "r.wav").write_bytes(content)
+    with pytest.raises(SpecError, match=r"not read here \(Unknown wave file format: ALAW"):
+        parse(ABOUT, tmp_path / "r.wav")
+
+
+def test_a_recorder_that_left_the_length_open_is_read(tmp_path) -> None:
+    _wav(tmp_path / "r.wav")
+    content = bytearray((tmp_path / "r.wav").read_bytes())
+    at = content.index(b"data") + 4
+    content[at : at + 4] = b"\xff\xff\xff\xff"
+    (tmp_path / "r.wav").write_bytes(content)
+    assert damage(tmp_path / "r.wav") == ""
+
+
+def test_texts_keep_what_their_parser_says(tmp_path) -> None:
+    assert {suffix.removesuffix(".gz") for suffix in FORMATS if damage_is_not_told(suffix)} == TEXTS
+    (tmp_path / "r.csv").write_text("a\n1\n2\nx3\n")
+    with pytest.raises(SpecError, match="x3"):
+        parse(ABOUT, tmp_path / "r.csv")
+    whole = gzip.compress("\n".join(["a", *map(str, X)]).encode())
+    (tmp_path / "r.csv.gz").write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(SpecError, match="cut short"):
+        parse(ABOUT, tmp_path / "r.csv.gz")
+
+
+def damage_is_not_told(suffix: str) -> bool:
+    return FORMATS[suffix].module in ("text", "values")
