@@ -93,6 +93,6 @@ def reader_of(path: Path) -> Reader:
 
 def needs_extra(path: Path, extra: str, package: str) -> SpecError:
     """The refusal of a file whose reader is an optional extra that is not there."""
-    message = f"needs the package {package}, which is not installed"
-    allowed = f"pip install 'sideband[{extra}]'"
-    return SpecError(Problem(field=path.name, message=message, given=suffix_of(path), allowed=allowed))
+    what = "is a MATLAB file of version 7.3, which is HDF5: it " if suffix_of(path) == ".mat" else ""
+    message = f"{what}needs the package {package}, which is not installed: pip install 'sideband[{extra}]' adds it"
+    return SpecError(Problem(field=path.name, message=message, given=suffix_of(path)))

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import importlib
+import re
 import sys
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -15,6 +17,7 @@ from scipy.io import savemat
 
 from signals.encode import describe, encode
 from signals.ingest import Bounds, parse, read_description
+from signals.readers.formats import FORMATS
 from signals.readers.guard import load_apart
 from signals.readers.load import load
 from signals.recording import Recording
@@ -215,20 +218,42 @@ def test_what_the_encoders_write_comes_back(tmp_path, fmt: str) -> None:
     assert (found.channels, found.sampling_rate_hz) == (channels, 610.3515625)
 
 
-@pytest.mark.parametrize(
-    ("name", "module", "package", "extra"), [("r.h5", "hdf5", "h5py", "formats"), ("r.mf4", "mdf", "asammdf", "mdf")]
-)
+OPTIONAL = [
+    ("r.h5", "hdf5", "h5py", "formats"),
+    ("r.hdf5", "hdf5", "h5py", "formats"),
+    ("r.mat", "hdf5", "h5py", "formats"),
+    ("r.flac", "flac", "soundfile", "formats"),
+    ("r.uff", "uff", "pyuff", "formats"),
+    ("r.unv", "uff", "pyuff", "formats"),
+    ("r.tdms", "tdms", "nptdms", "formats"),
+    ("r.mf4", "mdf", "asammdf", "mdf"),
+]
+
+
+@pytest.mark.parametrize(("name", "module", "package", "extra"), OPTIONAL)
 def test_a_missing_package_is_named_with_its_extra(
     tmp_path, monkeypatch, name: str, module: str, package: str, extra: str
 ) -> None:
-    (tmp_path / name).write_bytes(b"x")
+    content = b"MATLAB 7.3 MAT-file".ljust(512) + b"\x89HDF\r\n\x1a\n" if name == "r.mat" else b"x"
+    (tmp_path / name).write_bytes(content)
     monkeypatch.setitem(sys.modules, package, None)
     monkeypatch.delitem(sys.modules, f"signals.readers.{module}", raising=False)
     with pytest.raises(SpecError) as caught:
         parse(read_description({"channels": CHANNELS}), tmp_path / name, loader=load)
-    assert f"sideband[{extra}]" in str(caught.value) and package in str(caught.value)
+    (problem,) = caught.value.problems
+    assert problem.field == name and f"needs the package {package}, which is not installed" in problem.message
+    assert f"pip install 'sideband[{extra}]'" in problem.message
+    assert ("MATLAB file of version 7.3" in problem.message) == (name == "r.mat")
     monkeypatch.undo()
     importlib.invalidate_caches()
+
+
+def test_every_format_that_needs_a_package_of_its_own_says_so() -> None:
+    told = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert {name for name, _, _, _ in OPTIONAL} - {"r.mat"} == {f"r{s}" for s, form in FORMATS.items() if form.extra}
+    for _, module, package, extra in OPTIONAL:
+        listed = [re.split("[>=<]", one)[0].lower() for one in told["optional-dependencies"][extra]]
+        assert package in listed, f"{module}: the extra {extra} installs {package}"
 
 
 @pytest.mark.slow
