@@ -7,13 +7,10 @@ from dataclasses import replace
 
 from reconcile.gate import Gate
 from reconcile.gate.spoiled import doubts
-from reconcile.kinematics.contrast import band_turns
-from reconcile.kinematics.envelopes import order_depth
 from reconcile.kinematics.judge import Candidate
 from reconcile.kinematics.observe import Observation
+from reconcile.kinematics.picture import envelope_picture
 from reconcile.verdict import Report
-
-PICTURE_POINTS = 1200
 
 
 def finished(
@@ -43,9 +40,9 @@ def finished(
         },
         {"name": "families", "table": [_row(c) for c in every]},
     ]
-    pictures = _picture(every[0], tests, baselines) if every else {}
     if report.verdict != "measurement_fault":
         report = replace(report, where=replace(report.where, limits=(*report.where.limits, *doubts(gate))))
+    pictures = envelope_picture(every, tests, baselines)
     return replace(report, stages=tuple(stages), pictures=pictures, provenance={"seed": seed, "level": "kinematics"})
 
 
@@ -63,15 +60,3 @@ def _row(c: Candidate) -> dict[str, object]:
         "present": c.present,
         "risen": c.risen,
     }
-
-
-def _picture(c: Candidate, tests: Sequence[Observation], baselines: Sequence[Observation]) -> dict[str, object]:
-    """Envelope order spectrum of the firmest family's band, test and baseline."""
-    shown: dict[str, object] = {"family": c.family.key, "order": c.best.order, "band_hz": list(c.best.band_hz)}
-    for name, group in (("test", tests[c.strongest : c.strongest + 1]), ("baseline", baselines[:1])):
-        for o in group:
-            if c.best.channel in o.recording.names and c.best.band_hz[1] < o.recording.sampling_rate_hz / 2:
-                values, per_turn = band_turns(o, c.best.channel, c.best.band_hz)
-                depth, step = order_depth(values, per_turn)
-                shown[name] = {"order_step": step, "depth": [float(round(d, 5)) for d in depth[:PICTURE_POINTS]]}
-    return {"envelope": shown}

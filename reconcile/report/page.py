@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 
 from reconcile.report.figures.bars import changes, ranking
+from reconcile.report.figures.envelope import caption, envelope
 from reconcile.report.figures.gains import distances, gains
 from reconcile.report.figures.law import from_force, law
 from reconcile.report.figures.maps import force_map
@@ -55,6 +56,17 @@ def _spectra(report: Report) -> Markup:
     drawn = several(report.pictures, "spectra")
     without = "without it: the baseline, or the model where there is none"
     return section("Spectra", _key(without), spectra(drawn, report.where.lines)) if drawn else Markup("")
+
+
+def _envelope(report: Report) -> Markup:
+    drawn = [p for p in several(report.pictures, "envelope") if envelope(p)]
+    if not drawn:
+        return Markup("")
+    names = [("observed", "test"), *([("before", "baseline")] if any("baseline" in p for p in drawn) else [])]
+    key = tag("div", *(tag("span", tag("i", css=f"k-{css}"), words) for css, words in names), css="key")
+    note = "Red: harmonics of that family, ticks on the upper edge: its sidebands. Grey: first lines of other parts."
+    panels = [Markup(tag("p", caption(p), css="muted") + key + envelope(p)) for p in drawn]
+    return section("Envelope over orders", *panels, tag("p", note, css="muted"))
 
 
 def _maps(report: Report) -> Markup:
@@ -146,6 +158,7 @@ def page(report: Report) -> str:
         _held_out(report),
         _force(report),
         _spectra(report),
+        _envelope(report),
         _maps(report),
         _changes(report),
         undecidable(report),

@@ -78,6 +78,36 @@ class Path(TypedDict):
     noise_db: Sequence[float]
 
 
+class EnvelopeCurve(TypedDict):
+    """`depth`: amplitude over the mean of the squared envelope, from order 0 on, a value every `order_step`."""
+
+    label: str
+    order_step: float
+    depth: Sequence[float]
+
+
+class EnvelopeLine(TypedDict):
+    """`kind`: `own` of the family shown, its `sideband`, or an `other` part's."""
+
+    label: str
+    order: float
+    kind: str
+
+
+class Envelope(TypedDict, total=False):
+    """`envelope`: the band in which a family of bearing lines stands out most, over orders of `shaft`."""
+
+    family: str
+    order: float
+    band_hz: Sequence[float]
+    channel: str
+    shaft: str
+    speed_hz: float
+    lines: Sequence[EnvelopeLine]
+    test: EnvelopeCurve
+    baseline: EnvelopeCurve
+
+
 class Trace(TypedDict):
     """`traces`: a stretch of held-out signal; `before` and `after` as predicted without and with the answer."""
 
@@ -116,6 +146,7 @@ class Pictures(TypedDict, total=False):
     """`Report.pictures`."""
 
     spectra: list[Spectrum]
+    envelope: list[Envelope] | Envelope
     heat: list[Heat] | Heat
     changes: list[Change]
     ranking: list[Ranked]

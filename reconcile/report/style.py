@@ -61,6 +61,8 @@ svg .mark-name.up { fill:var(--bad) } svg .mark-name.down { fill:var(--ok) }
 .key i { display:inline-block; width:22px; border-top:2.5px solid; margin-right:6px; vertical-align:middle; }
 .key .k-observed { border-color:var(--observed) } .key .k-before { border-color:var(--before);
  border-top-style:dashed } .key .k-after { border-color:var(--after) }
+.comb { stroke:var(--muted); stroke-width:1; stroke-dasharray:2 4; opacity:.7 } .comb.own { stroke:var(--bad) }
+svg .comb-name.own { fill:var(--bad); font-weight:650 }
 code, pre { font-family:ui-monospace,"DejaVu Sans Mono",monospace; font-size:12.5px; } pre { overflow:auto;
  max-height:420px; margin:8px 0 0; }
 .note { border-left:3px solid var(--warn); padding-left:10px; } .forms { color:var(--muted); font-weight:400; }

@@ -1,0 +1,92 @@
+"""The picture of the level of kinematics: the envelope order spectrum in which the firmest family stands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from reconcile.kinematics.answer import SYMBOLS
+from reconcile.kinematics.contrast import band_turns
+from reconcile.kinematics.envelopes import order_depth
+from reconcile.kinematics.families import Family
+from reconcile.kinematics.judge import Candidate
+from reconcile.kinematics.observe import Observation
+
+POINTS = 1200
+"""Of a curve; of more bins the largest of each stretch is kept, which keeps lines."""
+HARMONICS_SHOWN = 3
+BEYOND = 1.13
+"""Orders shown over the highest line."""
+
+
+def envelope_picture(
+    every: Sequence[Candidate], tests: Sequence[Observation], baselines: Sequence[Observation]
+) -> dict[str, object]:
+    """`{"envelope": ...}` of the first family's band in the test that shows it best and the baseline nearest in speed.
+
+    `depth` of `test` and `baseline`: amplitude of the squared envelope over its mean (0 to 2) from order 0 on, a value
+    every `order_step` orders of the reference shaft; `lines`: the orders of the family (`own`), its sidebands, and of
+    other parts at the same place. Empty without candidates.
+    """
+    if not every:
+        return {}
+    chosen = every[0]
+    best, test = chosen.best, tests[chosen.strongest]
+    lines = [*_own(chosen), *_others(chosen, every)]
+    top = BEYOND * max(float(str(line["order"])) for line in lines)
+    shown: dict[str, object] = {
+        "family": chosen.family.key,
+        "order": best.order,
+        "band_hz": list(best.band_hz),
+        "channel": best.channel,
+        "shaft": test.speed.shaft,
+        "speed_hz": test.speed.speed_hz,
+        "lines": lines,
+    }
+    near = sorted(baselines, key=lambda b: abs(b.speed.speed_hz - test.speed.speed_hz))[:1]
+    for name, group in (("test", [test]), ("baseline", near)):
+        for one in group:
+            if best.channel in one.recording.names and best.band_hz[1] < one.recording.sampling_rate_hz / 2:
+                shown[name] = {"label": one.label, **_curve(one, best.channel, best.band_hz, top)}
+    return {"envelope": shown}
+
+
+def _curve(one: Observation, channel: str, band_hz: tuple[float, float], top: float) -> dict[str, object]:
+    depth, step = order_depth(*band_turns(one, channel, band_hz))
+    depth = depth[: int(np.ceil(top / step)) + 1]
+    pool = max(1, -(-depth.size // POINTS))
+    padded = np.pad(depth, (0, -depth.size % pool))
+    pooled = padded.reshape(-1, pool).max(axis=1)
+    return {"order_step": step * pool, "depth": [float(round(d, 5)) for d in pooled]}
+
+
+def _own(chosen: Candidate) -> list[dict[str, object]]:
+    """Harmonics of the family at the order found, and their sidebands."""
+    family, order = chosen.family, chosen.best.order
+    found: list[dict[str, object]] = []
+    count = family.harmonics if family.kind == "turn" else min(HARMONICS_SHOWN, family.harmonics)
+    for k in range(family.lowest, count + 1):
+        found.append({"label": _named(family, k), "order": k * order, "kind": "own"})
+        for m in range(1, family.sidebands + 1):
+            pair = (k * order - m * family.spacing, k * order + m * family.spacing)
+            found += [{"label": "", "order": o, "kind": "sideband"} for o in pair if o > 0]
+    return found
+
+
+def _named(family: Family, k: int) -> str:
+    """`BPFO`, `2 BPFO`; a ball strikes twice a spin: `2 BSF`, `4 BSF`."""
+    if family.kind == "ball":
+        return f"{2 * k} BSF"
+    symbol = family.site if family.kind == "turn" else SYMBOLS[family.kind]
+    return symbol if k == 1 else f"{k} {symbol}"
+
+
+def _others(chosen: Candidate, every: Sequence[Candidate]) -> list[dict[str, object]]:
+    """First lines of the other families of the same bearing, and once a turn of the shafts."""
+    own = chosen.family
+    return [
+        {"label": _named(c.family, 1), "order": c.best.order, "kind": "other"}
+        for c in every
+        if c is not chosen and (c.family.site == own.site or c.family.kind == "turn") and c.best.order < 3 * own.order
+    ]
