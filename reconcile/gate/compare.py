@@ -14,6 +14,7 @@ from scipy.optimize import linear_sum_assignment
 
 from reconcile.gate.findings import Finding
 from reconcile.gate.levels import Pair
+from reconcile.gate.robust import robust_swap_order, robust_unit_gain
 from reconcile.gate.units import even_unit_gain, unit_finding, unit_of
 from signals.recording import Recording
 from signals.series import FloatArray
@@ -29,6 +30,9 @@ ROUGH_SHARE = 0.2
 """By which lines, floor and speeds may differ in their change, at least or as a share of the change."""
 LOOSE_IMPACTS = 0.5
 """Growth of the kurtosis of the bands that changed: a filter makes no impacts."""
+CREST_DB = 4.0
+"""Growth of the mean over the quiet moments, a quarter of the wide bands above, that weighs as a kurtosis of one does
+(impacts too dense for narrow bands to part them)."""
 QUIET_SHARE = 0.2
 OTHERS_SHARE = 0.3
 """By which, of its change, other channels may have changed for it to be remarked; a fault needs them quiet."""
@@ -52,8 +56,8 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
         gain, roughly = _gain(change, c), even_unit_gain(change, c)
         if gain is not None:
             found.append(_gain_finding(gain, change, c, name, len(names)))
-        elif roughly is not None:
-            found.append(unit_finding(roughly, str(unit_of(roughly, np.inf)), name))
+        elif (unit_gain := roughly if roughly is not None else robust_unit_gain(pairs, c)) is not None:
+            found.append(unit_finding(unit_gain, str(unit_of(unit_gain, np.inf)), name))
         elif len(names) > 1:
             found += _loose(pairs, change, c, name)
     # all channels by one gain is a change of load or level unless it is a unit
@@ -101,6 +105,9 @@ def _loose(pairs: Sequence[Pair], change: Sequence[FloatArray], c: int, name: st
         return []
     rough = float(np.median(np.max(np.abs(own - curve)[:, :, changed], axis=(0, 1))))
     impacts = max(float(np.median(p.impacts[c, :count][changed])) for p in pairs)
+    impacts = max(
+        impacts, *(float(np.percentile(p.crest_change[c], 75)) / CREST_DB for p in pairs if p.crest_change.size)
+    )
     others = [d[k, 0, :count][changed] for d in change for k in range(len(pairs[0].names)) if k != c]
     loudest = max(float(np.median(np.abs(o))) for o in others)
     if rough > max(LOOSE_ROUGH_DB, ROUGH_SHARE * size) or impacts > LOOSE_IMPACTS or loudest > OTHERS_SHARE * size:
@@ -158,9 +165,9 @@ def swap_order(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[int, 
     rows, columns = linear_sum_assignment(np.where(foreign, 1e6, cost))
     moved = [(i, j) for i, j in zip(rows, columns, strict=True) if i != j]
     if not moved:
-        return same
+        return robust_swap_order(pairs, foreign)
     now = float(np.mean([cost[i, j] for i, j in moved]))
     before = float(np.mean([cost[i, i] for i, _ in moved]))
     if now < SWAP_SHARE * before and now < SWAP_DB + 0.2 * before:
         return tuple(int(j) for j in columns)
-    return same
+    return robust_swap_order(pairs, foreign)

@@ -16,6 +16,11 @@ BANDS_PER_OCTAVE = 6
 LOWEST_SHARE = 0.004
 """Lowest band edge over the sampling rate: below it a record has too few bins a band."""
 SAME_SPEED = 0.03
+QUIET_WIDTH = 0.025
+"""Of the sampling rate: wide enough to fall silent between impacts a hundredth of a second apart."""
+QUIET_SHARE = 0.1
+QUIET_LEAST = 400
+"""Values of a band's envelope from which on its tenth is read within half a dB."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,6 +32,10 @@ class Levels:
     floor_db: FloatArray
     kurtosis: FloatArray
     """Excess of the complex envelope of each band: 0 for noise, far above it where impacts ring."""
+    quiet_db: FloatArray
+    """Level that a band of `QUIET_WIDTH` stays below for a tenth of the time, shape (wide bands,): between impacts."""
+    crest_db: FloatArray
+    """Mean over it: 9.8 dB for noise, more where impacts ring."""
 
 
 def channel_levels(recording: Recording, name: str) -> Levels:
@@ -41,13 +50,31 @@ def channel_levels(recording: Recording, name: str) -> Levels:
     tiny = max(float(np.max(spectrum.values)) * 1e-15, np.finfo(np.float64).tiny)
     bands = [(a, b) for a, b in pairwise(place) if b - a >= 3]
     transform = np.fft.rfft(series.samples - np.mean(series.samples))
+    quiet, crest = _quiet(transform, series)
     spread = [_kurtosis(transform, spectrum.frequency_hz[a], spectrum.frequency_hz[b - 1], series) for a, b in bands]
     return Levels(
         centre_hz=np.array([np.sqrt(spectrum.frequency_hz[a] * spectrum.frequency_hz[b - 1]) for a, b in bands]),
         mean_db=np.array([10 * np.log10(np.mean(spectrum.values[a:b]) + tiny) for a, b in bands]),
         floor_db=np.array([10 * np.log10(np.median(spectrum.values[a:b]) + tiny) for a, b in bands]),
         kurtosis=np.array(spread),
+        quiet_db=quiet,
+        crest_db=crest,
     )
+
+
+def _quiet(transform: np.ndarray[tuple[int], np.dtype[np.complex128]], series: Series) -> tuple[FloatArray, FloatArray]:
+    """(quiet level, mean over it), dB, of bands of equal width; empty for records too short to have a tenth of."""
+    width = int(QUIET_WIDTH * series.samples.size)
+    starts = range(width, int(0.45 * series.samples.size) - width, width) if width >= QUIET_LEAST else range(0)
+    found = []
+    for start in starts:
+        square = np.abs(np.fft.ifft(transform[start : start + width], 2 * width)) ** 2
+        tenth, mean = float(np.quantile(square, QUIET_SHARE)), float(np.mean(square))
+        tiny = max(mean * 1e-9, np.finfo(np.float64).tiny)
+        level = 10 * np.log10(tenth + tiny)
+        found.append((level, 10 * np.log10(mean + tiny) - level))
+    quiet, crest = np.array(found).reshape(-1, 2).T
+    return quiet, crest
 
 
 def _kurtosis(
@@ -72,6 +99,16 @@ class Pair:
     baseline: FloatArray
     impacts: FloatArray
     """(channels, bands) growth of the kurtosis of the complex envelopes."""
+    quiet_test: FloatArray
+    """(channels, wide bands) dB of the quiet moments."""
+    quiet_baseline: FloatArray
+    crest_change: FloatArray
+    """(channels, wide bands) dB by which the mean over the quiet moments grew."""
+
+    @property
+    def quiet_change(self) -> FloatArray:
+        """(channels, wide bands) dB."""
+        return self.quiet_test - self.quiet_baseline
 
 
 def pairs(
@@ -101,7 +138,18 @@ def pairs(
                 centre_hz=now[0].centre_hz[:count],
                 test=np.stack([np.stack([x.mean_db[:count], x.floor_db[:count]]) for x in now]),
                 baseline=np.stack([np.stack([x.mean_db[:count], x.floor_db[:count]]) for x in then]),
+                **_quiets(now, then),
                 impacts=np.stack([a.kurtosis[:count] - b.kurtosis[:count] for a, b in zip(now, then, strict=True)]),
             )
         )
     return tuple(found)
+
+
+def _quiets(now: Sequence[Levels], then: Sequence[Levels]) -> dict[str, FloatArray]:
+    """Quiet levels of all channels; bands are shares of the rate, so records of any two lengths have the same."""
+    wide = min(x.quiet_db.size for x in (*now, *then))
+    return {
+        "quiet_test": np.stack([x.quiet_db[:wide] for x in now]),
+        "quiet_baseline": np.stack([x.quiet_db[:wide] for x in then]),
+        "crest_change": np.stack([a.crest_db[:wide] - b.crest_db[:wide] for a, b in zip(now, then, strict=True)]),
+    }

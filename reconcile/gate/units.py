@@ -17,6 +17,8 @@ GRAVITY = "g against m/s^2"
 UNIT_RATIOS = {GRAVITY: 9.80665, "m against mm": 1000.0, "inch against mm": 25.4, "V against mV": 1000.0}
 UNIT_TOLERANCE_DB = 0.8
 """Of the one gain of a channel that all bands share."""
+DRIFTED_DB = 1.8
+"""The same for g against m/s^2, the likeliest, where the channel's gain drifted by up to 1.5 dB too."""
 UNIT_SHARE = 0.15
 """By which the ratio may be missed where bands scatter: drift of levels and defects move a channel's median by as
 much (made recordings with impacts 15 dB above the noise: 1.5 dB)."""
@@ -31,7 +33,7 @@ def unit_of(gain_db: float, tolerance_db: float = UNIT_TOLERANCE_DB) -> str | No
     """The pair of units whose ratio a gain is, either way."""
     near = {k: abs(abs(gain_db) - 20 * np.log10(r)) for k, r in UNIT_RATIOS.items()}
     best = min(near, key=lambda k: near[k])
-    return best if near[best] < tolerance_db else None
+    return best if near[best] < max(tolerance_db, DRIFTED_DB if best == GRAVITY else 0.0) else None
 
 
 def even_unit_gain(change: Sequence[FloatArray], c: int) -> float | None:
