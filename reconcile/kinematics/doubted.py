@@ -2,17 +2,19 @@
 
 All orders hang on the speed: a defect that is named at the wrong one may be another, or have another rate. So the
 recordings are judged at the rival speed too, and the lines of the bearings decide, if they can. Where no line of the
-shaft confirms the stated speed, it is doubted only if the bearings' lines are clearly firmer at half or twice of it.
+shaft confirms the stated speed, it is doubted if the bearings' lines are clearly firmer at half or twice of it, or if
+they stand where they do at that speed only (`reconcile.kinematics.octaves`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.judge import DEFECTS, Candidate
 from reconcile.kinematics.observe import Observation
+from reconcile.kinematics.octaves import octave_of
 from reconcile.verdict import Cause, NextExperiment, Report
 from signals.recording import Operating, Recording
 
@@ -34,9 +36,13 @@ class Judged:
     @property
     def z(self) -> float:
         """Score of the firmest bearing defect that stands, else 0."""
-        return max(
-            (c.z for c in self.every if c.family.kind in DEFECTS and c.present and c.risen and c.deep), default=0.0
-        )
+        return 0.0 if self.firmest is None else self.firmest.z
+
+    @property
+    def firmest(self) -> Candidate | None:
+        """The firmest bearing defect that stands."""
+        standing = [c for c in self.every if c.family.kind in DEFECTS and c.present and c.risen and c.deep]
+        return max(standing, key=lambda c: c.z, default=None)
 
 
 def factor_of(seen: Observation, ties: Ties) -> float | None:
@@ -69,19 +75,52 @@ def unconfirmed(tests: Sequence[Observation]) -> bool:
     return 2 * sum(t.speed.method == "stated" for t in tests) > len(tests)
 
 
-def doubted(stated: Judged, rival: Judged | None, first: Observation, factor: float) -> Report:
-    """The report with the doubt: decided by the bearing's lines, or left open with the causes at both speeds."""
+def against_rivals(
+    stated: Judged, seen: Sequence[Observation], tie: Ties, at: Callable[[float, bool], Judged | None]
+) -> Report:
+    """The answer, held against that at half or twice the speed where the shaft's lines don't decide, or where a
+    bearing's own lines stand half way between those of a defect. `at(factor, firmly)`: the answer at that speed."""
+    doubt = doubt_of(seen, tie)
+    if doubt is None and stated.report.verdict in ("nothing_missing", "not_decidable"):
+        return stated.report
+    octave = None if stated.firmest is None else octave_of(stated.firmest, stated.every, seen)
+    if octave is not None:
+        first = next(t for t in seen if t.speed.method != "tacho")
+        return doubted(stated, at(octave, True), first, octave, by_bearing=True)
+    if doubt is not None:
+        return doubted(stated, at(doubt[1], False), *doubt)
+    if not unconfirmed(seen):
+        return stated.report
+    rivals = [(one.z, factor, one) for factor in (2.0, 0.5) if (one := at(factor, False)) is not None]
+    firmest = max(rivals, key=lambda r: r[0], default=None)
+    if firmest is None or firmest[0] <= stated.z + CLEAR_Z:
+        return stated.report
+    return doubted(stated, firmest[2], next(t for t in seen if t.speed.method == "stated"), firmest[1])
+
+
+def doubted(
+    stated: Judged, rival: Judged | None, first: Observation, factor: float, *, by_bearing: bool = False
+) -> Report:
+    """The report with the doubt: decided by the bearing's lines, or left open with the causes at both speeds.
+
+    `by_bearing`: those lines speak for the rival already, whichever scores more.
+    """
     shaft, speed = first.speed.shaft, first.speed.speed_hz
     other = factor * speed
-    if stated.z > 0 and (rival is None or stated.z > rival.z + CLEAR_Z):
+    if not by_bearing and stated.z > 0 and (rival is None or stated.z > rival.z + CLEAR_Z):
         return stated.report
-    by_lines = first.speed.method != "stated"
+    by_lines = first.speed.method != "stated" and not by_bearing
     fits = "its lines fit both" if by_lines else "no line of it tells"
+    if by_bearing and first.speed.method != "stated":
+        fits = f"the bearing's lines stand as they do at {other:.4g} Hz"
     note = f"whether {shaft} turns at {speed:.4g} Hz as stated or at {other:.4g} Hz: {fits}"
     undecidable = (note, *stated.report.undecidable)
+    if rival is None and by_bearing:
+        rival = replace(stated, every=())  # its lines tell, though the recordings can't carry the parts at that speed
     if rival is None or max(stated.z, rival.z) == 0.0:
         return replace(stated.report, undecidable=undecidable)
-    shown, at = (rival.report, other) if rival.z > stated.z else (stated.report, speed)
+    nearer = rival.z > 0.0 if by_bearing else rival.z > stated.z
+    shown, at = (rival.report, other) if nearer else (stated.report, speed)
     whose, how = (f"the lines of {shaft}", "no worse") if by_lines else ("bearing lines", "better")
     return replace(
         shown,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -12,7 +12,7 @@ from reconcile.gate import Gate, inspect_measurement
 from reconcile.gate.spoiled import GONE, without_spoiled
 from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.apart import with_speeds
-from reconcile.kinematics.doubted import CLEAR_Z, Judged, doubt_of, doubted, factor_of, restated, unconfirmed
+from reconcile.kinematics.doubted import Judged, against_rivals, factor_of, restated
 from reconcile.kinematics.extent import Extent
 from reconcile.kinematics.faint import impulsive_report, shallow_report
 from reconcile.kinematics.families import Ties, ties
@@ -69,7 +69,7 @@ def reconcile_kinematics(
         return finished(_refused(error), gate, (), (), seed)
     report, every = _judged(known, tie, seen, past, seed)
     at = partial(_at_rival, known, tie, (gate.tests, seen), (gate.baselines, past), seed)
-    report = with_speeds(_against_rivals(Judged(report=report, every=every), seen, tie, at), seen, past)
+    report = with_speeds(against_rivals(Judged(report=report, every=every), seen, tie, at), seen, past)
     if report.verdict in ("nothing_missing", "not_decidable") and gate.fault is not None:
         report = _fault(gate)
     return finished(report, gate, seen, every, seed, past)
@@ -108,22 +108,6 @@ def _judged(
     return report, every
 
 
-def _against_rivals(
-    stated: Judged, seen: Sequence[Observation], tie: Ties, at: Callable[[float], Judged | None]
-) -> Report:
-    """The answer, held against that at half or twice the speed where the shaft's lines don't decide."""
-    doubt = doubt_of(seen, tie)
-    if doubt is not None:
-        return doubted(stated, at(doubt[1]), *doubt)
-    if stated.report.verdict in ("nothing_missing", "not_decidable") or not unconfirmed(seen):
-        return stated.report
-    rivals = [(one.z, factor, one) for factor in (2.0, 0.5) if (one := at(factor)) is not None]
-    firmest = max(rivals, key=lambda r: r[0], default=None)
-    if firmest is None or firmest[0] <= stated.z + CLEAR_Z:
-        return stated.report
-    return doubted(stated, firmest[2], next(t for t in seen if t.speed.method == "stated"), firmest[1])
-
-
 def _at_rival(
     known: KinematicSpec,
     tie: Ties,
@@ -131,10 +115,12 @@ def _at_rival(
     baselines: tuple[Sequence[Recording], Sequence[Observation]],
     seed: int,
     factor: float,
+    firmly: bool,
 ) -> Judged | None:
-    """The answer at `factor` times the speed of the recordings whose lines allow that; None if they can't carry it."""
+    """The answer at `factor` times the speed of the recordings whose lines allow that (`firmly`: of all without
+    pulses); None if they can't carry it."""
     again = [
-        [restated(r, o, factor) if _allows(o, tie, factor) else r for r, o in zip(*several, strict=True)]
+        [restated(r, o, factor) if _allows(o, tie, factor, firmly) else r for r, o in zip(*several, strict=True)]
         for several in (tests, baselines)
     ]
     try:
@@ -146,8 +132,8 @@ def _at_rival(
     return Judged(report=report, every=every)
 
 
-def _allows(seen: Observation, tie: Ties, factor: float) -> bool:
-    return seen.speed.method == "stated" or factor_of(seen, tie) == factor
+def _allows(seen: Observation, tie: Ties, factor: float, firmly: bool) -> bool:
+    return seen.speed.method == "stated" or factor_of(seen, tie) == factor or (firmly and seen.speed.method != "tacho")
 
 
 def _regrown(

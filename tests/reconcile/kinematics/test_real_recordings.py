@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -113,3 +114,18 @@ def test_sound_machines_have_nothing_missing() -> None:
     ]
     spec = bearings(bearing1="ZA-2115", bearing2="ZA-2115", bearing3="ZA-2115", bearing4="ZA-2115")
     assert reconcile_kinematics(spec, ims[1:], ims[:1], seed=0).verdict == "nothing_missing"
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+@pytest.mark.parametrize("rig", ["hit", "cwru"])
+def test_an_inner_race_is_not_named_at_half_or_twice_the_speed(rig: str, factor: float) -> None:
+    """At twice the speed the even lines of the true rate score as high as all lines at the right one."""
+    known, test, base, true_hz = {
+        "hit": (HIT, hit("IR8_1200"), hit("Normal_1200"), 20.0),
+        "cwru": (CWRU, cwru("innerrace_007in"), cwru("normal_first_half"), 1797 / 60),
+    }[rig]
+    stated = Operating(shaft="shaft", speed_hz=factor * true_hz)
+    report = reconcile_kinematics(known, [replace(test, operating=stated)], [replace(base, operating=stated)], seed=0)
+    assert report.verdict == "ambiguous" and not any(c.named for c in report.causes)
+    assert "The speed is not decided" in report.sentence
+    assert any(c.term == "inner_spall" for c in report.causes)
