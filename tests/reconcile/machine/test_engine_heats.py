@@ -9,6 +9,7 @@ import pytest
 
 from reconcile.judge.adequacy import Rest
 from reconcile.machine import search
+from reconcile.machine.direct import NOTHING
 from sim.core.errors import Problem, SpecError
 
 NAMES = (
@@ -46,7 +47,7 @@ def test_a_second_is_thought_of_where_sure_impacts_leave_something(
 ) -> None:
     monkeypatch.setattr(search, "beside", lambda *_: SimpleNamespace(names=("rub@gear",)))
     expected = ("rub@gear",) if looks else ()
-    assert search.possible_seconds(SimpleNamespace(), screened(misfit, direct)) == expected  # type: ignore[arg-type]
+    assert search.possible_seconds(SimpleNamespace(direct=NOTHING), screened(misfit, direct)) == expected  # type: ignore[arg-type]
 
 
 def test_draws_of_which_none_runs_leave_what_was_known(monkeypatch: pytest.MonkeyPatch) -> None:
