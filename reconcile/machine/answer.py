@@ -12,7 +12,7 @@ from reconcile.atlas.places import sensor_sites
 from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import doubts
 from reconcile.machine.causes import ranked_causes
-from reconcile.machine.decide import Decision, decide, merged_weights
+from reconcile.machine.decide import Decision, decide
 from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
 from reconcile.machine.meter import Meter
 from reconcile.machine.pictures import line_changes, ranking, spectra, turn_maps, with_forms
@@ -20,6 +20,7 @@ from reconcile.machine.revised import Revised, paths, revised_machine
 from reconcile.machine.second import Beside, fitted_change, second_effect, struck_somewhere
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.unknown import Unknown
+from reconcile.machine.weigh import merged_weights
 from reconcile.machine.window import angle_window
 from reconcile.machine.words import law_sentence, next_experiment, sentence, size, title, with_points
 from reconcile.observe.features import Layout

@@ -9,8 +9,16 @@ import numpy as np
 
 from reconcile.judge.adequacy import Rest
 from reconcile.judge.screen import Screen
+from reconcile.machine.weigh import (
+    FAR_AHEAD,
+    LEAST_EVIDENCE,
+    credible_set,
+    lead,
+    merged_weights,
+    of_one_part,
+    of_the_place,
+)
 from reconcile.verdict import Word
-from sim.terms import REGISTRY
 
 DETECT_P = 0.01
 LOOKS = 4.0
@@ -30,9 +38,6 @@ MOST_KEPT, MOST_KEPT_ROUGH = 1.15, 0.62
 """Share of the single lines' change above which an effect is named all the same, with the remark that a part is left:
 the largest changes are the least alike. Where machine and effect were fitted together it is the sum with the share of
 the families' change: right effects of development cases keep 1.15 to 1.6, effects that no library has 0.8 to 1.05."""
-FAR_AHEAD = 8.0
-"""Log evidence by which an effect leads all others so that what it leaves is its size's or model's fault: clearances in
-which rings strike are the least repeatable (s065 leads by 25 and leaves 5.9); unknown effects lead by 0.1 to 7.1."""
 CLOSER_P = 0.2
 """Chance from which machines that agree with the baseline are asked: they see more than machines of the kind."""
 GLARING = 14.0
@@ -42,12 +47,6 @@ STRANGE = 0.98
 """Quantile of the misfit among known effects above which no known effect is adequate."""
 STRUCK = 8.0
 """Log evidence of impacts at its own frequency from which an effect is there, whatever else is."""
-HOPELESS = 12.0
-"""Log evidence behind the best effect from which one is not simulated again."""
-SET_WEIGHT = 0.9
-"""The answer is the smallest set of candidates that carries this weight."""
-LEAST_EVIDENCE = 3.0
-"""Log evidence a named cause needs over nothing missing."""
 FEW_VIEWS = 2
 """So few sensors and operating points together cannot exclude what explains half as much."""
 FEW_SHARE = 0.5
@@ -77,69 +76,6 @@ def leaves_lines(rest: Rest) -> bool:
         return rest.unmet > UNMET_ROUGH and rest.kept < MOST_KEPT_ROUGH
     left = rest.unmet > UNMET or rest.elsewhere > UNMET_ROUGH
     return left and rest.kept + rest.pooled < MOST_KEPT
-
-
-def lead(screen: Screen) -> float:
-    """Log evidence by which the best effect leads all that are not forms of it."""
-    best = int(np.argmax(screen.evidence))
-    others = [
-        float(e)
-        for name, e in zip(screen.names, screen.evidence, strict=True)
-        if name != screen.names[best] and not variants(screen.names[best], name)
-    ]
-    return float(screen.evidence[best]) - max(others, default=-np.inf)
-
-
-def variants(first: str, second: str) -> bool:
-    """Whether two labels are forms of one effect at one site: their terms exclude each other there."""
-    (a, here), (b, there) = first.split("@"), second.split("@")
-    one, other = REGISTRY.get(a), REGISTRY.get(b)
-    if here != there or one is None or other is None or a == b:
-        return False
-    return b in one.excludes or a in other.excludes
-
-
-def merged_weights(screen: Screen) -> dict[str, float]:
-    """Weight of each effect; forms of one effect at one site count together under the stronger."""
-    order = np.argsort(-screen.weights)
-    merged: dict[str, float] = {}
-    for k in order:
-        name = screen.names[int(k)]
-        twin = next((m for m in merged if variants(m, name)), None)
-        if twin is None:
-            merged[name] = float(screen.weights[k])
-        else:
-            merged[twin] += float(screen.weights[k])
-    return dict(sorted(merged.items(), key=lambda item: -item[1]))
-
-
-def _of_one_part(weights: dict[str, float], struck: Sequence[frozenset[str]]) -> dict[str, float]:
-    """Where impacts come at the lines of several parts, what strikes at other lines than the likeliest effect is no
-    rival of it but stands beside it."""
-    best = next(iter(weights))
-    if not any(best in part for part in struck):
-        return weights
-    others = {name for part in struck if best not in part for name in part}
-    left = {name: weight for name, weight in weights.items() if name not in others}
-    total = sum(left.values())
-    return {name: weight / total for name, weight in left.items()}
-
-
-def credible_set(weights: dict[str, float], level: float = SET_WEIGHT) -> tuple[str, ...]:
-    """The smallest set of effects that carries `level` of the weight."""
-    total, chosen = 0.0, []
-    for name, weight in weights.items():
-        chosen.append(name)
-        total += weight
-        if total >= level:
-            break
-    return tuple(chosen)
-
-
-def plausible(screen: Screen) -> list[str]:
-    """Effects that are not out of the question, the best first."""
-    order = [int(k) for k in np.argsort(-screen.evidence)]
-    return [screen.names[k] for k in order if screen.evidence[k] >= screen.evidence[order[0]] - HOPELESS]
 
 
 def chance(screen: Screen) -> float:
@@ -184,7 +120,7 @@ def decide(screen: Screen, *, views: int, strange: float = STRANGE) -> Decision:
     if p > DETECT_P:
         reason = f"a healthy machine of this kind shows as much with p = {p:.2g}"
         return Decision(word="nothing_missing", chosen=(), p=p, reasons=(reason,))
-    weights = _of_one_part(merged_weights(screen), screen.struck)
+    weights = of_one_part(merged_weights(screen), screen.struck)
     if _only_impacts(screen):
         return _by_impacts(screen, weights, p)
     return _by_patterns(screen, weights, p, views, strange)
@@ -206,6 +142,12 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     odd = screen.misfit > strange and not (far and not screen.rest.rough)
     inadequate = odd or (leaves_lines(screen.rest) and not far)
     if weak or alone or (inadequate and struck < STRUCK):
+        here = () if weak or alone else of_the_place(screen)
+        if here:
+            reason = (
+                f"no one effect at {here[0].split('@')[1]} explains all of the change, and none elsewhere comes near"
+            )
+            return Decision(word="ambiguous", chosen=here[:MOST_NAMED], p=p, reasons=(reason,))
         return Decision(word="unknown_physics", chosen=chosen[:3], p=p, reasons=(_misfit(screen, alone and not weak),))
     if len(chosen) == 1:
         left = screen.misfit > strange or screen.rest.unmet > UNMET_ROUGH

@@ -11,8 +11,8 @@ from reconcile.calibrate.chain import band_centres_hz
 from reconcile.judge.changes import Changes, Lens
 from reconcile.judge.scatter import evidence_intervals
 from reconcile.judge.screen import Screen
-from reconcile.machine.decide import variants
 from reconcile.machine.setting import Found, Setting
+from reconcile.machine.weigh import variants
 from reconcile.observe.features import Layout
 from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady

@@ -13,12 +13,13 @@ from reconcile.judge.screen import judge
 from reconcile.judge.space import Fitted, fit_space
 from reconcile.machine.assimilate import Task
 from reconcile.machine.budget import Budget
-from reconcile.machine.decide import DETECT_P, LEAST_EVIDENCE, credible_set, merged_weights, plausible
+from reconcile.machine.decide import DETECT_P
 from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import LANES, first_heat, more_draws, ordered_draws, second_heat, simulated_banks
 from reconcile.machine.refine import best_draws, refined_plan
 from reconcile.machine.second import beside, looks_for_second, struck_too
 from reconcile.machine.setting import Found, Setting
+from reconcile.machine.weigh import LEAST_EVIDENCE, credible_set, merged_weights, plausible
 from signals.series import FloatArray
 from sim.core.errors import SpecError
 

@@ -14,19 +14,9 @@ import numpy as np
 from reconcile.judge.adequacy import rest_of
 from reconcile.judge.screen import Look, looked
 from reconcile.judge.space import Fitted
-from reconcile.machine.decide import (
-    DETECT_P,
-    LEAST_EVIDENCE,
-    LOOKS,
-    SET_WEIGHT,
-    STRANGE,
-    STRUCK,
-    UNMET_ROUGH,
-    Decision,
-    leaves_lines,
-    variants,
-)
+from reconcile.machine.decide import DETECT_P, LOOKS, STRANGE, STRUCK, UNMET_ROUGH, Decision, leaves_lines
 from reconcile.machine.setting import Found, Setting
+from reconcile.machine.weigh import LEAST_EVIDENCE, SET_WEIGHT, variants
 from reconcile.tail import tail_chance
 from signals.series import FloatArray
 from sim.terms import REGISTRY

@@ -16,12 +16,13 @@ from reconcile.judge.adequacy import rest_of
 from reconcile.judge.changes import signatures
 from reconcile.judge.screen import looked
 from reconcile.judge.space import Fitted, Library, fit_space
-from reconcile.machine.decide import LEAST_EVIDENCE, leaves_lines
+from reconcile.machine.decide import leaves_lines
 from reconcile.machine.laws import LAWS, SHARES, Motion, TrialLaw, label, motions, trial_plan, with_law
 from reconcile.machine.library import Catalogued, joined
 from reconcile.machine.local import simulated_banks
 from reconcile.machine.search import LEAST_OF_LINES
 from reconcile.machine.setting import Found, Setting
+from reconcile.machine.weigh import LEAST_EVIDENCE
 from reconcile.verdict import EstimatedForce
 from signals.series import FloatArray
 from sim.core.errors import SidebandError

@@ -10,20 +10,8 @@ import pytest
 from reconcile.atlas.places import sensor_sites
 from reconcile.judge.adequacy import Rest
 from reconcile.judge.screen import Screen
-from reconcile.machine.decide import (
-    GLARING,
-    MOST_NAMED,
-    STRANGE,
-    chance,
-    credible_set,
-    decide,
-    merged_weights,
-    plausible,
-    remarkable,
-    tempered,
-    unmeasured,
-    variants,
-)
+from reconcile.machine.decide import GLARING, MOST_NAMED, STRANGE, chance, decide, remarkable, tempered, unmeasured
+from reconcile.machine.weigh import credible_set, merged_weights, plausible, variants
 from reconcile.machine.words import next_experiment, sentence, title
 from reconcile.verdict import HeldOut, Severity
 from sim import presets
@@ -38,6 +26,17 @@ NAMES = (
     "rub@pinion",
     "bent_shaft@pinion",
 )
+
+
+def test_a_known_place_goes_before_an_unknown_effect() -> None:
+    names = ("radial_clearance@bearing1", "fit_clearance_series@bearing1", "rub@gear", "unbalance@gear")
+    left = Rest(unmet=2.1, kept=0.3)
+    here = decide(screen([20.0, 14.0, 8.0, 1.0], names, rest=left), views=9)
+    assert here.word == "ambiguous" and here.chosen == names[:2] and "bearing1" in here.reasons[0]
+    near = decide(screen([20.0, 14.0, 13.0, 1.0], names, rest=left), views=9)
+    assert near.word == "unknown_physics", "an effect elsewhere says nearly as much"
+    weak = decide(screen([2.9, 2.8, -9.0, -9.0], names, rest=left), views=9)
+    assert weak.word == "unknown_physics", "nothing says anything"
 
 
 def test_what_strikes_at_another_part_is_no_rival() -> None:

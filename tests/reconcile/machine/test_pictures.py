@@ -10,8 +10,8 @@ import pytest
 from reconcile.atlas.plan import Point
 from reconcile.calibrate.chain import band_centres_hz
 from reconcile.judge.screen import Screen
-from reconcile.machine.decide import merged_weights
 from reconcile.machine.pictures import TURN_BINS, forms, line_changes, spectra, turn_maps, with_forms
+from reconcile.machine.weigh import merged_weights
 from reconcile.machine.words import with_points
 from reconcile.observe.features import Layout
 from reconcile.observe.steady import Steady
