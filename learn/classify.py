@@ -15,9 +15,6 @@ from signals.checks import inspect
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
 
-DOUBT = 0.005
-"""Relative doubt of a speed that was read off lines."""
-UNSURE = 0.02
 VIBRATION = ("acceleration", "velocity", "displacement", "sound pressure")
 SYMBOLS = {"outer": "BPFO", "inner": "BPFI", "ball": "2 BSF", "cage": "4 FTF"}
 
@@ -67,13 +64,12 @@ def classify(
     """Label, probabilities, speed, and the lines found; of several bearings the one that is least likely sound."""
     chosen = usable(recording, channels)
     speed = speed_of(chosen, sites, trust=trust_speed)
-    doubt = {"tacho": 0.0, "given": 0.0, "stated": UNSURE}.get(speed.method, DOUBT)
     rows = list(chosen.samples)
     answers: list[tuple[str, float, Assessment]] = []
     for site in sites or (None,):
         ratio = site.ratio if site is not None else 1.0
         orders = site.orders if site is not None else None
-        answer = assess(rows, chosen.sampling_rate_hz, speed.speed_hz * ratio, model, orders, doubt)
+        answer = assess(rows, chosen.sampling_rate_hz, speed.speed_hz * ratio, model, orders, speed.doubt)
         answers.append((site.name if site is not None else "", ratio, answer))
     name, ratio, answer = min(answers, key=lambda a: a[2].probabilities.get("healthy", 1.0))
     return {
@@ -84,7 +80,7 @@ def classify(
         "speed": {
             "speed_hz": speed.speed_hz,
             "method": speed.method,
-            "estimated": speed.method not in ("tacho", "given", "stated"),
+            "estimated": speed.method not in ("tacho", "given"),
         },
         "severity_index": answer.severity,
         "turns": answer.turns,

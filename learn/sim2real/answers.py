@@ -10,7 +10,6 @@ from functools import partial
 import numpy as np
 
 from learn.assess import Assessment, assess, estimated
-from learn.classify import DOUBT, UNSURE
 from learn.detector import kinematic_detector
 from learn.model import Model
 from learn.real.load import Case
@@ -82,8 +81,7 @@ class ByModel:
         found = Speed(speed_hz=case.speed_hz, method="given", standing=0.0)
         if self.speed != "given":
             found = estimated(rows, case.rate_hz, case.stated_hz if self.speed == "near" else None, orders)
-        doubt = {"given": 0.0, "stated": UNSURE}.get(found.method, DOUBT)
-        answer = assess(rows, case.rate_hz, found.speed_hz, self.model, orders, doubt)
+        answer = assess(rows, case.rate_hz, found.speed_hz, self.model, orders, found.doubt)
         shares = ", ".join(f"{k} {p:.2f}" for k, p in answer.probabilities.items())
         return Answer(unit=unit, label=answer.label, detail=f"{shares}; {found.speed_hz:.2f} Hz", assessment=answer)
 

@@ -3,7 +3,7 @@ import pytest
 
 from learn.assess import estimated, stretches
 from learn.orders import of_ratio
-from learn.speed import by_pulses, candidates
+from learn.speed import USUAL_ERROR, by_pulses, candidates
 from signals.recording import Recording, Tacho
 from sim.core.errors import SpecError
 from sim.core.response import Channel
@@ -19,16 +19,31 @@ def turning(speed, seconds=6.0, seed=0):
 
 @pytest.mark.parametrize("speed", [13.0, 28.7, 41.3])
 def test_harmonics_give_the_speed_near_a_stated_one_and_alone(speed):
-    near = candidates([turning(speed)], RATE, 1.03 * speed)
-    assert near[0].speed_hz == pytest.approx(speed, rel=6e-3)
-    assert near[-1].method == "stated"
-    assert candidates([turning(speed)], RATE, None)[0].speed_hz == pytest.approx(speed, rel=6e-3)
+    (near,) = candidates([turning(speed)], RATE, 1.03 * speed)
+    assert near.speed_hz == pytest.approx(speed, rel=3e-3)
+    assert near.method == "lines"
+    assert candidates([turning(speed)], RATE, None)[0].speed_hz == pytest.approx(speed, rel=3e-3)
 
 
 def test_without_any_line_the_stated_speed_is_kept():
     noise = np.random.default_rng(1).standard_normal(30_000)
     found = estimated([noise], RATE, 25.0, of_ratio(9, 0.2))
-    assert found.speed_hz == pytest.approx(25.0, rel=0.06)
+    assert (found.speed_hz, found.method, found.doubt) == (25.0, "stated", USUAL_ERROR)
+
+
+def test_modulation_alone_gives_the_speed_more_finely_the_longer_it_is_heard():
+    rng = np.random.default_rng(4)
+    found = []
+    for seconds in (1.0, 8.0):
+        t = np.arange(int(RATE * seconds)) / RATE
+        noise = rng.standard_normal(t.size) * (1 + 0.8 * np.cos(2 * np.pi * 21.3 * t))
+        found += candidates([noise], RATE, 21.0)
+    assert found[1].doubt < found[0].doubt
+    assert found[1].speed_hz == pytest.approx(21.3, rel=3e-3)
+
+
+def test_the_likeliest_speed_from_nothing_is_not_a_fraction_of_the_true_one():
+    assert candidates([turning(40.0)], RATE, None)[0].speed_hz == pytest.approx(40.0, rel=3e-3)
 
 
 def test_pulses_come_first():
