@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from learn import features, unknown, whole
+from learn import features, geometries, unknown, whole
 from learn.bank import MIN_TURNS, Bank, bank
 from learn.features import Found
 from learn.model import Head, Model
@@ -19,9 +19,11 @@ from sim.core.errors import Problem, SpecError
 
 LONGEST_TURNS = 20.0
 """Longer recordings are read in equal stretches. Over many turns even the faint lines of a sound machine become
-certain; over few only deep ones do, and many short answers together decide, where `WHOLE` does not."""
+certain; over few only deep ones do. They show where lines are; longer recordings are answered by the whole."""
 WHOLE = "whole"
 """Head of the features of `learn.whole`: it answers for recordings longer than a stretch, their geometry known."""
+ANYWHERE = "anywhere"
+"""Head of the features of `learn.geometries`: the same, their geometry unknown."""
 SPEED_TURNS = 80.0
 """The stretch a speed is read from."""
 MOST_STRETCHES = 12
@@ -63,8 +65,9 @@ def assess(
         rows.append(_row(spectra, orders, doubt))
         shown.append(spectra)
     p = pooled(head, np.stack([r[0] for r in rows]))
-    if orders is not None and len(parts) > 1 and WHOLE in model.heads:
-        p = pooled(model.heads[WHOLE], long_rows(channels, rate_hz, speed_hz, orders, doubt))
+    wanted = {WHOLE} if orders is not None else {WHOLE, ANYWHERE}
+    if len(parts) > 1 and wanted <= set(model.heads):
+        p = of_whole(channels, rate_hz, speed_hz, model, orders, doubt)
     label = head.classes[int(np.argmax(p))]
     strongest = int(
         np.argmax([r[1].get("z", 0.0) if orders is None else max(f.z for f in r[2].values()) for r in rows])
@@ -81,12 +84,19 @@ def assess(
     )
 
 
-def long_rows(
-    channels: Sequence[FloatArray], rate_hz: float, speed_hz: float, orders: FaultOrders, doubt: float = 0.0
+def of_whole(
+    channels: Sequence[FloatArray],
+    rate_hz: float,
+    speed_hz: float,
+    model: Model,
+    orders: FaultOrders | None,
+    doubt: float = 0.0,
 ) -> FloatArray:
-    """Features (parts, features) of the recording in as few parts as may be."""
-    parts = stretches(channels, rate_hz, speed_hz, whole.TURNS)
-    return np.stack([whole.vector(bank(part, rate_hz, speed_hz), orders, doubt)[0] for part in parts])
+    """Probabilities (classes,) by the recording in as few parts as may be."""
+    parts = [bank(part, rate_hz, speed_hz) for part in stretches(channels, rate_hz, speed_hz, whole.TURNS)]
+    if orders is None:
+        return pooled(model.heads[ANYWHERE], np.stack([geometries.vector(one, model.heads[WHOLE]) for one in parts]))
+    return pooled(model.heads[WHOLE], np.stack([whole.vector(one, orders, doubt)[0] for one in parts]))
 
 
 def _severity(shown: Sequence[Bank], found: Sequence[dict[str, Found]], label: str) -> float | None:
@@ -102,7 +112,7 @@ def estimated(
     count too. Near a stated speed they say nothing, as the slip that is searched is as wide as the doubt."""
     found = candidates(channels, rate_hz, stated_hz)
     if stated_hz is not None:
-        return max(found, key=lambda one: one.standing)
+        return found[0]
     best: tuple[float, Speed] | None = None
     for one in found:
         try:

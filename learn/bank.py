@@ -39,6 +39,7 @@ class Bank:
     channel: tuple[int, ...]
     step: float
     """Orders a bin."""
+    speed_hz: float
     excess: FloatArray
     depth: FloatArray
     kurtosis: FloatArray
@@ -78,6 +79,7 @@ def bank(channels: Sequence[FloatArray], rate_hz: float, speed_hz: float) -> Ban
         bands_hz=np.asarray(bands),
         channel=tuple(owner),
         step=step,
+        speed_hz=speed_hz,
         excess=np.asarray(excess),
         depth=np.asarray(depth),
         kurtosis=np.asarray(kurtosis),

@@ -20,6 +20,10 @@ NOISE_LOG, LARGEST_LOG = 1.5, 7.0
 SHAFT_BINS = 1.5
 SHAFT_SHARE = 0.0015
 """Lines of the shaft are left out this much to either side, of their order, for a speed that is not exact."""
+MAINS_HZ, MAINS_MULTIPLES, MAINS_SHARE = (50.0, 60.0), 4, 0.002
+"""Motors and inverters hum and switch at multiples of the mains' frequency, whatever turns; how far mains are off."""
+FINEST_HZ = 1.0
+"""Such combs are told from others by spectra with bins no wider."""
 LOW_ORDER, HIGH_ORDER = 1.3, 14.0
 OVERSAMPLING = 2.0
 LEAST_SPREAD = 0.7
@@ -59,6 +63,16 @@ def grid(bank: Bank) -> FloatArray:
     """Base orders of the search, so fine that the highest harmonic moves by half a bin, shape (orders,)."""
     step = bank.step / (OVERSAMPLING * TOP_HARMONIC)
     return np.arange(LOW_ORDER, HIGH_ORDER, step)
+
+
+def of_mains(bank: Bank, base: FloatArray) -> BoolArray:
+    """Which base orders are low multiples of the mains' frequency, shape (orders,)."""
+    near = np.zeros(base.size, dtype=np.bool_)
+    width = bank.step * bank.speed_hz
+    if width <= FINEST_HZ:
+        for multiple in [m * hz for hz in MAINS_HZ for m in range(1, MAINS_MULTIPLES + 1)]:
+            near |= np.abs(base * bank.speed_hz - multiple) < width + MAINS_SHARE * multiple
+    return near
 
 
 def scores(values: FloatArray, step: float, base: FloatArray, comb: Comb) -> FloatArray:
@@ -103,10 +117,16 @@ def search(values: FloatArray, step: float, base: FloatArray, comb: Comb, away: 
 
 def standardised(table: FloatArray, away: BoolArray) -> FloatArray:
     """Scores (bands, orders) less their median over the orders `away`, over their robust spread there."""
+    centre, spread = middle_and_spread(table, away)
+    return np.asarray((table - centre) / spread, dtype=np.float64)
+
+
+def middle_and_spread(table: FloatArray, away: BoolArray) -> tuple[FloatArray, FloatArray]:
+    """Median and robust spread of scores (bands, orders) over the orders `away`, (bands, 1) each."""
     control = table[:, away]
     centre = np.median(control, axis=1, keepdims=True)
-    spread = np.maximum(1.4826 * np.median(np.abs(control - centre), axis=1, keepdims=True), LEAST_SPREAD)
-    return np.asarray((table - centre) / spread, dtype=np.float64)
+    spread = 1.4826 * np.median(np.abs(control - centre), axis=1, keepdims=True)
+    return np.asarray(centre), np.asarray(np.maximum(spread, LEAST_SPREAD))
 
 
 def lift(tops: FloatArray, value: float) -> float:

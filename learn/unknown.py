@@ -12,7 +12,7 @@ from functools import cache
 import numpy as np
 
 from learn.bank import Bank
-from learn.combs import Comb, Search, away_from, grid, logs, search, tail
+from learn.combs import Comb, Search, away_from, grid, logs, of_mains, search, tail
 from learn.features import comb_depth, impulsiveness, line_depths
 from learn.orders import of_ratio
 from signals.series import FloatArray
@@ -64,9 +64,10 @@ def prior(family: str, order: float) -> float:
 
 
 def strongest(bank: Bank, s: Search, taken: float | None = None) -> tuple[float, float, int]:
-    """(z, base order, band) of the strongest comb off the shaft's orders; relatives of the base `taken` left out."""
+    """(z, base order, band) of the strongest comb off the shaft's orders and the mains; relatives of the base `taken`
+    left out."""
     off = np.abs(s.base - np.rint(s.base)) > max(0.02, 2 * bank.step)
-    inside = off & (s.base >= 1.8) & (s.base <= 12.5)
+    inside = off & ~of_mains(bank, s.base) & (s.base >= 1.8) & (s.base <= 12.5)
     if taken is not None:
         for m in (0.5, 1.0, 1.5, 2.0, 3.0):
             inside &= np.abs(s.base / (taken * m) - 1) > 0.02
@@ -114,16 +115,17 @@ def vector(bank: Bank) -> tuple[FloatArray, dict[str, float]]:
         cage_side,
         float(np.max(with_shaft.best[near])),
         second,
-        *(_best_within(carriers if f != "inner" else with_shaft, f) for f in ("outer", "inner", "ball")),
+        *(_best_within(bank, carriers if f != "inner" else with_shaft, f) for f in ("outer", "inner", "ball")),
         *impulsiveness(bank),
     ]
     return np.asarray(row, dtype=np.float64), {"order": order, "band": float(band), "z": z}
 
 
-def _best_within(s: Search, family: str) -> float:
+def _best_within(bank: Bank, s: Search, family: str) -> float:
     """Largest z plus log prior over the orders a usual bearing's family has."""
     low, high = PLAUSIBLE[family]
-    inside = np.flatnonzero((s.base >= low) & (s.base <= high) & (np.abs(s.base - np.rint(s.base)) > 0.03))[::2]
+    off = (np.abs(s.base - np.rint(s.base)) > 0.03) & ~of_mains(bank, s.base)
+    inside = np.flatnonzero((s.base >= low) & (s.base <= high) & off)[::2]
     known = _usual()[family]
     closest = np.min(np.abs(np.log(s.base[inside][:, np.newaxis] / known)), axis=1)
     return float(np.max(s.best[inside] - 0.5 * np.minimum(closest / CLOSE, 4.0) ** 2))

@@ -20,6 +20,8 @@ from signals.series import BoolArray, FloatArray
 RACES = ("outer", "inner", "ball")
 CAGE_LOW, CAGE_HIGH = 0.2, 0.495
 """Orders at which a cage's comb is compared: 0.33 to 0.46 are usual."""
+SIMPLE, SIMPLE_REACH = (0.2, 0.25, 1 / 3, 0.5), 0.005
+"""Orders whose harmonics are the shaft's too."""
 CAGE_HARMONICS = 12
 SHAFT_HARMONICS = 30
 CLEAR = 4.0
@@ -77,22 +79,20 @@ def foreign(base: FloatArray, order: float) -> BoolArray:
     away = np.ones(base.size, dtype=np.bool_)
     for relative in (order, order / 2, abs(1 - order) / 2, abs(1 - 2 * order), 1 - order, 0.5 - order):
         away &= np.abs(base / relative - 1) > SLIP + 0.01
-    for simple in (0.2, 0.25, 1 / 3, 0.5):
-        away &= np.abs(base - simple) > 0.005
+    for simple in SIMPLE:
+        away &= np.abs(base - simple) > SIMPLE_REACH
     return away
 
 
-def cage(values: FloatArray, step: float, near: BoolArray, away: BoolArray) -> tuple[float, float]:
-    """How far the cage's lines, or its sidebands about the shaft's, stand above the same at foreign orders.
+def cage_curves(values: FloatArray, step: float, away: BoolArray) -> list[tuple[FloatArray, FloatArray]]:
+    """How far the cage's own lines, and its sidebands about the shaft's, stand out at every order of `cage_grid`.
 
-    In the best band, and in all bands together; the better of the two kinds of lines each.
+    Of each kind of lines (best band, all bands together), in robust deviations of the orders `away`.
     """
     base = cage_grid(step)
     own = [(m * base, 1 / np.sqrt(m)) for m in range(1, CAGE_HARMONICS + 1)]
     about = [(k + s * base, 1.0) for k in range(1, SHAFT_HARMONICS + 1) for s in (-2, -1, 1, 2)]
-    width = max(1, int(np.sum(near)))
-    best: list[float] = []
-    every: list[float] = []
+    found = []
     for lines in (own, about):
         table = np.zeros((values.shape[0], base.size))
         for places, weight in lines:
@@ -100,8 +100,18 @@ def cage(values: FloatArray, step: float, near: BoolArray, away: BoolArray) -> t
             inside = bins < values.shape[1]
             table[:, inside] += weight * values[:, bins[inside]]
         one = np.max(standardised(table, away), axis=0)
-        total = standardised(np.sum(table, axis=0, keepdims=True), away)[0]
-        for curve, found in ((one, best), (total, every)):
-            tops = maximum_filter1d(curve, width)[away]
-            found.append(lift(tops, float(np.max(curve[near]))))
-    return max(best), max(every)
+        found.append((one, standardised(np.sum(table, axis=0, keepdims=True), away)[0]))
+    return found
+
+
+def cage(values: FloatArray, step: float, near: BoolArray, away: BoolArray) -> tuple[float, float]:
+    """The highest of these curves `near` the cage's order, over what equally wide searches find at foreign orders.
+
+    In the best band, and in all bands together; the better of the two kinds of lines each.
+    """
+    width = max(1, int(np.sum(near)))
+    lifts = [
+        [lift(maximum_filter1d(curve, width)[away], float(np.max(curve[near]))) for curve in pair]
+        for pair in cage_curves(values, step, away)
+    ]
+    return max(one for one, _ in lifts), max(every for _, every in lifts)

@@ -12,10 +12,10 @@ from multiprocessing import get_context
 
 import numpy as np
 
-from learn import features, unknown, whole
-from learn.assess import WHOLE, long_rows, stretches
+from learn import features, geometries, unknown, whole
+from learn.assess import ANYWHERE, WHOLE, stretches
 from learn.bank import bank
-from learn.model import Model
+from learn.model import Head, Model
 from learn.simulate.machines import CLASSES
 from learn.simulate.rows import Row, Variant, rows
 from learn.train import fit_head
@@ -29,13 +29,18 @@ PARTS = 8
 
 @dataclass(frozen=True, kw_only=True)
 class Table:
-    """`known`, `unknown` (pieces, features), `long` (recordings, features), each with labels and machines by row."""
+    """`known`, `unknown` (pieces, features); `long`, `anywhere` (recordings, features); labels and machines of both.
+
+    `tried` (recordings, geometries, features): those of `long` as if each geometry were the bearing's.
+    """
 
     known: FloatArray
     unknown: FloatArray
     labels: tuple[str, ...]
     machines: tuple[int, ...]
     long: FloatArray
+    anywhere: FloatArray
+    tried: FloatArray
     long_labels: tuple[str, ...]
     long_machines: tuple[int, ...]
 
@@ -49,7 +54,10 @@ class Example:
     known: list[FloatArray]
     unknown: list[FloatArray]
     long: FloatArray
-    """(1, features)."""
+    anywhere: FloatArray
+    """(parts, features) both."""
+    tried: FloatArray
+    """(parts, geometries, features)."""
 
 
 def pieces(row: Row) -> list[FloatArray]:
@@ -66,13 +74,17 @@ def part_table(part: int, count: int, seed: int, variant: Variant) -> list[Examp
     found = []
     for row in rows(count, seed, part, PARTS, variant):
         spectra = [bank([piece], row.rate_hz, row.speed_hz) for piece in pieces(row)]
+        parts = stretches([row.samples], row.rate_hz, row.speed_hz, whole.TURNS)
+        longer = [bank(one, row.rate_hz, row.speed_hz) for one in parts]
         found.append(
             Example(
                 label=row.label,
                 machine=row.machine,
                 known=[features.vector(one, row.orders)[0] for one in spectra],
                 unknown=[unknown.vector(one)[0] for one in spectra],
-                long=long_rows([row.samples], row.rate_hz, row.speed_hz, row.orders),
+                long=np.stack([whole.vector(one, row.orders)[0] for one in longer]),
+                anywhere=np.stack([unknown.vector(one)[0] for one in longer]),
+                tried=np.stack([geometries.rows(one) for one in longer]),
             )
         )
     return found
@@ -103,13 +115,15 @@ def joined(found: Sequence[Example]) -> Table:
         labels=tuple(one.label for one in found for _ in one.known),
         machines=tuple(one.machine for one in found for _ in one.known),
         long=np.concatenate([one.long for one in found]),
+        anywhere=np.concatenate([one.anywhere for one in found]),
+        tried=np.concatenate([one.tried for one in found]),
         long_labels=tuple(one.label for one in found for _ in one.long),
         long_machines=tuple(one.machine for one in found for _ in one.long),
     )
 
 
 def train(found: Table, *, seed: int, made_by: dict[str, object]) -> Model:
-    """All heads: of pieces with the geometry known and unknown, and of whole recordings with it known."""
+    """All heads: of pieces and of whole recordings, each with the geometry known and unknown."""
     heads = {
         name: fit_head(values, found.labels, found.machines, names, CLASSES, seed=seed)
         for name, values, names in (
@@ -117,7 +131,13 @@ def train(found: Table, *, seed: int, made_by: dict[str, object]) -> Model:
             ("unknown", found.unknown, unknown.NAMES),
         )
     }
-    heads[WHOLE] = fit_head(
-        found.long, found.long_labels, found.long_machines, whole.NAMES, CLASSES, seed=seed, networks=1, hidden=()
-    )
+    heads[WHOLE] = _of_whole(found, found.long, whole.NAMES, seed)
+    likelier = np.stack([geometries.log_ratios(one, heads[WHOLE]) for one in found.tried])
+    heads[ANYWHERE] = _of_whole(found, np.hstack([likelier, found.anywhere]), geometries.NAMES, seed)
     return Model(heads=heads, made_by=made_by)
+
+
+def _of_whole(found: Table, values: FloatArray, names: tuple[str, ...], seed: int) -> Head:
+    """A softmax regression on recordings."""
+    labels, machines = found.long_labels, found.long_machines
+    return fit_head(values, labels, machines, names, CLASSES, seed=seed, networks=1, hidden=())

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from learn.assess import assess, long_rows
+from learn import geometries, unknown, whole
+from learn.assess import assess, stretches
 from learn.bank import bank
 from learn.combs import lift, logs
 from learn.model import Model
@@ -86,10 +87,13 @@ def test_cage_of_an_empty_spectrum_is_nothing(bearing):
 
 @pytest.mark.slow
 def test_features_know_neither_unit_nor_offset(bearing):
-    a = long_rows([noise(5)], RATE, SPEED, bearing)
-    np.testing.assert_allclose(a, long_rows([3e-3 * noise(5) + 2.0], RATE, SPEED, bearing), atol=1e-4)
-    assert a.shape == (1, len(NAMES))
-    assert long_rows([noise(5, turns=200.0)], RATE, SPEED, bearing).shape == (2, len(NAMES))
+    a, b = (vector(bank([x], RATE, SPEED), bearing)[0] for x in (noise(5), 3e-3 * noise(5) + 2.0))
+    np.testing.assert_allclose(a, b, atol=1e-4)
+    assert a.shape == (len(NAMES),)
+
+
+def test_long_recordings_are_read_in_parts():
+    assert len(stretches([noise(5, turns=200.0)], RATE, SPEED, whole.TURNS)) == 2
 
 
 @pytest.fixture(scope="module")
@@ -103,11 +107,13 @@ def model():
             known=[rng.standard_normal(17)],
             unknown=[rng.standard_normal(16)],
             long=rng.standard_normal((1, len(NAMES))),
+            anywhere=rng.standard_normal((1, len(unknown.NAMES))),
+            tried=rng.standard_normal((1, len(geometries.usual()), len(NAMES))),
         )
         for k in range(24)
     ]
     heads = dict(train(joined(examples), seed=0, made_by={}).heads)
-    for name, label in (("known", "outer"), ("whole", "ball")):
+    for name, label in (("known", "outer"), ("whole", "ball"), ("unknown", "inner"), ("anywhere", "healthy")):
         for network in heads[name].networks:
             network.offsets[-1][CLASSES.index(label)] += 1e4
     return Model(heads=heads, made_by={})
@@ -118,8 +124,11 @@ def test_the_whole_decides_for_long_recordings_and_pieces_for_short_ones(model, 
     assert len(model.heads["whole"].networks[0].weights) == 1
     assert assess([noise(6)], RATE, SPEED, model, bearing).label == "ball"
     assert assess([noise(6, turns=12.0)], RATE, SPEED, model, bearing).label == "outer"
+    assert assess([noise(6)], RATE, SPEED, model, None).label == "healthy"
+    assert assess([noise(6, turns=12.0)], RATE, SPEED, model, None).label == "inner"
 
 
 def test_a_model_without_the_head_answers_by_its_pieces(model, bearing):
     older = Model(heads={k: v for k, v in model.heads.items() if k != "whole"}, made_by={})
     assert assess([noise(6)], RATE, SPEED, older, bearing).label == "outer"
+    assert assess([noise(6)], RATE, SPEED, older, None).label == "inner"
