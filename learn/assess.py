@@ -55,8 +55,10 @@ def assess(
     model: Model,
     orders: FaultOrders | None,
     doubt: float = 0.0,
+    likely: Sequence[float] = (),
 ) -> Assessment:
-    """Class of a recording; channels are looked at together, as more bands."""
+    """Class of a recording; channels are looked at together, as more bands. Too short a one to tell its speed is
+    answered at each of the `likely` ones, and the answers' mean is taken."""
     head = model.heads["known" if orders is not None else "unknown"]
     parts = stretches(channels, rate_hz, speed_hz)
     rows, shown = [], []
@@ -68,6 +70,8 @@ def assess(
     wanted = {WHOLE} if orders is not None else {WHOLE, ANYWHERE}
     if len(parts) > 1 and wanted <= set(model.heads):
         p = of_whole(channels, rate_hz, speed_hz, model, orders, doubt)
+    elif len(parts) == 1 and likely:
+        p = np.mean([_of_pieces(channels, rate_hz, f, head, orders, doubt / len(likely)) for f in likely], axis=0)
     label = head.classes[int(np.argmax(p))]
     strongest = int(
         np.argmax([r[1].get("z", 0.0) if orders is None else max(f.z for f in r[2].values()) for r in rows])
@@ -82,6 +86,19 @@ def assess(
         geometry="known" if orders is not None else "unknown",
         severity=_severity(shown, [r[2] for r in rows], label),
     )
+
+
+def _of_pieces(
+    channels: Sequence[FloatArray],
+    rate_hz: float,
+    speed_hz: float,
+    head: Head,
+    orders: FaultOrders | None,
+    doubt: float,
+) -> FloatArray:
+    """Probabilities (classes,) by stretches, at one speed."""
+    parts = stretches(channels, rate_hz, speed_hz)
+    return pooled(head, np.stack([_row(bank(part, rate_hz, speed_hz), orders, doubt)[0] for part in parts]))
 
 
 def of_whole(

@@ -69,7 +69,8 @@ def classify(
     for site in sites or (None,):
         ratio = site.ratio if site is not None else 1.0
         orders = site.orders if site is not None else None
-        answer = assess(rows, chosen.sampling_rate_hz, speed.speed_hz * ratio, model, orders, speed.doubt)
+        likely = [f * ratio for f in speed.likely]
+        answer = assess(rows, chosen.sampling_rate_hz, speed.speed_hz * ratio, model, orders, speed.doubt, likely)
         answers.append((site.name if site is not None else "", ratio, answer))
     name, ratio, answer = min(answers, key=lambda a: a[2].probabilities.get("healthy", 1.0))
     return {

@@ -8,7 +8,7 @@ takes the one under which the machine's other lines fall into place best (`asses
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -25,6 +25,7 @@ USUAL_ERROR = 0.02
 GRID = 3e-4
 """Relative steps of the search."""
 FINE = 0.002
+TRIED = 3
 MOST = 6
 APART = 0.004
 DOUBTS = (5e-4, USUAL_ERROR)
@@ -41,6 +42,8 @@ class Speed:
     method: str
     standing: float
     doubt: float = 0.0
+    likely: tuple[float, ...] = ()
+    """Speeds near a stated one, each as likely as the next: where lines do not decide, all are to be tried."""
 
 
 def by_pulses(recording: Recording) -> Speed | None:
@@ -63,8 +66,9 @@ def candidates(channels: Sequence[FloatArray], rate_hz: float, stated_hz: float 
     if stated_hz is not None:
         score -= 0.5 * ((speeds / stated_hz - 1) / USUAL_ERROR) ** 2
         found = _placed(lines, speeds, score, "lines", float(np.max(score) - np.median(score)))
-        stated = Speed(speed_hz=stated_hz, method="stated", standing=0.0, doubt=USUAL_ERROR)
-        return [found if found.doubt < UNCONFIRMED else stated]
+        if found.doubt >= UNCONFIRMED:
+            found = Speed(speed_hz=stated_hz, method="stated", standing=0.0, doubt=USUAL_ERROR)
+        return [replace(found, likely=_quantiles(speeds, score))]
     several = []
     for k in _peaks(speeds, score):
         near = np.abs(speeds / speeds[k] - 1) <= USUAL_ERROR
@@ -79,6 +83,13 @@ def _placed(lines: Shaft, speeds: FloatArray, score: FloatArray, method: str, st
     likely = np.exp(score - score[k])
     doubt = float(np.sqrt(np.sum(likely * (speeds / found - 1) ** 2) / np.sum(likely)))
     return Speed(speed_hz=found, method=method, standing=standing, doubt=float(np.clip(doubt, *DOUBTS)))
+
+
+def _quantiles(speeds: FloatArray, score: FloatArray) -> tuple[float, ...]:
+    """Middles of equal shares of the likelihood."""
+    share = np.cumsum(np.exp(score - np.max(score)))
+    middles = (np.arange(TRIED) + 0.5) / TRIED * share[-1]
+    return tuple(float(f) for f in speeds[np.searchsorted(share, middles)])
 
 
 def _finely(lines: Shaft, speed_hz: float) -> float:

@@ -81,7 +81,7 @@ class ByModel:
         found = Speed(speed_hz=case.speed_hz, method="given", standing=0.0)
         if self.speed != "given":
             found = estimated(rows, case.rate_hz, case.stated_hz if self.speed == "near" else None, orders)
-        answer = assess(rows, case.rate_hz, found.speed_hz, self.model, orders, found.doubt)
+        answer = assess(rows, case.rate_hz, found.speed_hz, self.model, orders, found.doubt, found.likely)
         shares = ", ".join(f"{k} {p:.2f}" for k, p in answer.probabilities.items())
         return Answer(unit=unit, label=answer.label, detail=f"{shares}; {found.speed_hz:.2f} Hz", assessment=answer)
 

@@ -29,6 +29,7 @@ def test_without_any_line_the_stated_speed_is_kept():
     noise = np.random.default_rng(1).standard_normal(30_000)
     found = estimated([noise], RATE, 25.0, of_ratio(9, 0.2))
     assert (found.speed_hz, found.method, found.doubt) == (25.0, "stated", USUAL_ERROR)
+    assert 24.0 < found.likely[0] < found.likely[1] < found.likely[2] < 26.0
 
 
 def test_modulation_alone_gives_the_speed_more_finely_the_longer_it_is_heard():

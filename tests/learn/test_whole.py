@@ -132,3 +132,15 @@ def test_a_model_without_the_head_answers_by_its_pieces(model, bearing):
     older = Model(heads={k: v for k, v in model.heads.items() if k != "whole"}, made_by={})
     assert assess([noise(6)], RATE, SPEED, older, bearing).label == "outer"
     assert assess([noise(6)], RATE, SPEED, older, None).label == "inner"
+
+
+def test_a_short_recording_of_doubtful_speed_is_answered_at_every_likely_one(model, bearing):
+    short = [noise(6, turns=12.0)]
+    alone = [assess(short, RATE, f, model, bearing, 0.005).probabilities for f in (24.5, 25.5)]
+    both = assess(short, RATE, SPEED, model, bearing, 0.01, (24.5, 25.5)).probabilities
+    for label, p in both.items():
+        assert p == pytest.approx(np.mean([one[label] for one in alone]))
+    long = [noise(6)]
+    assert assess(long, RATE, SPEED, model, bearing, 0.01, (24.5, 25.5)) == assess(
+        long, RATE, SPEED, model, bearing, 0.01
+    )
