@@ -13,7 +13,7 @@ from learn.features import Found
 from learn.model import Head, Model
 from learn.orders import FaultOrders
 from learn.severity import severity_index
-from learn.speed import Speed, candidates
+from learn.speed import HIGHEST_HZ, SEARCH, Speed, candidates
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
 
@@ -125,8 +125,10 @@ def _severity(shown: Sequence[Bank], found: Sequence[dict[str, Found]], label: s
 def estimated(
     channels: Sequence[FloatArray], rate_hz: float, stated_hz: float | None, orders: FaultOrders | None
 ) -> Speed:
-    """The candidate speed whose shaft's lines stand out most; without a stated one, bearing lines in the first stretch
-    count too. Near a stated speed they say nothing, as the slip that is searched is as wide as the doubt."""
+    """The speed that the shaft's lines make likeliest; without a stated one, bearing lines in the first stretch count
+    too. Near a stated speed they say nothing, as the slip that is searched is as wide as the doubt."""
+    fastest = HIGHEST_HZ if stated_hz is None else (1 + SEARCH) * stated_hz
+    stretches(channels, rate_hz, fastest)  # refused where even that is too few turns
     found = candidates(channels, rate_hz, stated_hz)
     if stated_hz is not None:
         return found[0]

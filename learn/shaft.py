@@ -25,6 +25,7 @@ HARMONICS = 8
 FINE_PLAIN, FINE_ENVELOPE = 20, 12
 """Harmonics that place a speed finely, once it is known roughly."""
 PADDING = 2
+NARROWEST_BINS = 32
 FLOOR_BINS = 201
 NOISE_LOG, CLIP_LOG, LARGEST_LOG = 1.5, 5.0, 30.0
 PLAIN_WEIGHT, ENVELOPE_WEIGHT = 0.5, 1.2
@@ -70,7 +71,7 @@ def shaft(channels: Sequence[FloatArray], rate_hz: float, highest_hz: float) -> 
         plain += _logs(np.abs(np.fft.rfft((x - np.mean(x)) * np.hanning(size), PADDING * size))[:top] ** 2, step)
         white = whitened(x)
         rows = []
-        for low, high in BANDS:
+        for low, high in (b for b in BANDS if b == BANDS[0] or (b[1] - b[0]) * size > NARROWEST_BINS):
             square, rate, _ = squared_envelope(white, low * rate_hz, high * rate_hz, rate_hz)
             lines = np.abs(np.fft.rfft((square - np.mean(square)) * np.hanning(square.size), PADDING * square.size))
             width = rate / (PADDING * square.size)

@@ -66,3 +66,11 @@ def test_stretches_are_equal_and_not_too_long():
 def test_too_few_turns_are_refused():
     with pytest.raises(SpecError, match="too few turns"):
         stretches([np.zeros(1000)], 10_000.0, 20.0)
+
+
+@pytest.mark.parametrize("samples", [8, 40, 60])
+def test_a_recording_far_too_short_for_a_speed_is_refused(samples):
+    with pytest.raises(SpecError, match="too few turns"):
+        estimated([np.random.default_rng(0).standard_normal(samples)], 1000.0, 20.0, None)
+    with pytest.raises(SpecError, match="too few turns"):
+        estimated([np.random.default_rng(0).standard_normal(samples)], 1000.0, None, None)
