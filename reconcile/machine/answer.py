@@ -20,7 +20,7 @@ from reconcile.machine.revised import Revised, paths, revised_machine
 from reconcile.machine.second import Beside, fitted_change, second_effect, struck_somewhere
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.unknown import Unknown
-from reconcile.machine.weigh import merged_weights
+from reconcile.machine.weigh import merged_weights, of_one_part
 from reconcile.machine.window import angle_window
 from reconcile.machine.words import law_sentence, next_experiment, sentence, size, title, with_points
 from reconcile.observe.features import Layout
@@ -52,11 +52,12 @@ def fault_answer(gate: Gate, *, level: Level) -> Report:
         sentence=f"The mismatch is in the measurement: {fault.detail}.",
         level=level,
         fault=fault,
-        stages=(_gate_stage(gate),),
+        stages=(gate_stage(gate),),
     )
 
 
-def _gate_stage(gate: Gate) -> Mapping[str, object]:
+def gate_stage(gate: Gate) -> Mapping[str, object]:
+    """What the sensor gate found, as a stage of the report."""
     remarks = [f"{f.recording} {f.channel}: {f.kind}, {f.detail}".strip() for f in gate.findings]
     return {"name": "sensor gate", "findings": remarks or ["nothing wrong with the measurement"]}
 
@@ -106,7 +107,7 @@ def answer(
     decision = decide(found.screen, views=len(setting.channels) * len(setting.data))
     watched = watch_list(setting.machine)
     layout = _layout(watched, setting)
-    weights = merged_weights(found.screen)
+    weights = of_one_part(merged_weights(found.screen), found.screen.struck)
     missing = decision.word != "nothing_missing"
     other = second_effect(setting, found, decision)
     causes = with_forms(ranked_causes(found, decision, weights, observed, other), found.screen) if missing else ()
@@ -120,7 +121,9 @@ def answer(
     word, text, fault = _told(setting, decision, gate, causes, held, other, unknown)
     lead = _lead(found, decision)
     named = decision.chosen[0] if decision.word == "explained" else None
-    where = _where(setting, layout, watched, weights) if missing else Where(limits=_limits(setting))
+    where = (
+        _where(setting, layout, watched, _with_second(weights, other)) if missing else Where(limits=_limits(setting))
+    )
     if word != "measurement_fault":
         where = replace(where, limits=(*where.limits, *doubts(gate)))
     return Report(
@@ -142,7 +145,7 @@ def answer(
             "paths": paths(setting),
             "heat": turn_maps(setting.machine, setting.data, setting.channels, where.angle_window),
         },
-        provenance=_provenance(setting, {"core_s": meter.spent_s(), **cost}),
+        provenance=provenance(setting.seed, len(setting.plan.draws), {"core_s": meter.spent_s(), **cost}),
     )
 
 
@@ -174,6 +177,15 @@ def _told(
     # a fault that is sure goes before a rest of which nothing can be told
     rest = "" if word == "nothing_missing" else " What differs on the other channels is too faint to tell."
     return "measurement_fault", f"The mismatch is in the measurement: {gate.fault.detail}.{rest}", gate.fault
+
+
+def _with_second(weights: Mapping[str, float], other: Beside | None) -> dict[str, float]:
+    """Half of the weight for each of two effects."""
+    if other is None:
+        return dict(weights)
+    own = np.exp(other.evidence - other.evidence[0])
+    second = {name: 0.5 * float(w) for name, w in zip(other.names, own / own.sum(), strict=True)}
+    return {name: 0.5 * weights.get(name, 0.0) + second.get(name, 0.0) for name in {**weights, **second}}
 
 
 def _where(setting: Setting, layout: Layout, watched: WatchList, weights: Mapping[str, float]) -> Where:
@@ -234,7 +246,7 @@ def _stages(
     ]
     gains = [float(np.median(lens.chain.gain_db)) for lens in setting.seen_through[:1]]
     return (
-        _gate_stage(gate),
+        gate_stage(gate),
         {"name": "observe", "speeds": speeds, "features": int(np.isfinite(found.fitted.whiten.sigma).sum())},
         {"name": "calibrate", "median_gain_db": gains, "mode": "A" if setting.changes.with_baseline else "B", **fit},
         {"name": "impacts", "found": list(setting.direct.told) or ["none that the baseline has not"]},
@@ -275,11 +287,12 @@ def _revisions(revision: Revised | None) -> tuple[Mapping[str, object], ...]:
     )
 
 
-def _provenance(setting: Setting, cost: Mapping[str, object]) -> Mapping[str, object]:
+def provenance(seed: int, draws: int, cost: Mapping[str, object]) -> Mapping[str, object]:
+    """Versions, seed and cost."""
     return {
         "physics_version": PHYSICS_VERSION,
         "atlas_version": ATLAS_VERSION,
-        "seed": setting.seed,
-        "draws": len(setting.plan.draws),
+        "seed": seed,
+        "draws": draws,
         "cost": dict(cost),
     }

@@ -16,7 +16,7 @@ from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import without_spoiled
 from reconcile.judge.changes import lenses, observed_changes
 from reconcile.machine.alone import rise_over_sound
-from reconcile.machine.answer import answer, fault_answer
+from reconcile.machine.answer import answer, fault_answer, provenance
 from reconcile.machine.assimilate import assimilated
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.decide import decide, leaves_lines, remarkable, tempered, unmeasured
@@ -71,7 +71,7 @@ def reconcile_machine(
     progress(0.0, "sensor gate")
     gate = _gate(machine, tests, baselines, seed)
     if not gate.usable:
-        return fault_answer(gate, level="machine")
+        return replace(fault_answer(gate, level="machine"), provenance=_told_by(meter, seed, budget))
     gate = without_spoiled(gate)
     paired = with_tooth_pairs(machine)
     chosen = candidates(paired) if nominated is None else tuple(nominated)
@@ -80,7 +80,7 @@ def reconcile_machine(
     data = observe(machine, watch_list(machine), sorted(gate.tests, key=_place), gate.baselines, seed=seed)
     factor = rival_speed(machine, data, gate.tests[0].channels)
     if factor is not None:
-        return doubted_speed(factor, data)
+        return doubted_speed(factor, data, gate, _told_by(meter, seed, budget))
     setting = _setting(machine, gate, data, plan, keeper or Forgetful(), meter, progress)
     atlas_s = meter.spent_s()
     progress(0.6, "candidates")
@@ -92,6 +92,11 @@ def reconcile_machine(
     report = answer(setting, found, gate, meter, cost, fit, unknown)
     progress(1.0, "done")
     return report
+
+
+def _told_by(meter: Meter, seed: int, budget: Budget) -> Mapping[str, object]:
+    """Provenance where nothing was simulated."""
+    return provenance(seed, 0, {"core_s": meter.spent_s(), "budget": budget.name})
 
 
 def _answered(

@@ -1,13 +1,18 @@
 """Did the machine turn at half or twice the stated speed? The teeth tell: all that the model predicts hangs on it.
 
 At twice the stated speed every mesh line of the model but the even ones is missing; at half of it there are lines half
-way between them. Meshes of other stages may make such lines: what a shaft's own teeth explain is left out.
+way between them. Meshes of other stages may make such lines: what a shaft's own teeth explain is left out. So may a
+gear that has changed (play, wear of pairs that meet every other time): a baseline that shows the teeth where they were
+stated has settled the speed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
+from reconcile.gate.findings import Gate
+from reconcile.gate.spoiled import doubts
+from reconcile.machine.answer import gate_stage
 from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
 from reconcile.observe.watch import bases_at
@@ -27,12 +32,19 @@ ALIKE = 0.02
 
 def rival_speed(machine: MachineSpec, data: Sequence[PointData], channels: Sequence[Channel]) -> float | None:
     """0.5 or 2 where that times the stated speed explains the lines of the teeth as well in most of the tests without
-    a tacho; None where the stated speed holds, or teeth cannot tell."""
-    asked = [d.spectra[0] for d in data if d.spectra[0].estimate.method != "tacho"]
-    found = [factor for one in asked if (factor := _factor(machine, one, channels)) is not None]
+    a tacho, and in their baselines; None where the stated speed holds, or teeth cannot tell."""
+    found = [factor for d in data if (factor := _of_point(machine, d, channels)) is not None]
     if not found or 2 * found.count(found[0]) <= len(data):
         return None
     return found[0]
+
+
+def _of_point(machine: MachineSpec, point: PointData, channels: Sequence[Channel]) -> float | None:
+    heard = [s for s in point.spectra if s is not None]
+    if any(s.estimate.method == "tacho" for s in heard):
+        return None
+    factor = _factor(machine, heard[0], channels)
+    return factor if factor is None or all(_factor(machine, s, channels) == factor for s in heard[1:]) else None
 
 
 def _factor(machine: MachineSpec, one: Steady, channels: Sequence[Channel]) -> float | None:
@@ -57,8 +69,8 @@ def _octaves(one_hz: float, other_hz: float) -> bool:
     return any(abs(one_hz * factor / other_hz - 1.0) < ALIKE for factor in (0.5, 1.0, 1.5, 2.0, 3.0))
 
 
-def doubted_speed(factor: float, data: Sequence[PointData]) -> Report:
-    """The report where the speed is not known: nothing else can be."""
+def doubted_speed(factor: float, data: Sequence[PointData], gate: Gate, provenance: Mapping[str, object]) -> Report:
+    """The report where the speed is not known: what the sensor gate found, and nothing else."""
     stated = data[0].point.speed_hz
     word = "twice" if factor == 2.0 else "half"
     lines = (
@@ -71,8 +83,12 @@ def doubted_speed(factor: float, data: Sequence[PointData]) -> Report:
         sentence=f"The speed is not decided: stated are {stated:g} Hz, but {lines}, as at {word} of it "
         f"({factor * stated:g} Hz). All that the model predicts hangs on the speed.",
         level="machine",
-        where=Where(),
+        where=Where(limits=doubts(gate)),
         undecidable=(f"whether the shaft turns at {stated:g} Hz as stated or at {factor * stated:g} Hz",),
         next_experiment=NextExperiment(sentence="Record with a tacho, or check the speed that was stated."),
-        stages=({"name": "observe", "speeds": [f"{d.point.speed_hz:g} Hz stated" for d in data]},),
+        stages=(
+            gate_stage(gate),
+            {"name": "observe", "speeds": [f"{d.point.speed_hz:g} Hz stated" for d in data]},
+        ),
+        provenance=provenance,
     )

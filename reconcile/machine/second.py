@@ -140,8 +140,11 @@ def struck_somewhere(setting: Setting, found: Found, decision: Decision) -> tupl
     if decision.word != "explained":
         return ()
     struck = struck_too(setting, found, decision.chosen[0])
-    if struck is None or _outweighs(struck):
+    if struck is None:
         return ()
+    further = [p for p in setting.direct.struck if decision.chosen[0] not in p and not set(p) & set(struck.names)]
+    if _outweighs(struck):
+        return tuple(name for part in further for name in part)
     return tuple(n for n, e in zip(struck.names, struck.evidence, strict=True) if e > struck.evidence[0] - STRUCK)
 
 

@@ -39,6 +39,13 @@ def test_a_known_place_goes_before_an_unknown_effect() -> None:
     assert weak.word == "unknown_physics", "nothing says anything"
 
 
+def test_lines_without_any_pattern_count_only_when_they_are_clear() -> None:
+    faint = {"p_any": 1e-6, "p_best": 0.3, "strongest": 10.0}
+    assert decide(screen([0.1, 0.0], p_lines=2e-4, **faint), views=24).word == "nothing_missing"
+    assert decide(screen([0.1, 0.0], p_lines=5e-5, **faint), views=24).word != "nothing_missing"
+    assert decide(screen([9.0, 0.0], p_lines=2e-4, **(faint | {"p_best": 0.04})), views=24).word == "explained"
+
+
 def test_what_strikes_at_another_part_is_no_rival() -> None:
     two = screen([20.0, 19.5, 4.0])
     assert decide(two, views=9).word == "ambiguous"
@@ -112,7 +119,7 @@ def test_four_looks_cost_a_factor_of_four() -> None:
     assert chance(screen([1.0], p_any=0.02, p_best=0.002, strongest=1.0)) == pytest.approx(0.008)
     assert chance(screen([1.0], p_any=0.002, p_best=0.5)) == pytest.approx(0.008)
     assert chance(screen([1.0], p_any=0.5, p_best=0.5, p_direct=1e-4)) == pytest.approx(4e-4)
-    assert chance(screen([1.0], p_any=0.5, p_best=0.5, p_lines=1e-3)) == pytest.approx(4e-3)
+    assert chance(screen([1.0], p_any=0.5, p_best=0.5, p_lines=1e-5)) == pytest.approx(4e-5)
     assert chance(screen([1.0], p_any=0.5, p_best=0.5, strongest=1.0)) == 1.0
 
 
@@ -204,7 +211,7 @@ def test_no_sensor_is_advised_where_one_is() -> None:
 
 
 def test_a_sound_machine_is_told_the_chance_that_decided() -> None:
-    sound = replace(screen([20.0], p_any=1.0, p_best=1.0, strongest=0.0), p_lines=0.003)
+    sound = replace(screen([20.0], p_any=1.0, p_best=0.04, strongest=0.0), p_lines=0.003)
     told = decide(sound, views=9)
     assert told.word == "nothing_missing" and told.p == pytest.approx(0.012) and "0.012" in told.reasons[0]
 

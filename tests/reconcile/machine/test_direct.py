@@ -84,6 +84,19 @@ def test_without_a_baseline_what_sound_machines_show_too_is_no_evidence(machine:
     assert any("sound machines show as much" in line for line in usual.told)
 
 
+def test_at_one_operating_point_impacts_must_exceed_what_sound_machines_show(machine: MachineSpec) -> None:
+    hit = struck(bases_at(machine, SPEED_HZ)["f_o1"], slip=0.006)
+    data = observe(machine, watch_list(machine), [recording(sound(1) + hit)], [recording(sound(2))])
+
+    def told(rise: float, points: int) -> Direct:
+        return direct_evidence(machine, data * points, CHANNELS, seed=0, rise=lambda _: rise)
+
+    assert told(MODELLED + 1.0, 1).p < 0.01
+    usual = told(MODELLED - 1.0, 1)
+    assert usual.p == 1.0 and not usual.evidence and any("sound machines" in line for line in usual.told)
+    assert told(MODELLED - 1.0, 2).p < 0.01, "what comes back at another speed needs no model"
+
+
 @pytest.mark.slow
 def test_two_parts_that_strike_are_told_apart(machine: MachineSpec) -> None:
     hz = bases_at(machine, SPEED_HZ)

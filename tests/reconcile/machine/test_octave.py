@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from reconcile.gate.findings import Gate
 from reconcile.machine import octave
 from reconcile.machine.engine import reconcile_machine
 from reconcile.machine.octave import doubted_speed, rival_speed
@@ -39,8 +40,8 @@ def turning(machine: MachineSpec, seed: int, *, true_hz: float = SPEED_HZ, state
     return Recording(sampling_rate_hz=RATE_HZ, channels=CHANNELS, samples=samples, operating=operating)
 
 
-def seen(machine: MachineSpec, *tests: Recording) -> tuple[PointData, ...]:
-    return observe(machine, watch_list(machine), tests, [], seed=0)
+def seen(machine: MachineSpec, *tests: Recording, baseline: Recording | None = None) -> tuple[PointData, ...]:
+    return observe(machine, watch_list(machine), tests, [] if baseline is None else [baseline], seed=0)
 
 
 @pytest.mark.parametrize(("stated_hz", "factor"), [(SPEED_HZ, None), (SPEED_HZ / 2, 2.0), (SPEED_HZ * 2, 0.5)])
@@ -54,6 +55,14 @@ def test_most_of_the_recordings_decide(machine: MachineSpec) -> None:
     wrong = turning(machine, 3, true_hz=30.0, stated_hz=60.0)
     assert rival_speed(machine, seen(machine, *right, wrong), CHANNELS) is None
     assert rival_speed(machine, seen(machine, wrong), CHANNELS) == 0.5
+
+
+def test_a_baseline_with_the_teeth_where_they_were_stated_settles_it(machine: MachineSpec) -> None:
+    wrong = turning(machine, 3, stated_hz=2 * SPEED_HZ)
+    sound = turning(machine, 4, true_hz=2 * SPEED_HZ, stated_hz=2 * SPEED_HZ)
+    assert rival_speed(machine, seen(machine, wrong, baseline=sound), CHANNELS) is None, "the gears have changed"
+    alike = turning(machine, 4, stated_hz=2 * SPEED_HZ)
+    assert rival_speed(machine, seen(machine, wrong, baseline=alike), CHANNELS) == 0.5
 
 
 def test_noise_alone_doubts_nothing(machine: MachineSpec) -> None:
@@ -82,9 +91,12 @@ def test_nothing_is_simulated_at_a_doubted_speed(machine: MachineSpec) -> None:
     assert report.verdict == "not_decidable" and not report.causes
     assert "60 Hz" in report.sentence and "30 Hz" in report.sentence
     assert report.next_experiment is not None and "tacho" in report.next_experiment.sentence
+    assert report.stages[0]["name"] == "sensor gate"
+    assert {"physics_version", "seed", "cost"} <= set(report.provenance)
 
 
 def test_the_sentence_says_what_the_teeth_show(machine: MachineSpec) -> None:
     data = seen(machine, turning(machine, 1))
-    assert "every other harmonic" in doubted_speed(2.0, data).sentence
-    assert "half way between" in doubted_speed(0.5, data).sentence
+    gate = Gate(findings=(), baselines=(), tests=(), fault=None, usable=True)
+    assert "every other harmonic" in doubted_speed(2.0, data, gate, {}).sentence
+    assert "half way between" in doubted_speed(0.5, data, gate, {}).sentence
