@@ -37,6 +37,13 @@ MOST_FOREIGN = 5
 """A flat document with more reference names than this is a parameter file."""
 
 
+def whole(text: str) -> int:
+    """A seed: 0 or above."""
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"is no seed (given {text!r}); allowed: a whole number from 0 on")
+    return int(text)
+
+
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("--machine", metavar="FILE", type=Path, required=True, help="machine, parameters or kinematics")
@@ -44,7 +51,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--recording", metavar="R.json", type=Path, nargs="+", required=True, action="extend")
     parser.add_argument("--budget", choices=sorted(BUDGETS), default="quick", help="how much is simulated anew")
     parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for report.json, report.html")
-    parser.add_argument("--seed", type=int, default=0, help="seed of the atlas and of the bootstrap")
+    parser.add_argument("--seed", type=whole, default=0, help="seed of the atlas and of the bootstrap")
     parser.add_argument("--jobs", metavar="N", type=int, default=2, help="processes that simulate the atlas")
     parser.add_argument("--atlas", metavar="DIR", type=Path, default=None, help="where atlases are kept between runs")
     parser.add_argument("--json", action="store_true", help="print report.json too")

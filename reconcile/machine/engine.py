@@ -21,6 +21,7 @@ from reconcile.machine.assimilate import assimilated
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.decide import decide, leaves_lines, remarkable, tempered, unmeasured
 from reconcile.machine.direct import direct_evidence
+from reconcile.machine.drive import on_drive
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
 from reconcile.machine.octave import doubted_speed, rival_speed
@@ -69,7 +70,7 @@ def reconcile_machine(
     """
     meter = Meter(mapper)
     progress(0.0, "sensor gate")
-    gate = _gate(machine, tests, baselines, seed)
+    gate = _gate(machine, on_drive(machine, tests), on_drive(machine, baselines), seed)
     if not gate.usable:
         return replace(fault_answer(gate, level="machine"), provenance=_told_by(meter, seed, budget))
     gate = without_spoiled(gate)

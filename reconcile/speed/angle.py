@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from scipy.interpolate import UnivariateSpline
 
 from reconcile.speed.estimate import HARMONICS, SpeedEstimate
 from reconcile.speed.excess import power_over_floor
@@ -20,6 +21,7 @@ MIN_LINE_DB = 20.0
 MIN_GAIN_DB = 1.0
 """A tracked angle is taken only if lines it was not made from gain this much."""
 LINES = 3
+FEW_PULSES, MANY_PULSES = 8, 20_000
 
 
 def shaft_angle(recording: Recording, speed: SpeedEstimate, *, orders: Sequence[float] = ()) -> FloatArray:
@@ -30,7 +32,7 @@ def shaft_angle(recording: Recording, speed: SpeedEstimate, *, orders: Sequence[
     if speed.method == "tacho":
         assert recording.tacho is not None
         try:
-            return tacho_angle(recording.series(recording.names[0]), recording.tacho)
+            return smooth_angle(tacho_angle(recording.series(recording.names[0]), recording.tacho), recording)
         except SpecError:
             pass  # too few pulses to follow: the mean speed remains
     best = recording.series(recording.names[0])
@@ -45,6 +47,27 @@ def shaft_angle(recording: Recording, speed: SpeedEstimate, *, orders: Sequence[
         if tracked is not None and tracked[0] > gain:
             gain, chosen = tracked
     return chosen
+
+
+def smooth_angle(angle_rad: FloatArray, recording: Recording) -> FloatArray:
+    """The angle (n,), rad, as smooth as its pulses allow, which are known to a sample: through every one of few pulses
+    a turn, that half sample would shake the fifth harmonic of the teeth by half a radian. A cubic spline with the
+    fewest knots whose squared deviations are those of the clock (Reinsch 1967, Numer. Math. 10, 177-183)."""
+    tacho = recording.tacho
+    assert tacho is not None
+    times = tacho.pulse_times_s - recording.start_s
+    if not FEW_PULSES <= times.size <= MANY_PULSES:
+        return angle_rad
+    turns = np.arange(times.size) / tacho.pulses_per_revolution
+    speed = (turns[-1] - turns[0]) / (times[-1] - times[0])
+    clock = speed / (recording.sampling_rate_hz * np.sqrt(12.0))
+    smooth = UnivariateSpline(times, turns - speed * times, w=np.full(times.size, 1.0 / clock), s=times.size)
+    known = np.isfinite(angle_rad)
+    time = np.flatnonzero(known) / recording.sampling_rate_hz
+    offset = angle_rad[known][0] - 2 * np.pi * np.interp(time[0], times, turns)
+    result = np.full(angle_rad.size, np.nan)
+    result[known] = 2 * np.pi * (speed * time + smooth(time)) + offset
+    return result if np.all(np.diff(result[known]) > 0) else angle_rad
 
 
 def order_levels(series: Series, angle_rad: FloatArray, orders: Sequence[float]) -> FloatArray:

@@ -1,0 +1,58 @@
+"""A speed or torque of another shaft is converted; pulses that contradict the statement are refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from reconcile.machine.drive import on_drive
+from signals.recording import Operating, Recording, Tacho
+from sim.core.errors import SpecError
+from sim.core.response import Channel
+from sim.core.spec import MachineSpec
+from sim.presets import preset
+
+CHANNEL = Channel(name="a", quantity="acceleration", unit="m/s^2", location="bearing1", axis="y")
+
+
+@pytest.fixture(scope="module")
+def machine() -> MachineSpec:
+    return preset("paper")
+
+
+def recorded(shaft: str, speed_hz: float, *, tacho: Tacho | None = None) -> Recording:
+    return Recording(
+        sampling_rate_hz=1000.0,
+        channels=(CHANNEL,),
+        samples=np.zeros((1, 2000)),
+        operating=Operating(shaft=shaft, speed_hz=speed_hz, torque_nm=70.0),
+        tacho=tacho,
+        label="r.json",
+    )
+
+
+def pulses(shaft: str, hz: float, per_turn: int = 1) -> Tacho:
+    return Tacho(shaft=shaft, pulse_times_s=np.arange(0.0, 1.9, 1.0 / hz), pulses_per_revolution=per_turn)
+
+
+def test_another_shaft_is_converted_by_the_teeth(machine: MachineSpec) -> None:
+    teeth = {g.shaft: g.teeth for g in machine.gears}
+    ratio = teeth["output"] / teeth["input"]
+    (found,) = on_drive(machine, [recorded("output", 30.0 / ratio, tacho=pulses("output", 30.0 / ratio))])
+    assert found.operating is not None and found.tacho is None
+    assert found.operating.shaft == "input" and found.operating.speed_hz == pytest.approx(30.0)
+    assert found.operating.torque_nm == pytest.approx(70.0 / ratio), "power is what both have in common"
+    same = recorded("input", 30.0)
+    assert on_drive(machine, [same])[0] is same
+
+
+def test_an_unknown_shaft_is_refused_by_name(machine: MachineSpec) -> None:
+    with pytest.raises(SpecError, match=r"r\.json: operating\.shaft.*allowed: input, output"):
+        on_drive(machine, [recorded("middle", 30.0)])
+
+
+def test_pulses_that_make_another_speed_are_refused(machine: MachineSpec) -> None:
+    assert on_drive(machine, [recorded("input", 30.0, tacho=pulses("input", 30.0))])
+    assert on_drive(machine, [recorded("input", 30.0, tacho=pulses("input", 60.0, 2))])
+    with pytest.raises(SpecError, match=r"pulses_per_revolution: its pulses make 15 Hz, but 30 Hz are stated"):
+        on_drive(machine, [recorded("input", 30.0, tacho=pulses("input", 30.0, 2))])
