@@ -46,8 +46,8 @@ TARGETS = (
 SECTIONS = {
     "fresh": "No version of the engine had met these before their run.",
     "seen": "Of those looked at before, the ones that were run again: one that an earlier engine got right, six not.",
-    "sound": "Cases in which nothing is missing, at all conditions of up to three speeds, with a later engine. Most had "
-    "been looked at.",
+    "sound": "Cases in which nothing is missing, at all conditions of up to three speeds, with a later engine. Most "
+    "had been looked at.",
     "further": "Not met before, with that later engine; l044 and l048 are at the target condition.",
     "alone": "These had been looked at before this run; there is no baseline, or the nominal machine is mis-set.",
     "later": "",
@@ -99,9 +99,10 @@ these four does.
 is judged as the best of all (costs one ambiguous set of 41 cases, l033, by their stored chances), impacts at the lines
 of several parts stand beside each other, a place whose effects lead all elsewhere is no unknown physics (l093 and s154
 set that rule), a speed is doubted by the teeth. Engine `ef79a64e454e` had the first, second and fourth. Two sound
-machines then alarmed off the target condition, l077 (30 dB, one speed) and s106 (eight sensors, 30 dB); two rules came
-from them: impacts at a single point must exceed what sound machines show, and lines without a pattern count from 1e-4. With these
-l077 is still undecidable instead of sound: its bands change as those of no simulated sound machine do.
+machines then alarmed off the target condition, l077 (30 dB, one speed) and s106 (eight sensors, 30 dB); two rules
+came from them: impacts at a single point must exceed what sound machines show, and lines without a pattern count
+from 1e-4. With these s106 misses nothing, but l077 is still undecidable: its bands change as those of no simulated
+sound machine do.
 
 **Placebos** are the right effect elsewhere and other effects at the right place, of which at least six machines were
 simulated: these are the likeliest rivals, and move some of the same bands. Every one is in the report with its gain.

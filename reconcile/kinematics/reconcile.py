@@ -22,6 +22,7 @@ from reconcile.kinematics.gears import GearEvidence, gear_evidence
 from reconcile.kinematics.grown import grown_defect, old_defects
 from reconcile.kinematics.judge import DEFECTS, Candidate, named
 from reconcile.kinematics.observe import Observation, observe
+from reconcile.kinematics.remarks import remarked
 from reconcile.kinematics.shafts import Impulsiveness, ShaftChange, impulsiveness, shaft_changes
 from reconcile.kinematics.spec import KinematicSpec, of_machine
 from reconcile.kinematics.vague import (
@@ -70,6 +71,7 @@ def reconcile_kinematics(
     report, every = _judged(known, tie, seen, past, seed)
     at = partial(_at_rival, known, tie, (gate.tests, seen), (gate.baselines, past), seed)
     report = with_speeds(against_rivals(Judged(report=report, every=every), seen, tie, at), seen, past)
+    report = remarked(report, tie, seen, past, every, seed)
     if report.verdict in ("nothing_missing", "not_decidable") and gate.fault is not None:
         report = _fault(gate)
     return finished(report, gate, seen, every, seed, past)

@@ -1,0 +1,99 @@
+"""What a reader must know beside an answer: lines that rose too, a speed that nothing confirms, a deeper baseline."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from reconcile.kinematics.families import Family, Ties
+from reconcile.kinematics.judge import DEFECTS, LEAST_Z, SECOND_SHARE, Candidate, named, same
+from reconcile.kinematics.observe import Observation
+from reconcile.verdict import Report
+from sim.terms import REGISTRY
+
+SAME_SPEED = 0.015
+"""Relative difference of a baseline's speed up to which depths of modulation are compared without a word."""
+
+
+def remarked(
+    report: Report,
+    tie: Ties,
+    tests: Sequence[Observation],
+    baselines: Sequence[Observation],
+    every: Sequence[Candidate],
+    seed: int,
+) -> Report:
+    """The report with these remarks: what may be a second defect is undecidable, the rest are limits."""
+    limits = [*_speeds_differ(tests, baselines)]
+    sentence = report.sentence
+    if report.verdict == "nothing_missing":
+        limits += _unconfirmed(tests)
+        deeper = _deeper_before(tie, tests, baselines, seed)
+        limits += deeper
+        sentence = " ".join([sentence, *(f"But {text}." for text in deeper)])
+    return replace(
+        report,
+        sentence=sentence,
+        undecidable=(*report.undecidable, *_risen_too(report, every)),
+        where=replace(report.where, limits=(*report.where.limits, *limits)),
+    )
+
+
+def _risen_too(report: Report, every: Sequence[Candidate]) -> list[str]:
+    """Families half as firm as the named ones, which are neither named nor theirs; lines of two defects hide each
+    other among the control orders, so their chances are not asked."""
+    if report.verdict != "explained":
+        return []
+    spoken = [c for c in every if any(_is(c.family, x.term, x.site) for x in report.causes if x.named)]
+    if not spoken:
+        return []
+    least = max(LEAST_Z, SECOND_SHARE * max(c.z for c in spoken))
+    return [
+        f"lines of {c.family.key} rose too ({_by(c)}): a second defect, or what the named one brings"
+        for c in every
+        if c.family.kind in DEFECTS
+        and c.risen
+        and c.z >= least
+        and not any(c is s or (c.family.kind == s.family.kind and same(c.family, s.family)) for s in spoken)
+    ]
+
+
+def _is(family: Family, key: str, site: str) -> bool:
+    term = REGISTRY.get(key)
+    return term is not None and term.strikes == family.kind and site == family.site
+
+
+def _by(candidate: Candidate) -> str:
+    growth = candidate.growth_db
+    return f"{candidate.z:.1f} deviations" if growth is None else f"by {growth:.0f} dB, {candidate.z:.1f} deviations"
+
+
+def _unconfirmed(tests: Sequence[Observation]) -> list[str]:
+    stated = sorted({t.speed.speed_hz for t in tests if t.speed.method == "stated"})
+    if len([t for t in tests if t.speed.method == "stated"]) < len(tests):
+        return []
+    told = ", ".join(f"{hz:.4g}" for hz in stated)
+    return [
+        f"no line confirms the stated speed ({told} Hz): if it is wrong, or nothing was heard, nothing could be seen"
+    ]
+
+
+def _deeper_before(tie: Ties, tests: Sequence[Observation], baselines: Sequence[Observation], seed: int) -> list[str]:
+    """A defect of the baseline that the tests have not."""
+    chosen, _ = named(baselines, tests, tie, seed) if baselines else ((), ())
+    return [
+        f"the baseline has deep lines of {c.family.key} that the tests have not; exchanged, or a part replaced"
+        for c in chosen[:1]
+    ]
+
+
+def _speeds_differ(tests: Sequence[Observation], baselines: Sequence[Observation]) -> list[str]:
+    """Tests without a baseline at their speed."""
+    known = [b.speed.speed_hz for b in baselines]
+    lost = sorted(
+        {t.speed.speed_hz for t in tests if not any(abs(hz / t.speed.speed_hz - 1.0) <= SAME_SPEED for hz in known)}
+    )
+    if not known or not lost:
+        return []
+    told, had = (", ".join(f"{hz:.4g}" for hz in sorted(set(values))) for values in (lost, known))
+    return [f"tests at {told} Hz were compared with baselines at {had} Hz: depths change with the speed too"]
