@@ -116,9 +116,8 @@ def _loose(pairs: Sequence[Pair], change: Sequence[FloatArray], c: int, name: st
         return []
     rough = float(np.median(np.max(np.abs(own - curve)[:, :, changed], axis=(0, 1))))
     impacts = max(float(np.median(p.impacts[c, at][changed])) for p, at in zip(pairs, places, strict=True))
-    impacts = max(
-        impacts, *(float(np.percentile(p.crest_change[c], 75)) / CREST_DB for p in pairs if p.crest_change.size)
-    )
+    crests = [float(np.percentile(p.crest_change[c], 75)) / CREST_DB for p in pairs if p.crest_change.size]
+    impacts = max([impacts, *crests])  # records of a fraction of a second have none
     rest = [k for k in range(len(pairs[0].names)) if k != c]
     others = [d[k, 0, at][changed] for d, at in zip(change, places, strict=True) for k in rest]
     loudest = max(float(np.median(np.abs(o))) for o in others)

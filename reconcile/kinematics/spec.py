@@ -86,7 +86,7 @@ class KinematicSpec(SpecModel):
 
     @model_validator(mode="after")
     def _tied(self) -> KinematicSpec:
-        problems = [*_repeated(self), *_untied(self)]
+        problems = [*_repeated(self), *_untied(self), *_contradicted(self)]
         if problems:
             raise NotTied(problems)
         return self
@@ -95,6 +95,10 @@ class KinematicSpec(SpecModel):
     def parts(self) -> tuple[str, ...]:
         """Names of all parts: what a channel's location may be."""
         return tuple(x.name for several in (self.shafts, self.bearings, self.gears, self.meshes) for x in several)
+
+
+SPEEDS_AGREE = 0.02
+"""Relative difference up to which rounded nominal speeds of two shafts fit the teeth between them."""
 
 
 class NotTied(ValueError):
@@ -136,6 +140,27 @@ def _untied(spec: KinematicSpec) -> Iterator[Problem]:
             yield Problem(
                 field=f"meshes.{i}.gears", message=f"are both on {turned[0]}", given=mesh.gears, allowed=allowed
             )
+
+
+def _contradicted(spec: KinematicSpec) -> Iterator[Problem]:
+    """Nominal speeds of two shafts that the teeth between them do not make."""
+    gears, speeds = {g.name: g for g in spec.gears}, {s.name: s.speed_hz for s in spec.shafts}
+    for i, mesh in enumerate(spec.meshes):
+        one, other = (gears.get(name) for name in mesh.gears)
+        if one is None or other is None:
+            continue
+        hz, had = speeds.get(one.shaft), speeds.get(other.shaft)
+        if hz is None or had is None or abs(hz * one.teeth / (had * other.teeth) - 1.0) <= SPEEDS_AGREE:
+            continue
+        made = hz * one.teeth / other.teeth
+        yield Problem(
+            field=f"meshes.{i}.gears",
+            message=f"{one.teeth} teeth on {one.shaft} at {hz:.4g} Hz turn {other.shaft} at {made:.4g} Hz, but its "
+            f"speed_hz is {had:.4g}",
+            given=had,
+            allowed=f"{made:.4g}, or no speed_hz where a mesh makes it",
+            unit="Hz",
+        )
 
 
 def read_kinematic_spec(document: object) -> KinematicSpec:

@@ -263,3 +263,21 @@ def test_faults_are_ranked_by_what_spoils_first() -> None:
     gate = judged(changed(2, both))
     assert gate.fault is not None and gate.fault.kind == "not_finite"
     assert FAULTS.index("not_finite") < FAULTS.index("mains_hum")
+
+
+def test_a_fraction_of_a_second_is_too_short_for_crests_and_says_so() -> None:
+    rng = np.random.default_rng(3)
+
+    def short(*, dull: bool) -> Recording:
+        rows = rng.normal(size=(2, 14_400))
+        if dull:
+            rows[0] = lfilter([0.05], [1.0, -0.95], rows[0])
+        channels = tuple(Channel(name=n, quantity="acceleration", unit="g", location="", axis="") for n in "ab")
+        operating = Operating(shaft="shaft", speed_hz=29.95)
+        return Recording(sampling_rate_hz=48_000.0, channels=channels, samples=rows, operating=operating)
+
+    gate = inspect_measurement(
+        [short(dull=False)], [short(dull=True)], orders=(), mesh_orders=(), lowest_order=1.0, seed=0
+    )
+    assert any(f.kind == "too_short" for f in gate.findings)
+    assert any(f.kind == "loose_sensor" and f.channel == "a" for f in gate.findings)

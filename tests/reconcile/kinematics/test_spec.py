@@ -140,3 +140,26 @@ def test_a_bearing_that_the_catalogue_lacks_is_refused_with_what_is_near_and_how
     # a bearing that the catalogue leaves out says why
     left_out = next(iter(missing()))
     assert "left out: " in problems(spec(bearings=[bearing(catalogue=left_out)]))[0].message
+
+
+def test_speeds_of_two_shafts_must_fit_the_teeth_between_them() -> None:
+    def read(speed_hz: float | None) -> None:
+        output = {"name": "output"} if speed_hz is None else {"name": "output", "speed_hz": speed_hz}
+        read_kinematic_spec(
+            {
+                "kinematics": {
+                    "name": "rig",
+                    "shafts": [{"name": "rotor", "speed_hz": 29.95}, output],
+                    "gears": [
+                        {"name": "a", "shaft": "rotor", "teeth": 20},
+                        {"name": "b", "shaft": "output", "teeth": 60},
+                    ],
+                    "meshes": [{"name": "mesh1", "gears": ["a", "b"]}],
+                }
+            }
+        )
+
+    read(None)
+    read(9.98)
+    with pytest.raises(SpecError, match=r"turn output at 9\.983 Hz, but its speed_hz is 20"):
+        read(20.0)
