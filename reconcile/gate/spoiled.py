@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from reconcile.gate.findings import Gate, Kind
+from reconcile.verdict import SensorFault
 
 SPOILING: frozenset[Kind] = frozenset(
     ("not_finite", "silence", "stuck", "dropouts", "clipped", "mains_hum", "alias", "gain_change")
@@ -35,12 +36,23 @@ HEARD: frozenset[Kind] = frozenset(("loose_sensor", "gain_change"))
 """What a machine's own fault may look like on one channel."""
 
 
+def fault_sentence(fault: SensorFault) -> str:
+    """What is wrong with the measurement, for the answer; a damaged part beside a sensor may look like a loose one."""
+    place = f" on {fault.channel}" if fault.channel else ""
+    text = f"The mismatch is in the measurement: {fault.kind.replace('_', ' ')}{place} ({fault.detail})."
+    if fault.kind == "loose_sensor":
+        text += " If the sensor is tight, a damaged part near it may do the same."
+    return text
+
+
 def doubts(gate: Gate) -> tuple[str, ...]:
     """What is wrong with the measurement, as limits of an answer that is about the machine."""
     told = []
+    heard = gate.tests[0].names if gate.tests else ()
     for found in (f for f in gate.findings if f.fault):
         where = " of ".join(part for part in (found.channel, found.recording) if part)
         maybe = " (or what the machine does there)" if found.kind in HEARD else ""
-        told.append(f"{where}: {found.kind.replace('_', ' ')}, {found.detail}{maybe}")
+        gone = "; the channel was left out" if found.channel and found.channel not in heard else ""
+        told.append(f"{where}: {found.kind.replace('_', ' ')}, {found.detail}{maybe}{gone}")
     more = (f"and {len(told) - MOST_TOLD} more findings of the sensor gate",) if len(told) > MOST_TOLD else ()
     return (*told[:MOST_TOLD], *more)

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from reconcile.gate import Gate, inspect_measurement
-from reconcile.gate.spoiled import GONE, without_spoiled
+from reconcile.gate.spoiled import GONE, fault_sentence, without_spoiled
 from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.apart import with_speeds
 from reconcile.kinematics.doubted import Judged, against_rivals, factor_of, restated
@@ -216,11 +216,9 @@ def _with_rest(
 
 def _fault(gate: Gate) -> Report:
     assert gate.fault is not None
-    channel = f" on {gate.fault.channel}" if gate.fault.channel else ""
-    kind = gate.fault.kind.replace("_", " ")
     return Report(
         verdict="measurement_fault",
-        sentence=f"The mismatch is in the measurement: {kind}{channel} ({gate.fault.detail})."
+        sentence=fault_sentence(gate.fault)
         + (" Apart from it these kinematics show nothing missing." if gate.usable else ""),
         level="kinematics",
         fault=gate.fault,

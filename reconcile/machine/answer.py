@@ -10,7 +10,7 @@ import numpy as np
 from reconcile.atlas.keep import ATLAS_VERSION
 from reconcile.atlas.places import sensor_sites
 from reconcile.gate.findings import Gate
-from reconcile.gate.spoiled import doubts
+from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import Decision, decide
 from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
@@ -49,7 +49,7 @@ def fault_answer(gate: Gate, *, level: Level) -> Report:
     fault = gate.fault or SensorFault(kind="not_finite", channel="", detail="no usable channel")
     return Report(
         verdict="measurement_fault",
-        sentence=f"The mismatch is in the measurement: {fault.detail}.",
+        sentence=fault_sentence(fault),
         level=level,
         fault=fault,
         stages=(gate_stage(gate),),
@@ -176,7 +176,7 @@ def _told(
         return word, text, None
     # a fault that is sure goes before a rest of which nothing can be told
     rest = "" if word == "nothing_missing" else " What differs on the other channels is too faint to tell."
-    return "measurement_fault", f"The mismatch is in the measurement: {gate.fault.detail}.{rest}", gate.fault
+    return "measurement_fault", f"{fault_sentence(gate.fault)}{rest}", gate.fault
 
 
 def _with_second(weights: Mapping[str, float], other: Beside | None) -> dict[str, float]:
