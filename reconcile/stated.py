@@ -10,7 +10,7 @@ from reconcile.speed.estimate import ENOUGH
 from reconcile.told import place
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
-from sim.core.near import did_you_mean
+from sim.core.near import did_you_mean, near
 
 PER_MINUTE = 60.0
 FAST_HZ = 200.0
@@ -21,6 +21,9 @@ USUAL = 0.1
 """A stated speed this near a nominal one is in the unit of the drawing."""
 SURE = 0.99
 """Confidence from which lines at a sixtieth of the stated speed speak against it."""
+
+SLIP = 0.85
+"""Likeness (difflib's ratio) to a part's name from which a place is a misspelt part."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,7 +69,10 @@ def check_shafts(known: Sequence[str], several: Sequence[Given]) -> None:
 
 
 def check_locations(parts: Sequence[str], several: Sequence[Given]) -> None:
-    """SpecError for channels that sit at no part; an empty location is one that is not known."""
+    """SpecError for channels whose location is nearly the name of a part: a slip of the pen.
+
+    An empty location is one that is not known; other places that are no part are told by `unplaced`.
+    """
     problems = [
         Problem(
             field=one.field(f"channels.{c.name}.location"),
@@ -76,10 +82,22 @@ def check_locations(parts: Sequence[str], several: Sequence[Given]) -> None:
         )
         for one in several
         for c in one.recording.channels
-        if c.location and c.location not in parts
+        if c.location not in parts and near(c.location, parts, like=SLIP)
     ]
     if problems:
         raise SpecError(problems)
+
+
+def unplaced(parts: Sequence[str], several: Sequence[Given]) -> tuple[str, ...]:
+    """What the report says of channels at no part of the machine: they count, but at no place."""
+    names: dict[str, list[str]] = {}
+    for c in (c for one in several for c in one.recording.channels):
+        if c.location and c.location not in parts and c.name not in names.setdefault(c.location, []):
+            names[c.location].append(c.name)
+    return tuple(
+        f"{', '.join(channels)} at {location}: no part of this machine, so the place is taken as not known"
+        for location, channels in names.items()
+    )
 
 
 def check_speeds(nominal: Mapping[str, float | None], field: str, several: Sequence[Given]) -> None:
