@@ -25,6 +25,7 @@ from reconcile.machine.window import angle_window
 from reconcile.machine.words import law_sentence, next_experiment, sentence, size, title, with_points
 from reconcile.observe.features import Layout
 from reconcile.observe.watch import WatchList, watch_list
+from reconcile.origin import origin
 from reconcile.verdict import (
     Cause,
     HeldOut,
@@ -37,7 +38,6 @@ from reconcile.verdict import (
     Where,
     Word,
 )
-from sim.version import PHYSICS_VERSION
 
 ONE_SENSOR = "one sensor cannot locate a broadband force: places rest on the spectra the machine model predicts"
 NO_BASELINE = "without a baseline the machine's parameters and the sensors' paths were fitted to the test itself"
@@ -142,7 +142,7 @@ def answer(
             "paths": paths(setting),
             "heat": turn_maps(setting.machine, setting.data, setting.channels, where.angle_window),
         },
-        provenance=_provenance(setting, {"core_s": meter.spent_s(), **cost}),
+        provenance=_provenance(setting, meter, cost),
     )
 
 
@@ -275,11 +275,9 @@ def _revisions(revision: Revised | None) -> tuple[Mapping[str, object], ...]:
     )
 
 
-def _provenance(setting: Setting, cost: Mapping[str, object]) -> Mapping[str, object]:
+def _provenance(setting: Setting, meter: Meter, cost: Mapping[str, object]) -> Mapping[str, object]:
     return {
-        "physics_version": PHYSICS_VERSION,
+        **origin(setting.seed, meter.spent_s(), **cost),
         "atlas_version": ATLAS_VERSION,
-        "seed": setting.seed,
         "draws": len(setting.plan.draws),
-        "cost": dict(cost),
     }

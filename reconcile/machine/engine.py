@@ -38,6 +38,7 @@ from reconcile.machine.setting import Found, Setting
 from reconcile.machine.unknown import Unknown, unknown_force
 from reconcile.observe.observation import PointData, observe
 from reconcile.observe.watch import watch_list
+from reconcile.origin import origin
 from reconcile.verdict import Report
 from signals.recording import Recording
 from sim.core.spec import MachineSpec
@@ -71,7 +72,7 @@ def reconcile_machine(
     progress(0.0, "sensor gate")
     gate = _gate(machine, tests, baselines, seed)
     if not gate.usable:
-        return fault_answer(gate, level="machine")
+        return replace(fault_answer(gate, level="machine"), provenance=origin(seed, meter.spent_s()))
     gate = without_spoiled(gate)
     paired = with_tooth_pairs(machine)
     chosen = candidates(paired) if nominated is None else tuple(nominated)
@@ -80,7 +81,7 @@ def reconcile_machine(
     data = observe(machine, watch_list(machine), sorted(gate.tests, key=_place), gate.baselines, seed=seed)
     factor = rival_speed(machine, data, gate.tests[0].channels)
     if factor is not None:
-        return doubted_speed(factor, data)
+        return replace(doubted_speed(factor, data), provenance=origin(seed, meter.spent_s()))
     setting = _setting(machine, gate, data, plan, keeper or Forgetful(), meter, progress)
     atlas_s = meter.spent_s()
     progress(0.6, "candidates")
