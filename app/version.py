@@ -2,14 +2,6 @@
 
 from __future__ import annotations
 
-from importlib.metadata import PackageNotFoundError, version
+from reconcile.origin import PACKAGE_VERSION
 
-
-def _installed() -> str:
-    try:
-        return version("sideband")
-    except PackageNotFoundError:
-        return "0.1.0"
-
-
-VERSION = _installed()
+VERSION = PACKAGE_VERSION

@@ -13,7 +13,7 @@ from reconcile.driven import reconcile_driven
 from reconcile.kinematics import KinematicSpec, reconcile_kinematics
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.engine import Progress, reconcile_machine
-from reconcile.stated import check_locations, check_shafts, check_speeds, given
+from reconcile.stated import check_locations, check_shafts, check_speeds, given, unplaced
 from reconcile.told import about, place, sent_as
 from reconcile.verdict import Report
 from signals.recording import Recording
@@ -99,7 +99,7 @@ def check_descriptions(
     several = given(tests, baselines)
     check_shafts([s.name for s in machine.shafts], several)
     if isinstance(machine, KinematicSpec):
-        if len(machine.parts) > len(machine.shafts):  # a file of shafts alone has no place to name
+        if _has_places(machine):
             check_locations(machine.parts, several)
         speeds, field = {s.name: s.speed_hz for s in machine.shafts}, "kinematics.shafts.{shaft}.speed_hz"
     else:
@@ -109,6 +109,11 @@ def check_descriptions(
         speeds = {operating.shaft: operating.speed_hz} if operating is not None else {}
         field = "machine.operating.speed_hz"
     check_speeds(speeds, field, several)
+
+
+def _has_places(machine: KinematicSpec) -> bool:
+    """A file of shafts alone has no place to name."""
+    return len(machine.parts) > len(machine.shafts)
 
 
 def reconcile_recordings(
@@ -137,7 +142,10 @@ def reconcile_recordings(
     check_descriptions(machine, tests, baselines)
     check_channels(tests, baselines)
     if isinstance(machine, KinematicSpec):
-        return _with_labels(reconcile_kinematics(machine, tests, baselines, seed=seed), sent)
+        report = reconcile_kinematics(machine, tests, baselines, seed=seed)
+        remarks = unplaced(machine.parts, given(tests, baselines)) if _has_places(machine) else ()
+        where = replace(report.where, limits=(*report.where.limits, *remarks))
+        return _with_labels(replace(report, where=where), sent)
     report = reconcile_machine(
         machine,
         tests,

@@ -10,15 +10,20 @@ from reconcile.speed.estimate import ENOUGH
 from reconcile.told import place
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
-from sim.core.near import did_you_mean
+from sim.core.near import did_you_mean, near
 
 PER_MINUTE = 60.0
 FAST_HZ = 200.0
 """12000 rpm: machines seldom turn faster, and rpm mistaken for Hz mostly lie above."""
-SAME, ROUGH = 0.05, 0.25
-"""By which a factor of 60 may be missed: slip and labels; above `FAST_HZ` a machine of several speeds too."""
+SAME = 0.05
+"""By which a factor of 60 may be missed: slip and labels."""
+USUAL = 0.1
+"""A stated speed this near a nominal one is in the unit of the drawing."""
 SURE = 0.99
 """Confidence from which lines at a sixtieth of the stated speed speak against it."""
+
+SLIP = 0.85
+"""Likeness (difflib's ratio) to a part's name from which a place is a misspelt part."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,7 +69,10 @@ def check_shafts(known: Sequence[str], several: Sequence[Given]) -> None:
 
 
 def check_locations(parts: Sequence[str], several: Sequence[Given]) -> None:
-    """SpecError for channels that sit at no part; an empty location is one that is not known."""
+    """SpecError for channels whose location is nearly the name of a part: a slip of the pen.
+
+    An empty location is one that is not known; other places that are no part are told by `unplaced`.
+    """
     problems = [
         Problem(
             field=one.field(f"channels.{c.name}.location"),
@@ -74,10 +82,22 @@ def check_locations(parts: Sequence[str], several: Sequence[Given]) -> None:
         )
         for one in several
         for c in one.recording.channels
-        if c.location and c.location not in parts
+        if c.location not in parts and near(c.location, parts, like=SLIP)
     ]
     if problems:
         raise SpecError(problems)
+
+
+def unplaced(parts: Sequence[str], several: Sequence[Given]) -> tuple[str, ...]:
+    """What the report says of channels at no part of the machine: they count, but at no place."""
+    names: dict[str, list[str]] = {}
+    for c in (c for one in several for c in one.recording.channels):
+        if c.location and c.location not in parts and c.name not in names.setdefault(c.location, []):
+            names[c.location].append(c.name)
+    return tuple(
+        f"{', '.join(channels)} at {location}: no part of this machine, so the place is taken as not known"
+        for location, channels in names.items()
+    )
 
 
 def check_speeds(nominal: Mapping[str, float | None], field: str, several: Sequence[Given]) -> None:
@@ -85,7 +105,8 @@ def check_speeds(nominal: Mapping[str, float | None], field: str, several: Seque
 
     `nominal`: speed of each shaft in Hz as the machine has it (None: not known), in `field`, `{shaft}` standing for
     the name. A stated speed is held against pulses, the nominal speed, the other recordings, Nyquist's frequency and,
-    above 200 Hz, the lines of the shaft.
+    above 200 Hz, the lines of the shaft. A machine may be recorded at a slow roll too: a speed that its lines or the
+    nominal speed confirm stands.
     """
     problems = []
     for one in several:
@@ -111,8 +132,7 @@ def _rpm(field: str, speed: float, why: str) -> Problem:
 
 def sixty_times(large: float, small: float) -> bool:
     """Whether `large` may be `small` in rpm."""
-    miss = abs(large / (PER_MINUTE * small) - 1.0)
-    return miss <= (ROUGH if large > FAST_HZ else SAME)
+    return abs(large / (PER_MINUTE * small) - 1.0) <= SAME
 
 
 def _contradicted(
@@ -123,6 +143,25 @@ def _contradicted(
     pulses = _pulses_hz(one.recording, shaft)
     if pulses is not None:
         return f"its tacho says {pulses:.4g} Hz" if sixty_times(speed, pulses) else None
+    if _is_usual(shaft, speed, nominal):
+        return None
+    why = _sixtieth(shaft, speed, nominal, several)
+    if why is not None:
+        return None if _confirmed(one.recording, speed) else why
+    if speed >= one.recording.sampling_rate_hz / 2:
+        return f"half the sampling rate is {one.recording.sampling_rate_hz / 2:.4g} Hz"
+    return _by_lines(one.recording, speed) if speed > FAST_HZ else None
+
+
+def _is_usual(shaft: str, speed: float, nominal: Mapping[str, float | None]) -> bool:
+    """Whether the speed is about the shaft's nominal one; where that is not known, about one of the machine."""
+    own = nominal.get(shaft)
+    known = [own] if own else [n for n in nominal.values() if n]
+    return any(abs(speed / n - 1.0) <= USUAL for n in known)
+
+
+def _sixtieth(shaft: str, speed: float, nominal: Mapping[str, float | None], several: Sequence[Given]) -> str | None:
+    """What else has the shaft at a sixtieth of the speed, or None."""
     usual = nominal.get(shaft)
     if usual and sixty_times(speed, usual):
         return f"the machine's nominal speed is {usual:.4g} Hz"
@@ -131,9 +170,7 @@ def _contradicted(
         # a slow run beside a usual one may well differ by that factor
         if there is not None and there[0] == shaft and speed > FAST_HZ and sixty_times(speed, there[1]):
             return f"{other.field('operating.speed_hz')} is {there[1]:.4g}"
-    if speed >= one.recording.sampling_rate_hz / 2:
-        return f"half the sampling rate is {one.recording.sampling_rate_hz / 2:.4g} Hz"
-    return _by_lines(one.recording, speed) if speed > FAST_HZ else None
+    return None
 
 
 def _pulses_hz(recording: Recording, shaft: str) -> float | None:
@@ -144,26 +181,43 @@ def _pulses_hz(recording: Recording, shaft: str) -> float | None:
     return (tacho.pulse_times_s.size - 1) / span / tacho.pulses_per_revolution if span > 0 else None
 
 
+def _certainty(recording: Recording, speed: float) -> float:
+    """Confidence of the lines (or pulses) of the shaft at about this speed; 0 where it cannot be read."""
+    try:
+        return estimate_speed(recording, stated_hz=speed).confidence
+    except SpecError:
+        return 0.0
+
+
+def _confirmed(recording: Recording, speed: float) -> bool:
+    """Lines of a shaft at the speed, and none at a sixtieth of it, of which they might be high harmonics or teeth."""
+    return _certainty(recording, speed) >= ENOUGH and _certainty(recording, speed / PER_MINUTE) < SURE
+
+
 def _by_lines(recording: Recording, speed: float) -> str | None:
     """Lines of a shaft at a sixtieth of the speed where there are none at the speed."""
-    try:
-        if estimate_speed(recording, stated_hz=speed).confidence >= ENOUGH:
-            return None
-        slow = estimate_speed(recording, stated_hz=speed / PER_MINUTE)
-    except SpecError:
+    if _certainty(recording, speed) >= ENOUGH or _certainty(recording, speed / PER_MINUTE) < SURE:
         return None
-    if slow.confidence < SURE:
-        return None
+    slow = estimate_speed(recording, stated_hz=speed / PER_MINUTE)
     return f"lines of a shaft stand at multiples of {slow.speed_hz:.4g} Hz, none at those of {speed:.4g} Hz"
 
 
 def _nominal_in_rpm(nominal: Mapping[str, float | None], field: str, several: Sequence[Given]) -> Iterator[Problem]:
-    """Speeds of the machine that are 60 times those of a recording, and high."""
+    """Speeds of the machine that are 60 times those of a recording, and high; slow rolls of fast machines are none.
+
+    A slow roll is one whose own lines confirm it, or beside which the nominal speed is recorded.
+    """
     for shaft, usual in nominal.items():
         if usual is None or usual <= FAST_HZ:
             continue
-        for one in several:
-            there = _stated(one)
-            if there is not None and there[0] == shaft and sixty_times(usual, there[1]):
-                yield _rpm(field.format(shaft=shaft), usual, f"{one.field('operating.speed_hz')} is {there[1]:.4g}")
-                break
+        here = [(one, speed) for one in several for name, speed in filter(None, [_stated(one)]) if name == shaft]
+        slow = next(((one, speed) for one, speed in here if sixty_times(usual, speed)), None)
+        if slow is None or any(_runs_at(usual, one.recording, speed) for one, speed in here):
+            continue
+        if _certainty(slow[0].recording, slow[1]) < ENOUGH:
+            yield _rpm(field.format(shaft=shaft), usual, f"{slow[0].field('operating.speed_hz')} is {slow[1]:.4g}")
+
+
+def _runs_at(usual: float, recording: Recording, speed: float) -> bool:
+    """Whether it states about this speed and its lines don't speak against that."""
+    return abs(speed / usual - 1.0) <= USUAL and _by_lines(recording, speed) is None

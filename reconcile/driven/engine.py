@@ -13,12 +13,12 @@ from reconcile.driven.forced import analyse
 from reconcile.driven.machine import driven_site
 from reconcile.driven.prescribed.answer import reconcile_prescribed
 from reconcile.driven.split import parts_of
+from reconcile.origin import origin
 from reconcile.told import about, place
 from reconcile.verdict import Report
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec
-from sim.version import PHYSICS_VERSION
 
 LEAST_SAMPLES = 3000
 """Of one recording: three parts, each with a fit and blocks of its own."""
@@ -76,8 +76,6 @@ def reconcile_driven(
     driven_site(spec)
     data = _checked(spec, tests)
     provenance: dict[str, object] = {
-        "physics_version": PHYSICS_VERSION,
-        "seed": seed,
         "recordings": len(tests),
         "baselines_not_used": len(baselines),
     }
@@ -85,5 +83,4 @@ def reconcile_driven(
         report = reconcile_prescribed(spec, parts_of(data), seed=seed, provenance=provenance, assumed=data[0].assumed)
     else:
         report = answer(spec, analyse(parts_of(data), seed), seed=seed, provenance=provenance)
-    cost = {"core_seconds": time.process_time() - started}
-    return replace(report, provenance={**report.provenance, **cost})
+    return replace(report, provenance={**origin(seed, time.process_time() - started), **report.provenance})

@@ -1,4 +1,4 @@
-"""Stages, pictures and provenance of a report."""
+"""Stages and pictures of a report."""
 
 from __future__ import annotations
 
@@ -18,10 +18,9 @@ def finished(
     gate: Gate,
     tests: Sequence[Observation],
     every: Sequence[Candidate],
-    seed: int,
     baselines: Sequence[Observation] = (),
 ) -> Report:
-    """The report with its stages, pictures and provenance."""
+    """The report with its stages and pictures."""
     stages: list[Mapping[str, object]] = [
         {"name": "gate", "findings": [f"{f.recording} {f.channel}: {f.kind}, {f.detail}" for f in gate.findings]},
         {
@@ -43,7 +42,7 @@ def finished(
     if report.verdict != "measurement_fault":
         report = replace(report, where=replace(report.where, limits=(*report.where.limits, *doubts(gate))))
     pictures = envelope_picture(every, tests, baselines)
-    return replace(report, stages=tuple(stages), pictures=pictures, provenance={"seed": seed, "level": "kinematics"})
+    return replace(report, stages=tuple(stages), pictures=pictures)
 
 
 def _row(c: Candidate) -> dict[str, object]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
@@ -32,6 +33,7 @@ from reconcile.kinematics.vague import (
     shaft_report,
     turn_report,
 )
+from reconcile.origin import origin
 from reconcile.told import about
 from reconcile.verdict import LineChange, Report
 from signals.recording import Recording
@@ -48,6 +50,15 @@ def reconcile_kinematics(
     Without baselines only what sound machines never show is named. Sizes are given only where the signal itself
     measures them.
     """
+    started = time.process_time()
+    report = _reconciled(spec, tests, baselines, seed)
+    provenance = {**origin(seed, time.process_time() - started), "level": "kinematics"}
+    return replace(report, provenance=provenance)
+
+
+def _reconciled(
+    spec: KinematicSpec | MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording], seed: int
+) -> Report:
     known = of_machine(spec) if isinstance(spec, MachineSpec) else spec
     operating = tests[0].operating if tests else None
     tie = ties(known, operating.shaft if operating else None)
@@ -60,21 +71,21 @@ def reconcile_kinematics(
         seed=seed,
     )
     if not gate.usable:
-        return finished(_fault(gate), gate, (), (), seed)
+        return finished(_fault(gate), gate, (), ())
     gate = without_spoiled(gate, GONE)
     stated = {s.name: s.speed_hz for s in known.shafts}[tie.reference]
     try:
         seen = _observed(gate.tests, "test", tie, stated, seed)
         past = _observed(gate.baselines, "baseline", tie, stated, seed)
     except SpecError as error:
-        return finished(_refused(error), gate, (), (), seed)
+        return finished(_refused(error), gate, (), ())
     report, every = _judged(known, tie, seen, past, seed)
     at = partial(_at_rival, known, tie, (gate.tests, seen), (gate.baselines, past), seed)
     report = with_speeds(against_rivals(Judged(report=report, every=every), seen, tie, at), seen, past)
     report = remarked(report, tie, seen, past, every, seed)
     if report.verdict in ("nothing_missing", "not_decidable") and gate.fault is not None:
         report = _fault(gate)
-    return finished(report, gate, seen, every, seed, past)
+    return finished(report, gate, seen, every, past)
 
 
 def _observed(

@@ -25,6 +25,7 @@ from reconcile.machine.window import angle_window
 from reconcile.machine.words import law_sentence, next_experiment, sentence, size, title, with_points
 from reconcile.observe.features import Layout
 from reconcile.observe.watch import WatchList, watch_list
+from reconcile.origin import origin
 from reconcile.verdict import (
     Cause,
     HeldOut,
@@ -37,7 +38,6 @@ from reconcile.verdict import (
     Where,
     Word,
 )
-from sim.version import PHYSICS_VERSION
 
 ONE_SENSOR = "one sensor cannot locate a broadband force: places rest on the spectra the machine model predicts"
 NO_BASELINE = "without a baseline the machine's parameters and the sensors' paths were fitted to the test itself"
@@ -145,7 +145,7 @@ def answer(
             "paths": paths(setting),
             "heat": turn_maps(setting.machine, setting.data, setting.channels, where.angle_window),
         },
-        provenance=provenance(setting.seed, len(setting.plan.draws), {"core_s": meter.spent_s(), **cost}),
+        provenance=provenance(setting.seed, len(setting.plan.draws), meter, cost),
     )
 
 
@@ -287,12 +287,10 @@ def _revisions(revision: Revised | None) -> tuple[Mapping[str, object], ...]:
     )
 
 
-def provenance(seed: int, draws: int, cost: Mapping[str, object]) -> Mapping[str, object]:
+def provenance(seed: int, draws: int, meter: Meter, cost: Mapping[str, object]) -> Mapping[str, object]:
     """Versions, seed and cost."""
     return {
-        "physics_version": PHYSICS_VERSION,
+        **origin(seed, meter.spent_s(), **cost),
         "atlas_version": ATLAS_VERSION,
-        "seed": seed,
         "draws": draws,
-        "cost": dict(cost),
     }

@@ -97,7 +97,7 @@ def reconcile_machine(
 
 def _told_by(meter: Meter, seed: int, budget: Budget) -> Mapping[str, object]:
     """Provenance where nothing was simulated."""
-    return provenance(seed, 0, {"core_s": meter.spent_s(), "budget": budget.name})
+    return provenance(seed, 0, meter, {"budget": budget.name})
 
 
 def _answered(

@@ -89,6 +89,7 @@ def test_nothing_is_simulated_at_a_doubted_speed(machine: MachineSpec) -> None:
     wrong = turning(machine, 3, true_hz=30.0, stated_hz=60.0)
     report = reconcile_machine(machine, [wrong], keeper=Unused())
     assert report.verdict == "not_decidable" and not report.causes
+    assert {"physics_version", "package_version", "seed", "cost"} <= set(report.provenance)
     assert "60 Hz" in report.sentence and "30 Hz" in report.sentence
     assert report.next_experiment is not None and "tacho" in report.next_experiment.sentence
     assert report.stages[0]["name"] == "sensor gate"
