@@ -13,7 +13,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import BinaryIO
 
-from signals.readers.formats import HDF5_SIGNATURE, SIGNATURE_AT, suffix_of
+from signals.readers.borders import borders, is_binary, without_mark
+from signals.readers.formats import HDF5_SIGNATURE, hdf5_begins, suffix_of
+from signals.readers.riff import OPEN_ENDED, samples_of
 
 _UNKNOWN = (0, 2**32 - 1, 2**64 - 1)
 """Lengths that writers leave where they do not know them (a stream, a logger that was stopped)."""
@@ -92,37 +94,29 @@ def _mat4(stream: BinaryIO, size: int) -> str:
 
 def _hdf5(stream: BinaryIO, size: int) -> str:
     """Superblock, HDF5 File Format Specification 3.0, II.A: its end-of-file address."""
-    for at in SIGNATURE_AT:
-        stream.seek(at)
-        block = stream.read(64)
-        if not block.startswith(HDF5_SIGNATURE):
-            continue
-        if len(block) < 64:
-            return _cut(size, at + 64)
-        version = block[8]
-        end = {0: 40, 1: 44, 2: 28, 3: 28}.get(version)
-        if end is None or block[13 if version < 2 else 9] != 8:
-            return ""
-        (stated,) = struct.unpack("<Q", block[end : end + 8])
-        return "" if stated in _UNKNOWN else _cut(size, stated)
-    return _cut(size, 1024) if size < 520 else _FOREIGN
+    at = hdf5_begins(stream, size)
+    if at is None:
+        return _cut(size, 1024) if size < 520 else _FOREIGN
+    stream.seek(at)
+    block = stream.read(64)
+    if len(block) < 64:
+        return _cut(size, at + 64)
+    version = block[8]
+    end = {0: 40, 1: 44, 2: 28, 3: 28}.get(version)
+    if end is None or block[13 if version < 2 else 9] != 8:
+        return ""
+    (stated,) = struct.unpack("<Q", block[end : end + 8])
+    return "" if stated in _UNKNOWN else _cut(size, stated)
 
 
 def _wave(stream: BinaryIO, size: int) -> str:
     head = stream.read(12)
     if head[:4] not in (b"RIFF", b"RIFX", b"RF64") or head[8:] != b"WAVE":
         return _FOREIGN if len(head) == 12 or not b"RIFF".startswith(head[:4]) else _cut(size, 44)
-    order, at = ">" if head[:4] == b"RIFX" else "<", 12
-    for _ in range(_MOST_PARTS):
-        stream.seek(at)
-        tag = stream.read(8)
-        if len(tag) < 8:
-            return "is cut short: no samples are in it"
-        length = struct.unpack(f"{order}I", tag[4:])[0]
-        if tag[:4] == b"data":
-            return "" if length in _UNKNOWN else _cut(size, at + 8 + length)
-        at += 8 + length + length % 2
-    return ""
+    found = samples_of(stream)
+    if found is None:
+        return "is cut short: no samples are in it"
+    return "" if found.length in (0, *OPEN_ENDED) else _cut(size, found.at + found.length)
 
 
 def _zip(stream: BinaryIO, _size: int) -> str:
@@ -162,14 +156,14 @@ def _tdms(stream: BinaryIO, size: int) -> str:
 
 def _uff(stream: BinaryIO, size: int) -> str:
     """Datasets stand between lines of -1."""
-    head = stream.read(4096)
+    head = without_mark(stream.read(4096))
     if not re.match(rb"\s*-1\s", head):
         return _FOREIGN
-    if size > _SCAN_BYTES or re.search(rb"^\s*58b", head, re.MULTILINE):
+    if size > _SCAN_BYTES:
         return ""
     stream.seek(0)
-    odd = len(re.findall(rb"^ {4}-1\s*$", stream.read(), re.MULTILINE)) % 2
-    return "is cut short: its last dataset has no end" if odd else ""
+    content = without_mark(stream.read())
+    return "" if is_binary(content) or borders(content)[1] else "is cut short: its last dataset has no end"
 
 
 def _begins(*signatures: bytes) -> Callable[[BinaryIO, int], str]:

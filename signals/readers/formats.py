@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePath
 from types import MappingProxyType
-from typing import cast
+from typing import BinaryIO, cast
 
 from signals.readers.contents import Reader
 from sim.core.errors import Problem, SpecError
@@ -58,17 +58,29 @@ def suffix_of(path: PurePath) -> str:
 
 
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
-SIGNATURE_AT = (0, 512)
-"""HDF5 File Format Specification 3.0, II.A: at 0, or after a user block; MATLAB's has 512 bytes."""
+_LEAST_USER_BLOCK = 512
+
+
+def hdf5_begins(stream: BinaryIO, size: int) -> int | None:
+    """Where the signature stands, or None.
+
+    HDF5 File Format Specification 3.0, II.A: at 0, or after a user block of 512 (as MATLAB's), 1024, 2048 ... bytes.
+    """
+    at = 0
+    while at < size:
+        stream.seek(at)
+        if stream.read(len(HDF5_SIGNATURE)) == HDF5_SIGNATURE:
+            return at
+        at = 2 * at or _LEAST_USER_BLOCK
+    return None
 
 
 def _is_hdf5(path: Path) -> bool:
     try:
         with path.open("rb") as stream:
-            head = stream.read(1024)
+            return hdf5_begins(stream, path.stat().st_size) is not None
     except OSError:
         return False
-    return any(head[at : at + len(HDF5_SIGNATURE)] == HDF5_SIGNATURE for at in SIGNATURE_AT)
 
 
 def format_of(path: Path) -> Format:

@@ -6,11 +6,13 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 import pyuff
 
+from signals.readers.borders import is_binary, without_false_borders, without_mark
 from signals.readers.contents import AnyArray, Contents, Entry, numeric, refused, told
 from signals.readers.limits import Bounds
 
@@ -27,10 +29,7 @@ def open_file(path: Path, bounds: Bounds) -> Iterator[Contents]:
     allowed = bounds.unpacked_bytes // _FACTOR
     bounds.check(path.name, message="is too large for this format", given=size, allowed=allowed, unit="bytes")
     with told(path):
-        file = pyuff.UFF(str(path))
-        kinds = [int(kind) for kind in file.get_set_types()]
-        bounds.check_members(path.name, len(kinds), "datasets")
-        sets = [file.read_sets(i) for i, kind in enumerate(kinds) if kind == 58]
+        sets = _sets(path, bounds)
         entries: dict[str, Entry] = {}
         for i, one in enumerate(sets):
             name = str(one.get("id1", "")).strip()
@@ -39,6 +38,25 @@ def open_file(path: Path, bounds: Bounds) -> Iterator[Contents]:
     if not entries:
         raise refused(path, "no dataset 58 is in it")
     yield Contents(entries=entries, numbered=True)
+
+
+def _sets(path: Path, bounds: Bounds) -> list[Mapping[str, Any]]:
+    """The datasets 58; pyuff, which pairs all lines that end in -1, gets a copy where data have such lines."""
+    content = path.read_bytes()
+    mended = None if is_binary(content) else without_false_borders(without_mark(content))
+    if mended is None:
+        return _by_pyuff(path, path, bounds)
+    with TemporaryDirectory() as folder:
+        copy = Path(folder) / path.name
+        copy.write_bytes(mended)
+        return _by_pyuff(path, copy, bounds)
+
+
+def _by_pyuff(path: Path, where: Path, bounds: Bounds) -> list[Mapping[str, Any]]:
+    file = pyuff.UFF(str(where))
+    kinds = [int(kind) for kind in file.get_set_types()]
+    bounds.check_members(path.name, len(kinds), "datasets")
+    return [file.read_sets(i) for i, kind in enumerate(kinds) if kind == 58]
 
 
 def _entry(path: Path, name: str, one: Mapping[str, Any]) -> Entry:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import math
 import struct
@@ -16,8 +17,10 @@ from scipy.io import wavfile
 
 from signals.readers.contents import AnyArray, Contents, Entry, told
 from signals.readers.limits import Bounds
+from signals.readers.riff import OPEN_ENDED, samples_of
 
 _COMMENT_BYTES = 2**20
+_LARGEST_SAMPLE = 8
 
 
 @contextmanager
@@ -28,9 +31,8 @@ def open_file(path: Path, bounds: Bounds) -> Iterator[Contents]:
     """
     with told(path), warnings.catch_warnings():
         warnings.simplefilter("ignore", wavfile.WavFileWarning)  # unknown chunks are no matter
-        rate, values = wavfile.read(path)
-        count = int(values.size)
-        bounds.check(path.name, message="holds too many samples", given=count, allowed=bounds.values, unit="samples")
+        rate, values = wavfile.read(_closed(path, bounds) or path)
+        _check_count(path, int(values.size), bounds)
         samples = np.atleast_2d(_full_scale(values).T)
         written = _comment(path)
     names, scales, exact = _names(samples.shape[0], written)
@@ -39,6 +41,27 @@ def open_file(path: Path, bounds: Bounds) -> Iterator[Contents]:
         for name, row, scale in zip(names, samples, scales, strict=True)
     }
     yield Contents(entries=entries, rate_hz=exact or float(rate), numbered=True)
+
+
+def _check_count(path: Path, count: int, bounds: Bounds) -> None:
+    bounds.check(path.name, message="holds too many samples", given=count, allowed=bounds.values, unit="samples")
+
+
+def _closed(path: Path, bounds: Bounds) -> io.BytesIO | None:
+    """The file with the length of its samples stated, where its writer left that open: as many as whole frames come."""
+    size = path.stat().st_size
+    with path.open("rb") as stream:
+        found = samples_of(stream)
+        stream.seek(0)
+        if found is None or found.length not in OPEN_ENDED or found.frame == 0 or stream.read(4) == b"RF64":
+            return None
+        there = (size - found.at) // found.frame * found.frame
+        if found.length <= there:
+            return None
+        _check_count(path, there // _LARGEST_SAMPLE, bounds)
+        stream.seek(0)
+        head, samples = stream.read(found.at - 4), stream.read(there + 4)[4:]
+    return io.BytesIO(head + struct.pack(f"{found.order}I", there) + samples)
 
 
 def _full_scale(values: AnyArray) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:

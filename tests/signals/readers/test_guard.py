@@ -19,7 +19,6 @@ from scipy.io import savemat
 from signals.encode import encode
 from signals.ingest import Bounds, parse, read_description
 from signals.readers.contents import TEXTS
-from signals.readers.damage import damage
 from signals.readers.formats import FORMATS
 from signals.readers.guard import load_apart, load_carefully
 from signals.readers.load import Want, load
@@ -190,15 +189,6 @@ def test_what_is_whole_but_not_known_keeps_the_parser_s_word(tmp_path) -> None:
     (tmp_path / "r.wav").write_bytes(content)
     with pytest.raises(SpecError, match=r"not read here \(Unknown wave file format: ALAW"):
         parse(ABOUT, tmp_path / "r.wav")
-
-
-def test_a_recorder_that_left_the_length_open_is_read(tmp_path) -> None:
-    _wav(tmp_path / "r.wav")
-    content = bytearray((tmp_path / "r.wav").read_bytes())
-    at = content.index(b"data") + 4
-    content[at : at + 4] = b"\xff\xff\xff\xff"
-    (tmp_path / "r.wav").write_bytes(content)
-    assert damage(tmp_path / "r.wav") == ""
 
 
 def test_texts_keep_what_their_parser_says(tmp_path) -> None:
