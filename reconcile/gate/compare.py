@@ -8,14 +8,16 @@ bands more than their lines, and its neighbours hear it too.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import reduce
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from reconcile.gate.findings import Finding
 from reconcile.gate.levels import Pair
+from reconcile.gate.lines import denied
 from reconcile.gate.robust import robust_swap_order, robust_unit_gain
-from reconcile.gate.units import even_unit_gain, unit_finding, unit_of
+from reconcile.gate.units import even_unit_gain, possible, unit_finding, unit_of
 from signals.recording import Recording
 from signals.series import FloatArray
 
@@ -52,12 +54,18 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
         return swaps
     change = [p.test - p.baseline for p in pairs]
     found: list[Finding] = []
+    quantities = [channel.quantity for channel in pairs[0].channels]
     for c, name in enumerate(names):
-        gain, roughly = _gain(change, c), even_unit_gain(change, c)
+        gain, roughly = _gain(change, c), even_unit_gain(change, c, quantities)
+        unit_gain = roughly if roughly is not None else robust_unit_gain(pairs, c)
+        likely = gain if gain is not None else unit_gain
+        if likely is not None and denied(likely, np.concatenate([p.lines_db[c] for p in pairs])):
+            continue
         if gain is not None:
-            found.append(_gain_finding(gain, change, c, name, len(names)))
-        elif (unit_gain := roughly if roughly is not None else robust_unit_gain(pairs, c)) is not None:
-            found.append(unit_finding(unit_gain, str(unit_of(unit_gain, np.inf)), name))
+            found.append(_gain_finding(gain, change, c, name, quantities))
+        elif unit_gain is not None:
+            unit = unit_of(unit_gain, np.inf, possible(quantities[c]))
+            found.append(unit_finding(unit_gain, str(unit), name, _all_bands(change, c)))
         elif len(names) > 1:
             found += _loose(pairs, change, c, name)
     # all channels by one gain is a change of load or level unless it is a unit
@@ -67,7 +75,7 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
 
 def _gain(change: Sequence[FloatArray], c: int) -> float | None:
     """The one gain, dB, that all bands, lines and floor, of channel `c` changed by at all speeds, or None."""
-    values = np.concatenate([d[c].ravel() for d in change])
+    values = _all_bands(change, c)
     middle = float(np.median(values))
     quarter = float(np.subtract(*np.percentile(values, [75, 25]))) / 2
     edge = float(np.max(np.abs([np.median(d[c]) - middle for d in change])))
@@ -76,11 +84,16 @@ def _gain(change: Sequence[FloatArray], c: int) -> float | None:
     return middle if loud and tail < max(3.0, 0.25 * abs(middle)) else None
 
 
-def _gain_finding(gain: float, change: Sequence[FloatArray], c: int, name: str, channels: int) -> Finding:
-    unit = unit_of(gain)
+def _all_bands(change: Sequence[FloatArray], c: int) -> FloatArray:
+    """The changes, dB, of all bands of channel `c`, lines and floor, at all speeds."""
+    return np.concatenate([d[c].ravel() for d in change])
+
+
+def _gain_finding(gain: float, change: Sequence[FloatArray], c: int, name: str, quantities: Sequence[str]) -> Finding:
+    unit = unit_of(gain, ratios=possible(quantities[c]))
     if unit is not None:
-        return unit_finding(gain, unit, name)
-    others = [float(np.median(np.abs(d[k]))) for d in change for k in range(channels) if k != c]
+        return unit_finding(gain, unit, name, _all_bands(change, c))
+    others = [float(np.median(np.abs(d[k]))) for d in change for k in range(len(quantities)) if k != c]
     quiet = bool(others) and max(others) < max(QUIET_DB, 0.3 * abs(gain))
     detail = f"all bands changed by {gain:+.1f} dB alike" + ("" if others else "; there is no other channel to compare")
     return Finding(
@@ -96,24 +109,29 @@ def _gain_finding(gain: float, change: Sequence[FloatArray], c: int, name: str, 
 
 def _loose(pairs: Sequence[Pair], change: Sequence[FloatArray], c: int, name: str) -> list[Finding]:
     """A filter on one channel: bands changed, lines as the floor, alike at all speeds, no impacts, others quiet."""
-    count = min(d.shape[2] for d in change)
-    own = np.stack([d[c, :, :count] for d in change])
+    shared = reduce(np.intersect1d, [p.band for p in pairs])
+    if not shared.size:
+        return []
+    places = [np.searchsorted(p.band, shared) for p in pairs]
+    own = np.stack([d[c][:, at] for d, at in zip(change, places, strict=True)])
     curve = np.mean(own, axis=(0, 1))
     changed = np.abs(curve) > LOOSE_BAND_DB
     size = float(np.max(np.abs(curve)))
     if size < LOOSE_DB or not np.any(changed):
         return []
     rough = float(np.median(np.max(np.abs(own - curve)[:, :, changed], axis=(0, 1))))
-    impacts = max(float(np.median(p.impacts[c, :count][changed])) for p in pairs)
+    impacts = max(float(np.median(p.impacts[c, at][changed])) for p, at in zip(pairs, places, strict=True))
     impacts = max(
         impacts, *(float(np.percentile(p.crest_change[c], 75)) / CREST_DB for p in pairs if p.crest_change.size)
     )
-    others = [d[k, 0, :count][changed] for d in change for k in range(len(pairs[0].names)) if k != c]
+    rest = [k for k in range(len(pairs[0].names)) if k != c]
+    others = [d[k, 0, at][changed] for d, at in zip(change, places, strict=True) for k in rest]
     loudest = max(float(np.median(np.abs(o))) for o in others)
     if rough > max(LOOSE_ROUGH_DB, ROUGH_SHARE * size) or impacts > LOOSE_IMPACTS or loudest > OTHERS_SHARE * size:
         return []
     top = int(np.argmax(np.abs(curve)))
-    hz = float(pairs[0].centre_hz[top])
+    centre_hz = pairs[0].centre_hz[places[0]]
+    hz = float(centre_hz[top])
     detail = f"its transfer changed by up to {curve[top]:+.0f} dB around {hz:.4g} Hz, lines and noise alike; "
     quiet = loudest <= max(2 * QUIET_DB, QUIET_SHARE * size)
     detail += f"the other channels changed by {loudest:.1f} dB there"
@@ -126,7 +144,7 @@ def _loose(pairs: Sequence[Pair], change: Sequence[FloatArray], c: int, name: st
             severity=float(min(1.0, size / 20)),
             where=f"{hz:.4g} Hz",
             fault=quiet,
-            transfer_db=tuple(zip(map(float, pairs[0].centre_hz), map(float, curve), strict=False)),
+            transfer_db=tuple(zip(map(float, centre_hz), map(float, curve), strict=True)),
         )
     ]
 

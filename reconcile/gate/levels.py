@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
+from reconcile.gate.lines import line_changes
 from signals.recording import Recording
-from signals.series import FloatArray, Series
+from signals.series import FloatArray, IntArray, Series
 from signals.spectra.amplitude import power_spectral_density
+from sim.core.response import Channel
 
 BANDS_PER_OCTAVE = 6
 LOWEST_SHARE = 0.004
@@ -18,6 +19,8 @@ LOWEST_SHARE = 0.004
 SAME_SPEED = 0.03
 QUIET_WIDTH = 0.025
 """Of the sampling rate: wide enough to fall silent between impacts a hundredth of a second apart."""
+QUIET_BANDS = 17
+"""From one width up to 0.45 of the sampling rate."""
 QUIET_SHARE = 0.1
 QUIET_LEAST = 400
 """Values of a band's envelope from which on its tenth is read within half a dB."""
@@ -27,6 +30,8 @@ QUIET_LEAST = 400
 class Levels:
     """dB of power density of one channel: `mean` (lines count) and `floor` (median, lines do not), shape (bands,)."""
 
+    band: IntArray
+    """Places of the bands among those from `LOWEST_SHARE` on: records too coarse for a band leave it out."""
     centre_hz: FloatArray
     mean_db: FloatArray
     floor_db: FloatArray
@@ -48,11 +53,13 @@ def channel_levels(recording: Recording, name: str) -> Levels:
     edges = low * 2 ** (np.arange(int(np.log2(high / low) * BANDS_PER_OCTAVE) + 1) / BANDS_PER_OCTAVE)
     place = np.searchsorted(spectrum.frequency_hz, edges)
     tiny = max(float(np.max(spectrum.values)) * 1e-15, np.finfo(np.float64).tiny)
-    bands = [(a, b) for a, b in pairwise(place) if b - a >= 3]
+    kept = np.flatnonzero(np.diff(place) >= 3)
+    bands = [(int(place[k]), int(place[k + 1])) for k in kept]
     transform = np.fft.rfft(series.samples - np.mean(series.samples))
     quiet, crest = _quiet(transform, series)
     spread = [_kurtosis(transform, spectrum.frequency_hz[a], spectrum.frequency_hz[b - 1], series) for a, b in bands]
     return Levels(
+        band=kept,
         centre_hz=np.array([np.sqrt(spectrum.frequency_hz[a] * spectrum.frequency_hz[b - 1]) for a, b in bands]),
         mean_db=np.array([10 * np.log10(np.mean(spectrum.values[a:b]) + tiny) for a, b in bands]),
         floor_db=np.array([10 * np.log10(np.median(spectrum.values[a:b]) + tiny) for a, b in bands]),
@@ -65,9 +72,9 @@ def channel_levels(recording: Recording, name: str) -> Levels:
 def _quiet(transform: np.ndarray[tuple[int], np.dtype[np.complex128]], series: Series) -> tuple[FloatArray, FloatArray]:
     """(quiet level, mean over it), dB, of bands of equal width; empty for records too short to have a tenth of."""
     width = int(QUIET_WIDTH * series.samples.size)
-    starts = range(width, int(0.45 * series.samples.size) - width, width) if width >= QUIET_LEAST else range(0)
     found = []
-    for start in starts:
+    for band in range(1, QUIET_BANDS + 1) if width >= QUIET_LEAST else ():
+        start = int(band * QUIET_WIDTH * series.samples.size)
         square = np.abs(np.fft.ifft(transform[start : start + width], 2 * width)) ** 2
         tenth, mean = float(np.quantile(square, QUIET_SHARE)), float(np.mean(square))
         tiny = max(mean * 1e-9, np.finfo(np.float64).tiny)
@@ -92,7 +99,9 @@ class Pair:
     """A test recording and the baseline nearest in speed, channel by channel, with the channels both have."""
 
     label: str
-    names: tuple[str, ...]
+    channels: tuple[Channel, ...]
+    band: IntArray
+    """Places of the bands, as of `Levels`: those that both records have."""
     centre_hz: FloatArray
     test: FloatArray
     """(channels, 2, bands) dB: mean, floor."""
@@ -104,6 +113,13 @@ class Pair:
     quiet_baseline: FloatArray
     crest_change: FloatArray
     """(channels, wide bands) dB by which the mean over the quiet moments grew."""
+    lines_db: tuple[FloatArray, ...]
+    """Growth of the baseline's strong lines, of each channel those it has."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the channels."""
+        return tuple(c.name for c in self.channels)
 
     @property
     def quiet_change(self) -> FloatArray:
@@ -125,28 +141,32 @@ def pairs(
         if not near:
             continue
         base = min(near, key=lambda t: t[0])[1]
-        names = tuple(n for n in test.names if n in base.names)
-        if not names:
+        channels = tuple(c for c in test.channels if c.name in base.names)
+        if not channels:
             continue
-        now = [channel_levels(test, n) for n in names]
-        then = [channel_levels(base, n) for n in names]
-        count = min(now[0].centre_hz.size, then[0].centre_hz.size)
+        now = [channel_levels(test, c.name) for c in channels]
+        then = [channel_levels(base, c.name) for c in channels]
+        band, a, b = np.intersect1d(now[0].band, then[0].band, assume_unique=True, return_indices=True)
+        if not band.size:
+            continue
         found.append(
             Pair(
                 label=f"test {i}",
-                names=names,
-                centre_hz=now[0].centre_hz[:count],
-                test=np.stack([np.stack([x.mean_db[:count], x.floor_db[:count]]) for x in now]),
-                baseline=np.stack([np.stack([x.mean_db[:count], x.floor_db[:count]]) for x in then]),
+                channels=channels,
+                band=band,
+                centre_hz=now[0].centre_hz[a],
+                test=np.stack([np.stack([x.mean_db[a], x.floor_db[a]]) for x in now]),
+                baseline=np.stack([np.stack([x.mean_db[b], x.floor_db[b]]) for x in then]),
                 **_quiets(now, then),
-                impacts=np.stack([a.kurtosis[:count] - b.kurtosis[:count] for a, b in zip(now, then, strict=True)]),
+                lines_db=tuple(line_changes(test.series(c.name), base.series(c.name)) for c in channels),
+                impacts=np.stack([x.kurtosis[a] - y.kurtosis[b] for x, y in zip(now, then, strict=True)]),
             )
         )
     return tuple(found)
 
 
 def _quiets(now: Sequence[Levels], then: Sequence[Levels]) -> dict[str, FloatArray]:
-    """Quiet levels of all channels; bands are shares of the rate, so records of any two lengths have the same."""
+    """Quiet levels of all channels: the same bands for records of any two lengths, none if either is too short."""
     wide = min(x.quiet_db.size for x in (*now, *then))
     return {
         "quiet_test": np.stack([x.quiet_db[:wide] for x in now]),

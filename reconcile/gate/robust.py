@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from reconcile.gate.levels import Pair
-from reconcile.gate.units import UNIT_RATIOS
+from reconcile.gate.units import possible
 from signals.series import BoolArray, FloatArray
 
 LEAST_BANDS = 8
@@ -25,10 +25,10 @@ FLOOR_DB = 2.5
 """Half width of the bands that count as the floor of the changes."""
 BELOW_SHARE = 0.05
 """Of the bands may lie below it: a machine's fault takes nothing away, a mount does."""
+EVEN_DB = 1.0
 EVEN_SHARE, HALF_SHARE = 0.4, 0.2
-"""Of the bands, and of each half of them, on the floor: then what is above needs no impacts to be told from a mount,
-which falls on and on. Nor does a floor that rose: a mount raises no whole spectrum."""
-RISEN_DB = 10.0
+"""Of the bands and of each half of them, within `EVEN_DB` of the median of those on the floor: what is above then needs
+no impacts to be told from a mount, which falls on and on, or from noise that a fault adds, here more and there less."""
 IMPACT_DB, IMPACT_SHARE = 1.0, 0.6
 """By which impacts raise a band's mean over its quiet moments, more than noise of any level; in most bands above."""
 DROWNED_DB = 5.0
@@ -64,36 +64,44 @@ def robust_unit_gain(pairs: Sequence[Pair], c: int) -> float | None:
     """The ratio of two units, dB, by which the floor of channel `c` changed while another channel kept its own, or all
     changed by the same; else None. A lone channel has nothing to be held against."""
     floors = [_floor(pairs, k) for k in range(len(pairs[0].names))]
-    ratio = _ratio(floors[c])
-    if ratio is None or len(floors) < 2:
+    ratios = [_ratio(f, channel.quantity) for f, channel in zip(floors, pairs[0].channels, strict=True)]
+    if ratios[c] is None or len(floors) < 2:
         return None
     kept = any(f is not None and f.may_be(0.0) for k, f in enumerate(floors) if k != c)
-    return ratio if kept or all(_ratio(f) == ratio for f in floors) else None
+    return ratios[c] if kept or all(r == ratios[c] for r in ratios) else None
 
 
-def _ratio(floor: Floor | None) -> float | None:
-    """The signed ratio of units, dB, that explains a change."""
-    exact = [sign * 20 * float(np.log10(r)) for r in UNIT_RATIOS.values() for sign in (-1, 1)]
+def _ratio(floor: Floor | None, quantity: str) -> float | None:
+    """The signed ratio of units, dB, that explains a change of a channel of a quantity."""
+    exact = [sign * 20 * float(np.log10(r)) for r in possible(quantity).values() for sign in (-1, 1)]
     fitting = [x for x in exact if floor is not None and floor.may_be(x)]
     return fitting[0] if len(fitting) == 1 else None
 
 
 def _floor(pairs: Sequence[Pair], c: int) -> Floor | None:
     """The floor of the changes of channel `c` over all bands and pairs; None where none can be told."""
-    change = np.concatenate([p.quiet_change[c] for p in pairs])
-    impacts = np.concatenate([p.crest_change[c] for p in pairs])
-    if change.size < LEAST_BANDS:
+    heard = _with_bands(pairs)
+    if not heard:
         return None
+    change = np.concatenate([p.quiet_change[c] for p in heard])
+    impacts = np.concatenate([p.crest_change[c] for p in heard])
     floor = float(np.percentile(change, FLOOR_PERCENTILE))
-    inside = np.asarray(np.abs(change - floor) <= FLOOR_DB)
+    near = change[np.abs(change - floor) <= FLOOR_DB]
+    level = float(np.median(near)) if near.size else floor
+    inside = [np.abs(p.quiet_change[c] - level) <= EVEN_DB for p in heard]
     above = change > floor + FLOOR_DB
     drowned = float(np.median(impacts[~above]))
     if np.mean(change < floor - FLOOR_DB) > BELOW_SHARE or drowned > DROWNED_DB:
         return None
-    halves = [np.mean(part) for p in np.split(inside, len(pairs)) for part in np.array_split(p, 2)]
-    even = floor > RISEN_DB or (np.mean(inside) >= EVEN_SHARE and min(halves) >= HALF_SHARE)
+    halves = [np.mean(part) for p in inside for part in np.array_split(p, 2)]
+    even = np.mean(np.concatenate(inside)) >= EVEN_SHARE and min(halves) >= HALF_SHARE
     by_impacts = not np.any(above) or np.mean(impacts[above] > IMPACT_DB) >= IMPACT_SHARE
     return Floor(change_db=floor, lift_db=LIFT * max(drowned, 0.0)) if even or by_impacts else None
+
+
+def _with_bands(pairs: Sequence[Pair]) -> list[Pair]:
+    """The pairs whose records are both long enough for wide bands."""
+    return [p for p in pairs if p.quiet_change.shape[1] >= LEAST_BANDS]
 
 
 def robust_swap_order(pairs: Sequence[Pair], foreign: BoolArray) -> tuple[int, ...]:
@@ -103,9 +111,10 @@ def robust_swap_order(pairs: Sequence[Pair], foreign: BoolArray) -> tuple[int, .
     """
     n = len(pairs[0].names)
     same = tuple(range(n))
-    if n < 2 or any(p.quiet_test.shape[1] < LEAST_BANDS for p in pairs):
+    heard = _with_bands(pairs)
+    if n < 2 or not heard:
         return same
-    fit = np.array([[np.mean([_fit(p, i, j) for p in pairs]) for j in range(n)] for i in range(n)])
+    fit = np.array([[np.mean([_fit(p, i, j) for p in heard]) for j in range(n)] for i in range(n)])
     rows, columns = linear_sum_assignment(np.where(foreign, -1e6, fit), maximize=True)
     moved = [(i, j) for i, j in zip(rows, columns, strict=True) if i != j]
     better = [fit[i, j] - fit[i, i] for i, j in moved]

@@ -6,15 +6,25 @@ leave single bands uneven, so evenness is asked of most bands, not of all.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from reconcile.gate.findings import Finding
 from signals.series import FloatArray
+from signals.units import ELECTRICAL
 
 GRAVITY = "g against m/s^2"
-UNIT_RATIOS = {GRAVITY: 9.80665, "m against mm": 1000.0, "inch against mm": 25.4, "V against mV": 1000.0}
+METRE, INCH, VOLT = "m against mm", "inch against mm", "V against mV"
+UNIT_RATIOS: Mapping[str, float] = {GRAVITY: 9.80665, METRE: 1000.0, INCH: 25.4, VOLT: 1000.0}
+UNITS_OF = {
+    "acceleration": (GRAVITY, METRE),
+    "velocity": (METRE, INCH),
+    "displacement": (METRE, INCH),
+    ELECTRICAL: (VOLT,),
+    "": (GRAVITY, METRE, INCH),
+}
+"""What numbers of a quantity may be taken for; where the quantity is not known, any; of all others, volts."""
 UNIT_TOLERANCE_DB = 0.8
 """Of the one gain of a channel that all bands share."""
 DRIFTED_DB = 1.8
@@ -29,26 +39,33 @@ OTHERS_SHARE = 0.3
 """Of the change, that other channels may have changed by."""
 
 
-def unit_of(gain_db: float, tolerance_db: float = UNIT_TOLERANCE_DB) -> str | None:
-    """The pair of units whose ratio a gain is, either way."""
-    near = {k: abs(abs(gain_db) - 20 * np.log10(r)) for k, r in UNIT_RATIOS.items()}
+def possible(quantity: str) -> Mapping[str, float]:
+    """The ratios of units that a channel of a quantity may be wrong by."""
+    return {k: UNIT_RATIOS[k] for k in UNITS_OF.get(quantity, (VOLT,))}
+
+
+def unit_of(
+    gain_db: float, tolerance_db: float = UNIT_TOLERANCE_DB, ratios: Mapping[str, float] = UNIT_RATIOS
+) -> str | None:
+    """The pair of units, of those `possible`, whose ratio a gain is, either way."""
+    near = {k: abs(abs(gain_db) - 20 * np.log10(r)) for k, r in ratios.items()}
     best = min(near, key=lambda k: near[k])
     return best if near[best] < max(tolerance_db, DRIFTED_DB if best == GRAVITY else 0.0) else None
 
 
-def even_unit_gain(change: Sequence[FloatArray], c: int) -> float | None:
+def even_unit_gain(change: Sequence[FloatArray], c: int, quantities: Sequence[str] = ()) -> float | None:
     """The gain, dB, of channel `c` if it is a unit's ratio, even over most bands, and other channels kept theirs.
 
-    `change`: dB by channel, mean or floor, and band, of each pair of recordings. A lone channel has nothing to be held
-    against, nor have channels that all changed alike: None.
+    `change`: dB by channel, mean or floor, and band, of each pair of recordings; `quantities`: of the channels. A lone
+    channel has nothing to be held against, nor have channels that all changed alike: None.
     """
     tolerance = float(20 * np.log10(1 / (1 - UNIT_SHARE)))
     medians = [float(np.median(np.concatenate([d[k].ravel() for d in change]))) for k in range(change[0].shape[0])]
+    units = [unit_of(m, tolerance, possible(quantities[k] if quantities else "")) for k, m in enumerate(medians)]
     own = medians[c]
-    unit = unit_of(own, tolerance)
-    if unit is None:
+    if units[c] is None:
         return None
-    rest = [k for k, m in enumerate(medians) if unit_of(m, tolerance) != unit or m * own < 0]
+    rest = [k for k, m in enumerate(medians) if units[k] != units[c] or m * own < 0]
     if not rest and len(medians) > 1:  # no load raises every sensor's whole spectrum so evenly by ten
         return own if all(_even(change, k, medians[k]) for k in range(len(medians))) else None
     loudest = max((float(np.median(np.abs(d[k]))) for d in change for k in rest), default=np.inf)
@@ -64,10 +81,12 @@ def _even(change: Sequence[FloatArray], c: int, middle: float) -> bool:
     return quarter < EVEN_DB and edge < EVEN_DB
 
 
-def unit_finding(gain_db: float, unit: str, name: str) -> Finding:
-    """`unit_mismatch`; undoing it takes back the exact ratio."""
+def unit_finding(gain_db: float, unit: str, name: str, change_db: FloatArray) -> Finding:
+    """`unit_mismatch`; undoing it takes back the exact ratio. `change_db`: of all bands, as measured."""
     exact = float(np.sign(gain_db) * 20 * np.log10(UNIT_RATIOS[unit]))
-    detail = f"all bands changed by {gain_db:+.1f} dB, the ratio of {unit}"
+    low, high = np.percentile(change_db, [10, 90])
+    detail = f"eight tenths of its bands changed by {low:+.1f} to {high:+.1f} dB, "
+    detail += f"and {exact:+.1f} dB is the ratio of {unit}"
     if unit == GRAVITY:
         numbers, said = ("g", "m/s^2") if gain_db < 0 else ("m/s^2", "g")
         detail += f": against the baseline its numbers are {numbers} described as {said}"
