@@ -15,6 +15,7 @@ from scipy.optimize import linear_sum_assignment
 
 from reconcile.gate.findings import Finding
 from reconcile.gate.levels import Pair
+from reconcile.gate.lines import denied
 from reconcile.gate.robust import robust_swap_order, robust_unit_gain
 from reconcile.gate.units import even_unit_gain, possible, unit_finding, unit_of
 from signals.recording import Recording
@@ -56,9 +57,13 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
     quantities = [channel.quantity for channel in pairs[0].channels]
     for c, name in enumerate(names):
         gain, roughly = _gain(change, c), even_unit_gain(change, c, quantities)
+        unit_gain = roughly if roughly is not None else robust_unit_gain(pairs, c)
+        likely = gain if gain is not None else unit_gain
+        if likely is not None and denied(likely, np.concatenate([p.lines_db[c] for p in pairs])):
+            continue
         if gain is not None:
             found.append(_gain_finding(gain, change, c, name, quantities))
-        elif (unit_gain := roughly if roughly is not None else robust_unit_gain(pairs, c)) is not None:
+        elif unit_gain is not None:
             unit = unit_of(unit_gain, np.inf, possible(quantities[c]))
             found.append(unit_finding(unit_gain, str(unit), name, _all_bands(change, c)))
         elif len(names) > 1:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reconcile.gate.lines import line_changes
 from signals.recording import Recording
 from signals.series import FloatArray, IntArray, Series
 from signals.spectra.amplitude import power_spectral_density
@@ -112,6 +113,8 @@ class Pair:
     quiet_baseline: FloatArray
     crest_change: FloatArray
     """(channels, wide bands) dB by which the mean over the quiet moments grew."""
+    lines_db: tuple[FloatArray, ...]
+    """Growth of the baseline's strong lines, of each channel those it has."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -144,6 +147,8 @@ def pairs(
         now = [channel_levels(test, c.name) for c in channels]
         then = [channel_levels(base, c.name) for c in channels]
         band, a, b = np.intersect1d(now[0].band, then[0].band, assume_unique=True, return_indices=True)
+        if not band.size:
+            continue
         found.append(
             Pair(
                 label=f"test {i}",
@@ -153,6 +158,7 @@ def pairs(
                 test=np.stack([np.stack([x.mean_db[a], x.floor_db[a]]) for x in now]),
                 baseline=np.stack([np.stack([x.mean_db[b], x.floor_db[b]]) for x in then]),
                 **_quiets(now, then),
+                lines_db=tuple(line_changes(test.series(c.name), base.series(c.name)) for c in channels),
                 impacts=np.stack([x.kurtosis[a] - y.kurtosis[b] for x, y in zip(now, then, strict=True)]),
             )
         )

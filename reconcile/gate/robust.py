@@ -25,9 +25,10 @@ FLOOR_DB = 2.5
 """Half width of the bands that count as the floor of the changes."""
 BELOW_SHARE = 0.05
 """Of the bands may lie below it: a machine's fault takes nothing away, a mount does."""
+EVEN_DB = 1.0
 EVEN_SHARE, HALF_SHARE = 0.4, 0.2
-"""Of the bands, and of each half of them, on the floor: then what is above needs no impacts to be told from a mount,
-which falls on and on, or from noise that a fault adds, which rises here more and there less."""
+"""Of the bands and of each half of them, within `EVEN_DB` of the median of those on the floor: what is above then needs
+no impacts to be told from a mount, which falls on and on, or from noise that a fault adds, here more and there less."""
 IMPACT_DB, IMPACT_SHARE = 1.0, 0.6
 """By which impacts raise a band's mean over its quiet moments, more than noise of any level; in most bands above."""
 DROWNED_DB = 5.0
@@ -85,7 +86,9 @@ def _floor(pairs: Sequence[Pair], c: int) -> Floor | None:
     change = np.concatenate([p.quiet_change[c] for p in heard])
     impacts = np.concatenate([p.crest_change[c] for p in heard])
     floor = float(np.percentile(change, FLOOR_PERCENTILE))
-    inside = [np.abs(p.quiet_change[c] - floor) <= FLOOR_DB for p in heard]
+    near = change[np.abs(change - floor) <= FLOOR_DB]
+    level = float(np.median(near)) if near.size else floor
+    inside = [np.abs(p.quiet_change[c] - level) <= EVEN_DB for p in heard]
     above = change > floor + FLOOR_DB
     drowned = float(np.median(impacts[~above]))
     if np.mean(change < floor - FLOOR_DB) > BELOW_SHARE or drowned > DROWNED_DB:
