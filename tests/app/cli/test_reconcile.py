@@ -136,7 +136,7 @@ def test_a_refusal_says_the_file_as_it_was_given_and_once(
     bad = {
         "unit": ({"channels": [{"name": "a", "unit": "furlong"}]}, "channels.0.unit"),
         "shaft": ({"operating": {"shaft": "fan", "speed_hz": 30.0}}, "operating.shaft"),
-        "away": ({"channels": [{"name": "a", "unit": "m/s^2", "location": "roof"}]}, "channels.a.location"),
+        "away": ({"channels": [{"name": "a", "unit": "m/s^2", "location": "bearing9"}]}, "channels.a.location"),
         "rpm": ({"operating": {"shaft": "input", "speed_hz": 1800.0}}, "operating.speed_hz"),
         "other": ({"sampling_rate_hz": 10_000.0}, "sampling_rate_hz"),
     }
