@@ -168,5 +168,6 @@ def test_a_foreign_shaft_is_refused() -> None:
 @pytest.mark.slow
 def test_the_same_seed_gives_the_same_report() -> None:
     test = replace(recorded(defect("inner_spall", 2)))
-    one, two = (reconcile_kinematics(SPEC, [test], [BASELINE], seed=5).document() for _ in range(2))
-    assert one == two
+    one, two = (reconcile_kinematics(SPEC, [test], [BASELINE], seed=5) for _ in range(2))
+    assert {**one.provenance, "cost": {}} == {**two.provenance, "cost": {}}
+    assert replace(one, provenance={}).document() == replace(two, provenance={}).document()
