@@ -56,13 +56,13 @@ def test_pulses_of_a_shaft_that_the_machine_lacks_are_not_left_unused() -> None:
 
 
 def test_a_place_that_is_nearly_a_part_is_refused_with_the_parts() -> None:
-    (problem,) = refused(replace(quiet(location="bearing9"), label="t1.json")).problems
+    (problem,) = refused(replace(quiet(location="bearnig1"), label="t1.json")).problems
     assert problem.field == "t1.json: channels.a.location"
-    assert problem.given == "bearing9" and problem.allowed.startswith("shaft, bearing1")
+    assert problem.given == "bearnig1" and problem.allowed.startswith("shaft, bearing1")
     assert "did you mean bearing1" in problem.message
 
 
-@pytest.mark.parametrize("location", ["motor housing", "brg1", "bearing bracket"])
+@pytest.mark.parametrize("location", ["bearing2", "motor housing", "brg1", "bearing bracket"])
 def test_a_place_that_is_no_part_is_a_remark(location: str) -> None:
     report = reconcile_recordings(SPEC, [quiet(location=location)], [quiet(location=location)])
     remark = f"a at {location}: no part of this machine, so the place is taken as not known"
