@@ -37,6 +37,10 @@ MOST_FOREIGN = 5
 """A flat document with more reference names than this is a parameter file."""
 
 
+KINEMATIC_KEYS = {"name", "shafts", "bearings", "gears", "meshes"}
+"""A machine that can be simulated has more."""
+
+
 def whole(text: str) -> int:
     """A seed: 0 or above."""
     if not text.isdecimal():
@@ -50,7 +54,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--baseline", metavar="R.json", type=Path, nargs="+", default=[], action="extend")
     parser.add_argument("--recording", metavar="R.json", type=Path, nargs="+", required=True, action="extend")
     parser.add_argument("--budget", choices=sorted(BUDGETS), default="quick", help="how much is simulated anew")
-    parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for report.json, report.html")
+    parser.add_argument(
+        "--out",
+        metavar="DIR",
+        type=Path,
+        required=True,
+        help="folder for report.json, report.html (earlier ones there are replaced)",
+    )
     parser.add_argument("--seed", type=whole, default=0, help="seed of the atlas and of the bootstrap")
     parser.add_argument("--jobs", metavar="N", type=int, default=2, help="processes that simulate the atlas")
     parser.add_argument("--atlas", metavar="DIR", type=Path, default=None, help="where atlases are kept between runs")
@@ -66,6 +76,11 @@ def _machine(path: Path) -> MachineSpec | KinematicSpec:
     if "parameters" in document or len(set(document) & set(KEYS)) > MOST_FOREIGN:
         with about(str(path)):
             return read_parameters(path).machine
+    if "shafts" in document and set(document) <= KINEMATIC_KEYS:
+        message = "looks like kinematics without their key"
+        raise SpecError(
+            Problem(field=str(path), message=message, given=", ".join(document), allowed='{"kinematics": {...}}')
+        )
     return read_machine(path)
 
 

@@ -40,7 +40,10 @@ def load_description(path: Path) -> Description:
         reason = (error.strerror or "is away").lower()
         raise SpecError(Problem(field=str(path), message=f"cannot be read: {reason}")) from error
     except UnicodeDecodeError as error:
-        raise SpecError(Problem(field=path.name, message="is not text in UTF-8")) from error
+        data = suffix_of(path) in FORMATS and suffix_of(path) != ".json"
+        message = "holds data: give its description, which stands beside it" if data else "is not text in UTF-8"
+        allowed = f"{path.stem}.json" if data else ""
+        raise SpecError(Problem(field=path.name, message=message, allowed=allowed)) from error
 
 
 def data_file(path: Path, description: Description) -> Path:
@@ -57,6 +60,9 @@ def data_file(path: Path, description: Description) -> Path:
     known = ", ".join(suffix for suffix in FORMATS if suffix != ".json")
     given = ", ".join(f.name for f in beside) or None
     message = "has several data files beside it: name one as `data`" if beside else "has no data file beside it"
+    others = sorted(f.name for f in path.parent.glob(f"{_escaped(path.stem)}.*") if f.name != path.name)
+    if others and not beside:
+        message, given = "has no data file beside it in a format that is read", ", ".join(others)
     raise SpecError(Problem(field=path.name, message=message, given=given, allowed=f"{path.stem} with {known}"))
 
 

@@ -202,3 +202,23 @@ def test_at_machine_level_a_recording_that_cannot_be_read_is_named(
     code = main([*asked(machine, given, tmp_path / "out", "--jobs", "1"), "--baseline", str(slow)])
     said = capsys.readouterr().err
     assert code == 2 and str(slow) in said and str(given) in said and "no baseline was recorded" in said
+
+
+def test_what_was_given_in_place_of_a_description_or_a_machine_is_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out, good = tmp_path / "out", written(tmp_path, "good")
+    known = kinematics(tmp_path, speed_hz=30.0)
+    bare = tmp_path / "bare.json"
+    bare.write_text(json.dumps(json.loads(known.read_text())["kinematics"]), encoding="utf-8")
+    np.savez(tmp_path / "data.npz", a=np.random.default_rng(0).normal(size=9))
+    strange = written(tmp_path, "strange")
+    (tmp_path / "strange.csv").rename(tmp_path / "strange.xlsx")
+
+    def said(machine: Path, recording: Path) -> str:
+        assert main(["reconcile", "--machine", str(machine), "--recording", str(recording), "--out", str(out)]) == 2
+        return capsys.readouterr().err
+
+    assert '{"kinematics": {...}}' in said(bare, good)
+    assert "holds data: give its description" in said(known, tmp_path / "data.npz")
+    assert "strange.xlsx" in said(known, strange)
