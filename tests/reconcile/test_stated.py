@@ -62,6 +62,7 @@ def test_a_place_that_is_nearly_a_part_is_refused_with_the_parts() -> None:
     assert "did you mean bearing1" in problem.message
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("location", ["bearing2", "motor housing", "brg1", "bearing bracket"])
 def test_a_place_that_is_no_part_is_a_remark(location: str) -> None:
     report = reconcile_recordings(SPEC, [quiet(location=location)], [quiet(location=location)])

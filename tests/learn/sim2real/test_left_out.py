@@ -1,4 +1,5 @@
 import numpy as np
+import pytest
 
 from learn import features, geometries, unknown, whole
 from learn.sim2real.left_out import accuracy, doubts
@@ -27,6 +28,7 @@ def example(machine, k, rng):
     )
 
 
+@pytest.mark.slow
 def test_machines_left_out_tell_features_that_say_something_from_those_that_do_not():
     rng = np.random.default_rng(0)
     text = accuracy([example(m, k, rng) for m in range(16) for k in range(4)], seed=0)

@@ -40,6 +40,7 @@ def found(tests: tuple[Recording, ...], baselines: tuple[Recording, ...] = BASEL
     return compared(pairs(tests, baselines, *hz), tests)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("defect", DEFECTS)
 @pytest.mark.parametrize("row", [0, 1, 2])
 @pytest.mark.parametrize("factor", [GRAVITY, 1 / GRAVITY])
@@ -51,6 +52,7 @@ def test_a_unit_is_seen_beside_a_fault_and_nothing_else_is(defect: float, row: i
     assert told[0].gain_db == pytest.approx(np.sign(factor - 1) * UNIT_DB)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("defect", [*DEFECTS, 200.0, 1000.0, 5000.0])
 def test_no_fault_however_large_is_a_unit_or_a_swap(defect: float) -> None:
     """Impacts that drown the quiet moments too raise all bands by ten and more."""
@@ -59,6 +61,7 @@ def test_no_fault_however_large_is_a_unit_or_a_swap(defect: float) -> None:
         assert not [f for f in told if f.kind in ("unit_mismatch", "swapped_channels", "gain_change")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("defect", DEFECTS)
 @pytest.mark.parametrize("order", [p for p in permutations(range(3)) if p != (0, 1, 2)])
 @pytest.mark.parametrize("count", [1, 2])
@@ -70,6 +73,7 @@ def test_a_swap_is_seen_beside_a_fault(defect: float, order: tuple[int, ...], co
     assert {f.channel for f in told} == {f"a{i}" for i in range(3) if order[i] != i}
 
 
+@pytest.mark.slow
 def test_both_are_mended() -> None:
     whole = with_defect(60.0)
     gate = judged(scaled(whole, (0,), 1 / GRAVITY))

@@ -44,6 +44,7 @@ def judged(kind: str, factor: float, *, pulses: bool = False) -> tuple[Candidate
     return next(c for c in every if c.family.kind == kind), every, seen
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["outer", "inner"])
 @pytest.mark.parametrize(("factor", "octave"), [(1.0, None), (2.0, 0.5), (0.5, 2.0)])
 def test_a_race_tells_a_speed_that_is_wrong_by_two(kind: str, factor: float, octave: float | None) -> None:
@@ -51,6 +52,7 @@ def test_a_race_tells_a_speed_that_is_wrong_by_two(kind: str, factor: float, oct
     assert octave_of(chosen, every, [seen]) == octave
 
 
+@pytest.mark.slow
 def test_balls_and_pulses_are_not_asked() -> None:
     for factor in (1.0, 2.0):
         chosen, every, seen = judged("ball", factor)
@@ -59,6 +61,7 @@ def test_balls_and_pulses_are_not_asked() -> None:
     assert seen.speed.method == "tacho" and octave_of(chosen, every, [seen]) is None
 
 
+@pytest.mark.slow
 def test_most_of_the_tests_must_say_so() -> None:
     chosen, every, wrong = judged("inner", 2.0)
     right = judged("inner", 1.0)[2]

@@ -84,6 +84,7 @@ def test_without_a_baseline_what_sound_machines_show_too_is_no_evidence(machine:
     assert any("sound machines show as much" in line for line in usual.told)
 
 
+@pytest.mark.slow
 def test_at_one_operating_point_impacts_must_exceed_what_sound_machines_show(machine: MachineSpec) -> None:
     hit = struck(bases_at(machine, SPEED_HZ)["f_o1"], slip=0.006)
     data = observe(machine, watch_list(machine), [recording(sound(1) + hit)], [recording(sound(2))])

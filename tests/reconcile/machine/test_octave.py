@@ -50,6 +50,7 @@ def test_the_teeth_tell_a_factor_of_two(machine: MachineSpec, stated_hz: float, 
     assert rival_speed(machine, data, CHANNELS) == factor
 
 
+@pytest.mark.slow
 def test_most_of_the_recordings_decide(machine: MachineSpec) -> None:
     right = [turning(machine, k, true_hz=hz, stated_hz=hz) for k, hz in enumerate((24.0, 40.0))]
     wrong = turning(machine, 3, true_hz=30.0, stated_hz=60.0)
@@ -57,6 +58,7 @@ def test_most_of_the_recordings_decide(machine: MachineSpec) -> None:
     assert rival_speed(machine, seen(machine, wrong), CHANNELS) == 0.5
 
 
+@pytest.mark.slow
 def test_a_baseline_with_the_teeth_where_they_were_stated_settles_it(machine: MachineSpec) -> None:
     wrong = turning(machine, 3, stated_hz=2 * SPEED_HZ)
     sound = turning(machine, 4, true_hz=2 * SPEED_HZ, stated_hz=2 * SPEED_HZ)
@@ -65,6 +67,7 @@ def test_a_baseline_with_the_teeth_where_they_were_stated_settles_it(machine: Ma
     assert rival_speed(machine, seen(machine, wrong, baseline=alike), CHANNELS) == 0.5
 
 
+@pytest.mark.slow
 def test_noise_alone_doubts_nothing(machine: MachineSpec) -> None:
     quiet = turning(machine, 5)
     noise = replace(quiet, samples=np.random.default_rng(6).normal(size=quiet.samples.shape))

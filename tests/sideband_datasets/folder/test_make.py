@@ -76,6 +76,7 @@ def test_an_interrupted_dataset_is_not_there_and_resumes_to_the_same_bytes(made,
     assert resume(out, 1, _silent)["rows"] == 48
 
 
+@pytest.mark.slow
 def test_a_finished_folder_that_only_lacks_its_name_gets_it(made, tmp_path):
     out = tmp_path / "set"
     for name, content in contents(made).items():

@@ -39,6 +39,7 @@ def test_nothing_is_wrong_with_what_was_made(made):
     assert verify(made, remake=3) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["data", "README.md", "croissant.json", "failures.jsonl"])
 def test_a_flipped_bit_is_found_anywhere(copy, name):
     path = _shard(copy) if name == "data" else copy / name

@@ -145,6 +145,7 @@ LIBRARIES = re.compile(
 """Words of parsers, which say nothing to the person with the file."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", WHOLE)
 def test_a_file_that_was_cut_or_is_another_kind_is_told_so_in_plain_words(tmp_path, name: str) -> None:
     path = tmp_path / name

@@ -15,6 +15,7 @@ from sim.core.errors import SpecError
 from tests.signals.readers.test_guard import ABOUT, WHOLE, X
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("length", [0xFFFFFFFF, 0xFFFFFFFF - 36, 0x7FFFFFFF, 0x7FFFF000])
 @pytest.mark.parametrize("extra", [b"", b"\0\0\0"])
 def test_a_recorder_that_left_the_length_open_is_read_to_the_end(tmp_path, length: int, extra: bytes) -> None:
@@ -30,6 +31,7 @@ def test_a_recorder_that_left_the_length_open_is_read_to_the_end(tmp_path, lengt
         np.testing.assert_array_equal(found.samples[0], X.astype(np.float32))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("block", [0, 512, 1024, 2048, 65536])
 @pytest.mark.parametrize("name", ["r.h5", "r.mat"])
 def test_an_hdf5_file_may_begin_after_a_user_block(tmp_path, name: str, block: int) -> None:
@@ -52,6 +54,7 @@ def test_a_universal_file_may_begin_with_a_byte_order_mark(tmp_path, newline: by
     np.testing.assert_allclose(parse(ABOUT, tmp_path / "r.uff").recording.samples[0] / 9.80665, X, rtol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("line", [b"    -1", b"        -1", b"    -1" + b" " * 74])
 @pytest.mark.parametrize("newline", [b"\n", b"\r\n"])
 def test_a_line_of_minus_one_within_a_dataset_is_no_border(tmp_path, line: bytes, newline: bytes) -> None:
