@@ -9,31 +9,12 @@ import pytest
 
 from reconcile.judge.changes import Changes
 from reconcile.judge.nulls import FOLDS, NULL_COPIES
-from reconcile.judge.pooled import OneByOne, Pooling
 from reconcile.judge.screen import judge, looked
 from reconcile.judge.space import Fitted, Library, fit_space, with_draws
 from reconcile.tail import tail_chance
-from tests.reconcile.judge.chosen import chances
+from tests.reconcile.judge.chosen import LINES, PAIRS, chances, single_lines
 
-PAIRS, EFFECTS, DRAWS, LINES = 24, 8, 8, 54
-
-
-def _changes(observed: np.ndarray, null: np.ndarray) -> Changes:
-    lines = OneByOne(chosen=np.ones(LINES, dtype=bool), points=1, channels=1)
-    return Changes(
-        observed=observed,
-        halves=np.stack([observed, observed]),
-        measured=np.ones(LINES),
-        null=null,
-        starts=(0, LINES),
-        with_baseline=True,
-        groups=np.zeros(LINES, dtype=int),
-        pooling=Pooling(family=np.zeros(LINES, dtype=int), names=("all",), points=1, channels=1),
-        single=lines,
-        sides=lines,
-        wander=np.zeros((1, LINES)),
-        kind=np.zeros((0, LINES)),
-    )
+EFFECTS, DRAWS = 8, 8
 
 
 def _world(seed: int, drift_db: float) -> tuple[Changes, Library, np.random.Generator]:
@@ -44,7 +25,7 @@ def _world(seed: int, drift_db: float) -> tuple[Changes, Library, np.random.Gene
     def drifted(count: int) -> np.ndarray:
         return rng.uniform(-(3**0.5), 3**0.5, (count, 60)) @ effect_of
 
-    made = _changes(drifted(1)[0] + rng.normal(size=LINES), drifted(PAIRS))
+    made = single_lines(drifted(1)[0] + rng.normal(size=LINES), drifted(PAIRS))
     sizes = (np.arange(DRAWS) + 0.5) / DRAWS
     patterns = rng.normal(0.0, 6.0, (EFFECTS, LINES))
     rows = np.concatenate([np.outer(sizes + 0.2, p) + rng.normal(0.0, 2.0, (DRAWS, LINES)) for p in patterns])
@@ -126,7 +107,7 @@ def test_draws_that_are_led_come_nearer_to_the_nulls_too() -> None:
 
 def test_two_pairs_are_enough_to_compare_with() -> None:
     made, library, _ = _world(5, 1.0)
-    few = _changes(made.observed, made.null[:2])
+    few = single_lines(made.observed, made.null[:2])
     space = _space(few, library)
     assert space.null.size == 2 * NULL_COPIES
     assert np.isfinite(space.near).all()
