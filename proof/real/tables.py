@@ -55,7 +55,7 @@ def names(rows: Sequence[Row]) -> list[str]:
     for row in rows:
         report = row.answer.report
         verdict = "refused" if report is None else report["verdict"].replace("_", " ")
-        said = (row.answer.error or "").partition("error: test_1.json: ")[2].partition(";")[0]
+        said = (row.answer.error or "").partition("test_1.json: ")[2].partition("\n")[0].partition(";")[0]
         cause = told.causes(report) if report is not None else said
         files = [row.test["dataset"], stem(row.test), stem(row.baseline)]
         shown.append([*files, row.test["condition"], verdict, cause, row.judged])
