@@ -96,13 +96,13 @@ healthy cases were run on their tests alone while the rule for that was made: fo
 these four does.
 
 **Since the runs of engine `6c6ea6d114b7`** the rules have changed: the best of the effects that the observation chose
-is judged as the best of all (costs one ambiguous set of 41 cases, l033, by their stored chances, read off
-once), impacts at the lines of several parts stand beside each other, a place whose effects lead all elsewhere is no
-unknown physics (l093 and s154 set that rule), a speed is doubted by the teeth. Engine `ef79a64e454e` had the first, second and fourth. Two sound
-machines then alarmed off the target condition, l077 (30 dB, one speed) and s106 (eight sensors, 30 dB); two rules
-came from them: impacts at a single point must exceed what sound machines show, and lines without a pattern count
-from 1e-4. With these s106 misses nothing, but l077 is still undecidable: its bands change as those of no simulated
-sound machine do.
+is judged as the best of all (costs one ambiguous set of 41 cases, l033, by their stored chances, read off once),
+impacts at the lines of several parts stand beside each other, a place whose effects lead all elsewhere is no unknown
+physics (l093 and s154 set that rule), a speed is doubted by the teeth. Engine `ef79a64e454e` had the first, second
+and fourth. Two sound machines then alarmed off the target condition, l077 (30 dB, one speed) and s106 (eight sensors,
+30 dB); two rules came from them: impacts at a single point must exceed what sound machines show, and lines without a
+pattern count from 1e-4. With these s106 misses nothing, but l077 is still undecidable: its bands change as those of
+no simulated sound machine do.
 
 **Placebos** are the right effect elsewhere and other effects at the right place, of which at least six machines were
 simulated: these are the likeliest rivals, and move some of the same bands. Every one is in the report with its gain.
