@@ -18,6 +18,7 @@ import psutil
 from pydantic import ValidationError
 from tqdm import tqdm
 
+from app.cli.as_recording import check_recording_path, write_recording
 from app.cli.choice import add_machine_options, chosen_machine
 from app.cli.files import check_folder, whole_folder
 from app.cli.lines import print_result
@@ -26,6 +27,7 @@ from app.cli.sensors import add_sensor_options, chosen_sensors
 from jobs.analysis import analyse
 from jobs.carry_out import Outcome, carry_out, completed
 from jobs.cause_plan import further_runs
+from jobs.documents import ResultDocuments
 from jobs.limits import Limits
 from jobs.physics import PhysicsEngine
 from jobs.request import ALL, DEFAULT_RATE_HZ, SimulationRequest
@@ -64,9 +66,18 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add_sensor_options(parser)
     parser.add_argument(
-        "--out", metavar="DIR", type=Path, help="folder of the result (default: result-NAME, of preset or machine file)"
+        "--out",
+        metavar="DIR",
+        type=Path,
+        help="folder of the result (default: result-NAME, of recording, machine file or preset)",
     )
-    parser.add_argument("--force", action="store_true", help="overwrite an earlier result in DIR")
+    parser.add_argument(
+        "--recording",
+        metavar="R.json",
+        type=Path,
+        help="write it as a recording too, as a measured one comes: R.json and R.npz, without the start-up",
+    )
+    parser.add_argument("--force", action="store_true", help="overwrite an earlier result")
     parser.add_argument("--quiet", action="store_true", help="no progress bar, no table of lines, no warnings")
 
 
@@ -76,6 +87,8 @@ def run(arguments: argparse.Namespace) -> int:
     findings = Findings()
     with findings.step():
         check_folder(out, (*FILES, *FURTHER, *SENSED), force=arguments.force)
+    with findings.step():
+        check_recording_path(arguments.recording, force=arguments.force)
     with findings.step(), _named_as_options():
         asked = _request(arguments)
     with findings.step():
@@ -94,13 +107,7 @@ def run(arguments: argparse.Namespace) -> int:
     response, elapsed = outcome.response, time.perf_counter() - started
     documents = completed(analyse(response, discard_transient=request.discard_transient), outcome.extras)
     told = {**_origin(arguments), **_settings(resolved.source), "repeat": repeating(arguments, request, out)}
-    written = {*(f"{name}.json" for name in documents.extras), *([RAW] if arguments.keep_raw else [])}
-    with whole_folder(out) as folder:
-        write_result(folder, response, documents, request=told, elapsed_s=elapsed)
-        if arguments.keep_raw and outcome.raw is not None:
-            write_raw(folder, outcome.raw)
-        for stale in {*FURTHER, *SENSED} - written:
-            (folder / stale).unlink(missing_ok=True)
+    written = _write(out, arguments, outcome, documents, told, elapsed)
     if not arguments.quiet:
         print_result(
             response,
@@ -110,8 +117,33 @@ def run(arguments: argparse.Namespace) -> int:
             elapsed_s=elapsed,
         )
         print(f"wrote {', '.join([*FILES, *sorted(written)])} to {out}/", file=sys.stderr)
+        if arguments.recording is not None:
+            print(f"wrote the recording {arguments.recording} and its data beside it", file=sys.stderr)
         print(f"repeat with: {told['repeat']}", file=sys.stderr)
     return 0
+
+
+def _write(
+    out: Path,
+    arguments: argparse.Namespace,
+    outcome: Outcome,
+    documents: ResultDocuments,
+    told: Mapping[str, object],
+    elapsed_s: float,
+) -> set[str]:
+    """Write the result folder, and the recording where one is asked for; the names of the folder's further files."""
+    response = outcome.response
+    written = {*(f"{name}.json" for name in documents.extras), *([RAW] if arguments.keep_raw else [])}
+    with whole_folder(out) as folder:
+        write_result(folder, response, documents, request=told, elapsed_s=elapsed_s)
+        if arguments.keep_raw and outcome.raw is not None:
+            write_raw(folder, outcome.raw)
+        for stale in {*FURTHER, *SENSED} - written:
+            (folder / stale).unlink(missing_ok=True)
+    if arguments.recording is not None:
+        discard = not arguments.keep_transient
+        write_recording(arguments.recording, response, outcome.extras, discard_transient=discard)
+    return written
 
 
 def _origin(arguments: argparse.Namespace) -> dict[str, object]:
@@ -138,7 +170,9 @@ def repeating(arguments: argparse.Namespace, request: SimulationRequest, out: Pa
 
 
 def default_folder(arguments: argparse.Namespace) -> Path:
-    """`result-NAME` in the current folder, by the preset or the machine file."""
+    """`result-NAME` in the current folder, by the recording, the machine file or the preset."""
+    if arguments.recording is not None:
+        return Path(f"result-{arguments.recording.stem}")
     name = arguments.machine.stem if arguments.machine is not None else arguments.preset or arguments.default_preset
     return Path(f"result-{name}")
 
