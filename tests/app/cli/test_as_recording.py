@@ -86,3 +86,19 @@ def test_force_overwrites(call: Call, tmp_path: Path) -> None:
     code, _, told = call(*QUICK, "--recording", tmp_path / "old.json", "--out", tmp_path / "result", "--force")
     assert code == 0, told
     assert read_recording(tmp_path / "old.json").samples.size
+
+
+@pytest.mark.slow
+def test_with_the_example_sensors_a_pit_is_heard_above_the_noise(call: Call, tmp_path: Path) -> None:
+    chain = Path(__file__).parents[3] / "examples" / "rig_sensors.json"
+    common = ("simulate", "--preset", "bearing-rig", "--duration", 0.5, "--rate", 51200, "--sensors", chain, "--quiet")
+    pit = ("--set", "outer_spall@drive_end.width=0.001")
+    for name, more in (("sound", ()), ("now", pit)):
+        code, _, told = call(*common, *more, "--recording", tmp_path / f"{name}.json", "--out", tmp_path / name)
+        assert code == 0, told
+    sound, now = (read_recording(tmp_path / f"{name}.json") for name in ("sound", "now"))
+    assert sound.names == now.names == ("drive", "free") and sound.tacho is not None
+    level = [np.sqrt(np.mean(r.samples[0] ** 2)) for r in (sound, now)]
+    density = json.loads(chain.read_text())["channels"][0]["noise"]["density_per_sqrt_hz"]
+    assert level[0] > 0.9 * density * np.sqrt(10_000)
+    assert level[1] > 10 * level[0]
