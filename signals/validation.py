@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from signals.known_fields import fields_beside
+from signals.known_fields import expected_at, fields_beside
 from sim.core.errors import Problem, SpecError
 from sim.core.near import did_you_mean
 
@@ -44,6 +44,11 @@ KINDS = (
     *("ramp", "fluctuating", "measured", "torque", "force", "modes", "impulse_response"),
     *("accelerometer", "velocity", "proximity", "tacho"),
 )
+WORDED = {
+    r"^[a-z][a-z0-9_]{0,39}$": "a lower-case letter, then lower-case letters, digits and _, 40 characters at most",
+    r"^[A-Za-z0-9][A-Za-z0-9._-]*$": "a letter or digit, then letters, digits, dot, _ and -",
+}
+"""Patterns of names in words."""
 OF_KINDS = ("profile", "path")
 """Parts of several kinds beside those that stand in lists."""
 
@@ -73,6 +78,9 @@ def problem_of(details: ErrorDetails, prefix: str = "", model: type[BaseModel] |
     if details["type"] == "extra_forbidden" and model is not None:
         known = fields_beside(model, details["loc"])
         message, allowed, unit = message + did_you_mean(str(details["loc"][-1]), known), ", ".join(known), ""
+    if details["type"] == "missing":
+        allowed = expected_at(model, details["loc"]) if model is not None else ""
+        message += _rpm_beside(details.get("input"), field)
     message += _unit_hint(details.get("input"), field, context)
     return Problem(field=field, message=message, given=given, allowed=allowed, unit=unit)
 
@@ -105,6 +113,8 @@ def _message(details: ErrorDetails) -> str:
         return "is required"
     if details["type"] in TAGS:
         return TAGS[details["type"]]
+    if details["type"] == "string_pattern_mismatch":
+        return "is no name as these are written"
     text = details["msg"].removeprefix("Value error, ")
     return text[:1].lower() + text[1:]
 
@@ -116,7 +126,8 @@ def _allowed(kind: str, context: Mapping[str, object]) -> str:
         if key in context:
             return str(context[key])
     if "pattern" in context:
-        return f"text matching {context['pattern']}"
+        pattern = str(context["pattern"])
+        return WORDED.get(pattern, f"text matching {pattern}")
     bounds = [form.format(_number(context[key])) for key, form in _BOUNDS if key in context]
     lengths = [f"{k.replace('_', ' ')} {context[k]}" for k in ("min_length", "max_length") if k in context]
     return ", ".join([*bounds, *lengths])
@@ -140,6 +151,16 @@ def _unit_hint(value: object, field: str, context: Mapping[str, object]) -> str:
     for factor, name in ((1e-3, "mm"), (1e-6, "um")):
         if value * factor <= high:
             return f" (it would fit if meant in {name}; lengths are given in m)"
+    return ""
+
+
+def _rpm_beside(part: object, field: str) -> str:
+    """Where a speed in Hz is missing, but one in rpm is there."""
+    if not field.endswith("speed_hz") or not isinstance(part, Mapping):
+        return ""
+    for key, value in part.items():
+        if "rpm" in str(key).lower() and isinstance(value, int | float) and not isinstance(value, bool):
+            return f" ({str(key)[:40]} is given: {value:g} rpm are {value / 60:g} Hz)"
     return ""
 
 

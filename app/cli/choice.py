@@ -55,7 +55,8 @@ def read_machine(path: Path) -> MachineSpec:
     try:
         return MachineSpec.model_validate(document)
     except ValidationError as error:
-        raise SpecError(problems_of(error, prefix=path.name, model=MachineSpec)) from error
+        found = problems_of(error, model=MachineSpec)
+        raise SpecError([replace(problem, field=f"{path}: {problem.field}") for problem in found]) from error
 
 
 def parse_set(items: Iterable[str]) -> dict[str, object]:

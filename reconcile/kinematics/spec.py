@@ -10,6 +10,7 @@ from pydantic import Field, ValidationError, model_validator
 from pydantic_core import ErrorDetails
 
 from reconcile.kinematics.catalogued import uncatalogued
+from signals.validation import problem_of
 from sim.core.errors import Problem, SpecError
 from sim.core.near import did_you_mean
 from sim.core.spec import MachineSpec, Name, SpecModel
@@ -189,28 +190,7 @@ def _told(error: ErrorDetails) -> list[Problem]:
     cause = error.get("ctx", {}).get("error")
     if isinstance(cause, NotTied):
         return [replace(p, field=f"kinematics.{p.field}") for p in cause.problems]
-    foreign, given = error["type"] == "extra_forbidden", error["input"]
-    return [
-        Problem(
-            field=".".join(("kinematics", *map(str, error["loc"]))),
-            message="is not a known field" if foreign else str(error["msg"]).removeprefix("Value error, "),
-            given=given if isinstance(given, str | int | float) else None,
-            allowed=", ".join(_fields(error["loc"])) if foreign else "",
-        )
-    ]
-
-
-def _fields(place: tuple[int | str, ...]) -> tuple[str, ...]:
-    """The known keys beside an unknown one."""
-    parts: dict[str, type[SpecModel]] = {
-        "shafts": KinematicShaft,
-        "bearings": KinematicBearing,
-        "gears": KinematicGear,
-        "meshes": KinematicMesh,
-        "orders": BearingOrders,
-    }
-    outer = [parts[step] for step in place[:-1] if isinstance(step, str) and step in parts]
-    return tuple((outer[-1] if outer else KinematicSpec).model_fields)
+    return [problem_of(error, "kinematics", KinematicSpec)]
 
 
 def of_machine(machine: MachineSpec) -> KinematicSpec:

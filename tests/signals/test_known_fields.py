@@ -6,7 +6,8 @@ import pytest
 from pydantic import ValidationError
 
 from jobs.request import SimulationRequest
-from signals.known_fields import fields_beside
+from signals.ingest.description import Description
+from signals.known_fields import expected_at, fields_beside
 from signals.validation import problems_of
 from sim.core.spec import MachineSpec
 
@@ -24,3 +25,31 @@ def test_an_unknown_field_is_told_with_the_likest_and_the_known_ones():
     (problem,) = problems_of(caught.value, model=SimulationRequest)
     assert problem.field == "durations" and "did you mean duration_s?" in problem.message
     assert "duration_s" in problem.allowed and "seed" in problem.allowed
+
+
+@pytest.mark.parametrize(
+    ("place", "said"),
+    [
+        (("operating", "speed_hz"), "a number >= 0, <= 100000"),
+        (("operating",), "an object with shaft, speed_hz, torque_nm"),
+        (("channels",), "a list, each an object with name, column, quantity, unit"),
+        (("channels", 0, "unit"), "text (`g`, `m/s^2`, `mm/s`"),
+        (("tacho", "pulses_per_revolution"), "a whole number >= 1, <= 100000"),
+        (("condition",), "baseline, unknown"),
+        (("channels", 0, "column"), "text or a whole number"),
+    ],
+)
+def test_what_is_missing_is_told_with_what_it_takes(place: tuple[int | str, ...], said: str) -> None:
+    assert expected_at(Description, place).startswith(said)
+
+
+def test_places_that_no_model_knows_expect_nothing() -> None:
+    assert expected_at(Description, ("colour",)) == expected_at(Description, ("channels", 0)) == ""
+
+
+def test_a_missing_speed_beside_one_in_rpm_is_told_in_hz() -> None:
+    document = {"channels": [{"name": "a", "unit": "g"}], "operating": {"shaft": "input", "speed_rpm": 1797}}
+    with pytest.raises(ValidationError) as caught:
+        Description.model_validate(document)
+    (problem,) = problems_of(caught.value, model=Description)
+    assert problem.field == "operating.speed_hz" and "1797 rpm are 29.95 Hz" in problem.message
