@@ -13,9 +13,10 @@ from reconcile.driven import reconcile_driven
 from reconcile.kinematics import KinematicSpec, reconcile_kinematics
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.engine import Progress, reconcile_machine
-from reconcile.stated import check_locations, check_shafts, check_speeds, given, unplaced
+from reconcile.stated import check_locations, check_shafts, check_speeds, check_turning, given, unplaced, unstated
 from reconcile.told import about, place, sent_as
-from reconcile.verdict import Report
+from reconcile.unsteady import unsteady
+from reconcile.verdict import Level, Report
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec
@@ -98,6 +99,7 @@ def check_descriptions(
     """Shafts, places and speeds that the descriptions state must be those of the machine; speeds are in Hz."""
     several = given(tests, baselines)
     check_shafts([s.name for s in machine.shafts], several)
+    check_turning(several)
     if isinstance(machine, KinematicSpec):
         if _has_places(machine):
             check_locations(machine.parts, several)
@@ -141,11 +143,15 @@ def reconcile_recordings(
         return _with_labels(report, sent)
     check_descriptions(machine, tests, baselines)
     check_channels(tests, baselines)
+    level: Level = "kinematics" if isinstance(machine, KinematicSpec) else "machine"
+    smeared = unsteady(tests, level, seed)
+    if smeared is not None:
+        return _with_labels(smeared, sent)
+    silent = unstated(given(tests, baselines))
     if isinstance(machine, KinematicSpec):
         report = reconcile_kinematics(machine, tests, baselines, seed=seed)
         remarks = unplaced(machine.parts, given(tests, baselines)) if _has_places(machine) else ()
-        where = replace(report.where, limits=(*report.where.limits, *remarks))
-        return _with_labels(replace(report, where=where), sent)
+        return _with_labels(_with_limits(report, (*remarks, *silent)), sent)
     report = reconcile_machine(
         machine,
         tests,
@@ -157,7 +163,11 @@ def reconcile_recordings(
         progress=progress,
         nominated=nominated,
     )
-    return _with_labels(report, sent)
+    return _with_labels(_with_limits(report, silent), sent)
+
+
+def _with_limits(report: Report, remarks: Sequence[str]) -> Report:
+    return replace(report, where=replace(report.where, limits=(*report.where.limits, *remarks)))
 
 
 def _with_labels(report: Report, sent: Mapping[str, str]) -> Report:

@@ -127,6 +127,37 @@ def check_speeds(nominal: Mapping[str, float | None], field: str, several: Seque
         raise SpecError(problems)
 
 
+def check_turning(several: Sequence[Given]) -> None:
+    """SpecError for a stated standstill without pulses that say otherwise."""
+    problems = [
+        Problem(
+            field=one.field("operating.speed_hz"),
+            message="says that the machine stands still, and there is no tacho",
+            given=operating.speed_hz,
+            allowed="> 0",
+            unit="Hz",
+        )
+        for one in several
+        if (operating := one.recording.operating) is not None
+        and operating.speed_hz == 0.0
+        and one.recording.tacho is None
+    ]
+    if problems:
+        raise SpecError(problems)
+
+
+def unstated(several: Sequence[Given]) -> tuple[str, ...]:
+    """What the report says of recordings that tell no speed in any way."""
+    names = {"recording": "test", "baseline": "baseline"}
+    silent = [
+        f"{names[one.kind]} {one.index + 1}"
+        for one in several
+        if one.recording.operating is None and one.recording.tacho is None
+    ]
+    says = "state no speed" if len(silent) > 1 else "states no speed"
+    return (f"{', '.join(silent)} {says}: the machine file's was taken",) if silent else ()
+
+
 def _stated(one: Given) -> tuple[str, float] | None:
     operating = one.recording.operating
     return (operating.shaft, operating.speed_hz) if operating is not None and operating.speed_hz > 0 else None

@@ -167,3 +167,16 @@ def test_lines_at_a_sixtieth_too_do_not_confirm() -> None:
     both = replace(teeth, samples=teeth.samples + turning(24.3).samples)
     with pytest.raises(SpecError, match=r"1458 rpm = 24\.3 Hz \(the machine's nominal speed is 24\.3 Hz"):
         check_speeds({"shaft": 24.3}, "", given([both], []))
+
+
+def test_a_standstill_without_pulses_is_refused_by_its_field() -> None:
+    (problem,) = refused(quiet(0.0)).problems
+    assert problem.field.endswith("operating.speed_hz") and "stands still" in problem.message
+
+
+def test_a_speed_that_nobody_stated_is_told() -> None:
+    silent = replace(quiet(), operating=None)
+    report = reconcile_recordings(SPEC, [silent], [quiet()])
+    assert any("test 1 states no speed" in limit for limit in report.where.limits)
+    stated = reconcile_recordings(SPEC, [quiet()], [quiet()])
+    assert not any("states no speed" in limit for limit in stated.where.limits)
