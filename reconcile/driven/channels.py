@@ -75,11 +75,11 @@ def _roles(channels: tuple[Channel, ...], prescribed: bool) -> tuple[int, int, s
         return inputs[0], rest[0], ""
     if forces and motions:
         return (motions[0], forces[0], "") if prescribed else (forces[0], motions[0], "")
-    if len(channels) == 2:
+    if len(channels) == 2 and len(motions) < 2:
         first, second = channels[0].name, channels[1].name
         return 0, 1, f"no channel says that it is the input: {first} (the first) is taken to drive {second}"
     names = ", ".join(f"{c.name} ({c.quantity or c.unit})" for c in channels)
-    message = "cannot tell which channel drives the system: give one the location `input` and one `output`"
+    message = "cannot tell which channel drives the mass on its spring: give one the location `input`, one `output`"
     raise SpecError(Problem(field="channels", message=message, given=names, allowed="one force and one motion, or two"))
 
 

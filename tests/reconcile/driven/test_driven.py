@@ -163,6 +163,9 @@ def test_roles_come_from_quantities_locations_or_are_stated() -> None:
         volts, channels=(replace(volts.channels[0], location="output"), replace(volts.channels[1], location="input"))
     )
     assert driven_of(told, SPEC).drive_channel.name == "displacement"
+    moving = replace(made, channels=tuple(replace(c, quantity="acceleration", unit="m/s^2") for c in made.channels))
+    with pytest.raises(SpecError, match="which channel drives"):
+        driven_of(moving, SPEC)
 
 
 @pytest.mark.slow
