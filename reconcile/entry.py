@@ -140,18 +140,18 @@ def reconcile_recordings(
     sent = sent_as(tests, baselines)
     if isinstance(machine, MachineSpec) and not machine.shafts:
         report = reconcile_driven(machine, tests, baselines, seed=seed)
-        return _with_labels(report, sent)
+        return _with_labels(report, sent, machine.name)
     check_descriptions(machine, tests, baselines)
     check_channels(tests, baselines)
     level: Level = "kinematics" if isinstance(machine, KinematicSpec) else "machine"
     smeared = unsteady(tests, level, seed)
     if smeared is not None:
-        return _with_labels(smeared, sent)
+        return _with_labels(smeared, sent, machine.name)
     silent = unstated(given(tests, baselines))
     if isinstance(machine, KinematicSpec):
         report = reconcile_kinematics(machine, tests, baselines, seed=seed)
         remarks = unplaced(machine.parts, given(tests, baselines)) if _has_places(machine) else ()
-        return _with_labels(_with_limits(report, (*remarks, *silent)), sent)
+        return _with_labels(_with_limits(report, (*remarks, *silent)), sent, machine.name)
     report = reconcile_machine(
         machine,
         tests,
@@ -163,13 +163,15 @@ def reconcile_recordings(
         progress=progress,
         nominated=nominated,
     )
-    return _with_labels(_with_limits(report, silent), sent)
+    return _with_labels(_with_limits(report, silent), sent, machine.name)
 
 
 def _with_limits(report: Report, remarks: Sequence[str]) -> Report:
     return replace(report, where=replace(report.where, limits=(*report.where.limits, *remarks)))
 
 
-def _with_labels(report: Report, sent: Mapping[str, str]) -> Report:
-    """The report, which says what it calls each recording."""
-    return replace(report, provenance={**report.provenance, "sent_as": dict(sent)}) if sent else report
+def _with_labels(report: Report, sent: Mapping[str, str], name: str) -> Report:
+    """The report, which says of which machine it is and what it calls each recording."""
+    return replace(
+        report, provenance={**report.provenance, "machine": name, **({"sent_as": dict(sent)} if sent else {})}
+    )

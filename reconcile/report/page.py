@@ -18,6 +18,7 @@ from reconcile.report.figures.traces import trace
 from reconcile.report.markup import Markup, figure_text, tag
 from reconcile.report.panels import spectra, turns
 from reconcile.report.pictures import several, text
+from reconcile.report.provenance import provenance
 from reconcile.report.sections import (
     bullets,
     causes_table,
@@ -25,14 +26,13 @@ from reconcile.report.sections import (
     head,
     held_out_table,
     held_out_words,
-    provenance,
     section,
     simulated,
-    stages,
     told,
     undecidable,
     where_table,
 )
+from reconcile.report.steps import stages
 from reconcile.report.strict import plain
 from reconcile.report.style import STYLE
 from reconcile.report.words import cause

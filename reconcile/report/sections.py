@@ -7,7 +7,6 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from reconcile.report.markup import Markup, escaped, figure_text, tag
-from reconcile.report.strict import Plain, plain
 from reconcile.report.words import (
     FORMS,
     LEFT_OVER,
@@ -15,13 +14,15 @@ from reconcile.report.words import (
     PART_LEFT,
     VERDICT,
     cause,
+    compared,
     forms,
     gain,
     leaves_a_part,
     percent,
     severity,
+    to_do,
 )
-from reconcile.verdict import Cause, HeldOut, Level, Report, Where, operating_point
+from reconcile.verdict import Cause, HeldOut, Level, LineChange, Report, Where, operating_point
 
 MOST_LINES = 20
 BARS = (
@@ -80,7 +81,8 @@ def head(report: Report) -> Markup:
         tiles.append(_tile(report.fault.kind.replace("_", " "), f"on {report.fault.channel}"))
     if report.where.sites:
         best = max(report.where.sites, key=lambda s: s.weight)
-        tiles.append(_tile(best.site, f"most likely place, {percent(best.weight)} of the evidence"))
+        open_ = "; what it is is not decided" if report.verdict == "ambiguous" else ""
+        tiles.append(_tile(best.site, f"most likely place, {percent(best.weight)} of the evidence{open_}"))
     for c in named[:2]:
         if c.severity is not None:
             size, low, high = (
@@ -101,7 +103,8 @@ def head(report: Report) -> Markup:
         "header",
         tag("span", word, css=f"badge {tone}"),
         tag("h1", report.sentence),
-        tag("p", f"Recording {LEVEL[report.level]}.", css="muted"),
+        tag("p", f"{compared(report)} {LEVEL[report.level]}.", css="muted"),
+        tag("p", tag("b", "What to do: "), to_do(report)),
         tag("div", *tiles, css="tiles") if tiles else None,
         css="told",
     )
@@ -119,17 +122,18 @@ def where_table(where: Where) -> Markup:
     """Changed lines as a table, and the limits of the location."""
     shown = sorted(where.lines, key=lambda x: -abs(x.change_db))[:MOST_LINES]
     points = any(x.speed_hz is not None for x in shown)
+    alike = _together(shown)
     heads = ("line", *(("operating point",) if points else ()), "Hz", "change, dB", "channel", "locked to")
     rows = [
         (
-            x.label,
+            ", ".join(y.label for y in same),
             *((operating_point(x.speed_hz, x.torque_ratio) or "–",) if points else ()),
-            f"{x.frequency_hz:.5g}",
+            ", ".join(f"{y.frequency_hz:.5g}" for y in same),
             f"{x.change_db:+.1f}",
             x.channel or "–",
             x.locked_to or "nothing known",
         )
-        for x in shown
+        for x, same in alike
     ]
     window = where.angle_window
     said = Markup("")
@@ -139,6 +143,14 @@ def where_table(where: Where) -> Markup:
         said = tag("p", f"The residual sits at {text}, {since}.")
     limits = bullets(where.limits)
     return Markup(said + table(heads, rows) + (tag("h3", "Limits") + limits if limits else ""))
+
+
+def _together(lines: Sequence[LineChange]) -> list[tuple[LineChange, list[LineChange]]]:
+    """Lines whose change was told for all of them at once, as that of a family is, beside the first of them."""
+    groups: dict[object, list[LineChange]] = {}
+    for x in lines:
+        groups.setdefault((x.locked_to, x.channel, x.change_db, x.speed_hz, x.torque_ratio), []).append(x)
+    return [(same[0], same) for same in groups.values()]
 
 
 def causes_table(causes: Sequence[Cause], level: Level) -> Markup:
@@ -205,29 +217,6 @@ def held_out_words(found: HeldOut | None) -> Markup:
     return Markup(held + sure + tag("p", BARS, css="muted"))
 
 
-def _short(value: Plain) -> str:
-    if isinstance(value, float):
-        return figure_text(value, digits=4)
-    if isinstance(value, list):
-        shown = ", ".join(_short(v) for v in value[:12])
-        return f"{shown}, … ({len(value)})" if len(value) > 12 else shown
-    if isinstance(value, dict):
-        return "; ".join(f"{k.replace('_', ' ')}: {_short(v)}" for k, v in list(value.items())[:24])
-    return "–" if value is None else str(value)
-
-
-def stages(report: Report) -> Markup:
-    """What each step found."""
-    rows = []
-    for stage in report.stages:
-        plain_stage = plain(stage)
-        if not isinstance(plain_stage, dict):
-            continue
-        name = plain_stage.pop("stage", None) or plain_stage.pop("name", "")
-        rows.append((str(name).replace("_", " "), _short(plain_stage)))
-    return section("Steps", table(("step", "what it found"), rows))
-
-
 def simulated(report: Report) -> str:
     """How well the revised machine does when it is simulated, on the recordings it was fitted to."""
     found = next((s for s in report.stages if s.get("name") == "revised machine"), None)
@@ -238,13 +227,6 @@ def simulated(report: Report) -> str:
         f"{figure_text(float(str(found['level_change_db'])))} dB (root mean square) by which levels of lines and bands "
         "changed in the recordings that were fitted; the spectra above show it."
     )
-
-
-def provenance(report: Report) -> Markup:
-    """Versions, seeds and cost."""
-    found = plain(report.provenance)
-    rows = [(k.replace("_", " "), _short(v)) for k, v in found.items()] if isinstance(found, dict) else []
-    return section("Provenance", table(("", ""), rows))
 
 
 def undecidable(report: Report) -> Markup:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from reconcile.report.markup import figure_text
-from reconcile.verdict import Cause, HeldOut, Level, Severity, Word
+from reconcile.verdict import Cause, HeldOut, Level, Report, Severity, Word
 
 VERDICT: dict[Word, tuple[str, str]] = {
     "nothing_missing": ("Nothing missing", "ok"),
@@ -76,3 +76,34 @@ def cause(found: Cause) -> str:
 def gain(found: HeldOut) -> str:
     """`31 % (90 %: 25 % to 36 %)`."""
     return f"{percent(found.gain)} (90 %: {percent(found.gain_low)} to {percent(found.gain_high)})"
+
+
+def compared(report: Report) -> str:
+    """Of which machine, which files against which: `bearing-rig: now.json, against sound.json as the baseline,`."""
+    sent = report.provenance.get("sent_as")
+    names = dict(sent) if isinstance(sent, Mapping) else {}
+    tests = [str(v) for k, v in names.items() if str(k).startswith("test")]
+    rested = [str(v) for k, v in names.items() if str(k).startswith("baseline")]
+    machine = report.provenance.get("machine")
+    what = ", ".join(tests) or ("Recordings" if len(tests) > 1 else "Recording")
+    against = f", against {', '.join(rested)} as the baseline," if rested else ""
+    return f"{machine}: {what}{against}" if machine else f"{what}{against}"
+
+
+def to_do(report: Report) -> str:
+    """One sentence that a person on site can act on; nothing that the figures do not carry."""
+    experiment = report.next_experiment.sentence if report.next_experiment is not None else ""
+    place = max(report.where.sites, key=lambda s: s.weight).site if report.where.sites else ""
+    if report.verdict == "nothing_missing":
+        return "nothing follows from these recordings; keep them to compare later ones with."
+    if report.verdict == "measurement_fault" and report.fault is not None:
+        return f"mend the measurement at {report.fault.channel} and record again before judging the machine."
+    if report.verdict == "explained":
+        named = next((c for c in report.causes if c.named), None)
+        at = named.site if named is not None and named.site else place
+        look = f"inspect {at}" if at else "inspect the machine"
+        return f"{look} at the next stop; until then record again and follow the size, which is an estimate."
+    if report.verdict == "unknown_physics":
+        where = f"look at {place} first; " if place else ""
+        return f"{where}none of the known names fits, so take none for granted. {experiment}".strip()
+    return f"act on none of the names alone. {experiment}".strip() if report.causes else experiment or "record again."

@@ -55,12 +55,12 @@ def _legend(frame: Frame, limit: float, label: str) -> Markup:
     cell = width / LEGEND_STEPS
     shares = [2.0 * k / (LEGEND_STEPS - 1) - 1.0 for k in range(LEGEND_STEPS)]
     cells = [
-        tag("rect", x=left + k * cell, y=2.0, width=cell + 0.5, height=8.0, fill=diverging(s))
+        tag("rect", x=left + k * cell, y=0.0, width=cell + 0.5, height=7.0, fill=diverging(s))
         for k, s in enumerate(shares)
     ]
-    ends = tag("text", f"-{figure_text(limit)}", x=left - 4, y=10, css="tick end")
-    more = tag("text", figure_text(limit), x=left + width + 4, y=10, css="tick")
-    return Markup("".join([*cells, ends, more, tag("text", label, x=left - 50, y=10, css="tick end")]))
+    ends = tag("text", f"-{figure_text(limit)}", x=left - 4, y=8, css="tick end")
+    more = tag("text", figure_text(limit), x=left + width + 4, y=8, css="tick")
+    return Markup("".join([*cells, ends, more, tag("text", label, x=left - 50, y=8, css="tick end")]))
 
 
 def _cells(frame: Frame, x: Sequence[float], y: Sequence[float], table: Sequence[Sequence[float]], limit: float) -> str:

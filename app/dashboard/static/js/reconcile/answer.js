@@ -78,6 +78,7 @@ function effect({ term, forms }) {
 
 function severity(found) {
   if (!found) return "–";
+  if (found.low === 0) return `${words(found.name)} at most ${quantity(found.high, found.unit, 3)}`;
   const range = `${quantity(found.low, found.unit, 3)} to ${quantity(found.high, found.unit, 3)}`;
   return `${words(found.name)} ${quantity(found.value, found.unit, 3)} (${range})`;
 }

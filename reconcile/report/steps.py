@@ -1,0 +1,151 @@
+"""What each step found, in a reader's words: figures with what they mean, tables as tables."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from reconcile.report.markup import Markup, figure_text, tag
+from reconcile.report.sections import section, table
+from reconcile.report.strict import Plain, plain
+from reconcile.verdict import Report
+
+MOST_KEYS, MOST_ITEMS = 24, 12
+TITLES = {
+    "gate": "is the measurement sound",
+    "sensor gate": "is the measurement sound",
+    "observe": "speeds and features",
+    "speed": "how fast it turned",
+    "families": "lines of the parts in the envelopes",
+    "calibrate": "machine and sensors fitted to what is sound",
+    "nominate": "what might explain it",
+    "judge": "how well the best does",
+    "revised machine": "the revised machine, simulated",
+    "validate": "tested on what was not fitted",
+    "adequacy": "is anything left",
+}
+WORDS = {
+    "findings": "",
+    "speeds": "",
+    "found": "",
+    "features": "features compared",
+    "mode": "compared with",
+    "median_gain_db": "median gain of the sensors, dB",
+    "machines": "machines of the kind moved until they agree",
+    "misfit_before": "mesh lines off before that, in units of their scatter",
+    "misfit_after": "after it",
+    "decided": "numbers the baseline decides",
+    "undecided": "numbers it leaves open",
+    "strayed": "numbers beyond their stated spread",
+    "length": "length of the change",
+    "null_median": "of sound machines (median)",
+    "p": "chance that a sound machine shows as much",
+    "p_any": "by the most changed group of features",
+    "p_best": "by the best candidate's pattern",
+    "p_direct": "by impacts",
+    "p_lines": "by single lines",
+    "p_first": "by the pattern before a closer look",
+    "candidates": "effects at their places",
+    "draws": "simulated machines",
+    "misfit": "share of simulated known effects that fit better",
+    "overdispersion": "scatter over what noise explains",
+    "lines_left": "single lines left unexplained",
+    "lines_explained": "share of the single lines' change explained",
+    "fitted_with_the_machine": "fitted together with the machine",
+    "simulated_forms": "forms simulated",
+    "level_change_db": "levels changed by, dB",
+    "left_of_it_db": "left of it, dB",
+    "heard": "deviations by channel",
+    "z": "deviations of control orders",
+    "band_hz": "band, Hz",
+    "growth_db": "deeper than before by, dB",
+    "present": "is there",
+    "risen": "has risen",
+    "nrmse": "error over the spread",
+    "null_95": "of linear systems (95 %)",
+}
+VALUES = {
+    "mode": {"A": "baselines of this machine", "B": "the drawing, without a baseline"},
+    "method": {"stated": "as stated, no line confirms it", "harmonics": "lines of the shaft", "tacho": "tacho"},
+}
+
+
+def stages(report: Report) -> Markup:
+    """What each step found, folded away: the figures behind the answer."""
+    rows, tables = [], []
+    for stage in report.stages:
+        found = plain(stage)
+        if not isinstance(found, dict):
+            continue
+        name = str(found.pop("stage", None) or found.pop("name", "")).replace("_", " ")
+        title = TITLES.get(name, name)
+        wide = {k: v for k, v in found.items() if _records(v)}
+        words = _told({k: v for k, v in found.items() if k not in wide})
+        if words:
+            rows.append((title, words))
+        tables += [Markup(tag("h3", title) + _table(v)) for v in wide.values()]
+    if not rows and not tables:
+        return Markup("")
+    note = "A small chance (p) speaks for a change; deviations are robust standard deviations."
+    body = (tag("p", note, css="muted"), table(("step", "what it found"), rows), *tables)
+    return section("How it was found", tag("details", tag("summary", "Steps and their figures"), *body))
+
+
+def _records(value: Plain) -> list[dict[str, Plain]]:
+    """Rows of a table: a list of objects, or objects by name."""
+    if isinstance(value, dict) and value and all(isinstance(v, dict) for v in value.values()):
+        return [{"": name, **v} for name, v in value.items() if isinstance(v, dict)]
+    if isinstance(value, list) and value and all(isinstance(v, dict) and len(v) > MOST_FLAT for v in value):
+        return [v for v in value if isinstance(v, dict)]
+    return []
+
+
+MOST_FLAT = 3
+"""Objects of no more keys are told in a line: by their first value."""
+
+
+def _table(value: Plain) -> Markup:
+    records = _records(value)
+    keys = [k for k in dict.fromkeys(k for r in records for k in r) if any(r.get(k) not in (None, {}) for r in records)]
+    rows = [[_value(k, r.get(k)) for k in keys] for r in records]
+    return table([_word(k) for k in keys], rows)
+
+
+def _word(key: str) -> str:
+    return WORDS.get(key, key.replace("_", " "))
+
+
+def _told(found: Mapping[str, Plain]) -> str:
+    parts = []
+    for key, value in list(found.items())[:MOST_KEYS]:
+        if value in ([], {}, "", None):
+            continue
+        word = _word(key)
+        parts.append(f"{word}: {_value(key, value)}" if word else _value(key, value))
+    return "; ".join(parts)
+
+
+def _value(key: str, value: Plain) -> str:
+    if isinstance(value, str) and value in VALUES.get(key, {}):
+        return VALUES[key][value]
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, list):
+        return _listed(value)
+    return short(value)
+
+
+def _listed(values: Sequence[Plain]) -> str:
+    """Objects by their first value: `support.stiffness_y (0.86)`."""
+    shown = [short(next(iter(v.values()))) if isinstance(v, dict) and v else short(v) for v in values[:MOST_ITEMS]]
+    return ", ".join(shown) + (f", … ({len(values)})" if len(values) > MOST_ITEMS else "")
+
+
+def short(value: Plain) -> str:
+    """Any value in a line."""
+    if isinstance(value, float):
+        return figure_text(value, digits=4)
+    if isinstance(value, list):
+        return _listed(value)
+    if isinstance(value, dict):
+        return "; ".join(f"{k.replace('_', ' ')}: {short(v)}" for k, v in list(value.items())[:MOST_KEYS])
+    return "–" if value is None else str(value)

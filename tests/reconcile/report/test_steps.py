@@ -1,0 +1,98 @@
+"""Steps in words, tables as tables; what to do; where the report comes from."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from reconcile.report.provenance import provenance
+from reconcile.report.sections import where_table
+from reconcile.report.steps import stages
+from reconcile.report.words import compared, to_do
+from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Report, SensorFault, Where, Word
+
+FAMILY = {
+    "family": "b1.outer",
+    "order": 3.59,
+    "z": 22.5,
+    "chance": 1e-5,
+    "heard": {"a": 22.5},
+    "risen": True,
+    "x": None,
+}
+
+
+def report(verdict: Word = "explained", **more: object) -> Report:
+    return Report(verdict=verdict, sentence="s", level="machine", **more)  # type: ignore[arg-type]
+
+
+def rows(markup: str) -> list[list[str]]:
+    return [
+        [re.sub("<[^>]+>", "", cell) for cell in re.findall("<t[hd]>(.*?)</t[hd]>", row)]
+        for row in re.findall("<tr.*?</tr>", markup)
+    ]
+
+
+def test_keys_become_words_and_what_is_empty_is_left_out() -> None:
+    found = {"name": "calibrate", "mode": "A", "median_gain_db": [-0.2], "strayed": [], "natural_frequency_hz": None}
+    (_, told) = rows(stages(report(stages=(found,))))
+    assert told[0] == "machine and sensors fitted to what is sound"
+    assert told[1] == "compared with: baselines of this machine; median gain of the sensors, dB: -0.2"
+
+
+def test_lists_of_objects_are_tables_without_columns_that_nobody_has() -> None:
+    families = {"name": "families", "table": [FAMILY, {**FAMILY, "family": "b1.inner", "risen": False}]}
+    heads, first, second = rows(stages(report(stages=(families, {"name": "speed", "found": {}}))))
+    assert heads == ["family", "order", "deviations of control orders", "chance", "deviations by channel", "has risen"]
+    assert first[0] == "b1.outer" and first[-1] == "yes" and second[-1] == "no"
+
+
+def test_short_objects_are_told_in_a_line_by_their_first_value() -> None:
+    decided = [{"number": f"part {k}", "offset": 0.1, "share": 0.9} for k in range(15)]
+    (_, told) = rows(stages(report(stages=({"name": "calibrate", "decided": decided},))))
+    assert told[1].startswith("numbers the baseline decides: part 0, part 1,") and told[1].endswith("… (15)")
+
+
+def test_nothing_found_is_no_section() -> None:
+    assert stages(report()) == "" and stages(report(stages=({"name": "speed", "found": {}},))) == ""
+
+
+@pytest.mark.parametrize(
+    ("made", "said"),
+    [
+        (report("nothing_missing"), "nothing follows"),
+        (report(causes=(Cause(term="outer_spall", site="b1", severity=None, score=9.0, named=True),)), "inspect b1"),
+        (report("measurement_fault", fault=SensorFault(kind="clipping", channel="de", detail="")), "at de"),
+        (report("unknown_physics", where=Where(sites=(PlaceWeight(site="b2", weight=0.9),))), "look at b2"),
+        (
+            report("not_decidable", next_experiment=NextExperiment(sentence="Record with a tacho.")),
+            "Record with a tacho.",
+        ),
+        (
+            report("ambiguous", causes=(Cause(term="a", site="b", severity=None, score=1.0, named=False),)),
+            "act on none",
+        ),
+        (report("not_decidable"), "record again"),
+    ],
+)
+def test_every_verdict_says_what_to_do(made: Report, said: str) -> None:
+    assert said in to_do(made)
+
+
+def test_the_head_names_machine_and_files() -> None:
+    sent = {"test 1": "now.json", "baseline 1": "sound.json"}
+    made = report(provenance={"machine": "rig", "sent_as": sent, "cost": {"core_s": 12.0}})
+    assert compared(made) == "rig: now.json, against sound.json as the baseline,"
+    assert compared(report()) == "Recording"
+    assert ["recordings", "test 1: now.json; baseline 1: sound.json"] in rows(provenance(made))
+
+
+def test_lines_of_one_family_stand_in_one_row() -> None:
+    lines = tuple(
+        LineChange(label=f"{k} BPFO", frequency_hz=100.0 * k, change_db=20.0, channel="a", locked_to="b1.outer")
+        for k in (1, 2)
+    )
+    other = LineChange(label="1 BPFI", frequency_hz=150.0, change_db=20.5, channel="a", locked_to="b1.inner")
+    _, first, second = rows(where_table(Where(lines=(*lines, other))))
+    assert first[0] == "1 BPFI" and second[:3] == ["1 BPFO, 2 BPFO", "100, 200", "+20.0"]
