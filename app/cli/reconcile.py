@@ -136,10 +136,12 @@ def run(arguments: argparse.Namespace) -> int:
             seed=arguments.seed,
             progress=_progress,
         )
+    earlier = (arguments.out / "report.json").exists()
     written = write_report(report, arguments.out)
     if arguments.json:
         print(written[0].read_text(encoding="utf-8"))
     else:
         print(f"{report.verdict}: {report.sentence}")
-    print("wrote " + ", ".join(str(path) for path in written), file=sys.stderr)
+    replaced = " (an earlier report there was replaced)" if earlier else ""
+    print("wrote " + ", ".join(str(path) for path in written) + replaced, file=sys.stderr)
     return 0

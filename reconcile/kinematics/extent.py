@@ -37,6 +37,8 @@ FIRST_SHARE, LAST_SHARE = 0.03, 0.45
 BANDS = ((0.02, 0.24), (0.05, 0.5), (0.01, 0.49), (0.24, 0.48))
 """Of the sampling rate."""
 EXTREME = 0.999
+CUT_SHARE = 2e-3
+"""Of samples at the extreme value: signals that are not cut off have a few."""
 TIGHT_DEG = 6.0
 """An upper bound below this is worth giving as a size."""
 
@@ -53,9 +55,10 @@ class Extent:
 
 
 def spall_extent(evidence: Evidence, test: Observation, ties: Ties) -> Extent | None:
-    """Extent of an outer or inner spall; None for other families and where the record cannot resolve anything."""
+    """Extent of an outer or inner spall; None for other families, where the record cannot resolve anything, and where
+    its channel is cut off: what stands at the limit has lost the heights of both events."""
     family = evidence.family
-    if family.kind not in ("outer", "inner") or family.site not in ties.races:
+    if family.kind not in ("outer", "inner") or family.site not in ties.races or _cut_off(test, evidence.channel):
         return None
     race = ties.races[family.site]
     rate_hz = evidence.order * test.speed.speed_hz
@@ -82,6 +85,12 @@ def spall_extent(evidence: Evidence, test: Observation, ties: Ties) -> Extent | 
         lag_s=lag,
         resolved=True,
     )
+
+
+def _cut_off(test: Observation, channel: str) -> bool:
+    """Whether the channel stands at its extreme value for more than a moment."""
+    size = np.abs(test.recording.series(channel).samples)
+    return bool(np.mean(size >= EXTREME * np.max(size)) > CUT_SHARE)
 
 
 def as_severity(extent: Extent, evidence: Evidence, ties: Ties) -> Severity:

@@ -84,6 +84,17 @@ def test_entry_and_exit_give_the_extent(degrees: float) -> None:
 
 
 @pytest.mark.slow
+def test_a_channel_that_is_cut_off_gives_no_extent() -> None:
+    pair = 0.75 * 9.0 / 360 / (0.3983 * SPEED_HZ)
+    whole = defect("outer_spall", 3, pair_s=pair)
+    limit = np.quantile(np.abs(whole), 0.9)
+    report = reconcile_kinematics(SPEC, [recorded(np.clip(whole, -limit, limit))], [BASELINE], seed=0)
+    assert report.causes[0].term == "outer_spall" and report.causes[0].named
+    assert report.causes[0].severity is None
+    assert any("how large" in text for text in report.undecidable)
+
+
+@pytest.mark.slow
 def test_a_defect_of_the_baseline_that_grew() -> None:
     small, large = (0.75 * d / 360 / (0.3983 * SPEED_HZ) for d in (4.0, 8.0))
     before = recorded(defect("outer_spall", 3, pair_s=small))
