@@ -9,6 +9,7 @@ from dataclasses import fields, is_dataclass
 
 import numpy as np
 
+from reconcile.report.words import to_do
 from reconcile.verdict import Report
 
 Plain = None | bool | int | float | str | list["Plain"] | dict[str, "Plain"]
@@ -37,8 +38,8 @@ def plain(value: object) -> Plain:  # noqa: PLR0911 - one line a kind of value
 
 
 def document(report: Report) -> dict[str, Plain]:
-    """The report's keys as the interface names them, with plain values only."""
-    return {f.name: plain(getattr(report, f.name)) for f in fields(report)}
+    """The report's keys as the interface names them, with plain values only; `to_do`: what a person can do now."""
+    return {**{f.name: plain(getattr(report, f.name)) for f in fields(report)}, "to_do": to_do(report)}
 
 
 def strict_json(report: Report) -> str:

@@ -30,6 +30,7 @@ from reconcile.verdict import (
 from sim.presets import preset
 
 KEYS = {
+    "to_do",
     "verdict", "sentence", "where", "causes", "fault", "held_out", "force", "undecidable", "next_experiment", "machine",
     "provenance", "level", "stages", "pictures",
 }  # fmt: skip

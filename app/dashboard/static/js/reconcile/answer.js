@@ -27,6 +27,7 @@ function verdict(report) {
   return h("section", { class: "card card-body reconcile-form", id: "answer-verdict", "aria-label": "Verdict" },
     h("div", {}, h("span", { class: "pill", dataset: { tone: TONES[report.verdict] ?? "" } }, words(report.verdict))),
     h("p", { class: "reconcile-sentence" }, report.sentence),
+    report.to_do ? h("p", {}, h("b", {}, "What to do: "), report.to_do) : null,
     fault ? h("p", { class: "muted" }, `${words(fault.kind)}, channel ${fault.channel}. ${fault.detail}`) : null);
 }
 
