@@ -144,7 +144,7 @@ def reconcile_recordings(
     check_descriptions(machine, tests, baselines)
     check_channels(tests, baselines)
     level: Level = "kinematics" if isinstance(machine, KinematicSpec) else "machine"
-    smeared = unsteady(tests, level, seed)
+    smeared = unsteady(tests, baselines, level, seed)
     if smeared is not None:
         return _with_labels(smeared, sent, machine.name)
     silent = unstated(given(tests, baselines))

@@ -1,66 +1,93 @@
 """Does the speed change during a recording without pulses? Lines that a run-up smears come back when it is undone.
 
 The samples are read as if the speed rose or fell evenly by a share `c` of its mean, for several c. At the right one the
-lines of shafts, teeth and bearings, in the plain spectrum and in envelopes, are sharp; at c = 0 they are, where the
-speed holds. Resonances and noise have no sharp lines at any c.
+lines of shafts, teeth and bearings, in the plain spectrum and in envelopes, are narrow; at c = 0 they are, where the
+speed holds. Resonances, noise and irregular impacts have no narrow lines at any c.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
+from scipy.ndimage import maximum_filter1d
 from scipy.signal import butter, sosfiltfilt
 
+from reconcile.speed.excess import mains_bins
 from signals.recording import Recording
 from signals.series import FloatArray
 
 TOP_HZ = 800.0
 """Highest frequency looked at, of signals and of envelopes."""
-LONGEST_S = 5.0
+WINDOW_S = 5.0
+"""Length of the stretches that are looked at: the first, and of longer recordings the last."""
 MOST_CHANNELS = 3
-LARGEST, STEP = 0.8, 0.005
-HELD = 0.05
+LARGEST, STEP = 1.2, 0.005
+HELD = 0.03
 """Change up to which a speed counts as held: a machine's wander over a short recording looks like it."""
-LEAST = 0.1
-CLEAR = 6.0
-"""Robust deviations of the sharpness over all c that a run-up must show, and `TIMES` what a held speed does. Simulated
-run-ups show 17 to 28, a measured recording that was read ever faster 98, held speeds of 63 concealed machines at most
-5.7, of measured ones up to 19 where a held speed shows 5 times as much."""
-TIMES = 2.0
-MIN_SAMPLES = 1024
-FAINT = 1e-3
-"""Share of the mean power below which nothing is a line: of a noiseless signal, rounding would be."""
+LEAST = 0.06
+LINES = 3
+"""Narrow lines that must come back, more than a held speed has."""
+SURE = 0.1
+"""Change from which both halves must rise, or both fall: a speed that swings to and fro does neither."""
+STRONG = 60.0
+"""Power of a narrow line over the median around it: noise and irregular impacts, whose bins are exponential or fewer
+than this many impacts, do not reach it."""
+NARROW, BESIDE = 3, 8.0
+"""Bins to either side beyond which a narrow line has fallen to a share of one in `BESIDE`."""
 BLOCK = 64
-"""Bins."""
+MIN_SAMPLES = 1024
+FAINT = 1e-4
+"""Share of the mean power below which nothing is a line: of a noiseless signal, rounding would be."""
+COVERED = 0.8
+"""Share of a recording that its pulses must cover to follow the speed by them."""
 
 
 def speed_change(recording: Recording) -> float | None:
-    """Rise (or fall, negative) of the speed from the beginning to the end of the first 5 s, over its mean; None where
-    it holds, nothing tells, or pulses do."""
-    if recording.tacho is not None or not np.all(np.isfinite(recording.samples)):
+    """Rise (or fall, negative) of the speed over its mean, from the beginning to the end of the first or the last 5 s
+    (the larger); None where it holds, nothing tells, or pulses do. Values of `LARGEST` mean as much or more."""
+    if _followed(recording) or not np.all(np.isfinite(recording.samples)):
         return None
+    size = int(WINDOW_S * recording.sampling_rate_hz)
+    rows = recording.samples[:MOST_CHANNELS]
+    stretches = [rows[:, :size]] if rows.shape[1] < 2 * size else [rows[:, :size], rows[:, -size:]]
+    found = [c for s in stretches if (c := _change(s, recording.sampling_rate_hz)) is not None]
+    return max(found, key=abs, default=None)
+
+
+def _followed(recording: Recording) -> bool:
+    """Whether there are pulses nearly all along."""
+    if recording.tacho is None:
+        return False
+    times = recording.tacho.pulse_times_s
+    return bool(np.ptp(times) >= COVERED * recording.duration_s)
+
+
+def _change(rows: FloatArray, rate_hz: float) -> float | None:
     changes = np.arange(-LARGEST, LARGEST + STEP / 2, STEP)
-    rate = recording.sampling_rate_hz
-    parts = [
-        part
-        for row in recording.samples[:MOST_CHANNELS, : int(LONGEST_S * rate)]
-        for part in _parts(row - np.mean(row), rate)
-    ]
+    parts = [p for row in rows for p in _parts(row - np.mean(row), rate_hz)]
     parts = [p for p in parts if p.size >= MIN_SAMPLES and np.ptp(p) > 0]
     if not parts:
         return None
-    score = np.sum([_standard(_sharpness(p, rate / _every(rate), changes)) for p in parts], axis=0) / np.sqrt(
-        len(parts)
-    )
-    held = float(np.max(score[np.abs(changes) <= HELD]))
-    best = int(np.argmax(np.where(np.abs(changes) >= LEAST, score, -np.inf)))
-    return float(changes[best]) if score[best] >= max(CLEAR, TIMES * held) else None
+    count = _most_lines(parts, rate_hz, changes)
+    moved = np.where(np.abs(changes) >= LEAST, count, 0)
+    if np.max(moved) < LINES + np.max(count[np.abs(changes) <= HELD]):
+        return None
+    best = float(np.median(changes[moved == np.max(moved)]))
+    half = min(p.size for p in parts) // 2
+    if abs(best) < SURE or half < MIN_SAMPLES:
+        return best
+    same = best * np.linspace(0.25, 0.75, 21)
+    for part in ([p[:half] for p in parts], [p[-half:] for p in parts]):
+        if np.max(_most_lines(part, rate_hz, same)) <= np.max(_most_lines(part, rate_hz, -same)):
+            return None
+    return best
 
 
-def _standard(values: FloatArray) -> FloatArray:
-    """Robust deviations from the middle; nothing where all are alike."""
-    off = values - np.median(values)
-    spread = 1.4826 * float(np.median(np.abs(off)))
-    return np.asarray(off / spread if spread > 0.0 else 0.0 * off, dtype=np.float64)
+def _most_lines(parts: Sequence[FloatArray], rate_hz: float, changes: FloatArray) -> FloatArray:
+    """Narrow lines of the part that has most of them, at each of `changes`."""
+    found = [_narrow_lines(p, rate_hz / _every(rate_hz), changes) for p in parts]
+    return np.asarray(np.max(found, axis=0), dtype=np.float64)
 
 
 def _every(rate_hz: float) -> int:
@@ -86,20 +113,31 @@ def _centred(values: FloatArray) -> FloatArray:
     return np.asarray(values - np.mean(values), dtype=np.float64)
 
 
-def _sharpness(part: FloatArray, rate_hz: float, changes: FloatArray) -> FloatArray:
-    """How peaked the spectrum is, read with each of `changes`, shape (changes,): log of the mean square over the
-    squared mean power of blocks of bins, summed; log 2 a block in noise."""
+def _floor(power: FloatArray) -> FloatArray:
+    """Median of the block of bins around each bin."""
+    whole = power[: power.size // BLOCK * BLOCK].reshape(-1, BLOCK)
+    middle = np.repeat(np.median(whole, axis=1), BLOCK)
+    return np.asarray(np.pad(middle, (0, power.size - middle.size), mode="edge"), dtype=np.float64)
+
+
+def _narrow_lines(part: FloatArray, rate_hz: float, changes: FloatArray) -> FloatArray:
+    """Narrow lines of the spectrum, read with each of `changes`, shape (changes,); those of the mains left out."""
     time = np.arange(part.size) / rate_hz
     length = part.size / rate_hz
     window = np.hanning(part.size)
-    top = int(min(0.7 * TOP_HZ, 0.4 * rate_hz) * length)
+    top = max(int(min(TOP_HZ, 0.4 * rate_hz) * length), BLOCK)
     found = np.empty(changes.size)
     bow = time**2 / length - time
+    mains = mains_bins(top, 1.0 / length)
     for k, c in enumerate(changes):
         turns = time + c / 2 * bow  # of a speed from 1 - c/2 to 1 + c/2: even steps of these are even angles
-        even = np.interp(time, turns, part)
-        power = np.abs(np.fft.rfft(even * window)[:top]) ** 2
+        power = np.abs(np.fft.rfft(np.interp(time, turns, part) * window)[:top]) ** 2
         power += FAINT * np.mean(power)
-        blocks = power[: power.size // BLOCK * BLOCK].reshape(-1, BLOCK)
-        found[k] = np.sum(np.log(BLOCK * np.sum(blocks**2, axis=1) / np.sum(blocks, axis=1) ** 2))
+        near = maximum_filter1d(power, 2 * NARROW + 1)
+        beside = np.maximum(np.roll(power, NARROW), np.roll(power, -NARROW))
+        line = (power == near) & (power > BESIDE * beside) & (power > STRONG * _floor(power))
+        line[: 2 * NARROW] = False
+        if abs(c) < STEP:
+            line &= ~mains
+        found[k] = np.count_nonzero(line)
     return found

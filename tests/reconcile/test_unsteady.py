@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from reconcile.entry import reconcile_recordings
 from reconcile.kinematics import KinematicSpec
 from reconcile.unsteady import unsteady
@@ -24,9 +22,15 @@ def test_a_run_up_is_not_decidable_and_says_by_how_much() -> None:
 
 def test_one_of_several_may_be_left_out() -> None:
     held = recording(from_to(25.0, 25.0))
-    report = unsteady([held, recording(from_to(35.0, 28.0))], "machine", 0)
+    report = unsteady([held, recording(from_to(35.0, 28.0))], [], "machine", 0)
     assert report is not None and report.level == "machine"
     assert "falls" in report.sentence and "test 2" in report.sentence
     assert report.next_experiment is not None and "leave test 2 out" in report.next_experiment.sentence
-    assert unsteady([held, held], "machine", 0) is None
-    assert np.isfinite(report.provenance["seed"])  # type: ignore[arg-type]
+    assert unsteady([held], [held], "machine", 0) is None
+
+
+def test_a_baseline_that_runs_up_is_no_baseline() -> None:
+    report = unsteady([recording(from_to(25.0, 25.0))], [recording(from_to(20.0, 30.0))], "kinematics", 0)
+    assert (
+        report is not None and "baseline 1" in report.sentence and "leave baseline 1 out" in str(report.next_experiment)
+    )
