@@ -85,16 +85,14 @@ def assess_stage(
     head = model.heads[SHORT if turns <= SHORT_TURNS else LONG]
     seen = [look(part, rate_hz, speed_hz, teeth, doubt) for part in parts]
     p = _together(head, np.stack([features.vector(gears)[0] for gears in seen]))
-    best = max(
-        ((which, g.best) for gears in seen for which, g in enumerate(gears) if g.best is not None),
-        key=lambda x: x[1].peak + x[1].alone,
-        default=(0, None),
-    )
+    which = int(np.argmax(np.mean([[sum(g.most("alone")) for g in gears] for gears in seen], axis=0)))
+    shown = [gears[which].best for gears in seen]
+    place = max((one for one in shown if one is not None), key=lambda one: one.peak + one.alone, default=None)
     return StageAnswer(
         label=head.classes[int(np.argmax(p))],
         probabilities=dict(zip(head.classes, (float(x) for x in p), strict=True)),
-        gear=best[0],
-        place=best[1],
+        gear=which,
+        place=place,
         turns=float(turns),
         speed_hz=speed_hz,
         parts=len(parts),

@@ -43,6 +43,7 @@ NAMES = (
     "mate_alone",
     "turns",
     "teeth",
+    *(f"{what}_{band}" for what in ("alone", "kurtosis", "locked", "mate_alone") for band in BANDS),
 )
 
 
@@ -183,6 +184,10 @@ class Gear:
     all: tuple[Place, ...]
     best: Place | None
 
+    def most(self, what: str, least: float = 0.0) -> list[float]:
+        """The largest of one number over the channels, band by band."""
+        return [max((getattr(p, what) for p in self.all if p.band == band), default=least) for band in BANDS]
+
 
 def gear(turns: Sequence[Turns]) -> Gear:
     """A gear, its turns channel by channel."""
@@ -197,8 +202,9 @@ def row(one: Gear, mate: Gear) -> FloatArray:
     """Features of a gear in the order of `NAMES`."""
     best = one.best
     other = (mate.best.peak, mate.best.alone) if mate.best is not None else (0.0, 0.0)
+    bands = [*one.most("alone"), *one.most("kurtosis"), *one.most("locked", -2.0), *mate.most("alone")]
     if best is None:
-        return np.array([0.0] * 3 + [-2.0, -4.0] + [0.0] * 6 + [*other, 0.0, np.log(one.teeth)])
+        return np.array([0.0] * 3 + [-2.0, -4.0] + [0.0] * 6 + [*other, 0.0, np.log(one.teeth), *bands])
     peaks, curved = [p.peak for p in one.all], [p.kurtosis for p in one.all]
     near = [abs((p.at - best.at + 0.5) % 1 - 0.5) * one.teeth <= WINDOW_TEETH for p in one.all]
     return np.array(
@@ -217,12 +223,12 @@ def row(one: Gear, mate: Gear) -> FloatArray:
             *other,
             np.log(one.turns),
             np.log(one.teeth),
+            *bands,
         ]
     )
 
 
 def vector(gears: tuple[Gear, Gear]) -> tuple[FloatArray, int]:
-    """(features of the stage: those of the gear whose peak stands out more, which of the two that is)."""
-    heights = [g.best.peak + g.best.alone if g.best is not None else -1.0 for g in gears]
-    which = int(np.argmax(heights))
+    """(features of the stage: those of the gear of which one place stands out more, which of the two that is)."""
+    which = int(np.argmax([sum(g.most("alone")) if g.best is not None else -1.0 for g in gears]))
     return row(gears[which], gears[1 - which]), which
