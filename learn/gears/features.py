@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import fft
 
-from learn.gears.turns import FEWEST_TURNS, Turns
+from learn.gears.turns import FEWEST_TURNS, Turns, first_half
 from signals.series import BoolArray, ComplexArray, FloatArray
 
 SIDEBANDS = 4
@@ -115,7 +115,7 @@ def places(turns: Turns, channel: int) -> list[Place]:
             a, b, spread = a * gain, b * gain, spread * gain**2
         rows = (fft.irfft(a, n), fft.irfft(b, n))
         found.append(_place(rows, float(2 * np.sum(spread)) / n**2, z, channel, name, carrier))
-    found.append(_of_envelope(each, keep & (order >= 0.5 * z), n, z, channel))
+    found.append(_of_envelope(each, keep & (order >= 0.5 * z), n, z, turns.mate, channel))
     return found
 
 
@@ -126,7 +126,7 @@ def _gain(first: ComplexArray, second: ComplexArray, inside: BoolArray, teeth: i
     return np.asarray(np.abs(flat) / np.maximum(np.abs(both), 1e-300), dtype=np.float64)
 
 
-def _of_envelope(each: ComplexArray, inside: BoolArray, n: int, teeth: int, channel: int) -> Place:
+def _of_envelope(each: ComplexArray, inside: BoolArray, n: int, teeth: int, mate: int, channel: int) -> Place:
     """The same of the squared envelope, which needs no phase that is locked from turn to turn."""
     half = np.zeros((each.shape[0], n), dtype=np.complex128)
     half[:, : inside.size] = np.where(inside, each, 0)
@@ -137,9 +137,9 @@ def _of_envelope(each: ComplexArray, inside: BoolArray, n: int, teeth: int, chan
     lines[:, 2 * teeth :] = 0
     turned = fft.irfft(lines, n, axis=1)
     scatter = float(np.mean(np.var(turned, axis=0, ddof=1))) / (each.shape[0] / 2)
-    return _place(
-        (np.mean(turned[0::2], axis=0), np.mean(turned[1::2], axis=0)), scatter, teeth, channel, "envelope", 1.0
-    )
+    first = first_half(each.shape[0], teeth, mate)
+    halves = np.mean(turned[first], axis=0), np.mean(turned[~first], axis=0)
+    return _place(halves, scatter, teeth, channel, "envelope", 1.0)
 
 
 def _place(

@@ -8,28 +8,34 @@ whatever the number of turns; and a single knock lies in one half only.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cache
 from math import gcd
 
 import numpy as np
 from scipy import fft
 
 from learn.bank import even_length
-from signals.series import FloatArray
+from signals.series import BoolArray, FloatArray
 
 FINER = 4
 """Oversampling before samples are read off in between."""
 FEWEST_TURNS = 4
+MATE_LINES = 12
+LONGEST_BLOCK = 4
+CLEARLY = 0.5
+"""Longer blocks are taken where they halve what comes through."""
 ENOUGH_TURNS = 12
 """From which on a mean turn is clear enough of noise to be taken out."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Turns:
-    """A gear's turns of one channel, (turns, samples a turn); `teeth` of the gear."""
+    """A gear's turns of one channel, (turns, samples a turn); `teeth` of the gear, `mate`: of the other."""
 
     samples: FloatArray
     teeth: int
+    mate: int
 
     @property
     def count(self) -> int:
@@ -37,8 +43,27 @@ class Turns:
         return int(self.samples.shape[0])
 
     def halves(self) -> tuple[FloatArray, FloatArray]:
-        """Mean of the even turns, mean of the odd ones, (samples a turn,) each."""
-        return np.mean(self.samples[0::2], axis=0), np.mean(self.samples[1::2], axis=0)
+        """Mean turn of every other block, and of the blocks between, (samples a turn,) each."""
+        first = first_half(self.count, self.teeth, self.mate)
+        return np.mean(self.samples[first], axis=0), np.mean(self.samples[~first], axis=0)
+
+
+@cache
+def first_half(count: int, teeth: int, mate: int) -> BoolArray:
+    """Which of the turns are in the first half, (turns,): every other block, as long as lets least of the mate's lines
+    through. Where 5 turns of the mate are 2 of the gear, single turns would have them with opposite signs."""
+    turn = np.arange(count)
+    orders = np.array([j * teeth / mate for j in range(1, MATE_LINES + 1) if j * teeth % mate])
+    wave = np.exp(2j * np.pi * np.outer(orders, turn))
+    best, least = turn % 2 == 0, np.inf
+    for block in range(1, LONGEST_BLOCK + 1):
+        first = turn // block % 2 == 0
+        if orders.size == 0 or count < 2 * block:
+            break
+        through = sum(float(np.mean(np.abs(np.mean(wave[:, part], axis=1)) ** 2)) for part in (first, ~first))
+        if through < CLEARLY * least:
+            best, least = first, through
+    return np.asarray(best, dtype=np.bool_)
 
 
 def finer(samples: FloatArray) -> FloatArray:
@@ -47,12 +72,13 @@ def finer(samples: FloatArray) -> FloatArray:
     return np.asarray(fft.irfft(fft.rfft(x - np.mean(x)) * FINER, FINER * x.size), dtype=np.float64)
 
 
-def turns_of(fine: FloatArray, angle_rad: FloatArray, ratio: float, teeth: int) -> Turns:
-    """Turns of a gear that turns `ratio` times as fast as the shaft of `angle_rad` (n,), from `finer` samples."""
+def turns_of(fine: FloatArray, angle_rad: FloatArray, teeth: tuple[int, int], gear: int) -> Turns:
+    """Turns of gear 0, on the shaft of `angle_rad` (n,), or of its mate, gear 1; from `finer` samples."""
+    ratio = teeth[0] / teeth[gear]
     own = (angle_rad[: fine.size // FINER] - angle_rad[0]) * (ratio / (2 * np.pi))
     places, per_turn = _places(own)
     values = np.interp(places * FINER, np.arange(fine.size), fine)
-    return Turns(samples=values.reshape(-1, per_turn), teeth=teeth)
+    return Turns(samples=values.reshape(-1, per_turn), teeth=teeth[gear], mate=teeth[1 - gear])
 
 
 def _places(own: FloatArray) -> tuple[FloatArray, int]:
@@ -67,12 +93,11 @@ def both_gears(
     channels: Sequence[FloatArray], angle_rad: FloatArray, teeth: tuple[int, int]
 ) -> tuple[list[Turns], list[Turns]]:
     """Turns of the gear on the shaft of the angle, and of its mate, channel by channel; from each the mean turn of the
-    other is taken out, which few turns do not average away (where 5 turns of one are 2 of the other, the halves would
-    even be of opposite sign)."""
+    other is taken out, where it is clear of noise."""
     fine = [finer(c) for c in channels]
     found: tuple[list[Turns], list[Turns]] = ([], [])
     for one in fine:
-        raw = [turns_of(one, angle_rad, 1.0, teeth[0]), turns_of(one, angle_rad, teeth[0] / teeth[1], teeth[1])]
+        raw = [turns_of(one, angle_rad, teeth, gear) for gear in (0, 1)]
         for own in (0, 1):
             found[own].append(_without(raw[own], raw[1 - own]))
     return found
@@ -88,4 +113,4 @@ def _without(own: Turns, mate: Turns) -> Turns:
     curve = fft.irfft(lines * FINER, size)
     at = np.arange(own.samples.size) / own.samples.shape[1] * (own.teeth / mate.teeth) * size
     taken = np.interp(at % size, np.arange(size + 1), np.append(curve, curve[0]))
-    return Turns(samples=own.samples - taken.reshape(own.samples.shape), teeth=own.teeth)
+    return replace(own, samples=own.samples - taken.reshape(own.samples.shape))

@@ -20,7 +20,7 @@ from learn.simulate.machines import CLASSES
 from learn.simulate.rows import Variant
 from sim.version import PHYSICS_VERSION
 
-SEED, MACHINES, ABLATED, PAIRS = 1, 180, 24, 120
+SEED, MACHINES, ABLATED, PAIRS = 1, 180, 24, 100
 RIGS = ("cwru", "hit_sm_mfs", "uestc", "ims_healthy", "motor_acoustic", "openei_gear")
 
 

@@ -132,9 +132,8 @@ def _turned(
     four: _Four, place: int, angle_rad: FloatArray, sound: FloatArray, faulty: FloatArray
 ) -> Iterator[tuple[Turns, Turns]]:
     """Turns of the damaged gear, channel by channel, without and with the fault."""
-    ratio = 1.0 if place == 0 else four.teeth[0] / four.teeth[1]
     for pair in zip(sound, faulty, strict=True):
-        one, other = (turns_of(finer(row), angle_rad, ratio, four.teeth[place]) for row in pair)
+        one, other = (turns_of(finer(row), angle_rad, four.teeth, place) for row in pair)
         yield one, other
 
 

@@ -8,6 +8,7 @@ heard in `gear_rows`.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -79,8 +80,9 @@ def pairs(count: int, seed: int) -> tuple[Teeth, ...]:
     found = []
     for number in range(count):
         module, width, angle, addendum = BLANKS[number % len(BLANKS)]
-        driving = round(log_uniform(rng, *DRIVING))
-        driven = round(log_uniform(rng, *DRIVEN))
+        driving, driven = 0, 0
+        while not _runs(driving, driven, angle, addendum):
+            driving, driven = round(log_uniform(rng, *DRIVING)), round(log_uniform(rng, *DRIVEN))
         found.append(
             Teeth(
                 module_m=module,
@@ -93,6 +95,15 @@ def pairs(count: int, seed: int) -> tuple[Teeth, ...]:
             )
         )
     return tuple(found)
+
+
+def _runs(one: int, other: int, angle_deg: float, addendum: float) -> bool:
+    """Whether neither gear's tip reaches below the other's base circle, where there is no involute."""
+    if min(one, other) == 0:
+        return False
+    angle = math.radians(angle_deg)
+    reach = (one + other) / 2 * math.sin(angle)
+    return all(math.sqrt((z / 2 + addendum) ** 2 - (z / 2 * math.cos(angle)) ** 2) <= reach for z in (one, other))
 
 
 def machine(kind: Teeth) -> MachineSpec:
