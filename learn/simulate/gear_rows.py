@@ -23,7 +23,7 @@ from signals.series import FloatArray
 
 SHARE_FAST = 2 / 3
 AT_ONCE = 8
-HEARINGS = 2
+HEARINGS = 3
 RATES_HZ = (12_800.0, 20_000.0, 25_600.0)
 CHANNELS = (1, 1, 2, 3, 4)
 """How many channels a hearing has, each as likely."""
@@ -103,21 +103,23 @@ def _left_out(failure: object) -> None:
 
 
 def _heard(four: _Four, rng: np.random.Generator) -> Iterator[GearRow]:
-    """All recordings through the same chains, with the same background and wander."""
+    """All recordings through the same chains, with the same background and wander; the sound one only where some fault
+    shows beside it, or else a quiet background alone would speak for a fault."""
     rate = float(rng.choice(RATES_HZ))
     recorded = _recorded(four, rate, rng)
-    sound = recorded[SOUND]
+    sound = recorded.pop(SOUND)
     angle = mesh_angle(list(sound), rate, four.speed_hz, four.teeth[0])
+    shown = {}
     for fault, channels in recorded.items():
-        place, clear = None, 0.0
-        if fault != SOUND:
-            place = four.places[fault]
-            clear = max(tooth_db(*both) for both in _turned(four, place, angle, sound, channels))
-            if clear < SHOWS_DB:
-                continue
+        clear = max(tooth_db(*both) for both in _turned(four, four.places[fault], angle, sound, channels))
+        if clear >= SHOWS_DB:
+            shown[fault] = (TOOTH, channels, four.places[fault], clear)
+    if not shown:
+        return
+    for fault, (label, channels, place, clear) in {SOUND: (HEALTHY, sound, None, 0.0), **shown}.items():
         yield GearRow(
             machine=four.number,
-            label=HEALTHY if place is None else TOOTH,
+            label=label,
             fault=fault,
             channels=channels,
             rate_hz=rate,
