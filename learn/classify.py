@@ -69,7 +69,8 @@ def classify(
 ) -> dict[str, Any]:
     """Label, probabilities, speed, and what was found, of the part that is least likely sound; `parts` has them all.
 
-    Bearings and gear stages are looked at apart. Where only gears are described, no bearing is guessed at.
+    Bearings and gear stages are looked at apart. Where only gears are described, no bearing is guessed at; a stage
+    whose mesh or turns the recording does not hold is refused only if nothing else is there to answer for.
     """
     remarks = []
     if stages and not knows_gears(model):
@@ -77,7 +78,15 @@ def classify(
     chosen = usable(recording, channels)
     speed = speed_of(chosen, sites, trust=trust_speed)
     parts = [] if stages and not sites else _bearings(chosen, model, sites, speed)
-    parts += [_gears(chosen, model, stage, speed) for stage in stages]
+    unseen: list[SpecError] = []
+    for stage in stages:
+        try:
+            parts.append(_gears(chosen, model, stage, speed))
+        except SpecError as error:
+            unseen.append(error)
+            remarks.append(f"{stage.name}: is not looked at: {error}")
+    if not parts:
+        raise unseen[0]
     first = min(parts, key=lambda part: part["probabilities"].get("healthy", 1.0))
     shown = ("label", "probabilities", "bearing", "stage", "gear", "geometry", "severity_index", "turns", "stretches")
     return {

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from learn.gears import features
-from learn.gears.angle import mesh_angle
+from learn.gears.angle import TOP, mesh_angle
 from learn.gears.features import Gear, Place
 from learn.gears.turns import both_gears
 from learn.model import Head, Model
@@ -79,7 +79,13 @@ def assess_stage(
     teeth: tuple[int, int],
     doubt: float = 0.0,
 ) -> StageAnswer:
-    """Whether a tooth of either gear is damaged; channels are looked at together."""
+    """Whether a tooth of either gear is damaged; channels are looked at together. SpecError where the mesh is beyond
+    the sampling rate, or turns are too few."""
+    mesh_hz = teeth[0] * speed_hz
+    if mesh_hz > TOP * rate_hz:
+        problem = "is too low to hold the mesh of the teeth"
+        allowed = f"at least {mesh_hz / TOP:.4g}"
+        raise SpecError(Problem(field="sampling_rate_hz", message=problem, given=rate_hz, allowed=allowed, unit="Hz"))
     parts = parts_of(channels, rate_hz, speed_hz)
     turns = min(c.size for c in channels) / rate_hz * speed_hz
     head = model.heads[SHORT if turns <= SHORT_TURNS else LONG]

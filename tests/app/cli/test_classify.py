@@ -174,3 +174,12 @@ def test_a_model_without_gears_answers_for_bearings_and_says_so(recording, tmp_p
     found = answer(capsys, "--recording", recording(outer_fault(), kinematics=GEARED), "--model", str(path))
     assert found["label"] == "outer"
     assert any(remark.startswith("gears:") for remark in found["remarks"])
+
+
+def test_a_stage_that_the_recording_does_not_hold_leaves_the_bearing(recording, capsys):
+    high = {**GEARED, "gears": [{**gear, "teeth": 20 * gear["teeth"]} for gear in GEARED["gears"]]}
+    both = {**high, "bearings": [{"name": "de", "shaft": "motor", "catalogue": "6205"}]}
+    found = answer(capsys, "--recording", recording(outer_fault(), kinematics=both))
+    assert (found["label"], found["bearing"], len(found["parts"])) == ("outer", "de", 1)
+    assert any(remark.startswith("mesh: is not looked at") for remark in found["remarks"])
+    assert main(["classify", "--recording", recording(outer_fault(), kinematics=high), "--json"]) == 2

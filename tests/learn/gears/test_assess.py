@@ -45,6 +45,12 @@ def test_long_recordings_are_read_in_parts_and_short_ones_refused(stage):
         parts_of([samples[:1000]], RATE, SPEED)
 
 
+def test_a_mesh_beyond_the_sampling_rate_is_refused(stage):
+    samples, _ = stage()
+    with pytest.raises(SpecError, match="too low to hold the mesh"):
+        assess_stage([samples], RATE, SPEED, default_model(), (400, 57))
+
+
 def test_a_model_without_gears_says_so():
     model = default_model()
     assert knows_gears(model)
