@@ -9,6 +9,8 @@ import numpy as np
 
 from learn.assess import Assessment, assess, estimated
 from learn.describe import Site
+from learn.gears.assess import StageAnswer, assess_stage, knows_gears
+from learn.gears.stage import Stage
 from learn.model import Model
 from learn.speed import Speed, by_pulses
 from signals.checks import inspect
@@ -16,6 +18,9 @@ from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
 
 VIBRATION = ("acceleration", "velocity", "displacement", "sound pressure")
+PART = ("bearing", "stage", "gear", "label", "probabilities")
+PER_NEPER_DB = float(10 / np.log(10))
+"""Decibels in a natural logarithm of powers."""
 SYMBOLS = {"outer": "BPFO", "inner": "BPFI", "ball": "2 BSF", "cage": "4 FTF"}
 
 
@@ -58,38 +63,107 @@ def classify(
     model: Model,
     sites: Sequence[Site] = (),
     *,
+    stages: Sequence[Stage] = (),
     channels: Sequence[str] | None = None,
     trust_speed: bool = False,
 ) -> dict[str, Any]:
-    """Label, probabilities, speed, and the lines found; of several bearings the one that is least likely sound."""
+    """Label, probabilities, speed, and what was found, of the part that is least likely sound; `parts` has them all.
+
+    Bearings and gear stages are looked at apart. Where only gears are described, no bearing is guessed at; a stage
+    whose mesh or turns the recording does not hold is refused only if nothing else is there to answer for.
+    """
+    remarks = []
+    if stages and not knows_gears(model):
+        stages, remarks = (), ["gears: are not looked at, the model was not trained on any"]
     chosen = usable(recording, channels)
     speed = speed_of(chosen, sites, trust=trust_speed)
-    rows = list(chosen.samples)
-    answers: list[tuple[str, float, Assessment]] = []
-    for site in sites or (None,):
-        ratio = site.ratio if site is not None else 1.0
-        orders = site.orders if site is not None else None
-        likely = [f * ratio for f in speed.likely]
-        answer = assess(rows, chosen.sampling_rate_hz, speed.speed_hz * ratio, model, orders, speed.doubt, likely)
-        answers.append((site.name if site is not None else "", ratio, answer))
-    name, ratio, answer = min(answers, key=lambda a: a[2].probabilities.get("healthy", 1.0))
+    parts = [] if stages and not sites else _bearings(chosen, model, sites, speed)
+    unseen: list[SpecError] = []
+    for stage in stages:
+        try:
+            parts.append(_gears(chosen, model, stage, speed))
+        except SpecError as error:
+            unseen.append(error)
+            remarks.append(f"{stage.name}: is not looked at: {error}")
+    if not parts:
+        raise unseen[0]
+    first = min(parts, key=lambda part: part["probabilities"].get("healthy", 1.0))
+    shown = ("label", "probabilities", "bearing", "stage", "gear", "geometry", "severity_index", "turns", "stretches")
     return {
-        "label": answer.label,
-        "probabilities": answer.probabilities,
-        "bearing": name or None,
-        "geometry": answer.geometry,
+        **{name: first[name] for name in shown},
         "speed": {
             "speed_hz": speed.speed_hz,
             "method": speed.method,
             "estimated": speed.method not in ("tacho", "given"),
         },
-        "severity_index": answer.severity,
-        "turns": answer.turns,
-        "stretches": answer.stretches,
         "channels": list(chosen.names),
-        "lines": _lines(answer, speed.speed_hz * ratio, chosen.names),
-        "remarks": [f"{f.channel}: {f.kind}: {f.message}" for f in inspect(chosen)][:20],
+        "lines": first["lines"],
+        "parts": [{name: part[name] for name in PART} for part in parts],
+        "remarks": [*remarks, *(f"{f.channel}: {f.kind}: {f.message}" for f in inspect(chosen))][:20],
     }
+
+
+def _bearings(chosen: Recording, model: Model, sites: Sequence[Site], speed: Speed) -> list[dict[str, Any]]:
+    """Each bearing that is described, or any usual one."""
+    found = []
+    for site in sites or (None,):
+        ratio = site.ratio if site is not None else 1.0
+        orders = site.orders if site is not None else None
+        likely = [f * ratio for f in speed.likely]
+        rows = list(chosen.samples)
+        answer = assess(rows, chosen.sampling_rate_hz, speed.speed_hz * ratio, model, orders, speed.doubt, likely)
+        found.append(
+            {
+                "label": answer.label,
+                "probabilities": answer.probabilities,
+                "bearing": site.name if site is not None else None,
+                "stage": None,
+                "gear": None,
+                "geometry": answer.geometry,
+                "severity_index": answer.severity,
+                "turns": answer.turns,
+                "stretches": answer.stretches,
+                "lines": _lines(answer, speed.speed_hz * ratio, chosen.names),
+            }
+        )
+    return found
+
+
+def _gears(chosen: Recording, model: Model, stage: Stage, speed: Speed) -> dict[str, Any]:
+    """A stage; `gear` is named where a tooth is damaged."""
+    hz = speed.speed_hz * stage.ratio
+    answer = assess_stage(list(chosen.samples), chosen.sampling_rate_hz, hz, model, stage.teeth, speed.doubt)
+    return {
+        "label": answer.label,
+        "probabilities": answer.probabilities,
+        "bearing": None,
+        "stage": stage.name,
+        "gear": stage.gears[answer.gear] if answer.label != "healthy" else None,
+        "geometry": "known",
+        "severity_index": None,
+        "turns": answer.turns,
+        "stretches": answer.parts,
+        "lines": _peak(answer, stage, chosen.names),
+    }
+
+
+def _peak(answer: StageAnswer, stage: Stage, names: Sequence[str]) -> list[dict[str, Any]]:
+    """The place of a turn that stands out most, as the one line: its order is a turn of that gear."""
+    if answer.place is None:
+        return []
+    ratio = 1.0 if answer.gear == 0 else stage.teeth[0] / stage.teeth[1]
+    order = stage.ratio * ratio
+    return [
+        {
+            "family": stage.gears[answer.gear],
+            "order": order,
+            "frequency_hz": answer.speed_hz * ratio,
+            "peak_over_mean_db": PER_NEPER_DB * answer.place.peak,
+            "peak_over_next_db": PER_NEPER_DB * answer.place.alone,
+            "band": answer.place.band,
+            "channel": names[answer.place.channel],
+        }
+    ]
 
 
 def _lines(answer: Assessment, speed_hz: float, names: Sequence[str]) -> list[dict[str, Any]]:

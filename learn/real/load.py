@@ -20,7 +20,9 @@ ROOT = Path(__file__).resolve().parents[2]
 RECORDINGS = ROOT.parent / "shared" / "recordings"
 BEARINGS = {"cwru": "6205", "hit_sm_mfs": "6205", "uestc": "UC204", "ims_healthy": "ZA-2115"}
 """Sizes as the sources state them; of `uestc` the series only, and 204 is its smallest common insert."""
-LABELS = {"healthy": "healthy", "outer-race": "outer", "inner-race": "inner", "ball": "ball", "broken": "broken"}
+LABELS = {"healthy": "healthy", "outer-race": "outer", "inner-race": "inner", "ball": "ball", "broken": "tooth"}
+TEETH = {"openei_gear": (32, 80)}
+"""Of the stage on the shaft whose speed is told: as seen in the recordings' lines, the source does not state them."""
 MIDDLE = (0.2, 0.8)
 """Share of a sound file that is used: some begin and end with a synchronising noise."""
 
@@ -39,6 +41,8 @@ class Case:
     orders: FaultOrders | None
     size: float | None
     """Arc of the defect, degrees, where the source says."""
+    teeth: tuple[int, int] | None = None
+    """Of a gear stage, the gear on the shaft whose speed is told first."""
 
 
 def available(folder: Path = RECORDINGS) -> bool:
@@ -67,6 +71,7 @@ def case(entry: Mapping[str, Any], folder: Path = RECORDINGS) -> Case:
         stated_hz=_stated(rig, path.name, speed),
         orders=from_geometry(lookup(size).geometry()) if size else None,
         size=_arc(path.name) if rig == "hit_sm_mfs" else None,
+        teeth=TEETH.get(rig),
     )
 
 

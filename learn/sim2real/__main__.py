@@ -10,16 +10,18 @@ import sys
 import time
 from pathlib import Path
 
+from learn.gears.assess import CLASSES as GEAR_CLASSES
 from learn.model import Model, load, save
 from learn.real.load import RECORDINGS, Case, available, case, index
+from learn.sim2real.gear_table import GearExample, gear_heads, gear_table
 from learn.sim2real.report import Results, report
 from learn.sim2real.table import Table, pool_of, table, train
 from learn.simulate.machines import CLASSES
 from learn.simulate.rows import Variant
 from sim.version import PHYSICS_VERSION
 
-SEED, MACHINES, ABLATED = 1, 180, 24
-RIGS = ("cwru", "hit_sm_mfs", "uestc", "ims_healthy", "motor_acoustic")
+SEED, MACHINES, ABLATED, PAIRS = 1, 180, 24, 100
+RIGS = ("cwru", "hit_sm_mfs", "uestc", "ims_healthy", "motor_acoustic", "openei_gear")
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -28,6 +30,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--model", type=Path, default=None, help="write the trained model here")
     parser.add_argument("--from-model", type=Path, default=None, help="do not train: test this model")
     parser.add_argument("--machines", type=int, default=MACHINES, help="simulated machines, about")
+    parser.add_argument("--pairs", type=int, default=PAIRS, help="simulated gear pairs, about")
     parser.add_argument("--ablated", type=int, default=ABLATED, help="machines of the reduced data sets; 0: none")
     parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--processes", type=int, default=2)
@@ -43,7 +46,7 @@ def main(argv: list[str] | None = None) -> int:
     ablated = _ablated(given, began) if given.ablated and not given.from_model else {}
     cases = [case(e) for e in index() if e["dataset"] in RIGS]
     _tell(began, f"{len(cases)} measured recordings read")
-    labelled = [c for c in cases if c.label in CLASSES]
+    labelled = [c for c in cases if c.label in (*CLASSES, *GEAR_CLASSES)]
     with pool_of(given.processes) as pool:
         results = report(model, ablated, labelled, seed=given.seed, pool=pool)
     _write(results, held, cases, given.docs)
@@ -55,17 +58,24 @@ def main(argv: list[str] | None = None) -> int:
 def _trained(given: argparse.Namespace, began: float) -> tuple[Model, str]:
     found = table(given.machines, given.seed, Variant(), given.processes)
     _tell(began, f"{len(set(found.machines))} machines simulated, {len(found.labels)} pieces of recordings")
-    model = train(found, seed=given.seed, made_by=_made_by(given, found))
+    model = train(found, seed=given.seed, made_by={})
     _tell(began, "trained")
-    return model, f"{len(set(found.machines))} machines, {len(found.labels)} pieces"
+    pairs = gear_table(given.pairs, given.seed, given.processes)
+    _tell(began, f"{len({p.machine for p in pairs})} gear pairs simulated, {len(pairs)} recordings")
+    heads = {**model.heads, **gear_heads(pairs, given.seed)}
+    held = f"{len(set(found.machines))} machines, {len(found.labels)} pieces"
+    held += f"; {len({p.machine for p in pairs})} gear pairs, {len(pairs)} recordings"
+    return Model(heads=heads, made_by=_made_by(given, found, pairs)), held
 
 
-def _made_by(given: argparse.Namespace, found: Table) -> dict[str, object]:
+def _made_by(given: argparse.Namespace, found: Table, pairs: list[GearExample]) -> dict[str, object]:
     return {
-        "command": f"python -m learn.sim2real --machines {given.machines} --seed {given.seed}",
+        "command": f"python -m learn.sim2real --machines {given.machines} --pairs {given.pairs} --seed {given.seed}",
         "physics_version": PHYSICS_VERSION,
         "machines": len(set(found.machines)),
         "rows": len(found.labels),
+        "gear_pairs": len({p.machine for p in pairs}),
+        "gear_rows": len(pairs),
         "real_samples": 0,
     }
 

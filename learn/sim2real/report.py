@@ -7,15 +7,19 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 
+from learn.gears.assess import CLASSES as GEAR_CLASSES
 from learn.model import Model
 from learn.real.load import Case
 from learn.sim2real.answers import Answer, ByModel, Way, ask, by_detector
+from learn.sim2real.gear_answers import gear_ways
 from learn.sim2real.rivals import rows_of, said_by, trained_on
 from learn.sim2real.scores import confusion, score
 from learn.sim2real.severities import severity_table
 from learn.simulate.machines import CLASSES
 
 KINDS = ("recording", "window")
+GIVEN, NEAR = "speed and geometry given", "speed estimated near the stated one"
+RIVAL = "classical detector (same information)"
 INTERVALS = """Balanced accuracy over all rigs (means of the classes' 95 % Wilson bounds; windows of one recording
 are not independent, so their interval is too narrow):
 """
@@ -33,10 +37,13 @@ def report(
     model: Model, ablated: Mapping[str, Model], cases: Sequence[Case], *, seed: int, pool: Executor | None = None
 ) -> Results:
     """Everything."""
+    stages = [c for c in cases if c.teeth is not None]
+    cases = [c for c in cases if c.teeth is None]
     known = [c for c in cases if c.orders is not None]
     main, detector = ask(known, ByModel(model=model), pool=pool), ask(known, by_detector, pool=pool)
+    gears = gear_ways(stages, model, pool)
     plain: dict[str, tuple[Sequence[Case], Way, bool]] = {
-        "speed estimated near the stated one": (known, ByModel(model=model, speed="near"), True),
+        NEAR: (known, ByModel(model=model, speed="near"), True),
         "speed estimated from nothing": (known, ByModel(model=model, speed="none"), False),
         "geometry unknown": (cases, ByModel(model=model, geometry=False), True),
         "geometry unknown, speed estimated near the stated one": (
@@ -46,25 +53,31 @@ def report(
         ),
     }
     plain |= {f"smaller data set, {name}": (known, ByModel(model=other), True) for name, other in ablated.items()}
-    ways = {"speed and geometry given": main, "kinematic detector (same information)": detector}
+    ways = {GIVEN: main, RIVAL: detector}
     ways |= {name: ask(which, way, windows=cut, pool=pool) for name, (which, way, cut) in plain.items()}
+    alone = {name: ways[name] for name in (GIVEN, RIVAL, NEAR)}
+    for name, more in zip(alone, gears, strict=True):
+        ways[name] = [*ways[name], *more]
     text = "\n\n".join(
         (
-            _summary(ways),
+            _summary(ways, alone if stages else {}),
             _rivals(known, seed),
             _by_recording(ways),
             _failures(ways),
-            "Confusion, windows, speed and geometry given (rows: truth):\n\n" + _confusion(main),
+            "Confusion, windows, speed and geometry given (rows: truth):\n\n" + _confusion(ways[GIVEN]),
             severity_table(main),
         )
     )
     line = {
-        "rigs": _rigs(main),
-        "detector": _rigs(detector),
-        "pooled": _pooled(main),
-        "pooled_detector": _pooled(detector),
+        "rigs": _rigs(ways[GIVEN]),
+        "detector": _rigs(ways[RIVAL]),
+        "pooled": _pooled(ways[GIVEN]),
+        "pooled_detector": _pooled(ways[RIVAL]),
+        "pooled_bearings": _pooled(main),
+        "pooled_detector_bearings": _pooled(detector),
         "geometry_unknown": _rigs(ways["geometry unknown"]) | {"pooled": _pooled(ways["geometry unknown"])},
-        "speed_estimated": _pooled(ways["speed estimated near the stated one"]),
+        "speed_estimated": _pooled(ways[NEAR]),
+        "speed_estimated_bearings": _pooled(alone[NEAR]),
     }
     return Results(text=text, line="SIM2REAL " + json.dumps(line))
 
@@ -102,20 +115,21 @@ def _share(one: Mapping[str, object] | None) -> str:
     return f"{mean:.3f} ({low:.2f} to {high:.2f}), n {one['n']}"
 
 
-def _summary(ways: Mapping[str, Sequence[Answer]]) -> str:
+def _summary(ways: Mapping[str, Sequence[Answer]], alone: Mapping[str, Sequence[Answer]]) -> str:
     lines = [
         INTERVALS,
         "| way | recordings | windows of 10 turns |",
         "|---|---|---|",
     ]
-    for name, answers in ways.items():
+    rows = [*ways.items(), *((f"{name}, bearings alone", answers) for name, answers in alone.items())]
+    for name, answers in rows:
         lines.append(f"| {name} | {_share(_of(answers, None, KINDS[0]))} | {_share(_of(answers, None, KINDS[1]))} |")
     lines += [
         "\nBy rig, speed and geometry given:\n",
         "| rig | recordings | windows | detector: recordings | windows |",
         "|---|---|---|---|---|",
     ]
-    main, detector = ways["speed and geometry given"], ways["kinematic detector (same information)"]
+    main, detector = ways[GIVEN], ways[RIVAL]
     for rig in dict.fromkeys(a.unit.case.rig for a in main):
         cells = [_share(_of(answers, rig, kind)) for answers in (main, detector) for kind in KINDS]
         lines.append(f"| {rig} | {' | '.join(cells)} |")
@@ -179,7 +193,8 @@ def _failures(ways: Mapping[str, Sequence[Answer]]) -> str:
 
 def _confusion(answers: Sequence[Answer]) -> str:
     cut = [a for a in answers if a.unit.window is not None]
-    rows = confusion([a.unit.case.label for a in cut], [a.label for a in cut], CLASSES)
-    lines = ["| truth | " + " | ".join(CLASSES) + " |", "|---" * (1 + len(CLASSES)) + "|"]
-    lines += [f"| {name} | " + " | ".join(map(str, row)) + " |" for name, row in zip(CLASSES, rows, strict=True)]
+    classes = tuple(dict.fromkeys((*CLASSES, *GEAR_CLASSES)))
+    rows = confusion([a.unit.case.label for a in cut], [a.label for a in cut], classes)
+    lines = ["| truth | " + " | ".join(classes) + " |", "|---" * (1 + len(classes)) + "|"]
+    lines += [f"| {name} | " + " | ".join(map(str, row)) + " |" for name, row in zip(classes, rows, strict=True)]
     return "\n".join(lines)

@@ -152,7 +152,7 @@ def _recorded(four: _Four, rate_hz: float, rng: np.random.Generator) -> dict[str
             spin, cage = 0.5 * four.orders.ball * four.speed_hz, four.orders.cage * four.speed_hz
             added = free_axis(free, added, RATE_HZ, spin, cage)
         motion = warped(sound + ground + added, RATE_HZ, *wander)
-        found[label] = measure(_motion(motion), links, seed=four.number).recording.samples[0]
+        found[label] = measure(motion_of_ring(motion), links, seed=four.number).recording.samples[0]
     settled = int(SETTLE_S * rate_hz)
     return {label: samples[settled:] for label, samples in found.items()}
 
@@ -168,9 +168,10 @@ def _level(four: _Four, rng: np.random.Generator) -> float:
     return float(rms ** (1 - share) * max(added, rms) ** share)
 
 
-def _motion(samples: FloatArray) -> Motion:
+def motion_of_ring(samples: FloatArray, rate_hz: float = RATE_HZ) -> Motion:
+    """Accelerations (2, n) of a ring in x and y, as a measurement chain takes them."""
     channels = tuple(
         Channel(name=f"ring.{axis}.acceleration", quantity="acceleration", unit="m/s^2", location="ring", axis=axis)
         for axis in ("x", "y")
     )
-    return Motion(recording=Recording(sampling_rate_hz=RATE_HZ, channels=channels, samples=samples, origin="simulated"))
+    return Motion(recording=Recording(sampling_rate_hz=rate_hz, channels=channels, samples=samples, origin="simulated"))

@@ -1,9 +1,11 @@
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from app.cli.main import main
+from learn.model import default_model, save
 
 RATE, SPEED = 20_000.0, 25.0
 ORDERS = {"6205": 3.5848}
@@ -116,3 +118,68 @@ def test_a_malformed_model_is_refused(recording, tmp_path, capsys):
     model.write_text("{}")
     assert main(["classify", "--recording", recording(outer_fault()), "--model", str(model)]) == 2
     assert "sideband-classifier" in capsys.readouterr().err
+
+
+GEARED = {
+    "shafts": [{"name": "motor"}, {"name": "out"}],
+    "gears": [{"name": "pinion", "shaft": "motor", "teeth": 23}, {"name": "wheel", "shaft": "out", "teeth": 57}],
+    "meshes": [{"name": "mesh", "gears": ["pinion", "wheel"]}],
+}
+
+
+def geared(*, tooth, turns=60.0):
+    """Three mesh harmonics of 23 teeth, modulated once a turn; a tooth of the wheel that rings when it is struck."""
+    n = int(turns / SPEED * RATE)
+    turn = SPEED * np.arange(n) / RATE
+    x = (1 + 0.4 * np.cos(2 * np.pi * turn)) * sum(np.cos(2 * np.pi * 23 * k * turn + k) / k for k in (1, 2, 3))
+    if tooth:
+        train = np.zeros(n)
+        train[np.flatnonzero(np.diff(np.floor(turn * 23 / 57)) > 0)] = 1.5
+        t = np.arange(100) / RATE
+        x = x + np.convolve(train, np.exp(-t * 800) * np.sin(2 * np.pi * 3000 * t))[:n]
+    return x + 0.1 * np.random.default_rng(4).standard_normal(n)
+
+
+@pytest.mark.slow
+def test_a_tooth_of_a_described_stage_is_named_with_its_gear(recording, capsys):
+    found = answer(capsys, "--recording", recording(geared(tooth=True), kinematics=GEARED))
+    assert (found["label"], found["stage"], found["gear"], found["bearing"]) == ("tooth", "mesh", "wheel", None)
+    assert found["probabilities"]["tooth"] > 0.7
+    assert found["lines"][0]["frequency_hz"] == pytest.approx(SPEED * 23 / 57, rel=0.01)
+    assert len(found["parts"]) == 1
+    sound = answer(capsys, "--recording", recording(geared(tooth=False), kinematics=GEARED))
+    assert (sound["label"], sound["gear"]) == ("healthy", None)
+
+
+@pytest.mark.slow
+def test_bearings_and_gears_are_both_answered(recording, capsys):
+    both = {**GEARED, "bearings": [{"name": "de", "shaft": "motor", "catalogue": "6205"}]}
+    path = recording(geared(tooth=True), kinematics=both)
+    found = answer(capsys, "--recording", path, "--trust-speed")
+    parts = {part["bearing"] or part["stage"]: part for part in found["parts"]}
+    assert set(parts) == {"de", "mesh"}
+    assert parts["mesh"]["label"] == "tooth"
+    assert set(parts["de"]["probabilities"]) == {"healthy", "outer", "inner", "ball"}
+    least = min(parts.values(), key=lambda part: part["probabilities"]["healthy"])
+    assert found["label"] == least["label"]
+    assert main(["classify", "--recording", path, "--trust-speed"]) == 0
+    assert "mesh: tooth" in capsys.readouterr().out
+
+
+@pytest.mark.slow
+def test_a_model_without_gears_answers_for_bearings_and_says_so(recording, tmp_path, capsys):
+    model = default_model()
+    path = tmp_path / "old.json"
+    save(replace(model, heads={k: v for k, v in model.heads.items() if not k.startswith("gear")}), path)
+    found = answer(capsys, "--recording", recording(outer_fault(), kinematics=GEARED), "--model", str(path))
+    assert found["label"] == "outer"
+    assert any(remark.startswith("gears:") for remark in found["remarks"])
+
+
+def test_a_stage_that_the_recording_does_not_hold_leaves_the_bearing(recording, capsys):
+    high = {**GEARED, "gears": [{**gear, "teeth": 20 * gear["teeth"]} for gear in GEARED["gears"]]}
+    both = {**high, "bearings": [{"name": "de", "shaft": "motor", "catalogue": "6205"}]}
+    found = answer(capsys, "--recording", recording(outer_fault(), kinematics=both))
+    assert (found["label"], found["bearing"], len(found["parts"])) == ("outer", "de", 1)
+    assert any(remark.startswith("mesh: is not looked at") for remark in found["remarks"])
+    assert main(["classify", "--recording", recording(outer_fault(), kinematics=high), "--json"]) == 2
