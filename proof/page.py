@@ -45,7 +45,7 @@ TARGETS = (
 )
 SECTIONS = {
     "fresh": "No version of the engine had met these before their run.",
-    "again": "The same 28 cases, with a later engine: none is met for the first time, and l093 has set one of its rules.",
+    "again": "The same 28 with a later engine: none is met for the first time, and l093 has set one of its rules.",
     "seen": "Of those looked at before, the ones that were run again: one that an earlier engine got right, six not.",
     "sound": "Cases in which nothing is missing, at all conditions of up to three speeds. All had been looked at.",
     "further": "Not met before by the engine of that day; l044 and l048 are at the target condition.",
@@ -103,7 +103,7 @@ must exceed what sound machines show, and lines without a pattern count from 1e-
 are runs with all of these: of the 28 only the verdict of l093 changed. They show that nothing was lost, and what a
 case costs; how often cases that nobody has met are right is what "Fresh" and "Further" say. Later changes of the engine
 (run-ups without pulses, standstills and two motions without a force are told or refused, no size from a channel that
-is cut off, words of messages) act before or beside the rules: {same}
+is cut off, words of messages) act before or beside the rules.
 
 **Placebos** are the right effect elsewhere and other effects at the right place, of which at least six machines were
 simulated: these are the likeliest rivals, and move some of the same bands. Every one is in the report with its gain.

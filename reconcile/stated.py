@@ -15,6 +15,8 @@ from sim.core.near import did_you_mean, near
 PER_MINUTE = 60.0
 FAST_HZ = 200.0
 """12000 rpm: machines seldom turn faster, and rpm mistaken for Hz mostly lie above."""
+FASTER = 5.0
+"""Times `FAST_HZ` from which sixty times another speed is rpm without asking the lines."""
 SAME = 0.05
 """By which a factor of 60 may be missed: slip and labels."""
 USUAL = 0.1
@@ -185,7 +187,8 @@ def _contradicted(
         return None
     why = _sixtieth(shaft, speed, nominal, several)
     if why is not None:
-        return None if _confirmed(one.recording, speed) else why
+        # sixty times what the drawing says and faster than machines turn: lines of impacts are found at any speed
+        return why if speed > FAST_HZ * FASTER or not _confirmed(one.recording, speed) else None
     if speed >= one.recording.sampling_rate_hz / 2:
         return f"half the sampling rate is {one.recording.sampling_rate_hz / 2:.4g} Hz"
     return _by_lines(one.recording, speed) if speed > FAST_HZ else None

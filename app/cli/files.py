@@ -20,7 +20,7 @@ from sim.core.errors import Problem, SpecError
 def read_json(path: Path) -> dict[str, object]:
     """A JSON object; SpecError says where it is broken. NaN, Infinity and repeated keys are refused."""
     try:
-        document = strict_json(path.read_text(encoding="utf-8"), str(path))
+        document = strict_json(path.read_text(encoding="utf-8-sig"), str(path))
     except UnicodeDecodeError as error:
         raise SpecError(Problem(field=str(path), message=f"is not text in UTF-8: {error.reason}")) from error
     if not isinstance(document, dict):

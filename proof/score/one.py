@@ -152,13 +152,13 @@ def _effects(truth: Json, said: Json, verdict: str) -> dict[str, Any]:
         "verdict_right": (verdict == "explained" and not false) or (verdict == "ambiguous" and all(place)),
         "false_name": verdict == "explained" and false,
         "alarm": alarmed,
-        "mechanism": all(mechanism) and verdict != "ambiguous",
-        "place": all(place) and verdict != "ambiguous",
+        "mechanism": all(mechanism) and not false and verdict != "ambiguous",
+        "place": all(place) and not false and verdict != "ambiguous",
         "top_three": alarmed and any(_is(c, e, place=True) for c in ranked[:3] for e in effects),
         "false_unknown": verdict == "unknown_physics",
     }
     if len(effects) > 1:
-        found["both"] = all(place) and verdict != "ambiguous"
+        found["both"] = found["place"]
     elif place[0]:
         found |= _severity(effects[0], next(c for c in stands if _is(c, effects[0], place=True)))
     return found

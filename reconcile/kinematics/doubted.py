@@ -23,7 +23,10 @@ CLEAR_Z = 3.0
 scatter by about one from record to record."""
 SAME = 0.02
 """Relative difference up to which the lines of another shaft are those between the multiples."""
-WORDS = {2.0: "twice", 0.5: "half"}
+FAR = 0.06
+"""Relative difference of a stated speed from the machine file's beyond which the search for lines does not reach it."""
+WORDS = {2.0: "twice the stated speed", 0.5: "half the stated speed"}
+USUAL = "the speed of the machine file"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,10 +79,15 @@ def unconfirmed(tests: Sequence[Observation]) -> bool:
 
 
 def against_rivals(
-    stated: Judged, seen: Sequence[Observation], tie: Ties, at: Callable[[float, bool], Judged | None]
+    stated: Judged,
+    seen: Sequence[Observation],
+    tie: Ties,
+    at: Callable[[float, bool], Judged | None],
+    nominal_hz: float | None = None,
 ) -> Report:
     """The answer, held against that at half or twice the speed where the shaft's lines don't decide, or where a
-    bearing's own lines stand half way between those of a defect. `at(factor, firmly)`: the answer at that speed."""
+    bearing's own lines stand half way between those of a defect; where no line confirms a speed that is far from the
+    machine file's, against that at the latter. `at(factor, firmly)`: the answer at that speed."""
     doubt = doubt_of(seen, tie)
     if doubt is None and stated.report.verdict in ("nothing_missing", "not_decidable"):
         return stated.report
@@ -91,11 +99,16 @@ def against_rivals(
         return doubted(stated, at(doubt[1], False), *doubt)
     if not unconfirmed(seen):
         return stated.report
-    rivals = [(one.z, factor, one) for factor in (2.0, 0.5) if (one := at(factor, False)) is not None]
+    first = next(t for t in seen if t.speed.method == "stated")
+    usual = None if nominal_hz is None else nominal_hz / first.speed.speed_hz
+    factors = [(2.0, CLEAR_Z), (0.5, CLEAR_Z)]
+    if usual is not None and abs(usual - 1.0) > FAR:
+        factors.append((usual, -CLEAR_Z))  # two statements against each other: as firm is enough
+    rivals = [(one.z - more, factor, one) for factor, more in factors if (one := at(factor, False)) is not None]
     firmest = max(rivals, key=lambda r: r[0], default=None)
-    if firmest is None or firmest[0] <= stated.z + CLEAR_Z:
+    if firmest is None or firmest[0] <= stated.z:
         return stated.report
-    return doubted(stated, firmest[2], next(t for t in seen if t.speed.method == "stated"), firmest[1])
+    return doubted(stated, firmest[2], first, firmest[1])
 
 
 def doubted(
@@ -121,11 +134,12 @@ def doubted(
         return replace(stated.report, undecidable=undecidable)
     nearer = rival.z > 0.0 if by_bearing else rival.z > stated.z
     shown, at = (rival.report, other) if nearer else (stated.report, speed)
-    whose, how = (f"the lines of {shaft}", "no worse") if by_lines else ("bearing lines", "better")
+    better = "better" if rival.z > stated.z + CLEAR_Z else "no worse"
+    whose, how = (f"the lines of {shaft}", "no worse") if by_lines else ("bearing lines", better)
     return replace(
         shown,
         verdict="ambiguous",
-        sentence=f"The speed is not decided: {whose} fit {other:.4g} Hz, {WORDS[factor]} the stated speed, {how} than "
+        sentence=f"The speed is not decided: {whose} fit {other:.4g} Hz, {WORDS.get(factor, USUAL)}, {how} than "
         f"{speed:.4g} Hz as stated. At {at:.4g} Hz: {shown.sentence}",
         causes=_both(stated, rival, speed, other),
         undecidable=undecidable,

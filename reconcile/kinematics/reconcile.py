@@ -81,7 +81,7 @@ def _reconciled(
         return finished(_refused(error), gate, (), ())
     report, every = _judged(known, tie, seen, past, seed)
     at = partial(_at_rival, known, tie, (gate.tests, seen), (gate.baselines, past), seed)
-    report = with_speeds(against_rivals(Judged(report=report, every=every), seen, tie, at), seen, past)
+    report = with_speeds(against_rivals(Judged(report=report, every=every), seen, tie, at, stated), seen, past)
     report = remarked(report, tie, seen, past, every, seed)
     if report.verdict in ("nothing_missing", "not_decidable") and gate.fault is not None:
         report = _fault(gate)

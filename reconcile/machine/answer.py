@@ -245,11 +245,17 @@ def _stages(
         for d in setting.data
     ]
     gains = [float(np.median(lens.chain.gain_db)) for lens in setting.seen_through[:1]]
+    rest = found.screen.rest
+    lines = rest.kept != 1.0 or rest.unmet != 0.0  # without teeth there is no view of single lines
     return (
         gate_stage(gate),
         {"name": "observe", "speeds": speeds, "features": int(np.isfinite(found.fitted.whiten.sigma).sum())},
         {"name": "calibrate", "median_gain_db": gains, "mode": "A" if setting.changes.with_baseline else "B", **fit},
-        {"name": "impacts", "found": list(setting.direct.told) or ["none that the baseline has not"]},
+        {
+            "name": "impacts",
+            "found": list(setting.direct.told)
+            or ["no part's lines modulate more deeply than those of sound machines here (levels may have risen)"],
+        },
         {
             "name": "is anything missing",
             "length": found.screen.length,
@@ -266,8 +272,8 @@ def _stages(
             "name": "judge",
             "misfit": found.screen.misfit,
             "overdispersion": found.fitted.overdispersion,
-            "lines_left": found.screen.rest.unmet,
-            "lines_explained": found.screen.rest.kept,
+            "lines_left": rest.unmet if lines else None,
+            "lines_explained": rest.kept if lines else None,
             "fitted_with_the_machine": sorted(found.led),
         },
     )

@@ -6,6 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
+from reconcile.report.action import to_do, undecided
 from reconcile.report.markup import Markup, escaped, figure_text, tag
 from reconcile.report.words import (
     FORMS,
@@ -20,11 +21,11 @@ from reconcile.report.words import (
     leaves_a_part,
     percent,
     severity,
-    to_do,
 )
-from reconcile.verdict import Cause, HeldOut, Level, LineChange, Report, Where, operating_point
+from reconcile.verdict import Cause, HeldOut, Level, LineChange, PlaceWeight, Report, Where, operating_point
 
 MOST_LINES = 20
+MOST_PLACES = 3
 BARS = (
     "Line through a bar's end: 90 % interval. Retuned: the model's own numbers moved instead. Black box: a correction "
     "with as many free numbers and no physics. Placebo: something else in the effect's stead. An effect that is "
@@ -72,6 +73,17 @@ def _tile(value: str, label: str) -> Markup:
     return tag("div", tag("b", value), tag("span", label), css="tile")
 
 
+def _place(report: Report, best: PlaceWeight) -> Markup:
+    """The tile of the place: one, or the several that a set leaves open."""
+    kinds, sites = undecided(report)
+    if report.verdict != "ambiguous" or not sites:
+        return _tile(best.site, f"most likely place, {percent(best.weight)} of the evidence")
+    if len(sites) > 1:
+        what = "" if len(kinds) == 1 else "; what it is is open too"
+        return _tile(" or ".join(sites[:MOST_PLACES]), f"places that these recordings do not tell apart{what}")
+    return _tile(sites[0], f"place, {percent(best.weight)} of the evidence; what it is is not decided")
+
+
 def head(report: Report) -> Markup:
     """Verdict, sentence, and the figures that matter."""
     word, tone = VERDICT[report.verdict]
@@ -81,8 +93,7 @@ def head(report: Report) -> Markup:
         tiles.append(_tile(report.fault.kind.replace("_", " "), f"on {report.fault.channel}"))
     if report.where.sites:
         best = max(report.where.sites, key=lambda s: s.weight)
-        open_ = "; what it is is not decided" if report.verdict == "ambiguous" else ""
-        tiles.append(_tile(best.site, f"most likely place, {percent(best.weight)} of the evidence{open_}"))
+        tiles.append(_place(report, best))
     for c in named[:2]:
         if c.severity is not None:
             size, low, high = (

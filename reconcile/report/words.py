@@ -88,22 +88,3 @@ def compared(report: Report) -> str:
     what = ", ".join(tests) or ("Recordings" if len(tests) > 1 else "Recording")
     against = f", against {', '.join(rested)} as the baseline," if rested else ""
     return f"{machine}: {what}{against}" if machine else f"{what}{against}"
-
-
-def to_do(report: Report) -> str:
-    """One sentence that a person on site can act on; nothing that the figures do not carry."""
-    experiment = report.next_experiment.sentence if report.next_experiment is not None else ""
-    place = max(report.where.sites, key=lambda s: s.weight).site if report.where.sites else ""
-    if report.verdict == "nothing_missing":
-        return "nothing follows from these recordings; keep them to compare later ones with."
-    if report.verdict == "measurement_fault" and report.fault is not None:
-        return f"mend the measurement at {report.fault.channel} and record again before judging the machine."
-    if report.verdict == "explained":
-        named = next((c for c in report.causes if c.named), None)
-        at = named.site if named is not None and named.site else place
-        look = f"inspect {at}" if at else "inspect the machine"
-        return f"{look} at the next stop; until then record again and follow the size, which is an estimate."
-    if report.verdict == "unknown_physics":
-        where = f"look at {place} first; " if place else ""
-        return f"{where}none of the known names fits, so take none for granted. {experiment}".strip()
-    return f"act on none of the names alone. {experiment}".strip() if report.causes else experiment or "record again."

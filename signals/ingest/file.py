@@ -35,7 +35,7 @@ def load_description(path: Path) -> Description:
         if path.stat().st_size > DESCRIPTION_BYTES:
             allowed = f"<= {DESCRIPTION_BYTES}"
             raise SpecError(Problem(field=path.name, message="is too large", allowed=allowed, unit="bytes"))
-        return read_description(strict(path.read_text(encoding="utf-8"), path.name))
+        return read_description(strict(path.read_text(encoding="utf-8-sig"), path.name))
     except OSError as error:
         reason = (error.strerror or "is away").lower()
         raise SpecError(Problem(field=str(path), message=f"cannot be read: {reason}")) from error

@@ -246,11 +246,14 @@ def test_a_name_beside_the_right_one_is_wrong_and_a_set_names_no_pair():
     assert score(case, report).verdict_right and score(case, report).false_name is False
     report["causes"] = [*report["causes"], cause("rub", "gear")]
     found = score(case, report)
-    assert not found.verdict_right and found.false_name and found.mechanism
+    assert not found.verdict_right and found.false_name and not found.mechanism and not found.place
     pair = truth("double")
     listed = [cause(e["terms"][0], e["sites"][0], named=False) for e in pair["effects"]]
     assert score(pair, {"verdict": "ambiguous", "causes": listed}).both is False
     assert score(pair, right(pair)).both is True
+    beside = right(pair)
+    beside["causes"] = [*beside["causes"], cause("squeeze_film", "bearing4")]
+    assert score(pair, beside).both is False
 
 
 def test_what_was_not_detected_beats_no_black_box():

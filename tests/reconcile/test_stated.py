@@ -180,3 +180,11 @@ def test_a_speed_that_nobody_stated_is_told() -> None:
     assert any("test 1 states no speed" in limit for limit in report.where.limits)
     stated = reconcile_recordings(SPEC, [quiet()], [quiet()])
     assert not any("states no speed" in limit for limit in stated.where.limits)
+
+
+def test_sixty_times_the_drawing_and_far_too_fast_is_rpm_whatever_its_lines(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("reconcile.stated._confirmed", lambda *_: True)
+    machine = {"shaft": 24.3}
+    with pytest.raises(SpecError, match="looks like rpm"):
+        check_speeds(machine, "f", given([quiet(1458.0)], []))
+    check_speeds({"shaft": 8.0}, "f", given([quiet(480.0)], []))

@@ -99,3 +99,22 @@ def test_another_shaft_or_a_tacho_decides() -> None:
     pulses = np.arange(int(SECONDS * SPEED_HZ)) / SPEED_HZ
     timed = replace(halves, tacho=Tacho(shaft="shaft", pulse_times_s=pulses))
     assert factor_of(observe(timed, alone, "test 1", stated_hz=None, seed=0), alone) is None
+
+
+@pytest.mark.slow
+def test_a_stated_speed_far_from_the_drawing_that_no_line_confirms_names_no_race() -> None:
+    """At two thirds of the speed the outer race's lines lie where the inner race's would: each statement fits."""
+    rng = np.random.default_rng(7)
+    hit = train(np.random.default_rng(2), ORDERS["outer_spall"], 1.0)
+    rows = [0.3 * rng.standard_normal(N) for _ in range(2)]
+    stated = SPEED_HZ * ORDERS["outer_spall"] / ORDERS["inner_spall"]
+    given = [recorded(row, stated) for row in (rows[0] + hit, rows[1])]
+    drawn = read_kinematic_spec(
+        {"kinematics": {"shafts": [{"name": "shaft", "speed_hz": SPEED_HZ}], "bearings": [BEARING]}}
+    )
+    report = reconcile_kinematics(drawn, given[:1], given[1:], seed=3)
+    assert report.verdict == "ambiguous" and not any(c.named for c in report.causes)
+    assert {c.term for c in report.causes} >= {"outer_spall", "inner_spall"}
+    assert "the speed of the machine file" in report.sentence
+    alone = reconcile_kinematics(SPEC, given[:1], given[1:], seed=3)
+    assert alone.causes[0].term == "inner_spall"

@@ -6,10 +6,11 @@ import re
 
 import pytest
 
+from reconcile.report.action import to_do
 from reconcile.report.provenance import provenance
 from reconcile.report.sections import where_table
 from reconcile.report.steps import stages
-from reconcile.report.words import compared, to_do
+from reconcile.report.words import compared
 from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Report, SensorFault, Where, Word
 
 FAMILY = {
@@ -58,21 +59,32 @@ def test_nothing_found_is_no_section() -> None:
     assert stages(report()) == "" and stages(report(stages=({"name": "speed", "found": {}},))) == ""
 
 
+def of_set(*where: tuple[str, str]) -> Report:
+    found = tuple(Cause(term=t, site=p, severity=None, score=1.0, named=False) for t, p in where)
+    return report("ambiguous", causes=found)
+
+
 @pytest.mark.parametrize(
     ("made", "said"),
     [
         (report("nothing_missing"), "nothing follows"),
-        (report(causes=(Cause(term="outer_spall", site="b1", severity=None, score=9.0, named=True),)), "inspect b1"),
-        (report("measurement_fault", fault=SensorFault(kind="clipping", channel="de", detail="")), "at de"),
+        (
+            report(causes=(Cause(term="outer_spall", site="b1", severity=None, score=9.0, named=True),)),
+            "follow its lines",
+        ),
+        (report("measurement_fault", fault=SensorFault(kind="clipped", channel="de", detail="")), "at de"),
+        (
+            report("measurement_fault", fault=SensorFault(kind="loose_sensor", channel="de", detail="")),
+            "if it is tight",
+        ),
         (report("unknown_physics", where=Where(sites=(PlaceWeight(site="b2", weight=0.9),))), "look at b2"),
         (
             report("not_decidable", next_experiment=NextExperiment(sentence="Record with a tacho.")),
             "Record with a tacho.",
         ),
-        (
-            report("ambiguous", causes=(Cause(term="a", site="b", severity=None, score=1.0, named=False),)),
-            "act on none",
-        ),
+        (of_set(("a", "b")), "plan to inspect b; which"),
+        (of_set(("a", "b"), ("a", "c")), "b and c: one of them"),
+        (of_set(("a", "b"), ("d", "c")), "act on none"),
         (report("not_decidable"), "record again"),
     ],
 )

@@ -76,7 +76,7 @@ function recordingRow() {
   function details(report) {
     cells.contents.textContent = `${report.channels.map((c) => c.name).join(", ")}; ${quantity(report.samples / report.sampling_rate_hz, "s")} at ${quantity(report.sampling_rate_hz, "Hz")}`;
     const kinds = [...new Set(report.findings.map((finding) => finding.kind.replace(/_/g, " ")))];
-    replace(cells.quality, h("span", { class: "pill", dataset: { tone: kinds.length ? "warn" : "ok" } }, kinds.join(", ") || "sound"));
+    replace(cells.quality, h("span", { class: "pill", dataset: { tone: kinds.length ? "warn" : "ok" } }, kinds.join(", ") || "no defects in the data"));
   }
   return { element, update, use: () => (use.disabled ? "" : use.value) };
 }

@@ -1,0 +1,81 @@
+"""What a person on site can do now: one sentence, nothing that the figures do not carry."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from reconcile.verdict import Report, Word
+
+EXCHANGED = "exchanged, or a part replaced"
+"""How the sentence says that the baseline has what the tests have not (`reconcile.kinematics.remarks`)."""
+SET_SHARE = 0.5
+"""Score over the best one's from which a cause is taken for one of an ambiguous set."""
+
+
+def to_do(report: Report) -> str:
+    """The sentence for a verdict, with the next experiment where one is advised."""
+    advice = ACTIONS[report.verdict](report)
+    if report.next_experiment is None or report.verdict not in OPEN:
+        return advice
+    return f"{advice} {report.next_experiment.sentence}".strip()
+
+
+def undecided(report: Report) -> tuple[list[str], list[str]]:
+    """Effects and places of an ambiguous set, as far as the report's causes show it."""
+    best = max((c.score for c in report.causes), default=0.0)
+    kept = [c for c in report.causes if c.score >= SET_SHARE * best]
+    return list(dict.fromkeys(c.term for c in kept)), list(dict.fromkeys(c.site for c in kept if c.site))
+
+
+def _place(report: Report) -> str:
+    return max(report.where.sites, key=lambda s: s.weight).site if report.where.sites else ""
+
+
+def _nothing(report: Report) -> str:
+    if EXCHANGED in report.sentence:
+        return "check which recording is which: the baseline shows more than the tests."
+    return "nothing follows from these recordings; keep them to compare later ones with."
+
+
+def _measurement(report: Report) -> str:
+    channel = report.fault.channel if report.fault is not None else "the channels"
+    if report.fault is not None and report.fault.kind == "loose_sensor":
+        return f"check how the sensor of {channel} is fastened; if it is tight, inspect the parts beside it."
+    return f"mend the measurement at {channel} and record again before judging the machine."
+
+
+def _explained(report: Report) -> str:
+    named = [c for c in report.causes if c.named]
+    at = " and ".join(dict.fromkeys(c.site for c in named if c.site)) or _place(report)
+    follow = "the size, an estimate" if any(c.severity is not None for c in named) else "its lines"
+    return f"inspect {at or 'the machine'} at the next stop; until then record again and follow {follow}."
+
+
+def _unknown(report: Report) -> str:
+    place = _place(report)
+    return f"{f'look at {place} first; ' if place else ''}none of the known names fits, so take none for granted."
+
+
+def _several(report: Report) -> str:
+    kinds, sites = undecided(report)
+    if len(kinds) == 1 and len(sites) > 1:
+        return f"plan to inspect {' and '.join(sites)}: one of them has it."
+    if len(sites) == 1:
+        return f"plan to inspect {sites[0]}; which of the names it is stays open."
+    return "act on none of the names alone."
+
+
+def _nobody_knows(report: Report) -> str:
+    return "act on none of the names." if report.causes else "" if report.next_experiment else "record again."
+
+
+ACTIONS: dict[Word, Callable[[Report], str]] = {
+    "nothing_missing": _nothing,
+    "explained": _explained,
+    "ambiguous": _several,
+    "unknown_physics": _unknown,
+    "measurement_fault": _measurement,
+    "not_decidable": _nobody_knows,
+}
+OPEN = ("ambiguous", "unknown_physics", "not_decidable")
+"""Verdicts whose advice is followed by the next experiment."""
