@@ -13,7 +13,16 @@ from reconcile.driven import reconcile_driven
 from reconcile.kinematics import KinematicSpec, reconcile_kinematics
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.engine import Progress, reconcile_machine
-from reconcile.stated import check_locations, check_shafts, check_speeds, check_turning, given, unplaced, unstated
+from reconcile.stated import (
+    check_locations,
+    check_shafts,
+    check_speeds,
+    check_turning,
+    exchanged,
+    given,
+    unplaced,
+    unstated,
+)
 from reconcile.told import about, place, sent_as
 from reconcile.unsteady import unsteady
 from reconcile.verdict import Level, Report
@@ -147,7 +156,7 @@ def reconcile_recordings(
     smeared = unsteady(tests, baselines, level, seed)
     if smeared is not None:
         return _with_labels(smeared, sent, machine.name)
-    silent = unstated(given(tests, baselines))
+    silent = (*unstated(given(tests, baselines)), *exchanged(given(tests, baselines)))
     if isinstance(machine, KinematicSpec):
         report = reconcile_kinematics(machine, tests, baselines, seed=seed)
         remarks = unplaced(machine.parts, given(tests, baselines)) if _has_places(machine) else ()

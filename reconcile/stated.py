@@ -24,6 +24,7 @@ USUAL = 0.1
 SURE = 0.99
 """Confidence from which lines at a sixtieth of the stated speed speak against it."""
 
+KINDS = ("recording", "baseline")
 SLIP = 0.85
 """Likeness (difflib's ratio) to a part's name from which a place is a misspelt part."""
 
@@ -158,6 +159,14 @@ def unstated(several: Sequence[Given]) -> tuple[str, ...]:
     ]
     says = "state no speed" if len(silent) > 1 else "states no speed"
     return (f"{', '.join(silent)} {says}: the machine file's was taken",) if silent else ()
+
+
+def exchanged(several: Sequence[Given]) -> tuple[str, ...]:
+    """What the report says where a test is described as a baseline, and no baseline is."""
+    called = {kind: [o.recording.condition == "baseline" for o in several if o.kind == kind] for kind in KINDS}
+    if not any(called["recording"]) or not called["baseline"] or any(called["baseline"]):
+        return ()
+    return ("a test is described as `baseline`, and no baseline is: check which recording is which",)
 
 
 def _stated(one: Given) -> tuple[str, float] | None:

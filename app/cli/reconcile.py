@@ -17,14 +17,16 @@ from contextlib import contextmanager, nullcontext
 from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
+from tempfile import TemporaryFile
 
 from app.cli.choice import read_machine
-from app.cli.files import read_json
+from app.cli.files import check_folder, read_json
 from app.cli.parameters import read_parameters
 from reconcile.entry import reconcile_recordings
 from reconcile.kinematics import KinematicSpec, read_kinematic_spec
 from reconcile.machine.budget import BUDGETS
 from reconcile.report import write_report
+from reconcile.report.write import PAGE, REPORT
 from reconcile.told import about
 from signals.ingest import read_recording
 from signals.recording import Recording
@@ -115,6 +117,18 @@ def _progress(share: float, stage: str) -> None:
         print(f"\r{share:4.0%} {stage:<40}", end="\n" if share >= 1.0 else "", file=sys.stderr, flush=True)
 
 
+def _writable(folder: Path) -> None:
+    """Make the folder before minutes are spent; SpecError where nothing can be written there."""
+    check_folder(folder, (REPORT, PAGE), force=True)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        reason = error.strerror or type(error).__name__
+        raise SpecError(Problem(field="--out", message=f"cannot be written: {reason}", given=str(folder))) from error
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
     if not 1 <= arguments.jobs <= 64:
@@ -122,6 +136,7 @@ def run(arguments: argparse.Namespace) -> int:
     machine = _machine(arguments.machine)
     tests = [_recording(path) for path in arguments.recording]
     baselines = [_recording(path) for path in arguments.baseline]
+    _writable(arguments.out)
     keeper = AtlasFolder(arguments.atlas or default_atlas_folder())
     several = arguments.jobs > 1
     pool = ProcessPoolExecutor(arguments.jobs, mp_context=get_context("spawn")) if several else nullcontext()

@@ -1,4 +1,4 @@
-"""Whether a file of a binary format is whole, told by its own beginning, lengths and end, before its parser sees it.
+"""Whether a file is whole and of its kind, told by its own beginning, lengths and end, before its parser sees it.
 
 Parsers read on where a file breaks off, or fail in words of their own. What can be told cheaply is told here: an empty
 file, one of another kind under this name, one that ends before the length which it states.
@@ -174,7 +174,18 @@ def _begins(*signatures: bytes) -> Callable[[BinaryIO, int], str]:
     return check
 
 
+def _text(stream: BinaryIO, _size: int) -> str:
+    """Nothing is asked of a text but that it is none of what is often saved under such a name."""
+    head = stream.read(1024)
+    if head.startswith(b"PK\x03\x04"):
+        return "is an archive (zip, or a spreadsheet), not a text: unpack it, or save it as {kind}"
+    if head.lstrip(b"\xef\xbb\xbf \t\r\n").lower().startswith((b"<!doctype html", b"<html")):
+        return "is an HTML page, not data: perhaps what a failed download left"
+    return ""
+
+
 _CHECKS: dict[str, tuple[str, Callable[[BinaryIO, int], str]]] = {
+    **dict.fromkeys((".csv", ".tsv", ".txt", ".dat"), ("csv", _text)),
     ".mat": ("MATLAB", _mat),
     ".h5": ("HDF5", _hdf5),
     ".hdf5": ("HDF5", _hdf5),

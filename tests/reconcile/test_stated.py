@@ -10,7 +10,7 @@ import pytest
 
 from reconcile.entry import reconcile_recordings
 from reconcile.kinematics import read_kinematic_spec
-from reconcile.stated import check_speeds, given, sixty_times
+from reconcile.stated import check_speeds, exchanged, given, sixty_times
 from signals.recording import Operating, Recording, Tacho
 from sim.core.errors import SpecError
 from sim.core.response import Channel
@@ -188,3 +188,9 @@ def test_sixty_times_the_drawing_and_far_too_fast_is_rpm_whatever_its_lines(monk
     with pytest.raises(SpecError, match="looks like rpm"):
         check_speeds(machine, "f", given([quiet(1458.0)], []))
     check_speeds({"shaft": 8.0}, "f", given([quiet(480.0)], []))
+
+
+def test_a_test_that_is_called_a_baseline_beside_baselines_that_are_not_is_told() -> None:
+    one, other = quiet(), replace(quiet(), condition="baseline")
+    assert exchanged(given([other], [one])) and not exchanged(given([one], [other]))
+    assert not exchanged(given([other], [other])) and not exchanged(given([other], []))

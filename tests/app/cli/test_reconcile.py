@@ -222,3 +222,23 @@ def test_what_was_given_in_place_of_a_description_or_a_machine_is_said(
     assert '{"kinematics": {...}}' in said(bare, good)
     assert "holds data: give its description" in said(known, tmp_path / "data.npz")
     assert "strange.xlsx" in said(known, strange)
+
+
+def test_where_nothing_can_be_written_is_said_before_the_work(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(command, "reconcile_recordings", lambda *_, **__: pytest.fail("worked first"))
+    machine = kinematics(tmp_path)
+    given = written(tmp_path, "t")
+    (tmp_path / "out").write_text("a file")
+    assert main(asked(machine, given, tmp_path / "out")) == 2
+    assert "--out" in capsys.readouterr().err
+    assert main(asked(machine, given, Path("/proc/nothing/here"))) == 2
+    assert "--out" in capsys.readouterr().err
+
+
+def test_descriptions_and_machines_may_begin_with_a_byte_order_mark(tmp_path: Path) -> None:
+    machine, given = kinematics(tmp_path), written(tmp_path, "t")
+    for path in (machine, given):
+        path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
+    assert main(asked(machine, given, tmp_path / "out", "--jobs", "1", "--atlas", str(tmp_path / "atlas"))) == 0

@@ -76,3 +76,18 @@ def test_lines_between_universal_datasets_are_left_to_the_parser(tmp_path) -> No
     (tmp_path / "r.uff").write_bytes(b"    -1\n   151\nmodel\n    -1\nby hand\n" + whole + b"the end\n")
     assert damage(tmp_path / "r.uff") == ""
     assert parse(ABOUT, tmp_path / "r.uff").recording.samples.shape == (1, X.size)
+
+
+@pytest.mark.parametrize(
+    ("head", "said"),
+    [
+        (b"PK\x03\x04\x14\0", "archive"),
+        (b"\xef\xbb\xbf\n<!DOCTYPE html><html>", "HTML page"),
+        (b"a,b\n1,2\n", ""),
+        (b"<header>\n1\n", ""),
+    ],
+)
+def test_what_is_no_text_under_a_text_name_is_told(tmp_path, head: bytes, said: str) -> None:
+    (tmp_path / "r.csv").write_bytes(head + b"1,2\n" * 20)
+    found = damage(tmp_path / "r.csv")
+    assert said in found and bool(found) == bool(said)
