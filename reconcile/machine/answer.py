@@ -15,7 +15,7 @@ from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import Decision, decide
 from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
 from reconcile.machine.meter import Meter
-from reconcile.machine.pictures import line_changes, ranking, spectra, turn_maps, with_forms
+from reconcile.machine.pictures import by_name, line_changes, ranking, spectra, turn_maps, with_forms
 from reconcile.machine.revised import Revised, paths, revised_machine
 from reconcile.machine.second import Beside, fitted_change, second_effect, struck_somewhere
 from reconcile.machine.setting import Found, Setting
@@ -191,7 +191,7 @@ def _with_second(weights: Mapping[str, float], other: Beside | None) -> dict[str
 def _where(setting: Setting, layout: Layout, watched: WatchList, weights: Mapping[str, float]) -> Where:
     return Where(
         sites=_sites(weights),
-        lines=line_changes(setting.data, setting.changes, layout, watched, setting.channels),
+        lines=by_name(line_changes(setting.data, setting.changes, layout, watched, setting.channels), setting.machine),
         angle_window=angle_window(setting.machine, setting.data, setting.channels),
         limits=_limits(setting),
     )

@@ -108,6 +108,19 @@ def locked_to(orders: object) -> str:
     return ""
 
 
+def by_name(lines: Sequence[LineChange], machine: MachineSpec) -> tuple[LineChange, ...]:
+    """The lines with parts called as the machine's file calls them: `inner ring of drive_end`."""
+    bearings = {f"bearing {i}": b.name for i, b in enumerate(machine.bearings, 1)}
+    shafts = {f"shaft {i}": s.name for i, s in enumerate(machine.shafts, 1)}
+    names = bearings | shafts | {f"mesh {i}": m.name for i, m in enumerate(machine.meshes, 1)}
+
+    def told(text: str) -> str:
+        kind = next((k for k in names if text.endswith(k)), None)
+        return text if kind is None else text.removesuffix(kind) + names[kind]
+
+    return tuple(replace(x, locked_to=told(x.locked_to)) for x in lines)
+
+
 def forms(screen: Screen) -> dict[str, str]:
     """Label of every form that counts under a stronger one of the same effect, and that one's label."""
     heads: list[str] = []

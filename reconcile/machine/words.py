@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from reconcile.machine.decide import Decision
 from reconcile.observe.observation import PointData
+from reconcile.report.markup import figure_text
 from reconcile.verdict import EstimatedForce, HeldOut, NextExperiment, Severity, operating_point
 from sim.terms import REGISTRY
 
@@ -19,11 +20,11 @@ def title(label: str) -> str:
 
 
 def size(severity: Severity | None) -> str:
-    """`, width 0.001 m (90 %: 0.0009 to 0.0011)`, or nothing."""
+    """`, width 1 mm (90 %: 900 µm to 1.1 mm)`, or nothing."""
     if severity is None:
         return ""
-    unit = "" if severity.unit == "1" else f" {severity.unit}"
-    return f", {severity.name} {severity.value:.3g}{unit} (90 %: {severity.low:.2g} to {severity.high:.2g})"
+    low, high = (figure_text(x, severity.unit, digits=2) for x in (severity.low, severity.high))
+    return f", {severity.name} {figure_text(severity.value, severity.unit, digits=2)} (90 %: {low} to {high})"
 
 
 def with_points(held: HeldOut, data: Sequence[PointData]) -> HeldOut:
@@ -49,7 +50,11 @@ def sentence(decision: Decision, severity: Severity | None, held: HeldOut | None
     if decision.word == "nothing_missing":
         return f"Nothing is missing: {decision.reasons[0]}."
     if decision.word == "explained":
-        gain = "" if held is None else f"; it takes {held.gain:.0%} off the spectral distance on data not fitted"
+        gain = (
+            ""
+            if held is None
+            else f"; it takes {held.gain:.0%} off the distance of spectra on data it was not fitted to"
+        )
         return f"{title(decision.chosen[0])}{size(severity)}{gain}."
     if decision.word == "unknown_physics":
         return f"Something is missing that no known effect explains: {decision.reasons[0]}."

@@ -10,12 +10,12 @@ import pytest
 from reconcile.atlas.plan import Point
 from reconcile.calibrate.chain import band_centres_hz
 from reconcile.judge.screen import Screen
-from reconcile.machine.pictures import TURN_BINS, forms, line_changes, spectra, turn_maps, with_forms
+from reconcile.machine.pictures import TURN_BINS, by_name, forms, line_changes, spectra, turn_maps, with_forms
 from reconcile.machine.weigh import merged_weights
 from reconcile.machine.words import with_points
 from reconcile.observe.features import Layout
 from reconcile.observe.steady import Steady
-from reconcile.verdict import AngleWindow, Cause, HeldOut
+from reconcile.verdict import AngleWindow, Cause, HeldOut, LineChange
 from sim.presets import preset
 
 BANDS = band_centres_hz().size
@@ -76,6 +76,14 @@ def test_a_changed_line_says_at_which_speed_and_torque(data: list[SimpleNamespac
         ("2*f_r1", 60.0, 30.0, 0.5),
         ("1*f_r1", 22.5, 22.5, 1.0),
     ]
+
+
+def test_parts_are_called_as_in_the_machine_file() -> None:
+    machine = preset("bearing-rig")
+    told = ("outer ring of bearing 2", "shaft 1", "mesh", "outer ring of bearing 7", "")
+    lines = [LineChange(label="x", frequency_hz=1.0, change_db=3.0, channel="a", locked_to=text) for text in told]
+    found = [x.locked_to for x in by_name(lines, machine)]
+    assert found == ["outer ring of fan_end", "motor", "mesh", "outer ring of bearing 7", ""]
 
 
 def test_the_turn_is_drawn_on_the_shaft_of_the_place_with_its_angle_and_every_sensor() -> None:
