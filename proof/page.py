@@ -103,7 +103,8 @@ must exceed what sound machines show, and lines without a pattern count from 1e-
 are runs with all of these: of the 28 only the verdict of l093 changed. They show that nothing was lost, and what a
 case costs; how often cases that nobody has met are right is what "Fresh" and "Further" say. Later changes of the engine
 (run-ups without pulses, standstills and two motions without a force are told or refused, no size from a channel that
-is cut off, words of messages) act before or beside the rules.
+is cut off, words of messages) act before or beside the rules: s122, l087 and l069, run again with engine
+`e14fd6f7b232`, gave the same causes, scores and gains (read off once).
 
 **Placebos** are the right effect elsewhere and other effects at the right place, of which at least six machines were
 simulated: these are the likeliest rivals, and move some of the same bands. Every one is in the report with its gain.
