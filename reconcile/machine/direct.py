@@ -78,14 +78,14 @@ def direct_evidence(
     """What struck, in the recordings of all operating points against their baselines, or without those by more than
     simulated sound machines (`rise`)."""
     try:
-        tie = _impulsive(ties(of_machine(machine), machine.operating.shaft if machine.operating else None))
+        tie = impulsive(ties(of_machine(machine), machine.operating.shaft if machine.operating else None))
     except SpecError as error:  # shafts whose speeds nothing ties together
         return Direct(evidence={}, p=1.0, told=(f"not looked for: {error}",))
-    if not _reachable(data, tie):
+    if not reachable(data, tie):
         return Direct(evidence={}, p=1.0, told=("not looked for: the sampling rate is too low for their lines",))
-    tests = [_observation(d.spectra[0], f"test {k}", channels, tie) for k, d in enumerate(data, 1)]
+    tests = [observed_as(d.spectra[0], f"test {k}", channels, tie) for k, d in enumerate(data, 1)]
     rested = [d.spectra[1] for d in data]
-    baselines = [_observation(b, f"baseline {k}", channels, tie) for k, b in enumerate(rested, 1) if b is not None]
+    baselines = [observed_as(b, f"baseline {k}", channels, tie) for k, b in enumerate(rested, 1) if b is not None]
     seen = candidates(tests, baselines, tie, seed)
     every = tuple(c for c in seen if rise is None or _counts(c, rise, points=len(data), based=bool(baselines)))
     heights = turn_heights(machine, data, [c.name for c in channels])
@@ -117,19 +117,20 @@ def _counts(candidate: Candidate, rise: Rise, *, points: int, based: bool) -> bo
     return not asked or rise(candidate.family) >= MODELLED
 
 
-def _impulsive(tie: Ties) -> Ties:
+def impulsive(tie: Ties) -> Ties:
     """Of what comes once a turn only impacts: unbalance and run-out modulate at the shaft's first two orders."""
     families = tuple(replace(f, lowest=IMPACTS_FROM) if f.kind == "turn" else f for f in tie.families)
     return replace(tie, families=families)
 
 
-def _reachable(data: Sequence[PointData], tie: Ties) -> bool:
+def reachable(data: Sequence[PointData], tie: Ties) -> bool:
     """Whether the sampling rate covers the envelope lines of all parts."""
     _, top = reach_of(tie.families)
     return bool(tie.families) and all(2 * top * d.spectra[0].speed_hz < d.spectra[0].rate_hz for d in data)
 
 
-def _observation(one: Steady, label: str, channels: Sequence[Channel], tie: Ties) -> Observation:
+def observed_as(one: Steady, label: str, channels: Sequence[Channel], tie: Ties) -> Observation:
+    """What the level `kinematics` sees of a recording whose angle is known."""
     recording = Recording(
         sampling_rate_hz=one.rate_hz,
         channels=tuple(channels),

@@ -22,6 +22,7 @@ from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.decide import decide, leaves_lines, remarkable, tempered, unmeasured
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.drive import on_drive
+from reconcile.machine.exchanged import with_exchanged
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
 from reconcile.machine.octave import doubted_speed, rival_speed
@@ -91,6 +92,7 @@ def reconcile_machine(
     progress(0.95, "held-out data")
     cost = {"until_atlas_core_s": atlas_s, "budget": budget.name}
     report = answer(setting, found, gate, meter, cost, fit, unknown)
+    report = with_exchanged(report, setting, gate.tests[0].channels)
     progress(1.0, "done")
     return report
 

@@ -72,7 +72,8 @@ def next_experiment(chosen: Sequence[str], lead: float, points: int, sensors: Se
     missing = [s for s in sites if s not in sensors]
     if len(sites) > 1 and missing:
         grown = lead * (len(sensors) + 1) / max(len(sensors), 1)
-        text = f"An accelerometer on the housing next to {' or '.join(missing[:2])} would tell these places apart best."
+        places = " or ".join(missing[:2])
+        text = f"An accelerometer on the bearing housing nearest to {places} would tell these places apart best."
     else:
         grown = lead * (points + 1) / points
         text = "A recording at one more speed or load would tell these effects apart best."

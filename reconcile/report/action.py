@@ -14,6 +14,8 @@ SET_SHARE = 0.5
 
 def to_do(report: Report) -> str:
     """The sentence for a verdict, with the next experiment where one is advised."""
+    if EXCHANGED in report.sentence:
+        return "check which recording is which: the baseline shows more than the tests."
     advice = ACTIONS[report.verdict](report)
     if report.next_experiment is None or report.verdict not in OPEN:
         return advice
@@ -31,9 +33,7 @@ def _place(report: Report) -> str:
     return max(report.where.sites, key=lambda s: s.weight).site if report.where.sites else ""
 
 
-def _nothing(report: Report) -> str:
-    if EXCHANGED in report.sentence:
-        return "check which recording is which: the baseline shows more than the tests."
+def _nothing(_report: Report) -> str:
     return "nothing follows from these recordings; keep them to compare later ones with."
 
 

@@ -28,7 +28,7 @@ _SCAN_BYTES = 2**28
 def damage(path: Path) -> str:
     """What is wrong with the file as a whole, after `it ...`; empty where nothing can be told (or it is a text)."""
     suffix = suffix_of(path)
-    if suffix not in _CHECKS:
+    if suffix not in _CHECKS or not path.is_file():
         return ""
     kind, check = _CHECKS[suffix]
     size = path.stat().st_size

@@ -23,10 +23,12 @@ function card(title, name, ...content) {
 }
 
 function verdict(report) {
-  const { fault } = report;
+  const { fault, provenance } = report;
+  const sent = Object.entries(provenance?.sent_as ?? {}).map(([name, label]) => `${name}: ${label}`);
   return h("section", { class: "card card-body reconcile-form", id: "answer-verdict", "aria-label": "Verdict" },
     h("div", {}, h("span", { class: "pill", dataset: { tone: TONES[report.verdict] ?? "" } }, words(report.verdict))),
     h("p", { class: "reconcile-sentence" }, report.sentence),
+    sent.length ? h("p", { class: "muted small" }, [provenance.machine, ...sent].filter(Boolean).join("; ")) : null,
     report.to_do ? h("p", {}, h("b", {}, "What to do: "), report.to_do) : null,
     fault ? h("p", { class: "muted" }, `${words(fault.kind)}, channel ${fault.channel}. ${fault.detail}`) : null);
 }

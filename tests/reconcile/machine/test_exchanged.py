@@ -1,0 +1,37 @@
+"""A baseline with a defect that the tests have not is told as an exchange; the right way round nothing is said."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from reconcile.machine.direct import NOTHING
+from reconcile.machine.exchanged import with_exchanged
+from reconcile.observe.observation import observe
+from reconcile.observe.watch import bases_at, watch_list
+from reconcile.report.action import to_do
+from reconcile.verdict import Report, Word
+from sim.core.spec import MachineSpec
+from sim.presets import preset
+from tests.reconcile.machine.test_direct import CHANNELS, SPEED_HZ, recording, sound, struck
+
+
+def told(machine: MachineSpec, now: np.ndarray, before: np.ndarray, verdict: Word = "unknown_physics") -> Report:
+    data = observe(machine, watch_list(machine), [recording(now)], [recording(before)])
+    setting = SimpleNamespace(machine=machine, data=data, direct=NOTHING, seed=0)
+    report = Report(verdict=verdict, sentence="Something is missing.", level="machine")
+    return with_exchanged(report, setting, CHANNELS)  # type: ignore[arg-type]
+
+
+@pytest.mark.slow
+def test_an_exchange_is_told_with_what_to_do() -> None:
+    machine = preset("paper-lightly-damped")
+    hit = sound(2) + struck(bases_at(machine, SPEED_HZ)["f_o1"])
+    report = told(machine, sound(1), hit)
+    assert "bearing1.outer" in report.sentence and "exchanged, or a part replaced" in report.sentence
+    assert report.where.limits and "which recording is which" in to_do(report)
+    assert "exchanged" not in told(machine, hit, sound(1)).sentence
+    assert "exchanged" not in told(machine, sound(1), sound(3)).sentence
+    assert "exchanged" not in told(machine, sound(1), hit, "nothing_missing").sentence
