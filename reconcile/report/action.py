@@ -7,7 +7,8 @@ from collections.abc import Callable
 from reconcile.verdict import Report, Word
 
 EXCHANGED = "exchanged, or a part replaced"
-"""How the sentence says that the baseline has what the tests have not (`reconcile.kinematics.remarks`)."""
+"""How the sentence says that the baseline has what the tests have not (`reconcile.kinematics.remarks`,
+`reconcile.machine.exchanged`)."""
 SET_SHARE = 0.5
 """Score over the best one's from which a cause is taken for one of an ambiguous set."""
 
