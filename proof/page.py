@@ -101,10 +101,10 @@ the observation chose is judged as the best of all; impacts at the lines of seve
 place whose effects lead all elsewhere is no unknown physics (l093 and s154 set that); a speed is doubted by the teeth;
 and, after two sound machines had alarmed with engine `ef79a64e454e` ("Further": l077; s106), impacts at a single point
 must exceed what sound machines show, and lines without a pattern count from 1e-4. "Again", "Seen", "Sound",
-"Rerun" and "Alone" are runs with all of these: of the 28 only the verdict of l093 changed. They show that nothing was lost, and what a
-case costs; how often cases that nobody has met are right is what "Fresh" and "Further" say. Later changes of the engine
-(run-ups without pulses, standstills and two motions without a force are told or refused, no size from a channel that
-is cut off, words of messages) act before or beside the rules: s122, l087 and l069, run again with engine
+"Rerun" and "Alone" are runs with all of these: of the 28 only the verdict of l093 changed. They show that nothing was
+lost, and what a case costs; how often cases that nobody has met are right is what "Fresh" and "Further" say. Later
+changes of the engine (run-ups without pulses, standstills and two motions without a force are told or refused, no
+size from a channel that is cut off, words of messages) act before or beside the rules: s122, l087 and l069, run again with engine
 `e14fd6f7b232`, gave the same causes, scores and gains (read off once).
 
 **Placebos** are the right effect elsewhere and other effects at the right place, of which at least six machines were
