@@ -49,7 +49,7 @@ SECTIONS = {
     "seen": "Of those looked at before, the ones that were run again: one that an earlier engine got right, six not.",
     "sound": "Cases in which nothing is missing, at all conditions of up to three speeds. All had been looked at.",
     "further": "Not met before by the engine of that day; l044 and l048 are at the target condition.",
-    "rerun": "The five of \"Further\" with the later engine, two rules of which came from l077 and s106.",
+    "rerun": 'The five of "Further" with the later engine, two rules of which came from l077 and s106.',
     "alone": "These had been looked at before this run; there is no baseline, or the nominal machine is mis-set.",
     "later": "",
     "sealed": "",
@@ -104,8 +104,8 @@ must exceed what sound machines show, and lines without a pattern count from 1e-
 "Rerun" and "Alone" are runs with all of these: of the 28 only the verdict of l093 changed. They show that nothing was
 lost, and what a case costs; how often cases that nobody has met are right is what "Fresh" and "Further" say. Later
 changes of the engine (run-ups without pulses, standstills and two motions without a force are told or refused, no
-size from a channel that is cut off, words of messages) act before or beside the rules: s122, l087 and l069, run again with engine
-`e14fd6f7b232`, gave the same causes, scores and gains (read off once).
+size from a channel that is cut off, words of messages) act before or beside the rules: s122, l087 and l069, run again
+with engine `e14fd6f7b232`, gave the same causes, scores and gains (read off once).
 
 **Placebos** are the right effect elsewhere and other effects at the right place, of which at least six machines were
 simulated: these are the likeliest rivals, and move some of the same bands. Every one is in the report with its gain.
