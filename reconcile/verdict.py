@@ -91,6 +91,23 @@ class Cause:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Faintest:
+    """From which size on an effect would have been seen at a place: `seen` of the `simulated` sizes were, all of those
+    from `seen_from` on (None: the `largest` was not either). `name` and `unit` are those of its size."""
+
+    term: str
+    site: str
+    name: str
+    unit: str
+    seen: int
+    simulated: int
+    seen_from: float | None
+    largest: float
+    strikes: bool = False
+    """Whether it makes impacts, which are looked for apart and may tell smaller ones."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class SensorFault:
     """The mismatch is in the measurement."""
 
@@ -167,6 +184,8 @@ class Report:
     held_out: HeldOut | None = None
     force: EstimatedForce | None = None
     undecidable: tuple[str, ...] = ()
+    faintest: tuple[Faintest, ...] = ()
+    """Where nothing is missing: what such recordings would have shown."""
     next_experiment: NextExperiment | None = None
     machine: Mapping[str, object] | None = None
     stages: tuple[Mapping[str, object], ...] = ()

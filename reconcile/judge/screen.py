@@ -103,7 +103,7 @@ def judge(
     log = evidence - evidence.max()
     resting = together([look.null for look in looks]).max(axis=1)
     own = group_lengths(first.whiten(observed)[None], first.groups)
-    strongest = float(_largest(own, first.resting)[0])
+    strongest = float(largest(own, first.resting)[0])
     best = first.paths.names[int(np.argmax(evidence))]
     return Screen(
         names=first.paths.names,
@@ -111,7 +111,7 @@ def judge(
         direct=shown,
         by=by,
         weights=np.exp(log) / np.exp(log).sum(),
-        p_any=tail_chance(_largest_of_nulls(first.resting), strongest),
+        p_any=tail_chance(largest_of_nulls(first.resting), strongest),
         strongest=strongest,
         p_best=tail_chance(resting, float(patterns.max())),
         p_direct=p_direct,
@@ -137,20 +137,20 @@ def _of_lines(views: Sequence[Fitted], looks: Sequence[Look]) -> float:
     return min([1.0, *(len(chances) * c for c in chances)])
 
 
-def _largest(lengths: FloatArray, resting: FloatArray) -> FloatArray:
+def largest(lengths: FloatArray, resting: FloatArray) -> FloatArray:
     """Largest standardised group length of each row."""
     spread = np.maximum(resting.std(axis=0), 1e-9)
     return np.asarray(((lengths - resting.mean(axis=0)) / spread).max(axis=1))
 
 
-def _largest_of_nulls(resting: FloatArray) -> FloatArray:
+def largest_of_nulls(resting: FloatArray) -> FloatArray:
     """The same of every null, by mean and deviation of the other machines: of a few machines none stands out far
     against a deviation that it has a part in."""
     machine = np.arange(resting.shape[0]) // NULL_COPIES
     found = np.empty(resting.shape[0])
     for k in range(machine[-1] + 1):
         own = machine == k
-        found[own] = _largest(resting[own], resting[~own] if machine[-1] else resting)
+        found[own] = largest(resting[own], resting[~own] if machine[-1] else resting)
     return found
 
 

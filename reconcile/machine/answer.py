@@ -14,8 +14,9 @@ from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import Decision, decide
 from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
+from reconcile.machine.lines import by_name, line_changes
 from reconcile.machine.meter import Meter
-from reconcile.machine.pictures import by_name, line_changes, ranking, spectra, turn_maps, with_forms
+from reconcile.machine.pictures import ranking, spectra, turn_maps, with_forms
 from reconcile.machine.revised import Revised, paths, revised_machine
 from reconcile.machine.second import Beside, fitted_change, second_effect, struck_somewhere
 from reconcile.machine.setting import Found, Setting

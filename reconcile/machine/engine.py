@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from reconcile.atlas.bank import Mapper
 from reconcile.atlas.candidates import Candidate, candidates
@@ -23,6 +23,7 @@ from reconcile.machine.decide import decide, leaves_lines, remarkable, tempered,
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.drive import on_drive
 from reconcile.machine.exchanged import with_exchanged
+from reconcile.machine.faintest import faintest_seen
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
 from reconcile.machine.octave import doubted_speed, rival_speed
@@ -86,13 +87,16 @@ def reconcile_machine(
     setting = _setting(machine, gate, data, plan, keeper or Forgetful(), meter, progress)
     atlas_s = meter.spent_s()
     progress(0.6, "candidates")
-    setting, found, fit = _answered(setting, budget, meter, progress)
+    looks = _answered(setting, screen_atlas(setting), budget, meter, progress)
+    of_kind, setting, found = setting, looks.setting, looks.found
     progress(0.9, "laws that nobody listed")
     unknown = _force(setting, found, budget, meter)
     progress(0.95, "held-out data")
     cost = {"until_atlas_core_s": atlas_s, "budget": budget.name}
-    report = answer(setting, found, gate, meter, cost, fit, unknown)
+    report = answer(setting, found, gate, meter, cost, looks.fit, unknown)
     report = with_exchanged(report, setting, gate.tests[0].channels)
+    if report.verdict == "nothing_missing":
+        report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
     progress(1.0, "done")
     return report
 
@@ -102,12 +106,22 @@ def _told_by(meter: Meter, seed: int, budget: Budget) -> Mapping[str, object]:
     return provenance(seed, 0, meter, {"budget": budget.name})
 
 
-def _answered(
-    setting: Setting, budget: Budget, meter: Meter, progress: Progress
-) -> tuple[Setting, Found, Mapping[str, object]]:
-    """What the candidates say: on machines of the kind, and where those or the single lines of machines that agree
-    with the baseline show something, on such machines. With the setting it stands on, and how well they agree."""
-    atlas = screen_atlas(setting)
+@dataclass(frozen=True, kw_only=True)
+class _Looks:
+    """What the candidates say (`found`), the setting it stands on, and how well machines agree with the baseline
+    (`fit`); the look at all candidates on machines of the kind, and through the lines of those that agree."""
+
+    setting: Setting
+    found: Found
+    fit: Mapping[str, object]
+    atlas: Found
+    lines: Found | None
+
+
+def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, progress: Progress) -> _Looks:
+    """On machines of the kind (`atlas`), and where those or the single lines of machines that agree with the baseline
+    show something, on such machines."""
+    seen = None
     progress(0.62, "machines that agree with the baseline")
     local = around_baseline(setting, meter)
     closer, found = setting, atlas
@@ -116,11 +130,13 @@ def _answered(
         seen = fit_views(closer, atlas.known)
         lines = seen.screen.p_lines
         if not remarkable(atlas.screen) and lines > CLOSER_LINES_P:
-            return setting, replace(atlas, screen=replace(atlas.screen, p_lines=lines)), told(local)
+            quiet = replace(atlas, screen=replace(atlas.screen, p_lines=lines))
+            return _Looks(setting=setting, found=quiet, fit=told(local), atlas=atlas, lines=seen)
         progress(0.7, "candidates on these machines")
         found = located(closer, atlas, setting, budget, meter, possible_seconds(closer, seen))
     elif not remarkable(atlas.screen):
-        return setting, replace(atlas, screen=unmeasured(atlas.screen)), {}
+        quiet = replace(atlas, screen=unmeasured(atlas.screen))
+        return _Looks(setting=setting, found=quiet, fit={}, atlas=atlas, lines=None)
     near = nearest_effects(atlas, setting.changes.observed)
     for turn in range(budget.rounds):
         progress(0.8 + 0.1 * turn / budget.rounds, "refining the best candidates")
@@ -135,7 +151,8 @@ def _answered(
     based = setting.changes.with_baseline
     screen = tempered(found.screen, atlas.screen) if based else unmeasured(found.screen)
     screen = replace(screen, struck=tuple(frozenset(part) for part in setting.direct.struck))
-    return closer, replace(found, screen=screen), told(local) if local is not None else {}
+    fit = told(local) if local is not None else {}
+    return _Looks(setting=closer, found=replace(found, screen=screen), fit=fit, atlas=atlas, lines=seen)
 
 
 def _force(setting: Setting, found: Found, budget: Budget, meter: Meter) -> Unknown | None:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from reconcile.calibrate.chain import band_centres_hz
-from reconcile.judge.changes import Changes, Lens
+from reconcile.judge.changes import Lens
 from reconcile.judge.scatter import evidence_intervals
 from reconcile.judge.screen import Screen
 from reconcile.machine.setting import Found, Setting
@@ -16,22 +16,13 @@ from reconcile.machine.weigh import variants
 from reconcile.observe.features import Layout
 from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
-from reconcile.observe.watch import WatchList, bases_at
-from reconcile.verdict import AngleWindow, Cause, LineChange
+from reconcile.observe.watch import bases_at
+from reconcile.verdict import AngleWindow, Cause
 from signals.series import FloatArray
 from sim.core.spec import MachineSpec
 
-MOST_LINES, MOST_RANKED = 15, 10
-STANDS_OUT = 3.0
+MOST_RANKED = 10
 TURN_BINS = 72
-FOLLOWS = {
-    "f_o": "outer ring of bearing",
-    "f_i": "inner ring of bearing",
-    "f_b": "balls of bearing",
-    "f_c": "cage of bearing",
-    "f_m": "mesh",
-    "f_r": "shaft",
-}
 
 
 def _reference(one: PointData, lens: Lens, channel: int, part: slice) -> FloatArray:
@@ -62,63 +53,13 @@ def spectra(
                 "after_db": before + (0.0 if change is None else change),
             }
             lists = {key: np.round(values, 3).tolist() for key, values in shown.items()}
-            found.append({"channel": name, **_point(one), **lists})
+            found.append({"channel": name, **place_of(one), **lists})
     return found
 
 
-def _point(one: PointData) -> dict[str, float]:
+def place_of(one: PointData) -> dict[str, float]:
+    """The operating point, as pictures and lines tell it."""
     return {"speed_hz": one.point.speed_hz, "torque_ratio": one.point.torque_ratio}
-
-
-def line_changes(
-    data: Sequence[PointData], changes: Changes, layout: Layout, watched: WatchList, channels: Sequence[str]
-) -> tuple[LineChange, ...]:
-    """Watched lines that changed by more than three of their deviations, the largest first."""
-    known = np.isfinite(changes.null).any(axis=0)
-    drift = np.full(known.size, np.nan)
-    drift[known] = np.nanstd(changes.null[:, known], axis=0)
-    z = changes.observed / np.sqrt(changes.measured**2 + drift**2 + 1.0)
-    rows: list[tuple[float, LineChange]] = []
-    for p, one in enumerate(data):
-        for c, name in enumerate(channels):
-            start = changes.starts[p] + c * layout.size
-            for i, line in enumerate(watched.lines):
-                value = z[start + i]
-                if np.isfinite(value) and abs(value) > STANDS_OUT:
-                    found = LineChange(
-                        label=line.label,
-                        frequency_hz=float(one.lines_hz[i]),
-                        change_db=float(changes.observed[start + i]),
-                        channel=name,
-                        locked_to=locked_to(line.orders),
-                        **_point(one),
-                    )
-                    rows.append((abs(float(value)), found))
-    rows.sort(key=lambda row: -row[0])
-    return tuple(found for _, found in rows[:MOST_LINES])
-
-
-def locked_to(orders: object) -> str:
-    """What a line's frequency follows: `mesh`, `bearing N`, or a shaft."""
-    bases = list(orders) if isinstance(orders, dict) else []
-    for prefix, word in FOLLOWS.items():
-        for base in bases:
-            if base.startswith(prefix):
-                return f"{word} {base[3:]}".strip()
-    return ""
-
-
-def by_name(lines: Sequence[LineChange], machine: MachineSpec) -> tuple[LineChange, ...]:
-    """The lines with parts called as the machine's file calls them: `inner ring of drive_end`."""
-    bearings = {f"bearing {i}": b.name for i, b in enumerate(machine.bearings, 1)}
-    shafts = {f"shaft {i}": s.name for i, s in enumerate(machine.shafts, 1)}
-    names = bearings | shafts | {f"mesh {i}": m.name for i, m in enumerate(machine.meshes, 1)}
-
-    def told(text: str) -> str:
-        kind = next((k for k in names if text.endswith(k)), None)
-        return text if kind is None else text.removesuffix(kind) + names[kind]
-
-    return tuple(replace(x, locked_to=told(x.locked_to)) for x in lines)
 
 
 def forms(screen: Screen) -> dict[str, str]:
@@ -189,7 +130,7 @@ def turn_maps(
         maps.append(
             {
                 "shaft": shaft,
-                **_point(one),
+                **place_of(one),
                 "angle_deg": angle.tolist(),
                 "rows": list(channels),
                 "value": rows,

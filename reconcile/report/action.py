@@ -34,8 +34,10 @@ def _place(report: Report) -> str:
     return max(report.where.sites, key=lambda s: s.weight).site if report.where.sites else ""
 
 
-def _nothing(_report: Report) -> str:
-    return "nothing follows from these recordings; keep them to compare later ones with."
+def _nothing(report: Report) -> str:
+    kept = "nothing follows from these recordings; keep them to compare later ones with."
+    unseen = " What they would hardly have shown stands under “What would have been seen”." if report.faintest else ""
+    return f"{kept}{unseen}"
 
 
 def _measurement(report: Report) -> str:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 
+from reconcile.report.faintest import faintest
 from reconcile.report.figures.bars import changes, ranking
 from reconcile.report.figures.envelope import caption, envelope
 from reconcile.report.figures.gains import distances, gains
@@ -162,6 +163,7 @@ def page(report: Report) -> str:
         _maps(report),
         _changes(report),
         undecidable(report),
+        faintest(report),
         _machine(report),
         stages(report),
         provenance(report),

@@ -10,12 +10,12 @@ import pytest
 from reconcile.atlas.plan import Point
 from reconcile.calibrate.chain import band_centres_hz
 from reconcile.judge.screen import Screen
-from reconcile.machine.pictures import TURN_BINS, by_name, forms, line_changes, spectra, turn_maps, with_forms
+from reconcile.machine.pictures import TURN_BINS, forms, spectra, turn_maps, with_forms
 from reconcile.machine.weigh import merged_weights
 from reconcile.machine.words import with_points
 from reconcile.observe.features import Layout
 from reconcile.observe.steady import Steady
-from reconcile.verdict import AngleWindow, Cause, HeldOut, LineChange
+from reconcile.verdict import AngleWindow, Cause, HeldOut
 from sim.presets import preset
 
 BANDS = band_centres_hz().size
@@ -62,28 +62,6 @@ def test_spectra_are_of_every_operating_point_with_the_answer_of_that_point(data
     ]
     assert [p["after_db"][0] for p in found] == [1.0, 2.0, 3.0, 4.0]  # type: ignore[index]
     assert [p["observed_db"][0] for p in found] == [3.0, 3.0, 6.0, 6.0]  # type: ignore[index]
-
-
-def test_a_changed_line_says_at_which_speed_and_torque(data: list[SimpleNamespace]) -> None:
-    observed = np.zeros(4 * LAYOUT.size)
-    observed[0], observed[2 * LAYOUT.size + 1] = 9.0, -20.0
-    starts = (0, 2 * LAYOUT.size, 4 * LAYOUT.size)
-    null = np.random.default_rng(0).normal(size=(8, observed.size))
-    changes = SimpleNamespace(observed=observed, null=null, measured=np.ones(observed.size), starts=starts)
-    watched = SimpleNamespace(lines=[SimpleNamespace(label=f"{k}*f_r1", orders={"f_r1": k}) for k in (1, 2)])
-    found = line_changes(data, changes, LAYOUT, watched, CHANNELS)  # type: ignore[arg-type]
-    assert [(x.label, x.frequency_hz, x.speed_hz, x.torque_ratio) for x in found] == [
-        ("2*f_r1", 60.0, 30.0, 0.5),
-        ("1*f_r1", 22.5, 22.5, 1.0),
-    ]
-
-
-def test_parts_are_called_as_in_the_machine_file() -> None:
-    machine = preset("bearing-rig")
-    told = ("outer ring of bearing 2", "shaft 1", "mesh", "outer ring of bearing 7", "")
-    lines = [LineChange(label="x", frequency_hz=1.0, change_db=3.0, channel="a", locked_to=text) for text in told]
-    found = [x.locked_to for x in by_name(lines, machine)]
-    assert found == ["outer ring of fan_end", "motor", "mesh", "outer ring of bearing 7", ""]
 
 
 def test_the_turn_is_drawn_on_the_shaft_of_the_place_with_its_angle_and_every_sensor() -> None:

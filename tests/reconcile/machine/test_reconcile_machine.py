@@ -152,5 +152,11 @@ def test_the_same_machine_again_misses_nothing(baseline: Recording, atlas: Atlas
     nominal = preset("paper-lightly-damped")
     report = reconcile_recordings(nominal, [baseline], [baseline], keeper=atlas, nominated=NOMINATED)
     assert report.verdict == "nothing_missing", report.sentence
+    told = {(f.term, f.site): f for f in report.faintest}
+    assert set(told) == {(c.term, c.site) for c in NOMINATED}
+    assert all(0 <= f.seen <= f.simulated <= 8 for f in told.values())
+    assert told["inner_spall", "bearing1"].seen >= 3  # every ball meets it in the load zone once a turn
+    assert told["inner_spall", "bearing1"].strikes and not told["unbalance", "pinion"].strikes
+    assert told["outer_spall", "bearing1"].seen < 8  # out of the load zone there is nothing to see
     assert report.causes == () and report.machine is None
     json.dumps(report.document())

@@ -30,9 +30,8 @@ from reconcile.verdict import (
 from sim.presets import preset
 
 KEYS = {
-    "to_do",
+    "to_do", "faintest", "provenance", "level", "stages", "pictures",
     "verdict", "sentence", "where", "causes", "fault", "held_out", "force", "undecidable", "next_experiment", "machine",
-    "provenance", "level", "stages", "pictures",
 }  # fmt: skip
 NASTY = '<script>alert("x")</script>&'
 VOID = {"meta", "line", "rect", "circle", "path", "polyline", "polygon", "br"}

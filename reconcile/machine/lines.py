@@ -1,0 +1,116 @@
+"""The lines whose level changed, by the names of the machine's file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reconcile.judge.changes import Changes
+from reconcile.machine.pictures import place_of
+from reconcile.observe.features import Layout
+from reconcile.observe.observation import PointData
+from reconcile.observe.slack import slack
+from reconcile.observe.watch import WatchList
+from reconcile.verdict import LineChange
+from sim.core.spec import MachineSpec
+
+MOST_LINES = 15
+STANDS_OUT = 3.0
+ALIKE_DB = 1.0
+"""Two lines looked for around one peak changed by as much; what else differs is how their noise is counted."""
+OR = " or "
+FOLLOWS = {
+    "f_o": "outer ring of bearing",
+    "f_i": "inner ring of bearing",
+    "f_b": "balls of bearing",
+    "f_c": "cage of bearing",
+    "f_m": "mesh",
+    "f_r": "shaft",
+}
+
+
+def line_changes(
+    data: Sequence[PointData], changes: Changes, layout: Layout, watched: WatchList, channels: Sequence[str]
+) -> tuple[LineChange, ...]:
+    """Watched lines that changed by more than three of their deviations, the largest first."""
+    known = np.isfinite(changes.null).any(axis=0)
+    drift = np.full(known.size, np.nan)
+    drift[known] = np.nanstd(changes.null[:, known], axis=0)
+    z = changes.observed / np.sqrt(changes.measured**2 + drift**2 + 1.0)
+    rows: list[_Row] = []
+    for p, one in enumerate(data):
+        reach = slack(watched.lines, one.lines_hz) * one.lines_hz
+        for c, name in enumerate(channels):
+            start = changes.starts[p] + c * layout.size
+            for i, line in enumerate(watched.lines):
+                value = z[start + i]
+                if np.isfinite(value) and abs(value) > STANDS_OUT:
+                    found = LineChange(
+                        label=line.label,
+                        frequency_hz=float(one.lines_hz[i]),
+                        change_db=float(changes.observed[start + i]),
+                        channel=name,
+                        locked_to=locked_to(line.orders),
+                        **place_of(one),
+                    )
+                    rows.append(_Row(deviations=abs(float(value)), line=found, reach_hz=float(reach[i])))
+    rows.sort(key=lambda row: -row.deviations)
+    return tuple(row.line for row in _once(rows)[:MOST_LINES])
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Row:
+    """A line, by how many deviations it changed, and how far from its geometric frequency it was looked for."""
+
+    deviations: float
+    line: LineChange
+    reach_hz: float
+
+    def same_peak(self, other: _Row) -> bool:
+        """Whether both were looked for where one and the same peak stands, which changed alike for both."""
+        a, b = self.line, other.line
+        place = (a.channel, a.speed_hz, a.torque_ratio) == (b.channel, b.speed_hz, b.torque_ratio)
+        reach = self.reach_hz + other.reach_hz
+        return (
+            place and 0.0 < reach >= abs(a.frequency_hz - b.frequency_hz) and abs(a.change_db - b.change_db) < ALIKE_DB
+        )
+
+
+def _once(rows: Sequence[_Row]) -> list[_Row]:
+    """One row a peak, the most changed first, with the names of all lines it may be."""
+    kept: list[_Row] = []
+    for row in rows:
+        k = next((k for k, other in enumerate(kept) if other.same_peak(row)), None)
+        if k is None:
+            kept.append(row)
+            continue
+        line = kept[k].line
+        label = f"{line.label}{OR}{row.line.label}"
+        follows = list(dict.fromkeys([*line.locked_to.split(OR), row.line.locked_to]))
+        kept[k] = replace(kept[k], line=replace(line, label=label, locked_to=OR.join(follows)))
+    return kept
+
+
+def locked_to(orders: object) -> str:
+    """What a line's frequency follows: `mesh`, `bearing N`, or a shaft."""
+    bases = list(orders) if isinstance(orders, dict) else []
+    for prefix, word in FOLLOWS.items():
+        for base in bases:
+            if base.startswith(prefix):
+                return f"{word} {base[3:]}".strip()
+    return ""
+
+
+def by_name(lines: Sequence[LineChange], machine: MachineSpec) -> tuple[LineChange, ...]:
+    """The lines with parts called as the machine's file calls them: `inner ring of drive_end`."""
+    bearings = {f"bearing {i}": b.name for i, b in enumerate(machine.bearings, 1)}
+    shafts = {f"shaft {i}": s.name for i, s in enumerate(machine.shafts, 1)}
+    names = bearings | shafts | {f"mesh {i}": m.name for i, m in enumerate(machine.meshes, 1)}
+
+    def told(text: str) -> str:
+        kind = next((k for k in names if text.endswith(k)), None)
+        return text if kind is None else text.removesuffix(kind) + names[kind]
+
+    return tuple(replace(x, locked_to=OR.join(told(t) for t in x.locked_to.split(OR))) for x in lines)
