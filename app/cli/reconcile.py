@@ -30,6 +30,7 @@ from reconcile.report.write import PAGE, REPORT
 from reconcile.told import about
 from signals.ingest import read_recording
 from signals.recording import Recording
+from sim import presets
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec
 from sim.presets.reference import KEYS
@@ -52,7 +53,13 @@ def whole(text: str) -> int:
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("--machine", metavar="FILE", type=Path, required=True, help="machine, parameters or kinematics")
+    parser.add_argument(
+        "--machine",
+        metavar="FILE",
+        type=Path,
+        required=True,
+        help="machine, parameters or kinematics; or a preset's name",
+    )
     parser.add_argument("--baseline", metavar="R.json", type=Path, nargs="+", default=[], action="extend")
     parser.add_argument("--recording", metavar="R.json", type=Path, nargs="+", required=True, action="extend")
     parser.add_argument("--budget", choices=sorted(BUDGETS), default="quick", help="how much is simulated anew")
@@ -70,8 +77,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def _machine(path: Path) -> MachineSpec | KinematicSpec:
-    """Any of the three forms: a specification, a parameter file, or kinematics alone; a refusal says the file."""
+    """Any of the three forms: a specification, a parameter file, or kinematics alone, or a preset by its name where no
+    file is called so; a refusal says the file."""
+    if str(path) in presets.names() and not path.exists():
+        return presets.preset(str(path))
     document = read_json(path)
+    if {"channels", "sampling_rate_hz"} & set(document):
+        message = "describes a recording, not a machine"
+        allowed = f"a machine file, or a preset: {', '.join(presets.names())}"
+        raise SpecError(Problem(field=f"--machine {path}", message=message, allowed=allowed))
     if "kinematics" in document:
         with about(str(path)):
             return read_kinematic_spec(document)

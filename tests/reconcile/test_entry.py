@@ -67,6 +67,18 @@ def test_recordings_that_do_not_match_are_refused_by_field(other: Recording, fie
     check_channels([other], [other])
 
 
+def test_the_odd_one_out_is_told_be_it_the_first() -> None:
+    wrong, rest = replace(recording(rate_hz=10240.0), label="now.json"), [recording(), recording()]
+    with pytest.raises(SpecError) as refused:
+        check_channels([wrong], rest)
+    (problem,) = refused.value.problems
+    assert "now.json" in problem.field and (problem.given, problem.allowed) == (10240.0, "20480")
+    elsewhere = recording(channel("bearing2"))
+    with pytest.raises(SpecError) as refused:
+        check_channels([elsewhere, recording()], rest)
+    assert [p.field for p in refused.value.problems] == ["recording[0].channels[0]"]
+
+
 def test_matching_recordings_pass_whatever_their_names_and_lengths() -> None:
     renamed = replace(channel(), name="anything")
     check_channels([recording()], [recording(renamed, seconds=2.0)])

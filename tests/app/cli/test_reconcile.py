@@ -66,6 +66,16 @@ def test_the_three_forms_of_a_machine(machine: Path, tmp_path: Path) -> None:
     assert isinstance(command._machine(path), KinematicSpec)
 
 
+def test_a_preset_is_a_machine_and_a_recording_is_none(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    found = command._machine(Path("bearing-rig"))
+    assert isinstance(found, MachineSpec) and found == preset("bearing-rig")
+    path = tmp_path / "r.json"
+    path.write_text(json.dumps({"channels": [], "sampling_rate_hz": 20480}), encoding="utf-8")
+    assert main(asked(path, path, tmp_path / "out")) == 2
+    told = capsys.readouterr().err
+    assert "describes a recording, not a machine" in told and "bearing-rig" in told and told.count("error") == 1
+
+
 def test_arguments_that_are_missing_end_with_2(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main(["reconcile", "--out", "x"])

@@ -7,6 +7,7 @@ import { problemBox } from "/js/lib/problem.js";
 import { statusPill } from "/js/lib/status.js";
 
 const LIST_MS = 3000;
+const NAMED = 2;
 const NAMES = { recordings: "Recordings to explain", baselines: "Baselines", machine: "Machine" };
 const EXAMPLE = JSON.stringify({ kinematics: { shafts: [{ name: "input" }], bearings: [{ name: "bearing1", shaft: "input", catalogue: "6205" }] } }, null, 1);
 
@@ -71,7 +72,11 @@ function listCard() {
     try {
       const { jobs } = document.hidden ? { jobs: [] } : await getJson("/v1/reconciliations?limit=20");
       const now = JSON.stringify(jobs.map((job) => [job.id, job.status, job.progress.stage]));
-      if (jobs.length && now !== shown) replace(body, jobs.map(row));
+      if (jobs.length && now !== shown) {
+        const { recordings } = await getJson("/v1/recordings?limit=100");
+        const files = new Map(recordings.map((one) => [one.id, one.file.name]));
+        replace(body, jobs.map((job) => row(job, files)));
+      }
       if (jobs.length) [shown, element.hidden] = [now, false];
     } catch { /* the banner says that the server does not answer */ }
     timer = setTimeout(refresh, LIST_MS);
@@ -80,11 +85,19 @@ function listCard() {
   return { element, stop: () => clearTimeout(timer) };
 }
 
-function row(job) {
+function row(job, files) {
+  const { request } = job;
+  const against = request.baselines.length ? ` against ${named(request.baselines, files)}` : ", no baseline";
   return h("tr", { dataset: { job: job.id, status: job.status } },
-    h("td", {}, h("a", { href: `#/reconcile/${job.id}` }, job.request.preset ?? job.request.machine)),
-    h("td", { class: "small num" }, `${job.request.recordings.length} to explain, ${job.request.baselines.length} baseline`),
-    h("td", { class: "small" }, job.request.budget),
+    h("td", {}, h("a", { href: `#/reconcile/${job.id}` }, request.preset ?? request.machine)),
+    h("td", { class: "small" }, `${named(request.recordings, files)}${against}`),
+    h("td", { class: "small" }, request.budget),
     h("td", {}, statusPill(job), job.status === "running" ? h("span", { class: "muted small" }, ` ${job.progress.stage}`) : null),
     h("td", { class: "small num" }, ago(job.accepted_at)));
+}
+
+/** The first files by name, and how many more; one that is gone by its id. */
+function named(ids, files) {
+  const told = ids.slice(0, NAMED).map((id) => files.get(id) ?? id.slice(0, 8)).join(", ");
+  return ids.length > NAMED ? `${told} and ${ids.length - NAMED} more` : told;
 }
