@@ -12,6 +12,7 @@ from types import ModuleType
 
 from sim.core.errors import Cancelled, SidebandError, SpecError
 from sim.core.near import did_you_mean
+from sim.loading import loading
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,7 +59,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         os.environ.setdefault(library, "1")
     try:
         # Kernels that are not in the cache are compiled by this import: it can take long enough to be interrupted.
-        module = importlib.import_module(COMMANDS[name].module)
+        with loading():
+            module = importlib.import_module(COMMANDS[name].module)
         return _run(module, _parser(name, module).parse_args(arguments[1:]))
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)

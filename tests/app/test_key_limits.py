@@ -147,6 +147,7 @@ def test_rotation_while_it_runs(client: httpx.Client, file: Path) -> None:
     eventually(lambda: client.get("/v1/limits", headers=successor).status_code == 401)
 
 
+@pytest.mark.slow
 def test_a_server_does_not_start_with_a_file_it_cannot_use(parts: Parts) -> None:
     broken, empty = parts.folder / "broken.json", parts.folder / "empty.json"
     broken.write_text("{}", encoding="utf-8")

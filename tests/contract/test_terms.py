@@ -151,6 +151,7 @@ def test_at_zero_severity_its_own_elements_are_without_effect(term):
             assert np.all(found.outputs[:3] == 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("term", HEALTHY)
 def test_at_zero_severity_its_own_laws_and_elements_change_no_motion(term, monkeypatch):
     run = {"duration_s": 0.005, "output_rate_hz": 30_000.0}

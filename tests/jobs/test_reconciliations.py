@@ -295,6 +295,7 @@ def test_what_is_accepted_is_charged_once_and_a_refusal_costs_nothing(world: Wor
     assert world.ask([a, b], key="late", seed=3).status is Status.ACCEPTED
 
 
+@pytest.mark.slow
 def test_what_a_worker_refuses_names_the_recording(world: World) -> None:
     id_ = world.recording(1)
     other = {"kinematics": {"shafts": [{"name": "output"}], "bearings": []}}

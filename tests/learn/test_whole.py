@@ -134,6 +134,7 @@ def test_a_model_without_the_head_answers_by_its_pieces(model, bearing):
     assert assess([noise(6)], RATE, SPEED, older, None).label == "inner"
 
 
+@pytest.mark.slow
 def test_a_short_recording_of_doubtful_speed_is_answered_at_every_likely_one(model, bearing):
     short = [noise(6, turns=12.0)]
     alone = [assess(short, RATE, f, model, bearing, 0.005).probabilities for f in (24.5, 25.5)]

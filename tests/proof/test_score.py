@@ -186,6 +186,7 @@ def test_the_engine_gets_a_copy_without_the_name_and_is_run_once(tmp_path):
     assert "exit code 3" in failed["error"]
 
 
+@pytest.mark.slow
 def test_an_engine_that_does_not_answer_is_a_failure(tmp_path):
     script = tmp_path / "engine.py"
     script.write_text("import time; time.sleep(60)")

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from proof import case as making
 from proof import visible
 from proof.plan import Case, Hiding, plan
 from proof.visible import Visible, measure, stored, told, visibility
@@ -21,7 +22,8 @@ def case(value: float) -> Case:
 
 
 @pytest.mark.slow
-def test_more_of_an_effect_shows_more_and_none_shows_nothing() -> None:
+def test_more_of_an_effect_shows_more_and_none_shows_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(making, "DURATION_S", 0.4)
     faint, strong = visibility(case(0.1)), visibility(case(0.7))
     nothing = visibility(replace(case(0.1), effects=()))
     assert nothing.effect_db == 0.0 and nothing.new_share == 0.0

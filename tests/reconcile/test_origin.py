@@ -47,6 +47,7 @@ def _kinematics() -> Report:
     return reconcile_recordings(SPEC, [quiet()], seed=7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("made", [_kinematics, _dead_kinematics, _dead_machine, _driven])
 def test_every_level_says_versions_seed_and_cost(made: Callable[[], Report]) -> None:
     said = made().provenance

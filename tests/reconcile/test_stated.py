@@ -76,6 +76,7 @@ def test_a_place_that_is_no_part_is_a_remark(location: str) -> None:
     )
 
 
+@pytest.mark.slow
 def test_a_place_that_is_not_known_passes() -> None:
     assert reconcile_recordings(SPEC, [quiet(location="")], [quiet(location="")]).level == "kinematics"
     alone = read_kinematic_spec({"kinematics": {"shafts": [{"name": "shaft"}]}})
@@ -174,6 +175,7 @@ def test_a_standstill_without_pulses_is_refused_by_its_field() -> None:
     assert problem.field.endswith("operating.speed_hz") and "stands still" in problem.message
 
 
+@pytest.mark.slow
 def test_a_speed_that_nobody_stated_is_told() -> None:
     silent = replace(quiet(), operating=None)
     report = reconcile_recordings(SPEC, [silent], [quiet()])

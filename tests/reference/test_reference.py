@@ -31,6 +31,7 @@ def run(case, channels, steps_per_output=2, duration_s=0.2):
     ).signals
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("steps_per_output", [1, 2])
 @pytest.mark.parametrize("name", REGULAR)
 def test_accelerations_of_the_sensors(name, steps_per_output):

@@ -60,6 +60,7 @@ def test_data_survive_a_stop_and_a_second_server_is_refused(tmp_path: Path) -> N
         stop_broker(guard)
 
 
+@pytest.mark.slow
 def test_killed_owner_leaves_no_orphan(tmp_path: Path) -> None:
     code = (
         "import subprocess, sys, time\n"
@@ -77,6 +78,7 @@ def test_killed_owner_leaves_no_orphan(tmp_path: Path) -> None:
     eventually(lambda: not any(p.is_running() and p.status() != "zombie" for p in everyone))
 
 
+@pytest.mark.slow
 def test_killed_guard_takes_the_server_along(tmp_path: Path) -> None:
     guard, _ = start_broker(tmp_path)
     server = server_of(guard)
@@ -88,6 +90,7 @@ def test_killed_guard_takes_the_server_along(tmp_path: Path) -> None:
     eventually(lambda: not server.is_running() or server.status() == "zombie")
 
 
+@pytest.mark.slow
 def test_killed_server_comes_back_on_the_same_address(tmp_path: Path) -> None:
     guard, url = start_broker(tmp_path)
     try:

@@ -44,6 +44,7 @@ def answer(capsys, *arguments):
     return json.loads(capsys.readouterr().out)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", ["6205", {"catalogue": "6205"}, {"orders": {"bpfo": 3.5848, "bpfi": 5.4152}}])
 def test_an_outer_race_fault_is_named_with_the_lines_that_say_so(recording, capsys, how):
     found = answer(capsys, "--recording", recording(outer_fault(), bearing=how))

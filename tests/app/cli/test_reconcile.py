@@ -137,6 +137,7 @@ def kinematics(folder: Path, **shaft: object) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_a_refusal_says_the_file_as_it_was_given_and_once(
     machine: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -189,6 +190,7 @@ def test_what_is_wrong_with_the_machine_says_its_file(
     assert "error: k.json: kinematics.bearings.0.shaft: is no shaft" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_recordings_that_cannot_carry_the_kinematics_are_named_once(tmp_path: Path) -> None:
     """Both levels: no speed is stated, and too few turns."""
     machine = kinematics(tmp_path)
@@ -201,6 +203,7 @@ def test_recordings_that_cannot_carry_the_kinematics_are_named_once(tmp_path: Pa
         assert sentence.count(str(given)) == 1 and "test 1" not in sentence
 
 
+@pytest.mark.slow
 def test_at_machine_level_a_recording_that_cannot_be_read_is_named(
     machine: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -247,6 +250,7 @@ def test_where_nothing_can_be_written_is_said_before_the_work(
     assert "--out" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_descriptions_and_machines_may_begin_with_a_byte_order_mark(tmp_path: Path) -> None:
     machine, given = kinematics(tmp_path), written(tmp_path, "t")
     for path in (machine, given):

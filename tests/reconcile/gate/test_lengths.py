@@ -150,6 +150,7 @@ def test_lines_deny_a_gain_that_only_the_noise_had() -> None:
     assert not denied(UNIT_DB, np.zeros(0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("quantity", "factor", "kind"),
     [

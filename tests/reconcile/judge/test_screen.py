@@ -26,6 +26,7 @@ def screened(observed: np.ndarray) -> Screen:
     return judge((space(),), observed)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("c", range(len(EFFECTS)))
 def test_a_known_effect_is_named_and_known_to_be(c: int) -> None:
     right = 0

@@ -44,6 +44,7 @@ def seen(machine: MachineSpec, *tests: Recording, baseline: Recording | None = N
     return observe(machine, watch_list(machine), tests, [] if baseline is None else [baseline], seed=0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("stated_hz", "factor"), [(SPEED_HZ, None), (SPEED_HZ / 2, 2.0), (SPEED_HZ * 2, 0.5)])
 def test_the_teeth_tell_a_factor_of_two(machine: MachineSpec, stated_hz: float, factor: float | None) -> None:
     data = seen(machine, turning(machine, 1, stated_hz=stated_hz))
@@ -74,6 +75,7 @@ def test_noise_alone_doubts_nothing(machine: MachineSpec) -> None:
     assert rival_speed(machine, seen(machine, noise), CHANNELS) is None
 
 
+@pytest.mark.slow
 def test_a_mesh_at_half_the_rate_of_another_cannot_tell(machine: MachineSpec, monkeypatch: pytest.MonkeyPatch) -> None:
     data = seen(machine, turning(machine, 1, stated_hz=SPEED_HZ * 2))
     mesh = bases_at(machine, SPEED_HZ * 2)["f_m"]
@@ -81,6 +83,7 @@ def test_a_mesh_at_half_the_rate_of_another_cannot_tell(machine: MachineSpec, mo
     assert rival_speed(machine, data, CHANNELS) is None
 
 
+@pytest.mark.slow
 def test_nothing_is_simulated_at_a_doubted_speed(machine: MachineSpec) -> None:
     class Unused:
         def get(self, key: str) -> bytes | None:
@@ -99,6 +102,7 @@ def test_nothing_is_simulated_at_a_doubted_speed(machine: MachineSpec) -> None:
     assert {"physics_version", "seed", "cost"} <= set(report.provenance)
 
 
+@pytest.mark.slow
 def test_the_sentence_says_what_the_teeth_show(machine: MachineSpec) -> None:
     data = seen(machine, turning(machine, 1))
     gate = Gate(findings=(), baselines=(), tests=(), fault=None, usable=True)

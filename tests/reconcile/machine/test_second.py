@@ -130,6 +130,7 @@ def two_parts(effects: tuple[int, ...], seed: int) -> tuple[SimpleNamespace, Fou
     return setting, found
 
 
+@pytest.mark.slow
 def test_a_second_part_that_strikes_is_named_where_its_pattern_tells_the_place() -> None:
     right = 0
     for seed in range(8):
@@ -140,6 +141,7 @@ def test_a_second_part_that_strikes_is_named_where_its_pattern_tells_the_place()
     assert right >= 7
 
 
+@pytest.mark.slow
 def test_a_second_part_without_a_pattern_leaves_its_place_open() -> None:
     left_open = 0
     for seed in range(6):

@@ -45,6 +45,7 @@ def from_to(start_hz: float, end_hz: float, seconds: float = SECONDS) -> np.ndar
     return np.linspace(start_hz, end_hz, int(seconds * RATE_HZ))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("impacts", [0.0, 3.0])
 @pytest.mark.parametrize(("start_hz", "end_hz"), [(20.0, 30.0), (35.0, 28.0), (24.0, 27.5), (15.0, 40.0)])
 def test_a_run_up_is_found_with_its_size_whether_parts_strike_or_not(
@@ -82,6 +83,7 @@ def test_held_and_wandering_speeds_are_none(seed: int) -> None:
     assert speed_change(recording(0 * held, seed=seed)) is None
 
 
+@pytest.mark.slow
 def test_pulses_silence_gaps_and_a_moment_are_none() -> None:
     rising = from_to(20.0, 30.0)
     tacho = Tacho(shaft="a", pulse_times_s=np.arange(0, 3, 0.04))

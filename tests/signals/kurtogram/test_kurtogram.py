@@ -42,6 +42,7 @@ def test_the_band_of_an_impulse_train_is_found(resonance_hz: float) -> None:
     assert found.band.high_hz - found.band.low_hz < 4000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parts", [2, 3, 6, 8])
 def test_bands_agree_with_the_published_filters(parts: int) -> None:
     """The two differ by their flanks only."""

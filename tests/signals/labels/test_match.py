@@ -173,6 +173,7 @@ def test_sidelobes_of_strong_lines_are_not_lines() -> None:
     assert found.found == 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("window", ["hann", "hamming", "blackman", "flattop", "blackmanharris", "boxcar"])
 def test_every_window_finds_the_lines_and_their_amplitude(window: str) -> None:
     series = sines({690.0: 1.0, 1234.567: 0.3})

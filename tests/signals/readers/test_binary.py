@@ -149,6 +149,7 @@ WRITERS: dict[str, Callable[[Path], None]] = {"r.npz": npz, "r.wav": wav, "r.jso
 """Formats that are read in this process; the others are in test_further_formats.py."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", WRITERS)
 @given(data=st.data())
 def test_a_damaged_file_is_read_or_refused_and_nothing_else(tmp_path_factory, name: str, data: st.DataObject) -> None:

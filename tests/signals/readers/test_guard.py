@@ -173,6 +173,7 @@ def test_a_file_that_was_cut_or_is_another_kind_is_told_so_in_plain_words(tmp_pa
         assert words in problem.message and not LIBRARIES.search(problem.message), problem
 
 
+@pytest.mark.slow
 def test_a_byte_that_changed_within_is_told_as_damage(tmp_path) -> None:
     for name in ("r.npz", "packed.mat"):
         WHOLE[name](tmp_path / name)

@@ -47,6 +47,7 @@ def test_an_hdf5_file_may_begin_after_a_user_block(tmp_path, name: str, block: i
         parse(ABOUT, tmp_path / name)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("newline", [b"\n", b"\r\n"])
 def test_a_universal_file_may_begin_with_a_byte_order_mark(tmp_path, newline: bytes) -> None:
     WHOLE["r.uff"](tmp_path / "r.uff")
@@ -70,6 +71,7 @@ def test_a_line_of_minus_one_within_a_dataset_is_no_border(tmp_path, line: bytes
         assert "no end" in damage(tmp_path / "r.uff")
 
 
+@pytest.mark.slow
 def test_lines_between_universal_datasets_are_left_to_the_parser(tmp_path) -> None:
     WHOLE["r.uff"](tmp_path / "r.uff")
     whole = (tmp_path / "r.uff").read_bytes()

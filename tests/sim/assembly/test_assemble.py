@@ -38,6 +38,7 @@ def test_matrices_are_symmetric_and_passive(name):
     assert np.all(system.mass > 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MACHINES)
 def test_dampers_add_up_to_the_damping_matrix(name):
     system = assemble(MACHINES[name])

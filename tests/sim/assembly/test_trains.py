@@ -57,6 +57,7 @@ def test_turned_axes_show_the_same_machine(rotation, pairs):
         same(turned.signal(f"{name}.y.acceleration"), math.sin(ALPHA) * x + math.cos(ALPHA) * y)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("line", ["y", "rotated"])
 def test_a_pair_named_the_other_way_round_is_its_mirror_image(line):
     """The gear stands at +x of the pinion: swapping the names mirrors x, and the driving gear is then the second."""

@@ -27,6 +27,7 @@ def conditioning(trial):
     return 8.0 * np.finfo(float).eps * trial.shafts[0, -1] / turned if turned > 0 else 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MACHINES)
 def test_contexts_agree(name):
     system = assemble(MACHINES[name])

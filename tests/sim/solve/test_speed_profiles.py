@@ -60,6 +60,7 @@ def test_a_ramp_loads_the_teeth_by_the_driven_inertia():
     assert ramp[tail].mean() - still[tail].mean() == pytest.approx(inertia * acceleration / radius, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "profile",
     [

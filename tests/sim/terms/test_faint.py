@@ -37,6 +37,7 @@ def moved(machine: MachineSpec) -> np.ndarray:
     return simulate(machine, duration_s=SPAN_S, output_rate_hz=20480.0, settings=settings).signals
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("key", [t.key for t in SIZED])
 def test_a_faint_effect_changes_nothing_but_the_structure(key: str) -> None:
     term = REGISTRY.get(key)

@@ -46,6 +46,7 @@ def test_loaded_all_round_only_orders_beside_k_z_shake_the_ring(term, k):
     assert sizes[3] < allowed * expected
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("k", [1, 2])
 @pytest.mark.parametrize("side", [-1, 1])
 def test_inner_waves_shake_at_k_f_i_plus_minus_f_r(k, side):
