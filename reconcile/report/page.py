@@ -40,8 +40,8 @@ from reconcile.report.words import cause
 from reconcile.verdict import Report
 
 
-def _key(before: str = "model without it", after: str = "with it") -> Markup:
-    names = (("observed", "measured"), ("before", before), ("after", after))
+def _key(before: str = "model without it", after: str | None = "with it") -> Markup:
+    names = (("observed", "measured"), ("before", before), *((("after", after),) if after else ()))
     return tag("div", *(tag("span", tag("i", css=f"k-{css}"), words) for css, words in names), css="key")
 
 
@@ -55,8 +55,13 @@ def _where(report: Report) -> Markup:
 
 def _spectra(report: Report) -> Markup:
     drawn = several(report.pictures, "spectra")
-    without = "without it: the baseline, or the model where there is none"
-    return section("Spectra", _key(without), spectra(drawn, report.where.lines)) if drawn else Markup("")
+    if not drawn:
+        return Markup("")
+    reference = "the baseline, or the model where there is none"
+    if report.verdict == "nothing_missing":  # nothing is added to the reference
+        bare = [{k: v for k, v in p.items() if k != "after_db"} for p in drawn]
+        return section("Spectra", _key(reference, None), spectra(bare, report.where.lines))
+    return section("Spectra", _key(f"without it: {reference}"), spectra(drawn, report.where.lines))
 
 
 def _envelope(report: Report) -> Markup:

@@ -145,6 +145,14 @@ def test_every_text_is_escaped_and_nothing_is_fetched() -> None:
     assert parser.seen.count("svg") >= 8
 
 
+def test_where_nothing_is_missing_no_curve_is_drawn_with_it() -> None:
+    drawn = page(replace(full_report(), verdict="nothing_missing"))
+    spectra = drawn[drawn.index("<h2>Spectra</h2>") :].split("</section>")[0]
+    assert "curve before" in spectra and "curve after" not in spectra and "with it" not in spectra
+    named = page(full_report()).split("<h2>Spectra</h2>")[1].split("</section>")[0]
+    assert "curve after" in named and "without it: the baseline" in named
+
+
 def test_a_report_without_anything_still_makes_a_page() -> None:
     parser = Balanced()
     parser.feed(page(Report(verdict="not_decidable", sentence="Too short.", level="kinematics")))
