@@ -50,6 +50,8 @@ class Score:
     beats_black_box: bool | None = None
     placebo_improves: bool | None = None
     core_seconds: float | None = None
+    told_unseen: bool | None = None
+    """Of an effect that was not seen: whether the report says that it need not have been (`faintest`)."""
 
 
 def score(truth: Json, report: Json | None) -> Score:
@@ -157,11 +159,23 @@ def _effects(truth: Json, said: Json, verdict: str) -> dict[str, Any]:
         "top_three": alarmed and any(_is(c, e, place=True) for c in ranked[:3] for e in effects),
         "false_unknown": verdict == "unknown_physics",
     }
+    if verdict == "nothing_missing" and len(effects) == 1:
+        found["told_unseen"] = _told_unseen(effects[0], list(said.get("faintest") or []))
     if len(effects) > 1:
         found["both"] = found["place"]
     elif place[0]:
         found |= _severity(effects[0], next(c for c in stands if _is(c, effects[0], place=True)))
     return found
+
+
+def _told_unseen(effect: Json, told: Sequence[Json]) -> bool | None:
+    """None where the effect's size is not in the report's terms, or nothing is said of it."""
+    rows = [row for row in told if _is(row, effect, place=True)]
+    if not rows or not effect["severity"]["sized"]:
+        return None
+    true = float(effect["severity"]["value"])
+    smallest = [same_unit(str(r["term"]), str(r["name"]), float(r["seen_from"])) for r in rows if r["seen_from"]]
+    return not smallest or true < min(smallest)
 
 
 def _severity(effect: Json, cause: Json) -> dict[str, Any]:

@@ -38,5 +38,8 @@ def failures(scores: Sequence[Score]) -> list[str]:
     for s in filter(wrong, scores):
         missed = ", ".join(name for name in names if getattr(s, name) is False)
         where = f"level {s.level}, {s.sensors} sensors, {s.snr_db:g} dB, {s.speeds} speeds"
-        found.append(f"{s.name} {s.group} {'+'.join(s.laws) or '-'} ({where}): said {s.verdict}; wrong: {missed}")
+        said = {None: "", True: ", and that it need not show", False: ", though by its own table it shows"}[
+            s.told_unseen
+        ]
+        found.append(f"{s.name} {s.group} {'+'.join(s.laws) or '-'} ({where}): said {s.verdict}{said}; wrong: {missed}")
     return found

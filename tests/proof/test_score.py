@@ -261,3 +261,24 @@ def test_what_was_not_detected_beats_no_black_box():
     case = truth("single", "outer_pit")
     assert score(case, {"verdict": "nothing_missing"}).beats_black_box is False
     assert score(truth("null"), {"verdict": "nothing_missing"}).beats_black_box is None
+
+
+def test_what_the_report_says_it_would_have_seen_is_held_against_it():
+    case = truth("single", "outer_pit")
+    (effect,) = case["effects"]
+    row = {
+        "term": effect["terms"][0],
+        "site": effect["sites"][0],
+        "name": effect["severity"]["name"],
+        "seen_from": None,
+    }
+
+    def told(**changes):
+        found = score(case, {"verdict": "nothing_missing", "faintest": [row | changes]})
+        return found.told_unseen, table([found])
+
+    assert told()[0] and told(seen_from=1.1 * effect["value"])[0]
+    assert told(seen_from=0.9 * effect["value"])[0] is False
+    assert "need not show" in told()[1] and "though by its own table it shows" in told(seen_from=1e-9)[1]
+    assert told(site="elsewhere")[0] is None and score(case, {"verdict": "nothing_missing"}).told_unseen is None
+    assert score(case, right(case) | {"faintest": [row]}).told_unseen is None
