@@ -17,6 +17,7 @@ from reconcile.machine.heldout import feature_channels, feature_frequencies, hel
 from reconcile.machine.lines import by_name, line_changes
 from reconcile.machine.meter import Meter
 from reconcile.machine.pictures import ranking, spectra, turn_maps, with_forms
+from reconcile.machine.proved import proved
 from reconcile.machine.revised import Revised, paths, revised_machine
 from reconcile.machine.second import Beside, fitted_change, second_effect, struck_somewhere
 from reconcile.machine.setting import Found, Setting
@@ -117,6 +118,9 @@ def answer(
     revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter)
     if revision is not None:
         fitted = revision.change
+    before = decision
+    decision, causes = proved(decision, causes, found, revision)
+    other = other if decision is before else None
     if unknown is not None and unknown.change is not None:
         fitted = unknown.change
     word, text, fault = _told(setting, decision, gate, causes, held, other, unknown)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from reconcile.machine.decide import Decision
+from reconcile.machine.proved import NO_NEARER
 from reconcile.observe.observation import PointData
 from reconcile.report.markup import figure_text
 from reconcile.verdict import EstimatedForce, HeldOut, NextExperiment, Severity, operating_point
@@ -58,6 +59,9 @@ def sentence(decision: Decision, severity: Severity | None, held: HeldOut | None
         return f"{title(decision.chosen[0])}{size(severity)}{gain}."
     if decision.word == "unknown_physics":
         return f"Something is missing that no known effect explains: {decision.reasons[0]}."
+    if decision.reasons[0] == NO_NEARER:
+        best = title(decision.chosen[0]).lower()
+        return f"The change is unusual (p {_chance(decision.p)}), but {NO_NEARER} ({best}): nothing is named."
     listed = ", or ".join(title(c).lower() for c in decision.chosen[:4])
     more = "" if len(decision.chosen) <= 4 else f" and {len(decision.chosen) - 4} more"
     return f"Something is missing (p {_chance(decision.p)}), but {decision.reasons[0]}: {listed}{more}."

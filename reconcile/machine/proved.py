@@ -1,0 +1,34 @@
+"""A name must be proved by simulation: the machine with it must be nearer to the recordings than without it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from reconcile.machine.decide import STRUCK, Decision
+from reconcile.machine.revised import Revised
+from reconcile.machine.setting import Found
+from reconcile.verdict import Cause
+
+NO_NEARER = "the machine with the effect that fits best, simulated, is no nearer to the recordings than without it"
+
+
+def proved(
+    decision: Decision, causes: tuple[Cause, ...], found: Found, revised: Revised | None
+) -> tuple[Decision, tuple[Cause, ...]]:
+    """The same where nothing is named or the name stands; else not decidable, and nothing named.
+
+    Of fifteen cases of the proof in which the right effect is named, simulated it leaves 0.31 to 0.92 of the levels'
+    change; a sound machine heard by eight sensors at five speeds, to which a friction was fitted, 1.12 of it. Where an
+    effect strikes for sure its impacts have proved it: levels within the usual need not come nearer.
+    """
+    if decision.word != "explained" or revised is None or revised.after_db < revised.before_db:
+        return decision, causes
+    if float(found.screen.direct[found.screen.names.index(decision.chosen[0])]) >= STRUCK:
+        return decision, causes
+    unnamed = _unnamed(causes)
+    return replace(decision, word="not_decidable", reasons=(NO_NEARER,)), unnamed
+
+
+def _unnamed(causes: Sequence[Cause]) -> tuple[Cause, ...]:
+    return tuple(replace(c, named=False, reasons=(NO_NEARER,)) for c in causes)

@@ -1,0 +1,53 @@
+"""A name stands only where the machine with it, simulated, is nearer to the recordings than without it."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from reconcile.machine.decide import Decision
+from reconcile.machine.proved import NO_NEARER, proved
+from reconcile.machine.words import sentence
+from reconcile.verdict import Cause, Word
+
+NAMES = ("coulomb_friction@gear", "outer_spall@bearing1")
+CAUSES = tuple(
+    Cause(term=n.split("@")[0], site=n.split("@")[1], score=7.0 - k, named=k == 0) for k, n in enumerate(NAMES)
+)
+
+
+def decided(word: Word = "explained") -> Decision:
+    return Decision(word=word, chosen=NAMES[:1], p=6.6e-5, reasons=())
+
+
+def found(struck: float) -> SimpleNamespace:
+    return SimpleNamespace(screen=SimpleNamespace(names=NAMES, direct=np.array([struck, 0.0])))
+
+
+def revised(before_db: float, after_db: float) -> SimpleNamespace:
+    return SimpleNamespace(before_db=before_db, after_db=after_db)
+
+
+def test_a_name_whose_machine_is_no_nearer_is_taken_back() -> None:
+    decision, causes = proved(decided(), CAUSES, found(0.0), revised(3.49, 3.92))  # type: ignore[arg-type]
+    assert decision.word == "not_decidable" and decision.reasons == (NO_NEARER,)
+    assert not any(c.named for c in causes) and [c.term for c in causes] == [c.term for c in CAUSES]
+    said = sentence(decision, None, None)
+    assert "dry friction at a support at gear" in said and "nothing is named" in said and "missing" not in said
+
+
+@pytest.mark.parametrize(
+    ("word", "struck", "levels"),
+    [
+        ("explained", 0.0, (3.49, 3.2)),
+        ("explained", 12.0, (3.49, 3.92)),
+        ("explained", 0.0, None),
+        ("ambiguous", 0.0, (3.49, 3.92)),
+    ],
+)
+def test_other_answers_stand(word: Word, struck: float, levels: tuple[float, float] | None) -> None:
+    machine = None if levels is None else revised(*levels)
+    decision, causes = proved(decided(word), CAUSES, found(struck), machine)  # type: ignore[arg-type]
+    assert decision == decided(word) and causes == CAUSES
