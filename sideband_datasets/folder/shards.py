@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 from sideband_datasets.folder.layout import DATA, STATE, json_text, sha256, size_of, whole, write_text
 from sideband_datasets.formats import format_named
@@ -38,7 +39,23 @@ class Receipt:
     rows: int
     bytes: int
     sha256: str
+    machines: tuple[str, ...]
+    """Of its rows, sorted."""
+    paths: tuple[str, ...]
+    """Ids of the transfer paths of its rows, sorted."""
     failures: tuple[Failure, ...]
+
+
+def receipt_from(document: Mapping[str, Any]) -> Receipt:
+    """A receipt from its JSON document."""
+    failures = tuple(failure_from(failure) for failure in document["failures"])
+    lists = {name: tuple(document[name]) for name in ("machines", "paths")}
+    return Receipt(**{**document, **lists, "failures": failures})
+
+
+def failure_from(document: Mapping[str, Any]) -> Failure:
+    """A failed recording from its JSON document."""
+    return Failure(**{**document, "rows": tuple(document["rows"])})
 
 
 def shards_of(plan: Plan, suffix: str, size: int | None = None) -> list[Shard]:
@@ -66,9 +83,7 @@ def finished(folder: Path, shard: Shard) -> Receipt | None:
     path, data = receipt_path(folder, shard), folder / DATA / shard.name
     if not path.is_file() or not data.exists():
         return None
-    document = json.loads(path.read_text(encoding="utf-8"))
-    failures = tuple(Failure(**{**f, "rows": tuple(f["rows"])}) for f in document.pop("failures"))
-    receipt = Receipt(**document, failures=failures)
+    receipt = receipt_from(json.loads(path.read_text(encoding="utf-8")))
     return receipt if receipt.sha256 == sha256(data) else None
 
 
@@ -95,6 +110,8 @@ def make_shard(
         rows=len(found),
         bytes=size_of(data),
         sha256=sha256(data),
+        machines=tuple(sorted({row.machine_id for row in found})),
+        paths=tuple(sorted({row.path_id for row in found})),
         failures=tuple(sorted(failures, key=lambda failure: failure.recording)),
     )
     write_text(receipt_path(folder, shard), json_text(asdict(receipt)))

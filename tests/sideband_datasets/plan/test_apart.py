@@ -75,7 +75,7 @@ def _families(**changes: object) -> list[dict[str, object]]:
     ],
 )
 def test_one_machine_under_other_names_or_speeds_is_refused(changes):
-    with pytest.raises(SpecError, match="splits: machines of the same parameters .*name, notes, speed, loads"):
+    with pytest.raises(SpecError, match=r"splits: machines of the same parameters .*name, notes, speed, loads"):
         planned(tiny(**changes))
 
 
