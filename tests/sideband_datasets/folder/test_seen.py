@@ -5,7 +5,10 @@ import pyarrow.compute as pc
 import pyarrow.parquet as pq
 import pytest
 
+from sideband_datasets.folder import Settings, make
+from sim.presets import preset
 from tests.sideband_datasets.folder.attack import changed, rewrite, shards, told
+from tests.sideband_datasets.small import document, tiny
 
 
 def test_a_machine_moved_to_another_split_is_found(copy):
@@ -67,3 +70,19 @@ def test_signals_of_train_in_test_are_found(copy):
     rewrite(copy, other, changed(pq.read_table(other), "signal", signals))
     found = told(copy)
     assert f"data: leak: {len(signals)} signals stand in two splits, bit for bit: row " in found
+
+
+@pytest.mark.slow
+def test_pulses_of_a_tacho_may_be_the_same_in_two_splits(tmp_path):
+    (chosen,) = document()["measurement"]
+    chosen["chain"]["channels"].append({"name": "turns", "kind": "tacho", "shaft": preset("rotor").shafts[0].name})
+    windows = {"per_recording": 1, "length_s": 0.1}
+    recipe = tiny(count=4, faults=[], speeds_hz=30.0, measurement=[chosen], windows=windows, peaks={"spectra": []})
+    make(recipe, tmp_path / "set", Settings(), lambda progress: None)
+    found = {}
+    for split in ("train", "test"):
+        (path,) = shards(tmp_path / "set", split)
+        table = pq.read_table(path)
+        found[split] = table.filter(pc.equal(table.column("channel"), "turns")).column("signal").to_pylist()
+    assert found["train"][0] in found["test"]
+    assert told(tmp_path / "set") == ""
