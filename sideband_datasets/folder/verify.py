@@ -20,7 +20,7 @@ from sideband_datasets.make.stream import rows
 from sideband_datasets.plan.seeds import Stream, generator
 from sideband_datasets.plan.tried import make_plan
 from sideband_datasets.recipe.read import checksum, read_recipe
-from sim.core.errors import Problem, SpecError
+from sim.core.errors import Problem, SidebandError, SpecError
 
 Told = Callable[[str], object]
 
@@ -47,7 +47,7 @@ def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> li
         return [Finding(where=MANIFEST, what=f"cannot be read: {error!r}")]
     try:
         plan = make_plan(recipe)
-    except SpecError as error:
+    except SidebandError as error:
         return [Finding(where=MANIFEST, what=f"its recipe is refused: {error}")]
     told("checksums")
     found = list(_files(out, manifest, listed, others, suffix))

@@ -84,6 +84,14 @@ def test_a_broken_manifest_is_a_finding_and_no_traceback(copy, key, value):
     assert told(copy)
 
 
+@pytest.mark.parametrize("changes", [{"preset": "none"}, {"vary": {"speed_hz": {"low": 25, "high": 40}}}])
+def test_a_recipe_that_is_refused_is_a_finding(copy, changes):
+    manifest = json.loads((copy / "manifest.json").read_text())
+    manifest["recipe"]["machines"][0] |= changes
+    (copy / "manifest.json").write_text(json.dumps(manifest))
+    assert told(copy).startswith("manifest.json: its recipe is refused: ")
+
+
 def test_a_manifest_that_is_no_json_is_a_finding(copy):
     (copy / "manifest.json").write_text("{")
     assert "manifest.json: cannot be read" in told(copy)
