@@ -3,9 +3,9 @@
     python examples/dataset_to_classifier.py --recording R.json    # R.json: docs/recordings.md
     python examples/dataset_to_classifier.py                       # without one: tested on simulated machines left out
 
-Two to four core-minutes. All 24 simulated recordings left out were named rightly, and of four measured ones (CWRU, 7 mil)
-all but the ball fault, which it calls healthy (read off once). Such a small model is no match for the shipped one
-(`sideband classify`), which has seen livelier backgrounds (docs/sim2real.md).
+Two to four core-minutes. All 24 simulated recordings left out were named rightly, and of four measured ones (CWRU,
+7 mil) all but the ball fault, which it calls healthy (read off once). So small a model is no match for the shipped
+one (`sideband classify`), which has seen livelier backgrounds (docs/sim2real.md).
 """
 
 from __future__ import annotations
