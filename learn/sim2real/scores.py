@@ -16,7 +16,7 @@ PRIOR = 0.5
 def score(
     truth: Sequence[str], said: Sequence[str], unit: str, recordings: Sequence[Hashable] | None = None
 ) -> dict[str, object]:
-    """Mean recall over the classes present; `low`, `high`: its 95 % interval (see `interval`).
+    """Mean recall over the classes present; `low`, `high`: its 95 % interval (see `interval`), widened to hold it.
 
     `recordings` says which recording each unit is of; without it each is one of its own.
     """
@@ -33,13 +33,14 @@ def score(
         recalls.append(sum(answers) / len(answers))
         shares.append([sum(one) / len(one) for one in by.values()])
     low, high = interval(shares)
+    mean = float(np.mean(recalls))
     return {
         "unit": unit,
         "n": len(truth),
         "classes": classes,
-        "balanced_accuracy": round(float(np.mean(recalls)), 4),
-        "low": round(low, 4),
-        "high": round(high, 4),
+        "balanced_accuracy": round(mean, 4),
+        "low": round(min(low, mean), 4),
+        "high": round(max(high, mean), 4),
     }
 
 
