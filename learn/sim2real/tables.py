@@ -10,8 +10,8 @@ from learn.sim2real.figures import KINDS, figure, paired, right, share
 from learn.sim2real.scores import confusion
 from learn.simulate.machines import CLASSES
 
-INTERVALS = """Balanced accuracy over all rigs (95 % interval: a bootstrap over recordings with half a right and half a
-wrong one added to each class, `learn/sim2real/scores.py`; it knows nothing of rigs that are not here):
+INTERVALS = """Balanced accuracy over all rigs (95 % interval: a bootstrap over recordings, half a wrong one
+added to each class for the lower bound, half a right one for the upper; rather too wide):
 """
 
 
