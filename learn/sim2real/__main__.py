@@ -10,17 +10,17 @@ import sys
 import time
 from pathlib import Path
 
-from learn.gears.assess import CLASSES as GEAR_CLASSES
 from learn.model import Model, load, save
 from learn.real.load import RECORDINGS, Case, available, case, index
+from learn.sim2real.ablations import MACHINES as FEWER
+from learn.sim2real.ablations import USUAL, smaller
 from learn.sim2real.gear_table import GearExample, gear_heads, gear_table
 from learn.sim2real.report import Results, report
 from learn.sim2real.table import Table, pool_of, table, train
-from learn.simulate.machines import CLASSES
 from learn.simulate.rows import Variant
 from sim.version import PHYSICS_VERSION
 
-SEED, MACHINES, ABLATED, PAIRS = 1, 180, 24, 100
+SEED, MACHINES, ABLATED, PAIRS = 1, 180, FEWER, 100
 RIGS = ("cwru", "hit_sm_mfs", "uestc", "ims_healthy", "motor_acoustic", "openei_gear")
 
 
@@ -46,9 +46,8 @@ def main(argv: list[str] | None = None) -> int:
     ablated = _ablated(given, began) if given.ablated and not given.from_model else {}
     cases = [case(e) for e in index() if e["dataset"] in RIGS]
     _tell(began, f"{len(cases)} measured recordings read")
-    labelled = [c for c in cases if c.label in (*CLASSES, *GEAR_CLASSES)]
     with pool_of(given.processes) as pool:
-        results = report(model, ablated, labelled, seed=given.seed, pool=pool)
+        results = report(model, ablated, cases, seed=given.seed, pool=pool)
     _write(results, held, cases, given.docs)
     _tell(began, "done")
     print(results.line)
@@ -81,17 +80,11 @@ def _made_by(given: argparse.Namespace, found: Table, pairs: list[GearExample]) 
 
 
 def _ablated(given: argparse.Namespace, began: float) -> dict[str, Model]:
-    """Models of smaller data sets: all of the recipe, without the chain, without the spread of machines."""
-    kinds = {
-        "recipe as it is": Variant(),
-        "without the measurement chain": Variant(chain=False),
-        "without the spread of machines": Variant(spread=False),
-    }
+    """Models of smaller data sets; `learn.sim2real.ablations` has more of them."""
     models = {}
-    for name, variant in kinds.items():
-        found = table(given.ablated, given.seed + 1, variant, given.processes)
-        models[name] = train(found, seed=given.seed, made_by={})
-        _tell(began, f"{name}: {len(found.labels)} pieces")
+    for name in USUAL:
+        models[name], pieces = smaller(name, given.ablated, given.seed, given.processes)
+        _tell(began, f"{name}: {pieces} pieces")
     return models
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
@@ -36,12 +36,13 @@ class Unit:
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
-    """What was said of a unit; `detail` for the table of failures."""
+    """What was said of a unit; `detail` for the table of failures, `levels` (dB) of the families by the detector."""
 
     unit: Unit
     label: str
     detail: str
     assessment: Assessment | None = None
+    levels: Mapping[str, float] = field(default_factory=dict)
 
 
 Way = Callable[[Unit], Answer]
@@ -59,10 +60,11 @@ def units(case: Case) -> list[Unit]:
 
 
 def by_detector(unit: Unit) -> Answer:
-    """The kinematic envelope detector, at the true speed and geometry."""
-    assert unit.case.orders is not None
+    """The kinematic envelope detector, at the true speed and geometry; without a geometry it cannot say anything."""
+    if unit.case.orders is None:
+        return Answer(unit=unit, label="healthy", detail="no bearing known to look for")
     label, levels = kinematic_detector(list(unit.channels), unit.case.rate_hz, unit.case.speed_hz, unit.case.orders)
-    return Answer(unit=unit, label=label, detail=", ".join(f"{k} {v:.0f} dB" for k, v in levels.items()))
+    return Answer(unit=unit, label=label, detail=", ".join(f"{k} {v:.0f} dB" for k, v in levels.items()), levels=levels)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,19 +10,20 @@ from dataclasses import dataclass
 from learn.gears.assess import CLASSES as GEAR_CLASSES
 from learn.model import Model
 from learn.real.load import Case
+from learn.sim2real import tables
 from learn.sim2real.answers import Answer, ByModel, Way, ask, by_detector
+from learn.sim2real.figures import controls, other_rigs, paired, pooled, rigs
+from learn.sim2real.fitted_rule import fitted_db, refitted
 from learn.sim2real.gear_answers import gear_ways
-from learn.sim2real.rivals import rows_of, said_by, trained_on
-from learn.sim2real.scores import confusion, score
-from learn.sim2real.severities import severity_table
+from learn.sim2real.rivals import rivals_table
+from learn.sim2real.severities import severity_pairs, severity_table
 from learn.simulate.machines import CLASSES
 
-KINDS = ("recording", "window")
 GIVEN, NEAR = "speed and geometry given", "speed estimated near the stated one"
 RIVAL = "classical detector (same information)"
-INTERVALS = """Balanced accuracy over all rigs (means of the classes' 95 % Wilson bounds; windows of one recording
-are not independent, so their interval is too narrow):
-"""
+FITTED = "classical detector, threshold fitted to windows"
+UNKNOWN = "geometry unknown"
+Ways = dict[str, list[Answer]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,168 +34,104 @@ class Results:
     line: str
 
 
+@dataclass(frozen=True, kw_only=True)
+class Asked:
+    """Answers by name of the way: `ways` of all recordings, `alone` of bearings of known size; `unscored`: without a
+    class; `rule_db`: the fitted threshold, if there is one."""
+
+    ways: Ways
+    alone: Ways
+    unscored: list[Answer]
+    rule_db: float | None
+
+
 def report(
     model: Model, ablated: Mapping[str, Model], cases: Sequence[Case], *, seed: int, pool: Executor | None = None
 ) -> Results:
-    """Everything."""
-    stages = [c for c in cases if c.teeth is not None]
-    cases = [c for c in cases if c.teeth is None]
-    known = [c for c in cases if c.orders is not None]
-    main, detector = ask(known, ByModel(model=model), pool=pool), ask(known, by_detector, pool=pool)
+    """Everything. Recordings whose condition is none of the classes are answered and listed, and count nowhere."""
+    asked = asked_all(model, ablated, cases, pool)
+    known = [c for c in cases if c.orders is not None and c.label in CLASSES]
+    return Results(text=text_of(asked, rivals_table(known, seed)), line="SIM2REAL " + json.dumps(line_of(asked)))
+
+
+def asked_all(model: Model, ablated: Mapping[str, Model], cases: Sequence[Case], pool: Executor | None) -> Asked:
+    """All ways asked."""
+    scored = [c for c in cases if c.label in (*CLASSES, *GEAR_CLASSES)]
+    stages, bearings = [c for c in scored if c.teeth is not None], [c for c in scored if c.teeth is None]
+    known, unsized = [c for c in bearings if c.orders is not None], [c for c in bearings if c.orders is None]
+    given, near = ByModel(model=model), ByModel(model=model, speed="near")
+    alone: Ways = {GIVEN: ask(known, given, pool=pool), RIVAL: ask(known, by_detector, pool=pool)}
+    rule = fitted_db(alone[RIVAL])
+    if rule is not None:
+        alone[FITTED] = refitted(alone[RIVAL], rule)
+    alone[NEAR] = ask(known, near, pool=pool)
+    ways = {name: list(answers) for name, answers in alone.items()}
     gears = gear_ways(stages, model, pool)
-    plain: dict[str, tuple[Sequence[Case], Way, bool]] = {
-        NEAR: (known, ByModel(model=model, speed="near"), True),
+    asking: tuple[Way, ...] = (given, by_detector, near)
+    for name, way, more in zip((GIVEN, RIVAL, NEAR), asking, gears, strict=True):
+        ways[name] += [*ask(unsized, way, pool=pool), *more]
+    others: dict[str, tuple[Sequence[Case], Way, bool]] = {
         "speed estimated from nothing": (known, ByModel(model=model, speed="none"), False),
-        "geometry unknown": (cases, ByModel(model=model, geometry=False), True),
-        "geometry unknown, speed estimated near the stated one": (
-            cases,
-            ByModel(model=model, geometry=False, speed="near"),
-            True,
-        ),
+        UNKNOWN: (bearings, ByModel(model=model, geometry=False), True),
+        f"{UNKNOWN}, {NEAR}": (bearings, ByModel(model=model, geometry=False, speed="near"), True),
     }
-    plain |= {f"smaller data set, {name}": (known, ByModel(model=other), True) for name, other in ablated.items()}
-    ways = {GIVEN: main, RIVAL: detector}
-    ways |= {name: ask(which, way, windows=cut, pool=pool) for name, (which, way, cut) in plain.items()}
-    alone = {name: ways[name] for name in (GIVEN, RIVAL, NEAR)}
-    for name, more in zip(alone, gears, strict=True):
-        ways[name] = [*ways[name], *more]
-    text = "\n\n".join(
-        (
-            _summary(ways, alone if stages else {}),
-            _rivals(known, seed),
-            _by_recording(ways),
-            _failures(ways),
-            "Confusion, windows, speed and geometry given (rows: truth):\n\n" + _confusion(ways[GIVEN]),
-            severity_table(main),
-        )
-    )
-    line = {
-        "rigs": _rigs(ways[GIVEN]),
-        "detector": _rigs(ways[RIVAL]),
-        "pooled": _pooled(ways[GIVEN]),
-        "pooled_detector": _pooled(ways[RIVAL]),
-        "pooled_bearings": _pooled(main),
-        "pooled_detector_bearings": _pooled(detector),
-        "geometry_unknown": _rigs(ways["geometry unknown"]) | {"pooled": _pooled(ways["geometry unknown"])},
-        "speed_estimated": _pooled(ways[NEAR]),
-        "speed_estimated_bearings": _pooled(alone[NEAR]),
+    others |= {f"smaller data set, {name}": (known, ByModel(model=other), True) for name, other in ablated.items()}
+    ways |= {name: ask(which, way, windows=cut, pool=pool) for name, (which, way, cut) in others.items()}
+    unscored = ask([c for c in cases if c not in scored], given, windows=False, pool=pool)
+    return Asked(ways=ways, alone=alone, unscored=unscored, rule_db=rule)
+
+
+def text_of(asked: Asked, rivals: str) -> str:
+    """The tables."""
+    ways, alone = asked.ways, asked.alone
+    elsewhere = {name: other_rigs(alone[name]) for name in (GIVEN, RIVAL, FITTED) if name in alone}
+    rows = {
+        **ways,
+        **{f"{name}, bearings of known size": answers for name, answers in alone.items() if name != FITTED},
+        **{f"{name}, bearings of known size, without the development rig": a for name, a in elsewhere.items() if a},
     }
-    return Results(text=text, line="SIM2REAL " + json.dumps(line))
-
-
-def _of(answers: Sequence[Answer], rig: str | None, kind: str) -> dict[str, object] | None:
-    chosen = [a for a in answers if a.unit.kind == kind and rig in (None, a.unit.case.rig)]
-    if not chosen:
-        return None
-    return score([a.unit.case.label for a in chosen], [a.label for a in chosen], kind)
-
-
-def _rigs(answers: Sequence[Answer]) -> dict[str, object]:
-    """Rigs with several classes: whole recordings under their name, windows under `NAME_windows`."""
-    found: dict[str, object] = {}
-    for rig in dict.fromkeys(a.unit.case.rig for a in answers):
-        if len({a.unit.case.label for a in answers if a.unit.case.rig == rig}) < 2:
-            continue
-        for kind, tail in zip(KINDS, ("", "_windows"), strict=True):
-            one = _of(answers, rig, kind)
-            if one is not None:
-                found[rig + tail] = one
-    return found
-
-
-def _pooled(answers: Sequence[Answer]) -> dict[str, object]:
-    """All rigs together, single-class ones too: whole recordings, with the windows' figures beside them."""
-    whole, cut = _of(answers, None, KINDS[0]), _of(answers, None, KINDS[1])
-    return {**(whole or {}), "windows": cut}
-
-
-def _share(one: Mapping[str, object] | None) -> str:
-    if one is None:
-        return "-"
-    mean, low, high = (float(str(one[key])) for key in ("balanced_accuracy", "low", "high"))
-    return f"{mean:.3f} ({low:.2f} to {high:.2f}), n {one['n']}"
-
-
-def _summary(ways: Mapping[str, Sequence[Answer]], alone: Mapping[str, Sequence[Answer]]) -> str:
-    lines = [
-        INTERVALS,
-        "| way | recordings | windows of 10 turns |",
-        "|---|---|---|",
+    parts = [
+        tables.summary(rows, asked.rule_db),
+        tables.by_rig("By rig, speed and geometry given:", {"": ways[GIVEN], "detector: ": ways[RIVAL]}),
+        tables.by_rig("Geometry unknown, by rig:", {"": ways[UNKNOWN]}),
+        tables.by_class("Right of all by true class, bearings of known size:", alone),
+        tables.paired_table(GIVEN, alone),
+        rivals,
+        tables.by_recording(ways),
+        tables.failures(ways),
+        tables.unscored(asked.unscored),
+        "Confusion, windows, speed and geometry given (rows: truth):\n\n" + tables.confusion_table(ways[GIVEN]),
+        severity_table(alone[GIVEN]),
     ]
-    rows = [*ways.items(), *((f"{name}, bearings alone", answers) for name, answers in alone.items())]
-    for name, answers in rows:
-        lines.append(f"| {name} | {_share(_of(answers, None, KINDS[0]))} | {_share(_of(answers, None, KINDS[1]))} |")
-    lines += [
-        "\nBy rig, speed and geometry given:\n",
-        "| rig | recordings | windows | detector: recordings | windows |",
-        "|---|---|---|---|---|",
-    ]
-    main, detector = ways[GIVEN], ways[RIVAL]
-    for rig in dict.fromkeys(a.unit.case.rig for a in main):
-        cells = [_share(_of(answers, rig, kind)) for answers in (main, detector) for kind in KINDS]
-        lines.append(f"| {rig} | {' | '.join(cells)} |")
-    lines += ["\nGeometry unknown, by rig:\n", "| rig | recordings | windows |", "|---|---|---|"]
-    unknown = ways["geometry unknown"]
-    for rig in dict.fromkeys(a.unit.case.rig for a in unknown):
-        lines.append(f"| {rig} | {' | '.join(_share(_of(unknown, rig, kind)) for kind in KINDS)} |")
-    return "\n".join(lines)
+    return "\n\n".join(part for part in parts if part)
 
 
-def _rivals(cases: Sequence[Case], seed: int) -> str:
-    rigs = {r: rows_of([c for c in cases if c.rig == r]) for r in dict.fromkeys(c.rig for c in cases)}
-    teachers = [r for r, rows in rigs.items() if len({u.case.label for u, _ in rows}) > 1]
-    lines = [
-        "Trained on another real rig (comparison only), same features:\n",
-        "| trained on | tested on | recordings | windows |",
-        "|---|---|---|---|",
-    ]
-    for teacher in teachers:
-        head = trained_on(rigs[teacher], seed)
-        for rig, rows in rigs.items():
-            if rig == teacher:
-                continue
-            said = said_by(head, rows)
-            cells = []
-            for kind in KINDS:
-                picked = [(u.case.label, s) for (u, _), s in zip(rows, said, strict=True) if u.kind == kind]
-                cells.append(_share(score([t for t, _ in picked], [s for _, s in picked], kind)) if picked else "-")
-            lines.append(f"| {teacher} | {rig} | {' | '.join(cells)} |")
-    return "\n".join(lines)
-
-
-def _by_recording(ways: Mapping[str, Sequence[Answer]]) -> str:
-    names = list(ways)
-    lines = ["Recording by recording (windows in brackets: right of all):\n"]
-    lines += [f"{k}. {name}" for k, name in enumerate(names, 1)]
-    lines += ["", "| rig | recording | truth | " + " | ".join(str(k + 1) for k in range(len(names))) + " |"]
-    lines.append("|---" * (3 + len(names)) + "|")
-    keys = list(dict.fromkeys((a.unit.case.rig, a.unit.case.name) for answers in ways.values() for a in answers))
-    for rig, name in keys:
-        cells, truth = [], ""
-        for answers in ways.values():
-            own = [a for a in answers if (a.unit.case.rig, a.unit.case.name) == (rig, name)]
-            truth = own[0].unit.case.label if own else truth
-            whole = next((a.label for a in own if a.unit.window is None), "-")
-            cut = [a.label == a.unit.case.label for a in own if a.unit.window is not None]
-            cells.append(f"{whole} ({sum(cut)}/{len(cut)})" if cut else whole)
-        lines.append(f"| {rig} | {name} | {truth} | " + " | ".join(cells) + " |")
-    return "\n".join(lines)
-
-
-def _failures(ways: Mapping[str, Sequence[Answer]]) -> str:
-    lines = ["Whole recordings answered wrongly:\n"]
-    for name, answers in ways.items():
-        for a in answers:
-            case = a.unit.case
-            if a.unit.window is None and a.label != case.label:
-                lines += [f"* {name}: {case.name} is {case.label}, said {a.label} ({a.detail})"]
-    return "\n".join(lines)
-
-
-def _confusion(answers: Sequence[Answer]) -> str:
-    cut = [a for a in answers if a.unit.window is not None]
-    classes = tuple(dict.fromkeys((*CLASSES, *GEAR_CLASSES)))
-    rows = confusion([a.unit.case.label for a in cut], [a.label for a in cut], classes)
-    lines = ["| truth | " + " | ".join(classes) + " |", "|---" * (1 + len(classes)) + "|"]
-    lines += [f"| {name} | " + " | ".join(map(str, row)) + " |" for name, row in zip(classes, rows, strict=True)]
-    return "\n".join(lines)
+def line_of(asked: Asked) -> dict[str, object]:
+    """What the last line holds."""
+    ways, alone = asked.ways, asked.alone
+    main, detector, fitted = alone[GIVEN], alone[RIVAL], alone.get(FITTED, [])
+    line: dict[str, object] = {
+        "rigs": rigs(ways[GIVEN]),
+        "detector": rigs(ways[RIVAL]),
+        "controls": controls(ways[GIVEN]),
+        "controls_detector": controls(ways[RIVAL]),
+        "pooled": pooled(ways[GIVEN]),
+        "pooled_detector": pooled(ways[RIVAL]),
+        "pooled_bearings": pooled(main),
+        "pooled_detector_bearings": pooled(detector),
+        "pooled_other_rigs": {"model": pooled(other_rigs(main)), "detector": pooled(other_rigs(detector))},
+        "geometry_unknown": rigs(ways[UNKNOWN]) | {"pooled": pooled(ways[UNKNOWN])},
+        "speed_estimated": pooled(ways[NEAR]),
+        "speed_estimated_bearings": pooled(alone[NEAR]),
+        "paired": [paired(main, detector, kind) for kind in ("recording", "window")],
+        "severity": severity_pairs(main),
+    }
+    if fitted:
+        line["detector_fitted"] = {
+            "rule_db": round(asked.rule_db or 0.0, 2),
+            **rigs(fitted),
+            "pooled": pooled(fitted),
+            "pooled_other_rigs": pooled(other_rigs(fitted)),
+            "paired": paired([a for a in main if a.unit.window is not None], fitted, "window"),
+        }
+    return line

@@ -1,4 +1,8 @@
-"""For comparison only: a classifier trained on the windows of another real rig."""
+"""For comparison only: a classifier trained on the windows and recordings of another real rig.
+
+Weaker than the model in more than its data: it knows the features of pieces alone, two networks instead of five and no
+head for whole recordings, and it can name only the classes its rig has (HIT-SM has no ball fault).
+"""
 
 from __future__ import annotations
 
@@ -11,6 +15,8 @@ from learn.bank import bank
 from learn.model import Head
 from learn.real.load import Case
 from learn.sim2real.answers import Unit, units
+from learn.sim2real.figures import KINDS, share
+from learn.sim2real.scores import score
 from learn.train import fit_head
 from signals.series import FloatArray
 
@@ -47,3 +53,34 @@ def said_by(head: Head, rows: Sequence[tuple[Unit, FloatArray]]) -> list[str]:
     """Classes of another rig's units."""
     p = head.probabilities(np.stack([row for _, row in rows]))
     return [head.classes[int(k)] for k in np.argmax(p, axis=1)]
+
+
+def rivals_table(cases: Sequence[Case], seed: int) -> str:
+    """Each rig with several classes as the teacher of each other one."""
+    rigs = {r: rows_of([c for c in cases if c.rig == r]) for r in dict.fromkeys(c.rig for c in cases)}
+    teachers = [r for r, rows in rigs.items() if len({u.case.label for u, _ in rows}) > 1]
+    lines = [
+        "Trained on another real rig (comparison only): features of pieces, no head for whole recordings; a class",
+        "that the teacher lacks cannot be named:\n",
+        "| trained on | tested on | recordings | windows |",
+        "|---|---|---|---|",
+    ]
+    for teacher in teachers:
+        head = trained_on(rigs[teacher], seed)
+        for rig, rows in rigs.items():
+            if rig == teacher:
+                continue
+            said = said_by(head, rows)
+            cells = []
+            for kind in KINDS:
+                picked = [(u, s) for (u, _), s in zip(rows, said, strict=True) if u.kind == kind]
+                cells.append(_cell(picked, kind))
+            lines.append(f"| {teacher} | {rig} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def _cell(picked: Sequence[tuple[Unit, str]], kind: str) -> str:
+    if not picked:
+        return share(None)
+    truth, said = [unit.case.label for unit, _ in picked], [label for _, label in picked]
+    return share(score(truth, said, kind, [unit.case.name for unit, _ in picked]))

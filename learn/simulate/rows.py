@@ -32,10 +32,21 @@ STILL = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class Variant:
-    """What of the recipe is on: the measurement chain (with what real bearings add), the spread of machines."""
+    """What of the recipe is on.
+
+    `chain`: structure, fastening, noise, hum, filter, converter and a drawn rate; without it the ring's motion in y is
+    taken as it is. `background`: rolling noise, knocks, neighbours, wander of the speed and a ball's free axis.
+    `spread`: of the machines. Without chain and background each machine is heard once, as nothing is left to draw.
+    """
 
     chain: bool = True
+    background: bool = True
     spread: bool = True
+
+    @property
+    def hearings(self) -> int:
+        """How often each machine is heard."""
+        return HEARINGS if self.chain or self.background else 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,9 +85,9 @@ def rows(count: int, seed: int, part: int, parts: int, variant: Variant = FULL) 
     """Rows of every `parts`-th machine of a dataset of about `count`, from `part` on."""
     for fast in (True, False):
         for four in _fours(count, seed, fast, part, parts, variant):
-            for hearing in range(HEARINGS if variant.chain else 1):
+            for hearing in range(variant.hearings):
                 key = [seed, int(fast), four.number, *([hearing] if hearing else [])]
-                yield from _heard(four, np.random.default_rng(key), variant.chain)
+                yield from _heard(four, np.random.default_rng(key), variant)
 
 
 def _fours(count: int, seed: int, fast: bool, part: int, parts: int, variant: Variant) -> Iterator[_Four]:
@@ -112,10 +123,10 @@ def _left_out(failure: object) -> None:
     """A recording that could not be simulated: its machine has one class fewer."""
 
 
-def _heard(four: _Four, rng: np.random.Generator, chain: bool) -> Iterator[Row]:
-    rate = float(rng.choice(RATES_HZ)) if chain else RATE_HZ
+def _heard(four: _Four, rng: np.random.Generator, variant: Variant) -> Iterator[Row]:
+    rate = float(rng.choice(RATES_HZ)) if variant.chain else RATE_HZ
     bare = {label: motion[1] for label, motion in four.motions.items()}
-    recorded = _recorded(four, rate, rng) if chain else bare
+    recorded = _recorded(four, rate, rng, variant) if variant.chain or variant.background else bare
     sound = recorded[CLASSES[0]]
     for label, samples in recorded.items():
         clear = 0.0 if label == CLASSES[0] else visible_db(sound, samples)
@@ -132,15 +143,33 @@ def _heard(four: _Four, rng: np.random.Generator, chain: bool) -> Iterator[Row]:
             )
 
 
-def _recorded(four: _Four, rate_hz: float, rng: np.random.Generator) -> dict[str, FloatArray]:
+def _recorded(four: _Four, rate_hz: float, rng: np.random.Generator, variant: Variant) -> dict[str, FloatArray]:
     """All recordings through one chain, with one background and one wander of the speed."""
-    sound = four.motions[CLASSES[0]]
     level = _level(four, rng)
-    angle = np.asarray(2 * np.pi * four.speed_hz / RATE_HZ * np.arange(sound.shape[1]), dtype=np.float64)
+    ground = _ground(four, level, rng) if variant.background else None
+    links = drawn_chain(rng, level, rate_hz) if variant.chain else None
+    motions = four.motions if ground is None else _as_it_turns(four, ground, rng)
+    settled = int(SETTLE_S * rate_hz)
+    if links is None:
+        return {label: motion[1, settled:] for label, motion in motions.items()}
+    return {
+        label: measure(motion_of_ring(motion), links, seed=four.number).recording.samples[0][settled:]
+        for label, motion in motions.items()
+    }
+
+
+def _ground(four: _Four, level: float, rng: np.random.Generator) -> FloatArray:
+    """What sounds beside the model of the machine, m/s^2, shape (2, n): the same in all its recordings."""
+    count = four.motions[CLASSES[0]].shape[1]
+    angle = np.asarray(2 * np.pi * four.speed_hz / RATE_HZ * np.arange(count), dtype=np.float64)
     ground = level * log_uniform(rng, 0.03, 3.0) * rolling_noise(rng, angle, four.orders)
-    ground = ground + level * log_uniform(rng, 0.1, 3.0) * knocks(rng, sound.shape[1], RATE_HZ)
-    ground = ground + level * log_uniform(rng, 0.03, 1.5) * neighbours(rng, sound.shape[1], RATE_HZ, four.speed_hz)
-    links = drawn_chain(rng, level, rate_hz)
+    ground = ground + level * log_uniform(rng, 0.1, 3.0) * knocks(rng, count, RATE_HZ)
+    return ground + level * log_uniform(rng, 0.03, 1.5) * neighbours(rng, count, RATE_HZ, four.speed_hz)
+
+
+def _as_it_turns(four: _Four, ground: FloatArray, rng: np.random.Generator) -> dict[str, FloatArray]:
+    """Motions with that ground, one wander of the speed, and a ball whose axis is free."""
+    sound = four.motions[CLASSES[0]]
     wander = (log_uniform(rng, 1e-4, 4e-3), log_uniform(rng, 0.1, 2.0), int(rng.integers(2**31)))
     free = np.random.default_rng(int(rng.integers(2**31)))
     found = {}
@@ -151,10 +180,8 @@ def _recorded(four: _Four, rate_hz: float, rng: np.random.Generator) -> dict[str
         if label == "ball":
             spin, cage = 0.5 * four.orders.ball * four.speed_hz, four.orders.cage * four.speed_hz
             added = free_axis(free, added, RATE_HZ, spin, cage)
-        motion = warped(sound + ground + added, RATE_HZ, *wander)
-        found[label] = measure(motion_of_ring(motion), links, seed=four.number).recording.samples[0]
-    settled = int(SETTLE_S * rate_hz)
-    return {label: samples[settled:] for label, samples in found.items()}
+        found[label] = warped(sound + ground + added, RATE_HZ, *wander)
+    return found
 
 
 def _level(four: _Four, rng: np.random.Generator) -> float:

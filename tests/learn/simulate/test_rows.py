@@ -72,8 +72,24 @@ def test_rows_are_reproducible_and_labelled():
     assert all(np.array_equal(a.samples, b.samples) for a, b in zip(first, again, strict=True))
     assert {r.label for r in first} <= set(CLASSES)
     assert all(np.all(np.isfinite(r.samples)) for r in first)
-    bare = list(islice(rows(18, 3, 0, 24, Variant(chain=False)), 2))
-    assert {r.rate_hz for r in bare} == {48_000.0}
+
+
+@pytest.mark.slow
+def test_chain_and_background_are_left_out_apart():
+    """The sound recording of one machine: the chain brings the rate, the background what the bare motion lacks."""
+
+    def sound(**left_out):
+        return next(r for r in rows(18, 3, 0, 24, Variant(**left_out)) if r.label == CLASSES[0])
+
+    whole, no_chain, no_background = sound(), sound(chain=False), sound(background=False)
+    neither = sound(chain=False, background=False)
+    assert no_chain.rate_hz == neither.rate_hz == 48_000.0
+    assert no_background.rate_hz == whole.rate_hz
+    assert whole.samples.size == no_background.samples.size
+    assert not np.allclose(whole.samples, no_background.samples, rtol=0.1)
+    lost = no_chain.samples - neither.samples[-no_chain.samples.size :]
+    assert np.std(lost) > 0.03 * np.std(neither.samples)
+    assert (Variant(chain=False).hearings, Variant(chain=False, background=False).hearings) == (2, 1)
 
 
 def test_neighbours_are_regular_impulses_in_some_machines():
