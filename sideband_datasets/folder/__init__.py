@@ -1,7 +1,8 @@
 """A dataset as a folder: shards made by workers, a manifest, a card; checked, and taken up again where it stopped."""
 
 from sideband_datasets.folder.layout import unfinished
-from sideband_datasets.folder.make import Progress, Settings, make, resume
+from sideband_datasets.folder.make import Progress, Settings, check_size, make, resume
+from sideband_datasets.folder.space import free_bytes
 from sideband_datasets.folder.verify import Finding, verify
 
-__all__ = ["Finding", "Progress", "Settings", "make", "resume", "unfinished", "verify"]
+__all__ = ["Finding", "Progress", "Settings", "check_size", "free_bytes", "make", "resume", "unfinished", "verify"]
