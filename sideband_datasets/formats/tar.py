@@ -47,6 +47,8 @@ def write(path: Path, rows: Iterable[Row]) -> None:
                 about = tarfile.TarInfo(f"{key_of(row.signal_id)}.{kind}")
                 about.size, about.mode = len(content), 0o644
                 archive.addfile(about, io.BytesIO(content))
+            # It would keep a description of every member, which only reading needs.
+            archive.members.clear()  # type: ignore[attr-defined]
 
 
 def read(path: Path) -> Iterator[Record]:
