@@ -69,7 +69,8 @@ class Settings:
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> Settings:
         """`SIDEBAND_HOST`, `SIDEBAND_PORT`, `SIDEBAND_API_KEYS` (`name:sha256,...`), `SIDEBAND_API_KEYS_FILE`,
-        `SIDEBAND_API_KEYS_PER_MINUTE`, `SIDEBAND_ALLOWED_HOSTS`; limits: `SIDEBAND_MAX_DURATION_S`, `SIDEBAND_MAX_MEMORY_BYTES`, `SIDEBAND_MAX_STEPS`,
+        `SIDEBAND_API_KEYS_PER_MINUTE`, `SIDEBAND_ALLOWED_HOSTS`; limits: `SIDEBAND_MAX_DURATION_S`,
+        `SIDEBAND_MAX_MEMORY_BYTES`, `SIDEBAND_MAX_STEPS`,
         `SIDEBAND_MAX_SECONDS`, `SIDEBAND_MAX_WAITING`, `SIDEBAND_MAX_DATASET_CORE_HOURS`, `SIDEBAND_MAX_DATASET_BYTES`,
         `SIDEBAND_MAX_DATASETS`, `SIDEBAND_MAX_UPLOAD_BYTES`. `SIDEBAND_PAGES_DIR`: the pages of the effects, where they
         lie elsewhere."""
