@@ -37,6 +37,7 @@ def test_default_shards_stay_below_the_bound_and_larger_ones_are_refused_before_
     assert [problem.field for problem in told.value.problems] == ["recipe.windows.per_recording"]
 
 
+@pytest.mark.slow
 def test_memory_of_a_shard_is_bounded_as_that_of_a_simulation(tmp_path: Path) -> None:
     division = divide(DatasetRequest(recipe=RECIPE, shard_recordings=3))
     needed = 2 * division.shard_bytes
