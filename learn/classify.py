@@ -12,13 +12,16 @@ from learn.describe import Site
 from learn.gears.assess import StageAnswer, assess_stage, knows_gears
 from learn.gears.stage import Stage
 from learn.model import Model
+from learn.remarks import check_learnt, of_parts, of_speed
 from learn.speed import Speed, by_pulses
+from reconcile.stated import check_speeds, given
 from signals.checks import inspect
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
 
 VIBRATION = ("acceleration", "velocity", "displacement", "sound pressure")
 PART = ("bearing", "stage", "gear", "label", "probabilities")
+MOST_REMARKS = 20
 PER_NEPER_DB = float(10 / np.log(10))
 """Decibels in a natural logarithm of powers."""
 SYMBOLS = {"outer": "BPFO", "inner": "BPFI", "ball": "2 BSF", "cage": "4 FTF"}
@@ -48,6 +51,8 @@ def speed_of(recording: Recording, sites: Sequence[Site], *, trust: bool) -> Spe
     if pulses is not None:
         return pulses
     stated = recording.operating.speed_hz if recording.operating is not None else None
+    if not trust and stated is not None:
+        check_learnt(stated)
     if trust:
         if stated is None or stated <= 0:
             raise SpecError(
@@ -72,7 +77,8 @@ def classify(
     Bearings and gear stages are looked at apart. Where only gears are described, no bearing is guessed at; a stage
     whose mesh or turns the recording does not hold is refused only if nothing else is there to answer for.
     """
-    remarks = []
+    check_speeds({}, "", given([recording], []))
+    remarks: list[str] = []
     if stages and not knows_gears(model):
         stages, remarks = (), ["gears: are not looked at, the model was not trained on any"]
     chosen = usable(recording, channels)
@@ -99,7 +105,12 @@ def classify(
         "channels": list(chosen.names),
         "lines": first["lines"],
         "parts": [{name: part[name] for name in PART} for part in parts],
-        "remarks": [*remarks, *(f"{f.channel}: {f.kind}: {f.message}" for f in inspect(chosen))][:20],
+        "remarks": [
+            *remarks,
+            *of_speed(chosen, speed, sites[0].ratio if sites else 1.0),
+            *of_parts(parts),
+            *(f"{f.channel}: {f.kind}: {f.message}" for f in inspect(chosen)),
+        ][:MOST_REMARKS],
     }
 
 

@@ -111,7 +111,12 @@ def load(path: Path) -> Model:
     try:
         text = path.read_text(encoding="utf-8")
     except UnicodeDecodeError:
-        raise _refused("model", "is no text, so no model", path.name, "a file that `sideband train` wrote") from None
+        raise _refused(
+            "model",
+            "is no text, so no model",
+            path.name,
+            "a file that `learn.model.save` or `python -m learn.sim2real --model` wrote",
+        ) from None
     return parsed(text, path.name)
 
 
@@ -120,7 +125,12 @@ def parsed(text: str, name: str) -> Model:
     try:
         document = json.loads(text)
     except (json.JSONDecodeError, RecursionError):
-        raise _refused("model", "is no JSON, so no model", name, "a file that `sideband train` wrote") from None
+        raise _refused(
+            "model",
+            "is no JSON, so no model",
+            name,
+            "a file that `learn.model.save` or `python -m learn.sim2real --model` wrote",
+        ) from None
     if not isinstance(document, dict) or document.get("format") != FORMAT or document.get("version") != VERSION:
         raise _refused("model", f"is no {FORMAT} of version {VERSION}", name, f"format {FORMAT}, version {VERSION}")
     heads, made = document.get("heads"), document.get("made_by")

@@ -45,8 +45,8 @@ TARGETS = (
 )
 SECTIONS = {
     "fresh": "No version of the engine had met these before their run.",
-    "crossing": "No version of the engine had met these before their run: the rest of the split, off the target's condition "
-    "(one or five speeds, one or eight sensors, 10 or 30 dB).",
+    "crossing": "No version of the engine had met these before their run: of the rest of the split, off the target's "
+    "condition (one or five speeds, one or eight sensors, 10 or 30 dB), those that were run.",
     "again": "The same 28 with a later engine: none is met for the first time, and l093 has set one of its rules.",
     "seen": "Of those looked at before, the ones that were run again: one that an earlier engine got right, six not.",
     "sound": "Cases in which nothing is missing, at all conditions of up to three speeds. All had been looked at.",

@@ -73,7 +73,12 @@ def _text(found: Mapping[str, Any]) -> str:
     part = found["bearing"] or found["gear"] or found["stage"]
     lines = [f"{found['label']}{f' at {part}' if part else ''} ({shares})"]
     speed = found["speed"]
-    how = {"tacho": "by its pulses", "given": "as stated", "stated": "as stated, no lines confirm it"}
+    how = {
+        "tacho": "by its pulses",
+        "given": "as stated",
+        "stated": "as stated, no lines confirm it",
+        "scan": "searched, none was stated",
+    }
     told = how.get(speed["method"], "read from its lines")
     lines.append(f"speed {speed['speed_hz']:.5g} Hz, {told}; {found['turns']:.0f} turns; geometry {found['geometry']}")
     lines += [_line(line) for line in found["lines"]]

@@ -164,7 +164,12 @@ def _interruptible(out: Path) -> Iterator[None]:
 
 def _done(out: Path, manifest: dict[str, object]) -> int:
     print(f"{out}: {manifest['rows']} rows, {manifest['failed_rows']} failed, {manifest['bytes']} bytes")
-    return 0
+    splits = manifest["splits"]
+    assert isinstance(splits, dict)
+    empty = [name for name, found in splits.items() if not found["rows"]]
+    for name in empty:
+        print(f"split {name} has no row: `{out}/failures.jsonl` says why", file=sys.stderr)
+    return FAILED if empty else 0
 
 
 def _verify(arguments: argparse.Namespace) -> int:

@@ -18,8 +18,7 @@ from jobs.reporter import Reporter
 from jobs.results import FileEntry, Manifest, json_bytes, put_file
 from sideband_datasets.folder.layout import DATA, STATE, files_below
 from sideband_datasets.folder.manifest import versions
-from sideband_datasets.folder.shards import Receipt, make_shard
-from sideband_datasets.make.batch import Failure
+from sideband_datasets.folder.shards import Receipt, make_shard, receipt_from
 from sideband_datasets.plan import Plan
 from sim.core.errors import Problem, SpecError
 from sim.version import PHYSICS_VERSION
@@ -73,8 +72,7 @@ def receipt_of(artefacts: ArtefactStore, prefix: str) -> tuple[Receipt, dict[str
     """What a stored shard holds, and its files by their path below the dataset's `data`."""
     document: dict[str, Any] = json_loaded(artefacts, f"{prefix}/{RECEIPT}")
     files = {path: FileEntry(**entry) for path, entry in document.pop("files").items()}
-    failures = tuple(Failure(**{**f, "rows": tuple(f["rows"])}) for f in document.pop("failures"))
-    return Receipt(**document, failures=failures), files
+    return receipt_from(document), files
 
 
 def json_loaded(artefacts: ArtefactStore, key: str) -> dict[str, Any]:

@@ -71,9 +71,9 @@ def assess(point: Point, baselines: Baselines) -> Assessment:
                 alarms.append(_risen(point, channel, feature, value, judged, found.recordings))
         if defects <= {CLIPPING}:
             alarms += _fixed(point, channel)
-    judged_at_all = bool(limits) or point.baseline or any(_zoned(point, name) is not None for name in point.channels)
+    compared = bool(limits) or point.baseline  # a velocity within its class says nothing of a bearing: no "ok" by it
     return Assessment(
-        state=worst([a.severity for a in alarms], "ok" if judged_at_all else "unknown"),
+        state=worst([a.severity for a in alarms], "ok" if compared else "unknown"),
         alarms=tuple(sorted(alarms, key=lambda a: (-STATES.index(a.severity), -(a.rise_db or 0.0)))),
         limits=limits,
         medians=medians,

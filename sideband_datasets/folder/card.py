@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 
+from sideband_datasets.folder.apart import apart
 from sideband_datasets.folder.layout import DATA
 from sideband_datasets.folder.manifest import rows_by_class, versions
 from sideband_datasets.folder.shards import Receipt
@@ -106,8 +107,7 @@ def card(plan: Plan, receipts: Sequence[Receipt], kind: str) -> str:
         what,
         f"{failed} recordings could not be made; `failures.jsonl` lists them with reasons.",
         "## Classes\n\n" + _table(("class", "rows"), ((name, str(count)) for name, count in counts.items())),
-        "## Splits\n\nNo machine and no transfer path occurs in two splits.\n\n"
-        + _table(("split", "machines", "rows"), splits),
+        f"## Splits\n\n{apart(plan, receipts)}\n\n" + _table(("split", "machines", "rows"), splits),
         "".join(f"* {told}\n" for told in plan.warnings).rstrip(),
         f"## What was varied\n\nSampled by a plan of kind {recipe.plan}, seed {recipe.seed}. SI units.\n\n"
         + _table(("what", "range"), _ranges(recipe)),

@@ -78,7 +78,7 @@ def make(recipe: Recipe, out: Path, settings: Settings, told: Callable[[Progress
     folder = unfinished(out)
     if (folder / STATE / SETTINGS).exists():
         message = "was begun already"
-        allowed = f"`sideband dataset resume --out {out}`, or another --out"
+        allowed = f"`sideband dataset resume {out}`, or another --out"
         raise SpecError(Problem(field="--out", message=message, given=str(out), allowed=allowed))
     check_space(expected.bytes, out)
     for name in (DATA, STATE):

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 from sideband_datasets.folder.layout import DATA, STATE, json_text, sha256, size_of, whole, write_text
 from sideband_datasets.formats import format_named
@@ -39,7 +40,23 @@ class Receipt:
     rows: int
     bytes: int
     sha256: str
+    machines: tuple[str, ...]
+    """Of its rows, sorted."""
+    paths: tuple[str, ...]
+    """Ids of the transfer paths of its rows, sorted."""
     failures: tuple[Failure, ...]
+
+
+def receipt_from(document: Mapping[str, Any]) -> Receipt:
+    """A receipt from its JSON document."""
+    failures = tuple(failure_from(failure) for failure in document["failures"])
+    lists = {name: tuple(document[name]) for name in ("machines", "paths")}
+    return Receipt(**{**document, **lists, "failures": failures})
+
+
+def failure_from(document: Mapping[str, Any]) -> Failure:
+    """A failed recording from its JSON document."""
+    return Failure(**{**document, "rows": tuple(document["rows"])})
 
 
 def shards_of(plan: Plan, suffix: str, size: int | None = None) -> list[Shard]:
@@ -67,22 +84,24 @@ def finished(folder: Path, shard: Shard) -> Receipt | None:
     path, data = receipt_path(folder, shard), folder / DATA / shard.name
     if not path.is_file() or not data.exists():
         return None
-    document = json.loads(path.read_text(encoding="utf-8"))
-    failures = tuple(Failure(**{**f, "rows": tuple(f["rows"])}) for f in document.pop("failures"))
-    receipt = Receipt(**document, failures=failures)
+    receipt = receipt_from(json.loads(path.read_text(encoding="utf-8")))
     return receipt if receipt.sha256 == sha256(data) else None
 
 
-class _Counted:
-    """Rows on their way to a file, counted: none is kept here."""
+class _Passed:
+    """Rows on their way to a file: none is kept, what a receipt says of them is."""
 
     def __init__(self, found: Iterator[Row]) -> None:
         self._found = found
         self.count = 0
+        self.machines: set[str] = set()
+        self.paths: set[str] = set()
 
     def __iter__(self) -> Iterator[Row]:
         for row in self._found:
             self.count += 1
+            self.machines.add(row.machine_id)
+            self.paths.add(row.path_id)
             yield row
 
 
@@ -99,16 +118,18 @@ def make_shard(
     size = plan.rows_per_recording
     wanted = [number * size + k for number in shard.recordings for k in range(size)]
     failures: list[Failure] = []
-    counted = _Counted(rows(plan.recipe, wanted, failed=failures.append, cancelled=cancelled, made=made))
+    passed = _Passed(rows(plan.recipe, wanted, failed=failures.append, cancelled=cancelled, made=made))
     data = folder / DATA / shard.name
     with whole(data) as path:
-        format_named(kind).write(path, counted)
+        format_named(kind).write(path, passed)
     receipt = Receipt(
         name=shard.name,
         split=shard.split,
-        rows=counted.count,
+        rows=passed.count,
         bytes=size_of(data),
         sha256=sha256(data),
+        machines=tuple(sorted(passed.machines)),
+        paths=tuple(sorted(passed.paths)),
         failures=tuple(sorted(failures, key=lambda failure: failure.recording)),
     )
     write_text(receipt_path(folder, shard), json_text(asdict(receipt)))

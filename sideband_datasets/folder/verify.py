@@ -3,38 +3,26 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from tarfile import TarError
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sideband_datasets.folder.finding import Finding
 from sideband_datasets.folder.layout import DATA, FAILURES, MANIFEST, files_below, sha256, unfinished
 from sideband_datasets.folder.manifest import versions
-from sideband_datasets.formats import FORMATS, Record, fingerprint, record_of
+from sideband_datasets.folder.said import failures_in, receipts_of, said_findings, written_findings
+from sideband_datasets.folder.seen import Seen, row_hash
+from sideband_datasets.formats import FORMATS, record_of
+from sideband_datasets.make.batch import Failure
 from sideband_datasets.make.stream import rows
-from sideband_datasets.plan.plan import Plan
 from sideband_datasets.plan.seeds import Stream, generator
 from sideband_datasets.plan.tried import make_plan
 from sideband_datasets.recipe.read import checksum, read_recipe
-from sim.core.errors import Problem, SpecError
+from sim.core.errors import Problem, SidebandError, SpecError
 
 Told = Callable[[str], object]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Finding:
-    """One thing wrong: the file or row, and what."""
-
-    where: str
-    what: str
-
-    def __str__(self) -> str:
-        return f"{self.where}: {self.what}"
 
 
 def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> list[Finding]:
@@ -48,24 +36,49 @@ def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> li
         raise SpecError(Problem(field="DIR", message=message, given=str(out), allowed=hint))
     try:
         manifest = json.loads((out / MANIFEST).read_text(encoding="utf-8"))
-        plan = make_plan(read_recipe(manifest["recipe"]))
+        recipe = read_recipe(manifest["recipe"])
         suffix = FORMATS[manifest["format"]].suffix
         listed = {e["file"]: {key: e[key] for key in ("sha256", "split", "rows")} for e in manifest["shards"]}
+        numbers = [e[key] for e in manifest["shards"] for key in ("rows", "bytes")]
+        if not all(type(number) is int for number in numbers):
+            raise ValueError("rows and bytes of shards are whole numbers")
         versions_then, others = dict(manifest["versions"]), dict(manifest["files"])
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         return [Finding(where=MANIFEST, what=f"cannot be read: {error!r}")]
+    try:
+        plan = make_plan(recipe)
+    except SidebandError as error:
+        return [Finding(where=MANIFEST, what=f"its recipe is refused: {error}")]
     told("checksums")
     found = list(_files(out, manifest, listed, others, suffix))
     told("rows")
     broken = {finding.where for finding in found}
-    seen = _Seen(plan=plan)
+    seen = Seen(plan=plan)
     for file, entry in listed.items():
         if file not in broken:
             found += seen.shard(out, file, entry, manifest["format"])
-    found += seen.missing(out, complete=not broken & {*listed, FAILURES})
+    found += seen.signals.repeated()
+    found += _said(out, manifest, seen, broken, clean=not found)
     if remake:
         told("rows made again")
         found += _remade(versions_then, seen, remake, seed)
+    return found
+
+
+def _said(out: Path, manifest: Mapping[str, Any], seen: Seen, broken: set[str], *, clean: bool) -> list[Finding]:
+    """What the files beside the shards say; of missing rows only where every shard could be read. `clean`: nothing
+    was found in files and rows.
+    """
+    failures: list[Failure] = []
+    found: list[Finding] = []
+    if FAILURES not in broken:
+        failures, found = failures_in(out, seen.plan, seen)
+        if not broken & {entry["file"] for entry in manifest["shards"]}:
+            found += _missing(seen, failures)
+    receipts = receipts_of(out, manifest, seen, failures)
+    found += said_findings(out, manifest, seen, receipts, broken)
+    if clean and not found:
+        found += written_findings(out, manifest, seen.plan, receipts)
     return found
 
 
@@ -87,77 +100,23 @@ def _files(
             yield Finding(where=name, what="is surplus: the manifest does not list it")
 
 
-class _Seen:
-    """What the rows of all shards say, gathered row by row."""
-
-    def __init__(self, *, plan: Plan) -> None:
-        self.plan = plan
-        # Arrays, not dictionaries: a dataset may have millions of rows.
-        self.there = np.zeros(plan.rows, dtype=np.bool_)
-        self.fingerprints = np.zeros((plan.rows, 32), dtype=np.uint8)
-        self._split_of: dict[tuple[str, str], str] = {}
-        self._told: set[tuple[str, str]] = set()
-
-    def shard(self, out: Path, file: str, entry: Mapping[str, Any], kind: str) -> list[Finding]:
-        """Findings of one shard."""
-        found: list[Finding] = []
-        count = 0
-        try:
-            for record in FORMATS[kind].read(out / file):
-                count += 1
-                found += self._row(file, entry["split"], record)
-        except (OSError, ValueError, KeyError, BadZipFile, TarError) as error:
-            return [*found, Finding(where=file, what=f"cannot be read: {error}")]
-        if count != entry["rows"]:
-            found.append(Finding(where=file, what=f"has {count} rows; the manifest says {entry['rows']}"))
-        return found
-
-    def _row(self, file: str, split: str, record: Mapping[str, Any]) -> Iterator[Finding]:
-        number, name = int(record["row"]), str(record["signal_id"])
-        if not 0 <= number < self.plan.rows:
-            yield Finding(where=file, what=f"row {name} is not of this dataset")
-            return
-        if self.there[number]:
-            yield Finding(where=file, what=f"row {name} occurs twice")
-        self.there[number] = True
-        self.fingerprints[number] = _bytes(dict(record))
-        if record["split"] != split:
-            yield Finding(where=file, what=f"row {name} is of split {record['split']} in a file of {split}")
-        for what in ("machine_id", "path_id"):
-            key = what, str(record[what])
-            first = self._split_of.setdefault(key, split)
-            if first != split and key not in self._told:
-                self._told.add(key)
-                yield Finding(where=file, what=f"leak: {what} {key[1]} occurs in {first} and in {split}")
-        planned = self.plan.machines[int(self.plan.machine[number // self.plan.rows_per_recording])]
-        if record["machine_id"] != planned.machine_id:
-            yield Finding(where=file, what=f"row {name} is of {record['machine_id']}; planned {planned.machine_id}")
-
-    def missing(self, out: Path, *, complete: bool) -> Iterator[Finding]:
-        """Rows that are neither there nor listed as failed; told only where every shard could be read."""
-        path = out / FAILURES
-        if not complete or not path.is_file():
-            return
-        lines = path.read_text(encoding="utf-8").splitlines()
-        left = ~self.there
-        left[[row for line in lines for row in json.loads(line)["rows"]]] = False
-        gone = np.flatnonzero(left)
-        if gone.size:
-            some = ", ".join(map(str, gone[:5].tolist()))
-            yield Finding(where=DATA, what=f"{gone.size} rows are missing and not listed as failed: {some} ...")
+def _missing(seen: Seen, failures: Iterable[Failure]) -> Iterator[Finding]:
+    """Rows that are neither there nor listed as failed."""
+    left = ~seen.there
+    for failure in failures:
+        left[[row for row in failure.rows if 0 <= row < left.size]] = False
+    gone = np.flatnonzero(left)
+    if gone.size:
+        some = ", ".join(map(str, gone[:5].tolist()))
+        yield Finding(where=DATA, what=f"{gone.size} rows are missing and not listed as failed: {some} ...")
 
 
-def _bytes(record: Record) -> NDArray[np.uint8]:
-    """The fingerprint of a row, shape (32,)."""
-    return np.frombuffer(bytes.fromhex(fingerprint(record)), dtype=np.uint8)
-
-
-def _remade(made: Mapping[str, Any], seen: _Seen, count: int, seed: int) -> Iterator[Finding]:
+def _remade(made: Mapping[str, Any], seen: Seen, count: int, seed: int) -> Iterator[Finding]:
     there = np.flatnonzero(seen.there)
     chosen = generator(seed, Stream.REMAKE).choice(there, size=min(count, there.size), replace=False)
     now = versions()
     changed = [f"{key} {made.get(key)}, now {now[key]}" for key in now if made.get(key) != now[key]]
     why = f" (it was made with other versions: {'; '.join(changed)})" if changed else ""
     for row in rows(seen.plan.recipe, sorted(chosen.tolist())):
-        if not np.array_equal(_bytes(record_of(row)), seen.fingerprints[row.row]):
+        if not np.array_equal(row_hash(record_of(row)), seen.fingerprints[row.row]):
             yield Finding(where=row.signal_id, what=f"differs from the row made again{why}")

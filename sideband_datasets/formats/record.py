@@ -30,22 +30,22 @@ def record_of(row: Row) -> Record:
     return record
 
 
-def _same_for_all(value: object) -> object:
+def same_for_all(value: object) -> object:
     """Numbers as text that keeps every bit; formats without an empty value have NaN and empty text for it."""
     if value is None or value == "" or (isinstance(value, float) and math.isnan(value)):
         return None
     if isinstance(value, float):
         return value.hex()
     if isinstance(value, Mapping):
-        return {key: _same_for_all(item) for key, item in value.items()}
+        return {key: same_for_all(item) for key, item in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, str):
-        return [_same_for_all(item) for item in value]
+        return [same_for_all(item) for item in value]
     return value
 
 
 def fingerprint(record: Record) -> str:
     """SHA-256 over every column and every bit of the signal; the same in whatever format a row was kept."""
-    rest = {key: _same_for_all(value) for key, value in record.items() if key != "signal"}
+    rest = {key: same_for_all(value) for key, value in record.items() if key != "signal"}
     found = hashlib.sha256(json.dumps(rest, sort_keys=True).encode())
     found.update(np.asarray(record["signal"], dtype="<f4").tobytes())
     return found.hexdigest()

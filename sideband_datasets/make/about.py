@@ -40,22 +40,12 @@ def frequencies(drawn: Drawing, bearing: str | None, bases_hz: Mapping[str, floa
     return {**found, "mesh_hz": bases_hz.get(_mesh_base(drawn.spec, drawn))}
 
 
-def columns_of(made: Made, channel: Channel, bases_hz: Mapping[str, float]) -> dict[str, object]:
-    """Columns that all windows of a channel share."""
-    drawn, operating = made.drawing, made.recording.operating
+def planned_columns(drawn: Drawing) -> dict[str, object]:
+    """Columns that the plan alone decides, before anything is simulated."""
     first = drawn.effects[0] if drawn.effects else None
-    bearing = bearing_of(drawn, channel)
     return {
         "recording_id": drawn.recording_id,
         "recording": drawn.number,
-        "channel": channel.name,
-        "sensor_location": channel.location,
-        "axis": channel.axis,
-        "quantity": channel.quantity,
-        "unit": channel.unit,
-        "sampling_rate_hz": made.recording.sampling_rate_hz,
-        "speed_hz": operating.speed_hz if operating is not None else None,
-        "load_nm": operating.torque_nm if operating is not None else None,
         "fault_type": drawn.fault_type,
         "fault_location": first.site if first else None,
         "fault_origin": ORIGIN,
@@ -64,13 +54,30 @@ def columns_of(made: Made, channel: Channel, bases_hz: Mapping[str, float]) -> d
         "fault_severity_unit": (first.unit or None) if first else None,
         "labels": tuple(effect.label for effect in drawn.effects),
         "severities": tuple(float("nan") if effect.severity is None else effect.severity for effect in drawn.effects),
-        "bearing_id": bearing,
-        **frequencies(drawn, bearing, bases_hz),
         "split": drawn.split,
         "machine_id": drawn.machine.machine_id,
         "machine": drawn.machine.family,
         "path_id": drawn.machine.path_id,
         "measurement": drawn.measurement,
         "seed": drawn.noise_seed,
+    }
+
+
+def columns_of(made: Made, channel: Channel, bases_hz: Mapping[str, float]) -> dict[str, object]:
+    """Columns that all windows of a channel share."""
+    drawn, operating = made.drawing, made.recording.operating
+    bearing = bearing_of(drawn, channel)
+    return {
+        **planned_columns(drawn),
+        "channel": channel.name,
+        "sensor_location": channel.location,
+        "axis": channel.axis,
+        "quantity": channel.quantity,
+        "unit": channel.unit,
+        "sampling_rate_hz": made.recording.sampling_rate_hz,
+        "speed_hz": operating.speed_hz if operating is not None else None,
+        "load_nm": operating.torque_nm if operating is not None else None,
+        "bearing_id": bearing,
+        **frequencies(drawn, bearing, bases_hz),
         "warnings": made.response.warnings,
     }

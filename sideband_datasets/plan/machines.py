@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import copy
-import hashlib
-import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -14,6 +12,7 @@ from pydantic import ValidationError
 
 from sideband_datasets.plan.axes import Axis, drawn_only, levels, machine_axes
 from sideband_datasets.plan.documents import holders, own_value
+from sideband_datasets.plan.identity import channel_paths, content_of, path_id_of
 from sideband_datasets.plan.points import Points
 from sideband_datasets.plan.seeds import Stream, whole_seed
 from sideband_datasets.recipe.model import Machines, Recipe
@@ -34,7 +33,8 @@ Document = dict[str, Any]
 class Machine:
     """One machine of a family, sound, at the family's operating point; `chain` is the document of its sensors.
 
-    `content` and `path_id` are hashes of what it is and of the paths to its sensors: equal ones are equal machines.
+    `content` is a hash of what it is built of, `channel_paths` has one of each channel's transfer path by the channel's
+    name: equal ones are one machine, one path. `path_id` stands for all the paths together.
     """
 
     machine_id: str
@@ -43,6 +43,7 @@ class Machine:
     measurement: int | None
     chain: Document | None
     content: str
+    channel_paths: Mapping[str, str]
     path_id: str
     seed: int
 
@@ -99,17 +100,6 @@ def with_values(document: Document, values: Mapping[str, object], field: str) ->
     return changed
 
 
-def _hash(document: object) -> str:
-    text = json.dumps(document, sort_keys=True, separators=(",", ":"))
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-def _path_id(machine_id: str, chain: Document | None) -> str:
-    """Hash of the transfer paths of all channels; without one the path is the machine's own."""
-    paths = [c.get("path") for c in chain["channels"]] if chain is not None else []
-    return _hash(paths if any(paths) else machine_id)
-
-
 def _own_values(recipe: Recipe, axes: tuple[Axis, ...], base: MachineSpec) -> dict[str, object]:
     own: dict[str, object] = {}
     for axis in axes:
@@ -156,8 +146,9 @@ def machines_of(recipe: Recipe, number: int) -> list[Machine]:
                 spec=spec,
                 measurement=chosen,
                 chain=chain,
-                content=_hash(spec.model_dump(mode="json")),
-                path_id=_path_id(machine_id, chain),
+                content=content_of(spec, recipe.conditions),
+                channel_paths=channel_paths(chain),
+                path_id=path_id_of(machine_id, chain),
                 seed=whole_seed(recipe.seed, Stream.MACHINE, number, k),
             )
         )

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from sideband_datasets.plan.apart import check_apart
 from sideband_datasets.plan.axes import drawn_only, levels, recording_axes
 from sideband_datasets.plan.check import channels_of, check_recipe, split_warnings
 from sideband_datasets.plan.machines import Machine, machines_of
@@ -90,25 +91,14 @@ def _mixed_families(recipe: Recipe, families: Sequence[Sequence[Machine]]) -> li
 
 
 def _splits(recipe: Recipe, machines: Sequence[Machine]) -> IntArray:
-    """Split of each machine; every split has one. Machines that are the same, or share a path, stay together."""
+    """Split of each machine; every split has one. SpecError where one machine, or one path, would stand in two."""
     names, shares = list(recipe.splits), list(recipe.splits.values())
     if len(machines) < len(names):
         message = f"{len(names)} splits need as many machines, so that none occurs in two"
         allowed = f"{len(names)} or more `instances` in all, or fewer splits"
         raise SpecError(Problem(field="splits", message=message, given=len(machines), allowed=allowed))
     split_of = interleaved(quotas(shares, len(machines), least=1))
-    for what, key, advice in (
-        ("machines of the same parameters", "content", "ranges in `machines.vary`"),
-        ("machines with the same transfer path", "path_id", "ranges of the path in `measurement.vary`"),
-    ):
-        seen: dict[str, tuple[int, str]] = {}
-        for machine, split in zip(machines, split_of.tolist(), strict=True):
-            first, name = seen.setdefault(getattr(machine, key), (split, machine.machine_id))
-            if first != split:
-                message = f"{what} would stand in two splits: {name} in {names[first]}, {machine.machine_id} in "
-                message += f"{names[split]}"
-                allowed = f"{advice} that tell them apart, or one split"
-                raise SpecError(Problem(field="splits", message=message, allowed=allowed))
+    check_apart(recipe, machines, split_of)
     return split_of
 
 

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import shutil
+
 import pytest
 
 from sideband_datasets.folder import Settings, make
@@ -14,3 +16,9 @@ def made(tmp_path_factory):
     out = tmp_path_factory.mktemp("made") / "set"
     make(RECIPE, out, Settings(shard_recordings=2), lambda progress: None)
     return out
+
+
+@pytest.fixture
+def copy(made, tmp_path):
+    """A copy of the finished dataset, to be changed."""
+    return shutil.copytree(made, tmp_path / "set")

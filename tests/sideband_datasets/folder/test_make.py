@@ -34,6 +34,12 @@ def contents(out: Path) -> dict[str, bytes]:
     return {p.relative_to(out).as_posix(): p.read_bytes() for p in sorted(out.rglob("*")) if p.is_file()}
 
 
+def written(path: Path) -> tuple[int, int]:
+    """What a file keeps through renaming its folder, and loses when it is written again."""
+    about = path.stat()
+    return about.st_ino, about.st_mtime_ns
+
+
 @pytest.mark.slow
 def test_the_folder_holds_every_row_of_the_recipe(made):
     found = [r for path in sorted((made / "data").iterdir()) for r in FORMATS["parquet"].read(path)]
@@ -64,15 +70,17 @@ def test_an_interrupted_dataset_is_not_there_and_resumes_to_the_same_bytes(made,
         make(RECIPE, out, Settings(shard_recordings=2), interrupt)
     assert not out.exists()
     folder = unfinished(out)
-    (receipt,) = sorted((folder / "state").glob("test-00000*"))
-    before = receipt.stat().st_mtime_ns
+    shards = [f"data/test-{k:05d}-of-00003.parquet" for k in range(2)]
+    before = [written(folder / shard) for shard in shards]
     # half of a shard, a shard whose bytes went wrong
     (folder / "data" / ".test-00002-of-00003.parquet.1").write_bytes(b"half")
-    (folder / "data" / json.loads((folder / "state/test-00001-of-00003.json").read_text())["name"]).write_bytes(b"x")
+    (folder / shards[1]).write_bytes(b"x")
     resume(out, 1, _silent)
     assert contents(out) == contents(made)
     assert not folder.exists()
-    assert before
+    after = [written(out / shard) for shard in shards]
+    assert after[0] == before[0], "a finished shard is not made again"
+    assert after[1] != before[1], "a spoiled one is"
     assert resume(out, 1, _silent)["rows"] == 48
 
 

@@ -149,6 +149,19 @@ def test_what_cannot_be_made_is_told_by_its_field(changes, told):
         make_plan(tiny(**changes))
 
 
+def test_every_name_that_is_chosen_among_is_tried():
+    """Also one that no recording of the first drawings has."""
+    vary = {"bearings.drive_end.catalogue": {"choices": ["6205", "NU205"]}, "bodies.disc.mass_kg": {"factor": [0.5, 2]}}
+    machines = [{"name": "rig", "preset": "bearing-rig", "instances": 12, "vary": vary}]
+    chain = {"channels": [{"name": "de", "kind": "accelerometer", "place": {"location": "drive_end.outer"}}]}
+    changes = {"machines": machines, "measurement": [{"name": "stud", "chain": chain}], "count": 24}
+    with pytest.raises(SpecError, match="NU205"):
+        make_plan(tiny(**changes))
+    vary["bearings.drive_end.catalogue"]["choices"][1] = "6206"
+    chosen = {m.spec.bearings[0].catalogue for m in make_plan(tiny(**changes)).machines}
+    assert chosen == {"6205", "6206"}
+
+
 def test_two_spalls_of_one_fault_never_share_a_bearing():
     plan = planned(tiny(count=20, faults=[{"name": "two", "terms": [OUTER, OUTER]}]))
     for i in range(20):

@@ -1,0 +1,71 @@
+"""What an answer does not say by itself: where the speed came from, how sure a label is, what it rests on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from learn.speed import HIGHEST_HZ, LOWEST_HZ, Speed
+from reconcile.stated import FAST_HZ
+from signals.recording import Recording
+from sim.core.errors import Problem, SpecError
+
+UNSURE = 0.7
+"""Probability below which a measured recording is to be looked at again (docs/sim2real.md)."""
+PLAIN = 3.0
+"""Deviations over other orders from which lines of a family stand out at a look."""
+OWN = {"outer": ("BPFO",), "inner": ("BPFI",), "ball": ("2 BSF", "4 FTF")}
+"""Families of lines that a label's fault makes."""
+PER_MINUTE = 60.0
+
+
+def check_learnt(stated_hz: float) -> None:
+    """SpecError for a stated speed that is far above those learnt from and would be one of them as rpm: an answer
+    would say nothing. One that is to be trusted (`--trust-speed`), or that pulses tell, is not asked."""
+    per_second = stated_hz / PER_MINUTE
+    if stated_hz > FAST_HZ and LOWEST_HZ <= per_second <= HIGHEST_HZ:
+        message = (
+            f"is far above the speeds learnt from; is it in revolutions per minute? Then state {per_second:.4g} Hz"
+        )
+        allowed = f"{LOWEST_HZ:g} to {HIGHEST_HZ:g} Hz, or --trust-speed"
+        raise SpecError(Problem(field="operating.speed_hz", message=message, given=stated_hz, allowed=allowed))
+
+
+def of_speed(recording: Recording, speed: Speed, ratio: float = 1.0) -> list[str]:
+    """How the speed is known, where it is not by pulses or lines; and whether shafts of it were among the examples."""
+    stated = recording.operating.speed_hz if recording.operating is not None else None
+    said = []
+    if speed.method == "stated":
+        said.append(f"speed: no line confirms {speed.speed_hz:.4g} Hz, which is taken as stated; a wrong one misleads")
+    if speed.method == "scan":
+        said.append(
+            f"speed: none is stated; {speed.speed_hz:.4g} Hz was chosen among {LOWEST_HZ:g} to {HIGHEST_HZ:g} Hz, "
+            "which often errs"
+        )
+    turning = speed.speed_hz * ratio
+    if not LOWEST_HZ <= turning <= HIGHEST_HZ:
+        told = f"speed: {turning:.4g} Hz is not among those learnt from ({LOWEST_HZ:g} to {HIGHEST_HZ:g} Hz)"
+        per_second = (stated or 0.0) / PER_MINUTE
+        rpm = f"; as revolutions per minute it would be {per_second:.4g} Hz"
+        said.append(told + (rpm if LOWEST_HZ <= per_second <= HIGHEST_HZ else ""))
+    return said
+
+
+def of_parts(parts: Iterable[Mapping[str, Any]]) -> list[str]:
+    """How far each part's answer carries."""
+    said = []
+    for part in parts:
+        where = part["bearing"] or part["stage"] or "bearing"
+        label, chance = part["label"], part["probabilities"][part["label"]]
+        if part["stage"] is not None:
+            said.append(f"{where}: of stages too little is known by measurement to rely on this (docs/sim2real.md)")
+        elif part["geometry"] == "unknown":
+            said.append(f"{where}: its size is not known; answers are much less often right than with it")
+        if chance < UNSURE or (label == "ball" and part["stage"] is None):
+            why = "balls are the least sure" if label == "ball" else f"{chance:.2f} is below {UNSURE:g}"
+            said.append(f"{where}: look closer before acting on '{label}': {why}")
+        own = [line["z"] for line in part["lines"] if line["family"] in OWN.get(label, ())]
+        if own and max(own) < PLAIN:
+            most = f"{max(own):.1f} deviations over other orders"
+            said.append(f"{where}: '{label}' rests on no line that stands out ({most} at most): is this the bearing?")
+    return said
