@@ -102,6 +102,6 @@ def _wrong(message: str, *, allowed: str, given: str | None = None) -> SpecError
     return SpecError(Problem(field=VARIABLE, message=message, given=given, allowed=allowed))
 
 
-def keys_of(plain: Mapping[str, str]) -> dict[str, Key]:
-    """Keys of `SIDEBAND_API_KEYS` (digest to name): every scope, no end, no limits."""
-    return {digest: Key(name=name) for digest, name in plain.items()}
+def keys_of(plain: Mapping[str, str], requests_per_minute: int | None = None) -> dict[str, Key]:
+    """Keys of `SIDEBAND_API_KEYS` (digest to name): every scope, no end, no limit but that of calls."""
+    return {digest: Key(name=name, requests_per_minute=requests_per_minute) for digest, name in plain.items()}

@@ -26,6 +26,8 @@ class Settings:
     api_keys: Mapping[str, str] = field(default_factory=dict)
     api_keys_file: Path | None = None
     """Further keys, with scopes, end and limits; read again when it changes (`app.key_file`)."""
+    requests_per_minute: int = 6000
+    """Calls of the holder of one of `api_keys`, in each API process; 0: no limit. Keys of the file have their own."""
     allowed_hosts: tuple[str, ...] = ()
     """Names under which a server without keys may be called, besides loopback ones. With keys any name will do."""
     limits: Limits = field(default_factory=Limits)
@@ -67,7 +69,8 @@ class Settings:
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] | None = None) -> Settings:
         """`SIDEBAND_HOST`, `SIDEBAND_PORT`, `SIDEBAND_API_KEYS` (`name:sha256,...`), `SIDEBAND_API_KEYS_FILE`,
-        `SIDEBAND_ALLOWED_HOSTS`; limits: `SIDEBAND_MAX_DURATION_S`, `SIDEBAND_MAX_MEMORY_BYTES`, `SIDEBAND_MAX_STEPS`,
+        `SIDEBAND_API_KEYS_PER_MINUTE`, `SIDEBAND_ALLOWED_HOSTS`; limits: `SIDEBAND_MAX_DURATION_S`,
+        `SIDEBAND_MAX_MEMORY_BYTES`, `SIDEBAND_MAX_STEPS`,
         `SIDEBAND_MAX_SECONDS`, `SIDEBAND_MAX_WAITING`, `SIDEBAND_MAX_DATASET_CORE_HOURS`, `SIDEBAND_MAX_DATASET_BYTES`,
         `SIDEBAND_MAX_DATASETS`, `SIDEBAND_MAX_UPLOAD_BYTES`. `SIDEBAND_PAGES_DIR`: the pages of the effects, where they
         lie elsewhere."""
@@ -85,6 +88,7 @@ class Settings:
         )
         port = read.whole("SIDEBAND_PORT", cls.port, most=65535)
         upload = read.whole("SIDEBAND_MAX_UPLOAD_BYTES", cls.max_upload_bytes, unit="bytes")
+        per_minute = read.whole("SIDEBAND_API_KEYS_PER_MINUTE", cls.requests_per_minute, most=1_000_000, unit="1/min")
         read.settle()
         return cls(
             stores=StoreSettings.from_environment(env),
@@ -92,6 +96,7 @@ class Settings:
             port=port,
             api_keys=parse_keys(env.get("SIDEBAND_API_KEYS", "")),
             api_keys_file=Path(env[VARIABLE]) if env.get(VARIABLE) else None,
+            requests_per_minute=per_minute,
             pages_folder=Path(env.get("SIDEBAND_PAGES_DIR") or cls.pages_folder),
             allowed_hosts=tuple(h.strip() for h in env.get("SIDEBAND_ALLOWED_HOSTS", "").split(",") if h.strip()),
             limits=limits,

@@ -10,16 +10,16 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 
 from tqdm import tqdm
 
-from app.cli.files import json_text, read_json
+from app.cli.files import json_text, local_path, read_json
 from sideband_datasets import Recipe, make_plan, read_recipe, recipe_named
-from sideband_datasets.folder import Progress, Settings, make, resume, unfinished, verify
+from sideband_datasets.folder import Progress, Settings, check_size, free_bytes, make, resume, unfinished, verify
 from sideband_datasets.folder.layout import CARD
 from sideband_datasets.folder.pool import WorkersDied
 from sideband_datasets.formats import FORMATS
@@ -40,11 +40,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action.add_argument("recipe", metavar="RECIPE", help="a JSON file, or the name of a ready recipe")
         action.add_argument("--count", metavar="N", type=int, help="recordings, instead of the recipe's")
         action.add_argument("--seed", metavar="N", type=int, help="instead of the recipe's")
-    begun.add_argument("--out", metavar="DIR", type=Path, required=True, help="a new folder")
+        action.add_argument("--shard-recordings", metavar="N", type=int, help="recordings in a shard")
+    begun.add_argument("--out", metavar="DIR", type=local_path, required=True, help="a new folder")
     begun.add_argument("--format", default="parquet", help=f"{', '.join(FORMATS)} (default parquet)")
-    begun.add_argument("--shard-recordings", metavar="N", type=int, help="recordings in a shard")
     resumed = actions.add_parser("resume", help="finish an interrupted dataset", allow_abbrev=False)
-    resumed.add_argument("out", metavar="DIR", type=Path, help="the folder that `make` was given")
+    resumed.add_argument("out", metavar="DIR", type=local_path, help="the folder that `make` was given")
     for action in (plan, begun, resumed):
         action.add_argument("--workers", metavar="N", type=int, default=2, help="processes (default 2)")
     checked = actions.add_parser("verify", help="look for damage, leaks and rows that differ", allow_abbrev=False)
@@ -87,17 +87,25 @@ def _workers(arguments: argparse.Namespace) -> int:
 def _plan(arguments: argparse.Namespace) -> int:
     plan = make_plan(_recipe(arguments))
     expected = estimate(plan, _workers(arguments))
+    check_size(plan, arguments.shard_recordings)
+    warnings = [*plan.warnings, *_space_warnings(expected)]
     if arguments.json:
         splits = {name: int(plan.of_split(name).size) for name in plan.splits}
         classes = {name: int((plan.kind == k).sum()) for k, name in enumerate(plan.recipe.classes)}
-        answer = {**asdict(expected), "splits": splits, "classes": classes, "warnings": list(plan.warnings)}
+        answer = {**asdict(expected), "splits": splits, "classes": classes, "warnings": warnings}
         print(json_text(answer), end="")
     else:
-        print(_told(plan, expected))
+        print(_told(plan, expected, warnings))
     return 0
 
 
-def _told(plan: Plan, expected: Estimate) -> str:
+def _space_warnings(expected: Estimate) -> Iterator[str]:
+    free = free_bytes(Path())
+    if expected.bytes > free:
+        yield f"the disk of this folder has {free} bytes free, the dataset is estimated at {expected.bytes}"
+
+
+def _told(plan: Plan, expected: Estimate, warnings: Sequence[str]) -> str:
     each = f"{plan.rows_per_recording} of each of {expected.recordings} recordings"
     time = f"{expected.core_seconds:.3g} core-seconds, {expected.wall_s:.3g} s with {expected.workers} workers"
     lines = [
@@ -109,7 +117,7 @@ def _told(plan: Plan, expected: Estimate) -> str:
     for k, name in enumerate(plan.splits):
         machines = int((plan.split_of == k).sum())
         lines.append(f"split {name}: {int(plan.of_split(name).size)} recordings of {machines} machines")
-    return "\n".join([*lines, *(f"warning: {told}" for told in plan.warnings)])
+    return "\n".join([*lines, *(f"warning: {told}" for told in warnings)])
 
 
 @contextmanager

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import json
 import math
 import os
+import re
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -75,6 +77,14 @@ def plain(value: object) -> object:
 def json_text(document: object) -> str:
     """Indented JSON, valid everywhere."""
     return json.dumps(plain(document), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def local_path(text: str) -> Path:
+    """A path that something is written to: a URL would become folders of its name. For argparse."""
+    if re.match(r"[A-Za-z][A-Za-z0-9+.-]*://", text):
+        message = f"{text} is a URL, and this writes to a disk only: name a folder and copy it with a tool of the store"
+        raise argparse.ArgumentTypeError(f"{message} (docs/datasets.md, Buckets)")
+    return Path(text)
 
 
 @contextlib.contextmanager

@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from app.cli.choice import SET_HELP, changed, parse_set, read_machine
-from app.cli.files import json_text, write_text
+from app.cli.files import json_text, local_path, write_text
 from app.cli.parameters import read_parameters
 from app.cli.report import machine_report, report_text
 from sim import presets
@@ -32,7 +32,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help=SET_HELP)
     parser.add_argument(
-        "--out", metavar="FILE", type=Path, help="write the machine specification, replacing FILE (- for the output)"
+        "--out",
+        metavar="FILE",
+        type=local_path,
+        help="write the machine specification, replacing FILE (- for the output)",
     )
     parser.add_argument("--json", action="store_true", help="print JSON")
 

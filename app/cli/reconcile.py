@@ -20,7 +20,7 @@ from pathlib import Path
 from tempfile import TemporaryFile
 
 from app.cli.choice import read_machine
-from app.cli.files import check_folder, read_json
+from app.cli.files import check_folder, local_path, read_json
 from app.cli.parameters import read_parameters
 from reconcile.entry import reconcile_recordings
 from reconcile.kinematics import KinematicSpec, read_kinematic_spec
@@ -66,7 +66,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out",
         metavar="DIR",
-        type=Path,
+        type=local_path,
         required=True,
         help="folder for report.json, report.html (earlier ones there are replaced)",
     )

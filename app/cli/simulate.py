@@ -20,7 +20,7 @@ from tqdm import tqdm
 
 from app.cli.as_recording import check_recording_path, write_recording
 from app.cli.choice import add_machine_options, chosen_machine
-from app.cli.files import check_folder, whole_folder
+from app.cli.files import check_folder, local_path, whole_folder
 from app.cli.lines import print_result
 from app.cli.result import FILES, FURTHER, RAW, SENSED, write_raw, write_result
 from app.cli.sensors import add_sensor_options, chosen_sensors
@@ -68,13 +68,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out",
         metavar="DIR",
-        type=Path,
+        type=local_path,
         help="folder of the result (default: result-NAME, of recording, machine file or preset)",
     )
     parser.add_argument(
         "--recording",
         metavar="R.json",
-        type=Path,
+        type=local_path,
         help="write it as a recording too, as a measured one comes: R.json and R.npz, without the start-up",
     )
     parser.add_argument("--force", action="store_true", help="overwrite an earlier result")

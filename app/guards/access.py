@@ -25,7 +25,11 @@ class AccessGuard:
 
     def __init__(self, app: ASGIApp, *, settings: Settings) -> None:
         self._app, self._settings = app, settings
-        self._ring = KeyRing(settings.api_keys, settings.api_keys_file)
+        self._ring = KeyRing(
+            settings.api_keys,
+            settings.api_keys_file,
+            requests_per_minute=settings.requests_per_minute or None,
+        )
         self._admission = admission()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:

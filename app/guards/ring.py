@@ -21,9 +21,15 @@ class KeyRing:
     """Finds a key by its digest. A changed file that cannot be used leaves the keys as they are, and is logged once."""
 
     def __init__(
-        self, plain: Mapping[str, str], file: Path | None, *, clock: Callable[[], float] = time.monotonic
+        self,
+        plain: Mapping[str, str],
+        file: Path | None,
+        *,
+        requests_per_minute: int | None = None,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._plain, self._file, self._clock = keys_of(plain), file, clock
+        """`requests_per_minute`: of each holder of a `plain` key; None: no limit."""
+        self._plain, self._file, self._clock = keys_of(plain, requests_per_minute), file, clock
         self._stamp = self._look()
         self._looked_at = clock()
         self._keys = {**self._plain, **(read_keys(file) if file is not None else {})}

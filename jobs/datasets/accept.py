@@ -21,6 +21,9 @@ from sim.core.errors import Problem, SpecError
 AT_ONCE = 32
 """Shards that are handed to the broker before the reply; the rest follows in the next seconds."""
 
+COPIES = 2
+"""Of the rows of a shard, held while it is written in a format of arrays; the others hold less."""
+
 
 def accept_dataset(desk: Desk, request: DatasetRequest, *, submitter: str, scope: str, key: str | None) -> Acceptance:
     """Accept a request for `submitter`; `scope` is whose idempotency keys these are.
@@ -73,8 +76,20 @@ def check_bounds(division: Division, limits: Limits) -> None:
         for message, given, bound, unit in found
         if given > bound
     ]
+    problems += _memory_problems(division, limits)
     if problems:
         raise SpecError(problems)
+
+
+def _memory_problems(division: Division, limits: Limits) -> list[Problem]:
+    """Of a worker with the largest shard."""
+    needed = COPIES * division.shard_bytes
+    if needed <= limits.memory_bytes:
+        return []
+    fit = limits.memory_bytes * division.shard_most // needed
+    message = f"makes shards that need too much memory (estimated {needed:.3g} bytes, {limits.memory_bytes:g} allowed)"
+    allowed = f"<= {fit}" if fit else "recordings with fewer or shorter windows"
+    return [Problem(field="shard_recordings", message=message, given=division.shard_recordings, allowed=allowed)]
 
 
 def _check_room(desk: Desk, division: Division) -> None:
@@ -135,6 +150,5 @@ def _parts(division: Division, identifier: str, now: float) -> list[Part]:
 
 
 def _cost(division: Division, share: float) -> Cost:
-    """Of a share of the recordings; a worker holds the rows of its shard."""
-    memory = division.cost.bytes / len(division.shards)
-    return Cost(steps=0, memory_bytes=round(2 * memory), seconds=share * division.cost.core_seconds)
+    """Of a share of the recordings; memory is that of a worker with the largest shard."""
+    return Cost(steps=0, memory_bytes=COPIES * division.shard_bytes, seconds=share * division.cost.core_seconds)

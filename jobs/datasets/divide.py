@@ -13,7 +13,7 @@ from sideband_datasets.folder.manifest import versions
 from sideband_datasets.folder.shards import Shard, shards_of
 from sideband_datasets.formats.format import format_named
 from sideband_datasets.make.stream import batch_size
-from sideband_datasets.plan import Estimate, Plan, estimate
+from sideband_datasets.plan import Estimate, Plan, check_shard, estimate, most_recordings, recording_bytes
 from sideband_datasets.recipe.read import document_of
 from sim.core.errors import Problem, SpecError, UnknownName
 from sim.core.lanes import WIDTH
@@ -37,6 +37,16 @@ class Division:
     shard_recordings: int
     shards: tuple[Shard, ...]
     cost: Estimate
+
+    @property
+    def shard_bytes(self) -> int:
+        """Rows of the largest shard before compression, estimated."""
+        return recording_bytes(self.plan) * self.shard_most
+
+    @property
+    def shard_most(self) -> int:
+        """Recordings of the largest shard."""
+        return max(len(shard.recordings) for shard in self.shards)
 
     @property
     def document(self) -> dict[str, object]:
@@ -73,7 +83,9 @@ def divide(request: DatasetRequest) -> Division:
         message = f"makes {len(shards)} shards"
         allowed = f"{MOST_SHARDS} or fewer: {math.ceil(plan.recipe.count / MOST_SHARDS) + 1} recordings in each, or so"
         raise SpecError(Problem(field="shard_recordings", message=message, given=size, allowed=allowed))
-    return Division(plan=plan, format=request.format, shard_recordings=size, shards=shards, cost=cost)
+    division = Division(plan=plan, format=request.format, shard_recordings=size, shards=shards, cost=cost)
+    check_shard(plan, division.shard_most, "shard_recordings", size)
+    return division
 
 
 def division_of(document: Mapping[str, object]) -> tuple[Plan, list[Shard]]:
@@ -112,8 +124,13 @@ def _within(field: str) -> str:
 
 
 def _size(plan: Plan, cost: Estimate) -> int:
-    """Recordings in a shard, whole lanes."""
+    """Recordings in a shard, whole lanes where that many fit."""
     wanted = SHARD_S * plan.recipe.count / max(cost.core_seconds, 1e-9)
     fit = max(LEAST_RECORDINGS, min(batch_size(plan), int(wanted) // WIDTH * WIDTH))
+    fit = min(fit, _whole_lanes(most_recordings(plan)))
     least = math.ceil(plan.recipe.count / (MOST_SHARDS - len(plan.splits)))
     return min(max(fit, least), plan.recipe.count)
+
+
+def _whole_lanes(recordings: int) -> int:
+    return recordings // WIDTH * WIDTH or recordings

@@ -2,7 +2,8 @@
 
 from sideband_datasets.folder.finding import Finding
 from sideband_datasets.folder.layout import unfinished
-from sideband_datasets.folder.make import Progress, Settings, make, resume
+from sideband_datasets.folder.make import Progress, Settings, check_size, make, resume
+from sideband_datasets.folder.space import free_bytes
 from sideband_datasets.folder.verify import verify
 
-__all__ = ["Finding", "Progress", "Settings", "make", "resume", "unfinished", "verify"]
+__all__ = ["Finding", "Progress", "Settings", "check_size", "free_bytes", "make", "resume", "unfinished", "verify"]

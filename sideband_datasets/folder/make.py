@@ -30,15 +30,18 @@ from sideband_datasets.folder.layout import (
 from sideband_datasets.folder.manifest import failures_text, manifest, versions
 from sideband_datasets.folder.pool import Job, made_by_workers
 from sideband_datasets.folder.shards import Receipt, Shard, finished, make_shard, shards_of
+from sideband_datasets.folder.space import check_space
 from sideband_datasets.formats import format_named
 from sideband_datasets.plan.estimate import estimate
 from sideband_datasets.plan.plan import Plan
+from sideband_datasets.plan.size import check_shard
 from sideband_datasets.plan.tried import make_plan
 from sideband_datasets.recipe.model import Recipe
 from sideband_datasets.recipe.read import canonical, document_of, read_recipe
 from sim.core.errors import Problem, SpecError
 
 MOST_WORKERS = 256
+MOST_IN_A_SHARD = 100_000
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,11 +66,13 @@ class Progress:
 def make(recipe: Recipe, out: Path, settings: Settings, told: Callable[[Progress], None]) -> dict[str, object]:
     """Make a dataset in the new folder `out`; returns its manifest.
 
-    SpecError for a recipe that cannot be made, a folder that is there, or an unfinished one, which `resume` takes up.
+    SpecError for a recipe that cannot be made, shards or a dataset too large for memory or disk, a folder that is
+    there, or an unfinished one, which `resume` takes up.
     """
     _check(settings)
     plan = make_plan(recipe)
-    estimate(plan, settings.workers)
+    expected = estimate(plan, settings.workers)
+    check_size(plan, settings.shard_recordings)
     if out.exists() and (not out.is_dir() or any(out.iterdir())):
         raise SpecError(Problem(field="--out", message="is there already", given=str(out), allowed="a new folder"))
     folder = unfinished(out)
@@ -75,6 +80,7 @@ def make(recipe: Recipe, out: Path, settings: Settings, told: Callable[[Progress
         message = "was begun already"
         allowed = f"`sideband dataset resume {out}`, or another --out"
         raise SpecError(Problem(field="--out", message=message, given=str(out), allowed=allowed))
+    check_space(expected.bytes, out)
     for name in (DATA, STATE):
         (folder / name).mkdir(parents=True, exist_ok=True)
     document = {
@@ -115,6 +121,14 @@ def resume(out: Path, workers: int, told: Callable[[Progress], None]) -> dict[st
     return _carry_on(make_plan(read_recipe(document["recipe"])), out, settings, told)
 
 
+def check_size(plan: Plan, shard_recordings: int | None) -> None:
+    """SpecError when so many recordings are no shard, or more than one may hold; None is what fits."""
+    if shard_recordings is not None:
+        _check_number("--shard-recordings", shard_recordings, MOST_IN_A_SHARD)
+        largest = min(shard_recordings, max(plan.of_split(split).size for split in plan.splits))
+        check_shard(plan, largest, "--shard-recordings", shard_recordings)
+
+
 def _manifest(out: Path) -> dict[str, object]:
     found: dict[str, object] = json.loads((out / MANIFEST).read_text(encoding="utf-8"))
     return found
@@ -122,12 +136,14 @@ def _manifest(out: Path) -> dict[str, object]:
 
 def _check(settings: Settings) -> None:
     format_named(settings.format)
-    for field, value, most in (
-        ("--workers", settings.workers, MOST_WORKERS),
-        ("--shard-recordings", settings.shard_recordings or 1, 100_000),
-    ):
-        if not 1 <= value <= most:
-            raise SpecError(Problem(field=field, message="is out of bounds", given=value, allowed=f"1 to {most}"))
+    _check_number("--workers", settings.workers, MOST_WORKERS)
+    if settings.shard_recordings is not None:
+        _check_number("--shard-recordings", settings.shard_recordings, MOST_IN_A_SHARD)
+
+
+def _check_number(field: str, value: int, most: int) -> None:
+    if not 1 <= value <= most:
+        raise SpecError(Problem(field=field, message="is out of bounds", given=value, allowed=f"1 to {most}"))
 
 
 @contextlib.contextmanager

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -14,6 +14,7 @@ from sideband_datasets.formats import format_named
 from sideband_datasets.make.batch import Failure
 from sideband_datasets.make.stream import batch_size, rows
 from sideband_datasets.plan.plan import Plan
+from sideband_datasets.row import Row
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,6 +88,23 @@ def finished(folder: Path, shard: Shard) -> Receipt | None:
     return receipt if receipt.sha256 == sha256(data) else None
 
 
+class _Passed:
+    """Rows on their way to a file: none is kept, what a receipt says of them is."""
+
+    def __init__(self, found: Iterator[Row]) -> None:
+        self._found = found
+        self.count = 0
+        self.machines: set[str] = set()
+        self.paths: set[str] = set()
+
+    def __iter__(self) -> Iterator[Row]:
+        for row in self._found:
+            self.count += 1
+            self.machines.add(row.machine_id)
+            self.paths.add(row.path_id)
+            yield row
+
+
 def make_shard(
     plan: Plan,
     shard: Shard,
@@ -96,22 +114,22 @@ def make_shard(
     made: Callable[[int], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Receipt:
-    """Simulate, write and sign a shard; `made` is told how many rows were added."""
+    """Simulate, write and sign a shard, row after row where the format lets it be; `made` is told of rows added."""
     size = plan.rows_per_recording
     wanted = [number * size + k for number in shard.recordings for k in range(size)]
     failures: list[Failure] = []
-    found = list(rows(plan.recipe, wanted, failed=failures.append, cancelled=cancelled, made=made))
+    passed = _Passed(rows(plan.recipe, wanted, failed=failures.append, cancelled=cancelled, made=made))
     data = folder / DATA / shard.name
     with whole(data) as path:
-        format_named(kind).write(path, found)
+        format_named(kind).write(path, passed)
     receipt = Receipt(
         name=shard.name,
         split=shard.split,
-        rows=len(found),
+        rows=passed.count,
         bytes=size_of(data),
         sha256=sha256(data),
-        machines=tuple(sorted({row.machine_id for row in found})),
-        paths=tuple(sorted({row.path_id for row in found})),
+        machines=tuple(sorted(passed.machines)),
+        paths=tuple(sorted(passed.paths)),
         failures=tuple(sorted(failures, key=lambda failure: failure.recording)),
     )
     write_text(receipt_path(folder, shard), json_text(asdict(receipt)))

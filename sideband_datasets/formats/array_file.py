@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +11,8 @@ from sideband_datasets.formats.record import Record, arrays_of, records_of
 from sideband_datasets.row import COLUMNS, Row
 
 
-def write(path: Path, rows: Sequence[Row]) -> None:
-    """Write a shard."""
+def write(path: Path, rows: Iterable[Row]) -> None:
+    """Write a shard; all its rows are held, twice."""
     with path.open("wb") as stream:
         np.savez_compressed(stream, **arrays_of(rows))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,13 +15,15 @@ from sim.core.errors import Problem, SpecError, UnknownName
 
 @dataclass(frozen=True, kw_only=True)
 class Format:
-    """How a shard is written and read back. `package` is what it needs beside the locked dependencies."""
+    """How a shard is written, from rows that may come as they are made, and read back.
+
+    `package` is what it needs beside the locked dependencies."""
 
     name: str
     suffix: str
     media_type: str
     sentence: str
-    write: Callable[[Path, Sequence[Row]], None]
+    write: Callable[[Path, Iterable[Row]], None]
     read: Callable[[Path], Iterator[Record]]
     package: str = ""
 

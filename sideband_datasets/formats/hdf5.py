@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from importlib import import_module
 from pathlib import Path
 
@@ -10,8 +10,8 @@ from sideband_datasets.formats.record import Record, arrays_of, records_of
 from sideband_datasets.row import COLUMNS, Row
 
 
-def write(path: Path, rows: Sequence[Row]) -> None:
-    """Write a shard."""
+def write(path: Path, rows: Iterable[Row]) -> None:
+    """Write a shard; all its rows are held, twice."""
     h5py = import_module("h5py")
     arrays = arrays_of(rows)
     with h5py.File(path, "w", track_order=True) as file:

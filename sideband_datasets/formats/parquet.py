@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -44,18 +45,25 @@ def schema() -> Any:  # noqa: ANN401 - pyarrow is untyped
     )
 
 
-def write(path: Path, rows: Sequence[Row]) -> None:
-    """Write a shard."""
+def write(path: Path, rows: Iterable[Row]) -> None:
+    """Write a shard, a group as soon as its rows are there."""
     kinds = schema()
     with pq.ParquetWriter(path, kinds, compression=COMPRESSION, version="2.6", store_schema=True) as writer:
-        if not rows:
-            writer.write_table(kinds.empty_table())
-        for first in range(0, len(rows), ROW_GROUP):
-            records = [record_of(row) for row in rows[first : first + ROW_GROUP]]
+        empty = True
+        for records in _groups(rows):
             columns = [
                 pa.array([record[column.name] for record in records], type=TYPES[column.kind]) for column in COLUMNS
             ]
             writer.write_table(pa.table(columns, schema=kinds), row_group_size=ROW_GROUP)
+            empty = False
+        if empty:
+            writer.write_table(kinds.empty_table())
+
+
+def _groups(rows: Iterable[Row]) -> Iterator[list[Record]]:
+    left = iter(rows)
+    while records := [record_of(row) for row in islice(left, ROW_GROUP)]:
+        yield records
 
 
 def read(path: Path) -> Iterator[Record]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -51,7 +51,7 @@ def fingerprint(record: Record) -> str:
     return found.hexdigest()
 
 
-def arrays_of(rows: Sequence[Row]) -> Arrays:
+def arrays_of(rows: Iterable[Row]) -> Arrays:
     """Columns as arrays: text as fixed-width Unicode, lists and peaks as JSON text, missing numbers as NaN.
 
     `signal` is float32, (rows, samples) where all rows are of one length, else all of them in a row: row k then begins

@@ -6,7 +6,7 @@ import io
 import json
 import math
 import tarfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -39,14 +39,16 @@ def _members(row: Row) -> Iterator[tuple[str, bytes]]:
     yield "txt", row.fault_type.encode()
 
 
-def write(path: Path, rows: Sequence[Row]) -> None:
-    """Write a shard; members carry no time and no owner."""
+def write(path: Path, rows: Iterable[Row]) -> None:
+    """Write a shard, row after row; members carry no time and no owner."""
     with tarfile.open(path, "w", format=tarfile.USTAR_FORMAT) as archive:
         for row in rows:
             for kind, content in _members(row):
                 about = tarfile.TarInfo(f"{key_of(row.signal_id)}.{kind}")
                 about.size, about.mode = len(content), 0o644
                 archive.addfile(about, io.BytesIO(content))
+            # It would keep a description of every member, which only reading needs.
+            archive.members.clear()  # type: ignore[attr-defined]
 
 
 def read(path: Path) -> Iterator[Record]:

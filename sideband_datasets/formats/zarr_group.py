@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from importlib import import_module
 from pathlib import Path
 
@@ -12,8 +12,8 @@ from sideband_datasets.row import COLUMNS, Row
 CHUNK_SAMPLES = 4_000_000
 
 
-def write(path: Path, rows: Sequence[Row]) -> None:
-    """Write a shard."""
+def write(path: Path, rows: Iterable[Row]) -> None:
+    """Write a shard; all its rows are held, twice."""
     zarr = import_module("zarr")
     arrays = arrays_of(rows)
     group = zarr.open_group(str(path), mode="w", zarr_format=2)

@@ -13,6 +13,7 @@ from sideband_datasets.make.batch import Failure, Made, failed, recorded
 from sideband_datasets.make.peaks import Predicted, peaks_of, predicted
 from sideband_datasets.plan.check import window_length_s
 from sideband_datasets.plan.plan import Plan
+from sideband_datasets.plan.size import most_recordings
 from sideband_datasets.plan.tried import make_plan
 from sideband_datasets.recipe.model import Recipe
 from sideband_datasets.row import Row
@@ -27,7 +28,7 @@ from sim.core.speed import mean_ratio
 BATCH = 32 * WIDTH
 """Recordings held at once at most: enough of one structure to fill the lanes."""
 BATCH_BYTES = 64_000_000
-"""Of the samples of the rows held at once, about."""
+"""Of the samples of the rows held at once, about; where eight recordings have more, as much as a shard may hold."""
 
 
 def rows(
@@ -66,11 +67,12 @@ def _nobody(count: int) -> None:
 
 
 def batch_size(plan: Plan) -> int:
-    """Recordings worked on at once, a multiple of the lanes."""
+    """Recordings worked on at once: a multiple of the lanes, fewer only where a shard could not hold so many."""
     recipe = plan.recipe
     longest_s = min(recipe.duration_s, recipe.windows.length_s or recipe.duration_s)
     size = 4.0 * plan.rows_per_recording * longest_s * recipe.sampling_rate_hz
-    return max(WIDTH, min(BATCH, int(BATCH_BYTES / size) // WIDTH * WIDTH))
+    lanes = max(WIDTH, min(BATCH, int(BATCH_BYTES / size) // WIDTH * WIDTH))
+    return max(1, min(lanes, most_recordings(plan)))
 
 
 def _warn(failure: Failure) -> None:

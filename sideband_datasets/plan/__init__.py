@@ -4,6 +4,20 @@ from sideband_datasets.plan.drawing import Drawing, Effect, drawing
 from sideband_datasets.plan.estimate import Estimate, estimate
 from sideband_datasets.plan.machines import Machine
 from sideband_datasets.plan.plan import Plan
+from sideband_datasets.plan.size import MOST_SHARD_BYTES, check_shard, most_recordings, recording_bytes
 from sideband_datasets.plan.tried import make_plan
 
-__all__ = ["Drawing", "Effect", "Estimate", "Machine", "Plan", "drawing", "estimate", "make_plan"]
+__all__ = [
+    "MOST_SHARD_BYTES",
+    "Drawing",
+    "Effect",
+    "Estimate",
+    "Machine",
+    "Plan",
+    "check_shard",
+    "drawing",
+    "estimate",
+    "make_plan",
+    "most_recordings",
+    "recording_bytes",
+]

@@ -8,6 +8,7 @@ import numpy as np
 
 from sideband_datasets.plan.check import window_length_s
 from sideband_datasets.plan.plan import Plan
+from sideband_datasets.plan.size import BYTES_PER_ROW, check_recording
 from sideband_datasets.plan.tried import outputs_of, samples_of
 from sim.assembly.assemble import assemble
 from sim.core.errors import Problem, SpecError
@@ -25,8 +26,6 @@ SECONDS_PER_SAMPLE = 2e-6
 """Of one channel: sensors, features, writing."""
 SECONDS_TO_START = 15.0
 """A worker loads compiled kernels before its first row."""
-BYTES_PER_ROW = 6_000
-"""Columns and peaks beside the samples."""
 MOST_BYTES = 500_000_000_000
 MOST_ROWS = 5_000_000
 MOST_LANES_BYTES = 2_000_000_000
@@ -70,6 +69,7 @@ def estimate(plan: Plan, workers: int) -> Estimate:
     core = float(np.mean(seconds)) * recipe.count
     length_s = window_length_s(recipe, float(np.mean(speeds)) if speeds else None)
     size = round(plan.rows * (4 * length_s * recipe.sampling_rate_hz + BYTES_PER_ROW))
+    check_recording(plan)
     _check_bounds(plan.rows, size)
     return Estimate(
         recordings=recipe.count,

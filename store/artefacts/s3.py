@@ -1,12 +1,13 @@
-"""Artefacts as objects of an S3-compatible store: an object appears whole or not at all, because a PUT does.
+"""Artefacts as objects of an S3-compatible store: an object appears whole or not at all, because an upload does.
 
-Bytes are collected in a temporary file, then put in one request that carries their SHA-256; the store refuses the
-object when it received others. Whole objects are checked again when they are read, by the client library.
+Bytes are collected in a temporary file, then put in one request, or in parts when they are many, that carry their
+SHA-256; the store refuses the object when it received others. Whole objects are checked again when they are read.
 """
 
 from __future__ import annotations
 
 import base64
+import hashlib
 import os
 import tempfile
 import time
@@ -21,12 +22,13 @@ from botocore.config import Config
 
 from store.artefacts.naming import checked
 from store.artefacts.place import S3Place
-from store.artefacts.s3_errors import translated
+from store.artefacts.s3_errors import outside, translated
+from store.artefacts.s3_parts import DIGEST, MOST_PARTS, PART_BYTES, put_parts
 from store.artefacts.spool import Digesting, local_disk
 
 CHUNK = 1 << 20
-MAX_BYTES = 5 * 2**30
-"""Largest object of a single PUT (Amazon S3 User Guide, "Uploading objects"); results are bounded far below."""
+MAX_BYTES = min(5 * 2**40, MOST_PARTS * PART_BYTES)
+"""Largest object: 625 GiB; results are bounded far below."""
 WORK = Config(connect_timeout=5, read_timeout=30, retries={"mode": "standard", "total_max_attempts": 3})
 PROBE = Config(connect_timeout=2, read_timeout=2, retries={"mode": "standard", "total_max_attempts": 1})
 PROBE_EVERY_S = 30.0
@@ -38,31 +40,40 @@ class S3Store:
     """`jobs.ports.ArtefactStore` on a bucket that exists. Credentials come from where boto3 looks for them."""
 
     def __init__(
-        self, place: S3Place, *, spool: Path | None = None, monotonic: Callable[[], float] = time.monotonic
+        self,
+        place: S3Place,
+        *,
+        spool: Path | None = None,
+        part_bytes: int = PART_BYTES,
+        monotonic: Callable[[], float] = time.monotonic,
     ) -> None:
-        """`spool`: folder of the temporary files; one artefact must fit."""
+        """`spool`: folder of the temporary files; one artefact must fit. Larger ones than `part_bytes` go in parts."""
         self._place, self._spool, self._monotonic = place, spool, monotonic
         self._clients: dict[tuple[int, bool], Any] = {}
         self._lock = Lock()
         self._written = -float("inf")
+        self._part_bytes = part_bytes
 
     @contextmanager
     def write(self, key: str) -> Iterator[BinaryIO]:
         """A stream whose content becomes the object when the block ends well."""
         name = self._name(key)
         with local_disk(), tempfile.TemporaryFile(dir=self._spool) as raw:
-            stream = Digesting(raw, MAX_BYTES)
+            stream = Digesting(raw, min(MAX_BYTES, MOST_PARTS * self._part_bytes))
             yield cast(BinaryIO, stream)
             raw.seek(0)
             with translated(key):
-                self._client().put_object(
-                    Bucket=self._place.bucket,
-                    Key=name,
-                    Body=raw,
-                    ContentLength=stream.size,
-                    ChecksumAlgorithm="SHA256",
-                    ChecksumSHA256=base64.b64encode(stream.digest()).decode(),
-                )
+                self._put(name, cast(BinaryIO, raw), stream.size, stream.digest())
+
+    def _put(self, name: str, raw: BinaryIO, size: int, digest: bytes) -> None:
+        target = {"Bucket": self._place.bucket, "Key": name}
+        if size > self._part_bytes:
+            put_parts(self._client(), target, raw, part_bytes=self._part_bytes, digest=digest.hex())
+            return
+        checksum = base64.b64encode(digest).decode()
+        self._client().put_object(
+            **target, Body=raw, ContentLength=size, ChecksumAlgorithm="SHA256", ChecksumSHA256=checksum
+        )
 
     def read(self, key: str, start: int = 0, length: int | None = None) -> bytes:
         """The bytes start..start+length (to the end when None); fewer where the object ends."""
@@ -118,7 +129,10 @@ class S3Store:
         if start or length is not None:
             asked["Range"] = f"bytes={start}-{'' if length is None else start + length - 1}"
         with translated(key, beyond_is_empty=True):
-            yield from self._client().get_object(**asked)["Body"].iter_chunks(CHUNK)
+            found = self._client().get_object(**asked)
+            pieces = found["Body"].iter_chunks(CHUNK)
+            digest = "" if "Range" in asked else found["Metadata"].get(DIGEST, "")
+            yield from _proved(pieces, digest) if digest else pieces
 
     def _name(self, key: str) -> str:
         return f"{self._place.prefix}/{checked(key)}".lstrip("/")
@@ -141,3 +155,13 @@ class S3Store:
                 region_name=place.region or os.environ.get("AWS_REGION") or "us-east-1",
                 config=config.merge(style),
             )
+
+
+def _proved(pieces: Iterator[bytes], digest: str) -> Iterator[bytes]:
+    """The pieces of a whole object; StoreAway at their end when they have another SHA-256."""
+    found = hashlib.sha256()
+    for piece in pieces:
+        found.update(piece)
+        yield piece
+    if found.hexdigest() != digest:
+        raise outside("gives other bytes than were put there")

@@ -31,6 +31,17 @@ def at(endpoint: str, **changes: str) -> s3.S3Store:
     return s3.S3Store(S3Place(**{"bucket": BUCKET, "endpoint": endpoint, **changes}))
 
 
+PART = 5 * 2**20
+"""The smallest part that a store takes."""
+
+
+def asked_of(store: s3.S3Store) -> list[str]:
+    """Names of the requests, as they are made from now on."""
+    asked: list[str] = []
+    store._client().meta.events.register("before-call.s3", lambda model, **_: asked.append(model.name))
+    return asked
+
+
 def put(store: s3.S3Store, key: str, content: bytes) -> None:
     with store.write(key) as stream:
         stream.write(content)
@@ -48,6 +59,46 @@ def test_digest_goes_with_the_object_and_damage_is_noticed(endpoint: str) -> Non
     raw.put_object(Bucket=BUCKET, Key="job/1/a", Body=b"damaged", ChecksumSHA256=digest, ChecksumAlgorithm="SHA256")
     with pytest.raises(StoreAway, match="FlexibleChecksumError"):
         store.read("job/1/a")
+
+
+@pytest.mark.slow
+def test_large_object_goes_in_parts_and_is_proved_when_it_is_read_whole(endpoint: str) -> None:
+    store = s3.S3Store(S3Place(bucket=BUCKET, endpoint=endpoint), part_bytes=PART)
+    asked = asked_of(store)
+    put(store, "job/8/small", b"s" * PART)
+    assert asked == ["PutObject"], "up to the size of a part nothing changes"
+    content = bytes(range(256)) * (2 * PART // 256) + b"end"
+    put(store, "job/8/large", content)
+    assert asked[1:] == ["CreateMultipartUpload", *["UploadPart"] * 3, "CompleteMultipartUpload"]
+    assert store.size("job/8/large") == len(content)
+    assert store.read("job/8/large") == content
+    assert store.read("job/8/large", PART - 2, 4) == content[PART - 2 : PART + 2]
+    raw = raw_client(endpoint)
+    told = raw.head_object(Bucket=BUCKET, Key="job/8/large")["Metadata"]
+    assert told == {"sha256": hashlib.sha256(content).hexdigest()}
+    raw.put_object(Bucket=BUCKET, Key="job/8/large", Body=b"damaged", Metadata=told)
+    with pytest.raises(StoreAway, match="other bytes"):
+        store.read("job/8/large")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fails", ["UploadPart", "CompleteMultipartUpload"])
+def test_upload_in_parts_that_fails_is_taken_back_and_nobody_sees_it(endpoint: str, fails: str) -> None:
+    store = s3.S3Store(S3Place(bucket=BUCKET, endpoint=endpoint), part_bytes=PART)
+    raw, seen = raw_client(endpoint), []
+
+    def refuse(**_: object) -> None:
+        seen.append([u["Key"] for u in raw.list_multipart_uploads(Bucket=BUCKET).get("Uploads", ())])
+        if fails == "CompleteMultipartUpload" or len(seen) == 2:
+            assert list(store.keys("job/9/")) == []
+            raise ClientError({"Error": {"Code": "SlowDown"}}, fails)
+
+    store._client().meta.events.register(f"before-call.s3.{fails}", refuse)
+    with pytest.raises(StoreAway, match="SlowDown"):
+        put(store, "job/9/a", b"x" * (PART + 1))
+    assert seen[-1] == ["job/9/a"], "it was under way"
+    assert raw.list_multipart_uploads(Bucket=BUCKET).get("Uploads", []) == []
+    assert list(store.keys("job/9/")) == []
 
 
 @pytest.mark.slow

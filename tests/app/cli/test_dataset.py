@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from app.cli import dataset
+from app.cli.main import main
 from sideband_datasets.folder import Progress
 from sideband_datasets.recipe import RECIPES
 from tests.sideband_datasets.small import document
@@ -71,6 +72,40 @@ def test_wrong_input_is_told_by_its_field(call: Call, tmp_path: Path) -> None:
         code, _, error = call("dataset", *arguments)
         assert code == 2, arguments
         assert told in error
+    assert not list(tmp_path.glob("x*"))
+
+
+def test_a_url_is_no_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for arguments in (
+        ("dataset", "make", "small", "--out", "s3://bucket/x"),
+        ("dataset", "resume", "s3://bucket/x"),
+        ("machine", "--preset", "rotor", "--out", "https://host/machine.json"),
+        ("simulate", "--preset", "rotor", "--out", "s3://bucket/x"),
+    ):
+        with pytest.raises(SystemExit) as ended:
+            main(arguments)
+        assert ended.value.code == 2, arguments
+        error = capsys.readouterr().err
+        assert "is a URL" in error and "docs/datasets.md" in error
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_shards_beyond_the_bound_are_refused_and_little_space_is_told(
+    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    windows = {"per_recording": 1000, "length_s": 1.15, "overlap": 0.95}
+    large = _recipe(tmp_path, duration_s=60.0, sampling_rate_hz=50_000.0, windows=windows)
+    for action in (("plan", large), ("make", large, "--out", str(tmp_path / "x"))):
+        code, _, error = call("dataset", *action, "--count", "40", "--shard-recordings", "40")
+        assert code == 2
+        assert "--shard-recordings: makes shards of up to" in error and "2 recordings or fewer" in error
+    monkeypatch.setattr(dataset, "free_bytes", lambda folder: 1000)
+    code, told, _ = call("dataset", "plan", large)
+    assert code == 0
+    assert "warning: the disk of this folder has 1000 bytes free" in told
     assert not list(tmp_path.glob("x*"))
 
 

@@ -57,6 +57,13 @@ def test_a_broken_file_keeps_the_keys_and_is_logged_once(tmp_path: Path, caplog:
     assert ring.find(A) is None and ring.find(B) == Key(name="ben")
 
 
+def test_calls_of_plain_keys_are_bounded_and_those_of_the_file_by_their_entries(tmp_path: Path) -> None:
+    write(tmp_path / "k", {"name": "ann", "sha256": A})
+    ring = KeyRing({C: "carl"}, tmp_path / "k", requests_per_minute=5)
+    assert ring.find(C) == Key(name="carl", requests_per_minute=5)
+    assert ring.find(A) == Key(name="ann")
+
+
 def test_the_file_goes_before_the_environment(tmp_path: Path) -> None:
     write(tmp_path / "k", {"name": "ann", "sha256": A, "scopes": ["read"]})
     assert KeyRing({A: "ann"}, tmp_path / "k").find(A) == Key(name="ann", scopes=frozenset({"read"}))

@@ -1,0 +1,50 @@
+"""Bytes of a recording's rows, and how many recordings a shard may hold: a worker may keep all of it in memory."""
+
+from __future__ import annotations
+
+from sideband_datasets.plan.plan import Plan
+from sideband_datasets.recipe.values import least
+from sim.core.errors import Problem, SpecError
+
+BYTES_PER_ROW = 6_000
+"""Columns and peaks beside the samples."""
+MOST_SHARD_BYTES = 1_000_000_000
+"""Of the rows of a shard before compression. Eight of the largest recordings that may be simulated have no more where
+their windows do not overlap, so lanes stay filled."""
+
+
+def recording_bytes(plan: Plan) -> int:
+    """Samples and columns of all rows of a recording, at most: where revolutions count, at the slowest speed."""
+    recipe, windows = plan.recipe, plan.recipe.windows
+    # Longer windows do not fit into the recording.
+    longest_s = recipe.duration_s / windows.span(1.0)
+    if windows.length_s is not None:
+        longest_s = min(longest_s, windows.length_s)
+    elif windows.length_revolutions is not None:
+        slowest_hz = least(recipe.speeds_hz) if recipe.speeds_hz is not None else None
+        longest_s = min(longest_s, windows.length_revolutions / slowest_hz) if slowest_hz else longest_s
+    return round(plan.rows_per_recording * (4 * longest_s * recipe.sampling_rate_hz + BYTES_PER_ROW))
+
+
+def most_recordings(plan: Plan) -> int:
+    """Recordings that fit into a shard; 0: not even one does."""
+    return MOST_SHARD_BYTES // recording_bytes(plan)
+
+
+def check_recording(plan: Plan) -> None:
+    """SpecError for a recording whose rows alone are more than a shard may hold."""
+    size = recording_bytes(plan)
+    if size > MOST_SHARD_BYTES:
+        message = "makes recordings whose rows are too large for a shard"
+        allowed = f"{MOST_SHARD_BYTES} bytes or fewer: fewer windows, shorter ones, or less overlap"
+        field = "windows.per_recording" if plan.recipe.windows.per_recording > 1 else "duration_s"
+        raise SpecError(Problem(field=field, message=message, given=size, allowed=allowed))
+
+
+def check_shard(plan: Plan, recordings: int, field: str, given: int) -> None:
+    """SpecError for `field`, given as `given`, when a shard of so many recordings is more than one may hold."""
+    size = recordings * recording_bytes(plan)
+    if size > MOST_SHARD_BYTES:
+        message = f"makes shards of up to {size} bytes; {MOST_SHARD_BYTES} are allowed"
+        allowed = f"{most_recordings(plan)} recordings or fewer"
+        raise SpecError(Problem(field=field, message=message, given=given, allowed=allowed))
