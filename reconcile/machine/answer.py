@@ -21,7 +21,7 @@ from reconcile.machine.proved import proved
 from reconcile.machine.revised import Revised, paths, revised_machine
 from reconcile.machine.second import Beside, fitted_change, second_effect, struck_somewhere
 from reconcile.machine.setting import Found, Setting
-from reconcile.machine.unknown import Unknown
+from reconcile.machine.unknown import Unknown, at_supports
 from reconcile.machine.weigh import merged_weights, of_one_part
 from reconcile.machine.window import angle_window
 from reconcile.machine.words import law_sentence, next_experiment, sentence, size, title, with_points
@@ -126,9 +126,10 @@ def answer(
     word, text, fault = _told(setting, decision, gate, causes, held, other, unknown)
     lead = _lead(found, decision)
     named = decision.chosen[0] if decision.word == "explained" else None
-    where = (
-        _where(setting, layout, watched, _with_second(weights, other)) if missing else Where(limits=_limits(setting))
-    )
+    placed = _with_second(weights, other)
+    if unknown is not None:
+        placed = at_supports(weights, unknown.force.site, [b.name for b in setting.machine.bearings])
+    where = _where(setting, layout, watched, placed) if missing else Where(limits=_limits(setting))
     if word != "measurement_fault":
         where = replace(where, limits=(*where.limits, *doubts(gate)))
     return Report(

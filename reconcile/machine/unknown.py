@@ -6,7 +6,7 @@ of every known effect; else the answer is the likeliest place and "no stable law
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -34,6 +34,10 @@ REACH = 3.0
 LEAST_DRAWS = 3
 LIKELY = 3.0
 """Log evidence behind the likeliest support up to which laws are tried at another."""
+
+
+AHEAD = 1.01
+"""By which the place of a force leads one whose known effects weigh as much."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,6 +97,21 @@ def likely_supports(setting: Setting, found: Found) -> tuple[str, ...]:
     likeliest = max(by_site.values())
     order = sorted(by_site, key=lambda s: -by_site[s])
     return tuple(s for s in order if by_site[s] >= likeliest - LIKELY or s == order[0])
+
+
+def at_supports(weights: Mapping[str, float], site: str, supports: Sequence[str]) -> dict[str, float]:
+    """Weights of effects (`effect@site`) where none of them is what it is: they tell a place as far as they are at
+    supports, where the force is looked for, and its `site` leads."""
+    kept = {name: w for name, w in weights.items() if name.split("@")[1] in supports}
+    places: dict[str, float] = {}
+    for name, w in kept.items():
+        place = name.split("@")[1]
+        places[place] = places.get(place, 0.0) + w
+    lacking = AHEAD * max(places.values(), default=1.0) - places.get(site, 0.0)
+    lacking = max(lacking, 0.0)
+    found = {**kept, f"force@{site}": lacking}
+    total = sum(found.values())
+    return {name: w / total for name, w in found.items()} if total > 0.0 else {f"force@{site}": 1.0}
 
 
 def _tried(setting: Setting, known: Catalogued, moving: Mapping[str, Motion], mapper: Mapper) -> Catalogued | None:

@@ -15,7 +15,7 @@ from reconcile.machine import unknown
 from reconcile.machine.laws import SHARES, Motion, TrialLaw
 from reconcile.machine.library import Catalogued
 from reconcile.machine.setting import Found
-from reconcile.machine.unknown import likely_supports, unknown_force
+from reconcile.machine.unknown import at_supports, likely_supports, unknown_force
 from reconcile.machine.words import law_sentence
 from sim import presets
 from sim.core.errors import Problem, SpecError
@@ -124,3 +124,18 @@ def test_without_single_lines_nothing_is_tried() -> None:
 def test_supports_are_ordered_by_what_acts_there() -> None:
     setting, found = setting_for(seen(0))
     assert likely_supports(setting, found)[0] == "bearing2"  # type: ignore[arg-type]
+
+
+def test_the_place_of_an_unknown_force_is_told_among_supports() -> None:
+    weights = {"missing_tooth@gear": 0.5, "outer_spall@bearing4": 0.2, "ring_creep@bearing4": 0.1, "rub@pinion": 0.2}
+    found = at_supports(weights, "bearing4", ["bearing1", "bearing4"])
+    assert {name.split("@")[1] for name in found} == {"bearing4"}
+    assert sum(found.values()) == pytest.approx(1.0)
+    assert at_supports({"rub@pinion": 1.0}, "bearing1", ["bearing1"])["force@bearing1"] == pytest.approx(1.0)
+
+
+def test_the_place_where_a_law_stands_leads() -> None:
+    weights = {"outer_spall@bearing2": 0.6, "outer_spall@bearing1": 0.2}
+    found = at_supports(weights, "bearing1", ["bearing1", "bearing2"])
+    one = found["outer_spall@bearing1"] + found["force@bearing1"]
+    assert one > found["outer_spall@bearing2"] > 0.48 and sum(found.values()) == pytest.approx(1.0)
