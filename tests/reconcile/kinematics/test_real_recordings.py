@@ -116,8 +116,7 @@ def test_sound_machines_have_nothing_missing() -> None:
     assert reconcile_kinematics(spec, ims[1:], ims[:1], seed=0).verdict == "nothing_missing"
 
 
-@pytest.mark.parametrize("factor", [0.5, 2.0])
-@pytest.mark.parametrize("rig", ["hit", "cwru"])
+@pytest.mark.parametrize(("rig", "factor"), [("hit", 2.0), ("cwru", 0.5)])
 def test_an_inner_race_is_not_named_at_half_or_twice_the_speed(rig: str, factor: float) -> None:
     """At twice the speed the even lines of the true rate score as high as all lines at the right one."""
     known, test, base, true_hz = {
