@@ -6,6 +6,7 @@ A small atlas stands beside the tests (`tests/proof/atlas`), so that only what b
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Iterator
 from dataclasses import asdict
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from reconcile.entry import reconcile_recordings
 from reconcile.verdict import Report
 from sim.core.spec import MachineSpec
 from tests.proof import prebuilt
+from tests.proof.remembered import Moved, Simulated
 from tests.proof.small import CASES, NOMINATED, nominal_machine, read_case
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("proof-small")]
@@ -26,6 +28,7 @@ FACTOR = {"outer_pit": 3.0, "inner_pit": 3.0, "broken_tooth": 1.5, "imbalance": 
 intervals reach a factor of three; a tooth's and an unbalance's do not."""
 EXPLAINED = {name: case for name, case in CASES.items() if case.effects}
 SAME_DB = 0.1
+Answered = Callable[[str], tuple[Report, Score]]
 TASKS = (3, -1)
 """Of the atlas: drifted twins of healthy machines, and an effect on healthy machines."""
 
@@ -43,12 +46,29 @@ def atlas(wanted: prebuilt.Wanted, tmp_path_factory: pytest.TempPathFactory) -> 
     return prebuilt.kept(wanted, tmp_path_factory.mktemp("atlas"))
 
 
-def answered(name: str, folder: Path, atlas: prebuilt.Kept) -> tuple[Report, Score]:
+@pytest.fixture(scope="module", autouse=True)
+def moved() -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(made, "accelerations", Moved())
+        yield
+
+
+@pytest.fixture(scope="module")
+def simulated() -> Simulated:
+    return Simulated()
+
+
+@pytest.fixture
+def answered(tmp_path: Path, atlas: prebuilt.Kept, simulated: Simulated) -> Answered:
+    return lambda name: answer(name, tmp_path, atlas, simulated)
+
+
+def answer(name: str, folder: Path, atlas: prebuilt.Kept, simulated: Simulated) -> tuple[Report, Score]:
     """Make the case, read it back as the engine's user would, reconcile, and score by the proof's own rules."""
     case = CASES[name]
     made.make(case, folder / "cases", folder / "truth")
     machine, tests, baselines = read_case(folder / "cases" / case.name)
-    report = reconcile_recordings(machine, tests, baselines, keeper=atlas, nominated=NOMINATED)
+    report = reconcile_recordings(machine, tests, baselines, keeper=atlas, mapper=simulated, nominated=NOMINATED)
     truth = json.loads((folder / "truth" / f"{case.name}.json").read_text(encoding="utf-8"))
     return report, score(truth, json.loads(json.dumps(report.document())))
 
@@ -73,16 +93,16 @@ def test_another_version_of_the_physics_names_the_command(
     assert why is not None and "is 0.0.0" in why and "make proof-atlas" in why
 
 
-def test_nothing_hidden_is_nothing_missing(tmp_path: Path, atlas: prebuilt.Kept) -> None:
-    report, _ = answered("nothing", tmp_path, atlas)
+def test_nothing_hidden_is_nothing_missing(answered: Answered) -> None:
+    report, _ = answered("nothing")
     assert report.verdict == "nothing_missing", report.sentence
     assert report.causes == () and report.machine is None and report.fault is None
 
 
 @pytest.mark.parametrize("name", EXPLAINED)
-def test_a_strong_effect_is_named_with_its_place_and_size(name: str, tmp_path: Path, atlas: prebuilt.Kept) -> None:
+def test_a_strong_effect_is_named_with_its_place_and_size(name: str, answered: Answered) -> None:
     (hidden,) = EXPLAINED[name].effects
-    report, found = answered(name, tmp_path, atlas)
+    report, found = answered(name)
     said = (report.sentence, asdict(found))
     assert report.verdict == "explained", said
     assert found.mechanism and found.place, said
@@ -97,8 +117,8 @@ def test_a_strong_effect_is_named_with_its_place_and_size(name: str, tmp_path: P
     assert (last.term, last.site) == (cause.term, cause.site)
 
 
-def test_gaps_of_one_channel_are_a_fault_of_the_measurement(tmp_path: Path, atlas: prebuilt.Kept) -> None:
-    report, found = answered("dropouts", tmp_path, atlas)
+def test_gaps_of_one_channel_are_a_fault_of_the_measurement(answered: Answered) -> None:
+    report, found = answered("dropouts")
     assert report.verdict == "measurement_fault", report.sentence
     assert found.fault_kind and found.fault_channel, report.fault
     assert report.causes == () and report.machine is None
