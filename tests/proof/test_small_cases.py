@@ -19,8 +19,9 @@ from reconcile.entry import reconcile_recordings
 from reconcile.verdict import Report
 from sim.core.spec import MachineSpec
 from tests.proof import prebuilt
-from tests.proof.remembered import Moved, Simulated
+from tests.proof.remembered import Moved
 from tests.proof.small import CASES, NOMINATED, nominal_machine, read_case
+from tests.reconcile.remembered import Simulated
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("proof-small")]
 FACTOR = {"outer_pit": 3.0, "inner_pit": 3.0, "broken_tooth": 1.5, "imbalance": 1.5}

@@ -15,6 +15,7 @@ from sim.presets import preset
 from sim.solve.api import simulate
 from sim.solve.settings import Settings
 from tests.reconcile.machine.test_reconcile_machine import RATE_HZ, SETTLE_S
+from tests.reconcile.remembered import Simulated
 
 SPEEDS_HZ = (30.0, 39.0)
 SENSORS = ("resonator1.y.acceleration", "resonator2.y.acceleration")
@@ -54,8 +55,8 @@ def measured(machine: MachineSpec, speed_hz: float, seed: int) -> Recording:
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("reconcile-joint")
-def test_a_loose_seat_is_named_and_the_revised_machine_is_the_one_that_fits_with_it() -> None:
+@pytest.mark.xdist_group("reconcile-machine")
+def test_a_loose_seat_is_named_and_the_revised_machine_is_the_one_that_fits_with_it(simulated: Simulated) -> None:
     nominal = preset("paper-lightly-damped")
     numbers = uncertain_numbers(nominal)
     base = draw_offsets(numbers, np.random.default_rng(91))
@@ -66,6 +67,7 @@ def test_a_loose_seat_is_named_and_the_revised_machine_is_the_one_that_fits_with
         nominal,
         [measured(loose, hz, 610 + k) for k, hz in enumerate(SPEEDS_HZ)],
         [measured(real, hz, 600 + k) for k, hz in enumerate(SPEEDS_HZ)],
+        mapper=simulated,
         nominated=NOMINATED,
     )
     assert report.verdict == "explained", report.sentence

@@ -22,6 +22,7 @@ from sim.presets import preset
 from sim.solve.api import simulate
 from sim.solve.settings import Settings
 from store.atlas import AtlasFolder
+from tests.reconcile.remembered import Simulated
 
 RATE_HZ = 20480.0
 SETTLE_S = 0.3
@@ -81,7 +82,9 @@ def baseline(real: MachineSpec) -> Recording:
 
 @pytest.mark.slow
 @pytest.mark.xdist_group("reconcile-machine")
-def test_a_hidden_spall_is_found(real: MachineSpec, baseline: Recording, atlas: AtlasFolder) -> None:
+def test_a_hidden_spall_is_found(
+    real: MachineSpec, baseline: Recording, atlas: AtlasFolder, simulated: Simulated
+) -> None:
     known = uncertain_numbers(real)
     later = draw_offsets(known, np.random.default_rng(78))
     drifted = moved(real, known, type(later)(values=DRIFT * later.values))
@@ -93,6 +96,7 @@ def test_a_hidden_spall_is_found(real: MachineSpec, baseline: Recording, atlas: 
         [test],
         [baseline],
         keeper=atlas,
+        mapper=simulated,
         nominated=NOMINATED,
         progress=lambda share, _stage: heard.append(share),
     )
@@ -148,9 +152,9 @@ def simulated_as_drawn(machine: MachineSpec, report: Report) -> None:
 
 @pytest.mark.slow
 @pytest.mark.xdist_group("reconcile-machine")
-def test_the_same_machine_again_misses_nothing(baseline: Recording, atlas: AtlasFolder) -> None:
+def test_the_same_machine_again_misses_nothing(baseline: Recording, atlas: AtlasFolder, simulated: Simulated) -> None:
     nominal = preset("paper-lightly-damped")
-    report = reconcile_recordings(nominal, [baseline], [baseline], keeper=atlas, nominated=NOMINATED)
+    report = reconcile_recordings(nominal, [baseline], [baseline], keeper=atlas, mapper=simulated, nominated=NOMINATED)
     assert report.verdict == "nothing_missing", report.sentence
     told = {(f.term, f.site): f for f in report.faintest}
     assert set(told) == {(c.term, c.site) for c in NOMINATED}
