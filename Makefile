@@ -56,7 +56,7 @@ fast: dev  ## the loop while working: without the slow tests (half a minute on t
 	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 2 -m "not slow"
 
 test: dev browser setup lint  ## lint and every test; what CI runs
-	$(BIN)/python -m pytest -q -n 3 --dist loadgroup  # on two cores: many tests wait for servers and workers
+	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 3 --dist loadgroup  # on two cores: many tests wait for servers and workers
 
 bench: dev setup  ## speed and accuracy; ends with one line of JSON
 	$(BIN)/python -m bench
