@@ -27,6 +27,8 @@ class Simulated:
 
 
 def _named(task: Task) -> str:
-    members = [task.plan.member(task.plan.draws[k], task.point) for k in task.draws]
-    document = [[m.seed, m.machine.model_dump_json()] for m in members]
-    return json.dumps([document, task.point.speed_hz, task.point.torque_ratio, *task.channels])
+    draws = [task.plan.draws[k] for k in task.draws]
+    members = [task.plan.member(draw, task.point) for draw in draws]
+    document = [[m.seed, m.machine.model_dump_json(), len(d.beside)] for m, d in zip(members, draws, strict=True)]
+    watched = task.plan.machine.model_dump_json()
+    return json.dumps([document, watched, task.point.speed_hz, task.point.torque_ratio, *task.channels])
