@@ -24,7 +24,7 @@ from jobs.datasets.settle import settle
 from jobs.datasets.words import DATASET, SHARD
 from jobs.parts import Part
 from jobs.physics import PhysicsEngine
-from jobs.ports import Ticket
+from jobs.ports import Lane, Ticket
 from jobs.record import Cost, JobRecord, Progress
 from sideband_datasets.folder.layout import DATA, STATE
 from sideband_datasets.folder.shards import make_shard
@@ -111,7 +111,7 @@ def _queue() -> Iterator[RqQueue]:
 
 def _broker() -> Iterator[tuple[str, float]]:
     with _queue() as queue:
-        tickets = [Ticket(job_id=f"s{k}", attempt=1, timeout_s=60, bulk=True) for k in range(TICKETS)]
+        tickets = [Ticket(job_id=f"s{k}", attempt=1, timeout_s=60, lane=Lane.BULK) for k in range(TICKETS)]
         given, asked = iter(tickets), iter(tickets)
         yield "broker: hand over a ticket", _ms(lambda: queue.submit(next(given)), TICKETS)
         yield "broker: ask for a ticket", _ms(lambda: queue.holds(next(asked)), TICKETS)

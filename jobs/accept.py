@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 from jobs import transitions
 from jobs.budget import Budget
-from jobs.datasets.words import SHARD
 from jobs.errors import BrokerAway, IdempotencyConflict, QueueFull, StoreFull, UnknownJob
 from jobs.identity import digest, job_id
+from jobs.kinds import lane_of
 from jobs.limits import Limits
 from jobs.ports import ArtefactStore, Clock, Engine, JobCatalogue, Queue, Ticket
 from jobs.record import JobRecord
@@ -96,9 +96,8 @@ def hand_over(desk: Desk, record: JobRecord) -> JobRecord:
 
 def ticket_of(record: JobRecord, limits: Limits) -> Ticket:
     """The broker's ticket. The time allowed is the server's bound: an estimate must not kill a slow machine's job."""
-    return Ticket(
-        job_id=record.id, attempt=record.attempt, timeout_s=int(limits.seconds * 2) + 60, bulk=record.kind == SHARD
-    )
+    timeout_s = int(limits.seconds * 2) + 60
+    return Ticket(job_id=record.id, attempt=record.attempt, timeout_s=timeout_s, lane=lane_of(record.kind))
 
 
 def replayed(desk: Desk, scope: str, key: str, body: str) -> Acceptance | None:

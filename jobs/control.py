@@ -7,10 +7,12 @@ import logging
 from dataclasses import dataclass
 
 from jobs import transitions
+from jobs.atlas.family import refuse_inner
 from jobs.datasets import family
 from jobs.datasets.settle import settle
-from jobs.datasets.words import DATASET, SHARD
+from jobs.datasets.words import DATASET
 from jobs.errors import BrokerAway, IllegalTransition
+from jobs.kinds import TICKETLESS, lane_of
 from jobs.parts import Transition
 from jobs.ports import ArtefactStore, Clock, JobCatalogue, Queue, Ticket
 from jobs.record import JobRecord
@@ -35,7 +37,7 @@ def cancel(catalogue: JobCatalogue, queue: Queue, clock: Clock, job_id: str, cal
     """
     now = clock()
     record = catalogue.get(job_id)
-    family.refuse_part(record, catalogue.parts.parent_of(job_id))
+    _refuse_inner(catalogue, record)
     if record.kind == DATASET:
         return _cancel_dataset(catalogue, queue, clock, job_id, caller)
     record = catalogue.change(job_id, lambda r: transitions.withdraw(r, leaving(r, caller), now))
@@ -54,8 +56,14 @@ def _cancel_dataset(catalogue: JobCatalogue, queue: Queue, clock: Clock, job_id:
     settle(catalogue, clock, job_id)
     with contextlib.suppress(BrokerAway):
         for part in waiting:
-            queue.withdraw(Ticket(job_id=part.id, attempt=part.attempt, timeout_s=0, bulk=part.kind == SHARD))
+            queue.withdraw(Ticket(job_id=part.id, attempt=part.attempt, timeout_s=0, lane=lane_of(part.kind)))
     return catalogue.get(job_id)
+
+
+def _refuse_inner(catalogue: JobCatalogue, record: JobRecord) -> None:
+    """Raise IllegalTransition for what another job decides over."""
+    family.refuse_part(record, catalogue.parts.parent_of(record.id))
+    refuse_inner(record)
 
 
 def leaving(record: JobRecord, caller: Caller) -> frozenset[str]:
@@ -74,7 +82,7 @@ def leaving(record: JobRecord, caller: Caller) -> frozenset[str]:
 def delete(catalogue: JobCatalogue, artefacts: ArtefactStore, clock: Clock, job_id: str) -> JobRecord:
     """Forget a finished job and remove its result."""
     now = clock()
-    family.refuse_part(catalogue.get(job_id), catalogue.parts.parent_of(job_id))
+    _refuse_inner(catalogue, catalogue.get(job_id))
     record = catalogue.change(job_id, lambda r: transitions.delete(r, now))
     _forget_parts(catalogue, artefacts, record, lambda r: transitions.delete(r, now))
     artefacts.delete_prefix(f"{job_id}/")
@@ -82,8 +90,8 @@ def delete(catalogue: JobCatalogue, artefacts: ArtefactStore, clock: Clock, job_
 
 
 def _forget_parts(catalogue: JobCatalogue, artefacts: ArtefactStore, record: JobRecord, forget: Transition) -> None:
-    """What a dataset's parts left goes with it; one that still runs ends by itself and expires."""
-    if record.kind != DATASET:
+    """What a job's parts left goes with it; one that still runs ends by itself and expires."""
+    if record.kind not in TICKETLESS:
         return
     catalogue.parts.change(record.id, lambda r: r if r.status.active or r.gone is not None else forget(r))
     for part in catalogue.parts.of(record.id):

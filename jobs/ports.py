@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
+from enum import Enum
 from typing import BinaryIO, Protocol
 
 from jobs.documents import ResultDocuments
@@ -92,6 +93,17 @@ class Analyser(Protocol):
         """Analyse a response."""
 
 
+class Lane(Enum):
+    """Where tickets wait: a lane is drawn from when those before it are empty."""
+
+    WHOLE = ""
+    """A job of its own."""
+    HELP = "help"
+    """Part of a job that runs, whose worker goes on with it alone if nobody comes."""
+    BULK = "bulk"
+    """Part of something large."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Ticket:
     """What the broker carries: which job, which attempt, how long it may take. Never the request itself."""
@@ -99,8 +111,7 @@ class Ticket:
     job_id: str
     attempt: int
     timeout_s: int
-    bulk: bool = False
-    """Part of something large: drawn only where nothing else waits."""
+    lane: Lane = Lane.WHOLE
 
 
 class Queue(Protocol):

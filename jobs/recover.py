@@ -8,12 +8,13 @@ from dataclasses import dataclass
 
 from jobs import transitions
 from jobs.accept import Desk, hand_over, ticket_of
+from jobs.atlas.settle import settle_rounds
 from jobs.control import expire_results
 from jobs.datasets.settle import settle_all
-from jobs.datasets.words import SHARD
 from jobs.errors import BrokerAway, IllegalTransition
+from jobs.kinds import lane_of
 from jobs.parts import Transition
-from jobs.ports import Clock, JobCatalogue
+from jobs.ports import Clock, JobCatalogue, Lane
 from jobs.record import Failure, JobRecord
 
 log = logging.getLogger(__name__)
@@ -66,6 +67,7 @@ def tick(desk: Desk, *, max_losses: int) -> Recovered:
     reclaimed = reclaim(desk.catalogue, desk.clock, max_losses=max_losses)
     expired = expire_results(desk.catalogue, desk.artefacts, desk.clock)
     settle_all(desk.catalogue, desk.clock)
+    settle_rounds(desk.catalogue, desk.artefacts, desk.clock)
     try:
         desk.queue.ping()
         refilled = refill(desk)
@@ -77,11 +79,11 @@ def tick(desk: Desk, *, max_losses: int) -> Recovered:
 
 
 def due(desk: Desk) -> list[JobRecord]:
-    """What the broker should be given now: parts of large jobs only as many as keep its queue within a batch."""
+    """What the broker should be given now: parts of other jobs only as many as keep its queue within a batch."""
     found = desk.catalogue.outbox(desk.clock(), BATCH)
     room = max(0, BATCH - desk.queue.length())
-    bulk = [record for record in found if record.kind == SHARD]
-    return [record for record in found if record.kind != SHARD] + bulk[:room]
+    waits = [record for record in found if lane_of(record.kind) is not Lane.WHOLE]
+    return [record for record in found if lane_of(record.kind) is Lane.WHOLE] + waits[:room]
 
 
 def refill(desk: Desk) -> int:

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import logging
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from jobs import transitions
-from jobs.accept import KIND
+from jobs.accept import KIND, Desk
+from jobs.atlas.lead import Lead
+from jobs.atlas.piece import make_piece
+from jobs.atlas.words import PIECE
 from jobs.carry_out import carry_out, completed
 from jobs.datasets.assemble import assemble_dataset
 from jobs.datasets.shard import make_part
 from jobs.datasets.words import ASSEMBLY, SHARD
 from jobs.errors import DatasetRefused, NotReconcilable, RecordingRefused, StaleAttempt, StoreAway, StoreFull
-from jobs.ports import Analyser, ArtefactStore, Clock, Engine, JobCatalogue
+from jobs.kinds import lane_of
+from jobs.ports import Analyser, ArtefactStore, Clock, Engine, JobCatalogue, Lane
 from jobs.reconciliations.carry_out import reconcile_stored
 from jobs.reconciliations.words import RECONCILIATION
 from jobs.record import Failure, JobRecord, ResultRef
@@ -46,6 +51,8 @@ class Bench:
     timeouts: tuple[type[BaseException], ...] = ()
     keeper: Keeper = field(default_factory=Forgetful)
     """Where the atlases of reconciliations are kept between jobs."""
+    desk: Desk | None = None
+    """For giving parts of a reconciliation to other workers; without it a worker carries it out alone."""
 
     def expires_at(self) -> float | None:
         """When a result that is stored now is not kept any longer."""
@@ -80,7 +87,7 @@ def _work(bench: Bench, record: JobRecord) -> JobRecord:
         job_id=job_id,
         attempt=attempt,
         lease_s=bench.lease_s,
-        seldom=record.kind == SHARD,
+        seldom=lane_of(record.kind) is not Lane.WHOLE,
     )
     now = bench.clock
     try:
@@ -133,6 +140,17 @@ def _recorded(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> Re
 
 
 def _reconciled(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> ResultRef:
+    worker = bench.catalogue.get(job_id).worker
+    lead = None
+    if bench.desk is not None and worker is not None:
+        lead = Lead(
+            desk=bench.desk,
+            reconciliation=job_id,
+            worker=worker,
+            lease_s=bench.lease_s,
+            max_losses=bench.max_losses,
+            wait=time.sleep,
+        )
     return reconcile_stored(
         bench.catalogue,
         bench.artefacts,
@@ -142,6 +160,19 @@ def _reconciled(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> 
         prefix=f"{job_id}/{attempt}",
         attempt=attempt,
         expires_at=bench.expires_at,
+        lead=lead,
+    )
+
+
+def _pieced(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> ResultRef:
+    return make_piece(
+        bench.catalogue,
+        bench.artefacts,
+        reporter,
+        bench.catalogue.request_of(job_id),
+        prefix=f"{job_id}/{attempt}",
+        attempt=attempt,
+        now=bench.clock,
     )
 
 
@@ -172,6 +203,7 @@ _KINDS: Mapping[str, Callable[[Bench, Reporter, str, int], ResultRef]] = {
     KIND: _simulated,
     RECORDING: _recorded,
     RECONCILIATION: _reconciled,
+    PIECE: _pieced,
     SHARD: _sharded,
     ASSEMBLY: _assembled,
 }

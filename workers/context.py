@@ -41,6 +41,7 @@ class Context:
             keep_s=self.settings.keep_s,
             timeouts=(JobTimeoutException,),
             keeper=AtlasFolder(self.store_settings.atlas_folder),
+            desk=self.desk(),
         )
 
     def desk(self) -> Desk:

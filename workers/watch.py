@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import os
 import socket
@@ -9,7 +10,9 @@ import time
 from enum import Enum
 
 from jobs import recover, transitions
+from jobs.atlas.words import PIECE
 from jobs.errors import JobError, StaleAttempt, StoreAway
+from jobs.reconciliations.words import RECONCILIATION
 from jobs.record import Failure, JobRecord
 from jobs.status import Status
 from store.catalogue import workers as registry
@@ -38,12 +41,12 @@ class JobWatch:
         self._started_at = time.time()
         self._job: tuple[str, int] | None = None
         self._handing_back = False
-        self._renewed = self._reported = 0.0
+        self._renewed = self._reported = self._began_at = 0.0
 
     def begin(self, job_id: str, attempt: int) -> None:
         """A child started on this attempt."""
         self._job, self._handing_back = (job_id, attempt), False
-        self._renewed = time.monotonic()
+        self._renewed, self._began_at = time.monotonic(), time.time()
         self.report("busy", force=True)
 
     def look(self, *, leaving: bool) -> Verdict:
@@ -73,11 +76,26 @@ class JobWatch:
             return Verdict.CANCELLED if over else Verdict.GO_ON
         if time.monotonic() - self._renewed >= self._context.settings.renew_s:
             self._renewed = time.monotonic()
-            lease = self._context.settings.lease_s
-            self._catalogue.change(
-                job_id, lambda r: transitions.renew(r, attempt=attempt, lease_s=lease, now=time.time())
-            )
+            self._renew(record)
+            if record.kind == RECONCILIATION:
+                for piece in self._pieces():
+                    with contextlib.suppress(StaleAttempt):
+                        self._renew(piece)
         return Verdict.GO_ON
+
+    def _renew(self, held: JobRecord) -> None:
+        lease = self._context.settings.lease_s
+        self._catalogue.change(
+            held.id, lambda r: transitions.renew(r, attempt=held.attempt, lease_s=lease, now=time.time())
+        )
+
+    def _pieces(self) -> list[JobRecord]:
+        """What the child took beside its job: pieces of an atlas that it leads."""
+        return [
+            held
+            for held in self._catalogue.running_on(self._context.name)
+            if held.kind == PIECE and (held.started_at or 0.0) >= self._began_at
+        ]
 
     def ended(self, status: int | None) -> None:
         """The child is gone. If the catalogue still says running, it died without a word."""
@@ -86,12 +104,15 @@ class JobWatch:
         self.report("idle", force=True)
         try:
             record = self._catalogue.get(job_id)
+            left = {piece.id: piece for piece in self._pieces()}
             if record.attempt == attempt and record.status is Status.RUNNING:
                 if self._mine(record):
-                    self._settle(record, status)
+                    left[record.id] = record
             elif record.attempt == attempt and record.status is Status.ACCEPTED and status != os.EX_OK:
                 # It died before it took the job: back to the outbox, handed over again by the next recovery.
                 self._catalogue.change(job_id, lambda r: transitions.refill(r, time.time()))
+            if left:
+                self._settle(list(left.values()), status)
         except JobError as error:
             log.warning("job %s is left to its lease: %s", job_id, error)
 
@@ -99,13 +120,13 @@ class JobWatch:
         """Whether this worker's child took the job; another one has it when a ticket was delivered twice."""
         return record.worker == self._context.name
 
-    def _settle(self, record: JobRecord, status: int | None) -> None:
-        if self._handing_back:
-            recover.hand_back(self._catalogue, time.time, record)
-        else:
-            recover.give_up(
-                self._catalogue, time.time, record, death(status), max_losses=self._context.settings.max_losses
-            )
+    def _settle(self, left: list[JobRecord], status: int | None) -> None:
+        losses = self._context.settings.max_losses
+        for record in left:
+            if self._handing_back:
+                recover.hand_back(self._catalogue, time.time, record)
+            else:
+                recover.give_up(self._catalogue, time.time, record, death(status), max_losses=losses)
         self.recover()
 
     def recover(self) -> None:

@@ -13,8 +13,8 @@ from app.routes.simulations import SubmitterName, named
 from app.schemas import JobPage, JobView, Reply, job_view
 from app.state import Principal, State
 from jobs.control import Caller, cancel, delete
-from jobs.datasets.words import PARTS
 from jobs.errors import JobGone
+from jobs.kinds import INNER
 from jobs.ports import JobQuery
 from jobs.recordings.words import RECORDING
 from jobs.status import Status
@@ -53,7 +53,7 @@ def list_jobs(
         statuses=tuple(status or ()),
         preset=preset,
         kind=kind,
-        other_than=(RECORDING, *PARTS) if kind is None else (),
+        other_than=(RECORDING, *INNER) if kind is None else (),
         sort=field,
         descending=sort.startswith("-"),
         limit=limit,

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any
 
+from jobs.atlas.lead import Lead
 from jobs.errors import NotReconcilable
 from jobs.ports import ArtefactStore, JobCatalogue
 from jobs.reconciliations.chosen import choose
@@ -13,11 +15,11 @@ from jobs.reconciliations.words import MACHINE, PAGE, REPORT
 from jobs.record import ResultRef
 from jobs.reporter import Reporter
 from jobs.results import Manifest, json_bytes, put_file
-from reconcile.atlas.bank import Task
+from reconcile.atlas.bank import Task, run_task
 from reconcile.atlas.keep import Keeper
 from reconcile.entry import reconcile_recordings
 from reconcile.machine.budget import BUDGETS
-from reconcile.observe.statistics import Statistics
+from reconcile.machine.meter import Timed
 from reconcile.report import page, strict_json
 from reconcile.verdict import Report
 from sim.core.errors import Cancelled, SpecError
@@ -32,8 +34,8 @@ ATLAS_END, ATLAS_SPAN, REFINED_SPAN = 0.6, 0.5, 0.05
 class Watched:
     """Hears the engine's stages, and stands between its simulations to ask whether the work is still wanted."""
 
-    def __init__(self, reporter: Reporter, points: int) -> None:
-        self._reporter, self._points = reporter, max(points, 1)
+    def __init__(self, reporter: Reporter, points: int, lead: Lead | None = None) -> None:
+        self._reporter, self._points, self._lead = reporter, max(points, 1), lead
         self._share, self._stage = 0.0, ""
 
     def stage(self, share: float, stage: str) -> None:
@@ -41,18 +43,26 @@ class Watched:
         self._share, self._stage = share, stage
         self._tell(share, stage)
 
-    def map(
-        self, run: Callable[[Task], list[Statistics | None]], tasks: Iterable[Task]
-    ) -> Iterator[list[Statistics | None]]:
-        """`map` that tells how far it is and ends with Cancelled between two tasks."""
+    def map(self, run: Callable[[Task], Any], tasks: Iterable[Task]) -> Iterator[Any]:
+        """`map` that tells how far it is and ends with Cancelled between two tasks; with a lead other workers help."""
         todo = list(tasks)
-        span = ATLAS_SPAN / self._points if self._share < ATLAS_END else REFINED_SPAN
+        metered = isinstance(run, Timed) and run.work is run_task
+        if metered and self._lead is not None and todo:
+            shared = self._lead.shared(todo, lambda done: self._heard(done, len(todo)))
+            if shared is not None:
+                yield from shared
+                return
         for done, task in enumerate(todo):
-            if self._reporter.cancelled():
-                self._reporter.raise_if_stale()
-                raise Cancelled("cancelled")
-            self._tell(self._share + span * done / len(todo), f"{self._stage}, part {done + 1} of {len(todo)}")
-            yield run(task)
+            self._heard(done, len(todo))
+            yield run.here(task) if isinstance(run, Timed) else run(task)
+
+    def _heard(self, done: int, total: int) -> None:
+        if self._reporter.cancelled():
+            self._reporter.raise_if_stale()
+            raise Cancelled("cancelled")
+        span = ATLAS_SPAN / self._points if self._share < ATLAS_END else REFINED_SPAN
+        part = min(done + 1, total)
+        self._tell(self._share + span * done / total, f"{self._stage}, part {part} of {total}")
 
     def _tell(self, share: float, stage: str) -> None:
         self._reporter.stage(stage, LOADED + (STORING - LOADED) * share)
@@ -68,6 +78,7 @@ def reconcile_stored(
     prefix: str,
     attempt: int,
     expires_at: Callable[[], float | None],
+    lead: Lead | None = None,
 ) -> ResultRef:
     """Carry out the stored request; NotReconcilable says which field or recording stands in the way."""
     reporter.stage("loading recordings", 0.0)
@@ -75,7 +86,7 @@ def reconcile_stored(
     try:
         known = restored_known(document["machine"])
         tests, baselines = choose(catalogue, artefacts, request.recordings, request.baselines).loaded()
-        watched = Watched(reporter, len({r.operating for r in tests}))
+        watched = Watched(reporter, len({r.operating for r in tests}), lead)
         report = reconcile_recordings(
             known,
             tests,

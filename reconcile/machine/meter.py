@@ -24,6 +24,10 @@ class Timed:
         found = self.work(task)
         return time.process_time() - started, found
 
+    def here(self, task: Task) -> tuple[float, list[Statistics | None]]:
+        """The same in this process, whose own clock counts the seconds: none elsewhere."""
+        return 0.0, self.work(task)
+
 
 @dataclass
 class Meter:

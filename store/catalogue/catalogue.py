@@ -9,9 +9,9 @@ from typing import Any
 from sqlalchemy import ColumnElement, Connection, Engine, Select, func, insert, select, tuple_, update
 from sqlalchemy.exc import IntegrityError
 
-from jobs.datasets.words import PARTS
 from jobs.errors import UnknownJob
 from jobs.identity import canonical_json
+from jobs.kinds import INNER
 from jobs.parts import Transition
 from jobs.ports import JobQuery, Remembered
 from jobs.record import JobEvent, JobRecord
@@ -156,7 +156,7 @@ class SqlCatalogue:
 
     def waiting(self) -> int:
         """Number of accepted jobs; what waits as part of another is not counted."""
-        whole = schema.jobs.c.kind.not_in(PARTS)
+        whole = schema.jobs.c.kind.not_in(INNER)
         statement = select(func.count()).select_from(schema.jobs).where(_ACCEPTED, whole)
         with translated(), self._reading.connect() as connection:
             return int(connection.execute(statement).scalar_one())

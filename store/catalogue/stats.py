@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from sqlalchemy import Engine, func, select
 
-from jobs.datasets.words import DATASET, PARTS
+from jobs.kinds import INNER, TICKETLESS
 from jobs.status import Status
 from store.catalogue import schema
 from store.catalogue.engine import translated
@@ -35,7 +35,7 @@ def job_stats(engine: Engine, now: float) -> JobStats:
     recent = table.finished_at >= now - 3600
     count = func.count()
     with translated(), engine.execution_options(read_only=True).connect() as connection:
-        whole = table.kind.not_in(PARTS)
+        whole = table.kind.not_in(INNER)
         present = select(table.status, count).where(table.gone.is_(None), whole)
         statuses = connection.execute(present.group_by(table.status))
         by_status = {status.value: 0 for status in Status} | {str(name): int(n) for name, n in statuses}
@@ -43,7 +43,7 @@ def job_stats(engine: Engine, now: float) -> JobStats:
         outbox = connection.execute(
             select(count)
             .select_from(schema.jobs)
-            .where(waits, table.enqueued_at.is_(None), whole, table.kind != DATASET)
+            .where(waits, table.enqueued_at.is_(None), whole, table.kind.not_in(TICKETLESS))
         ).scalar_one()
         minute = connection.execute(
             select(count).select_from(schema.jobs).where(done, table.finished_at >= now - 60)

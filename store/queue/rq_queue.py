@@ -21,7 +21,7 @@ from rq.job import Job, JobStatus
 from rq.serializers import JSONSerializer
 
 from jobs.errors import BrokerAway
-from jobs.ports import Ticket
+from jobs.ports import Lane, Ticket
 
 QUEUE_NAME = "sideband"
 ENTRY_POINT = "workers.entry.run_job"
@@ -47,8 +47,10 @@ class RqQueue:
 
     def __init__(self, connection: Redis, name: str = QUEUE_NAME) -> None:
         self._connection = connection
-        self._queue = Queue(name, connection=connection, serializer=JSONSerializer)
-        self._bulk = Queue(f"{name}-bulk", connection=connection, serializer=JSONSerializer)
+        self._lanes = {
+            lane: Queue(f"{name}-{lane.value}".rstrip("-"), connection=connection, serializer=JSONSerializer)
+            for lane in Lane
+        }
 
     @property
     def connection(self) -> Redis:
@@ -57,11 +59,11 @@ class RqQueue:
 
     @property
     def queues(self) -> list[Queue]:
-        """The queues as workers listen to them: the second is drawn from when the first is empty."""
-        return [self._queue, self._bulk]
+        """The queues as workers listen to them: each is drawn from when those before it are empty."""
+        return list(self._lanes.values())
 
     def _lane(self, ticket: Ticket) -> Queue:
-        return self._bulk if ticket.bulk else self._queue
+        return self._lanes[ticket.lane]
 
     def ping(self) -> None:
         """Raise BrokerAway unless the server answers and can write."""

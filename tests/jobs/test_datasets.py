@@ -17,7 +17,7 @@ from jobs.datasets.settle import settle
 from jobs.datasets.words import ASSEMBLY, DATASET, SHARD
 from jobs.errors import BrokerAway, IllegalTransition, QueueFull
 from jobs.limits import Limits
-from jobs.ports import Ticket
+from jobs.ports import Lane, Ticket
 from jobs.record import Failure, JobRecord, Progress, ResultRef
 from jobs.status import Status
 from sim.core.errors import SpecError
@@ -131,7 +131,7 @@ def test_accepted_with_all_its_parts_of_which_only_shards_are_due(house: House) 
     dataset = house.ask()
     assert (dataset.kind, dataset.status, dataset.source["shards"]) == (DATASET, Status.ACCEPTED, SHARDS)
     assert [ticket.job_id for ticket in house.queue.held] == [part.id for part in house.parts(dataset)]
-    assert all(ticket.bulk for ticket in house.queue.held)
+    assert all(ticket.lane is Lane.BULK for ticket in house.queue.held)
     recover.tick(house.desk, max_losses=2)
     assert len(house.queue.held) == SHARDS, "the dataset and its assembly are not for workers yet"
     assert house.catalogue.waiting() == 1

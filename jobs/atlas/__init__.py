@@ -1,0 +1,1 @@
+"""The simulations of a reconciliation, shared with whichever workers are idle."""
