@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import logging
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -17,7 +18,7 @@ from jobs.atlas.pieces import Pieces
 from jobs.atlas.settle import finish, leave
 from jobs.atlas.words import METHOD_VERSION, PIECE, ROUND
 from jobs.errors import JobError, StaleAttempt
-from jobs.identity import canonical_json, job_id
+from jobs.identity import job_id
 from jobs.parts import Part
 from jobs.record import Cost
 from jobs.results import put_file
@@ -81,7 +82,7 @@ class Lead:
         if len(stretches) < LEAST_PIECES:
             return None
         document = round_document(tasks)
-        text = canonical_json(document).encode()
+        text = json.dumps(document, allow_nan=False, separators=(",", ":")).encode()  # parameters keep their order
         needed = len(text) + RESERVED_BYTES + MOST_FOUND_BYTES * sum(len(task.draws) for task in tasks)
         free = self.desk.artefacts.free_bytes()
         if len(text) > MOST_DOCUMENT_BYTES or (free is not None and free < needed):

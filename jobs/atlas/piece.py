@@ -10,7 +10,7 @@ from typing import Any, cast
 from jobs.atlas.document import from_bytes, restored_tasks, to_bytes
 from jobs.atlas.words import KEPT_S
 from jobs.datasets.shard import check_versions, json_loaded
-from jobs.errors import StoreAway
+from jobs.errors import UnknownArtefact
 from jobs.ports import ArtefactStore, JobCatalogue
 from jobs.record import JobRecord, ResultRef
 from jobs.reporter import Reporter
@@ -75,12 +75,12 @@ def keep_piece(
 
 
 def read_piece(artefacts: ArtefactStore, piece: JobRecord, tasks: Sequence[Task]) -> Iterator[tuple[float, Found]]:
-    """What was kept, by task; the seconds stand at the first. StoreAway when these are not the bytes that were kept."""
+    """What was kept, by task; the seconds stand at the first. UnknownArtefact when it is not there as it was kept."""
     result = cast(ResultRef, piece.result)
     prefix = f"{piece.id}/{result.attempt}"
     data = artefacts.read(f"{prefix}/{FOUND}")
     if hashlib.sha256(data).hexdigest() != result.sha256:
-        raise StoreAway(f"{prefix}/{FOUND} is not what was kept")
+        raise UnknownArtefact("file", f"{prefix}/{FOUND}", ("other bytes than were kept",))
     seconds = float(json_loaded(artefacts, f"{prefix}/{COST}")["core_seconds"])
     draws = iter(from_bytes(data))
     for task in tasks:

@@ -12,7 +12,7 @@ from typing import cast
 from jobs import transitions
 from jobs.accept import Desk, hand_over, ticket_of
 from jobs.atlas.piece import Found, keep_piece, read_piece, timed
-from jobs.errors import BrokerAway, JobError, StaleAttempt, StoreAway
+from jobs.errors import BrokerAway, JobError, StaleAttempt, StoreAway, UnknownArtefact
 from jobs.record import JobRecord
 from jobs.recover import reclaim
 from jobs.status import Status
@@ -24,8 +24,8 @@ WITH_BROKER = 32
 """Pieces handed to the broker ahead; the rest follows as they are taken."""
 BROKER_AGAIN_S = 10.0
 """Wait before a broker that did not answer is asked again."""
-PATIENCE_S, PATIENCE = 30.0, 4.0
-"""A piece that another worker has had for so long, and for so many times what any took, is made here too."""
+LEASES, PATIENCE = 2.0, 4.0
+"""A piece that another worker has had for so many leases, and so many times what it should take, is made here too."""
 
 Heard = Callable[[int], None]
 Stretch = tuple[int, int]
@@ -63,24 +63,32 @@ class Pieces:
     def step(self, heard: Heard) -> bool:
         """Fetch what others made and make one piece here; False when all that is missing is being made elsewhere."""
         try:
-            fetched, missing = self._fetched()
-            self._give_out(missing)
-            mine = self._claimed(missing)
+            return self._step(heard)
         except StoreAway as error:
             log.warning("the next tasks are made here alone: %s", error)
-            first = next(k for k in range(len(self.tasks)) if k not in self._found)
-            self._make((first, first + 1), heard)
+            self._make_first(heard)
             return True
+
+    def _step(self, heard: Heard) -> bool:
+        fetched, missing = self._fetched()
+        self._give_out(missing)
+        mine = self._claimed(missing)
         if mine is not None:
             self._make_kept(mine, heard)
             return True
-        alone = next((piece for piece in missing if self._nobody_makes(piece, missing)), None)
+        if fetched or reclaim(self.desk.catalogue, self.desk.clock, max_losses=self.max_losses):
+            return True
+        alone = next((piece for piece in missing if self._nobody_makes(piece)), None)
         if alone is not None:
             self._make(stretch_of(alone), heard)
-            return True
-        return bool(fetched) or (
-            bool(missing) and reclaim(self.desk.catalogue, self.desk.clock, max_losses=self.max_losses) > 0
-        )
+        elif not missing:
+            self._make_first(heard)
+        return alone is not None or not missing
+
+    def _make_first(self, heard: Heard) -> None:
+        """One task that is missing, whatever became of its piece."""
+        first = next(k for k in range(len(self.tasks)) if k not in self._found)
+        self._make((first, first + 1), heard)
 
     def _fetched(self) -> tuple[int, list[JobRecord]]:
         """How many pieces came from others, and those that are missing still."""
@@ -89,10 +97,11 @@ class Pieces:
             first, last = stretch_of(piece)
             if all(k in self._found for k in range(first, last)):
                 continue
-            if piece.status is not Status.SUCCESSFUL or piece.gone is not None or not self._read(piece):
-                missing.append(piece)
-            else:
+            there = piece.status is Status.SUCCESSFUL and piece.gone is None and piece.id not in self._unreadable
+            if there and self._read(piece):
                 fetched += 1
+            else:
+                missing.append(piece)
         return fetched, missing
 
     def _read(self, piece: JobRecord) -> bool:
@@ -102,6 +111,9 @@ class Pieces:
         except JobError as error:
             log.warning("piece %s is made again here: %s", piece.id, error)
             self._unreadable.add(piece.id)
+            if isinstance(error, UnknownArtefact):
+                now = self.desk.clock()
+                self.desk.catalogue.change(piece.id, lambda r: transitions.delete(r, now))
             return False
         self._found |= dict(zip(range(first, last), found, strict=True))
         return True
@@ -135,12 +147,12 @@ class Pieces:
                 return taken
         return None
 
-    def _nobody_makes(self, piece: JobRecord, missing: Sequence[JobRecord]) -> bool:
+    def _nobody_makes(self, piece: JobRecord) -> bool:
         """Failed, stopped, not readable, or with another worker for too long."""
         if piece.status is not Status.RUNNING:
             return piece.status is not Status.ACCEPTED
-        usual = max((p.cost.seconds for p in missing), default=0.0)
-        return self.desk.clock() - (piece.started_at or 0.0) > max(PATIENCE_S, PATIENCE * usual)
+        patience_s = max(LEASES * self.lease_s, PATIENCE * piece.cost.seconds)
+        return self.desk.clock() - (piece.started_at or 0.0) > patience_s
 
     def _make(self, stretch: Stretch, heard: Heard) -> tuple[float, list[Found]]:
         """Here, in this process, whose seconds are counted as its own."""

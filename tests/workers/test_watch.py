@@ -12,8 +12,10 @@ import pytest
 
 from jobs import recover, transitions
 from jobs.accept import Desk, accept
+from jobs.atlas.words import PIECE
 from jobs.limits import Limits
-from jobs.record import JobRecord
+from jobs.reconciliations.words import RECONCILIATION
+from jobs.record import Cost, JobRecord
 from jobs.request import SimulationRequest
 from jobs.status import Status
 from store.artefacts.folder import FolderStore
@@ -134,3 +136,43 @@ def test_a_worker_that_leaves_puts_its_job_back_without_a_loss(desk: Desk) -> No
     assert recover.release_worker(desk.catalogue, time.time, "w1", failure=None, max_losses=0) == 1
     now = desk.catalogue.get(record.id)
     assert (now.status, now.losses, now.attempt) == (Status.ACCEPTED, 0, record.attempt + 1)
+
+
+def leading(desk: Desk, worker: str) -> tuple[JobRecord, JobRecord]:
+    """A reconciliation on a worker, and a piece of an atlas that it took meanwhile."""
+
+    def begun(name: str, kind: str) -> JobRecord:
+        cost = Cost(steps=0, memory_bytes=0, seconds=1.0)
+        record = transitions.new(job_id=name, kind=kind, submitter="me", source={}, cost=cost, now=time.time())
+        desk.catalogue.put(name, {}, lambda: record, lambda present: present)
+        return desk.catalogue.change(
+            name, lambda r: transitions.start(r, attempt=1, worker=worker, lease_s=1.0, now=time.time())
+        )
+
+    return begun("a", RECONCILIATION), begun("b", PIECE)
+
+
+@pytest.mark.parametrize("leaving", [False, True])
+def test_pieces_that_a_leading_child_took_are_kept_alive_and_given_back_with_it(desk: Desk, leaving: bool) -> None:
+    mine = watch(desk, "w1")
+    mine.begin("a", 1)
+    job, piece = leading(desk, "w1")
+    mine._renewed = -100.0
+    assert mine.look(leaving=False) is Verdict.GO_ON
+    leases = [desk.catalogue.get(record.id).lease_until or 0.0 for record in (job, piece)]
+    assert min(leases) > time.time() + 20.0
+    if leaving:
+        assert mine.look(leaving=True) is Verdict.LEAVING
+    mine.ended(9)
+    for record in (job, piece):
+        now = desk.catalogue.get(record.id)
+        assert (now.status, now.attempt, now.losses) == (Status.ACCEPTED, 2, 0 if leaving else 1)
+
+
+def test_a_piece_of_an_earlier_child_is_left_to_its_lease(desk: Desk) -> None:
+    job, piece = leading(desk, "w1")
+    later = watch(desk, "w1")
+    later.begin(job.id, 1)
+    later._renewed = -100.0
+    assert later.look(leaving=False) is Verdict.GO_ON
+    assert desk.catalogue.get(piece.id).lease_until == piece.lease_until
