@@ -1,0 +1,140 @@
+"""An atlas that two real workers make on a real broker: both have their part, the report is that of one alone."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+
+from app.main import create_app
+from jobs.atlas.words import PIECE
+from jobs.physics import PhysicsEngine
+from jobs.ports import JobQuery
+from jobs.record import JobRecord
+from jobs.status import Status
+from signals.encode import encode
+from signals.recording import Operating, Recording
+from sim.core.response import Channel
+from sim.core.spec import TermSpec
+from sim.presets import preset
+from sim.solve.api import simulate
+from store.catalogue import engine
+from store.catalogue.catalogue import SqlCatalogue
+from tests.app.test_reconciliations import send
+from tests.service.parts import QUICK, ROOT, LiveServer, Parts, eventually, open_parts
+
+pytestmark = pytest.mark.slow
+
+WORKER = ROOT / "tests" / "service" / "few.py"
+RATE_HZ = 20_480.0
+
+
+@pytest.fixture
+def service(tmp_path: Path) -> Iterator[Callable[[], Parts]]:
+    opened: list[Parts] = []
+
+    def one_more() -> Parts:
+        opened.append(open_parts(tmp_path / f"service{len(opened)}"))
+        return opened[-1]
+
+    yield one_more
+    for parts in opened:
+        parts.close()
+
+
+@pytest.fixture(scope="module")
+def recordings() -> tuple[Recording, Recording]:
+    """Of a sound rotor and of one with a pit in a bearing, heard there."""
+    return recorded(1), recorded(2, TermSpec(term="outer_spall", site="bearing1"))
+
+
+def recorded(seed: int, *terms: TermSpec) -> Recording:
+    machine = preset("rotor").model_copy(update={"terms": [*preset("rotor").terms, *terms]})
+    name = "bearing1.outer.y.acceleration"
+    run = simulate(machine, duration_s=1.7, output_rate_hz=RATE_HZ, channels=[name], seed=seed)
+    samples = np.asarray(run.signals[:, int(0.5 * RATE_HZ) :])
+    noise = np.random.default_rng(seed).normal(size=samples.shape)
+    assert machine.operating is not None
+    return Recording(
+        sampling_rate_hz=RATE_HZ,
+        channels=(Channel(name="a", quantity="acceleration", unit="m/s^2", location="bearing1", axis="y"),),
+        samples=samples + 0.1 * samples.std() * noise,
+        operating=Operating(shaft=machine.operating.shaft, speed_hz=machine.operating.speed_hz),
+    )
+
+
+def start(parts: Parts, name: str) -> subprocess.Popen[bytes]:
+    env = {**os.environ, **QUICK, "REDIS_URL": parts.url, "SIDEBAND_DATA_DIR": str(parts.folder)}
+    worker = subprocess.Popen(
+        [sys.executable, str(WORKER), "--name", name], env=env, cwd=ROOT, stderr=subprocess.DEVNULL
+    )
+    parts.workers.append(worker)
+    return worker
+
+
+def asked(client: httpx.Client, recordings: tuple[Recording, Recording]) -> str:
+    baseline, test = (send(client, recording) for recording in recordings)
+    body = {"machine": "rotor", "recordings": [test], "baselines": [baseline]}
+    return str(client.post("/v1/reconciliations", json=body).raise_for_status().headers["Location"])
+
+
+def report(client: httpx.Client, address: str) -> dict[str, Any]:
+    """Without what it cost, which no two runs have alike."""
+    eventually(lambda: client.get(address).json()["status"] not in ("accepted", "running"), within_s=240)
+    found: dict[str, Any] = client.get(address).json()
+    assert found["status"] == "successful", found["job"]["failure"]
+    del found["report"]["provenance"]["cost"]
+    whole: dict[str, Any] = found["report"]
+    return whole
+
+
+def app_of(parts: Parts) -> Any:
+    return create_app(parts.settings(), engine=PhysicsEngine(), encode=encode)
+
+
+def pieces(parts: Parts) -> list[JobRecord]:
+    catalogue = SqlCatalogue(engine.connect(parts.stores.catalogue_url))
+    return catalogue.query(JobQuery(kind=PIECE, limit=200))[0]
+
+
+def test_two_workers_make_the_report_of_one(
+    service: Callable[[], Parts], recordings: tuple[Recording, Recording]
+) -> None:
+    both, single = service(), service()
+    for parts, names in ((both, ("w1", "w2")), (single, ("w1",))):
+        for name in names:
+            start(parts, name)
+    with LiveServer(app_of(both)) as client:
+        shared = report(client, asked(client, recordings))
+        listed = client.get("/v1/jobs").json()["jobs"]
+        assert {job["kind"] for job in listed} == {"reconciliation"}, "its parts are nobody else's business"
+    with LiveServer(app_of(single)) as client:
+        assert report(client, asked(client, recordings)) == shared
+    assert {piece.worker for piece in pieces(both)} == {"w1", "w2"}
+    assert {piece.worker for piece in pieces(single)} == {"w1"}
+    assert {piece.status for piece in pieces(both)} == {Status.SUCCESSFUL}
+
+
+def test_a_killed_leader_loses_its_piece_only(
+    service: Callable[[], Parts], recordings: tuple[Recording, Recording]
+) -> None:
+    parts = service()
+    first = start(parts, "w1")
+    with LiveServer(app_of(parts)) as client:
+        address = asked(client, recordings)
+        eventually(lambda: sum(p.status is Status.SUCCESSFUL for p in pieces(parts)) >= 2, within_s=120)
+        first.kill()
+        first.wait()
+        made = {p.id for p in pieces(parts) if p.status is Status.SUCCESSFUL}
+        start(parts, "w2")
+        report(client, address)
+    attempts = {p.id: p.attempt for p in pieces(parts)}
+    assert {attempts[piece_id] for piece_id in made} == {1} and sorted(attempts.values())[-1] <= 2
+    assert sum(attempt > 1 for attempt in attempts.values()) <= 1, "what was finished is used again"
