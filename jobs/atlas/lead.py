@@ -90,6 +90,7 @@ class Lead:
             return None
         round_id = job_id(ROUND, document, METHOD_VERSION)
         put_file(self.desk.artefacts, plan_key(round_id), [text])
+        began = self.desk.clock()
         self._put(round_id, tasks, stretches, seconds)
         return Pieces(
             desk=self.desk,
@@ -98,6 +99,7 @@ class Lead:
             worker=self.worker,
             lease_s=self.lease_s,
             max_losses=self.max_losses,
+            began=began,
         )
 
     def _put(self, round_id: str, tasks: Sequence[Task], stretches: Sequence[tuple[int, int]], seconds: float) -> None:

@@ -41,6 +41,8 @@ class Pieces:
     worker: str
     lease_s: float
     max_losses: int
+    began: float
+    """What was made before costs this reconciliation nothing."""
     _found: dict[int, tuple[float, Found]] = field(default_factory=dict)
     """By task: processor seconds of other workers, and the result."""
     _unreadable: set[str] = field(default_factory=set)
@@ -115,7 +117,9 @@ class Pieces:
                 now = self.desk.clock()
                 self.desk.catalogue.change(piece.id, lambda r: transitions.delete(r, now))
             return False
-        self._found |= dict(zip(range(first, last), found, strict=True))
+        new = (piece.finished_at or 0.0) >= self.began
+        for k, (seconds, one) in zip(range(first, last), found, strict=True):
+            self._found[k] = seconds if new else 0.0, one
         return True
 
     def _give_out(self, missing: Sequence[JobRecord]) -> None:

@@ -67,6 +67,13 @@ def test_others_make_pieces_too(house: House) -> None:
     assert house.makers() == {"w1": len(house.pieces()) - 3, "w2": 3} and house.simulated == DRAWS
 
 
+def test_seconds_are_those_that_others_spent_for_this_run(house: House) -> None:
+    heard = Once(lambda: [house.help_out() for _ in range(3)])
+    shared = house.lead().shared(todo(), heard)
+    assert shared is not None and sum(seconds > 0.0 for seconds, _ in shared) == 3
+    assert [found for seconds, found in house.lead().shared(todo(), heard) or [] if seconds > 0.0] == []
+
+
 def test_a_piece_whose_maker_died_is_made_again(house: House) -> None:
     waits: list[float] = []
 
