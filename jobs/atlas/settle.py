@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
 from collections.abc import Sequence
 
@@ -9,7 +10,7 @@ from jobs import transitions
 from jobs.atlas import family
 from jobs.atlas.words import ROUND
 from jobs.datasets.family import kept, stopped
-from jobs.errors import IllegalTransition, StaleAttempt, UnknownJob
+from jobs.errors import IllegalTransition, StaleAttempt, StoreAway, UnknownJob
 from jobs.ports import ArtefactStore, Clock, JobCatalogue
 from jobs.status import Status
 
@@ -49,7 +50,8 @@ def leave(
         catalogue.parts.change(round_id, lambda r: stopped(r, now))
         if not catalogue.parts.of(round_id, Status.ACCEPTED, Status.RUNNING):
             catalogue.change(round_id, lambda r: transitions.dismiss(r, attempt=record.attempt, now=now))
-            artefacts.delete_prefix(f"{round_id}/")
+            with contextlib.suppress(StoreAway):
+                artefacts.delete_prefix(f"{round_id}/")
     except (IllegalTransition, StaleAttempt) as error:
         log.info("another process settled the round: %s", error)
 
