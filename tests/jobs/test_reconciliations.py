@@ -25,7 +25,6 @@ from jobs.recordings.accept import Upload, accept_recording
 from jobs.results import ResultReader
 from jobs.run import Bench
 from jobs.status import Status
-from reconcile.machine.meter import Meter
 from reconcile.verdict import Report
 from signals.encode import describe, encode
 from signals.recording import Operating, Recording
@@ -274,38 +273,6 @@ def test_progress_goes_through_the_parts_of_an_atlas(world: World, monkeypatch: 
     fractions = [fraction for fraction, _ in told]
     assert fractions == sorted(fractions) and len(set(fractions)) == 8 and fractions[-1] < 0.97
     assert not ResultReader(world.artefacts, f"{record.id}/1").has("machine")
-
-
-class Told:
-    """Stands for a reporter, and for a lead that shares what is more than one task."""
-
-    def __init__(self) -> None:
-        self.shared_tasks: list[object] = []
-
-    def cancelled(self) -> bool:
-        return False
-
-    def stage(self, name: str, fraction: float) -> None:
-        pass
-
-    def shared(self, tasks: list[object], heard: Any) -> list[Any] | None:
-        heard(0)
-        self.shared_tasks += tasks
-        return [(2.5, [None])] * len(tasks) if len(tasks) > 1 else None
-
-
-def test_the_engines_simulations_are_shared_and_seconds_here_are_not_counted_twice(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    told: Any = Told()
-    watched = carry_out.Watched(told, 1, told)
-    monkeypatch.setattr(carry_out, "run_task", lambda task: [None])
-    meter = Meter(watched.map)
-    tasks: Any = ["a", "b"]
-    assert list(meter(carry_out.run_task, tasks)) == [[None], [None]] and meter.elsewhere_s == 5.0
-    assert list(meter(carry_out.run_task, tasks[:1])) == [[None]] and meter.elsewhere_s == 5.0
-    assert list(meter(lambda task: [None, None], tasks)) == [[None, None]] * 2, "other work stays here"
-    assert told.shared_tasks == ["a", "b", "a"] and meter.elsewhere_s == 5.0
 
 
 @pytest.mark.slow
