@@ -17,10 +17,12 @@ from learn.sim2real.ablations import USUAL, smaller
 from learn.sim2real.gear_table import GearExample, gear_heads, gear_table
 from learn.sim2real.report import Results, report
 from learn.sim2real.table import Table, pool_of, table, train
-from learn.simulate.rows import Variant
+from learn.sim2real.training_data import made, recipes
+from sideband_datasets.recipe.bearings import MACHINES
+from sideband_datasets.recipe.read import identity
 from sim.version import PHYSICS_VERSION
 
-SEED, MACHINES, ABLATED, PAIRS = 1, 180, FEWER, 100
+SEED, ABLATED, PAIRS = 1, FEWER, 100
 RIGS = ("cwru", "hit_sm_mfs", "uestc", "ims_healthy", "motor_acoustic", "openei_gear")
 
 
@@ -29,7 +31,15 @@ def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="learn.sim2real", description=__doc__)
     parser.add_argument("--model", type=Path, default=None, help="write the trained model here")
     parser.add_argument("--from-model", type=Path, default=None, help="do not train: test this model")
-    parser.add_argument("--machines", type=int, default=MACHINES, help="simulated machines, about")
+    parser.add_argument(
+        "--dataset",
+        type=Path,
+        action="append",
+        metavar="DIR",
+        help="train the bearings' classifier on this folder (may be given again); none: the ready recipes",
+    )
+    parser.add_argument("--keep", type=Path, metavar="DIR", help="make datasets below this folder, or find them there")
+    parser.add_argument("--machines", type=int, default=MACHINES, help="simulated bearing machines, about")
     parser.add_argument("--pairs", type=int, default=PAIRS, help="simulated gear pairs, about")
     parser.add_argument("--ablated", type=int, default=ABLATED, help="machines of the reduced data sets; 0: none")
     parser.add_argument("--seed", type=int, default=SEED)
@@ -55,8 +65,8 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _trained(given: argparse.Namespace, began: float) -> tuple[Model, str]:
-    found = table(given.machines, given.seed, Variant(), given.processes)
-    _tell(began, f"{len(set(found.machines))} machines simulated, {len(found.labels)} pieces of recordings")
+    found = _bearings(given, began)
+    _tell(began, f"{len(set(found.machines))} machines, {len(found.labels)} pieces of recordings")
     model = train(found, seed=given.seed, made_by={})
     _tell(began, "trained")
     pairs = gear_table(given.pairs, given.seed, given.processes)
@@ -67,9 +77,19 @@ def _trained(given: argparse.Namespace, began: float) -> tuple[Model, str]:
     return Model(heads=heads, made_by=_made_by(given, found, pairs)), held
 
 
+def _bearings(given: argparse.Namespace, began: float) -> Table:
+    """Features of the datasets that are given, or of those that are made."""
+    if given.dataset:
+        return table(given.dataset, given.processes)
+    with made(recipes(given.machines, given.seed), given.keep, given.processes) as folders:
+        _tell(began, f"datasets made: {', '.join(folder.name for folder in folders)}")
+        return table(folders, given.processes)
+
+
 def _made_by(given: argparse.Namespace, found: Table, pairs: list[GearExample]) -> dict[str, object]:
     return {
         "command": f"python -m learn.sim2real --machines {given.machines} --pairs {given.pairs} --seed {given.seed}",
+        "recipes": {} if given.dataset else {r.name: identity(r) for r in recipes(given.machines, given.seed)},
         "physics_version": PHYSICS_VERSION,
         "machines": len(set(found.machines)),
         "rows": len(found.labels),

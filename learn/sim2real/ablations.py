@@ -15,7 +15,8 @@ from learn.real.load import BEARINGS, RECORDINGS, Case, available, case, index
 from learn.sim2real.answers import ByModel, ask
 from learn.sim2real.figures import KINDS, figure, share
 from learn.sim2real.table import pool_of, table, train
-from learn.simulate.rows import Variant
+from learn.sim2real.training_data import made, recipes
+from sideband_datasets.recipe.bearings import Variant
 
 MACHINES, SEED = 24, 1
 INGREDIENTS = {
@@ -31,7 +32,8 @@ USUAL = ("recipe as it is", "without chain and background", "without the spread 
 
 def smaller(name: str, machines: int, seed: int, processes: int) -> tuple[Model, int]:
     """(model of a smaller data set of that kind, pieces it was trained on); other machines than the large one's."""
-    found = table(machines, seed + 1, INGREDIENTS[name], processes)
+    with made(recipes(machines, seed + 1, INGREDIENTS[name]), None, processes) as folders:
+        found = table(folders, processes)
     return train(found, seed=seed, made_by={}), len(found.labels)
 
 

@@ -11,18 +11,20 @@ import sys
 from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 
 from learn import geometries
 from learn.assess import ANYWHERE, WHOLE, pooled
+from learn.dataset import rows_of
 from learn.model import Model
-from learn.sim2real.__main__ import MACHINES, SEED
+from learn.sim2real.__main__ import SEED
 from learn.sim2real.scores import score
 from learn.sim2real.table import PARTS, WINDOWS, Example, joined, part_table, pool_of, train
-from learn.simulate.machines import CLASSES
-from learn.simulate.rows import Variant, rows
+from learn.sim2real.training_data import made, recipes
 from learn.speed import SEARCH, USUAL_ERROR, candidates
+from sideband_datasets.recipe.bearings import CLASSES, MACHINES
 from signals.series import FloatArray
 
 FOLDS = 4
@@ -36,12 +38,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--processes", type=int, default=2)
     given = parser.parse_args(argv)
-    with pool_of(given.processes) as pool:
+    with made(recipes(given.machines, given.seed), None, given.processes) as folders, pool_of(given.processes) as pool:
         spread = pool.map if pool is not None else map
-        work = partial(part_table, count=given.machines, seed=given.seed, variant=Variant())
-        found = [one for share in spread(work, range(PARTS)) for one in share]
-        print(accuracy(found, given.seed), flush=True)
-        errors = list(spread(partial(_speeds, count=given.machines // 6, seed=given.seed + 1), range(PARTS)))
+        found = [one for share in spread(partial(part_table, folders=folders), range(PARTS)) for one in share]
+    print(accuracy(found, given.seed), flush=True)
+    others = recipes(given.machines // 6, given.seed + 1)
+    with made(others, None, given.processes) as folders, pool_of(given.processes) as pool:
+        spread = pool.map if pool is not None else map
+        errors = list(spread(partial(_speeds, folders=folders, seed=given.seed + 1), range(PARTS)))
     print("\n" + doubts([one for share in errors for one in share]))
     return 0
 
@@ -75,11 +79,11 @@ def _ways(model: Model, one: Example) -> Iterator[tuple[str, FloatArray]]:
     yield "geometry unknown, one window of 10 turns", pooled(heads["unknown"], one.unknown[0][np.newaxis])
 
 
-def _speeds(part: int, count: int, seed: int) -> list[tuple[float, float, float]]:
+def _speeds(part: int, folders: Sequence[Path], seed: int) -> list[tuple[float, float, float]]:
     """(doubt told, relative error, error of the stated speed) of one share's recordings."""
     found = []
     rng = np.random.default_rng([seed, part])
-    for row in rows(count, seed, part, PARTS):
+    for row in rows_of(folders, part, PARTS):
         off = float(np.clip(USUAL_ERROR * rng.standard_normal(), -0.9 * SEARCH, 0.9 * SEARCH))
         near = candidates([row.samples], row.rate_hz, row.speed_hz * (1 + off))[0]
         found.append((near.doubt, near.speed_hz / row.speed_hz - 1, off))

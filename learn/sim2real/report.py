@@ -17,7 +17,7 @@ from learn.sim2real.fitted_rule import fitted_db, refitted
 from learn.sim2real.gear_answers import gear_ways
 from learn.sim2real.rivals import rivals_table
 from learn.sim2real.severities import severity_pairs, severity_table
-from learn.simulate.machines import CLASSES
+from sideband_datasets.recipe.bearings import CLASSES
 
 GIVEN, NEAR = "speed and geometry given", "speed estimated near the stated one"
 RIVAL = "classical detector (same information)"

@@ -18,7 +18,7 @@ from learn.real.load import BEARINGS, RECORDINGS, Case, available, case, index
 from learn.sim2real.answers import Answer, ByModel, Way, ask
 from learn.sim2real.figures import right
 from learn.sim2real.table import pool_of
-from learn.simulate.machines import FAULTS
+from sideband_datasets.recipe.bearings import FAULTS
 
 Change = Callable[[Case], Case]
 

@@ -9,16 +9,17 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 from multiprocessing import get_context
+from pathlib import Path
 
 import numpy as np
 
 from learn import features, geometries, unknown, whole
 from learn.assess import ANYWHERE, WHOLE, stretches
 from learn.bank import bank
+from learn.dataset import Row, rows_of
 from learn.model import Head, Model
-from learn.simulate.machines import CLASSES
-from learn.simulate.rows import Row, Variant, rows
 from learn.train import fit_head
+from sideband_datasets.recipe.bearings import CLASSES
 from signals.series import FloatArray
 
 WINDOW_TURNS = 10.0
@@ -69,10 +70,10 @@ def pieces(row: Row) -> list[FloatArray]:
     return [*(row.samples[s : s + short] for s in starts), *whole_ones]
 
 
-def part_table(part: int, count: int, seed: int, variant: Variant) -> list[Example]:
+def part_table(part: int, folders: Sequence[Path]) -> list[Example]:
     """Features of one share of the machines."""
     found = []
-    for row in rows(count, seed, part, PARTS, variant):
+    for row in rows_of(folders, part, PARTS):
         spectra = [bank([piece], row.rate_hz, row.speed_hz) for piece in pieces(row)]
         parts = stretches([row.samples], row.rate_hz, row.speed_hz, whole.TURNS)
         longer = [bank(one, row.rate_hz, row.speed_hz) for one in parts]
@@ -99,11 +100,11 @@ def pool_of(processes: int) -> AbstractContextManager[Executor | None]:
     return ProcessPoolExecutor(processes, mp_context=get_context("spawn"))
 
 
-def table(count: int, seed: int, variant: Variant, processes: int = 2, parts: Sequence[int] = range(PARTS)) -> Table:
-    """Features of a dataset of about `count` machines; the same whatever the number of processes."""
-    work = partial(part_table, count=count, seed=seed, variant=variant)
+def table(folders: Sequence[Path], processes: int = 2) -> Table:
+    """Features of datasets read together; the same whatever the number of processes."""
+    work = partial(part_table, folders=folders)
     with pool_of(processes) as pool:
-        shares = list(pool.map(work, parts) if pool is not None else map(work, parts))
+        shares = list(pool.map(work, range(PARTS)) if pool is not None else map(work, range(PARTS)))
     return joined([one for share in shares for one in share])
 
 

@@ -8,7 +8,7 @@ from learn.gears.assess import CLASSES as GEAR_CLASSES
 from learn.sim2real.answers import Answer
 from learn.sim2real.figures import KINDS, figure, paired, right, share
 from learn.sim2real.scores import confusion
-from learn.simulate.machines import CLASSES
+from sideband_datasets.recipe.bearings import CLASSES
 
 INTERVALS = """Balanced accuracy over all rigs (95 % interval: a bootstrap over recordings, half a wrong one
 added to each class for the lower bound, half a right one for the upper; rather too wide):

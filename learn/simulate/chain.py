@@ -1,9 +1,4 @@
-"""The way from the bearing's ring to the recorder, drawn widely: structure, fastening, noise, hum, filter, converter.
-
-Ranges: resonances of housings and fastenings between 0.6 and 20 kHz, damping ratios of 0.8 to 8 % (Harris' Shock
-and Vibration Handbook, 5th ed. 2002, ch. 12; Ewins, Modal Testing, 2nd ed. 2000); noise from 40 dB below to 26 dB above
-the level that background is drawn around.
-"""
+"""A chain for one channel of a gear case: the ranges of `sideband_datasets.recipe.chains`, drawn for each hearing."""
 
 from __future__ import annotations
 
@@ -12,13 +7,15 @@ import math
 import numpy as np
 
 from learn.simulate.background import log_uniform
+from sideband_datasets.recipe.chains import CHANNEL, LOWEST_MODE_HZ
+from signals.recording import Recording
+from signals.sensors.motion import Motion
 from signals.sensors.spec import SensorChain
+from signals.series import FloatArray
+from sim.core.response import Channel
 
-RATES_HZ = (12_800.0, 20_000.0, 25_600.0, 48_000.0)
-LOWEST_MODE_HZ = 600.0
 RMS_RANGE_V = 12.0
 """Range of the converter over the RMS of the signal, so that impacts fit."""
-CHANNEL = "sensor"
 
 
 def _path(rng: np.random.Generator, top_hz: float) -> dict[str, object]:
@@ -66,3 +63,12 @@ def drawn_chain(rng: np.random.Generator, rms: float, rate_hz: float) -> SensorC
     return SensorChain.model_validate(
         {"clock": {"sampling_rate_hz": rate_hz}, "seed": int(rng.integers(2**31)), "channels": [channel]}
     )
+
+
+def motion_of_ring(samples: FloatArray, rate_hz: float) -> Motion:
+    """Accelerations (2, n) of a ring in x and y, as a measurement chain takes them."""
+    channels = tuple(
+        Channel(name=f"ring.{axis}.acceleration", quantity="acceleration", unit="m/s^2", location="ring", axis=axis)
+        for axis in ("x", "y")
+    )
+    return Motion(recording=Recording(sampling_rate_hz=rate_hz, channels=channels, samples=samples, origin="simulated"))

@@ -11,10 +11,9 @@ from learn.gears.angle import mesh_angle
 from learn.gears.turns import Turns, finer, turns_of
 from learn.orders import of_ratio
 from learn.simulate.background import knocks, log_uniform, neighbours, rolling_noise, warped
-from learn.simulate.chain import drawn_chain
+from learn.simulate.chain import drawn_chain, motion_of_ring
 from learn.simulate.gears import FAULTS, GEARS, HEALTHY, RATE_HZ, SETTLE_S, SOUND, TOOTH, recipe
 from learn.simulate.other_gears import modulation, other_mesh, twist_rad
-from learn.simulate.rows import motion_of_ring
 from learn.simulate.tooth_shows import SHOWS_DB, tooth_db
 from sideband_datasets import Recipe, make_plan
 from sideband_datasets import rows as dataset_rows

@@ -14,14 +14,19 @@ FREQUENCIES = {"bpfo_hz": "f_o", "bpfi_hz": "f_i", "bsf_hz": "f_b", "ftf_hz": "f
 ORIGIN = "simulated"
 
 
+def bearing_at(machine: MachineSpec, location: str) -> str | None:
+    """The bearing that a part belongs to, else the first; None without bearings."""
+    names = [bearing.name for bearing in machine.bearings]
+    mounts = {resonator.name: resonator.bearing for resonator in machine.resonators}
+    place = location.split(".", maxsplit=1)[0]
+    return next((name for name in (mounts.get(place, place), *names) if name in names), None)
+
+
 def bearing_of(drawn: Drawing, channel: Channel) -> str | None:
     """The faulty bearing, else the one the sensor sits at, else the first; None without bearings."""
     names = [bearing.name for bearing in drawn.spec.bearings]
     faulty = [effect.site for effect in drawn.effects if effect.site in names]
-    mounts = {resonator.name: resonator.bearing for resonator in drawn.spec.resonators}
-    place = channel.location.split(".")[0]
-    here = mounts.get(place, place)
-    return next((name for name in (*faulty, here, *names) if name in names), None)
+    return faulty[0] if faulty else bearing_at(drawn.spec, channel.location)
 
 
 def _mesh_base(machine: MachineSpec, drawn: Drawing) -> str:

@@ -44,7 +44,7 @@ class Made:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Ready:
+class Ready:
     """A recording put together: what machines side by side must share, and what it needs of the simulation."""
 
     drawing: Drawing
@@ -60,55 +60,66 @@ def recorded(
 
     Each is the same bytes alone or beside any others.
     """
-    groups: dict[Hashable, list[_Ready]] = {}
+    groups: dict[Hashable, list[Ready]] = {}
     for number in dict.fromkeys(numbers):
         try:
-            ready = _put_together(plan, number)
+            ready = put_together(plan, drawing(plan, number))
             groups.setdefault(ready.alike, []).append(ready)
         except SidebandError as error:
-            yield number, _failed(plan, number, error)
+            yield number, failure_of(plan, number, error)
     for group in groups.values():
         for first in range(0, len(group), WIDTH):
             yield from _simulated(plan, group[first : first + WIDTH], cancelled)
 
 
-def _put_together(plan: Plan, number: int) -> _Ready:
-    drawn = drawing(plan, number)
+def put_together(plan: Plan, drawn: Drawing) -> Ready:
+    """A recording's machine, assembled; SpecError where it cannot be built."""
     system = assemble(drawn.spec, seed=drawn.seed)
     outputs = outputs_of(plan, drawn, system)
     factor = steps_per_output(system, plan.recipe.sampling_rate_hz)
-    return _Ready(drawing=drawn, system=system, outputs=outputs, alike=(structure(system), factor, outputs))
+    return Ready(drawing=drawn, system=system, outputs=outputs, alike=(structure(system), factor, outputs))
 
 
 def _simulated(
-    plan: Plan, group: Sequence[_Ready], cancelled: Callable[[], bool] | None
+    plan: Plan, group: Sequence[Ready], cancelled: Callable[[], bool] | None
 ) -> Iterator[tuple[int, Made | Failure]]:
-    responses = simulate_many(
+    for one, response in zip(group, side_by_side(plan, group, cancelled), strict=True):
+        yield one.drawing.number, _measured(plan, one.drawing, one.system, response)
+
+
+def side_by_side(
+    plan: Plan, group: Sequence[Ready], cancelled: Callable[[], bool] | None
+) -> list[Response | SidebandError]:
+    """Simulations of up to `WIDTH` machines that are alike, in their order; an error where one cannot be made."""
+    return simulate_many(
         [Member(machine=one.drawing.spec, seed=one.drawing.seed, system=one.system) for one in group],
         duration_s=plan.recipe.settle_s + plan.recipe.duration_s,
         output_rate_hz=plan.recipe.sampling_rate_hz,
         channels=group[0].outputs,
         cancelled=cancelled,
     )
-    for one, response in zip(group, responses, strict=True):
-        yield one.drawing.number, _measured(plan, one.drawing, one.system, response)
 
 
 def _measured(plan: Plan, drawn: Drawing, system: System, response: Response | SidebandError) -> Made | Failure:
     if isinstance(response, SidebandError):
-        return _failed(plan, drawn.number, response)
+        return failure_of(plan, drawn.number, response)
     try:
         recording = from_response(response)
         if drawn.chain is not None:
             recording = measure(motion_of(response), drawn.chain, seed=drawn.noise_seed).recording
     except SidebandError as error:
-        return _failed(plan, drawn.number, error)
-    # The simulated outputs are not needed any more: what is kept is the recording.
+        return failure_of(plan, drawn.number, error)
+    return made_of(drawn, system, response, recording)
+
+
+def made_of(drawn: Drawing, system: System, response: Response, recording: Recording) -> Made:
+    """What is kept is the recording: the simulated outputs are not needed any more."""
     slim = replace(response, signals=response.signals[:, :0])
     return Made(drawing=drawn, system=system, response=slim, recording=recording)
 
 
-def _failed(plan: Plan, number: int, error: SidebandError) -> Failure:
+def failure_of(plan: Plan, number: int, error: SidebandError) -> Failure:
+    """What is listed of a recording that cannot be made; Cancelled is raised again."""
     if isinstance(error, Cancelled):
         raise error
     first = number * plan.rows_per_recording
@@ -126,4 +137,4 @@ def _failed(plan: Plan, number: int, error: SidebandError) -> Failure:
 
 def failed(plan: Plan, made: Made, error: SidebandError) -> Failure:
     """The failure of a recording that could not be cut or labelled."""
-    return _failed(plan, made.drawing.number, error)
+    return failure_of(plan, made.drawing.number, error)

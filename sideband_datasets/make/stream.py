@@ -10,6 +10,7 @@ import numpy as np
 
 from sideband_datasets.make.about import columns_of
 from sideband_datasets.make.batch import Failure, Made, failed, recorded
+from sideband_datasets.make.beside import recorded_beside
 from sideband_datasets.make.peaks import Predicted, peaks_of, predicted
 from sideband_datasets.plan.check import window_length_s
 from sideband_datasets.plan.plan import Plan
@@ -82,13 +83,14 @@ def _warn(failure: Failure) -> None:
 
 def _rows(plan: Plan, wanted: Sequence[int], told: _Told, cancelled: Callable[[], bool] | None) -> Iterator[Row]:
     size = plan.rows_per_recording
+    source = recorded_beside if plan.recipe.beside_sound else recorded
     for batch in _batches(wanted, size, batch_size(plan)):
         members: dict[int, list[int]] = {}
         for i in dict.fromkeys(batch):
             members.setdefault(i // size, []).append(i)
         found: dict[int, Row] = {}
         failures: dict[int, Failure] = {}
-        for number, one in recorded(plan, list(members), cancelled):
+        for number, one in source(plan, list(members), cancelled):
             made = one if isinstance(one, Failure) else _cut_or_failed(plan, one, members[number])
             if isinstance(made, Failure):
                 failures[number] = made

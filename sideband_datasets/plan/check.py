@@ -9,6 +9,7 @@ import numpy as np
 from sideband_datasets.plan.axes import term_parameters
 from sideband_datasets.plan.machines import Machine
 from sideband_datasets.plan.quotas import IntArray
+from sideband_datasets.plan.siblings import beside_problems
 from sideband_datasets.recipe.model import FaultTerm, Recipe
 from sideband_datasets.recipe.values import Choice, Factor, Range, Value, least
 from sim.assembly.assemble import assemble
@@ -43,6 +44,7 @@ def check_recipe(recipe: Recipe) -> None:
                 message = "belongs to the machine: drawn for every recording, one path would stand in several splits"
                 problems.append(Problem(field=f"measurement.{k}.each.{path}", message=message, allowed="`vary`"))
     problems += _window_problems(recipe)
+    problems += beside_problems(recipe)
     if problems:
         raise SpecError(problems)
 

@@ -49,13 +49,15 @@ class Effect:
 class Drawing:
     """Everything a recording is made from. `shift` is the place of its first window in the slack, 0 to 1.
 
-    `seed` drives what is random in the machine (it belongs to the machine), `noise_seed` the measurement.
+    `seed` drives what is random in the machine (it belongs to the machine), `noise_seed` the measurement. `sound` is
+    the machine without the fault at the same operating point.
     """
 
     number: int
     recording_id: str
     machine: Machine
     spec: MachineSpec
+    sound: MachineSpec
     chain: SensorChain | None
     measurement: str
     fault_type: str
@@ -74,23 +76,26 @@ def drawing(plan: Plan, number: int) -> Drawing:
     axes = recording_axes(recipe, fault, kind - 1)
     own = {axis.key: _own(axis, machine) for axis in drawn_only(axes) if axis.key.startswith(("condition", "chain"))}
     values = values_at(axes, plan.points(kind).at(int(plan.rank[number])), own)
-    spec = _at_point(machine.spec, values)
+    spec = sound = _at_point(machine.spec, values)
     effects: tuple[Effect, ...] = ()
     if fault is not None:
         spec, effects = _with_fault(spec, fault, values, f"faults.{kind - 1}.terms")
+    # Siblings differ by the fault alone: what is random in their measurement has the seed of the first of them.
+    first = number - number % len(recipe.classes) if recipe.siblings else number
     return Drawing(
         number=number,
         recording_id=f"{recipe.name}-{number:06d}",
         machine=machine,
         spec=spec,
+        sound=sound,
         chain=_chain(machine, values),
         measurement="" if machine.measurement is None else recipe.measurement[machine.measurement].name,
         fault_type=recipe.classes[kind],
         effects=effects,
         split=plan.split(number),
         seed=machine.seed,
-        noise_seed=whole_seed(recipe.seed, Stream.RECORDING, number),
-        shift=float(generator(recipe.seed, Stream.SHIFT, number).uniform()),
+        noise_seed=whole_seed(recipe.seed, Stream.RECORDING, first),
+        shift=float(generator(recipe.seed, Stream.SHIFT, first).uniform()),
     )
 
 

@@ -24,6 +24,8 @@ SECONDS_PER_BASE = 3.5e-3
 """Of labelling one spectrum, for each base frequency: 0.022 s for 9, 0.097 s for 19."""
 SECONDS_PER_SAMPLE = 2e-6
 """Of one channel: sensors, features, writing."""
+SECONDS_PER_GROUND = 8e-7
+"""Of a sample of the simulation: what sounds beside the model."""
 SECONDS_TO_START = 15.0
 """A worker loads compiled kernels before its first row."""
 MOST_BYTES = 500_000_000_000
@@ -52,15 +54,19 @@ def estimate(plan: Plan, workers: int) -> Estimate:
     for drawn in samples_of(plan):
         system = assemble(drawn.spec, seed=drawn.seed)
         outputs = outputs_of(plan, drawn, system) or default_channels(system)
-        _check_memory(round(8 * WIDTH * len(outputs) * total_s * recipe.sampling_rate_hz))
+        held = WIDTH * (2 if recipe.beside_sound else 1)
+        _check_memory(round(8 * held * len(outputs) * total_s * recipe.sampling_rate_hz))
         cost = run_cost(
             system, duration_s=total_s, output_rate_hz=recipe.sampling_rate_hz, channels=len(outputs)
         ).seconds
         pilot = 3.0 * min(PILOT_S / total_s, 1.0)
         spectra = len(recipe.peaks.spectra) * plan.rows_per_recording
         samples = total_s * recipe.sampling_rate_hz * plan.channels
+        runs = 2 if recipe.beside_sound and drawn.effects and not recipe.siblings else 1
+        beside = SECONDS_PER_GROUND * total_s * recipe.sampling_rate_hz if recipe.background is not None else 0.0
         seconds.append(
-            cost * (1.0 + pilot) / LANES_GAIN
+            runs * cost * (1.0 + pilot) / LANES_GAIN
+            + beside
             + spectra * SECONDS_PER_BASE * len(system.bases_hz)
             + SECONDS_PER_SAMPLE * samples
         )

@@ -102,8 +102,10 @@ def _splits(recipe: Recipe, machines: Sequence[Machine]) -> IntArray:
     return split_of
 
 
-def _recordings(recipe: Recipe, split_of: IntArray) -> tuple[IntArray, IntArray]:
+def _recordings(recipe: Recipe, machines: Sequence[Machine], split_of: IntArray) -> tuple[IntArray, IntArray]:
     """Class and machine of every recording, mixed. Exact to one: classes, splits; machines within their split."""
+    if recipe.siblings:
+        return _siblings(recipe, machines)
     per_split = quotas(list(recipe.splits.values()), recipe.count)
     machine: list[int] = []
     for split, count in enumerate(per_split):
@@ -116,13 +118,25 @@ def _recordings(recipe: Recipe, split_of: IntArray) -> tuple[IntArray, IntArray]
     return kind[order], np.asarray(machine, dtype=np.int64)[order]
 
 
+def _siblings(recipe: Recipe, machines: Sequence[Machine]) -> tuple[IntArray, IntArray]:
+    """One recording of each class of every machine, machine after machine, those of a family together: a shard then
+    has siblings side by side, and machines enough of one structure."""
+    classes, families = len(recipe.classes), [family.name for family in recipe.machines]
+    order = sorted(range(len(machines)), key=lambda m: families.index(machines[m].family))
+    wanted = classes * len(machines)
+    if recipe.count != wanted:
+        message = f"`siblings` records each of {len(machines)} machines once in each of {classes} classes"
+        raise SpecError(Problem(field="count", message=message, given=recipe.count, allowed=f"{wanted}"))
+    return np.tile(np.arange(classes), len(machines)), np.repeat(np.asarray(order, dtype=np.int64), classes)
+
+
 def planned(recipe: Recipe) -> Plan:
     """The plan; SpecError lists what of the recipe contradicts itself."""
     check_recipe(recipe)
     families = [machines_of(recipe, number) for number in range(len(recipe.machines))]
     machines = _mixed_families(recipe, families)
     split_of = _splits(recipe, machines)
-    kind, machine = _recordings(recipe, split_of)
+    kind, machine = _recordings(recipe, machines, split_of)
     return Plan(
         recipe=recipe,
         machines=tuple(machines),

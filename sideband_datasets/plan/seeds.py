@@ -17,6 +17,7 @@ class Stream(IntEnum):
     RECORDING = 5
     SHIFT = 6
     REMAKE = 7
+    BACKGROUND = 8
 
 
 def generator(seed: int, stream: Stream, *numbers: int) -> np.random.Generator:

@@ -6,6 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, JsonValue, model_validator
 
+from sideband_datasets.recipe.background import Background
 from sideband_datasets.recipe.values import Number, Value
 from sim.core.spec import MachineSpec, Name, SpecModel
 
@@ -126,6 +127,14 @@ class Recipe(SpecModel):
     """Anything else of the machine that is drawn for every recording."""
     measurement: Annotated[list[Measurement], Field(max_length=32)] = Field(default_factory=list)
     """Each machine gets one of these; none: the machine's standard outputs, as they are."""
+    background: Background | None = None
+    """What sounds beside the model of a machine; none: nothing does."""
+    siblings: bool = False
+    """Each machine is recorded once in every class, and these recordings differ by the fault alone: what is random in
+    background and measurement is the same in them. Then `count` is machines times classes."""
+    shown_db: Annotated[float, Field(ge=-100, le=100)] | None = None
+    """A faulty recording is left out, and listed, unless its fault adds as much power to what the same machine without
+    it gives, dB, in one of sixteen bands of a channel."""
     sampling_rate_hz: Annotated[float, Field(ge=100, le=500_000)]
     """Of the simulation; a chain's clock may set another one for the recording."""
     duration_s: Annotated[float, Field(gt=0, le=MOST_DURATION_S)]
@@ -174,6 +183,11 @@ class Recipe(SpecModel):
         """Numbers of the chains that machines of family `family` may get."""
         name = self.machines[family].name
         return [k for k, chain in enumerate(self.measurement) if not chain.machines or name in chain.machines]
+
+    @property
+    def beside_sound(self) -> bool:
+        """Whether a recording is made beside the one of the same machine without the fault."""
+        return self.background is not None or self.shown_db is not None
 
     @property
     def classes(self) -> tuple[str, ...]:

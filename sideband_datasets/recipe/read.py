@@ -34,10 +34,14 @@ def _plain(problem: Problem) -> Problem:
     return replace(problem, field=".".join(p for i, p in enumerate(parts) if not (i and p in TAGS)) or "recipe")
 
 
+LATER = ("background", "siblings", "shown_db")
+"""Fields that came after the first datasets: left out where they are off, so that the older recipes keep their name."""
+
+
 def document_of(recipe: Recipe) -> dict[str, object]:
-    """The recipe ready for JSON, every default written out."""
+    """The recipe ready for JSON, every default written out (but for fields of `LATER` that are off)."""
     document: dict[str, object] = recipe.model_dump(mode="json")
-    return document
+    return {key: value for key, value in document.items() if key not in LATER or value not in (None, False)}
 
 
 def _text(document: object) -> str:

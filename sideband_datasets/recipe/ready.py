@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from importlib.resources import files
 
+from sideband_datasets.recipe.bearings import MACHINES, SHARE_FAST, bearings_recipe
 from sideband_datasets.recipe.model import Recipe
 from sideband_datasets.recipe.read import read_recipe
 from sim.core.errors import UnknownName
@@ -14,13 +16,16 @@ from sim.core.errors import UnknownName
 
 @dataclass(frozen=True, kw_only=True)
 class Ready:
-    """Name of a recipe beside this module (`recipes/NAME.json`), and the sentence that explains it."""
+    """Name of a recipe, the sentence that explains it, and what builds it; none: `recipes/NAME.json` beside this."""
 
     name: str
     sentence: str
+    build: Callable[[], Recipe] | None = None
 
     def read(self) -> Recipe:
         """The recipe."""
+        if self.build is not None:
+            return self.build()
         text = files("sideband_datasets.recipe").joinpath("recipes", f"{self.name}.json").read_text(encoding="utf-8")
         return read_recipe(json.loads(text))
 
@@ -38,6 +43,16 @@ RECIPES: Mapping[str, Ready] = {
             sentence="A two-stage gearbox, two sensors: healthy, crack, broken tooth, outer race, in either stage.",
         ),
         Ready(name="overhung", sentence="An overhung pinion: healthy, crack, unbalance, outer race beside it."),
+        Ready(
+            name="bearings-fast",
+            sentence="Bearing machines of all kinds at 22 to 62 Hz, with a background: what `classify` learns from.",
+            build=partial(bearings_recipe, round(MACHINES * SHARE_FAST), fast=True),
+        ),
+        Ready(
+            name="bearings-slow",
+            sentence="The same at 9 to 22 Hz; the two belong together.",
+            build=partial(bearings_recipe, round(MACHINES * (1 - SHARE_FAST)), fast=False),
+        ),
         Ready(name="small", sentence="Eight short recordings of the smallest rotor: to try the doors."),
     )
 }

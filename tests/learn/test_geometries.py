@@ -6,8 +6,8 @@ from learn.assess import ANYWHERE, WHOLE, assess
 from learn.bank import bank
 from learn.geometries import NAMES, log_ratios, rows, usual, vector
 from learn.model import Head, Model, Network
-from learn.simulate.machines import CLASSES
 from learn.unknown import NAMES as SEEN
+from sideband_datasets.recipe.bearings import CLASSES
 
 RATE, SPEED = 20_000.0, 25.0
 

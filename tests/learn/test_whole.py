@@ -7,8 +7,8 @@ from learn.bank import bank
 from learn.combs import lift, logs
 from learn.model import Model
 from learn.sim2real.table import Example, joined, train
-from learn.simulate.machines import CLASSES
 from learn.whole import NAMES, cage, cage_grid, foreign, taken_out, vector
+from sideband_datasets.recipe.bearings import CLASSES
 
 RATE, SPEED, TURNS = 20_000.0, 25.0, 80.0
 

@@ -4,7 +4,7 @@ import pytest
 from learn import features, geometries, unknown, whole
 from learn.sim2real.left_out import accuracy, doubts
 from learn.sim2real.table import WINDOWS, Example
-from learn.simulate.machines import CLASSES
+from sideband_datasets.recipe.bearings import CLASSES
 
 
 def example(machine, k, rng):

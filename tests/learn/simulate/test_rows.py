@@ -2,12 +2,12 @@ from itertools import islice
 
 import numpy as np
 import pytest
-
-from learn.orders import of_ratio
-from learn.simulate.background import free_axis, knocks, neighbours, rolling_noise, warped
 from learn.simulate.machines import CLASSES, families, recipe
 from learn.simulate.rows import Variant, rows
 from learn.simulate.visible import SHOWS_DB, visible_db
+
+from learn.orders import of_ratio
+from learn.simulate.background import free_axis, knocks, neighbours, rolling_noise, warped
 from sideband_datasets import make_plan
 
 
