@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 
+from sideband_datasets.folder.added import added, range_text
 from sideband_datasets.folder.apart import apart
 from sideband_datasets.folder.layout import DATA
 from sideband_datasets.folder.manifest import rows_by_class, versions
@@ -14,7 +15,6 @@ from sideband_datasets.plan.axes import term_parameters
 from sideband_datasets.plan.plan import Plan
 from sideband_datasets.recipe.model import Recipe
 from sideband_datasets.recipe.read import identity
-from sideband_datasets.recipe.values import Choice, Factor, Range, Value
 from sideband_datasets.row import COLUMNS
 from sim.terms import REGISTRY
 
@@ -30,23 +30,17 @@ NOT_MODELLED = """\
 * Errors that are random in a machine (pitch errors) belong to the machine: they are the same in all its recordings."""
 
 
-def _range(value: Value) -> str:
-    if isinstance(value, Range):
-        return f"{value.low:g} to {value.high:g}" + (" (logarithmic)" if value.scale == "log" else "")
-    if isinstance(value, Factor):
-        return f"{value.factor[0]:g} to {value.factor[1]:g} times its own"
-    if isinstance(value, Choice):
-        return "one of " + ", ".join(str(item) for item in value.choices)
-    return str(value)
+COULD_NOT = ("could not be made", "could not be made or do not show their fault")
+"""Without and with a choice of recordings."""
 
 
 def _ranges(recipe: Recipe) -> Iterator[tuple[str, str]]:
     for family in recipe.machines:
-        yield from ((f"{family.name}: `{key}`, a machine", _range(value)) for key, value in family.vary.items())
+        yield from ((f"{family.name}: `{key}`, a machine", range_text(value)) for key, value in family.vary.items())
     for name, value in (("speed, Hz", recipe.speeds_hz), ("torque, N m", recipe.torques_nm)):
         if value is not None:
-            yield name, _range(value)
-    yield from ((f"`{key}`, a recording", _range(value)) for key, value in recipe.conditions.items())
+            yield name, range_text(value)
+    yield from ((f"`{key}`, a recording", range_text(value)) for key, value in recipe.conditions.items())
     for fault in recipe.faults:
         for wanted in fault.terms:
             term = REGISTRY.get(wanted.term)
@@ -55,10 +49,10 @@ def _ranges(recipe: Recipe) -> Iterator[tuple[str, str]]:
             for name, value in term_parameters(wanted, term).items():
                 unit = next(p.unit for p in term.params if p.name == name)
                 told = "" if unit == "1" else f", {unit}"
-                yield f"class {fault.name}: {term.title.lower()} ({places}), {name}{told}", _range(value)
+                yield f"class {fault.name}: {term.title.lower()} ({places}), {name}{told}", range_text(value)
     for chain in recipe.measurement:
-        yield from ((f"{chain.name}: `{key}`, a machine", _range(value)) for key, value in chain.vary.items())
-        yield from ((f"{chain.name}: `{key}`, a recording", _range(value)) for key, value in chain.each.items())
+        yield from ((f"{chain.name}: `{key}`, a machine", range_text(value)) for key, value in chain.vary.items())
+        yield from ((f"{chain.name}: `{key}`, a recording", range_text(value)) for key, value in chain.each.items())
 
 
 def _front_matter(plan: Plan, kind: str, rows: int) -> str:
@@ -105,12 +99,13 @@ def card(plan: Plan, receipts: Sequence[Receipt], kind: str) -> str:
         _front_matter(plan, kind, rows),
         f"# {recipe.name}\n\n{recipe.notes}".rstrip(),
         what,
-        f"{failed} recordings could not be made; `failures.jsonl` lists them with reasons.",
+        f"{failed} recordings {COULD_NOT[recipe.shown_db is not None]}; `failures.jsonl` lists them with reasons.",
         "## Classes\n\n" + _table(("class", "rows"), ((name, str(count)) for name, count in counts.items())),
         f"## Splits\n\n{apart(plan, receipts)}\n\n" + _table(("split", "machines", "rows"), splits),
         "".join(f"* {told}\n" for told in plan.warnings).rstrip(),
         f"## What was varied\n\nSampled by a plan of kind {recipe.plan}, seed {recipe.seed}. SI units.\n\n"
         + _table(("what", "range"), _ranges(recipe)),
+        added(recipe),
         "## What is not modelled\n\n" + NOT_MODELLED,
         "## Columns\n\n" + _table(("column", "unit", "meaning"), ((c.name, c.unit, c.sentence) for c in COLUMNS)),
         cite,

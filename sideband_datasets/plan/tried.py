@@ -6,10 +6,12 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
+from sideband_datasets.plan.carried import told_of_rates
 from sideband_datasets.plan.documents import own_value
 from sideband_datasets.plan.drawing import Drawing, drawing
 from sideband_datasets.plan.machines import Machine
@@ -95,13 +97,16 @@ def _tried(text: str) -> Plan:
         with findings.step(), _in_field(field):
             assemble(machine.spec, seed=machine.seed)
     findings.settle()
+    tried: list[tuple[Drawing, System]] = []
     for drawn in samples_of(plan):
         with findings.step():
-            outputs_of(plan, drawn, assemble(drawn.spec, seed=drawn.seed))
+            system = assemble(drawn.spec, seed=drawn.seed)
+            tried.append((drawn, system))
+            outputs_of(plan, drawn, system)
             if drawn.chain is not None:
                 nominal_rate_hz(drawn.chain.clock, recipe.sampling_rate_hz, "measurement.chain.clock")
     findings.settle()
-    return plan
+    return replace(plan, warnings=(*plan.warnings, *told_of_rates(recipe, tried)))
 
 
 def make_plan(recipe: Recipe) -> Plan:

@@ -41,7 +41,8 @@ LATER = ("background", "siblings", "shown_db")
 def document_of(recipe: Recipe) -> dict[str, object]:
     """The recipe ready for JSON, every default written out (but for fields of `LATER` that are off)."""
     document: dict[str, object] = recipe.model_dump(mode="json")
-    return {key: value for key, value in document.items() if key not in LATER or value not in (None, False)}
+    off = [key for key in LATER if document[key] is None or document[key] is False]
+    return {key: value for key, value in document.items() if key not in off}
 
 
 def _text(document: object) -> str:

@@ -117,6 +117,15 @@ def _between(low: float, high: float, share: float, *, log: bool) -> float:
     return min(max(math.exp(ends[0] + share * (ends[1] - ends[0])), low), high)
 
 
+def most(value: Value) -> float | None:
+    """The largest number that can be drawn; None where it depends on the machine or is no number."""
+    if isinstance(value, Range):
+        return value.high
+    if isinstance(value, Choice):
+        return max((item for item in value.choices if not isinstance(item, bool | str)), default=None)
+    return value if isinstance(value, float) else None
+
+
 def least(value: Value) -> float | None:
     """The smallest number that can be drawn; None where it depends on the machine or is no number."""
     if isinstance(value, Range):

@@ -14,6 +14,7 @@ SHORT = {
     "settle_s": 0.05,
     "windows": {"per_recording": 1, "length_s": 0.1},
     "peaks": {"spectra": []},
+    "shown_db": None,
 }
 
 
