@@ -19,7 +19,7 @@ from signals.series import FloatArray
 from sim.core.errors import SidebandError
 from sim.core.response import Response
 
-ARRAYS = ("line", "floor", "total", "band", "depth", "turn", "kurtosis", "skewness")
+ARRAYS = ("line", "floor", "total", "band", "depth", "turn", "kurtosis", "skewness", "phase")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,6 +38,7 @@ class Bank:
     turn: FloatArray
     kurtosis: FloatArray
     skewness: FloatArray
+    phase: FloatArray
     resolution_hz: float
     duration_s: float
 
@@ -94,6 +95,7 @@ def _empty(channels: int, watched: WatchList) -> Statistics:
         modulations_hz=modulations,
         modulation_slack=modulations,
         turning=tuple(Turning(hz=np.nan, teeth=teeth) for _, teeth in watched.gears),
+        phased=watched.phased,
     )
 
 
@@ -109,6 +111,7 @@ def measure(response: Response, watched: WatchList, bases_hz: dict[str, float]) 
         modulations_hz=modulations,
         modulation_slack=slack(watched.modulations, modulations),
         turning=watched.turning(bases_hz),
+        phased=watched.phased,
     )
 
 

@@ -12,7 +12,7 @@ from reconcile.atlas.plan import AtlasPlan, Point
 from sim.core.errors import Problem, SpecError
 from sim.version import PHYSICS_VERSION
 
-ATLAS_VERSION = 3
+ATLAS_VERSION = 4
 
 
 class Keeper(Protocol):

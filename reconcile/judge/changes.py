@@ -13,7 +13,7 @@ from reconcile.atlas.plan import AtlasPlan
 from reconcile.calibrate.chain import Chain, Healthy, calibrate_chain
 from reconcile.judge.measured import measured_db, unsteady_db, wander_patterns
 from reconcile.judge.pooled import OneByOne, Pooling, first_sidebands, mesh_lines, pooling
-from reconcile.observe.features import Layout, Scale, scale_of, soft_features, through
+from reconcile.observe.features import Layout, Scale, changed, scale_of, soft_features, through
 from reconcile.observe.observation import PointData
 from reconcile.observe.statistics import Statistics
 from reconcile.observe.watch import bases_at, watch_list
@@ -45,6 +45,13 @@ class Changes:
     """(k, F): changes that speed wander brings about, one deviation each; signs and sizes are free."""
     kind: FloatArray
     """(k, F): what drift changes on other machines of the kind, to learn from and not to compare with; may be empty."""
+    phases: int = 0
+    """Of each channel's features the last ones, which are known up to whole turns."""
+
+    def left(self, change: FloatArray) -> FloatArray:
+        """What a change (F,) leaves of the observed one, (F,)."""
+        channel = self.single.chosen.size
+        return changed(self.observed.reshape(-1, channel), change.reshape(-1, channel), self.phases).ravel()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,7 +113,15 @@ def half_turns(one: PointData, plan: AtlasPlan) -> FloatArray:
 
 def _of(seen: Statistics, lens: Lens) -> FloatArray:
     return soft_features(
-        seen.line, seen.floor, seen.total, seen.depth, seen.turn, seen.kurtosis, seen.skewness, lens.scale
+        seen.line,
+        seen.floor,
+        seen.total,
+        seen.depth,
+        seen.turn,
+        seen.kurtosis,
+        seen.skewness,
+        seen.phase,
+        lens.scale,
     )
 
 
@@ -119,18 +134,22 @@ def observed_changes(
     watched = watch_list(plan.machine)
     groups: list[np.ndarray] = []
     based = all(d.baseline is not None for d in data)
+    compared = based and data[0].test.line.shape[0] > 1
     for one, lens, bank in zip(data, seen_through, banks, strict=True):
         reference = _of(one.baseline, lens) if one.baseline is not None else lens.nominal
-        observed.append((_of(one.test, lens) - reference).ravel())
-        halves.append(np.stack([(_of(h, lens) - reference).ravel() for h in one.halves]))
-        spread = measured_db(one.test, lens.chain, lens.lines_hz, lens.scale) ** 2
+        phases = len(watched.phased)
+        observed.append(changed(_of(one.test, lens), reference, phases).ravel())
+        halves.append(np.stack([changed(_of(h, lens), reference, phases).ravel() for h in one.halves]))
+        spread = measured_db(one.test, lens.chain, lens.lines_hz, lens.scale, watched.phased) ** 2
         if one.baseline is not None:
-            spread = spread + measured_db(one.baseline, lens.chain, lens.lines_hz, lens.scale) ** 2
+            spread = spread + measured_db(one.baseline, lens.chain, lens.lines_hz, lens.scale, watched.phased) ** 2
+        if not compared:
+            spread[:, spread.shape[1] - phases :] = np.nan
         steady = unsteady_db(one.test, watched, one.lines_hz)
         measured.append(np.sqrt(spread + steady**2).ravel())
         wander.append(np.tile(wander_patterns(watched, one.lines_hz, steady.size), spread.shape[0]))
         groups.append(_groups(one.test) + (groups[-1].max() + 1 if groups else 0))
-        null.append(_null(lens, bank, plan, based=based))
+        null.append(_null(lens, bank, plan, phases, based=based))
         starts.append(starts[-1] + observed[-1].size)
     layout, size = layout_of(data[0].test), {"points": len(data), "channels": data[0].test.line.shape[0]}
     return Changes(
@@ -141,11 +160,12 @@ def observed_changes(
         starts=tuple(starts),
         with_baseline=based,
         groups=np.concatenate(groups),
-        pooling=pooling(watched, layout, **size),
-        single=mesh_lines(watched, layout, **size),
-        sides=first_sidebands(watched, layout, **size),
+        pooling=pooling(watched, layout, phased=compared, **size),
+        single=mesh_lines(watched, layout, phased=compared, **size),
+        sides=first_sidebands(watched, layout, phased=compared, **size),
         wander=block_diag(*wander),
         kind=np.zeros((0, starts[-1])),
+        phases=layout.phases,
     )
 
 
@@ -157,6 +177,7 @@ def layout_of(seen: Statistics) -> Layout:
         shapes=seen.band.shape[1],
         modulations=seen.depth.shape[2],
         shafts=seen.turn.shape[2],
+        phases=seen.phase.shape[1],
     )
 
 
@@ -165,21 +186,21 @@ def _groups(seen: Statistics) -> np.ndarray:
     channels = seen.line.shape[0]
     sizes = [seen.line.shape[1], seen.floor.shape[1], seen.total.shape[1]]
     sizes += [seen.depth.shape[1] * seen.depth.shape[2], seen.turn.shape[1] * seen.turn.shape[2]]
-    sizes += [seen.kurtosis.shape[1], seen.skewness.shape[1]]
+    sizes += [seen.kurtosis.shape[1], seen.skewness.shape[1], seen.phase.shape[1]]
     one = np.repeat(np.arange(len(sizes)), sizes)
     return np.concatenate([one + len(sizes) * c for c in range(channels)])
 
 
-def _null(lens: Lens, bank: Bank, plan: AtlasPlan, *, based: bool) -> FloatArray:
+def _null(lens: Lens, bank: Bank, plan: AtlasPlan, phases: int, *, based: bool) -> FloatArray:
     first = {d.pair: k for k, d in enumerate(plan.draws) if d.candidate is None and not d.twin}
     twin = {d.pair: k for k, d in enumerate(plan.draws) if d.candidate is None and d.twin}
     pairs = sorted(first)
     every = range(bank.band.shape[1])
     before = lens.features(bank.at([first[p] for p in pairs], every))
     if not based:
-        return np.asarray((before - lens.nominal).reshape(len(pairs), -1))
+        return changed(before, lens.nominal, phases).reshape(len(pairs), -1)
     after = lens.features(bank.at([twin[p] for p in pairs], every))
-    return np.asarray((after - before).reshape(len(pairs), -1))
+    return changed(after, before, phases).reshape(len(pairs), -1)
 
 
 def signatures(
@@ -200,5 +221,5 @@ def signatures(
         every = range(bank.band.shape[1])
         effect = lens.features(bank.at(rows, every))
         rest = lens.features(healthy.at(pairs, every)) if with_baseline else lens.nominal
-        found.append((effect - rest).reshape(len(rows), -1))
+        found.append(changed(effect, rest, bank.phase.shape[2]).reshape(len(rows), -1))
     return np.concatenate(found, axis=1)

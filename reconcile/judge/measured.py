@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from reconcile.calibrate.chain import Chain
 from reconcile.observe.features import SHAPE_DB, SOFT, Scale
+from reconcile.observe.phases import phase_deviations
 from reconcile.observe.statistics import LOBE, LOBE_SCATTER, SHAPE_BANDS_HZ, Statistics, third_octaves
 from reconcile.observe.watch import MESH_ORDERS, WatchList
 from signals.series import FloatArray
 
 UNSTEADY_DB = {"line": 1.0, "floor": 0.7, "total": 0.7, "depth": 1.0, "turn": 2.0, "kurtosis": 3.0, "skewness": 3.0}
+UNSTEADY_PHASE_DB = 0.5
+"""Of a phase between sensors: sound machines of the development split differ by a median of 0.2 to 0.4."""
 """What repeated recordings of a sound machine differ by beside noise and drift: speed wander left after tracking,
 phases of balls, which moments of few impacts feel most. Set on the development nulls."""
 LOW_SHAPE_DB = {"kurtosis": 12.0, "skewness": 18.0}
@@ -27,7 +32,9 @@ MEDIAN_LOSS = 1.44
 """Standard deviation of the logarithm of a median of exponentials over that of their mean: 1/ln 2."""
 
 
-def measured_db(seen: Statistics, chain: Chain, lines_hz: FloatArray, scale: Scale) -> FloatArray:
+def measured_db(
+    seen: Statistics, chain: Chain, lines_hz: FloatArray, scale: Scale, phased: Sequence[int]
+) -> FloatArray:
     """(C, F): deviations of the soft features. A line of power P in noise n varies by sqrt(2 P n + n^2)."""
     noise = chain.line_noise(lines_hz) * seen.resolution_hz
     lobe, scatter = LOBE * noise, LOBE_SCATTER * noise
@@ -42,7 +49,9 @@ def measured_db(seen: Statistics, chain: Chain, lines_hz: FloatArray, scale: Sca
     turn = DB * np.sqrt(2.0 * seen.turn * still + still**2) / (seen.turn + SOFT * still)
     turn = turn.reshape(turn.shape[0], -1)
     moment = np.broadcast_to(SHAPE_DB * np.sqrt(12.0 / (shapes * seen.duration_s)), seen.kurtosis.shape)
-    parts = [line, MEDIAN_LOSS * band, band, depth.reshape(depth.shape[0], -1), turn, moment, moment]
+    kept = list(phased)
+    phase = phase_deviations(power[:, kept], lobe[:, kept])
+    parts = [line, MEDIAN_LOSS * band, band, depth.reshape(depth.shape[0], -1), turn, moment, moment, phase]
     return np.concatenate(parts, axis=-1)
 
 
@@ -58,6 +67,7 @@ def unsteady_db(seen: Statistics, watched: WatchList, lines_hz: FloatArray) -> F
         "skewness": seen.skewness.shape[1],
     }
     rows = {name: np.full(n, UNSTEADY_DB[name]) for name, n in sizes.items()}
+    rows["phase"] = np.full(seen.phase.shape[1], UNSTEADY_PHASE_DB)
     for name, value in LOW_SHAPE_DB.items():
         rows[name][0] = value
     rows["line"][wandering(watched, lines_hz)] = WANDER_DB

@@ -7,6 +7,7 @@ effect on different machines come close to each other, and few simulations suffi
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +17,7 @@ from reconcile.observe.watch import Watched, WatchList
 from signals.series import FloatArray
 
 BANDS_TOGETHER = 4
+UNUSED = ""
 DEAD = 2.0
 """Changes below this many deviations are noise: how large the noise is exactly must not matter."""
 LARGE = 3.0
@@ -48,6 +50,10 @@ def _sideband_family(line: Watched) -> str:
         return f"sidebands {base}"
     mesh = next(n for b, n in line.orders.items() if b != base)
     return f"sidebands {base} first, mesh {'low' if mesh <= LOW_MESH else 'high'}"
+
+
+def _phase_family(line: Watched) -> str:
+    return "phase mesh" if line.family == "mesh" else f"phase sidebands {_shaft_order(line)[0]}"
 
 
 def _modulation_family(line: Watched) -> str:
@@ -98,22 +104,34 @@ class OneByOne:
         return np.asarray(np.sign(kept) * LARGE * np.log1p(np.abs(kept) / LARGE))
 
 
-def mesh_lines(watched: WatchList, layout: Layout, *, points: int, channels: int) -> OneByOne:
-    """The mesh harmonics, one by one."""
+def _one_by_one(
+    watched: WatchList, layout: Layout, which: Callable[[Watched], bool], *, points: int, channels: int, phased: bool
+) -> OneByOne:
     chosen = np.zeros(layout.size, dtype=bool)
-    chosen[: layout.lines] = [line.family == "mesh" for line in watched.lines]
+    chosen[: layout.lines] = [which(line) for line in watched.lines]
+    if phased:
+        chosen[layout.slices()["phase"]] = [which(watched.lines[i]) for i in watched.phased]
     return OneByOne(chosen=chosen, points=points, channels=channels)
 
 
-def first_sidebands(watched: WatchList, layout: Layout, *, points: int, channels: int) -> OneByOne:
-    """The first pair of every shaft's sidebands around the mesh harmonics, one by one."""
-    chosen = np.zeros(layout.size, dtype=bool)
-    chosen[: layout.lines] = [line.family == "sideband" and abs(_shaft_order(line)[1]) == 1 for line in watched.lines]
-    return OneByOne(chosen=chosen, points=points, channels=channels)
+def mesh_lines(watched: WatchList, layout: Layout, *, points: int, channels: int, phased: bool = False) -> OneByOne:
+    """The mesh harmonics, one by one; with their phases between sensors."""
+    return _one_by_one(
+        watched, layout, lambda line: line.family == "mesh", points=points, channels=channels, phased=phased
+    )
 
 
-def pooling(watched: WatchList, layout: Layout, *, points: int, channels: int) -> Pooling:
-    """Families of this machine's watch list."""
+def first_sidebands(
+    watched: WatchList, layout: Layout, *, points: int, channels: int, phased: bool = False
+) -> OneByOne:
+    """The first pair of every shaft's sidebands around the mesh harmonics, one by one; with their phases."""
+    return _one_by_one(
+        watched, layout, lambda line: line.first_sideband, points=points, channels=channels, phased=phased
+    )
+
+
+def pooling(watched: WatchList, layout: Layout, *, points: int, channels: int, phased: bool = False) -> Pooling:
+    """Families of this machine's watch list; with those of phases between sensors."""
     labels = [_line_family(line) for line in watched.lines]
     for kind in ("floor", "total"):
         labels += [f"{kind} {b // BANDS_TOGETHER}" for b in range(layout.bands)]
@@ -123,6 +141,7 @@ def pooling(watched: WatchList, layout: Layout, *, points: int, channels: int) -
     for _ in range(layout.shapes):
         labels += [f"turn {base}" for base, _ in watched.gears]
     labels += [f"{kind} {shape}" for kind in ("kurtosis", "skewness") for shape in range(layout.shapes)]
-    names = tuple(sorted(set(labels)))
-    place = {name: k for k, name in enumerate(names)}
+    labels += [_phase_family(watched.lines[i]) if phased else UNUSED for i in watched.phased]
+    names = tuple(sorted(set(labels) - {UNUSED}))
+    place = {name: k for k, name in enumerate(names)} | {UNUSED: -1}
     return Pooling(family=np.array([place[label] for label in labels]), names=names, points=points, channels=channels)

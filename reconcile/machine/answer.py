@@ -72,6 +72,7 @@ def _layout(watched: WatchList, setting: Setting) -> Layout:
         shapes=bank.band.shape[2],
         modulations=len(watched.modulations),
         shafts=len(watched.gears),
+        phases=len(watched.phased),
     )
 
 

@@ -22,6 +22,7 @@ from reconcile.machine.causes import cause_terms
 from reconcile.machine.local import simulated_banks
 from reconcile.machine.refine import best_draws
 from reconcile.machine.setting import Found, Setting
+from reconcile.observe.features import changed
 from reconcile.observe.statistics import third_octaves
 from reconcile.verdict import Cause, Severity
 from signals.series import FloatArray
@@ -119,7 +120,7 @@ def _changes(setting: Setting, plan: AtlasPlan, mapper: Mapper) -> FloatArray:
     for bank, lens in zip(simulated_banks(setting, plan, mapper), setting.seen_through, strict=True):
         features = lens.features(bank)
         rest = features[0] if setting.changes.with_baseline else lens.nominal
-        change = (features[1:] - rest).reshape(len(plan.draws) - 1, -1)
+        change = changed(features[1:], rest, bank.phase.shape[2]).reshape(len(plan.draws) - 1, -1)
         dead = ~bank.alive[1:] | ~bank.alive[0]
         parts.append(np.where(dead[:, None], np.nan, change))
     return np.concatenate(parts, axis=1)

@@ -74,7 +74,7 @@ def looks_for_second(found: Found) -> bool:
 
 def beside(setting: Setting, found: Found, first: str) -> Beside | None:
     """Effects that might explain what mesh lines or sidebands keep; None without views of single lines."""
-    left = setting.changes.observed - np.nan_to_num(fitted_change(found, first, setting.changes.observed))
+    left = setting.changes.left(np.nan_to_num(fitted_change(found, first, setting.changes.observed)))
     seen = [one for one in (_beside_in(view, left) for view in found.views[1:]) if one is not None]
     if not seen:
         return None
@@ -105,7 +105,7 @@ def struck_too(setting: Setting, found: Found, first: str) -> Beside | None:
     known = [n for n in (parts[0] if parts else ()) if n in found.screen.names]
     if not known or len(parts) == len(setting.direct.struck):
         return None
-    left = setting.changes.observed - np.nan_to_num(fitted_change(found, first, setting.changes.observed))
+    left = setting.changes.left(np.nan_to_num(fitted_change(found, first, setting.changes.observed)))
     look = looked(found.fitted, left)
     evidence = np.array([look.evidence[found.screen.names.index(n)] + parts[0][n] for n in known])
     order = np.argsort(-evidence)

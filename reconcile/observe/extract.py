@@ -8,6 +8,7 @@ import numpy as np
 from scipy import fft
 
 from reconcile.observe.mean_turn import Turning, turn_powers
+from reconcile.observe.phases import line_phases
 from reconcile.observe.statistics import SHAPE_BANDS_HZ, Statistics, third_octaves
 from signals.series import FloatArray
 
@@ -23,13 +24,13 @@ LEAST_VARIANCE = 1e-150
 MEDIAN_OF_EXPONENTIAL = float(np.log(2.0))
 
 
-def _periodogram(samples: FloatArray, rate_hz: float) -> tuple[FloatArray, float]:
-    """Mean-square spectrum (C, n//2+1) whose sum over a lobe is a line's mean square, and the bin width, Hz."""
+def _spectrum(samples: FloatArray, rate_hz: float) -> tuple[np.ndarray, FloatArray, float]:
+    """Hann spectrum (C, n//2+1), its mean squares, whose sum over a lobe is a line's, and the bin width, Hz."""
     n = samples.shape[1]
     window = np.hanning(n + 1)[:-1]
     spectrum = fft.rfft((samples - samples.mean(axis=1, keepdims=True)) * window, axis=1)
     power = 2.0 * (spectrum.real**2 + spectrum.imag**2) / (n * np.sum(window**2))
-    return np.asarray(power), rate_hz / n
+    return spectrum, np.asarray(power), rate_hz / n
 
 
 def _line_powers(
@@ -89,7 +90,7 @@ def _shapes(
         skewness[:, e] = np.mean(square * x, axis=1) / variance**1.5
         envelope = square + analytic.imag**2
         relative = envelope / np.maximum(envelope.mean(axis=1, keepdims=True), 1e-300)
-        power, _ = _periodogram(relative, points * bin_hz)
+        _, power, _ = _spectrum(relative, points * bin_hz)
         depth[:, e] = _line_powers(power, bin_hz, modulations_hz, slack, 0.5 * (high - low))
     return mean_square, depth, kurtosis, skewness
 
@@ -111,10 +112,15 @@ def extract(
     modulations_hz: FloatArray,
     modulation_slack: FloatArray,
     turning: Sequence[Turning] = (),
+    phased: Sequence[int] = (),
 ) -> Statistics:
-    """`samples` (C, n) at constant speed; slack: share of its frequency by which a line may be off, per line."""
+    """`samples` (C, n) at constant speed; slack: share of its frequency by which a line may be off, per line.
+
+    `phased`: numbers of the lines whose phases are compared.
+    """
     top = USABLE * rate_hz
-    power, bin_hz = _periodogram(samples, rate_hz)
+    spectrum, power, bin_hz = _spectrum(samples, rate_hz)
+    kept = list(phased)
     floor, total = _bands(power, bin_hz, top)
     band, depth, kurtosis, skewness = _shapes(samples, rate_hz, modulations_hz, modulation_slack, top)
     return Statistics(
@@ -126,6 +132,7 @@ def extract(
         turn=_turns(samples, rate_hz, turning, top),
         kurtosis=kurtosis,
         skewness=skewness,
+        phase=line_phases(spectrum, bin_hz, lines_hz[kept], line_slack[kept], top, LOBE_BINS),
         resolution_hz=HANN_NOISE_BINS * bin_hz,
         duration_s=samples.shape[1] / rate_hz,
     )

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reconcile.calibrate.chain import Chain
+from reconcile.observe.phases import between_sensors, wrapped
 from reconcile.observe.statistics import LOBE, SHAPE_BANDS_HZ, third_octaves
 from signals.series import FloatArray
 
@@ -30,14 +31,15 @@ class Layout:
     shapes: int
     modulations: int
     shafts: int = 0
+    phases: int = 0
 
     @property
     def size(self) -> int:
         """Features a channel."""
-        return self.lines + 2 * self.bands + self.shapes * (self.modulations + self.shafts + 2)
+        return self.lines + 2 * self.bands + self.shapes * (self.modulations + self.shafts + 2) + self.phases
 
     def slices(self) -> dict[str, slice]:
-        """`line`, `floor`, `total`, `depth`, `turn`, `kurtosis`, `skewness`."""
+        """`line`, `floor`, `total`, `depth`, `turn`, `kurtosis`, `skewness`, `phase`."""
         sizes = {
             "line": self.lines,
             "floor": self.bands,
@@ -46,6 +48,7 @@ class Layout:
             "turn": self.shapes * self.shafts,
             "kurtosis": self.shapes,
             "skewness": self.shapes,
+            "phase": self.phases,
         }
         start, found = 0, {}
         for name, size in sizes.items():
@@ -81,6 +84,7 @@ def soft_features(
     turn: FloatArray,
     kurtosis: FloatArray,
     skewness: FloatArray,
+    phase: FloatArray,
     scale: Scale,
 ) -> FloatArray:
     """Features (..., C, F) of statistics with any leading axes; NaN where nothing was measured."""
@@ -96,7 +100,16 @@ def soft_features(
     parts.append(local.reshape(*local.shape[:-2], -1))
     parts.append(SHAPE_DB * np.arcsinh(kurtosis))
     parts.append(SHAPE_DB * np.arcsinh(2.0 * skewness))
+    parts.append(between_sensors(phase))
     return np.concatenate(parts, axis=-1)
+
+
+def changed(after: FloatArray, before: FloatArray, phases: int) -> FloatArray:
+    """Difference of features (..., F), of which the last `phases` are known up to whole turns."""
+    found = np.array(after - before)
+    if phases:
+        found[..., -phases:] = wrapped(found[..., -phases:])
+    return found
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,11 +123,20 @@ class Passed:
     turn: FloatArray
     kurtosis: FloatArray
     skewness: FloatArray
+    phase: FloatArray
 
     def features(self, scale: Scale) -> FloatArray:
         """(N, C, F)."""
         return soft_features(
-            self.line, self.floor, self.total, self.depth, self.turn, self.kurtosis, self.skewness, scale
+            self.line,
+            self.floor,
+            self.total,
+            self.depth,
+            self.turn,
+            self.kurtosis,
+            self.skewness,
+            self.phase,
+            scale,
         )
 
 
@@ -141,4 +163,5 @@ def through(
         depth=bank.depth * share[..., None] ** 2 + depth_noise[..., None],  # type: ignore[attr-defined]
         kurtosis=bank.kurtosis * share**2,  # type: ignore[attr-defined]
         skewness=bank.skewness * share**1.5,  # type: ignore[attr-defined]
+        phase=bank.phase,  # type: ignore[attr-defined]
     )

@@ -74,6 +74,7 @@ def _measured(one: Steady, machine: MachineSpec, watched: WatchList, part: slice
         modulations_hz=modulations,
         modulation_slack=slack(watched.modulations, modulations),
         turning=watched.turning(bases),
+        phased=watched.phased,
     )
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reconcile.observe.phases import mean_phases
 from signals.series import FloatArray
 
 SHAPE_BANDS_HZ = ((60.0, 600.0), (600.0, 2000.0), (2000.0, 4500.0), (4500.0, 8000.0))
@@ -32,7 +33,8 @@ class Statistics:
     `total`: mean square in the band, (C, B). `band`: mean square in the shape band, (C, E).
     `depth`: (C, E, M) squared amplitude of a modulation of the squared envelope over its mean squared.
     `turn`: (C, E, S) mean square in the fullest window of the mean turn.
-    `kurtosis` (excess) and `skewness`: (C, E). `resolution_hz`: noise bandwidth of one line, Hz.
+    `kurtosis` (excess) and `skewness`: (C, E). `phase`: (C, Q) of the lines whose phases are compared, radians, up to a
+    number that all channels of a line share. `resolution_hz`: noise bandwidth of one line, Hz.
     NaN marks what the sampling rate or the duration does not cover.
     """
 
@@ -44,6 +46,7 @@ class Statistics:
     turn: FloatArray
     kurtosis: FloatArray
     skewness: FloatArray
+    phase: FloatArray
     resolution_hz: float
     duration_s: float
 
@@ -65,6 +68,7 @@ def averaged(several: list[Statistics]) -> Statistics:
         turn=mean("turn"),
         kurtosis=mean("kurtosis"),
         skewness=mean("skewness"),
+        phase=mean_phases([s.phase for s in several]),
         resolution_hz=float(np.mean([s.resolution_hz for s in several])),
         duration_s=float(sum(s.duration_s for s in several)),
     )

@@ -34,6 +34,11 @@ class Watched:
     family: str
     slips: bool
 
+    @property
+    def first_sideband(self) -> bool:
+        """Of a mesh harmonic, one turn of a shaft away."""
+        return self.family == "sideband" and any(abs(n) == 1 for b, n in self.orders.items() if b.startswith("f_r"))
+
     def frequency_hz(self, bases_hz: Mapping[str, float]) -> float:
         """Frequency for these base frequencies, Hz."""
         return abs(sum(n * bases_hz[base] for base, n in self.orders.items()))
@@ -52,6 +57,11 @@ class WatchList:
     def slips(self) -> np.ndarray:
         """Mask over `lines`, shape (lines,): the true frequency may differ from the geometric one by slip."""
         return np.array([w.slips for w in self.lines], dtype=bool)
+
+    @cached_property
+    def phased(self) -> tuple[int, ...]:
+        """Numbers of the lines whose phases are compared between sensors: the mesh's and their first sidebands."""
+        return tuple(i for i, line in enumerate(self.lines) if line.family == "mesh" or line.first_sideband)
 
     def line_hz(self, bases_hz: Mapping[str, float]) -> FloatArray:
         """Frequencies of the lines, shape (lines,), Hz."""

@@ -97,6 +97,7 @@ def statistics(k: int) -> Statistics:
         turn=rng.uniform(size=(1, 4, 2)),
         kurtosis=rng.uniform(size=(1, 4)),
         skewness=rng.uniform(size=(1, 4)),
+        phase=rng.uniform(size=(1, 3)),
         resolution_hz=1.5,
         duration_s=1.0,
     )

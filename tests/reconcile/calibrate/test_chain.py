@@ -31,6 +31,7 @@ def statistics(line: np.ndarray, floor: np.ndarray) -> Statistics:
         turn=np.zeros((1, len(SHAPE_BANDS_HZ), 1)),
         kurtosis=0 * shapes,
         skewness=0 * shapes,
+        phase=0 * line[None],
         resolution_hz=RESOLUTION_HZ,
         duration_s=3.0,
     )

@@ -26,7 +26,8 @@ def bank(theta: np.ndarray) -> Bank:
     rest = np.zeros((n, CHANNELS, 1))
     return Bank(
         alive=np.ones(n, dtype=bool), line=10.0 ** (level / 10.0), floor=rest, total=rest, band=rest,
-        depth=rest[..., None], turn=rest[..., None], kurtosis=rest, skewness=rest, resolution_hz=1.0, duration_s=1.0,
+        depth=rest[..., None], turn=rest[..., None], kurtosis=rest, skewness=rest, phase=rest,
+        resolution_hz=1.0, duration_s=1.0,
     )  # fmt: skip
 
 
@@ -79,7 +80,7 @@ def test_only_lines_that_stand_out_are_evidence() -> None:
     rest = np.zeros((CHANNELS, 1))
     seen = Statistics(
         line=line, floor=rest, total=rest, band=rest, depth=rest[..., None], turn=rest[..., None],
-        kurtosis=rest, skewness=rest,
+        kurtosis=rest, skewness=rest, phase=rest,
         resolution_hz=1.0, duration_s=1.0,
     )  # fmt: skip
     scale = Scale(line_noise=np.ones((CHANNELS, LINES)), depth_noise=np.ones(1), turn_noise=np.ones((CHANNELS, 1, 1)))

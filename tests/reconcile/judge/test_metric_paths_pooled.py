@@ -7,9 +7,9 @@ import pytest
 
 from reconcile.judge.metric import LEAST_DB, fit_metric, neighbour_scatter, whitening
 from reconcile.judge.paths import build_paths
-from reconcile.judge.pooled import DEAD, Pooling, first_sidebands, pooling
+from reconcile.judge.pooled import DEAD, Pooling, first_sidebands, mesh_lines, pooling
 from reconcile.observe.features import Layout
-from reconcile.observe.watch import watch_list
+from reconcile.observe.watch import WatchList, watch_list
 from sim.presets import preset
 
 
@@ -82,9 +82,36 @@ def test_pooling_keeps_noise_small_and_sees_a_rise_of_a_family() -> None:
     np.testing.assert_allclose(pool(-noise)[:, [0, 3]], -risen[:, [0, 3]])
 
 
+def layout_of(watched: WatchList) -> Layout:
+    sizes = {"lines": len(watched.lines), "modulations": len(watched.modulations), "phases": len(watched.phased)}
+    return Layout(bands=25, shapes=4, shafts=2, **sizes)
+
+
+def test_phases_of_one_sensor_or_without_a_baseline_have_no_family() -> None:
+    watched = watch_list(preset("paper-lightly-damped"))
+    layout = layout_of(watched)
+    found = pooling(watched, layout, points=1, channels=1)
+    unused = np.flatnonzero(found.family < 0)
+    np.testing.assert_array_equal(unused, range(*layout.slices()["phase"].indices(layout.size)))
+    changes = np.zeros((1, layout.size))
+    changes[0, unused] = 50.0
+    np.testing.assert_array_equal(found(changes), 0.0)
+
+
+def test_single_lines_are_levels_and_phases_of_the_same_lines() -> None:
+    watched = watch_list(preset("paper-lightly-damped"))
+    layout, sizes = layout_of(watched), {"points": 1, "channels": 2}
+    for view in (mesh_lines, first_sidebands):
+        levels, both = (view(watched, layout, phased=phased, **sizes).chosen for phased in (False, True))
+        named = [watched.lines[i].label for i in watched.phased]
+        phases = {label for label, one in zip(named, both[layout.slices()["phase"]], strict=True) if one}
+        assert phases == {w.label for w, one in zip(watched.lines, levels, strict=False) if one}
+        assert both.sum() == 2 * levels.sum()
+
+
 def test_first_sidebands_are_the_pairs_next_to_the_mesh_harmonics() -> None:
     watched = watch_list(preset("paper-lightly-damped"))
-    layout = Layout(lines=len(watched.lines), bands=25, shapes=4, modulations=len(watched.modulations), shafts=2)
+    layout = layout_of(watched)
     chosen = first_sidebands(watched, layout, points=1, channels=1).chosen
     labels = {line.label for line, one in zip(watched.lines, chosen, strict=False) if one}
     assert labels == {f"{k}*f_m{sign}1*f_r{shaft}" for k in range(1, 7) for sign in "+-" for shaft in (1, 2)}
@@ -93,10 +120,13 @@ def test_first_sidebands_are_the_pairs_next_to_the_mesh_harmonics() -> None:
 
 def test_every_feature_of_a_machine_has_a_family() -> None:
     watched = watch_list(preset("paper-lightly-damped"))
-    layout = Layout(lines=len(watched.lines), bands=25, shapes=4, modulations=len(watched.modulations), shafts=2)
-    found = pooling(watched, layout, points=1, channels=2)
+    layout = layout_of(watched)
+    found = pooling(watched, layout, points=1, channels=2, phased=True)
     assert found.family.size == layout.size
     assert set(found.family) == set(range(len(found.names)))
+    assert {n for n in found.names if n.startswith("phase")} == {
+        "phase mesh", "phase sidebands f_r1", "phase sidebands f_r2"
+    }  # fmt: skip
     first = dict(zip([w.label for w in watched.lines], found.family, strict=False))
     assert first["1*f_o1"] == first["8*f_o1"] != first["1*f_o3"]
     assert first["1*f_m-1*f_r1"] == first["2*f_m+1*f_r1"] != first["1*f_m-1*f_r2"]

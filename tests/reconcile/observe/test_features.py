@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reconcile.calibrate.chain import Chain
-from reconcile.observe.features import Layout, scale_of, soft_features, through
+from reconcile.observe.features import Layout, changed, scale_of, soft_features, through
+from reconcile.observe.phases import HALF_TURN_DB
 from reconcile.observe.statistics import LOBE, SHAPE_BANDS_HZ, third_octaves
 
 BANDS = third_octaves().size - 1
@@ -19,6 +20,7 @@ LINES_HZ = np.array([50.0, 333.0, 2345.0])
 WIDTHS = np.array([high - low for low, high in SHAPE_BANDS_HZ])
 RESOLUTION_HZ = 1.5
 TURNS = np.array([18.0, 5.0])
+PHASES = 2
 
 
 def bank(seed: int, n: int = 2, modulations: int = 4) -> SimpleNamespace:
@@ -32,6 +34,7 @@ def bank(seed: int, n: int = 2, modulations: int = 4) -> SimpleNamespace:
         turn=rng.uniform(0.0, 0.5, (n, 1, SHAPES, TURNS.size)),
         kurtosis=rng.uniform(-1.0, 20.0, (n, 1, SHAPES)),
         skewness=rng.uniform(-2.0, 2.0, (n, 1, SHAPES)),
+        phase=rng.uniform(-3.0, 3.0, (n, 1, PHASES)),
     )
 
 
@@ -96,7 +99,7 @@ def test_what_noise_buries_changes_no_feature() -> None:
 
 
 def test_features_are_laid_out_as_declared() -> None:
-    layout = Layout(lines=LINES_HZ.size, bands=BANDS, shapes=SHAPES, modulations=4, shafts=TURNS.size)
+    layout = Layout(lines=LINES_HZ.size, bands=BANDS, shapes=SHAPES, modulations=4, shafts=TURNS.size, phases=PHASES)
     here = chain(0.0, 1e-9)
     scale = scale_of(here, LINES_HZ, RESOLUTION_HZ, TURNS)
     base = bank(4)
@@ -112,5 +115,14 @@ def test_nothing_measured_stays_nan() -> None:
     here = bank(5)
     here.line[0, 0, 1] = np.nan
     scale = scale_of(chain(0.0, 1e-6), LINES_HZ, RESOLUTION_HZ, TURNS)
-    found = soft_features(here.line, here.floor, here.total, here.depth, here.turn, here.kurtosis, here.skewness, scale)
+    parts = (here.line, here.floor, here.total, here.depth, here.turn, here.kurtosis, here.skewness, here.phase)
+    found = soft_features(*parts, scale)
     assert np.isnan(found).sum() == 1 and np.isnan(found[0, 0, 1])
+
+
+def test_changes_of_phases_are_known_up_to_whole_turns() -> None:
+    half = HALF_TURN_DB
+    before, after = np.array([[10.0, half - 1.0]]), np.array([[10.0 + 2.0 * half, 1.0 - half]])
+    np.testing.assert_allclose(changed(after, before, 1), [[2.0 * half, 2.0]])
+    np.testing.assert_allclose(changed(after, before, 2), [[0.0, 2.0]], atol=1e-9)
+    np.testing.assert_allclose(changed(after, before, 0), after - before)
