@@ -11,6 +11,7 @@ from scipy.linalg import block_diag
 from reconcile.atlas.bank import Bank
 from reconcile.atlas.plan import AtlasPlan
 from reconcile.calibrate.chain import Chain, Healthy, calibrate_chain
+from reconcile.judge.in_step import Delay, clock_delays, compared
 from reconcile.judge.measured import measured_db, unsteady_db, wander_patterns
 from reconcile.judge.pooled import OneByOne, Pooling, first_sidebands, mesh_lines, pooling
 from reconcile.observe.features import Layout, Scale, changed, scale_of, soft_features, through
@@ -47,6 +48,11 @@ class Changes:
     """(k, F): what drift changes on other machines of the kind, to learn from and not to compare with; may be empty."""
     phases: int = 0
     """Of each channel's features the last ones, which are known up to whole turns."""
+
+    phased: tuple[OneByOne, ...] = ()
+    """`single` and `sides` with the phases of these lines between sensors, where these are compared."""
+    delays: tuple[Delay, ...] = ()
+    """Of channels against each other since the baseline; where there are any, phases do not count."""
 
     def left(self, change: FloatArray) -> FloatArray:
         """What a change (F,) leaves of the observed one, (F,)."""
@@ -134,7 +140,8 @@ def observed_changes(
     watched = watch_list(plan.machine)
     groups: list[np.ndarray] = []
     based = all(d.baseline is not None for d in data)
-    compared = based and data[0].test.line.shape[0] > 1
+    delays = clock_delays(data, [lens.scale.line_noise for lens in seen_through], watched)
+    phased = compared(data, delays)
     for one, lens, bank in zip(data, seen_through, banks, strict=True):
         reference = _of(one.baseline, lens) if one.baseline is not None else lens.nominal
         phases = len(watched.phased)
@@ -143,7 +150,7 @@ def observed_changes(
         spread = measured_db(one.test, lens.chain, lens.lines_hz, lens.scale, watched.phased) ** 2
         if one.baseline is not None:
             spread = spread + measured_db(one.baseline, lens.chain, lens.lines_hz, lens.scale, watched.phased) ** 2
-        if not compared:
+        if not phased:
             spread[:, spread.shape[1] - phases :] = np.nan
         steady = unsteady_db(one.test, watched, one.lines_hz)
         measured.append(np.sqrt(spread + steady**2).ravel())
@@ -160,12 +167,14 @@ def observed_changes(
         starts=tuple(starts),
         with_baseline=based,
         groups=np.concatenate(groups),
-        pooling=pooling(watched, layout, phased=compared, **size),
-        single=mesh_lines(watched, layout, phased=compared, **size),
-        sides=first_sidebands(watched, layout, phased=compared, **size),
+        pooling=pooling(watched, layout, phased=phased, **size),
+        single=mesh_lines(watched, layout, **size),
+        sides=first_sidebands(watched, layout, **size),
+        phased=tuple(view(watched, layout, phased=True, **size) for view in (mesh_lines, first_sidebands) if phased),
         wander=block_diag(*wander),
         kind=np.zeros((0, starts[-1])),
         phases=layout.phases,
+        delays=delays,
     )
 
 

@@ -14,6 +14,8 @@ from reconcile.tail import tail_chance
 from signals.series import FloatArray
 
 OTHER_VIEW = 0.5
+KINDS = 2
+"""Views of single lines by levels alone: mesh lines and first sidebands."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,7 +25,7 @@ class Screen:
 
     `p_any`: chance of such a change in a healthy machine, by the most changed group of features (one point, channel
     and kind), `strongest` in standard deviations; `p_best`: by the best candidate's evidence; `p_direct`: by impacts.
-    `by` (effects,): the view (0, 1, 2) that speaks for each. `weights` sum to 1 over the effects.
+    `by` (effects,): the view (0 to 4) that speaks for each. `weights` sum to 1 over the effects.
     `misfit`: quantile of the best distance among draws of known effects; `rest`: what the best leaves of single lines,
     nothing where that view is missing. `p_lines`: chance of such a change of single lines, whatever its pattern.
     """
@@ -88,8 +90,8 @@ def together(told: Sequence[FloatArray]) -> FloatArray:
 def judge(
     views: Sequence[Fitted], observed: FloatArray, direct: Mapping[str, float] | None = None, p_direct: float = 1.0
 ) -> Screen:
-    """`observed` (F,) in dB against all paths in one to three views, the first of families and the others of single
-    lines; `direct`: log evidence that needs no simulation.
+    """`observed` (F,) in dB against all paths in one to five views, the first of families and the others of single
+    lines, levels of two kinds first and then the same with phases; `direct`: log evidence that needs no simulation.
 
     An effect counts by the view that speaks louder for it, and half by the other: what that one sees may be what the
     model has not, and it sees much of the same.
@@ -117,18 +119,18 @@ def judge(
         p_direct=p_direct,
         misfit=looks[int(by[int(np.argmax(evidence))])].misfit,
         length=looks[0].length,
-        rest=_rest(views, observed, best, int(by[int(np.argmax(evidence))])),
+        rest=_rest(views[: 1 + KINDS], observed, best, int(by[int(np.argmax(evidence))])),
         p_lines=_of_lines(views[1:], looks[1:]),
     )
 
 
 def _rest(views: Sequence[Fitted], observed: FloatArray, best: str, speaks: int) -> Rest:
-    """Of mesh lines, unless sidebands speak for the effect."""
+    """By levels: of mesh lines, unless sidebands speak for the effect."""
     if len(views) == 1:
         return Rest()
     lines = [rest_of(view, observed, best) for view in views[1:]]
     pooled = explained(views[0], observed, best)
-    return replace(lines[max(speaks, 1) - 1], pooled=pooled, elsewhere=max(rest.unmet for rest in lines))
+    return replace(lines[(max(speaks, 1) - 1) % KINDS], pooled=pooled, elsewhere=max(rest.unmet for rest in lines))
 
 
 def _of_lines(views: Sequence[Fitted], looks: Sequence[Look]) -> float:

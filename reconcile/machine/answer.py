@@ -14,6 +14,7 @@ from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import Decision, decide
 from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
+from reconcile.machine.limits import limits
 from reconcile.machine.lines import by_name, line_changes
 from reconcile.machine.meter import Meter
 from reconcile.machine.pictures import ranking, spectra, turn_maps, with_forms
@@ -40,10 +41,6 @@ from reconcile.verdict import (
     Where,
     Word,
 )
-
-ONE_SENSOR = "one sensor cannot locate a broadband force: places rest on the spectra the machine model predicts"
-NO_BASELINE = "without a baseline the machine's parameters and the sensors' paths were fitted to the test itself"
-ONE_POINT = "one operating point: the held-out data are a later time of the same record"
 
 
 def fault_answer(gate: Gate, *, level: Level) -> Report:
@@ -85,17 +82,6 @@ def _sites(weights: Mapping[str, float]) -> tuple[PlaceWeight, ...]:
     return tuple(PlaceWeight(site=s, weight=w) for s, w in ordered if w > 0.01)
 
 
-def _limits(setting: Setting) -> tuple[str, ...]:
-    limits = []
-    if len(setting.channels) == 1:
-        limits.append(ONE_SENSOR)
-    if not setting.changes.with_baseline:
-        limits.append(NO_BASELINE)
-    if len(setting.data) == 1:
-        limits.append(ONE_POINT)
-    return tuple(limits)
-
-
 def answer(
     setting: Setting,
     found: Found,
@@ -130,7 +116,7 @@ def answer(
     placed = _with_second(weights, other)
     if unknown is not None:
         placed = at_supports(weights, unknown.force.site, [b.name for b in setting.machine.bearings])
-    where = _where(setting, layout, watched, placed) if missing else Where(limits=_limits(setting))
+    where = _where(setting, layout, watched, placed) if missing else Where(limits=limits(setting))
     if word != "measurement_fault":
         where = replace(where, limits=(*where.limits, *doubts(gate)))
     return Report(
@@ -200,7 +186,7 @@ def _where(setting: Setting, layout: Layout, watched: WatchList, weights: Mappin
         sites=_sites(weights),
         lines=by_name(line_changes(setting.data, setting.changes, layout, watched, setting.channels), setting.machine),
         angle_window=angle_window(setting.machine, setting.data, setting.channels),
-        limits=_limits(setting),
+        limits=limits(setting),
     )
 
 

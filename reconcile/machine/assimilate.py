@@ -172,8 +172,15 @@ def _with(setting: Setting, found: Found, more: Catalogued) -> Found:
     rest = replace(after.rest, rough=best not in found.led)
     screen = replace(after, rest=rest, unmoved=before.pattern, **kept)
     fitted, fine, sides = (*views, None, None)[:3]
+    phases = tuple(views[3:])
     return replace(
-        found, known=joined(found.known, more), fitted=fitted or found.fitted, fine=fine, sides=sides, screen=screen
+        found,
+        known=joined(found.known, more),
+        fitted=fitted or found.fitted,
+        fine=fine,
+        sides=sides,
+        phases=phases,
+        screen=screen,
     )
 
 

@@ -9,8 +9,9 @@ import numpy as np
 from reconcile.atlas.bank import Mapper
 from reconcile.atlas.plan import AtlasPlan, Draw
 from reconcile.judge.nulls import squared_distances
+from reconcile.judge.pooled import OneByOne
 from reconcile.judge.screen import judge
-from reconcile.judge.space import Fitted, fit_space
+from reconcile.judge.space import fit_space
 from reconcile.machine.assimilate import Task
 from reconcile.machine.budget import Budget
 from reconcile.machine.decide import DETECT_P
@@ -44,17 +45,16 @@ def fit_views(setting: Setting, known: Catalogued) -> Found:
     """Families of features; on machines that agree with the baseline single lines beside them."""
     changes, direct = setting.changes, setting.direct
     fitted = fit_space(changes, known.library, seed=setting.seed, least=setting.overdispersion)
-    lines: list[Fitted] = []
     told = len(setting.data) >= POINTS_OF_LINES or len(setting.channels) >= CHANNELS_OF_LINES
+    views: tuple[OneByOne, ...] = ()
     if setting.fitted_machine is not None and told:
-        lines = [
-            fit_space(changes, known.library, seed=setting.seed, view=view, least=LEAST_OF_LINES)
-            for view in (changes.single, changes.sides)
-        ]
+        views = (changes.single, changes.sides, *changes.phased)
+    lines = [fit_space(changes, known.library, seed=setting.seed, view=view, least=LEAST_OF_LINES) for view in views]
     screen = judge((fitted, *lines), changes.observed, direct.evidence, direct.p)
     if not lines:
         return Found(known=known, fitted=fitted, screen=screen)
-    return Found(known=known, fitted=fitted, screen=screen, fine=lines[0], sides=lines[1])
+    fine, sides, *phases = lines
+    return Found(known=known, fitted=fitted, screen=screen, fine=fine, sides=sides, phases=tuple(phases))
 
 
 def screen_atlas(setting: Setting) -> Found:
@@ -192,7 +192,8 @@ def to_fit(setting: Setting, found: Found, budget: Budget) -> list[Task]:
     others = beside(setting, found, leading[0]) if looks_for_second(found) else None
     if others is None or others.p > DETECT_P or others.evidence[0] < LEAST_EVIDENCE:
         return [Task(name=n, view=found.lines(n), target=setting.changes.observed) for n in leading]
-    return [Task(name=n, view=others.view, target=others.left, second=True) for n in others.names[:FITTED_SECONDS]]
+    view = found.levels_like(others.view)
+    return [Task(name=n, view=view, target=others.left, second=True) for n in others.names[:FITTED_SECONDS]]
 
 
 def refined(

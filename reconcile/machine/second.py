@@ -130,7 +130,7 @@ def second_effect(setting: Setting, found: Found, decision: Decision) -> Beside 
     seen = beside(setting, found, decision.chosen[0])
     if seen is None or seen.p > DETECT_P or seen.misfit > STRANGE or seen.evidence[0] < LEAST_EVIDENCE:
         return None
-    if rest_of(seen.view, seen.left, seen.names[0]).kept < LEAST_KEPT:
+    if rest_of(found.levels_like(seen.view), seen.left, seen.names[0]).kept < LEAST_KEPT:
         return None
     return seen if _outweighs(seen) else None
 

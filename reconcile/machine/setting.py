@@ -48,6 +48,8 @@ class Found:
     """The view of single mesh lines, on machines that agree with the baseline."""
     sides: Fitted | None = None
     """The view of single sidebands there."""
+    phases: tuple[Fitted, ...] = ()
+    """The same two with the phases between sensors, where these are compared."""
     before: Catalogued | None = None
     """The draws that were not led to the observation, where others were."""
     led: Mapping[str, Offsets] = field(default_factory=dict)
@@ -67,16 +69,21 @@ class Found:
 
     @property
     def views(self) -> tuple[Fitted, ...]:
-        """Families, single mesh lines, single sidebands; what there is of them, in this order."""
-        return tuple(v for v in (self.fitted, self.fine, self.sides) if v is not None)
+        """Families, single mesh lines, single sidebands, both with phases; what there is of them, in this order."""
+        return tuple(v for v in (self.fitted, self.fine, self.sides, *self.phases) if v is not None)
 
     def view(self, name: str) -> Fitted:
         """The view that speaks for an effect."""
         return self.views[int(self.screen.by[self.screen.names.index(name)])]
 
+    def levels_like(self, view: Fitted) -> Fitted:
+        """The view of the same single lines without their phases, in which is judged what an effect leaves."""
+        known = [k for k, one in enumerate(self.phases) if one is view]
+        return next((v for v in ((self.fine, self.sides)[k] for k in known) if v is not None), view)
+
     def lines(self, name: str) -> Fitted:
-        """The view of single lines that an effect is fitted in: mesh lines, unless sidebands speak for it."""
+        """The view of single lines (levels) that an effect is fitted in: mesh lines, unless sidebands speak for it."""
         view = self.view(name)
         if view is self.fitted and self.fine is not None:
             return self.fine
-        return view
+        return self.levels_like(view)
