@@ -139,3 +139,20 @@ def test_the_same_seed_gives_the_same_space() -> None:
     again = fit_space(changes(MADE, np.zeros(FEATURES)), library(MADE), seed=1)
     np.testing.assert_array_equal(again.null, space().null)
     assert again.overdispersion == space().overdispersion
+
+
+@pytest.mark.slow
+def test_views_with_phases_speak_and_levels_say_what_is_left() -> None:
+    """Two views of levels and the same again where phases would be: nothing changes but what the looks cost."""
+    rng = np.random.default_rng(3)
+    observed = MADE.effect(2, 0.6, rng) + MADE.noise(rng)
+    here = changes(MADE, observed)
+    lines = [fit_space(here, library(MADE), seed=1, view=view, least=4.0) for view in (here.single, here.sides)]
+    blind = fit_space(here, library(MADE), seed=1, view=replace(here.sides, chosen=np.arange(FEATURES) < 1), least=4.0)
+    before, again = judge((space(), *lines), observed), judge((space(), *lines, *lines), observed)
+    np.testing.assert_allclose(again.evidence, before.evidence)
+    assert (again.rest, again.p_lines) == (before.rest, pytest.approx(2 * before.p_lines))
+    assert set(again.by) <= {0, 1, 2}
+    spoken = judge((space(), blind, blind, *lines), observed)
+    assert int(spoken.by[int(np.argmax(spoken.evidence))]) in {0, 3, 4}
+    assert spoken.rest.kept == judge((space(), blind, blind), observed).rest.kept
