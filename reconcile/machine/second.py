@@ -7,6 +7,7 @@ simulating all pairs.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -98,12 +99,25 @@ def _beside_in(view: Fitted, left: FloatArray) -> Beside | None:
     )
 
 
-def struck_too(setting: Setting, found: Found, first: str) -> Beside | None:
-    """Effects that strike at the lines of another part than the first, where impacts come at those of several: by
-    these impacts, and among places with the same lines by what the first one leaves."""
+def struck_parts(setting: Setting, found: Found, first: str) -> list[Mapping[str, float]]:
+    """Effects, with their log evidence, that strike at each part which is not the first one's, the firmest part first:
+    where impacts come at the lines of several parts, or where they are sure and the first strikes nowhere."""
     parts = [part for part in setting.direct.struck if first not in part]
+    if strikes(first):
+        return parts if len(parts) < len(setting.direct.struck) else []
+    shown = dict(zip(found.screen.names, map(float, found.screen.direct), strict=True))
+    firmest = max(shown.values())
+    if parts or firmest < STRUCK:
+        return parts
+    return [{name: value for name, value in shown.items() if value > firmest - LEAST_EVIDENCE}]
+
+
+def struck_too(setting: Setting, found: Found, first: str) -> Beside | None:
+    """Effects that strike at the lines of another part than the first: by these impacts, and among places with the
+    same lines by what the first one leaves."""
+    parts = struck_parts(setting, found, first)
     known = [n for n in (parts[0] if parts else ()) if n in found.screen.names]
-    if not known or len(parts) == len(setting.direct.struck):
+    if not known:
         return None
     left = setting.changes.left(np.nan_to_num(fitted_change(found, first, setting.changes.observed)))
     look = looked(found.fitted, left)
@@ -122,11 +136,13 @@ def struck_too(setting: Setting, found: Found, first: str) -> Beside | None:
 
 def second_effect(setting: Setting, found: Found, decision: Decision) -> Beside | None:
     """What is left where its best effect may be named as the second one."""
-    if decision.word != "explained" or not sure(found, decision.chosen[0]):
+    if decision.word != "explained":
         return None
     struck = struck_too(setting, found, decision.chosen[0])
     if struck is not None and _outweighs(struck):
         return struck
+    if not sure(found, decision.chosen[0]):
+        return None
     seen = beside(setting, found, decision.chosen[0])
     if seen is None or seen.p > DETECT_P or seen.misfit > STRANGE or seen.evidence[0] < LEAST_EVIDENCE:
         return None
@@ -142,7 +158,8 @@ def struck_somewhere(setting: Setting, found: Found, decision: Decision) -> tupl
     struck = struck_too(setting, found, decision.chosen[0])
     if struck is None:
         return ()
-    further = [p for p in setting.direct.struck if decision.chosen[0] not in p and not set(p) & set(struck.names)]
+    parts = struck_parts(setting, found, decision.chosen[0])
+    further = [p for p in parts if not set(p) & set(struck.names)]
     if _outweighs(struck):
         return tuple(name for part in further for name in part)
     return tuple(n for n, e in zip(struck.names, struck.evidence, strict=True) if e > struck.evidence[0] - STRUCK)

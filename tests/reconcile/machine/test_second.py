@@ -11,11 +11,19 @@ import pytest
 from reconcile.judge.screen import judge
 from reconcile.judge.space import Library, fit_space
 from reconcile.machine.budget import QUICK
-from reconcile.machine.decide import decide
+from reconcile.machine.decide import STRUCK, decide
 from reconcile.machine.direct import MOST, NOTHING
 from reconcile.machine.library import Catalogued
 from reconcile.machine.search import LEAST_OF_LINES, to_fit
-from reconcile.machine.second import LEFT, beside, looks_for_second, second_effect, struck_somewhere, struck_too
+from reconcile.machine.second import (
+    LEFT,
+    beside,
+    looks_for_second,
+    second_effect,
+    struck_parts,
+    struck_somewhere,
+    struck_too,
+)
 from reconcile.machine.setting import Found
 from tests.reconcile.judge.made import EFFECTS, FEATURES, MEMBERS, changes, library, world
 
@@ -153,5 +161,26 @@ def test_a_second_part_without_a_pattern_leaves_its_place_open() -> None:
         places = struck_somewhere(setting, found, decision)  # type: ignore[arg-type]
         assert (named_too is None) == (set(places) == set(OTHER_PARTS))
         left_open += named_too is None
-        assert struck_too(setting, found, NAMES[2]) is None, "strikes at neither part"  # type: ignore[arg-type]
     assert left_open >= 4
+
+
+@pytest.mark.slow
+def test_what_strikes_for_sure_is_named_beside_a_first_effect_that_strikes_nowhere() -> None:
+    loose = NAMES[1]
+    setting, found = found_in(seen((2,), 1), STRUCK + 1.0)
+    decision = replace(decide(found.screen, views=9), word="explained", chosen=(loose,))
+    second = second_effect(setting, found, decision)  # type: ignore[arg-type]
+    assert second is not None and second.names == (NAMES[0],)
+    assert struck_too(setting, found, NAMES[0]) is None, "the first one's own impacts"  # type: ignore[arg-type]
+    unsure, faint = found_in(seen((2,), 1), STRUCK - 1.0)
+    assert struck_too(unsure, faint, loose) is None  # type: ignore[arg-type]
+    assert struck_somewhere(unsure, faint, decision) == ()  # type: ignore[arg-type]
+
+
+@pytest.mark.slow
+def test_impacts_at_several_parts_are_told_beside_a_first_effect_that_strikes_nowhere() -> None:
+    setting, found = two_parts((2,), 0)
+    parts = struck_parts(setting, found, NAMES[2])  # type: ignore[arg-type]
+    assert [set(part) for part in parts] == [{NAMES[0]}, set(OTHER_PARTS)]
+    decision = replace(decide(found.screen, views=9), word="explained", chosen=(NAMES[2],))
+    assert set(struck_somewhere(setting, found, decision)) == set(OTHER_PARTS)  # type: ignore[arg-type]
