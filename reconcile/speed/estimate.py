@@ -78,14 +78,7 @@ def estimate_speed(
         return _by_pulses(recording, name, stated)
     stated = _checked(recording, stated, search)
     combs = line_logs(recording)
-    speeds, score = _best_speed(combs, HARMONICS, stated, search)
-    best = int(np.argmax(score))
-    confidence = _confidence(combs, HARMONICS, float(score[best]), stated, search, seed)
-    step = 1 / recording.duration_s
-    if confidence < ENOUGH and orders:
-        speeds, score = _best_speed(combs, orders, stated, search)
-        best = int(np.argmax(score))
-        confidence = max(confidence, _confidence(combs, orders, float(score[best]), stated, search, seed))
+    coarse, confidence, found_by = _coarse(combs, orders, stated, search, seed)
     if confidence < ENOUGH:
         low, high = stated * (1 - search), stated * (1 + search)
         return SpeedEstimate(
@@ -97,7 +90,8 @@ def estimate_speed(
             method="stated",
             stated_hz=stated,
         )
-    speed, half = _refined(combs, float(speeds[best]), (*HARMONICS, *orders), step)
+    # a line near the shaft's own must not lead away from the teeth
+    speed, half = _refined(combs, coarse, found_by, 1.0 / (recording.duration_s * min(found_by)))
     return SpeedEstimate(
         shaft=name,
         speed_hz=speed,
@@ -108,6 +102,49 @@ def estimate_speed(
         stated_hz=stated,
         rival_hz=octave_rival(combs, speed, HARMONICS, orders),
     )
+
+
+def _coarse(
+    combs: Sequence[tuple[FloatArray, float]], orders: Sequence[float], stated: float, search: float, seed: int
+) -> tuple[float, float, tuple[float, ...]]:
+    """Speed, confidence and the orders to refine it by: `orders` alone, being finer, where they are sure and lie with
+    the shaft's harmonics or explain more; else the harmonics too, if these are sure."""
+    by_shaft = _found(combs, HARMONICS, stated, search, seed)
+    if not orders:
+        return *by_shaft, HARMONICS
+    by_orders = _found(combs, orders, stated, search, seed)
+    first, second = by_shaft[0], by_orders[0]
+    alike = abs(first - second) <= combs[0][1]
+    surer = by_orders[1] >= ENOUGH and (alike or _explains_more(combs, orders, second, first))
+    if by_shaft[1] >= ENOUGH and not surer:
+        return *by_shaft, (*HARMONICS, *orders)
+    return second, max(by_shaft[1], by_orders[1]), tuple(orders)
+
+
+def _found(
+    combs: Sequence[tuple[FloatArray, float]], orders: Sequence[float], stated: float, search: float, seed: int
+) -> tuple[float, float]:
+    """Best speed of a comb and the confidence in it."""
+    speeds, score = _best_speed(combs, orders, stated, search)
+    best = int(np.argmax(score))
+    return float(speeds[best]), _confidence(combs, orders, float(score[best]), stated, search, seed)
+
+
+def _explains_more(
+    combs: Sequence[tuple[FloatArray, float]], orders: Sequence[float], one: float, other: float
+) -> bool:
+    """Whether shaft's harmonics and `orders` together have more at the speed `one` than at the `other`."""
+    totals = []
+    for speed in (one, other):
+        near = np.array([speed])
+        totals.append(
+            sum(
+                float(comb_score(maximum_filter1d(log, 3), width, near, comb)[0])
+                for log, width in combs
+                for comb in (HARMONICS, orders)
+            )
+        )
+    return totals[0] > totals[1]
 
 
 def _checked(recording: Recording, stated: float | None, search: float) -> float:
@@ -222,7 +259,8 @@ def _confidence(
 def _refined(
     combs: Sequence[tuple[FloatArray, float]], coarse: float, orders: Sequence[float], step_hz: float
 ) -> tuple[float, float]:
-    """Speed refined order by order (low orders first: each narrows the range of the next) and half its interval."""
+    """Speed refined order by order (low orders first: each narrows the range of the next) and half its interval, which
+    starts at `step_hz`."""
     speed, half = coarse, step_hz
     for order in sorted(orders):
         estimates, weights = [], []

@@ -105,6 +105,15 @@ def test_a_bad_fit_is_unknown_whoever_is_nearest() -> None:
     assert decide(screen([2.0, -9.0]), views=9).word == "unknown_physics"
 
 
+def test_a_lead_is_not_enough_for_what_fits_badly_and_explains_next_to_nothing() -> None:
+    """The set are the effects of the place, which all lead those elsewhere."""
+    hardly = Rest(unmet=3.3, kept=0.14, pooled=0.3, rough=False)
+    found = decide(screen([28.0, 10.0, -1.0, -1.0], misfit=1.0, rest=hardly), views=24)
+    assert found.word in {"ambiguous", "unknown_physics"}
+    assert decide(screen([28.0, 10.0], misfit=0.9, rest=hardly), views=24).word == "explained"
+    assert decide(screen([28.0, 10.0], misfit=1.0, rest=replace(hardly, kept=0.5)), views=24).word == "explained"
+
+
 def test_what_healthy_machines_show_too_is_nothing() -> None:
     quiet = decide(screen([20.0], p_any=0.3, p_best=0.2, strongest=2.0), views=9)
     assert (quiet.word, quiet.chosen) == ("nothing_missing", ())

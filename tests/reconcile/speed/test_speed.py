@@ -49,6 +49,15 @@ def test_teeth_alone_give_the_speed() -> None:
     assert found.speed_hz == pytest.approx(17.2, rel=1e-4)
 
 
+def test_a_line_near_the_shafts_own_does_not_lead_away_from_the_teeth() -> None:
+    """Short records resolve 0.8 Hz: a foreign line so near to the first harmonic of the shaft is within reach of it."""
+    time = np.arange(int(1.2 * RATE_HZ)) / RATE_HZ
+    teeth = comb(2 * np.pi * 30.05 * time, (23, 46, 69), 2, noise=0.3)
+    found = estimate_speed(recorded(teeth + 2.0 * np.cos(2 * np.pi * 30.85 * time), 30.0), orders=(23.0, 46.0))
+    assert found.speed_hz == pytest.approx(30.05, rel=3e-4)
+    assert found.high_hz - found.low_hz < 0.2
+
+
 def test_mains_lines_are_no_shaft() -> None:
     t = np.arange(int(8 * RATE_HZ)) / RATE_HZ
     mains = sum(3 * np.cos(2 * np.pi * 50 * k * t) for k in (1, 2, 3, 4))
