@@ -24,9 +24,9 @@ from reconcile.machine.weigh import LEAST_EVIDENCE, credible_set, merged_weights
 from signals.series import FloatArray
 from sim.core.errors import SpecError
 
-POINTS_OF_LINES, CHANNELS_OF_LINES = 2, 6
+POINTS_OF_LINES, CHANNELS_OF_LINES, CHANNELS_OF_PHASES = 2, 6, 3
 """Operating points from which single lines have a pattern: at one, few sensors see each meet its resonance by chance;
-sensors from which one point will do."""
+sensors from which one point will do, and fewer of which where their phases are compared."""
 LEAST_OF_LINES = 4.0
 """Overdispersion of single lines: that of sixteen effects on development cases was 4 to 8."""
 LEAST_TERMS = 5
@@ -45,7 +45,8 @@ def fit_views(setting: Setting, known: Catalogued) -> Found:
     """Families of features; on machines that agree with the baseline single lines beside them."""
     changes, direct = setting.changes, setting.direct
     fitted = fit_space(changes, known.library, seed=setting.seed, least=setting.overdispersion)
-    told = len(setting.data) >= POINTS_OF_LINES or len(setting.channels) >= CHANNELS_OF_LINES
+    enough = CHANNELS_OF_PHASES if changes.phased else CHANNELS_OF_LINES
+    told = len(setting.data) >= POINTS_OF_LINES or len(setting.channels) >= enough
     views: tuple[OneByOne, ...] = ()
     if setting.fitted_machine is not None and told:
         views = (changes.single, changes.sides, *changes.phased)
