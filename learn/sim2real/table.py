@@ -8,6 +8,7 @@ from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import partial
+from itertools import compress
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -120,6 +121,24 @@ def joined(found: Sequence[Example]) -> Table:
         tried=np.concatenate([one.tried for one in found]),
         long_labels=tuple(one.label for one in found for _ in one.long),
         long_machines=tuple(one.machine for one in found for _ in one.long),
+    )
+
+
+def some(found: Table, machines: int) -> Table:
+    """The rows of about so many machines, evenly picked; at least one."""
+    names = sorted(set(found.machines))
+    chosen = names[:: max(1, round(len(names) / max(machines, 1)))]
+    short, long = np.isin(found.machines, chosen), np.isin(found.long_machines, chosen)
+    return Table(
+        known=found.known[short],
+        unknown=found.unknown[short],
+        labels=tuple(compress(found.labels, short)),
+        machines=tuple(compress(found.machines, short)),
+        long=found.long[long],
+        anywhere=found.anywhere[long],
+        tried=found.tried[long],
+        long_labels=tuple(compress(found.long_labels, long)),
+        long_machines=tuple(compress(found.long_machines, long)),
     )
 
 

@@ -1,8 +1,9 @@
 """The datasets that training is done on."""
 
+import numpy as np
 import pytest
 
-from learn.sim2real.table import part_table
+from learn.sim2real.table import Table, part_table, some
 from learn.sim2real.training_data import made, recipes
 from sideband_datasets.folder.layout import MANIFEST
 from sideband_datasets.recipe import recipe_named
@@ -12,6 +13,29 @@ from tests.sideband_datasets.beside import siblings
 def test_training_is_done_on_the_ready_recipes_unless_told_otherwise():
     assert recipes() == (recipe_named("bearings-fast"), recipe_named("bearings-slow"))
     assert recipes(60) != recipes()
+
+
+def test_a_part_of_a_table_holds_all_rows_of_its_machines():
+    short, long = np.repeat(np.arange(10), 3), np.repeat(np.arange(10), 2)
+    table = Table(
+        known=short[:, None] * 1.0,
+        unknown=short[:, None] * 2.0,
+        labels=tuple(f"label {m}" for m in short),
+        machines=tuple(short.tolist()),
+        long=long[:, None] * 3.0,
+        anywhere=long[:, None] * 4.0,
+        tried=long[:, None, None] * 5.0,
+        long_labels=tuple(f"label {m}" for m in long),
+        long_machines=tuple(long.tolist()),
+    )
+    part = some(table, 5)
+    assert sorted(set(part.machines)) == [0, 2, 4, 6, 8] == sorted(set(part.long_machines))
+    np.testing.assert_array_equal(part.known[:, 0], part.machines)
+    np.testing.assert_array_equal(part.tried[:, 0, 0], 5.0 * np.array(part.long_machines))
+    assert part.labels == tuple(f"label {m}" for m in part.machines)
+    assert part.long_labels == tuple(f"label {m}" for m in part.long_machines)
+    assert (len(part.unknown), len(part.long), len(part.anywhere)) == (15, 10, 10)
+    assert len(some(table, 0).machines) == 3 and some(table, 99).machines == table.machines
 
 
 @pytest.mark.slow
