@@ -114,7 +114,9 @@ here), and the place of an unknown force is told among supports alone, as `force
 other changes). Since "Phases" a lead alone does not carry what fits worse than nearly all known effects and explains
 next to nothing (l041), teeth refine the speed where they are sure (l073; a line beside the shaft's own had led it 2.8 %
 away; l041, run again, names the right race), and single lines count at one operating point from three sensors on,
-where phases are compared. Older
+where phases are compared. Of cases that had been looked at, run again with
+phases, l093 and the loose seat of l028 are named and were not, l078 was named and is unknown physics, l016, l017, l076,
+l088, l089 and the sound l012, l015, l034, l075 kept their verdicts. Older
 changes of the engine (run-ups without pulses, standstills and two motions without a force are told or refused, no
 size from a channel that is cut off, words of messages) act before or beside the rules: s122, l087 and l069, run again
 with engine `e14fd6f7b232`, gave the same causes, scores and gains (read off once).
