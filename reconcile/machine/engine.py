@@ -133,7 +133,7 @@ def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, prog
             quiet = replace(atlas, screen=replace(atlas.screen, p_lines=lines))
             return _Looks(setting=setting, found=quiet, fit=told(local), atlas=atlas, lines=seen)
         progress(0.7, "candidates on these machines")
-        found = located(closer, atlas, setting, budget, meter, possible_seconds(closer, seen))
+        found = located(closer, atlas, setting, budget, meter, seen, possible_seconds(closer, seen))
     elif not remarkable(atlas.screen):
         quiet = replace(atlas, screen=unmeasured(atlas.screen))
         return _Looks(setting=setting, found=quiet, fit={}, atlas=atlas, lines=None)

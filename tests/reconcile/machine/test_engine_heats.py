@@ -24,21 +24,29 @@ NAMES = (
 EVIDENCE = np.array([40.0, 20.0, 6.0, 5.0, 4.0, 3.0, 2.0])
 
 
-def screened(misfit: float, direct: float) -> SimpleNamespace:
+def screened(misfit: float, direct: float, evidence: np.ndarray = EVIDENCE) -> SimpleNamespace:
     shown = np.array([direct, *[0.0] * (len(NAMES) - 1)])
     return SimpleNamespace(
-        screen=SimpleNamespace(names=NAMES, evidence=EVIDENCE, direct=shown, misfit=misfit, rest=Rest())
+        screen=SimpleNamespace(names=NAMES, evidence=evidence, direct=shown, misfit=misfit, rest=Rest())
     )
 
 
 def test_the_metric_gets_five_effects_however_far_ahead_the_best_is() -> None:
-    ranked = search.with_others(screened(0.3, 25.0))  # type: ignore[arg-type]
+    ranked = search.with_others(screened(0.3, 25.0), screened(0.3, 25.0))  # type: ignore[arg-type]
     assert ranked == [*NAMES[:6]], "five effects, the best first, with the other place of the best"
 
 
 def test_what_may_stand_beside_the_best_is_simulated_too() -> None:
-    ranked = search.with_others(screened(0.95, 25.0), ["rub@gear", "unbalance@pinion"])  # type: ignore[arg-type]
+    both = screened(0.95, 25.0), screened(0.95, 25.0)
+    ranked = search.with_others(*both, ["rub@gear", "unbalance@pinion"])  # type: ignore[arg-type]
     assert ranked == list(NAMES), "each once"
+
+
+def test_single_lines_nominate_as_well_as_machines_of_the_kind() -> None:
+    seen = screened(0.3, 0.0, 0.1 * EVIDENCE[::-1])
+    ranked = search.with_others(screened(0.3, 0.0, 0.1 * EVIDENCE), seen)  # type: ignore[arg-type]
+    assert ranked[:4] == ["outer_spall@bearing1", "rub@gear", "outer_spall@bearing2", "unbalance@pinion"]
+    assert sorted(ranked) == sorted(NAMES), "each once"
 
 
 @pytest.mark.parametrize(("misfit", "direct", "looks"), [(0.95, 25.0, True), (0.95, 2.0, False), (0.3, 25.0, False)])
