@@ -9,6 +9,7 @@ import numpy as np
 
 from reconcile.gate.alias import alias_findings
 from reconcile.gate.compare import compared, swap_order
+from reconcile.gate.filtered import below_the_corner, filter_findings
 from reconcile.gate.findings import Finding, Gate, worst
 from reconcile.gate.levels import pairs
 from reconcile.gate.mains import hum_findings, without_hum
@@ -98,6 +99,11 @@ def _analysed(
         both = list(zip(clean, hertz, strict=True))
         found += alias_findings(both[cut:], labels[cut:], mesh_orders, both[:cut], seed=seed)
     matched = pairs(tests, bases, hertz[cut:], hertz[:cut])
+    filtered = filter_findings(matched)
+    found += filtered
+    for one in filtered:
+        bases, tests = below_the_corner(bases, one, undone=False), below_the_corner(tests, one, undone=True)
+        matched = pairs(tests, bases, hertz[cut:], hertz[:cut])
     differences = compared(matched, tests)
     found += differences
     if any(f.kind == "swapped_channels" for f in differences):

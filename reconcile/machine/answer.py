@@ -130,7 +130,7 @@ def answer(
         undecidable=_undecidable(setting, found, decision),
         next_experiment=_next(setting, decision, lead),
         force=unknown.force if unknown is not None else None,
-        machine=_machine(revision, unknown),
+        machine=_machine(revision, unknown, decision),
         stages=(*_stages(setting, found, gate, decision, fit or {}), *_revisions(revision)),
         pictures={
             "spectra": spectra(setting.data, setting.seen_through, fitted, layout, setting.channels),
@@ -190,10 +190,12 @@ def _where(setting: Setting, layout: Layout, watched: WatchList, weights: Mappin
     )
 
 
-def _machine(revision: Revised | None, unknown: Unknown | None) -> dict[str, object] | None:
+def _machine(revision: Revised | None, unknown: Unknown | None, decision: Decision) -> dict[str, object] | None:
+    """With a law that stands, or an effect that is claimed: none where no known effect is."""
     if unknown is not None and unknown.machine is not None:
         return unknown.machine.model_dump(mode="json")
-    return None if revision is None else revision.machine.model_dump(mode="json")
+    claimed = revision is not None and decision.word != "unknown_physics"
+    return revision.machine.model_dump(mode="json") if revision is not None and claimed else None
 
 
 def _doubtful(gate: Gate, setting: Setting, word: str) -> bool:

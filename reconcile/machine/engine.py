@@ -38,6 +38,8 @@ from reconcile.machine.search import (
     to_fit,
 )
 from reconcile.machine.setting import Found, Setting
+from reconcile.machine.suspected import of_the_sensor, without_suspected
+from reconcile.machine.turned import told_apart, turned_alike, with_limits
 from reconcile.machine.unknown import Unknown, unknown_force
 from reconcile.observe.observation import PointData, observe
 from reconcile.observe.watch import watch_list
@@ -75,16 +77,44 @@ def reconcile_machine(
     gate = _gate(machine, on_drive(machine, tests), on_drive(machine, baselines), seed)
     if not gate.usable:
         return replace(fault_answer(gate, level="machine"), provenance=_told_by(meter, seed, budget))
-    gate = without_spoiled(gate)
     paired = with_tooth_pairs(machine)
     chosen = candidates(paired) if nominated is None else tuple(nominated)
     plan = atlas_plan(paired, uncertain_numbers(paired), chosen, seed=seed)
+    asked = _Asked(machine=machine, plan=plan, budget=budget, keeper=keeper or Forgetful(), meter=meter, seed=seed)
+    gate = without_spoiled(gate)
+    report = _reconciled(asked, gate, progress)
+    fewer = without_suspected(report, gate)
+    if fewer is not None:
+        report = of_the_sensor(report, _reconciled(asked, fewer, _silent), fewer)
+    progress(1.0, "done")
+    return report
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Asked:
+    """What a reconciliation was asked with."""
+
+    machine: MachineSpec
+    plan: AtlasPlan
+    budget: Budget
+    keeper: Keeper
+    meter: Meter
+    seed: int
+
+
+def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
+    """All stages after the gate, on its recordings."""
+    machine, budget, meter, seed = asked.machine, asked.budget, asked.meter, asked.seed
+    channels = gate.tests[0].channels
     progress(0.05, "speed and features")
     data = observe(machine, watch_list(machine), sorted(gate.tests, key=_place), gate.baselines, seed=seed)
-    factor = rival_speed(machine, data, gate.tests[0].channels)
+    factor = rival_speed(machine, data, channels)
     if factor is not None:
         return doubted_speed(factor, data, gate, _told_by(meter, seed, budget))
-    setting = _setting(machine, gate, data, plan, keeper or Forgetful(), meter, progress)
+    alike, apart = turned_alike(machine, data, channels)
+    if not alike:
+        return told_apart(apart, data, gate, _told_by(meter, seed, budget))
+    setting = _setting(machine, gate, alike, asked.plan, asked.keeper, meter, progress)
     atlas_s = meter.spent_s()
     progress(0.6, "candidates")
     looks = _answered(setting, screen_atlas(setting), budget, meter, progress)
@@ -94,11 +124,10 @@ def reconcile_machine(
     progress(0.95, "held-out data")
     cost = {"until_atlas_core_s": atlas_s, "budget": budget.name}
     report = answer(setting, found, gate, meter, cost, looks.fit, unknown)
-    report = with_exchanged(report, setting, gate.tests[0].channels)
+    report = with_exchanged(report, setting, channels)
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
-    progress(1.0, "done")
-    return report
+    return with_limits(report, apart)
 
 
 def _told_by(meter: Meter, seed: int, budget: Budget) -> Mapping[str, object]:

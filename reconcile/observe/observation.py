@@ -13,6 +13,7 @@ from reconcile.observe.slack import slack
 from reconcile.observe.statistics import Statistics, averaged
 from reconcile.observe.steady import Steady, steady
 from reconcile.observe.watch import WatchList, bases_at
+from reconcile.speed import SpeedEstimate
 from reconcile.told import about
 from signals.recording import Recording
 from signals.series import FloatArray
@@ -36,6 +37,10 @@ class PointData:
     halves: tuple[Statistics, Statistics]
     baseline: Statistics | None
     spectra: tuple[Steady, Steady | None]
+    turned: tuple[SpeedEstimate, ...] = ()
+    """Speeds of all tests of the point."""
+    turned_before: tuple[SpeedEstimate, ...] = ()
+    """Of all its baselines."""
 
 
 def _torque(machine: MachineSpec) -> float | None:
@@ -124,6 +129,8 @@ def observe(
                 ),
                 baseline=averaged([_measured(s, machine, watched) for s in before]) if before else None,
                 spectra=(now[0], before[0] if before else None),
+                turned=tuple(s.estimate for s in now),
+                turned_before=tuple(s.estimate for s in before),
             )
         )
     if not found:

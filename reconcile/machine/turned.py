@@ -1,0 +1,131 @@
+"""Test and baseline must have turned alike: labels say what was meant, pulses and lines say what was.
+
+A change of speed moves every line past the machine's resonances, which no drift between two recordings explains: a
+sound machine at another speed than its baseline shows a change that effects are fitted to.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.ndimage import maximum_filter1d
+
+from reconcile.gate.findings import Gate
+from reconcile.gate.spoiled import doubts
+from reconcile.machine.answer import gate_stage
+from reconcile.observe.observation import SAME_SPEED, PointData
+from reconcile.observe.steady import Steady
+from reconcile.speed import SpeedEstimate, line_logs
+from reconcile.speed.estimate import comb_score
+from reconcile.verdict import NextExperiment, Report, SensorFault, Where
+from signals.recording import Operating, Recording
+from signals.series import FloatArray
+from sim.core.response import Channel
+from sim.core.spec import MachineSpec
+
+WIDELY, STEPS = 0.3, 6001
+"""Share of the stated speed within which the teeth are looked for where no line near it was found, and how finely."""
+HARMONICS = 6
+ENOUGH = 0.6
+"""Of the baseline's score at its speed, from which the same teeth have been found in the test."""
+
+
+def turned_alike(
+    machine: MachineSpec, data: Sequence[PointData], channels: Sequence[Channel]
+) -> tuple[tuple[PointData, ...], tuple[str, ...]]:
+    """The points whose tests turned as their baselines did and as stated, and what is told of the others, and of those
+    whose speed no line confirms."""
+    kept, told = [], []
+    for point in data:
+        apart, remark = _told_of(machine, point, channels)
+        told += [remark] if remark else []
+        kept += [] if apart else [point]
+    return tuple(kept), tuple(told)
+
+
+def _told_of(machine: MachineSpec, point: PointData, channels: Sequence[Channel]) -> tuple[bool, str]:
+    """Whether the point must be left out, and what is said of it."""
+    stated = f"{point.point.speed_hz:g} Hz"
+    now, before = _confirmed(point.turned), _confirmed(point.turned_before)
+    for one in now:
+        for other in before:
+            if abs(one.speed_hz / other.speed_hz - 1.0) > SAME_SPEED:
+                turned = f"the test turned at {one.speed_hz:.4g} Hz, the baseline at {other.speed_hz:.4g} Hz"
+                return True, f"stated are {stated}, but {turned}"
+    if not _has_teeth(machine) or (len(now) == len(point.turned) and len(before) == len(point.turned_before)):
+        return False, ""
+    if before and not now:
+        return True, f"no line of the test confirms the stated {stated}, {_elsewhere(machine, point, channels)}"
+    return False, f"no line confirms the stated {stated} of every recording there"
+
+
+def _confirmed(speeds: Sequence[SpeedEstimate]) -> list[SpeedEstimate]:
+    return [s for s in speeds if s.method != "stated"]
+
+
+def _has_teeth(machine: MachineSpec) -> bool:
+    return bool(_teeth(machine))
+
+
+def _teeth(machine: MachineSpec) -> list[float]:
+    shaft = machine.operating.shaft if machine.operating is not None else ""
+    return sorted({float(g.teeth) for g in machine.gears if g.shaft == shaft})
+
+
+def _elsewhere(machine: MachineSpec, point: PointData, channels: Sequence[Channel]) -> str:
+    """Where the baseline's teeth are found in the test, if they are."""
+    test, baseline = point.spectra
+    if baseline is None:
+        return "and there is no baseline"
+    before = _score(machine, baseline, channels, np.array([baseline.speed_hz]))[0]
+    speeds = np.linspace(1.0 - WIDELY, 1.0 + WIDELY, STEPS) * point.point.speed_hz
+    now = _score(machine, test, channels, speeds)
+    best = int(np.argmax(now))
+    if now[best] < ENOUGH * before:
+        return "at which the baseline's teeth are found"
+    return f"at which the baseline's teeth are found: in the test they are at about {speeds[best]:.3g} Hz"
+
+
+def _score(machine: MachineSpec, one: Steady, channels: Sequence[Channel], speeds_hz: FloatArray) -> FloatArray:
+    """Mean log power over the floor at the teeth's lines of each speed, (speeds,)."""
+    operating = Operating(shaft=one.estimate.shaft, speed_hz=one.speed_hz)
+    recording = Recording(
+        sampling_rate_hz=one.rate_hz, channels=tuple(channels), samples=one.samples, operating=operating
+    )
+    combs = line_logs(recording)
+    orders = [float(n * z) for z in _teeth(machine) for n in range(1, HARMONICS + 1)]
+    scores = [comb_score(maximum_filter1d(log, 3), width, speeds_hz, orders) for log, width in combs]
+    return np.asarray(np.mean(scores, axis=0))
+
+
+def told_apart(told: Sequence[str], data: Sequence[PointData], gate: Gate, provenance: Mapping[str, object]) -> Report:
+    """The report where no test turned as its baseline did."""
+    fault = SensorFault(kind="speed_mismatch", channel="", detail="; ".join(told))
+    return Report(
+        verdict="measurement_fault",
+        sentence=f"The mismatch is in the measurement: the recordings are not of one speed ({fault.detail}). What "
+        "differs is not compared: every line stands elsewhere against the machine's resonances.",
+        level="machine",
+        where=Where(limits=doubts(gate)),
+        fault=fault,
+        undecidable=("whether anything is missing: there is no baseline of the speed at which the machine turned",),
+        next_experiment=NextExperiment(
+            sentence="Correct the speed that the description states, or record a baseline at the speed of the test."
+        ),
+        stages=(gate_stage(gate), {"name": "observe", "speeds": [_speeds(d) for d in data]}),
+        provenance=provenance,
+    )
+
+
+def _speeds(point: PointData) -> str:
+    found = ", ".join(f"{s.speed_hz:.3f} Hz ({s.method})" for s in (*point.turned, *point.turned_before))
+    return f"{point.point.speed_hz:g} Hz stated, found {found}"
+
+
+def with_limits(report: Report, told: Sequence[str]) -> Report:
+    """The report with what was left out, or is unconfirmed, among its limits."""
+    if not told:
+        return report
+    return replace(report, where=replace(report.where, limits=(*report.where.limits, *told)))

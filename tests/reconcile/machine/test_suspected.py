@@ -1,0 +1,53 @@
+"""Physics that nobody knows, heard by one sensor that may be loose, is asked of the others."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from reconcile.gate.findings import Finding, Gate, Kind
+from reconcile.machine.suspected import of_the_sensor, without_suspected
+from reconcile.verdict import Report, SensorFault, Word
+from signals.recording import Recording
+from sim.core.response import Channel
+
+CHANNELS = tuple(Channel(name=n, quantity="acceleration", unit="m/s^2", location=n) for n in ("a", "b"))
+
+
+def suspecting(kind: Kind, count: int = 2) -> Gate:
+    samples = np.random.default_rng(1).normal(size=(count, 64))
+    one = Recording(sampling_rate_hz=64.0, channels=CHANNELS[:count], samples=samples)
+    found = Finding(kind=kind, channel="a", recording="all tests", detail="+12 dB at 2 kHz", severity=0.6, fault=True)
+    fault = SensorFault(kind=kind, channel="a", detail="+12 dB at 2 kHz")
+    return Gate(findings=(found,), baselines=(one,), tests=(one,), fault=fault, usable=True)
+
+
+def said(verdict: Word) -> Report:
+    return Report(verdict=verdict, sentence=f"it is {verdict}", level="machine")
+
+
+@pytest.mark.parametrize(
+    ("verdict", "kind", "count", "asked"),
+    [
+        ("unknown_physics", "loose_sensor", 2, True),
+        ("explained", "loose_sensor", 2, False),
+        ("unknown_physics", "mains_hum", 2, False),
+        ("unknown_physics", "loose_sensor", 1, False),
+    ],
+)
+def test_the_others_are_asked_of_unknown_physics_on_a_loose_sensor(
+    verdict: Word, kind: Kind, count: int, asked: bool
+) -> None:
+    fewer = without_suspected(said(verdict), suspecting(kind, count))
+    assert (fewer is not None) == asked
+    if fewer is not None:
+        assert fewer.tests[0].names == ("b",) and fewer.baselines[0].names == ("b",)
+        assert fewer.fault is not None, "the finding stays"
+
+
+def test_the_sensor_is_the_answer_only_where_the_others_have_nothing() -> None:
+    gate, before = suspecting("loose_sensor"), said("unknown_physics")
+    report = of_the_sensor(before, said("nothing_missing"), gate)
+    assert report.verdict == "measurement_fault" and report.fault == gate.fault
+    assert "loose sensor on a" in report.sentence and "other channels alone" in report.sentence
+    assert of_the_sensor(before, said("unknown_physics"), gate) is before

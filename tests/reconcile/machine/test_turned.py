@@ -1,0 +1,91 @@
+"""Recordings of which one did not turn as its description says are not compared, whatever that says."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reconcile.gate.findings import Gate
+from reconcile.machine.engine import reconcile_machine
+from reconcile.machine.turned import told_apart, turned_alike, with_limits
+from reconcile.observe.observation import PointData, observe
+from reconcile.observe.watch import bases_at, watch_list
+from reconcile.verdict import Report, Where
+from signals.recording import Operating, Recording
+from sim.core.response import Channel
+from sim.core.spec import MachineSpec
+from sim.presets import preset
+
+RATE_HZ, SPEED_HZ, SECONDS = 20480.0, 30.0, 1.5
+TIME = np.arange(round(RATE_HZ * SECONDS)) / RATE_HZ
+CHANNELS = tuple(
+    Channel(name=p, quantity="acceleration", unit="m/s^2", location=p, axis="y") for p in ("bearing1", "bearing3")
+)
+
+
+@pytest.fixture(scope="module")
+def machine() -> MachineSpec:
+    return preset("paper-lightly-damped")
+
+
+def turning(
+    machine: MachineSpec, seed: int, true_hz: float, stated_hz: float = SPEED_HZ, teeth: float = 1.0
+) -> Recording:
+    rng = np.random.default_rng(seed)
+    mesh = bases_at(machine, true_hz)["f_m"]
+    lines = sum(np.sin(2 * np.pi * mesh * k * TIME + k) / k for k in range(1, 7))
+    samples = teeth * np.array([[1.0], [0.4]]) * lines + 0.2 * rng.normal(size=(2, TIME.size))
+    operating = Operating(shaft="input", speed_hz=stated_hz, torque_nm=25.0)
+    return Recording(sampling_rate_hz=RATE_HZ, channels=CHANNELS, samples=samples, operating=operating)
+
+
+def seen(machine: MachineSpec, test: Recording, baseline: Recording) -> tuple[PointData, ...]:
+    return observe(machine, watch_list(machine), [test], [baseline], seed=0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("true_hz", "teeth", "kept", "word"),
+    [
+        (30.2, 1.0, True, ""),
+        (28.5, 1.0, False, "turned at 28.5 Hz, the baseline at 30 Hz"),
+        (25.0, 1.0, False, "in the test they are at about 25 Hz"),
+        (30.0, 0.0, False, "no line of the test confirms"),
+    ],
+)
+def test_a_test_that_turned_otherwise_than_its_baseline_is_left_out(
+    machine: MachineSpec, true_hz: float, teeth: float, kept: bool, word: str
+) -> None:
+    data = seen(machine, turning(machine, 1, true_hz, teeth=teeth), turning(machine, 2, SPEED_HZ))
+    alike, told = turned_alike(machine, data, CHANNELS)
+    assert bool(alike) == kept
+    assert told == () if not word else word in told[0], told
+
+
+@pytest.mark.slow
+def test_where_no_line_confirms_either_it_is_a_limit_and_no_more(machine: MachineSpec) -> None:
+    data = seen(machine, turning(machine, 1, SPEED_HZ, teeth=0.0), turning(machine, 2, SPEED_HZ, teeth=0.0))
+    alike, told = turned_alike(machine, data, CHANNELS)
+    assert alike == data
+    assert told == ("no line confirms the stated 30 Hz of every recording there",)
+
+
+@pytest.mark.slow
+def test_nothing_is_simulated_where_no_test_turned_as_its_baseline_did(machine: MachineSpec) -> None:
+    report = reconcile_machine(machine, [turning(machine, 1, 28.5)], [turning(machine, 2, SPEED_HZ)])
+    assert report.verdict == "measurement_fault" and report.machine is None and report.causes == ()
+    assert report.fault is not None and report.fault.kind == "speed_mismatch"
+    assert "28.5 Hz" in report.sentence and "baseline" in report.next_experiment.sentence  # type: ignore[union-attr]
+    assert report.provenance["draws"] == 0 or "draws" not in report.provenance
+
+
+def test_what_was_left_out_stands_among_the_limits(machine: MachineSpec) -> None:
+    gate = Gate(findings=(), baselines=(), tests=(), fault=None, usable=True)
+    report = told_apart(["one", "two"], [], gate, {})
+    assert "one; two" in report.sentence
+    before = replace(report, where=Where(limits=("known",)))
+    assert with_limits(before, ["one"]).where.limits == ("known", "one")
+    assert with_limits(before, []) is before
+    assert isinstance(before, Report)
