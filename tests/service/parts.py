@@ -22,7 +22,7 @@ from app.settings import Settings
 from signals.encode import encode
 from store.settings import StoreSettings
 from tests.service.fakes import FakeEngine
-from tests.service.nest import Physics, Worker, fake_physics
+from tests.service.nest import Forked, Physics, fake_physics, run_one
 
 ROOT = Path(__file__).resolve().parents[2]
 QUICK = {"SIDEBAND_LEASE_S": "3", "SIDEBAND_CANCEL_GRACE_S": "0.6", "SIDEBAND_SHUTDOWN_GRACE_S": "0.6"}
@@ -56,7 +56,7 @@ class Parts:
     folder: Path
     url: str
     guard: subprocess.Popen[str]
-    workers: list[Worker | subprocess.Popen[bytes]] = field(default_factory=list)
+    workers: list[Forked | subprocess.Popen[bytes]] = field(default_factory=list)
 
     @property
     def stores(self) -> StoreSettings:
@@ -69,11 +69,10 @@ class Parts:
     def app(self, **changes: object) -> FastAPI:
         return create_app(self.settings(**changes), engine=FakeEngine(), encode=encode)
 
-    def start_worker(self, name: str, physics: Physics = fake_physics) -> Worker:
+    def start_worker(self, name: str, physics: Physics = fake_physics) -> Forked:
         env = {**os.environ, **QUICK, "REDIS_URL": self.url, "SIDEBAND_DATA_DIR": str(self.folder)}
-        worker = Worker(name, env, physics)
-        self.workers.append(worker)
-        return worker
+        self.workers.append(started := Forked(env, run_one, name, physics))
+        return started
 
     def server_pid(self) -> int:
         """Process of the Valkey server."""
