@@ -1,17 +1,21 @@
-"""`python -m workers [--name NAME] [--parent PID]`: one worker on the simulation core, set up from the environment."""
+"""`python -m workers [--name NAME] [--parent PID]`: one worker on the simulation core, set up from the environment.
+
+The core is loaded when the settings are found to be usable: wrong ones are told at once.
+"""
 
 from __future__ import annotations
 
 import argparse
+import importlib
 import logging
+import os
+import socket
 import sys
 
-from jobs.analysis import analyse
-from jobs.physics import PhysicsEngine
 from sim.core.errors import SidebandError, SpecError
+from sim.loading import loading
 from store.settings import StoreSettings
 from store.worker_settings import WorkerSettings
-from workers.main import Start, default_name, run_worker
 
 WRONG_SETTINGS = 2
 
@@ -24,20 +28,29 @@ def main(arguments: list[str]) -> int:
     given = parser.parse_args(arguments)
     logging.basicConfig(level=logging.INFO, format=f"%(levelname)s {given.name}: %(message)s")
     try:
-        start = Start(
-            name=given.name,
-            stores=StoreSettings.from_environment(),
-            settings=WorkerSettings.from_environment(),
-            parent_pid=given.parent,
-        )
+        stores, settings = StoreSettings.from_environment(), WorkerSettings.from_environment()
     except SpecError as error:
         sys.stderr.writelines(f"{given.name}: {problem}\n" for problem in error.problems)
         return WRONG_SETTINGS
-    if not start.stores.redis_url:
+    if not stores.redis_url:
         sys.stderr.write("REDIS_URL is not set: a worker needs a broker\n")
         return WRONG_SETTINGS
     try:
-        return run_worker(start, PhysicsEngine(), analyse)
+        return _work(given.name, given.parent, stores, settings)
     except SidebandError as error:
         sys.stderr.write(f"{given.name}: {error}\n")
         return 1
+
+
+def default_name() -> str:
+    """Host and process: unique while the worker lives."""
+    return f"{socket.gethostname()}-{os.getpid()}"
+
+
+def _work(name: str, parent_pid: int | None, stores: StoreSettings, settings: WorkerSettings) -> int:
+    with loading():
+        physics = importlib.import_module("jobs.physics")
+        analysis = importlib.import_module("jobs.analysis")
+        worker = importlib.import_module("workers.main")
+    start = worker.Start(name=name, stores=stores, settings=settings, parent_pid=parent_pid)
+    return int(worker.run_worker(start, physics.PhysicsEngine(), analysis.analyse))

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import logging
-import os
 import signal
-import socket
 from dataclasses import dataclass
 
 from jobs.ports import Analyser, Engine
@@ -39,8 +37,3 @@ def run_worker(start: Start, engine: Engine, analyse: Analyser) -> int:
     log.info("ready")  # the log's format names the worker
     worker.work(logging_level="WARNING")
     return 0 if worker.asked_to_stop else 1
-
-
-def default_name() -> str:
-    """Host and process: unique while the worker lives."""
-    return f"{socket.gethostname()}-{os.getpid()}"

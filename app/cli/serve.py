@@ -8,11 +8,12 @@ Example: sideband serve --port 8001 --demo --open
 from __future__ import annotations
 
 import argparse
+import importlib
 from pathlib import Path
 
-from app.serve import serve
 from app.settings import settings_for_everything
 from sim.core.errors import Problem, SpecError
+from sim.loading import loading
 
 MAX_WORKERS = 256
 
@@ -39,7 +40,10 @@ def run(arguments: argparse.Namespace) -> int:
     wrong = [Problem(field=n, message="is out of bounds", given=v, allowed=a) for n, v, good, a in checks if not good]
     if wrong:
         raise SpecError(wrong)
-    return serve(
+    # The service is loaded for settings that can be used: wrong ones are told at once.
+    with loading():
+        service = importlib.import_module("app.serve")
+    code: int = service.serve(
         host=arguments.host or settings.host,
         port=port,
         workers=arguments.workers,
@@ -47,3 +51,4 @@ def run(arguments: argparse.Namespace) -> int:
         open_browser=arguments.open,
         demo=arguments.demo,
     )
+    return code

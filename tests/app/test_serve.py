@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -20,20 +18,17 @@ from app.settings import Settings
 from sim.core.errors import SidebandError
 from store.settings import StoreSettings
 from tests.service.fakes import machine
-from tests.service.parts import QUICK, ROOT, eventually
+from tests.service.nest import Forked
+from tests.service.parts import QUICK, eventually
+from tests.service.server import serve
 
-SERVER = ROOT / "tests" / "service" / "server.py"
 pytestmark = pytest.mark.slow
 SHARED = pytest.mark.xdist_group("served")
 
 
 @contextmanager
-def serving(folder: Path, *, workers: int = 1) -> Iterator[tuple[subprocess.Popen[str], httpx.Client]]:
-    command = [sys.executable, str(SERVER), "0", str(workers), str(folder)]
-    server = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, cwd=ROOT, env=environment()
-    )
-    assert server.stdout is not None
+def serving(folder: Path, *, workers: int = 1) -> Iterator[tuple[Forked, httpx.Client]]:
+    server = Forked({**os.environ, **QUICK}, serve, workers, folder)
     url = server.stdout.readline().split()[-1]
     try:
         with httpx.Client(base_url=url, timeout=30) as client:
@@ -43,11 +38,6 @@ def serving(folder: Path, *, workers: int = 1) -> Iterator[tuple[subprocess.Pope
         if server.poll() is None:
             server.send_signal(signal.SIGTERM)
             server.wait(30)
-        server.stdout.close()
-
-
-def environment() -> dict[str, str]:
-    return {**os.environ, **QUICK}
 
 
 def submit(client: httpx.Client, notes: str, seed: int = 0) -> str:
@@ -73,7 +63,7 @@ def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Path, ht
         yield folder, client
 
 
-def stopped(server: subprocess.Popen[str], client: httpx.Client, kind: signal.Signals, seed: int) -> tuple[str, str]:
+def stopped(server: Forked, client: httpx.Client, kind: signal.Signals, seed: int) -> tuple[str, str]:
     """A job that was running and one that was waiting when this signal came; no process is left."""
     running = submit(client, "sleep=60;deaf", seed=seed)
     waiting = submit(client, "", seed=seed + 1)

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
+import pytest
+
 from jobs.analysis import analyse
 from jobs.carry_out import carry_out, completed
 from jobs.documents import ResultDocuments
@@ -15,6 +17,8 @@ from sim.core.response import Response
 from sim.core.spec import MachineSpec, TermSpec
 from sim.presets import preset
 
+SHARED = pytest.mark.xdist_group("gearbox-clearance")
+"""Of tests that look at the run with clearance: seconds of a core, made once for all that are in one process."""
 ENGINE = PhysicsEngine()
 SENSORS = [f"resonator{i}.y.acceleration" for i in (1, 2)]
 RUNOUT = TermSpec(term="eccentricity", site="pinion", parameters={"radius": 2e-5})

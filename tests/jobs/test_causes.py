@@ -13,7 +13,7 @@ from jobs.causes import with_causes
 from jobs.labelling import label_stored
 from jobs.results import ResultReader, write_result
 from store.artefacts.folder import FolderStore
-from tests.jobs.gearbox_runs import CLEARANCE, ENGINE, ask, done, machine, peaks, share
+from tests.jobs.gearbox_runs import CLEARANCE, ENGINE, SHARED, ask, done, machine, peaks, share
 
 
 @pytest.mark.slow
@@ -59,6 +59,7 @@ def test_what_weakens_a_line_is_not_its_mechanism() -> None:
 
 
 @pytest.mark.slow
+@SHARED
 def test_clearance_alone_causes_the_ball_pass_lines() -> None:
     for k in (1, 2, 3, 4, 5):
         peak = peaks("clearance")[f"{k}*f_o1"]
@@ -90,6 +91,7 @@ def test_both_together_get_each_its_own_and_nothing_gets_nothing() -> None:
 
 
 @pytest.mark.slow
+@SHARED
 def test_asking_for_causes_changes_nothing_else(tmp_path: Path) -> None:
     spec = machine(CLEARANCE)
     plain = carry_out(ENGINE, spec, ask(spec, causes=False), progress=lambda _: None, cancelled=lambda: False)

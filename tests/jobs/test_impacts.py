@@ -10,7 +10,7 @@ import pytest
 
 from jobs.carry_out import IMPACTS, carry_out
 from jobs.documents import ResultDocuments
-from tests.jobs.gearbox_runs import CLEARANCE, ENGINE, ask, done, machine
+from tests.jobs.gearbox_runs import CLEARANCE, ENGINE, SHARED, ask, done, machine
 
 
 def contacts(documents: ResultDocuments) -> dict[str, Mapping[str, Any]]:
@@ -41,6 +41,7 @@ def test_a_loose_ring_is_pressed_once_a_ball_pass() -> None:
 
 
 @pytest.mark.slow
+@SHARED
 def test_in_the_gearbox_every_tooth_presses_the_loose_ring() -> None:
     _, documents = done("clearance", "paper-lightly-damped")
     wall, mesh = contacts(documents)["bearing1.wall"], contacts(documents)["mesh1"]

@@ -22,9 +22,9 @@ from app.settings import Settings
 from signals.encode import encode
 from store.settings import StoreSettings
 from tests.service.fakes import FakeEngine
+from tests.service.nest import Forked, Physics, fake_physics, run_one
 
 ROOT = Path(__file__).resolve().parents[2]
-WORKER = ROOT / "tests" / "service" / "worker.py"
 QUICK = {"SIDEBAND_LEASE_S": "3", "SIDEBAND_CANCEL_GRACE_S": "0.6", "SIDEBAND_SHUTDOWN_GRACE_S": "0.6"}
 
 
@@ -56,7 +56,7 @@ class Parts:
     folder: Path
     url: str
     guard: subprocess.Popen[str]
-    workers: list[subprocess.Popen[bytes]] = field(default_factory=list)
+    workers: list[Forked | subprocess.Popen[bytes]] = field(default_factory=list)
 
     @property
     def stores(self) -> StoreSettings:
@@ -69,13 +69,10 @@ class Parts:
     def app(self, **changes: object) -> FastAPI:
         return create_app(self.settings(**changes), engine=FakeEngine(), encode=encode)
 
-    def start_worker(self, name: str) -> subprocess.Popen[bytes]:
+    def start_worker(self, name: str, physics: Physics = fake_physics) -> Forked:
         env = {**os.environ, **QUICK, "REDIS_URL": self.url, "SIDEBAND_DATA_DIR": str(self.folder)}
-        worker = subprocess.Popen(
-            [sys.executable, str(WORKER), "--name", name], env=env, cwd=ROOT, stderr=subprocess.DEVNULL
-        )
-        self.workers.append(worker)
-        return worker
+        self.workers.append(started := Forked(env, run_one, name, physics))
+        return started
 
     def server_pid(self) -> int:
         """Process of the Valkey server."""
@@ -100,12 +97,12 @@ def open_parts(folder: Path) -> Parts:
 
 
 def eventually(condition: Callable[[], bool], *, within_s: float = 20.0) -> None:
-    """Wait for something; fails when it does not come."""
-    deadline = time.monotonic() + within_s
-    while time.monotonic() < deadline:
+    """Wait for something; fails when it does not come. What takes long is looked for less often."""
+    begin = time.monotonic()
+    while (waited := time.monotonic() - begin) < within_s:
         if condition():
             return
-        time.sleep(0.02)
+        time.sleep(min(0.1, 0.02 + 0.04 * waited))
     raise AssertionError(f"did not happen within {within_s} s")
 
 

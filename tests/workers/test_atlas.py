@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -28,11 +25,11 @@ from sim.solve.api import simulate
 from store.catalogue import engine
 from store.catalogue.catalogue import SqlCatalogue
 from tests.app.test_reconciliations import send
-from tests.service.parts import QUICK, ROOT, LiveServer, Parts, eventually, open_parts
+from tests.service import few
+from tests.service.parts import LiveServer, Parts, eventually, open_parts
 
 pytestmark = pytest.mark.slow
 
-WORKER = ROOT / "tests" / "service" / "few.py"
 RATE_HZ = 20_480.0
 
 
@@ -70,15 +67,6 @@ def recorded(seed: int, *terms: TermSpec) -> Recording:
     )
 
 
-def start(parts: Parts, name: str) -> subprocess.Popen[bytes]:
-    env = {**os.environ, **QUICK, "REDIS_URL": parts.url, "SIDEBAND_DATA_DIR": str(parts.folder)}
-    worker = subprocess.Popen(
-        [sys.executable, str(WORKER), "--name", name], env=env, cwd=ROOT, stderr=subprocess.DEVNULL
-    )
-    parts.workers.append(worker)
-    return worker
-
-
 def asked(client: httpx.Client, recordings: tuple[Recording, Recording]) -> str:
     baseline, test = (send(client, recording) for recording in recordings)
     body = {"machine": "rotor", "recordings": [test], "baselines": [baseline]}
@@ -110,7 +98,7 @@ def test_two_workers_make_the_report_of_one(
     both, single = service(), service()
     for parts, names in ((both, ("w1", "w2")), (single, ("w1",))):
         for name in names:
-            start(parts, name)
+            parts.start_worker(name, few.physics)
     with LiveServer(app_of(both)) as client:
         shared = report(client, asked(client, recordings))
         listed = client.get("/v1/jobs").json()["jobs"]
@@ -126,14 +114,14 @@ def test_a_killed_leader_loses_its_piece_only(
     service: Callable[[], Parts], recordings: tuple[Recording, Recording]
 ) -> None:
     parts = service()
-    first = start(parts, "w1")
+    first = parts.start_worker("w1", few.physics)
     with LiveServer(app_of(parts)) as client:
         address = asked(client, recordings)
         eventually(lambda: sum(p.status is Status.SUCCESSFUL for p in pieces(parts)) >= 2, within_s=120)
         first.kill()
         first.wait()
         made = {p.id for p in pieces(parts) if p.status is Status.SUCCESSFUL}
-        start(parts, "w2")
+        parts.start_worker("w2", few.physics)
         report(client, address)
     attempts = {p.id: p.attempt for p in pieces(parts)}
     assert {attempts[piece_id] for piece_id in made} == {1} and sorted(attempts.values())[-1] <= 2

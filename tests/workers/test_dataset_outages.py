@@ -16,19 +16,36 @@ import pytest
 
 from sideband_datasets.folder import verify
 from tests.service.datasets import SHARDS, attempts, dataset, download, finished_shards, made_alone, submit, until
+from tests.service.nest import Forked, command
 from tests.service.parts import QUICK, ROOT, eventually
 
 pytestmark = pytest.mark.slow
 
 
+ARGUMENTS = ("serve", "--port", "0", "--workers", "1", "--data")
+ENVIRONMENT = {**QUICK, "PYTHONPATH": str(ROOT)}
+Server = Forked | subprocess.Popen[str]
+
+
 @contextmanager
-def serving(folder: Path) -> Iterator[tuple[subprocess.Popen[str], httpx.Client]]:
-    """`sideband serve` with one worker, as its users start it."""
-    command = [sys.executable, "-m", "app.cli.main", "serve", "--port", "0", "--workers", "1", "--data", str(folder)]
-    environment = {**os.environ, **QUICK, "PYTHONPATH": str(ROOT)}
-    server = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, cwd=ROOT, env=environment
-    )
+def serving(folder: Path) -> Iterator[tuple[Server, httpx.Client]]:
+    """`sideband serve` with one worker."""
+    with addressed(Forked({**os.environ, **ENVIRONMENT}, command, *ARGUMENTS, str(folder))) as running:
+        yield running
+
+
+@contextmanager
+def serving_from_its_door(folder: Path) -> Iterator[tuple[Server, httpx.Client]]:
+    """The same, as its users start it."""
+    line = [sys.executable, "-m", "app.cli.main", *ARGUMENTS, str(folder)]
+    env = {**os.environ, **ENVIRONMENT}
+    server = subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, cwd=ROOT, env=env)
+    with addressed(server) as running:
+        yield running
+
+
+@contextmanager
+def addressed(server: Server) -> Iterator[tuple[Server, httpx.Client]]:
     assert server.stdout is not None
     url = server.stdout.readline().split()[-1]
     try:
@@ -63,7 +80,7 @@ def finished(client: httpx.Client, dataset_id: str, out: Path) -> dict[str, byte
     return found
 
 
-def broker_of(server: subprocess.Popen[str]) -> tuple[psutil.Process, psutil.Process]:
+def broker_of(server: Server) -> tuple[psutil.Process, psutil.Process]:
     """The guard and the Valkey server below it."""
     guard = next(c for c in psutil.Process(server.pid).children() if "workers.broker" in c.cmdline())
     return guard, next(c for c in guard.children() if "valkey" in c.name())
@@ -87,7 +104,7 @@ def test_killed_server_changes_no_byte(tmp_path: Path, undisturbed: dict[str, by
 
 
 def test_killed_broker_changes_no_byte(tmp_path: Path, undisturbed: dict[str, bytes]) -> None:
-    with serving(tmp_path / "data") as (server, client):
+    with serving_from_its_door(tmp_path / "data") as (server, client):
         dataset_id = half_way(client)
         guard, broker = broker_of(server)
         broker.kill()

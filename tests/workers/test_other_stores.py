@@ -15,7 +15,7 @@ from sideband_datasets.folder import verify
 from store.settings import StoreSettings
 from tests.service import postgresql
 from tests.service.buckets import bucket_server, raw_client
-from tests.service.datasets import SHARDS, finished_shards
+from tests.service.datasets import finished_shards
 from tests.service.parts import LiveServer, Parts, eventually, open_parts
 from tests.sideband_datasets.small import document
 
@@ -63,6 +63,7 @@ def test_a_dataset_of_two_workers_needs_no_shared_folder(
     parts: Parts, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     pytest.importorskip("zarr", reason="the extra `datasets` is not installed")
+    shards = 2  # of more than a hundred small files each
     with postgresql.cluster() as database, bucket_server(BUCKET) as endpoint:
         bucket = f"s3://{BUCKET}/jobs?endpoint={endpoint}"
         stores = StoreSettings(data_dir=parts.folder, redis_url=parts.url, database_url=database, artefact_url=bucket)
@@ -70,18 +71,18 @@ def test_a_dataset_of_two_workers_needs_no_shared_folder(
         monkeypatch.setenv("ARTEFACT_URL", bucket)
         first = replace(parts, folder=tmp_path / "w1").start_worker("w1")
         with LiveServer(parts.app(stores=stores)) as http, sideband_client.connect(str(http.base_url)) as client:
-            recipe = document(count=2 * SHARDS, peaks={"spectra": []})
+            recipe = document(count=2 * shards, peaks={"spectra": []})
             job = client.make_dataset(recipe, format="zarr", shard_recordings=2)
             eventually(lambda: finished_shards(http, job.id) >= 1, within_s=120)
             first.kill()
             first.wait()
-            assert 1 <= finished_shards(http, job.id) < SHARDS, "the first worker leaves some to the second"
+            assert 1 <= finished_shards(http, job.id) < shards, "the first worker leaves some to the second"
             replace(parts, folder=tmp_path / "w2").start_worker("w2")
             job.wait(timeout_s=120)
-            assert finished_shards(http, job.id) == SHARDS
+            assert finished_shards(http, job.id) == shards
             folder = job.dataset().download(tmp_path / "made")
             assert verify(folder) == [] and job.dataset().rows(5, 1)[0]["columns"]["fault_origin"] == "simulated"
-            assert len(list((folder / "data").iterdir())) == SHARDS
+            assert len(list((folder / "data").iterdir())) == shards
             assert _names(endpoint)
             job.delete()
             assert _names(endpoint) == set(), "the shards go with the dataset"
