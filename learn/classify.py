@@ -11,6 +11,7 @@ from learn.assess import Assessment, assess, estimated
 from learn.describe import Site
 from learn.gears.assess import StageAnswer, assess_stage, knows_gears
 from learn.gears.stage import Stage
+from learn.heard import check_rate, check_size
 from learn.model import Model
 from learn.remarks import check_learnt, of_parts, of_speed
 from learn.speed import Speed, by_pulses
@@ -42,6 +43,7 @@ def usable(recording: Recording, channels: Sequence[str] | None = None) -> Recor
             raise SpecError(Problem(field=f"channels.{name}", message="has samples that are not finite"))
         if float(np.ptp(values)) == 0.0:
             raise SpecError(Problem(field=f"channels.{name}", message="is constant: nothing was measured"))
+        check_size(values, name)
     return chosen
 
 
@@ -83,7 +85,10 @@ def classify(
         stages, remarks = (), ["gears: are not looked at, the model was not trained on any"]
     chosen = usable(recording, channels)
     speed = speed_of(chosen, sites, trust=trust_speed)
-    parts = [] if stages and not sites else _bearings(chosen, model, sites, speed)
+    parts = []
+    if sites or not stages:
+        remarks += check_rate(chosen.sampling_rate_hz, speed.speed_hz, sites)
+        parts = _bearings(chosen, model, sites, speed)
     unseen: list[SpecError] = []
     for stage in stages:
         try:
