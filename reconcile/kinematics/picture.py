@@ -12,6 +12,7 @@ from reconcile.kinematics.envelopes import order_depth
 from reconcile.kinematics.families import Family
 from reconcile.kinematics.judge import Candidate
 from reconcile.kinematics.observe import Observation
+from reconcile.verdict import Cause
 
 POINTS = 1200
 """Of a curve; of more bins the largest of each stretch is kept, which keeps lines."""
@@ -50,6 +51,18 @@ def envelope_picture(
             if best.channel in one.recording.names and best.band_hz[1] < one.recording.sampling_rate_hz / 2:
                 shown[name] = {"label": one.label, **_curve(one, best.channel, best.band_hz, top)}
     return {"envelope": shown}
+
+
+def of_the_answer(every: Sequence[Candidate], causes: Sequence[Cause]) -> list[Candidate]:
+    """The candidates, the family of the first cause that has lines of its own before all others: the picture is of it.
+
+    A louder family may be there that sound machines have too, such as once a turn.
+    """
+    for cause in causes:
+        for c in every:
+            if c.family.site == cause.site and c.family.kind != "turn" and cause.term.startswith(c.family.kind):
+                return [c, *(other for other in every if other is not c)]
+    return list(every)
 
 
 def _curve(one: Observation, channel: str, band_hz: tuple[float, float], top: float) -> dict[str, object]:

@@ -225,7 +225,18 @@ def held_out_words(found: HeldOut | None) -> Markup:
         sure = tag("p", "The whole interval is above zero: the model does foretell such data better with it.")
     else:
         sure = tag("p", "The interval reaches zero: on data never fitted it is not sure that it helps.", css="note")
-    return Markup(held + sure + tag("p", BARS, css="muted"))
+    return Markup(held + sure + _unbeaten(found) + tag("p", BARS, css="muted"))
+
+
+def _unbeaten(found: HeldOut) -> Markup:
+    """Which rivals the effect does not beat by more than its interval."""
+    rivals = {"retuned parameters": found.retuned, "the black box": found.black_box, "the placebo": found.placebo}
+    near = {n: g for n, g in rivals.items() if g is not None and math.isfinite(g) and g >= found.gain_low}
+    if not near or not math.isfinite(found.gain_low):
+        return Markup("")
+    named = ", ".join(f"{name} ({percent(value)})" for name, value in near.items())
+    text = f"Not beaten by more than the interval: {named}. What it gains is no proof that it is this effect."
+    return tag("p", text, css="note")
 
 
 def simulated(report: Report) -> str:

@@ -165,6 +165,9 @@ def test_held_out_data_are_drawn_with_interval_limit_and_rivals() -> None:
     assert whole.count('class="bar on"') == 2 and whole.count('class="bar rival"') == 3
     assert "interval is above zero" in text
     assert "interval reaches zero" in told(replace(report, held_out=replace(HELD, gain_low=-0.1)))
+    assert "Not beaten" not in text
+    close = told(replace(report, held_out=replace(HELD, black_box=0.38, retuned=0.25)))
+    assert "Not beaten by more than the interval: retuned parameters (25 %), the black box (38 %)" in close
 
 
 def test_held_out_figures_that_are_none_draw_nothing_wrong() -> None:
