@@ -98,6 +98,21 @@ ROOT = Law(key="root", code=14, words="square root", formula="sign(x)*sqrt(abs(x
 SMOOTH = (QUADRATIC, CUBIC, QUINTIC, ODD_SQUARE, ROOT, DRAG, CUBIC_DRAG, VAN_DER_POL)
 
 
+GAPPED = frozenset({"contact_above", "hertz_above", "contact_below", "hertz_below", "stops"})
+"""Laws whose shape is a gap."""
+UNANCHORED = GAPPED - {"stops"} | {"dry_friction", "drag", "cubic_drag"}
+"""Laws that stay the same wherever displacement is counted from, their gap moving along."""
+
+
+def mirrored(law: Law) -> Law | None:
+    """The twin of a one-sided spring: (z - s)+ = z - s + (s - z)+, from the other side with the sign turned.
+
+    Beside a linear spring and a constant force, which are free, no recording tells the two apart.
+    """
+    twin = {"contact_above": BELOW, "contact_below": ABOVE}.get(law.key)
+    return replace(twin, shape=-law.shape) if twin is not None else None
+
+
 def library(z: FloatArray, v: FloatArray) -> tuple[Law, ...]:
     """All candidates, gaps at quantiles of the motion."""
     found = list(SMOOTH)
