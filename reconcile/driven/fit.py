@@ -11,8 +11,8 @@ from scipy import signal, stats
 from scipy.optimize import least_squares
 
 from reconcile.driven.channels import Driven, FloatArray
-from reconcile.driven.model import Model, Run, errors
-from reconcile.force_law.library import GAPPED, UNANCHORED, mirrored
+from reconcile.driven.model import LINEAR, Model, Run, errors
+from reconcile.force_law.library import FRICTION, GAPPED, PUSHING, UNANCHORED, Law, mirrored
 from reconcile.force_law.samples import even_blocks
 
 BLOCKS = 24
@@ -20,6 +20,8 @@ INTERVAL = float(stats.t.ppf(0.95, BLOCKS - 1))
 """Standard errors of a 90 % interval, their size known from as many blocks."""
 GAIN, OUTPUT_OFFSET = 2, 4
 """Indices of the gain and of the output's offset among the parameters."""
+SPEEDS = 3.0
+"""Factor by which the speed at which friction is full may differ from where it starts: it is not seen well."""
 LED = 0.1
 """Rate of the observer over the natural angular frequency before the run is free.
 
@@ -110,8 +112,8 @@ def _scales(model: Model, run: Run) -> FloatArray:
 
 
 def _shaped(start: Model) -> list[int]:
-    """Laws whose gap is fitted with the rest."""
-    return [k for k, law in enumerate(start.laws) if law.key in GAPPED]
+    """Laws whose gap, or speed at which friction is full, is fitted with the rest."""
+    return [k for k, law in enumerate(start.laws) if law.key in GAPPED or law.key == FRICTION.key]
 
 
 def _free(start: Model) -> list[int]:
@@ -120,17 +122,31 @@ def _free(start: Model) -> list[int]:
     return [i for i in range(start.vector().size) if anchored or i != OUTPUT_OFFSET]
 
 
-def _bounds(start: Model, run: Run, shaped: Sequence[int], free: int) -> tuple[FloatArray, FloatArray]:
-    """Damping and stiffness stay positive, gaps within the motion."""
+def _ends(law: Law, low: float, high: float) -> tuple[float, float]:
+    """Of a shape: gaps within the motion, from `low` to `high`; a speed near where it starts."""
+    if law.key == FRICTION.key:
+        return law.shape / SPEEDS, law.shape * SPEEDS
+    if law.key == "stops":
+        return 0.0, max(high, -low)
+    return (-high, -low) if law.key.endswith("below") else (low, high)
+
+
+def _bounds(start: Model, run: Run, free: Sequence[int], shaped: Sequence[int]) -> tuple[FloatArray, FloatArray]:
+    """Damping and stiffness stay positive, contacts push, shapes keep within their ends."""
     z = run.compared - start.output_offset
-    low, high = float(z.min()), float(z.max())
-    least, most = np.full(free + len(shaped), -np.inf), np.full(free + len(shaped), np.inf)
+    size = len(free) + len(shaped)
+    least, most = np.full(size, -np.inf), np.full(size, np.inf)
     least[:2] = 0.0
-    for j, k in enumerate(shaped, start=free):
-        key = start.laws[k].key
-        ends = (0.0, max(high, -low)) if key == "stops" else ((-high, -low) if key.endswith("below") else (low, high))
-        least[j], most[j] = ends
+    for j, i in enumerate(free):
+        if i >= LINEAR and start.laws[i - LINEAR].key in PUSHING:
+            least[j] = 0.0
+    for j, k in enumerate(shaped, start=len(free)):
+        least[j], most[j] = _ends(start.laws[k], float(z.min()), float(z.max()))
     return least, most
+
+
+def _shape_step(law: Law, size: float) -> float:
+    return law.shape if law.key == FRICTION.key else 0.1 * size
 
 
 def descend(start: Model, runs: Sequence[Run]) -> Fitted:
@@ -138,7 +154,7 @@ def descend(start: Model, runs: Sequence[Run]) -> Fitted:
     run, first = runs[0], start.vector()
     free, shaped = _free(start), _shaped(start)
     size = float(run.data.answer.std()) or 1.0
-    steps = np.concatenate([_scales(start, run)[free], np.full(len(shaped), 0.1 * size)])
+    steps = np.concatenate([_scales(start, run)[free], [_shape_step(start.laws[k], size) for k in shaped]])
 
     def model_of(x: FloatArray) -> Model:
         vector, laws = first.copy(), list(start.laws)
@@ -151,7 +167,7 @@ def descend(start: Model, runs: Sequence[Run]) -> Fitted:
         model = model_of(x)
         return np.concatenate([errors(model, r) for r in runs]) / size
 
-    least, most = _bounds(start, run, shaped, len(free))
+    least, most = _bounds(start, run, free, shaped)
     x0 = np.concatenate([first[free], [start.laws[k].shape for k in shaped]]) / steps
     x0 = np.clip(x0, least / steps + 1e-9, most / steps - 1e-9)
     bounds = (least / steps, most / steps)
@@ -167,17 +183,13 @@ def fit(start: Model, run: Run, *, stretches: Sequence[Run] = ()) -> Fitted:
     """Least squares on the free-run error of one or several stretches, from a start.
 
     With laws the error has many minima: where the motion is sensitive to its numbers, a long run is right at one value
-    and lost beside it. So the run is first led by what was measured, then free; what a start of its own reaches is
-    taken where it leaves less.
+    and lost beside it. So the run is first led by what was measured, then free.
     """
     runs = (run, *stretches)
-    direct = descend(start, runs)
     if not start.laws or run.data.order > 1:
-        return direct
+        return _pushing(descend(start, runs), runs)
     led = descend(start, [replace(r, led=LED) for r in runs])
-    again = descend(led.model, runs)
-    best = min((direct, again), key=lambda f: total_square(f.model, runs))
-    return _pushing(best, runs)
+    return _pushing(descend(led.model, runs), runs)
 
 
 def total_square(model: Model, runs: Sequence[Run]) -> float:

@@ -100,8 +100,13 @@ SMOOTH = (QUADRATIC, CUBIC, QUINTIC, ODD_SQUARE, ROOT, DRAG, CUBIC_DRAG, VAN_DER
 
 GAPPED = frozenset({"contact_above", "hertz_above", "contact_below", "hertz_below", "stops"})
 """Laws whose shape is a gap."""
-UNANCHORED = GAPPED - {"stops"} | {"dry_friction", "drag", "cubic_drag"}
-"""Laws that stay the same wherever displacement is counted from, their gap moving along."""
+PUSHING = frozenset({"hertz_above", "hertz_below", "stops"})
+"""Contacts: their stiffness is positive, whatever fits. (Of a one-sided spring the twin is: `mirrored`.)"""
+UNANCHORED = GAPPED | {"dry_friction", "drag", "cubic_drag"}
+"""Laws that do not tell where displacement is counted from: a gap moves along, or it does not count.
+
+Stops with a free middle could leave one side for good, and be a one-sided spring under another name.
+"""
 
 
 def mirrored(law: Law) -> Law | None:
