@@ -86,7 +86,8 @@ def _same(law: Law, value: float) -> tuple[str, ...]:
     twin = mirrored(law)
     if twin is None:
         return ()
-    return (f"the same motion: {-value:.4g} {twin.shown()} beside a linear spring {value:.4g} N/m stiffer",)
+    turned = f"{abs(value):.4g} N/m {'stiffer' if value > 0 else 'softer'}"
+    return (f"the same motion: {-value:.4g} {twin.shown()} beside a linear spring {turned}",)
 
 
 def _causes(found: Analysis, judgement: Judgement, site: str, mass: float) -> tuple[Cause, ...]:

@@ -50,7 +50,7 @@ class Law:
 
     def shown(self) -> str:
         """For readers, with the shape in figures."""
-        return self.text.format(s=f"{self.shape:.3g}")
+        return self.text.format(s=f"{self.shape:.3g}").replace("− -", "+ ")
 
     @property
     def unit(self) -> str:
