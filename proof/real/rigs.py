@@ -136,6 +136,6 @@ WHY = {
     "Motor1_UnbalancedRotor_2Weights_Yaxis_30Hz": "The clock of the phone repeats and skips; orders of such a record "
     "mean nothing.",
     "dataBenchmark": "A tank is no mass on a spring: the ceiling of its level is named, but no force that is tried, a "
-    "square root among them, predicts the other recording better than a linear model fitted to it does.",
+    "square root among them, predicts the other recording clearly better than a linear model fitted to it does.",
 }
 """Why a row is wrong or undecided, by its test recording."""

@@ -7,10 +7,11 @@ from collections.abc import Mapping
 from reconcile.driven.ceiling import Ceiling, ceilings
 from reconcile.driven.forced import ALPHA, Analysis
 from reconcile.driven.judge import Judgement, judge
-from reconcile.driven.machine import driven_site, mass_kg, revised, term_key
+from reconcile.driven.machine import driven_site, mass_kg, revised, term_key, weighed
 from reconcile.driven.model import LINEAR
 from reconcile.driven.nominate import Trial, score_nats
 from reconcile.driven.pictures import Freed, freed_force, pictures, shown_stretch
+from reconcile.force_law.library import Law, mirrored
 from reconcile.verdict import (
     Cause,
     EstimatedForce,
@@ -22,6 +23,8 @@ from reconcile.verdict import (
     Where,
 )
 from sim.core.spec import MachineSpec
+
+DIVERGED = "; the free run with the law diverges, errors and gain are bounds"
 
 
 def _law_words(found: Analysis) -> str:
@@ -50,7 +53,8 @@ def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
         return f"A linear model of {site} explains the recording up to noise (free-run error {linear})."
     if not found.final.model.laws or judgement.reasons:
         said = f"A force on {site} is missing from the linear model, and no stable law describes it"
-        return "; ".join([said, *_saturation(found)]) + "."
+        flown = [f"the free run on {v.held} with {_law_words(found)} diverges" for v in found.validations if v.diverged]
+        return "; ".join([said, *flown[:1], *_saturation(found)]) + "."
     v = found.validations[0]
     gained = f"free-run error on {v.held} falls from {100 * v.before:.2g} % to {100 * v.after:.2g} %"
     if judgement.rivals:
@@ -66,14 +70,24 @@ def _cause(found: Analysis, trial: Trial, index: int | None, site: str, mass: fl
     law = trial.laws[-1] if index is None else found.final.model.laws[index]
     place = LINEAR if index is None else LINEAR + index
     source = trial.fitted if index is None else found.final
-    value, low, high = (mass * x for x in source.interval(place))
+    weighs = weighed(source.model, found.held_run.data)
+    value, low, high = ((1.0 if weighs else mass) * x for x in source.interval(place, per_gain=weighs))
     severity = Severity(name=law.key, value=value, unit=law.unit, low=low, high=high)
     values = {"coefficient": value} | ({"shape": law.shape} if law.shape else {})
     named = index is not None and not why
     return Cause(
         term=term_key(law), site=site, score=score, severity=severity, named=named, values=values,
-        reasons=why or ((law.words,) if named else (f"{law.words}: behind the best",)),
+        reasons=(*(why or ((law.words,) if named else (f"{law.words}: behind the best",))), *_same(law, value)),
     )  # fmt: skip
+
+
+def _same(law: Law, value: float) -> tuple[str, ...]:
+    """The law that no recording can tell from this one, its linear part being free."""
+    twin = mirrored(law)
+    if twin is None:
+        return ()
+    turned = f"{abs(value):.4g} N/m {'stiffer' if value > 0 else 'softer'}"
+    return (f"the same motion: {-value:.4g} {twin.shown()} beside a linear spring {turned}",)
 
 
 def _causes(found: Analysis, judgement: Judgement, site: str, mass: float) -> tuple[Cause, ...]:
@@ -82,8 +96,9 @@ def _causes(found: Analysis, judgement: Judgement, site: str, mass: float) -> tu
     laws = found.final.model.laws
     why = judgement.reasons or (("others cannot be told from it",) if judgement.rivals else ())
     kept = [_cause(found, found.nominated.chosen, i, site, mass, why) for i in range(len(laws))]
-    others = [_cause(found, t, None, site, mass, ()) for t in found.nominated.singles if t.laws[0] not in laws]
-    return (*kept, *sorted(others, key=lambda c: -c.score))
+    keys = {law.key for law in laws}
+    others = [_cause(found, t, None, site, mass, ()) for t in found.nominated.singles if t.laws[0].key not in keys]
+    return tuple(sorted([*kept, *others], key=lambda c: -c.score))
 
 
 def _held_out(found: Analysis) -> HeldOut | None:
@@ -93,7 +108,7 @@ def _held_out(found: Analysis) -> HeldOut | None:
     return HeldOut(
         metric="free-run NRMSE", unit="1", before=v.before, after=v.after, gain=v.gain[0], gain_low=v.gain[1],
         gain_high=v.gain[2], retuned=v.retuned, black_box=v.black_box, placebo=v.placebo,
-        held=f"{v.held}, fitted on {v.fitted_on}; it goes farther than what was fitted",
+        held=f"{v.held}, fitted on {v.fitted_on}; it goes farther than what was fitted{DIVERGED if v.diverged else ''}",
     )  # fmt: skip
 
 
@@ -176,8 +191,8 @@ def answer(spec: MachineSpec, found: Analysis, *, seed: int, provenance: Mapping
         force=_force(found, freed, judgement, name, mass),
         undecidable=_undecidable(found, data.assumed, data.calibrated),
         next_experiment=_next(judgement),
-        machine=revised(spec, found.final.model, data, shown.drive).model_dump(mode="json"),
+        machine=revised(spec, found.published, data, shown.drive).model_dump(mode="json"),
         stages=_stages(found, data.assumed),
         pictures=pictures(found, shown, freed),
-        provenance={**provenance, "output_offset": found.final.model.output_offset},
+        provenance={**provenance, "output_offset": found.published.output_offset},
     )

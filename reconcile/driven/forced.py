@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from reconcile.driven.channels import FloatArray
+from reconcile.driven.doubt import doubted
 from reconcile.driven.fit import Fitted, best_fit, first_guess, fit
 from reconcile.driven.latent import latent_force
 from reconcile.driven.missing import Missing, anything_missing
-from reconcile.driven.model import Model, Run, errors, nrmse, ready, simulated
+from reconcile.driven.model import Model, Run, bounded, diverges, errors, nrmse, ready, simulated
 from reconcile.driven.nominate import Nominated, PowerFit, free_power, nominate, squares_in_blocks
 from reconcile.driven.rivals import black_box, black_box_error, placebo_errors
 from reconcile.driven.split import Part, order_of_use, stretches
@@ -38,6 +39,10 @@ class Validation:
     black_box: float
     placebo: float
     """The better of a wrong law and of the right force scrambled."""
+    over_placebo: tuple[float, float, float]
+    """1 - what the laws leave / what the placebo leaves, with its 90 % interval over resampled blocks."""
+    diverged: bool
+    """The free run with the laws flew off: `after` and `gain` are then at their bounds."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,6 +66,11 @@ class Analysis:
     held_after: FloatArray
     """Simulated output on the first held-out part, (n,)."""
 
+    @property
+    def published(self) -> Model:
+        """The model for the simulator: without laws where these make a free run diverge."""
+        return (self.linear if any(v.diverged for v in self.validations) else self.final).model
+
 
 def gain_interval(a: FloatArray, b: FloatArray, rng: np.random.Generator) -> tuple[float, float, float]:
     """1 - after / before of root mean squares by block (blocks,), with a 90 % interval over resampled blocks."""
@@ -80,16 +90,19 @@ def validate(linear: Fitted, final: Fitted, run: Run, held: Run, names: tuple[st
     before, after = errors(linear.model, held), errors(final.model, held)
     retuned = fit(linear.model, held)
     box = black_box(run.data, final.model.vector().size)
-    wrong, scrambled = placebo_errors(linear.model, final.model.laws, run, held, rng)
+    placebo = min(placebo_errors(linear.model, final.model.laws, run, held, rng), key=lambda e: float(np.mean(e**2)))
+    squares = [squares_in_blocks(e) for e in (before, after, placebo)]
     return Validation(
         fitted_on=names[0],
         held=names[1],
         before=nrmse(before, held.compared),
         after=nrmse(after, held.compared),
-        gain=gain_interval(squares_in_blocks(before), squares_in_blocks(after), rng),
+        gain=gain_interval(squares[0], squares[1], rng),
         retuned=_fraction(retuned.error, before),
         black_box=_fraction(black_box_error(box, held), before),
-        placebo=max(_fraction(wrong, before), _fraction(scrambled, before)),
+        placebo=_fraction(placebo, before),
+        over_placebo=gain_interval(squares[2], squares[1], rng),
+        diverged=diverges(final.model, held),
     )
 
 
@@ -111,8 +124,8 @@ def calibrate(part: Part, *, quiet: bool = False) -> Calibrated:
     return Calibrated(run=run, other=other, linear=fit(rough.model, run))
 
 
-def _reverse(parts: Sequence[Part], final: Model, names: tuple[str, str], seed: int) -> Validation:
-    """The named structure fitted on the part that was held out, scored on the one that was fitted."""
+def _reverse(parts: Sequence[Part], final: Model, names: tuple[str, str], seed: int) -> tuple[Validation, Fitted]:
+    """The named structure fitted on the part that was held out, scored on the one that was fitted; and that fit."""
     by_name = {p.name: p for p in parts}
     fit_part, held_part = by_name[names[1]], by_name[names[0]]
     found = calibrate(fit_part)
@@ -121,7 +134,7 @@ def _reverse(parts: Sequence[Part], final: Model, names: tuple[str, str], seed: 
     starts = [model.with_laws(final.laws, none) for model in (base, quiet)]
     again = best_fit(starts, found.run, stretches=(found.other,))
     held = ready(held_part.data, found.linear.model.memory_s)
-    return validate(found.linear, again, found.run, held, (names[1], names[0]), seed)
+    return validate(found.linear, again, found.run, held, (names[1], names[0]), seed), again
 
 
 def analyse(parts: Sequence[Part], seed: int) -> Analysis:
@@ -141,7 +154,9 @@ def analyse(parts: Sequence[Part], seed: int) -> Analysis:
     names = (fit_part.name, held_part.name)
     validations: tuple[Validation, ...] = ()
     if chosen.laws:
-        validations = (validate(linear, final, run, held, names, seed), _reverse(parts, final.model, names, seed))
+        backward, again = _reverse(parts, final.model, names, seed)
+        final = doubted(final, (run, start.other), again)
+        validations = (validate(linear, final, run, held, names, seed), backward)
     return Analysis(
         linear=linear,
         fitted_nrmse=nrmse(linear.error, run.compared),
@@ -157,5 +172,5 @@ def analyse(parts: Sequence[Part], seed: int) -> Analysis:
         fitted_run=run,
         held_run=held,
         held_before=simulated(linear.model, held),
-        held_after=simulated(final.model, held),
+        held_after=bounded(simulated(final.model, held), held),
     )

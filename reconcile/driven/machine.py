@@ -46,9 +46,12 @@ def driven_site(spec: MachineSpec) -> Site:
 
 def mass_kg(model: Model, data: Driven, site: Site) -> float:
     """Mass: from the gain where force and motion are calibrated, else the specification's (it sets the scale)."""
-    if data.calibrated and data.drive_channel.unit == "N" and model.gain > 0:
-        return 1.0 / model.gain
-    return site.body.mass_kg
+    return 1.0 / model.gain if weighed(model, data) else site.body.mass_kg
+
+
+def weighed(model: Model, data: Driven) -> bool:
+    """Whether the recording tells the mass."""
+    return data.calibrated and data.drive_channel.unit == "N" and model.gain > 0
 
 
 def term_key(law: Law) -> str:

@@ -6,6 +6,7 @@ is x (or its derivative) plus `output_offset`. Between samples the input is band
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -20,6 +21,15 @@ FINE = 8
 """Steps of the integrator's grid per sample: Runge-Kutta steps of 2 of them, 4 a sample."""
 HALF_TAPS = 24
 WINDOW_BETA = 9.0
+WARM_UP = 0.3
+"""Share of the natural angular frequency at which the state is led to the measured output before the comparison.
+
+A stiffening mass has several answers to one input (Nayfeh & Mook 1979, Nonlinear Oscillations, section 4.1); a run from
+rest into the middle of a record may take another one for ever. Luenberger's observer: poles below the frequency itself
+average noise over periods, and settle within few of them.
+"""
+RUNAWAY = 1e3
+"""Standard deviations of the measured output at which a run has flown off; errors count no higher."""
 LINEAR = 5
 """Parameters of the linear model: stiffness, damping, gain, offset of force and of output."""
 
@@ -78,11 +88,20 @@ class Run:
     data: Driven
     fine: FloatArray
     skip: int
+    led: float = 0.0
+    """Share of the natural angular frequency at which the whole run is led to what was measured; 0: a free run."""
 
     @property
     def compared(self) -> FloatArray:
         """Output that counts, (n - skip,)."""
         return self.data.answer[self.skip :]
+
+
+def held_linear(run: Run) -> Run:
+    """The same stretch with straight lines between the samples of the input."""
+    n = run.data.drive.size
+    at = np.arange((n - 1) * FINE + 1) / FINE
+    return replace(run, fine=np.interp(at, np.arange(n), run.data.drive))
 
 
 def ready(data: Driven, memory_s: float) -> Run:
@@ -91,8 +110,17 @@ def ready(data: Driven, memory_s: float) -> Run:
     return Run(data=data, fine=refined(data.drive), skip=skip)
 
 
+def _pull(model: Model, run: Run) -> FloatArray:
+    """Corrections of x and v a sample: both poles of the observer's error at its rate, where x was measured."""
+    rate = (run.led or WARM_UP) * math.sqrt(max(model.stiffness, 0.0))
+    held = math.exp(-rate * run.data.step_s)
+    if run.data.order == 0:
+        return np.array([1.0 - held**2, (1.0 - held) ** 2 / run.data.step_s])
+    return np.array([0.0, 1.0 - held if run.data.order == 1 else 0.0])
+
+
 def simulated(model: Model, run: Run) -> FloatArray:
-    """Free run from rest, (n,)."""
+    """Free run, (n,); over the samples before `skip` (everywhere, if the run is led) an observer of the output."""
     out = np.empty(run.data.answer.size)
     free_run(
         model.gain * run.fine + model.offset,
@@ -105,6 +133,9 @@ def simulated(model: Model, run: Run) -> FloatArray:
         np.array([law.shape for law in model.laws], dtype=np.float64),
         np.array(model.coefficients, dtype=np.float64),
         run.data.order,
+        run.data.answer - model.output_offset,
+        _pull(model, run),
+        run.data.answer.size if run.led else run.skip,
         out,
     )
     return out + model.output_offset
@@ -119,9 +150,20 @@ def answer_to(model: Model, values: FloatArray, step_s: float, order: int) -> Fl
     return np.asarray(np.fft.irfft(np.fft.rfft(values, padded) * response, padded)[:n])
 
 
+def bounded(values: FloatArray, run: Run) -> FloatArray:
+    """Values with those that flew off held at `RUNAWAY`."""
+    limit = RUNAWAY * (float(run.data.answer.std()) or 1.0)
+    return np.asarray(np.clip(np.nan_to_num(values, nan=limit), -limit, limit))
+
+
 def errors(model: Model, run: Run) -> FloatArray:
-    """Measured less simulated where it counts, (n - skip,)."""
-    return np.asarray(run.compared - simulated(model, run)[run.skip :])
+    """Measured less simulated where it counts, (n - skip,), bounded."""
+    return bounded(run.compared - simulated(model, run)[run.skip :], run)
+
+
+def diverges(model: Model, run: Run) -> bool:
+    """Whether the free run flies off."""
+    return bool(np.abs(errors(model, run)).max() >= RUNAWAY * float(run.data.answer.std()))
 
 
 def nrmse(error: FloatArray, measured: FloatArray) -> float:

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reconcile.driven.channels import FloatArray
-from reconcile.driven.fit import Fitted, fit
+from reconcile.driven.fit import INTERVAL, LED, Fitted, descend, fit
 from reconcile.driven.model import Model, Run, errors
-from reconcile.force_law.library import FREE_POWER, Law
+from reconcile.force_law.library import FREE_POWER, Law, mirrored
 from reconcile.force_law.samples import block_sums, even_blocks
 from reconcile.force_law.search import SearchResult
 
@@ -28,9 +28,15 @@ LEAD = 2.0
 class Trial:
     """A model with laws: fitted on one stretch, with its squared error in blocks of the other, (blocks,)."""
 
-    laws: tuple[Law, ...]
     fitted: Fitted
     squares: FloatArray
+    led: FloatArray
+    """The same of a run that is led by the measured output."""
+
+    @property
+    def laws(self) -> tuple[Law, ...]:
+        """As fitted, gaps included."""
+        return self.fitted.model.laws
 
     @property
     def mean_square(self) -> float:
@@ -41,8 +47,7 @@ class Trial:
 def squares_in_blocks(error: FloatArray) -> FloatArray:
     """Mean square in each of `BLOCKS` blocks."""
     blocks = even_blocks(error.size, BLOCKS)
-    with np.errstate(over="ignore"):
-        total = block_sums(np.clip(error, -1e9, 1e9) ** 2, blocks, BLOCKS)
+    total = block_sums(error**2, blocks, BLOCKS)
     return np.asarray(total / np.maximum(np.bincount(blocks, minlength=BLOCKS), 1))
 
 
@@ -61,8 +66,13 @@ def leads(before: FloatArray, after: FloatArray) -> bool:
 def trial(base: Model, laws: Sequence[Law], run: Run, other: Run, start: Sequence[float] | None = None) -> Trial:
     """Fit with these laws from the base's linear part."""
     first = tuple(start) if start is not None else (0.0,) * len(laws)
-    fitted = fit(base.with_laws(laws, first), run)
-    return Trial(laws=tuple(laws), fitted=fitted, squares=squares_in_blocks(errors(fitted.model, other)))
+    return _scored(fit(base.with_laws(laws, first), run), other)
+
+
+def _scored(fitted: Fitted, other: Run) -> Trial:
+    led = replace(other, led=LED)
+    squares = [squares_in_blocks(errors(fitted.model, r)) for r in (other, led)]
+    return Trial(fitted=fitted, squares=squares[0], led=squares[1])
 
 
 def shortlist(found: SearchResult) -> tuple[Law, ...]:
@@ -71,6 +81,16 @@ def shortlist(found: SearchResult) -> tuple[Law, ...]:
     for law, _, _ in found.ranked:
         kept.setdefault(law.key, law)
     return tuple(kept.values())[:MOST_TRIED]
+
+
+def _different(laws: Sequence[Law]) -> list[Law]:
+    """Without the second of two laws that are the same beside a linear one: a fit turns it to where it pushes."""
+    kept: list[Law] = []
+    for law in laws:
+        twin = mirrored(law)
+        if twin is None or all(twin.key != other.key for other in kept):
+            kept.append(law)
+    return kept
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,15 +102,31 @@ class Nominated:
     chosen: Trial
 
 
+def _better(before: FloatArray, after: FloatArray) -> bool:
+    return leads(before, after) and float(after.mean()) < (1.0 - LEAST_GAIN) * float(before.mean())
+
+
 def _earns(before: Trial, after: Trial) -> bool:
-    return leads(before.squares, after.squares) and after.mean_square < (1.0 - LEAST_GAIN) * before.mean_square
+    """Whether the last law is worth its name; a further one in a led run too.
+
+    A free run of a sensitive motion is at the mercy of the last digits, and any law can mend its course by chance; what
+    is missing of a force is missing at each step.
+    """
+    return _better(before.squares, after.squares) and (not before.laws or _better(before.led, after.led))
 
 
 def nominate(linear: Fitted, found: SearchResult, run: Run, other: Run) -> Nominated:
-    """Try the short list one by one, then add to the best while an addition earns its place (2 standard errors)."""
-    none = Trial(laws=(), fitted=linear, squares=squares_in_blocks(errors(linear.model, other)))
+    """Try the short list one by one, then add to the best while an addition earns its place (2 standard errors).
+
+    The best has the highest score, by which causes are ranked: one block that a run lost cannot decide.
+    """
+    none = _scored(linear, other)
     laws = shortlist(found)
-    singles = sorted((trial(linear.model, (law,), run, other) for law in laws), key=lambda t: t.mean_square)
+
+    def merit(t: Trial) -> float:
+        return -score_nats(none.squares, t.squares)[0]
+
+    singles = sorted((trial(linear.model, (law,), run, other) for law in _different(laws)), key=merit)
     chosen = none
     pool: list[Trial] = list(singles)
     while pool and len(chosen.laws) < MOST_LAWS and _earns(chosen, pool[0]):
@@ -98,15 +134,13 @@ def nominate(linear: Fitted, found: SearchResult, run: Run, other: Run) -> Nomin
         rest = [law for law in laws if all(law.key != other_law.key for other_law in chosen.laws)]
         model = chosen.fitted.model
         start = (*model.coefficients, 0.0)
-        pool = sorted(
-            (trial(model, (*chosen.laws, law), run, other, start) for law in rest), key=lambda t: t.mean_square
-        )
+        pool = sorted((trial(model, (*chosen.laws, law), run, other, start) for law in rest), key=merit)
     return Nominated(linear=none, singles=tuple(singles), chosen=chosen)
 
 
 @dataclass(frozen=True, kw_only=True)
 class PowerFit:
-    """Exponent of the odd law by free-run error, with a 90 % interval (curvature, block-robust scale)."""
+    """Exponent of the odd law by free-run error, with a 90 % interval (scatter of blocks; what a led run says)."""
 
     value: float
     low: float
@@ -121,17 +155,25 @@ def free_power(base: Model, laws: Sequence[Law], run: Run) -> PowerFit | None:
     others = [law for law in laws if law is not odd[0]]
     grid = odd[0].power + np.array([-0.3, -0.15, 0.0, 0.15, 0.3])
     linear = base.with_laws((), ())
-    sums = []
-    for p in grid:
-        law = replace(FREE_POWER, shape=float(p))
-        fitted = fit(linear.with_laws((*others, law), (0.0,) * (len(others) + 1)), run)
-        sums.append(squares_in_blocks(fitted.error))
-    # Each block has its own parabola over p: their sum gives the exponent, their scatter its error.
+    tried = [(*others, replace(FREE_POWER, shape=float(p))) for p in grid]
+    free = [fit(linear.with_laws(these, (0.0,) * len(these)), run) for these in tried]
+    found = _lowest(grid, [squares_in_blocks(f.error) for f in free])
+    if found is None:
+        return None
+    value, error = found
+    if run.data.order < 2:
+        led = [descend(f.model, (replace(run, led=LED),)) for f in free]
+        again = _lowest(grid, [squares_in_blocks(f.error) for f in led])
+        error = math.hypot(error, again[0] - value if again is not None else 0.0)
+    return PowerFit(value=value, low=value - INTERVAL * error, high=value + INTERVAL * error)
+
+
+def _lowest(grid: FloatArray, sums: Sequence[FloatArray]) -> tuple[float, float] | None:
+    """Exponent and its standard error: each block has a parabola over it, their sum the lowest point, they scatter."""
     curves = np.stack([np.polyfit(grid, [s[k] for s in sums], 2) for k in range(BLOCKS)])
     total = curves.sum(axis=0)
     if total[0] <= 0:
         return None
     value = -0.5 * float(total[1] / total[0])
     slopes = 2.0 * curves[:, 0] * value + curves[:, 1]
-    half = 1.645 * math.sqrt(float(np.sum(slopes**2))) / (2.0 * float(total[0]))
-    return PowerFit(value=value, low=value - half, high=value + half)
+    return value, math.sqrt(float(np.sum(slopes**2))) / (2.0 * float(total[0]))

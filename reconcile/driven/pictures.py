@@ -9,7 +9,7 @@ from scipy import signal
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.forced import Analysis
-from reconcile.driven.model import Model, ready, simulated
+from reconcile.driven.model import Model, bounded, ready, simulated
 from reconcile.driven.nominate import score_nats
 from reconcile.driven.split import strongest
 from reconcile.force_law.picture import Curve, curve, surface
@@ -41,14 +41,14 @@ def shown_stretch(found: Analysis) -> Shown:
     run = ready(part, 0.0)
 
     def run_of(model: Model) -> FloatArray:
-        return np.asarray(simulated(model, run)[warm:])
+        return bounded(simulated(model, run), run)[warm:]
 
     return Shown(
         drive=part.drive,
         time_s=np.asarray(np.arange(warm, warm + count) * data.step_s, dtype=np.float64),
         observed=part.answer[warm:],
         before=run_of(found.linear.model),
-        after=run_of(found.final.model),
+        after=run_of(found.published),
     )
 
 
@@ -116,7 +116,7 @@ def _ranking(found: Analysis) -> list[dict[str, object]]:
     for trial in found.nominated.singles:
         score, error = score_nats(found.nominated.linear.squares, trial.squares)
         law = trial.laws[0]
-        named = law in found.final.model.laws
+        named = law.key in {x.key for x in found.final.model.laws}
         row = {"label": f"{law.words}, {law.shown()}", "score": score, "named": named}
         rows.append(row | {"low": score - 1.645 * error, "high": score + 1.645 * error})
     return rows

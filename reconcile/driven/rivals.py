@@ -16,8 +16,6 @@ from reconcile.force_law.samples import IntArray
 from sim.core.compiled import jit
 
 LAGS = 2
-LIMIT = 1e3
-"""Standard deviations beyond which a black box has run away."""
 VARIABLES = 2 * LAGS + 1
 """y[k-1], y[k-2], u[k], u[k-1], u[k-2]."""
 
@@ -62,9 +60,9 @@ def black_box(data: Driven, parameters: int) -> BlackBox:
 
 
 @jit
-def _run_box(products, coefficients, u, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202
+def _run_box(products, coefficients, u, first, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN202
     state = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
-    for k in range(2, u.size):
+    for k in range(first, u.size):
         state[0], state[1] = out[k - 1], out[k - 2]
         state[2], state[3], state[4] = u[k], u[k - 1], u[k - 2]
         total = 0.0
@@ -74,9 +72,10 @@ def _run_box(products, coefficients, u, out):  # type: ignore[no-untyped-def]  #
 
 
 def black_box_error(box: BlackBox, run: Run) -> FloatArray:
-    """Free-run error where it counts, (n - skip,); limited where the box runs away."""
-    out = np.zeros(run.data.answer.size)
-    _run_box(box.products, box.coefficients, run.data.drive / box.scale[0], out)
+    """Free-run error where it counts, (n - skip,), from the measured start; limited where the box runs away."""
+    out, first = np.zeros(run.data.answer.size), max(run.skip, LAGS)
+    out[:first] = run.data.answer[:first] / box.scale[1]
+    _run_box(box.products, box.coefficients, run.data.drive / box.scale[0], first, out)
     return np.asarray(run.compared - box.scale[1] * out[run.skip :])
 
 

@@ -63,29 +63,33 @@ def acceleration(x, v, drive, stiffness, damping, codes, shapes, coefficients): 
 
 
 @jit
-def free_run(drive, fine, step, start, stiffness, damping, codes, shapes, coefficients, order, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+def free_run(drive, fine, step, start, stiffness, damping, codes, shapes, sizes, order, measured, pull, led, out):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
     """Motion of a unit mass from `start` = (x, v) under `drive` at steps of `step`, by Runge's 4th-order method.
 
     Each Runge-Kutta step spans two of `drive`, whose middle one it needs; `out` (n,) takes every `fine`-th x, or its
-    derivative of `order` 1 or 2.
+    derivative of `order` 1 or 2. After each of the first `led` samples x and v are moved by `pull` (2,) times what
+    `measured` (n,) is ahead.
     """
     x, v = start[0], start[1]
     h = 2.0 * step
     for i in range(out.size):
         out[i] = x if order == 0 else v
         if order == 2:
-            out[i] = acceleration(x, v, drive[i * fine], stiffness, damping, codes, shapes, coefficients)
+            out[i] = acceleration(x, v, drive[i * fine], stiffness, damping, codes, shapes, sizes)
         if i == out.size - 1:
             break
+        if i < led:
+            ahead = measured[i] - out[i]
+            x, v = x + pull[0] * ahead, v + pull[1] * ahead
         for j in range(fine // 2):
             at = i * fine + 2 * j
-            a1 = acceleration(x, v, drive[at], stiffness, damping, codes, shapes, coefficients)
+            a1 = acceleration(x, v, drive[at], stiffness, damping, codes, shapes, sizes)
             x2, v2 = x + 0.5 * h * v, v + 0.5 * h * a1
-            a2 = acceleration(x2, v2, drive[at + 1], stiffness, damping, codes, shapes, coefficients)
+            a2 = acceleration(x2, v2, drive[at + 1], stiffness, damping, codes, shapes, sizes)
             x3, v3 = x + 0.5 * h * v2, v + 0.5 * h * a2
-            a3 = acceleration(x3, v3, drive[at + 1], stiffness, damping, codes, shapes, coefficients)
+            a3 = acceleration(x3, v3, drive[at + 1], stiffness, damping, codes, shapes, sizes)
             x4, v4 = x + h * v3, v + h * a3
-            a4 = acceleration(x4, v4, drive[at + 2], stiffness, damping, codes, shapes, coefficients)
+            a4 = acceleration(x4, v4, drive[at + 2], stiffness, damping, codes, shapes, sizes)
             x += h / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4)
             v += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4)
             if not abs(x) < 1e12:

@@ -50,7 +50,7 @@ class Law:
 
     def shown(self) -> str:
         """For readers, with the shape in figures."""
-        return self.text.format(s=f"{self.shape:.3g}")
+        return self.text.format(s=f"{self.shape:.3g}").replace("− -", "+ ")
 
     @property
     def unit(self) -> str:
@@ -96,6 +96,26 @@ VAN_DER_POL = Law(
 ROOT = Law(key="root", code=14, words="square root", formula="sign(x)*sqrt(abs(x))", text="sgn z √|z|", power=0.5)
 
 SMOOTH = (QUADRATIC, CUBIC, QUINTIC, ODD_SQUARE, ROOT, DRAG, CUBIC_DRAG, VAN_DER_POL)
+
+
+GAPPED = frozenset({"contact_above", "hertz_above", "contact_below", "hertz_below", "stops"})
+"""Laws whose shape is a gap."""
+PUSHING = frozenset({"hertz_above", "hertz_below", "stops"})
+"""Contacts: their stiffness is positive, whatever fits. (Of a one-sided spring the twin is: `mirrored`.)"""
+UNANCHORED = GAPPED | {"dry_friction", "drag", "cubic_drag"}
+"""Laws that do not tell where displacement is counted from: a gap moves along, or it does not count.
+
+Stops with a free middle could leave one side for good, and be a one-sided spring under another name.
+"""
+
+
+def mirrored(law: Law) -> Law | None:
+    """The twin of a one-sided spring: (z - s)+ = z - s + (s - z)+, from the other side with the sign turned.
+
+    Beside a linear spring and a constant force, which are free, no recording tells the two apart.
+    """
+    twin = {"contact_above": BELOW, "contact_below": ABOVE}.get(law.key)
+    return replace(twin, shape=-law.shape) if twin is not None else None
 
 
 def library(z: FloatArray, v: FloatArray) -> tuple[Law, ...]:
