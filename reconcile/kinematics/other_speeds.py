@@ -35,6 +35,9 @@ USUAL_SLIP = 0.01
 """Standard deviation of an order from the drawing's: 1 to 2 % are common (Randall & Antoni 2011, section 2)."""
 MOST = 3
 """Other speeds that are judged in full, the firmest first: each costs as much as the stated one."""
+BEHIND_Z = 4.5
+"""Of the firmest: one this far behind is not judged. Of those judged none is told that is 3 behind (`unread`); the
+scores here and there scatter apart by 1.5."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,7 +68,8 @@ def nominees(tests: Sequence[Observation], ties: Ties, least: float, seed: int) 
                 found.append(Nominee(factor=factor, family=family, z=z))
     chosen: list[Nominee] = []
     for one in sorted(found, key=lambda n: -n.z):
-        if len(chosen) < MOST and all(abs(one.factor / c.factor - 1.0) > one.family.slip for c in chosen):
+        near = not chosen or one.z > chosen[0].z - BEHIND_Z
+        if near and len(chosen) < MOST and all(abs(one.factor / c.factor - 1.0) > one.family.slip for c in chosen):
             chosen.append(one)
     return tuple(chosen)
 
