@@ -207,10 +207,10 @@ def _without_baseline(
         keys = ", ".join(c.family.key for c in shallow)
         said.append(f"Lines of {keys} are there but shallow, as sound bearings show them too")
         undecidable.append("whether shallow lines are a young defect or the bearing as made")
+    if knocking:
+        shafts = " and of ".join(c.family.site for c in knocking)
+        said.append(f"Impacts once a turn of {shafts} are there, as sound gears, couplings and keys make them too")
     for c in knocking:
-        said.append(
-            f"Impacts once a turn of {c.family.site} are there, as sound gears, couplings and keys make them too"
-        )
         undecidable.append(
             f"whether impacts once a turn of {c.family.site} ({c.best.band_hz[0]:.0f}-{c.best.band_hz[1]:.0f} Hz of "
             f"{c.best.channel}, {c.z:.0f} deviations) are a damaged tooth, a rub, a loose part, or the machine as made"
