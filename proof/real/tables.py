@@ -121,9 +121,10 @@ def summary(rows: Sequence[Row]) -> list[str]:
     sized = [(told.first_size(d), true_width_m(stem(r.test))) for r, d in reports]
     known = [(s, t) for s, t in sized if s is not None and t is not None]
     inside = sum(s["low"] <= t <= s["high"] for s, t in known)
-    two_sided = sum(s["low"] > 0 for s, _ in known)
+    bounds = [(b, t) for r, d in reports if (b := told.first_bound_m(d)) and (t := true_width_m(stem(r.test)))]
+    above = sum(t < b for b, t in bounds)
     count = {word: sum(r.judged == word for r in rows) for word in ("right", "undecided", "refused", "wrong")}
-    blind = sum(s["low"] > 0 for (s, t), (r, _) in zip(sized, reports, strict=True) if s and t and not r.tuned)
+    blind = sum(1 for (s, t), (r, _) in zip(sized, reports, strict=True) if s and t and not r.tuned)
     lead = [h["gain"] - h["black_box"] for h in held]
     firm = sum(h["gain_low"] > max(h["retuned"], h["black_box"]) for h in held)
     text = (
@@ -131,9 +132,9 @@ def summary(rows: Sequence[Row]) -> list[str]:
         f"set), {count['refused']} refused for its clock, {count['wrong']} wrong; without the rig the engine was tuned "
         f"on {sum(r.judged == 'right' for r in rows if not r.tuned)} of {sum(not r.tuned for r in rows)} are right. A "
         "plain envelope detector is said to name 15 of the 17 bearing recordings of the catalogue. Of the defects of "
-        f"known length {len(known)} are given a size: {inside} of the intervals hold the truth, "
-        f"{len(known) - two_sided} are upper bounds only, and of the two-sided ones {blind} are of rigs that nothing "
-        "was tuned on. On held-out data the named defect "
+        f"known length {len(known)} are given a size: {inside} of the intervals hold the truth, and {blind} are of "
+        f"rigs that nothing was tuned on. For {len(bounds)} only an upper bound is given, no size: {above} of them are "
+        "above the truth. On held-out data the named defect "
         f"is ahead of the black box in {sum(x > 0 for x in lead)} of {len(held)}, by {min(lead, default=0.0):.2f} to "
         f"{max(lead, default=0.0):.2f} of gain; in {firm} its whole interval is above retuning and black box."
     )

@@ -76,11 +76,16 @@ def size(report: Document) -> str:
     """Length of the defect along its race in mm with its interval; what it grew from where the baseline has it."""
     grown = re.search(r"it grew from (.*) degrees", report["sentence"])
     before = f"; grew from {grown.group(1)} degrees" if grown else ""
-    severity = first_size(report)
+    severity, below = first_size(report), first_bound_m(report)
     if severity is None:
-        return before.removeprefix("; ")
+        return f"below {1e3 * below:.1f} mm{before}" if below is not None else before.removeprefix("; ")
     value, low, high = (1e3 * severity[k] for k in ("value", "low", "high"))
-    return (f"below {high:.1f} mm" if low == 0 else f"{value:.1f} mm ({low:.1f} to {high:.1f})") + before
+    return f"{value:.1f} mm ({low:.1f} to {high:.1f}){before}"
+
+
+def first_bound_m(report: Document) -> float | None:
+    """The length that the defect of the first cause stays below, m, where no more is known of it."""
+    return report["causes"][0]["values"].get("width_below_m") if report["causes"] else None
 
 
 def first_size(report: Document) -> Document | None:

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reconcile.kinematics.extent import TIGHT_DEG, Extent, as_severity, spall_extent
+from reconcile.kinematics.extent import Extent, as_severity, spall_extent
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.heldout import held_out
 from reconcile.kinematics.judge import DEFECTS, Candidate
+from reconcile.kinematics.measured import measured_lines
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.sites import decided, places
 from reconcile.verdict import Cause, HeldOut, LineChange, NextExperiment, PlaceWeight, Report, Severity, Where
@@ -17,6 +18,8 @@ from reconcile.verdict import Cause, HeldOut, LineChange, NextExperiment, PlaceW
 TERMS = {"outer": "outer_spall", "inner": "inner_spall", "ball": "ball_spall"}
 PARTS = {"outer": "the outer race", "inner": "the inner race", "ball": "a ball"}
 SYMBOLS = {"outer": "BPFO", "inner": "BPFI", "ball": "2 BSF", "cage": "FTF", "turn": "shaft"}
+BOUND = "width_below_m"
+"""Key of the values of a cause of which only an upper bound of its length is known: a bound is no size."""
 NO_SIZE = "how large the defect is: a size can't be given from these lines without a model of the machine"
 
 
@@ -32,18 +35,20 @@ def defect_report(
     sizes = [_size(c, tests, ties) for c in chosen]
     one_site = all(decided(w) for w in weights)
     causes = tuple(
-        cause for c, w, s in zip(chosen, weights, sizes, strict=True) for cause in _causes(c, w, s[1], one_site)
+        cause
+        for c, w, s in zip(chosen, weights, sizes, strict=True)
+        for cause in _causes(c, w, s[1], one_site, _bound_m(c, s[0], ties))
     )
     held = _held(chosen[0], sizes[0][0], tests, baselines, ties, rng)
-    undecidable = tuple(_undecided(chosen, weights, sizes, baselines))
-    what = " and ".join(_phrase(c, w, s[0]) for c, w, s in zip(chosen, weights, sizes, strict=True))
+    undecidable = tuple(_undecided(chosen, weights, sizes, baselines, ties))
+    what = " and ".join(_phrase(c, w, s[0], ties) for c, w, s in zip(chosen, weights, sizes, strict=True))
     return Report(
         verdict="explained" if one_site else "ambiguous",
         sentence=f"{what}.",
         level="kinematics",
         where=Where(
             sites=_merged(weights),
-            lines=tuple(line for c in chosen for line in lines_of(c, tests)),
+            lines=tuple(line for c in chosen for line in lines_of(c, tests, baselines)),
             limits=() if one_site else ("bearings of one geometry at one speed make the same lines",),
         ),
         causes=causes,
@@ -53,46 +58,44 @@ def defect_report(
     )
 
 
-def lines_of(candidate: Candidate, tests: Sequence[Observation], harmonics: int = 3) -> tuple[LineChange, ...]:
-    """The family's first lines in the recording that shows it best, with the growth of its depth."""
-    e, speed = candidate.best, tests[candidate.strongest].speed.speed_hz
-    growth = candidate.contrasts[candidate.strongest].growth_db
-    depth = candidate.contrasts[candidate.strongest].depth
-    change = growth if growth is not None else 20 * np.log10(max(depth, 1e-3) / 0.02)
-    symbol = SYMBOLS[e.family.kind]
-    found = []
+def lines_of(
+    candidate: Candidate, tests: Sequence[Observation], baselines: Sequence[Observation], harmonics: int = 3
+) -> tuple[LineChange, ...]:
+    """Those of the family's first lines that stand out in the recording that shows it best, as measured there."""
+    e, family = candidate.best, candidate.family
+    symbol = SYMBOLS[family.kind]
+    wanted = []
     for k in range(1, harmonics + 1):
-        found.append((f"{k} {symbol}", k * e.order))
-        for m in range(1, e.family.sidebands + 1):
-            name = "shaft" if e.family.kind == "inner" else "FTF"
-            found += [
-                (f"{k} {symbol} {s}{m} {name}", k * e.order + (m if s == "+" else -m) * e.family.spacing) for s in "-+"
+        wanted.append((f"{k} {symbol}", k * e.order))
+        for m in range(1, family.sidebands + 1):
+            name = "shaft" if family.kind == "inner" else "FTF"
+            wanted += [
+                (f"{k} {symbol} {s}{m} {name}", k * e.order + (m if s == "+" else -m) * family.spacing) for s in "-+"
             ]
-    locked = e.family.site if e.family.kind == "turn" else f"{e.family.site}.{e.family.kind}"
-    return tuple(
-        LineChange(
-            label=label, frequency_hz=float(order * speed), change_db=float(change), channel=e.channel, locked_to=locked
-        )
-        for label, order in found
-    )
+    locked = family.site if family.kind == "turn" else f"{family.site}.{family.kind}"
+    return measured_lines(wanted, e.channel, e.band_hz, tests[candidate.strongest], baselines, locked)
 
 
 def _size(candidate: Candidate, tests: Sequence[Observation], ties: Ties) -> tuple[Extent | None, Severity | None]:
-    """Median over the recordings that resolve entry and exit; else the tightest bound."""
+    """Median over the recordings that resolve entry and exit; else the tightest bound, which is no size."""
     found = [x for e, t in zip(candidate.evidence, tests, strict=True) if (x := spall_extent(e, t, ties)) is not None]
     if not found:
         return None, None
     resolved = sorted((x for x in found if x.resolved), key=lambda x: x.degrees)
     chosen = resolved[len(resolved) // 2] if 2 * len(resolved) >= len(found) else min(found, key=lambda x: x.high_deg)
-    tight = chosen.resolved or chosen.high_deg <= TIGHT_DEG
-    return chosen, as_severity(chosen, candidate.best, ties) if tight else None
+    return chosen, as_severity(chosen, candidate.best, ties) if chosen.resolved else None
 
 
 def _causes(
-    candidate: Candidate, weights: Sequence[PlaceWeight], severity: Severity | None, named: bool
+    candidate: Candidate,
+    weights: Sequence[PlaceWeight],
+    severity: Severity | None,
+    named: bool,
+    bound_m: float | None,
 ) -> list[Cause]:
     reasons = () if named else ("another bearing makes the same lines",)
     e = candidate.best
+    bound = {} if bound_m is None else {BOUND: bound_m}
     return [
         Cause(
             term=TERMS[candidate.family.kind],
@@ -101,7 +104,7 @@ def _causes(
             severity=severity,
             named=named and w.weight == max(x.weight for x in weights),
             reasons=reasons,
-            values={"slip": e.slip, "depth": e.depth, "chance": candidate.chance},
+            values={"slip": e.slip, "depth": e.depth, "chance": candidate.chance} | bound,
         )
         for w in weights
         if not named or w.weight > 0.05
@@ -126,7 +129,7 @@ def _held(
     return held_out(candidate.best, placebo, ranked, baselines, rng, pair if pair < 0.5 else 0.0)
 
 
-def _phrase(candidate: Candidate, weights: Sequence[PlaceWeight], extent: Extent | None) -> str:
+def _phrase(candidate: Candidate, weights: Sequence[PlaceWeight], extent: Extent | None, ties: Ties) -> str:
     kind, e = candidate.family.kind, candidate.best
     where = weights[0].site if decided(weights) else "one of " + ", ".join(w.site for w in weights)
     text = (
@@ -138,9 +141,22 @@ def _phrase(candidate: Candidate, weights: Sequence[PlaceWeight], extent: Extent
     if extent is None:
         return text
     if not extent.resolved:
-        return f"{text}; it covers less than {extent.high_deg:.1f} degrees of the race"
+        return f"{text}; it covers {_less_than(extent, _bound_m(candidate, extent, ties))}"
     span = f"{extent.low_deg:.1f} to {extent.high_deg:.1f}"
     return f"{text}; entry and exit say {extent.degrees:.1f} degrees of the race ({span})"
+
+
+def _bound_m(candidate: Candidate, extent: Extent | None, ties: Ties) -> float | None:
+    """Length along the race that the defect stays below, m, where no more than that is known."""
+    if extent is None or extent.resolved:
+        return None
+    bound = as_severity(extent, candidate.best, ties)
+    return bound.high if bound.unit == "m" else None
+
+
+def _less_than(extent: Extent, bound_m: float | None) -> str:
+    length = "" if bound_m is None else f" ({1e3 * bound_m:.2g} mm)"
+    return f"less than {extent.high_deg:.1f} degrees{length} of the race"
 
 
 def _merged(weights: Sequence[Sequence[PlaceWeight]]) -> tuple[PlaceWeight, ...]:
@@ -156,14 +172,18 @@ def _undecided(
     weights: Sequence[Sequence[PlaceWeight]],
     sizes: Sequence[tuple[Extent | None, Severity | None]],
     baselines: Sequence[Observation],
+    ties: Ties,
 ) -> list[str]:
     found = []
     if not all(decided(w) for w in weights):
         found.append("which of the bearings of one geometry it is: their lines coincide")
-    if any(s[1] is None for s in sizes):
+    if any(extent is None for extent, _ in sizes):
         found.append(NO_SIZE)
-    if any(s[0] is not None and s[1] is not None and not s[0].resolved for s in sizes):
-        found.append("how large the defect is beyond an upper bound: entry and exit are not told apart")
+    found += [
+        f"how large the defect is: {_less_than(x, _bound_m(c, x, ties))}, but entry and exit are not told apart"
+        for c, (x, _) in zip(chosen, sizes, strict=True)
+        if x is not None and not x.resolved
+    ]
     if any(c.family.kind == "outer" for c in chosen):
         found.append("where on the outer ring it sits: a rate has no angle")
     if not baselines:

@@ -9,13 +9,13 @@ they stand where they do at that speed only (`reconcile.kinematics.octaves`).
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from reconcile.kinematics.families import Ties
-from reconcile.kinematics.judge import DEFECTS, Candidate
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.octaves import octave_of
-from reconcile.verdict import Cause, NextExperiment, Report
+from reconcile.kinematics.unread import Judged, at_either, speed_unread
+from reconcile.verdict import NextExperiment, Report
 from signals.recording import Operating, Recording
 
 CLEAR_Z = 3.0
@@ -27,25 +27,6 @@ FAR = 0.06
 """Relative difference of a stated speed from the machine file's beyond which the search for lines does not reach it."""
 WORDS = {2.0: "twice the stated speed", 0.5: "half the stated speed"}
 USUAL = "the speed of the machine file"
-
-
-@dataclass(frozen=True, kw_only=True)
-class Judged:
-    """A report with the candidates it was drawn from."""
-
-    report: Report
-    every: tuple[Candidate, ...]
-
-    @property
-    def z(self) -> float:
-        """Score of the firmest bearing defect that stands, else 0."""
-        return 0.0 if self.firmest is None else self.firmest.z
-
-    @property
-    def firmest(self) -> Candidate | None:
-        """The firmest bearing defect that stands."""
-        standing = [c for c in self.every if c.family.kind in DEFECTS and c.present and c.risen and c.deep]
-        return max(standing, key=lambda c: c.z, default=None)
 
 
 def factor_of(seen: Observation, ties: Ties) -> float | None:
@@ -84,12 +65,14 @@ def against_rivals(
     tie: Ties,
     at: Callable[[float, bool], Judged | None],
     nominal_hz: float | None = None,
+    others: Sequence[float] | None = None,
 ) -> Report:
     """The answer, held against that at half or twice the speed where the shaft's lines don't decide, or where a
     bearing's own lines stand half way between those of a defect; where no line confirms a speed that is far from the
-    machine file's, against that at the latter. `at(factor, firmly)`: the answer at that speed."""
+    machine file's, against that at the latter. `at(factor, firmly)`: the answer at that speed; `others`: factors at
+    which other parts are firm, where nothing says how fast it turned (None where something does)."""
     doubt = doubt_of(seen, tie)
-    if doubt is None and stated.report.verdict in ("nothing_missing", "not_decidable"):
+    if doubt is None and not others and stated.report.verdict in ("nothing_missing", "not_decidable"):
         return stated.report
     octave = None if stated.firmest is None else octave_of(stated.firmest, stated.every, seen)
     if octave is not None:
@@ -100,15 +83,26 @@ def against_rivals(
     if not unconfirmed(seen):
         return stated.report
     first = next(t for t in seen if t.speed.method == "stated")
+    near = [(one, f * first.speed.speed_hz) for f in others or () if (one := at(f, False)) is not None]
+    firmest = max(_far(stated, first, at, nominal_hz), key=lambda r: r[0], default=None)
+    top = max([stated.z, *(one.z for one, _ in near)])
+    if firmest is not None and firmest[0] > top:
+        return doubted(stated, firmest[2], first, firmest[1])
+    return stated.report if others is None else speed_unread(stated, near, first)
+
+
+def _far(
+    stated: Judged, first: Observation, at: Callable[[float, bool], Judged | None], nominal_hz: float | None
+) -> list[tuple[float, float, Judged]]:
+    """(score, factor, answer) at half and twice the speed and at the machine file's, where that is far off; none where
+    nothing is said at the stated one."""
+    if stated.report.verdict in ("nothing_missing", "not_decidable"):
+        return []
     usual = None if nominal_hz is None else nominal_hz / first.speed.speed_hz
     factors = [(2.0, CLEAR_Z), (0.5, CLEAR_Z)]
     if usual is not None and abs(usual - 1.0) > FAR:
         factors.append((usual, -CLEAR_Z))  # two statements against each other: as firm is enough
-    rivals = [(one.z - more, factor, one) for factor, more in factors if (one := at(factor, False)) is not None]
-    firmest = max(rivals, key=lambda r: r[0], default=None)
-    if firmest is None or firmest[0] <= stated.z:
-        return stated.report
-    return doubted(stated, firmest[2], first, firmest[1])
+    return [(one.z - more, factor, one) for factor, more in factors if (one := at(factor, False)) is not None]
 
 
 def doubted(
@@ -141,21 +135,7 @@ def doubted(
         verdict="ambiguous",
         sentence=f"The speed is not decided: {whose} fit {other:.4g} Hz, {WORDS.get(factor, USUAL)}, {how} than "
         f"{speed:.4g} Hz as stated. At {at:.4g} Hz: {shown.sentence}",
-        causes=_both(stated, rival, speed, other),
+        causes=at_either((stated, speed), (rival, other)),
         undecidable=undecidable,
         next_experiment=NextExperiment(sentence="Record with a tacho, or read the speed once with a strobe."),
     )
-
-
-def _both(stated: Judged, rival: Judged, speed_hz: float, other_hz: float) -> tuple[Cause, ...]:
-    """Causes at either speed, none named: each says at which speed it holds."""
-    found: dict[tuple[str, str], tuple[Cause, list[float]]] = {}
-    for judged, at in ((stated, speed_hz), (rival, other_hz)):
-        for c in judged.report.causes if judged.z > 0 else ():
-            best, speeds = found.get((c.term, c.site), (c, []))
-            found[c.term, c.site] = (max(best, c, key=lambda x: x.score), [*speeds, at])
-    causes = []
-    for c, speeds in found.values():
-        how = "at either speed, but with another rate" if len(speeds) > 1 else f"only if it turns at {speeds[0]:.4g} Hz"
-        causes.append(replace(c, named=False, reasons=(*c.reasons, how)))
-    return tuple(sorted(causes, key=lambda c: -c.score))

@@ -39,8 +39,6 @@ BANDS = ((0.02, 0.24), (0.05, 0.5), (0.01, 0.49), (0.24, 0.48))
 EXTREME = 0.999
 CUT_SHARE = 2e-3
 """Of samples at the extreme value: signals that are not cut off have a few."""
-TIGHT_DEG = 6.0
-"""An upper bound below this is worth giving as a size."""
 
 
 @dataclass(frozen=True, kw_only=True)

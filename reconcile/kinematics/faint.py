@@ -39,7 +39,12 @@ def impulsive_report(found: Impulsiveness, every: Sequence[Candidate], bearings:
     )
 
 
-def shallow_report(risen: Sequence[Candidate], every: Sequence[Candidate], tests: Sequence[Observation]) -> Report:
+def shallow_report(
+    risen: Sequence[Candidate],
+    every: Sequence[Candidate],
+    tests: Sequence[Observation],
+    baselines: Sequence[Observation],
+) -> Report:
     """Bearing lines rose, but stay shallower than a defect of that race makes them: the set is the answer."""
     sites = list(dict.fromkeys(c.family.site for c in risen))
     cage = {c.family.site: c for c in every if c.family.kind == "cage"}
@@ -72,7 +77,7 @@ def shallow_report(risen: Sequence[Candidate], every: Sequence[Candidate], tests
         level="kinematics",
         where=Where(
             sites=tuple(PlaceWeight(site=s, weight=sum(c.score for c in causes if c.site == s) / total) for s in sites),
-            lines=tuple(line for c in risen for line in lines_of(c, tests, 2)),
+            lines=tuple(line for c in risen for line in lines_of(c, tests, baselines, 2)),
         ),
         causes=tuple(causes),
         undecidable=("which part of the bearing: shallow lines of several are alike", "how large: " + NO_SIZE),

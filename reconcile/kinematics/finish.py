@@ -1,4 +1,4 @@
-"""Stages and pictures of a report."""
+"""Stages and pictures of a report, and the reports of recordings that carry none."""
 
 from __future__ import annotations
 
@@ -6,11 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from reconcile.gate import Gate
-from reconcile.gate.spoiled import doubts
+from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.kinematics.judge import Candidate
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.picture import envelope_picture
 from reconcile.verdict import Report
+from sim.core.errors import SpecError
 
 
 def finished(
@@ -59,3 +60,25 @@ def _row(c: Candidate) -> dict[str, object]:
         "present": c.present,
         "risen": c.risen,
     }
+
+
+def fault_report(gate: Gate) -> Report:
+    """The measurement is at fault."""
+    assert gate.fault is not None
+    return Report(
+        verdict="measurement_fault",
+        sentence=fault_sentence(gate.fault)
+        + (" Apart from it these kinematics show nothing missing." if gate.usable else ""),
+        level="kinematics",
+        fault=gate.fault,
+    )
+
+
+def refused_report(error: SpecError) -> Report:
+    """The recordings can't carry the kinematics."""
+    return Report(
+        verdict="not_decidable",
+        sentence=f"The recordings can't carry these kinematics: {error}.",
+        level="kinematics",
+        undecidable=tuple(str(p) for p in error.problems),
+    )

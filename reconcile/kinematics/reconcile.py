@@ -9,23 +9,25 @@ from functools import partial
 
 import numpy as np
 
-from reconcile.gate import Gate, inspect_measurement
-from reconcile.gate.spoiled import GONE, fault_sentence, without_spoiled
+from reconcile.gate import inspect_measurement
+from reconcile.gate.spoiled import GONE, without_spoiled
 from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.apart import with_speeds
-from reconcile.kinematics.doubted import Judged, against_rivals, factor_of, restated
+from reconcile.kinematics.doubted import against_rivals, factor_of, restated, unconfirmed
 from reconcile.kinematics.extent import Extent
 from reconcile.kinematics.faint import impulsive_report, shallow_report
 from reconcile.kinematics.families import Ties, ties
-from reconcile.kinematics.finish import finished
+from reconcile.kinematics.finish import fault_report, finished, refused_report
 from reconcile.kinematics.foreign import foreign_comb
 from reconcile.kinematics.gears import GearEvidence, gear_evidence
 from reconcile.kinematics.grown import grown_defect, old_defects
 from reconcile.kinematics.judge import DEFECTS, Candidate, named
 from reconcile.kinematics.observe import Observation, observe
+from reconcile.kinematics.other_speeds import by_baseline, nominees
 from reconcile.kinematics.remarks import remarked
 from reconcile.kinematics.shafts import Impulsiveness, ShaftChange, impulsiveness, shaft_changes
 from reconcile.kinematics.spec import KinematicSpec, of_machine
+from reconcile.kinematics.unread import ALIKE_Z, Judged
 from reconcile.kinematics.vague import (
     foreign_report,
     gear_report,
@@ -47,8 +49,8 @@ def reconcile_kinematics(
     """What the tests have that the kinematics (and the baselines) do not explain.
 
     The sensor gate comes first; a measurement fault is the answer if the cleaned recordings show nothing missing.
-    Without baselines only what sound machines never show is named. Sizes are given only where the signal itself
-    measures them.
+    Without baselines only what sound machines never show is named: bearing lines of a depth that none reached, and no
+    impacts once a turn. Sizes are given only where the signal itself measures them.
     """
     started = time.process_time()
     report = _reconciled(spec, tests, baselines, seed)
@@ -71,20 +73,23 @@ def _reconciled(
         seed=seed,
     )
     if not gate.usable:
-        return finished(_fault(gate), gate, (), ())
+        return finished(fault_report(gate), gate, (), ())
     gate = without_spoiled(gate, GONE)
     stated = {s.name: s.speed_hz for s in known.shafts}[tie.reference]
     try:
         seen = _observed(gate.tests, "test", tie, stated, seed)
         past = _observed(gate.baselines, "baseline", tie, stated, seed)
     except SpecError as error:
-        return finished(_refused(error), gate, (), ())
-    report, every = _judged(known, tie, seen, past, seed)
+        return finished(refused_report(error), gate, (), ())
+    first, every = _judged(known, tie, seen, past, seed)
     at = partial(_at_rival, known, tie, (gate.tests, seen), (gate.baselines, past), seed)
-    report = with_speeds(against_rivals(Judged(report=report, every=every), seen, tie, at, stated), seen, past)
+    here = Judged(report=first, every=every)
+    report = against_rivals(here, seen, tie, at, stated, _other_speeds(here, seen, past, tie, seed))
+    if report.sentence == first.sentence:  # else the speed is doubted already
+        report = with_speeds(report, seen, past)
     report = remarked(report, tie, seen, past, every, seed)
     if report.verdict in ("nothing_missing", "not_decidable") and gate.fault is not None:
-        report = _fault(gate)
+        report = fault_report(gate)
     return finished(report, gate, seen, every, past)
 
 
@@ -145,6 +150,15 @@ def _at_rival(
     return Judged(report=report, every=every)
 
 
+def _other_speeds(
+    here: Judged, tests: Sequence[Observation], baselines: Sequence[Observation], tie: Ties, seed: int
+) -> list[float] | None:
+    """Factors of the speed at which other parts are as firm; None where pulses, lines or a baseline tell the speed."""
+    if not unconfirmed(tests) or by_baseline(tests, baselines):
+        return None
+    return [n.factor for n in nominees(tests, tie, here.z - 2 * ALIKE_Z, seed)]
+
+
 def _allows(seen: Observation, tie: Ties, factor: float, firmly: bool) -> bool:
     return seen.speed.method == "stated" or factor_of(seen, tie) == factor or (firmly and seen.speed.method != "tacho")
 
@@ -176,20 +190,20 @@ def _without_a_part(
     """Impacts of a turn, of a foreign order, of no order; shaft lines; nothing."""
     risen = [c for c in every if c.family.kind in DEFECTS and c.present and c.risen]
     if risen:
-        return shallow_report(risen, every, tests)
+        return shallow_report(risen, every, tests, baselines)
     turn = next((c for c in every if c.family.kind == "turn" and c.present and c.risen), None)
-    if turn is not None:
+    if turn is not None and baselines:
         carried = [b.name for b in known.bearings if b.shaft == turn.family.site]
-        return turn_report(turn, tie, tests, carried)
+        return turn_report(turn, tie, tests, baselines, carried)
     foreign = foreign_comb(tests[0], baselines, tie, seed)
     if foreign is not None:
-        return foreign_report(foreign, tests)
+        return foreign_report(foreign, tests, baselines)
     impacts = _impacts(tests, baselines)
     if impacts is not None and known.bearings:
         return impulsive_report(impacts, every, [b.name for b in known.bearings])
     if grown:
         return shaft_report(grown, tests)
-    return nothing_report(every, old_defects(every), tests, bool(baselines))
+    return nothing_report(every, old_defects(every), tests, baselines)
 
 
 def _impacts(tests: Sequence[Observation], baselines: Sequence[Observation]) -> Impulsiveness | None:
@@ -214,6 +228,7 @@ def _with_rest(
             change_db=c.growth_db,
             channel=c.channel,
             locked_to=c.shaft,
+            speed_hz=next(t.speed.speed_hz for t in tests if t.label == c.label),
         )
         for c in grown
     )
@@ -222,24 +237,4 @@ def _with_rest(
         report,
         undecidable=(*report.undecidable, note),
         where=replace(report.where, lines=(*report.where.lines, *lines)),
-    )
-
-
-def _fault(gate: Gate) -> Report:
-    assert gate.fault is not None
-    return Report(
-        verdict="measurement_fault",
-        sentence=fault_sentence(gate.fault)
-        + (" Apart from it these kinematics show nothing missing." if gate.usable else ""),
-        level="kinematics",
-        fault=gate.fault,
-    )
-
-
-def _refused(error: SpecError) -> Report:
-    return Report(
-        verdict="not_decidable",
-        sentence=f"The recordings can't carry these kinematics: {error}.",
-        level="kinematics",
-        undecidable=tuple(str(p) for p in error.problems),
     )

@@ -9,7 +9,7 @@ import pytest
 from proof.real import driven, page, told
 from proof.real.call import Answer
 from proof.real.rigs import judged, true_width_m
-from proof.real.tables import Row, gains, misses, names, paths, sites
+from proof.real.tables import Row, gains, misses, names, paths, sites, summary
 
 HELD: dict[str, Any] = {"before": 8.0, "after": 4.0, "gain": 0.5, "gain_low": 0.4, "gain_high": 0.6}
 FAMILY = {
@@ -59,9 +59,12 @@ def test_place_size_path_and_rest_are_the_reports() -> None:
 
 
 def test_an_upper_bound_is_said_as_one() -> None:
-    severity = {"name": "width", "value": 1e-3, "unit": "m", "low": 0.0, "high": 2e-3}
-    cause = report()["causes"][0] | {"severity": severity}
-    assert told.size(report(causes=[cause], sentence="A defect.")) == "below 2.0 mm"
+    cause = report()["causes"][0] | {"severity": None, "values": {"slip": 0.001, "width_below_m": 4e-3}}
+    found = report(causes=[cause], sentence="A defect.")
+    assert told.size(found) == "below 4.0 mm" and told.first_size(found) is None
+    said = " ".join(summary([row(found)]))
+    assert "0 are given a size" in said and "For 1 only an upper bound is given, no size: 1 of them" in said
+    assert "1 are given a size" in " ".join(summary([row(report())]))
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,7 @@ import pytest
 import scipy.io
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from reconcile.kinematics.answer import BOUND
 from signals.recording import Operating, Recording
 from sim.core.response import Channel
 
@@ -49,6 +50,11 @@ def cwru(name: str) -> Recording:
     return recording([content["DE"].ravel(), content["FE"].ravel()], 48000.0, 1797 / 60)
 
 
+def openei(load: int) -> Recording:
+    rows = np.loadtxt(DATA / "openei_gear" / f"h30hz{load}.csv.gz", delimiter=",", skiprows=1)
+    return recording(rows.T, 12800.0, 30.0)
+
+
 def uestc(letter: str) -> Recording:
     return recording(scipy.io.loadmat(DATA / "uestc" / f"{letter}_1000_1.mat")["Data"].ravel(), 20000.0, 1000 / 60)
 
@@ -73,10 +79,15 @@ def test_the_tuning_rig_with_size(name: str, baseline: str, term: str, degrees: 
     first = report.causes[0]
     assert (report.verdict, first.term, first.named) == ("explained", term, True)
     side = 1.2034 if term == "outer_spall" else 0.7966
-    size = first.severity
-    assert size is not None
+    size, below_m = first.severity, first.values.get(BOUND)
     arc_m = np.radians(degrees) * 0.0390398 / 2 * side
-    assert size.low <= arc_m <= size.high
+    if degrees > 2.0:
+        assert size is not None and below_m is None
+        assert 0 < size.low <= arc_m <= size.high
+    else:  # entry and exit run into one another: a bound is no size
+        assert size is None and below_m is not None
+        assert arc_m < below_m < 2.5e-3
+        assert f"less than {np.degrees(below_m / (0.0390398 / 2 * side)):.1f} degrees" in report.sentence
     assert report.held_out is not None
     assert report.held_out.gain > max(report.held_out.black_box or 0, report.held_out.placebo or 0)
 
@@ -114,6 +125,17 @@ def test_sound_machines_have_nothing_missing() -> None:
     ]
     spec = bearings(bearing1="ZA-2115", bearing2="ZA-2115", bearing3="ZA-2115", bearing4="ZA-2115")
     assert reconcile_kinematics(spec, ims[1:], ims[:1], seed=0).verdict == "nothing_missing"
+
+
+def test_a_sound_gearbox_that_knocks_is_no_alarm_without_a_baseline() -> None:
+    gears = [{"name": "pinion", "shaft": "shaft", "teeth": 32}, {"name": "gear", "shaft": "second", "teeth": 80}]
+    meshes = [{"name": "mesh1", "gears": ["pinion", "gear"]}]
+    shafts = [{"name": "shaft"}, {"name": "second"}]
+    spec = read_kinematic_spec({"kinematics": {"shafts": shafts, "gears": gears, "meshes": meshes}})
+    report = reconcile_kinematics(spec, [openei(20)], [], seed=0)
+    assert report.verdict == "not_decidable" and not report.causes
+    assert "without a baseline" in report.sentence
+    assert "once a turn of shaft" in report.undecidable[0]
 
 
 @pytest.mark.parametrize(("rig", "factor"), [("hit", 2.0), ("cwru", 0.5)])

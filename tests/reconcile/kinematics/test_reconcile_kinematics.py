@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from reconcile.kinematics.answer import BOUND
 from sim.core.errors import SpecError
 from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, shaft_lines, sound, train
 
@@ -81,6 +82,30 @@ def test_entry_and_exit_give_the_extent(degrees: float) -> None:
     race_m = 0.0390398 / 2 * (1 + 7.94004 / 39.0398)
     assert size.value == pytest.approx(np.radians(degrees) * race_m, rel=0.1)
     assert size.low <= np.radians(degrees) * race_m <= size.high
+
+
+@pytest.mark.slow
+def test_a_bound_is_no_size() -> None:
+    report = reconcile_kinematics(SPEC, [recorded(defect("outer_spall", 2))], [BASELINE], seed=3)
+    first = report.causes[0]
+    assert first.named and first.severity is None
+    bound_mm = 1e3 * first.values[BOUND]
+    assert f"({bound_mm:.2g} mm) of the race" in report.sentence
+    assert any(
+        t.startswith("how large the defect is: less than") and f"{bound_mm:.2g} mm" in t for t in report.undecidable
+    )
+    json.dumps(report.document())
+
+
+@pytest.mark.slow
+def test_knocks_once_a_turn_are_an_alarm_only_against_a_baseline() -> None:
+    knocking = recorded(sound(2) + train(np.random.default_rng(2), 1.0, 8.0, jitter=0.0))
+    against = reconcile_kinematics(SPEC, [knocking], [BASELINE], seed=3)
+    assert against.verdict == "ambiguous" and against.causes[0].term == "rub"
+    alone = reconcile_kinematics(SPEC, [knocking], [], seed=3)
+    assert alone.verdict == "not_decidable" and not alone.causes
+    assert "once a turn of shaft" in alone.undecidable[0] and "without a baseline" in alone.sentence
+    assert alone.next_experiment is not None and "baseline" in alone.next_experiment.sentence
 
 
 @pytest.mark.slow

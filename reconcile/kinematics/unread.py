@@ -1,0 +1,107 @@
+"""Reports where neither pulses, nor lines of the shaft, nor a baseline say how fast the machine turned.
+
+A name hangs on the stated speed then. It stands only if no other speed near by makes the impacts those of another part
+as well; where one does, all of them are told with the speed that each needs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from reconcile.kinematics.answer import PARTS
+from reconcile.kinematics.judge import DEFECTS, Candidate
+from reconcile.kinematics.observe import Observation
+from reconcile.kinematics.other_speeds import SPAN
+from reconcile.verdict import Cause, NextExperiment, Report
+
+ALIKE_Z = 1.5
+"""Robust deviations that two scores must differ by to be told apart: each scatters by about one, from record to record
+and by the choice of the controls, their difference by the root of two times that."""
+BEHIND_Z = 3.0
+"""Of the firmest: another part this far behind it is not told."""
+TACHO = NextExperiment(sentence="Record with a tacho, or read the speed once with a strobe.")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Judged:
+    """A report with the candidates it was drawn from."""
+
+    report: Report
+    every: tuple[Candidate, ...]
+
+    @property
+    def z(self) -> float:
+        """Score of the firmest bearing defect that stands, else 0."""
+        return 0.0 if self.firmest is None else self.firmest.z
+
+    @property
+    def firmest(self) -> Candidate | None:
+        """The firmest bearing defect that stands."""
+        standing = [c for c in self.every if c.family.kind in DEFECTS and c.present and c.risen and c.deep]
+        return max(standing, key=lambda c: c.z, default=None)
+
+    @property
+    def part(self) -> str:
+        """`the outer race of drive_end`, or `no part`."""
+        c = self.firmest
+        return "no part" if c is None else f"{PARTS[c.family.kind]} of {c.family.site}"
+
+
+def speed_unread(stated: Judged, others: Sequence[tuple[Judged, float]], first: Observation) -> Report:
+    """The report at the stated speed, held against those at other speeds (with that speed, Hz).
+
+    It stands where they are other parts' and less firm, with the remark that the speed is not confirmed; else the
+    verdict is ambiguous, or, where another speed explains what the stated one does not, that is said.
+    """
+    shaft, speed = first.speed.shaft, first.speed.speed_hz
+    as_well = [(one, hz) for one, hz in others if one.z > max(stated.z - ALIKE_Z, 0.0) and one.part != stated.part]
+    if not as_well:
+        return _unconfirmed(stated, shaft, speed)
+    top = max(one.z for one, _ in as_well)
+    told = sorted(((one, hz) for one, hz in as_well if one.z > top - BEHIND_Z), key=lambda r: -r[0].z)
+    shown, at = max(((stated, speed), *told), key=lambda r: r[0].z)
+    parts = ", ".join(f"at {hz:.4g} Hz of {one.part} ({one.z:.0f} deviations)" for one, hz in told)
+    own = f" ({stated.z:.0f} deviations)" if stated.z > 0 else ""
+    note = (
+        f"whether {shaft} turns at {speed:.4g} Hz as stated: no line confirms it; the impacts are then those of "
+        f"{stated.part}{own}, {parts}"
+    )
+    return replace(
+        shown.report,
+        verdict="ambiguous",
+        sentence=f"The speed is not confirmed by any line, and the part hangs on it: at {speed:.4g} Hz as stated the "
+        f"impacts are those of {stated.part}, {_listed(told)}; a tacho decides. At {at:.4g} Hz: "
+        f"{shown.report.sentence}",
+        causes=at_either((stated, speed), *told),
+        undecidable=(note, *shown.report.undecidable),
+        next_experiment=TACHO,
+    )
+
+
+def _listed(told: Sequence[tuple[Judged, float]]) -> str:
+    return " and ".join(f"at {hz:.4g} Hz of {one.part}" for one, hz in told)
+
+
+def _unconfirmed(stated: Judged, shaft: str, speed_hz: float) -> Report:
+    """The report with the remark; where nothing is said at all, `reconcile.kinematics.remarks` has one."""
+    if stated.report.verdict in ("nothing_missing", "not_decidable"):
+        return stated.report
+    note = f"whether {shaft} turns at {speed_hz:.4g} Hz as stated: no line confirms it"
+    if stated.z > 0:
+        note += f"; no speed that is {SPAN:.0%} off explains the impacts as well by another part"
+    return replace(stated.report, undecidable=(*stated.report.undecidable, note))
+
+
+def at_either(*judged: tuple[Judged, float]) -> tuple[Cause, ...]:
+    """Causes at all these speeds (Hz), none named: each says at which speed it holds."""
+    found: dict[tuple[str, str], tuple[Cause, list[float]]] = {}
+    for one, hz in judged:
+        for c in one.report.causes if one.z > 0 else ():
+            best, speeds = found.get((c.term, c.site), (c, []))
+            found[c.term, c.site] = (max(best, c, key=lambda x: x.score), [*speeds, hz])
+    causes = []
+    for c, speeds in found.values():
+        how = "at either speed, but with another rate" if len(speeds) > 1 else f"only if it turns at {speeds[0]:.4g} Hz"
+        causes.append(replace(c, named=False, reasons=(*c.reasons, how)))
+    return tuple(sorted(causes, key=lambda c: -c.score))
