@@ -9,7 +9,7 @@ from reconcile.gate import Gate
 from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.kinematics.judge import Candidate
 from reconcile.kinematics.observe import Observation
-from reconcile.kinematics.picture import envelope_picture
+from reconcile.kinematics.picture import envelope_picture, of_the_answer
 from reconcile.verdict import Report
 from sim.core.errors import SpecError
 
@@ -42,7 +42,7 @@ def finished(
     ]
     if report.verdict != "measurement_fault":
         report = replace(report, where=replace(report.where, limits=(*report.where.limits, *doubts(gate))))
-    pictures = envelope_picture(every, tests, baselines)
+    pictures = envelope_picture(of_the_answer(every, report.causes), tests, baselines)
     return replace(report, stages=tuple(stages), pictures=pictures)
 
 
