@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from reconcile.machine import direct
 from reconcile.machine.direct import MODELLED, MOST, MOST_TURNS, Direct, direct_evidence
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
@@ -156,3 +157,13 @@ def test_where_nothing_can_be_looked_for_the_reason_is_told(machine: MachineSpec
     untied = machine.model_copy(update={"meshes": [], "loads": []})
     direct = direct_evidence(untied, data, CHANNELS, seed=0)
     assert not direct.evidence and "tied" in direct.told[0]
+
+
+def test_what_would_strike_and_is_not_heard_beside_sure_impacts_is_unlikely() -> None:
+    heard = {"outer_spall@bearing1": 17.0, "inner_spall@bearing1": 0.0, "ball_spall@bearing1": 6.0, "rub@gear": 0.0}
+    told = direct.unheard({**heard, "tooth_crack@pinion": 1.0})
+    assert told["outer_spall@bearing1"] == 17.0 and told["ball_spall@bearing1"] == 6.0
+    assert told["inner_spall@bearing1"] == -direct.MOST
+    assert told["tooth_crack@pinion"] == 1.0 and told["rub@gear"] == 0.0, "teeth are no balls"
+    weak = {"outer_spall@bearing1": 7.0, "inner_spall@bearing1": 0.0}
+    assert direct.unheard(weak) == weak
