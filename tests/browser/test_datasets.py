@@ -17,6 +17,32 @@ INK = (
 )
 
 
+def test_a_text_that_is_no_recipe_makes_nothing(browser: Browser, service: Service) -> None:
+    browser.open(service.page("/datasets"))
+    browser.find("#dataset-preset", within_s=30)
+    before = service.client.get("/v1/datasets").json()["total"]
+    browser.run(SET, "#dataset-preset", "small")
+    browser.run(SET, "#dataset-healthy_share", "150")
+    eventually(lambda: "150 %" in browser.text("#dataset-form .message"), what="the share as its field has it")
+    told = browser.text("#dataset-form .message")
+    assert "100 %" in told and "1.5" not in told
+    sound = browser.run("return document.querySelector('#dataset-json').value").replace("1.5", "0.5")
+    for text in (sound[:-1], "[]", "5"):
+        browser.run(SET, "#dataset-json", text)
+        assert "No estimate" in browser.text("#dataset-estimate"), text
+        assert browser.count("#dataset-form .message") == 0, "an error of the recipe before"
+        assert browser.run("return document.querySelector('#dataset-form [type=submit]').disabled"), text
+        browser.run("document.querySelector('#dataset-form').dispatchEvent(new Event('submit', {cancelable: true}))")
+    assert browser.run("return document.querySelector('#dataset-json').value") == "5", "the text stays"
+    browser.run(SET, "#dataset-json", '{"faults": 5}')
+    eventually(lambda: "must change" in browser.text("#dataset-form .message"), what="the server's refusal")
+    browser.run(SET, "#dataset-json", sound)
+    eventually(lambda: "32" in browser.text("#dataset-estimate .facts"), what="the estimate")
+    assert not browser.run("return document.querySelector('#dataset-form [type=submit]').disabled")
+    assert service.client.get("/v1/datasets").json()["total"] == before
+    assert all("422" in told for told in browser.complaints()), "the refusals were asked for"
+
+
 def test_a_dataset_from_a_recipe_to_its_rows(browser: Browser, service: Service) -> None:
     browser.open(service.page("/datasets"))
     browser.find("#dataset-preset", within_s=30)
