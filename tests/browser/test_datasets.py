@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from tests.browser.conftest import Service
 from tests.browser.driver import Browser, eventually
 
@@ -64,8 +66,18 @@ def test_a_dataset_from_a_recipe_to_its_rows(browser: Browser, service: Service)
     assert "npz" in browser.text("#dataset-facts")
     assert "healthy" in browser.text("[aria-label='Class balance']")
     eventually(lambda: browser.run(INK, "#dataset-rows canvas") > 5, what="the signal to be drawn")
+    made = service.client.get("/v1/datasets").json()["jobs"][0]["id"]
+    rows = [row["columns"] for row in service.client.get(f"/v1/datasets/{made}/rows?limit=16").json()["rows"]]
+    assert f"Row {rows[0]['row']} of the plan" in browser.text("#dataset-rows h2")
+    place = next(k for k, row in enumerate(rows) if row["fault_type"] == "outer")
+    browser.run(SET, "#row-place", str(place))
+    eventually(lambda: "width" in browser.text("#dataset-rows .dataset-facts"), what="the size with its name")
+    assert re.search(r"width [0-9.]+\sµ?m", browser.text("#dataset-rows .dataset-facts"))
+    assert "envelope" in [peak["spectrum"] for peak in rows[place]["peaks"]]
+    eventually(lambda: browser.run(INK, "#row-envelope canvas") > 5, what="the envelope's spectrum to be drawn")
+    assert "Hz" in browser.text("#row-envelope p")
     first = browser.text("#dataset-rows .dataset-facts")
-    browser.run(SET, "#row-place", "9")
+    browser.run(SET, "#row-place", str((place + 9) % 16))
     eventually(lambda: browser.text("#dataset-rows .dataset-facts") != first, what="another row")
     assert browser.text("[aria-label='Labelled peaks'] tbody tr")
     browser.size(360)
