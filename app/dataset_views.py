@@ -102,6 +102,8 @@ class RowView(Reply):
     """`unit`, `t_s`, `values`."""
     spectrum: dict[str, object] | None = None
     """Line amplitudes: `unit`, `amplitude`, `window`, `frequency_hz`, `values`."""
+    envelope: dict[str, object] | None = None
+    """The same of the envelope, and its `band_hz`, where a peak of it is labelled."""
 
 
 class RowPage(Reply):

@@ -30,9 +30,9 @@ class MachineView(Reply):
     last_seen: datetime | None
     """Time of its latest recording."""
     state: State
-    """Of the latest recording: `unknown` where there is nothing to judge it by."""
+    """Of the latest recording: `unknown` where there is nothing to judge it by, or only baselines are well."""
     worst: State
-    """Of all its recordings."""
+    """Of all its recordings; `unknown` where nothing but baselines was judged."""
     alarms: int
     """Of the latest recording."""
     links: MachineLinks
@@ -78,7 +78,7 @@ class PointView(Reply):
     like_baselines: int
     """Baselines at its operating point."""
     reasons: list[str]
-    """Why features are missing."""
+    """Why features are missing, and why it is not judged."""
     links: PointLinks
 
 
@@ -141,6 +141,8 @@ class HealthOverTime(Reply):
     machine: str
     state: State
     worst: State
+    baselines_needed: int
+    """Like a recording, for it to be judged."""
     channels: list[str]
     """All there are."""
     total: int
@@ -182,7 +184,7 @@ def point_view(point: Point, found: Assessment) -> PointView:
         state=found.state,
         alarms=len(found.alarms),
         like_baselines=found.baselines,
-        reasons=list(point.reasons),
+        reasons=[*point.reasons, *found.reasons],
         links=PointLinks(recording=f"/v1/recordings/{point.recording}"),
     )
 

@@ -20,6 +20,7 @@ from app.paging import mark_of, read_cursor, relative
 from app.routes.responses import problems
 from app.state import State
 from jobs.health.machines import alarms_at, chosen, machine_names, trends
+from jobs.health.rules import LEAST_BASELINES
 from jobs.health.verdicts import verdicts_of
 from sim.core.errors import Problem, SpecError, UnknownName
 
@@ -89,6 +90,7 @@ def get_health(
         machine=name,
         state=machine.state,
         worst=machine.worst,
+        baselines_needed=LEAST_BASELINES,
         channels=list(machine.channels),
         total=len(inside),
         points=[point_view(machine.points[i], machine.assessments[i]) for i in places],

@@ -8,7 +8,7 @@ from typing import Any
 
 from jobs.health.baselines import Baselines, Like
 from jobs.health.points import Point
-from jobs.health.rules import FAMILY_RULE, LEVEL_RULE, Judged, judge
+from jobs.health.rules import FAMILY_RULE, LEAST_BASELINES, LEVEL_RULE, Judged, judge
 from jobs.health.standard import SOURCE, zones_for
 from jobs.health.titles import is_family, title_of, unit_of
 from jobs.health.words import STATES, AlarmKind, Severity, State
@@ -17,6 +17,9 @@ CLIPPING = "clipping"
 JUDGED_CLIPPED = ("rms", "peak", "velocity_rms")
 """A clipped level is at least what it reads. Its harmonics are made by the clipping, as other defects make features of
 their own: those are not judged."""
+
+UNHELD = "not held against baselines: "
+"""How the reason begins that a recording is not judged."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,6 +51,8 @@ class Assessment:
     medians: Mapping[tuple[str, str], float]
     baselines: int
     """Like recordings that there are."""
+    reasons: tuple[str, ...] = ()
+    """Why it is not held against baselines, where it is not."""
 
 
 def assess(point: Point, baselines: Baselines) -> Assessment:
@@ -78,7 +83,19 @@ def assess(point: Point, baselines: Baselines) -> Assessment:
         limits=limits,
         medians=medians,
         baselines=len(like),
+        reasons=() if compared else (_not_compared(len(like)),),
     )
+
+
+def _not_compared(like: int) -> str:
+    """How many baselines there are, and how many are needed."""
+    if like >= LEAST_BASELINES:
+        return (
+            f"{UNHELD}no feature of a whole channel is in {LEAST_BASELINES} of the {like} baselines like it "
+            "(same channel, quantity, unit, location, axis; no defect)"
+        )
+    there = "is 1 baseline" if like == 1 else f"are {like or 'no'} baselines"
+    return f"{UNHELD}there {there} like it (rate, shaft, speed, torque), and {LEAST_BASELINES} are needed"
 
 
 def worst(states: Sequence[State], least: State) -> State:

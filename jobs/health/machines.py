@@ -26,13 +26,21 @@ class Watched:
 
     @property
     def state(self) -> State:
-        """Of the latest recording."""
-        return self.assessments[-1].state if self.assessments else "unknown"
+        """Of the latest recording; `unknown` while all that is well is baselines."""
+        latest = self.assessments[-1].state if self.assessments else "unknown"
+        return "unknown" if latest == "ok" and not self._judged else latest
 
     @property
     def worst(self) -> State:
         """Of all recordings."""
-        return worst([a.state for a in self.assessments], "unknown")
+        gravest = worst([a.state for a in self.assessments], "unknown")
+        return "unknown" if gravest == "ok" and not self._judged else gravest
+
+    @property
+    def _judged(self) -> bool:
+        """Whether any recording was held against baselines. A baseline never is: it being `ok` says nothing more
+        than that it has no defect and lies within fixed limits."""
+        return any(a.limits for a in self.assessments)
 
     @property
     def channels(self) -> tuple[str, ...]:

@@ -24,11 +24,11 @@ HEIGHTS = (0.0, 0.0, 0.5, 0.7, 1.0)
 """Of the impulses, recording by recording after those of the sound machine."""
 
 
-def send(service: Service, day: int, height: float, *, baseline: bool) -> str:
+def send(service: Service, day: int, height: float, *, baseline: bool, machine: str = "fan-3") -> str:
     made = recorded(sound(day) + height * train(np.random.default_rng(day), OUTER, 1.0), names=["drive_end"])
     about: dict[str, Any] = json.loads(json.dumps(describe(made)))
     about |= {
-        "machine": "fan-3",
+        "machine": machine,
         "recorded_at": f"2026-04-{day:02d}T06:00:00Z",
         "kinematics": KINEMATICS,
         "condition": "baseline" if baseline else "unknown",
@@ -46,13 +46,14 @@ def sent(service: Service) -> Iterator[list[str]]:
     """Recordings that go again: other tests look at the first one in the list."""
     ids = [send(service, day, 0.0, baseline=True) for day in range(1, SOUND + 1)]
     ids += [send(service, day, height, baseline=False) for day, height in enumerate(HEIGHTS, start=SOUND + 1)]
-    for each in ids:
+    few = [send(service, day, 0.0, baseline=day == 1, machine="fan-4") for day in (1, 4)]
+    for each in [*ids, *few]:
         service.wait(each, "successful")
     asked = {"machine": {"kinematics": KINEMATICS}, "recordings": ids[-1:], "baselines": ids[:1]}
     made = service.client.post("/v1/reconciliations", json=asked).raise_for_status().json()["id"]
     service.wait(made, "successful", within_s=180)
     yield ids
-    for address in (*(f"/v1/recordings/{each}" for each in ids), f"/v1/jobs/{made}"):
+    for address in (*(f"/v1/recordings/{each}" for each in [*ids, *few]), f"/v1/jobs/{made}"):
         service.client.delete(address).raise_for_status()
 
 
@@ -81,6 +82,20 @@ def test_a_failing_bearing_is_seen_from_the_list_to_the_line(
     eventually(lambda: browser.count(".trend-svg[aria-label^='RMS about the mean']") == 1, what="the other feature")
     browser.click("[aria-label='Last verdicts'] tr a")
     browser.find("#answer-verdict")
+
+
+def test_what_cannot_be_judged_is_not_called_well(browser: Browser, service: Service, sent: list[str]) -> None:
+    browser.open(service.page("/machines"))
+    listed = browser.text("tr[data-machine=fan-4]")
+    assert listed.count("not judged") == 2 and "ok" not in listed
+    browser.open(service.page("/machines/fan-4"))
+    browser.find(".trend-svg [data-mark=unjudged]")
+    alarms = browser.text("section[aria-label=Alarms]")
+    assert "not judged" in alarms and "there is 1 baseline like it" in alarms and "8 are needed" in alarms
+    assert "1 baseline like it, 8 needed" in browser.text("[aria-label=Recordings] tbody tr")
+    labels = browser.run("return [...document.querySelectorAll('.trend-grid text')].map((e) => e.textContent)")
+    dates = [text for text in labels if "," in text or " " in text]
+    assert len(dates) == len(set(dates)) > 3, dates
 
 
 def test_the_pages_of_machines_are_for_everyone(browser: Browser, service: Service, sent: list[str]) -> None:

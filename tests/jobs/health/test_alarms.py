@@ -8,6 +8,7 @@ import pytest
 
 from jobs.health.alarms import assess
 from jobs.health.baselines import Baselines, alike
+from jobs.health.machines import Watched
 from jobs.health.words import STATES
 from tests.jobs.health.points import point, sound_points
 
@@ -46,6 +47,33 @@ def test_a_family_needs_six_decibels_and_says_its_part() -> None:
 def test_too_few_baselines_give_no_alarm_and_no_all_clear() -> None:
     found = assess(point("t", {"rms": 100.0}), Baselines(sound_points(7)))
     assert found.alarms == () and found.limits == {} and found.state == "unknown" and found.baselines == 7
+    assert "there are 7 baselines like it" in found.reasons[0] and "8 are needed" in found.reasons[0]
+    assert "there is 1 baseline like" in assess(point("t", {"rms": 1.0}), Baselines(sound_points(1))).reasons[0]
+    assert "there are no baselines like" in assess(point("t", {"rms": 1.0}), Baselines([])).reasons[0]
+
+
+def test_baselines_that_have_nothing_in_common_are_no_comparison() -> None:
+    baselines = Baselines(sound_points())
+    assert assess(point("t", {"rms": 1.0}), baselines).reasons == ()
+    (reason,) = assess(point("t", {"rms": 1.0}, unit="g"), baselines).reasons
+    assert "in 8 of the 12 baselines like it" in reason
+
+
+@pytest.mark.parametrize(
+    ("others", "state", "worst"),
+    [([], "unknown", "unknown"), ([1.0], "ok", "ok"), ([9.0], "alarm", "alarm"), ([1.0, 9.0, 1.0], "ok", "alarm")],
+)
+def test_baselines_alone_are_no_all_clear(others: list[float], state: str, worst: str) -> None:
+    points = [*sound_points(8), *(point("t", {"rms": rms}) for rms in others)]
+    baselines = Baselines(points)
+    machine = Watched(name="m", points=tuple(points), assessments=tuple(assess(p, baselines) for p in points))
+    assert (machine.state, machine.worst) == (state, worst)
+
+
+def test_one_baseline_and_a_recording_are_not_judged() -> None:
+    points = [*sound_points(1), point("t", {"rms": 9.0})]
+    machine = Watched(name="m", points=tuple(points), assessments=tuple(assess(p, Baselines(points)) for p in points))
+    assert (machine.state, machine.worst) == ("unknown", "unknown")
 
 
 @pytest.mark.parametrize(

@@ -20,8 +20,8 @@ export function estimateCard() {
       h("p", { class: "muted small" }, `This server takes up to ${plainNumber(found.limits.dataset_core_hours)} core-hours and ${bytes(found.limits.dataset_bytes)} for one dataset.`));
   }
 
-  function fail() {
-    replace(body, h("p", { class: "muted" }, "No estimate: see the values named below."));
+  function fail(why = "see the values named below.") {
+    replace(body, h("p", { class: "muted" }, `No estimate: ${why}`));
   }
   return { element, show, fail };
 }

@@ -14,6 +14,9 @@ export const NAMES = {
   "recipe.machines.0.instances": "Machines", "recipe.faults": "Classes", "recipe.splits": "Splits", shard_recordings: "Recordings in a shard", format: "Format",
 };
 
+/** Fields that are not shown as the recipe has them. */
+const SHOWN_AS = { "recipe.healthy_share": { factor: 100, unit: "%" } };
+
 export function datasetsPage(main) {
   let abort = new AbortController();
   const estimate = estimateCard();
@@ -24,6 +27,7 @@ export function datasetsPage(main) {
   let form = null;
 
   const ask = debounce(async () => {
+    if (form.broken()) return;
     abort.abort();
     abort = new AbortController();
     try {
@@ -33,21 +37,33 @@ export function datasetsPage(main) {
     } catch (error) {
       if (error.name === "AbortError") return;
       estimate.fail();
-      replace(notice, problemBox(error, NAMES));
+      replace(notice, problemBox(error, NAMES, SHOWN_AS));
     }
   }, WAIT_MS);
 
+  /** A text that is no recipe has no estimate, no errors of the recipe before it, and cannot be made. */
+  function changed() {
+    button.disabled = form.broken() !== "";
+    if (button.disabled) {
+      abort.abort();
+      replace(notice);
+      estimate.fail("the whole recipe (JSON) is not valid.");
+    }
+    ask();
+  }
+
   async function start(event) {
     event.preventDefault();
+    if (!form || form.broken()) return;
     button.disabled = true;
     try {
       const job = await (await request("/v1/datasets", { method: "POST", body: form.value(), headers: { "X-Submitter": submitter() } })).json();
       location.hash = `#/datasets/${job.id}`;
     } catch (error) {
-      replace(notice, problemBox(error, NAMES));
+      replace(notice, problemBox(error, NAMES, SHOWN_AS));
       notice.firstElementChild.focus();
     } finally {
-      button.disabled = false;
+      button.disabled = form.broken() !== "";
     }
   }
 
@@ -57,7 +73,7 @@ export function datasetsPage(main) {
       h("div", { class: "form-side" }, estimate.element, notice, h("div", { class: "submit-row" }, button))),
     list.element);
   reference("/v1/datasets/recipes").then((found) => {
-    form = recipeForm(found, ask);
+    form = recipeForm(found, changed);
     replace(place, form.element);
     ask();
   }).catch((error) => replace(place, problemBox(error)));

@@ -1,4 +1,5 @@
-/** A recipe as a form: the main numbers as fields, the whole of it as JSON; both change the same document. */
+/** A recipe as a form: the main numbers as fields, the whole of it as JSON; both change the same document.
+ *  While the text is none, there is no recipe: the fields wait, and nothing can be asked for. */
 
 import { h, replace, select } from "/js/lib/dom.js";
 
@@ -8,11 +9,12 @@ const isRange = (value) => value !== null && typeof value === "object" && "low" 
 /** `found`: ready recipes and formats of the server; `changed()` is called after every change. */
 export function recipeForm(found, changed) {
   let recipe = copy(found.recipes[0].recipe);
+  let broken = "";
   const fields = h("div", { class: "fields" });
   const classes = h("div", { class: "dataset-classes" });
   const sentence = h("p", { class: "muted small" });
-  const notice = h("p", { class: "field-error", role: "alert" });
-  const text = h("textarea", { id: "dataset-json", rows: "18", spellcheck: "false", "aria-label": "The whole recipe, JSON", onchange: fromText });
+  const notice = h("p", { class: "field-error", id: "dataset-json-error", role: "alert" });
+  const text = h("textarea", { id: "dataset-json", rows: "18", spellcheck: "false", "aria-label": "The whole recipe, JSON", "aria-describedby": "dataset-json-error", oninput: fromText, onchange: tidy });
   const preset = select(found.recipes.map((ready) => [ready.name, ready.name]), recipe.name, { id: "dataset-preset", onchange: choose });
   const format = select(found.formats.filter(({ installed }) => installed).map(({ name }) => [name, name]), "parquet", { id: "dataset-format", onchange: told });
   const shard = h("input", { type: "number", id: "dataset-shard", min: "1", step: "1", placeholder: "chosen by the server", onchange: told });
@@ -29,16 +31,32 @@ export function recipeForm(found, changed) {
     told();
   }
 
+  /** The text as it is typed: of what is no recipe nothing is kept that was read before. */
   function fromText() {
+    let read = null;
+    let fault = "";
     try {
-      recipe = JSON.parse(text.value);
-      notice.textContent = "";
+      read = JSON.parse(text.value);
+      if (read === null || typeof read !== "object" || Array.isArray(read)) fault = "A recipe is a JSON object: { … }";
     } catch (error) {
-      notice.textContent = `This is not JSON: ${error.message}`;
-      return;
+      fault = `This is not JSON: ${error.message}`;
     }
-    show();
+    tell(fault);
+    if (!fault) {
+      recipe = read;
+      showFields();
+    }
     changed();
+  }
+
+  function tell(fault) {
+    broken = fault;
+    notice.textContent = fault;
+    fields.inert = classes.inert = fault !== "";
+  }
+
+  function tidy() {
+    if (!broken) text.value = JSON.stringify(recipe, null, 1);
   }
 
   function set(path, value) {
@@ -52,8 +70,19 @@ export function recipeForm(found, changed) {
 
   function show() {
     text.value = JSON.stringify(recipe, null, 1);
-    replace(fields, fieldsOf(recipe, set));
-    replace(classes, classRows(recipe, (faults) => { recipe.faults = faults; text.value = JSON.stringify(recipe, null, 1); changed(); }, set));
+    tell("");
+    showFields();
+  }
+
+  /** A recipe of another shape has no fields here; the server says what is wrong with it. */
+  function showFields() {
+    try {
+      replace(fields, fieldsOf(recipe, set));
+      replace(classes, classRows(recipe, (faults) => { recipe.faults = faults; text.value = JSON.stringify(recipe, null, 1); changed(); }, set));
+    } catch {
+      replace(fields, h("p", { class: "muted" }, "This recipe has another shape than these fields."));
+      replace(classes);
+    }
   }
 
   const element = h("div", { class: "form-main" },
@@ -63,7 +92,8 @@ export function recipeForm(found, changed) {
   show();
   const about = found.formats.find(({ name }) => name === "parquet");
   sentence.textContent = about?.sentence ?? "";
-  return { element, value: () => ({ recipe, format: format.value, ...(shard.value ? { shard_recordings: Number(shard.value) } : {}) }) };
+  /** `broken()`: what is wrong with the text, empty when there is a recipe. */
+  return { element, broken: () => broken, value: () => ({ recipe, format: format.value, ...(shard.value ? { shard_recordings: Number(shard.value) } : {}) }) };
 }
 
 function card(title, ...content) {

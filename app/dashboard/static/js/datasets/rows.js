@@ -18,11 +18,15 @@ export function rowsCard(path, total) {
   const peaks = h("tbody");
   const signal = new Plot({ label: "Signal of the row", height: 220, xLabel: "Time", xUnit: "s", yLabel: "Signal" });
   const spectrum = new Plot({ label: "Amplitude spectrum of the row; the table of peaks lists what is marked", height: 260, xLabel: "Frequency", xUnit: "Hz", yLabel: "Peak amplitude", line: "--spectrum", fill: true, fromZero: true, headroom: 34, log: true });
+  const envelope = new Plot({ label: "Envelope spectrum of the row; the table of peaks lists what is marked", height: 260, xLabel: "Frequency", xUnit: "Hz", yLabel: "Peak amplitude", line: "--spectrum", fill: true, fromZero: true, headroom: 34, log: true });
+  const about = h("p", { class: "muted small" });
+  const beats = h("div", { id: "row-envelope", hidden: true }, about, envelope.element);
+  const title = h("h2", {}, "A row");
   const random = h("button", { type: "button", class: "button", id: "row-random", onclick: () => { place.value = String(Math.floor(Math.random() * total)); load(); } }, "Any other row");
   let abort = new AbortController();
   const element = h("section", { class: "card", id: "dataset-rows", "aria-label": "Rows" },
-    h("div", { class: "card-head" }, h("h2", {}, "A row"), h("span", { class: "spacer" }), h("label", { for: "row-place", class: "muted small" }, `Row, 0 to ${plainNumber(total - 1)}`), place, random),
-    h("div", { class: "card-body dataset-row" }, notice, h("div", { class: "dataset-plots" }, signal.element, spectrum.element),
+    h("div", { class: "card-head" }, title, h("span", { class: "spacer" }), h("label", { for: "row-place", class: "muted small" }, `Place in the files, 0 to ${plainNumber(total - 1)}`), place, random),
+    h("div", { class: "card-body dataset-row" }, notice, h("div", { class: "dataset-plots" }, signal.element, spectrum.element, beats),
       h("div", { class: "dataset-columns" }, columns, h("div", { class: "table-wrap dataset-peaks" }, h("table", { "aria-label": "Labelled peaks" },
         h("thead", {}, h("tr", {}, ["Label", "Frequency", "Amplitude", "Spectrum", "Status"].map((head) => h("th", { scope: "col" }, head)))), peaks)))));
 
@@ -40,18 +44,23 @@ export function rowsCard(path, total) {
 
   function show(row) {
     element.dataset.row = row.columns.row;
+    title.textContent = `Row ${plainNumber(row.columns.row)} of the plan`;
     const t = row.signal.t_s;
     draw(signal, t, row.signal.values, row.signal.unit, { domain: [0, t.at(-1) || 1], view: [0, t.at(-1) || 1] });
-    const f = row.spectrum.frequency_hz;
-    const factor = draw(spectrum, f, row.spectrum.values, row.spectrum.unit, { domain: [0, f.at(-1)], view: [0, f.at(-1)] });
-    spectrum.above = [markers(row.columns.peaks.filter((peak) => peak.spectrum === "amplitude" && peak.amplitude !== null), factor)];
-    replace(columns, SHOWN.filter((name) => filled(row.columns[name])).map((name) => [h("dt", {}, name), h("dd", {}, shown(row.columns[name], name))]));
+    lines(spectrum, row.spectrum, row.columns.peaks, "amplitude");
+    beats.hidden = !row.envelope;
+    if (row.envelope) {
+      const [low, high] = row.envelope.band_hz;
+      about.textContent = `Spectrum of the envelope of ${quantity(low, "Hz")} to ${quantity(high, "Hz")}`;
+      lines(envelope, row.envelope, row.columns.peaks, "envelope");
+    }
+    replace(columns, SHOWN.filter((name) => filled(row.columns[name])).map((name) => [h("dt", {}, name), h("dd", {}, name === "fault_severity" ? severity(row.columns) : shown(row.columns[name], name))]));
     replace(peaks, row.columns.peaks.filter((peak) => peak.amplitude !== null).sort((a, b) => b.amplitude - a.amplitude).map((peak) => h("tr", {}, h("td", {}, peak.label), h("td", { class: "num" }, quantity(peak.frequency_hz, "Hz", 5)),
       h("td", { class: "num" }, `${number(peak.amplitude, 3)} ${unit(row.columns.unit)}`), h("td", {}, peak.spectrum), h("td", {}, peak.status))));
   }
 
   load();
-  return { element, stop() { abort.abort(); signal.destroy(); spectrum.destroy(); } };
+  return { element, stop() { abort.abort(); signal.destroy(); spectrum.destroy(); envelope.destroy(); } };
 }
 
 function draw(plot, x, y, siUnit, limits) {
@@ -60,6 +69,12 @@ function draw(plot, x, y, siUnit, limits) {
   plot.set({ yUnit: name });
   plot.setData({ x: Float64Array.from(x), y: Float64Array.from(y, (value) => value * factor) }, limits);
   return factor;
+}
+
+/** A spectrum, and the labelled peaks that are of it. */
+function lines(plot, { frequency_hz: f, values, unit: siUnit }, peaks, kind) {
+  const factor = draw(plot, f, values, siUnit, { domain: [0, f.at(-1)], view: [0, f.at(-1)] });
+  plot.above = [markers(peaks.filter((peak) => peak.spectrum === kind && peak.amplitude !== null), factor)];
 }
 
 /** The highest labelled lines, named where there is room. */
@@ -87,6 +102,11 @@ function markers(peaks, factor) {
 }
 
 const filled = (value) => value !== null && value !== "" && !(Array.isArray(value) && !value.length);
+
+/** `width 0.5 mm`: the parameter that it is the value of, in its unit. */
+function severity({ fault_severity: value, fault_severity_name: name, fault_severity_unit: siUnit }) {
+  return `${name ? `${name.replace(/_/g, " ")} ` : ""}${quantity(value, siUnit ?? "", 5)}`;
+}
 
 function shown(value, name) {
   if (Array.isArray(value)) return value.join(", ");

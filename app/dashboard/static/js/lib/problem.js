@@ -19,7 +19,15 @@ function shown(value) {
   return typeof value === "string" ? value : JSON.stringify(value);
 }
 
-function fieldItem(error, names) {
+/** Numbers of the document as the field on screen has them: `1` -> `100 %`. */
+function asOnScreen(error, { factor, unit: symbol }) {
+  const scaled = (text) => String(text).replace(/-?\d+(\.\d+)?(e[+-]?\d+)?/gi, (found) => number(factor * Number(found), 6));
+  const given = typeof error.given === "number" ? factor * error.given : error.given;
+  return { ...error, given, allowed: error.allowed && scaled(error.allowed), message: scaled(error.message).replace(/(\d)$/, `$1 ${symbol}`), unit: symbol };
+}
+
+function fieldItem(told, names, shownAs) {
+  const error = shownAs[told.field] ? asOnScreen(told, shownAs[told.field]) : told;
   const units = unit(error.unit);
   const facts = [];
   if (error.given !== null && error.given !== undefined) facts.push(["given", `${shown(error.given)} ${units}`]);
@@ -30,15 +38,15 @@ function fieldItem(error, names) {
       h("div", {}, h("dt", {}, "field"), h("dd", {}, error.field))));
 }
 
-/** A problem as a message box. `names` may give fields the names they have on screen. */
-export function problemBox(error, names = {}) {
+/** A problem as a message box. `names` may give fields the names they have on screen, `shownAs` the factor and unit. */
+export function problemBox(error, names = {}, shownAs = {}) {
   const problem = error instanceof ApiProblem ? error.document : { title: "Error", detail: String(error.message ?? error) };
   const count = (problem.errors ?? []).length;
   const heading = count === 1 ? "One value must change" : count > 1 ? `${count} values must change` : problem.title;
   return h("div", { class: "message", role: "alert", tabindex: "-1", dataset: { tone: "bad", type: problem.type ?? "" } },
     h("p", { class: "message-title" }, heading),
     count ? null : h("p", {}, problem.detail),
-    count ? h("ul", { class: "problem-fields" }, problem.errors.map((item) => fieldItem(item, names))) : null);
+    count ? h("ul", { class: "problem-fields" }, problem.errors.map((item) => fieldItem(item, names, shownAs))) : null);
 }
 
 /** A short notice in the corner that goes by itself. */

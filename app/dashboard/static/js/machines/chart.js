@@ -9,7 +9,7 @@ const HEIGHT = 320;
 const MARGIN = { left: 64, right: 16, top: 16, bottom: 36 };
 const DAY_S = 86_400;
 const LINES = [["median", "Median of baselines"], ["warning", "Limit: warning"], ["alarm", "Limit: alarm"]];
-const MARKS = [["baseline", "Baseline"], ["ok", "Recording"], ["warning", "Warning"], ["alarm", "Alarm"]];
+const MARKS = [["baseline", "Baseline"], ["ok", "Recording"], ["unjudged", "Not held against baselines"], ["warning", "Warning"], ["alarm", "Alarm"]];
 
 function s(tag, attributes = {}, ...children) {
   const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
@@ -49,8 +49,8 @@ export function trendChart(pick) {
   }
 
   function mark({ point, i, y }, px, py) {
-    const state = markOf(point, shown);
-    const told = `${day(point.time)}: ${quantity(y, shown.series.unit)}, ${state}${shown.series.warning[i] === null ? "" : `, warning above ${quantity(shown.series.warning[i], shown.series.unit)}`}`;
+    const state = markOf(point, i, shown);
+    const told = `${day(point.time)}: ${quantity(y, shown.series.unit)}, ${state === "unjudged" ? "not held against baselines" : state}${shown.series.warning[i] === null ? "" : `, warning above ${quantity(shown.series.warning[i], shown.series.unit)}`}`;
     const shape = s("path", { class: "trend-mark", d: shapeOf(state, px, py), "data-mark": state, "data-recording": point.recording, tabindex: "0", role: "button", "aria-label": told });
     const tell = () => { readout.textContent = `${point.name} · ${told}`; };
     shape.addEventListener("pointerenter", tell);
@@ -64,10 +64,11 @@ export function trendChart(pick) {
 }
 
 /** What the alarms say of this value; a recording may be grave by another feature. */
-function markOf(point, { series, alarms }) {
+function markOf(point, i, { series, alarms }) {
   const mine = alarms.filter((a) => a.recording === point.recording && a.channel === series.channel && a.feature === series.feature);
   if (mine.length) return mine.some((a) => a.severity === "alarm") ? "alarm" : "warning";
-  return point.condition === "baseline" ? "baseline" : "ok";
+  if (point.condition === "baseline") return "baseline";
+  return series.warning[i] === null ? "unjudged" : "ok";
 }
 
 function shapeOf(state, x, y) {
@@ -96,15 +97,16 @@ function grid(x, y, width, unit) {
   const count = Math.max(2, Math.min(8, Math.floor(width / 150)));
   for (let k = 0; k < count; k += 1) {
     const t = x.low + ((k + 0.5) / count) * (x.high - x.low);
-    group.append(s("text", { x: x.px(t).toFixed(1), y: HEIGHT - MARGIN.bottom + 20, "text-anchor": "middle" }, dated(t, x.high - x.low)));
+    group.append(s("text", { x: x.px(t).toFixed(1), y: HEIGHT - MARGIN.bottom + 20, "text-anchor": "middle" }, dated(t, (x.high - x.low) / count, x.high - x.low)));
   }
   if (unit) group.append(s("text", { x: 12, y: HEIGHT / 2, transform: `rotate(-90 12 ${HEIGHT / 2})`, "text-anchor": "middle" }, unit));
   return group;
 }
 
-function dated(seconds, span) {
+/** In as much detail as tells a label from its neighbour `apart` seconds away (a day may have 25 hours). */
+function dated(seconds, apart, span) {
   const date = new Date(seconds * 1000);
-  if (span < 2 * DAY_S) return date.toLocaleString(undefined, { day: "numeric", month: "short", hour: "2-digit", minute: "2-digit" });
+  if (apart < 1.1 * DAY_S) return date.toLocaleString(undefined, { day: "numeric", month: "short", hour: "2-digit", minute: "2-digit" });
   return date.toLocaleDateString(undefined, span < 300 * DAY_S ? { day: "numeric", month: "short" } : { month: "short", year: "numeric" });
 }
 

@@ -6,10 +6,12 @@ import { channelName, number, quantity } from "/js/lib/format.js";
 import { problemBox } from "/js/lib/problem.js";
 import { trendChart } from "/js/machines/chart.js";
 import { recordingPanel } from "/js/machines/recording.js";
-import { card, day, statePill, table } from "/js/machines/words.js";
+import { card, counted, day, statePill, table } from "/js/machines/words.js";
 
 const LIMIT = 200;
 const MOST_ALARMS = 60;
+/** How the server begins why a recording is not judged. */
+const UNHELD = "not held against baselines: ";
 const DAY_MS = 86_400_000;
 const SPANS = [["", "All time"], ["7", "Last 7 days"], ["30", "Last 30 days"], ["90", "Last 90 days"], ["365", "Last year"]];
 
@@ -38,7 +40,7 @@ export function machinePage(main, { id: name }) {
   function show(earlier) {
     const { points } = found;
     replace(head, h("h1", {}, name), statePill(found.state), found.worst === found.state ? null : h("span", { class: "muted small" }, "worst so far"), found.worst === found.state ? null : statePill(found.worst),
-      h("span", { class: "muted small num" }, `${found.total} recordings`), h("a", { href: "#/machines" }, "All machines"), span);
+      h("span", { class: "muted small num" }, counted(found.total, "recording")), h("a", { href: "#/machines" }, "All machines"), span);
     const older = found.next ? h("button", { type: "button", class: "button small", onclick: () => load(found.next) }, "Earlier recordings") : null;
     const latest = earlier ? h("button", { type: "button", class: "button small", onclick: () => load() }, "Latest") : null;
     replace(body, points.length ? trendCard([older, latest]) : h("div", { class: "card empty" }, "No recording in this time."),
@@ -78,8 +80,25 @@ export function machinePage(main, { id: name }) {
       h("td", { class: "num small" }, alarm.value === null ? "–" : `${quantity(alarm.value, alarm.unit)} > ${quantity(alarm.limit, alarm.unit)}`),
       h("td", { class: "small" }, opener(byId.get(alarm.recording)))));
     const more = found.alarms.length > MOST_ALARMS ? h("p", { class: "card-body muted small" }, `${found.alarms.length - MOST_ALARMS} more in this time.`) : null;
-    return card("Alarms", h("span", { class: "muted small num" }, String(found.alarms.length)),
-      rows.length ? table("Alarms", ["When", "Severity", "What", "Value and limit", "Recording"], rows, { class: "alarms-table" }) : h("p", { class: "empty" }, "None in this time."), more);
+    const judged = found.points.some((point) => point.condition !== "baseline" && point.state !== "unknown");
+    return card("Alarms", h("span", { class: "muted small num" }, rows.length || judged ? String(found.alarms.length) : "not judged"),
+      rows.length ? table("Alarms", ["When", "Severity", "What", "Value and limit", "Recording"], rows, { class: "alarms-table" }) : h("p", { class: "empty" }, none()), more);
+  }
+
+  /** Why there are no alarms: what was not judged gave none either. */
+  function none() {
+    const others = found.points.filter((point) => point.condition !== "baseline");
+    const unjudged = others.filter((point) => point.state === "unknown");
+    const why = `: ${[...new Set(unjudged.flatMap((point) => point.reasons.filter((reason) => reason.startsWith(UNHELD)).map((reason) => reason.slice(UNHELD.length))))].join("; ")}.`;
+    if (!others.length) return "Only baselines in this time: they are not judged.";
+    if (unjudged.length === others.length) return `Not judged${why}`;
+    return unjudged.length ? `None in this time. ${counted(unjudged.length, "recording")} not judged${why}` : "None in this time.";
+  }
+
+  function against(point) {
+    if (point.condition === "baseline") return "baseline";
+    const like = counted(point.like_baselines, "baseline");
+    return point.like_baselines < found.baselines_needed ? `${like} like it, ${found.baselines_needed} needed` : `against ${like}`;
   }
 
   function verdictsCard() {
@@ -93,7 +112,7 @@ export function machinePage(main, { id: name }) {
   function recordingsCard() {
     const rows = [...found.points].reverse().map((point) => h("tr", { dataset: { recording: point.recording, state: point.state } },
       h("td", { class: "small num" }, day(point.time)), h("td", {}, opener(point)), h("td", {}, statePill(point.state)),
-      h("td", { class: "small" }, point.condition === "baseline" ? "baseline" : `against ${point.like_baselines} baselines`),
+      h("td", { class: "small" }, against(point)),
       h("td", { class: "small num" }, point.operating ? `${point.operating.shaft} ${quantity(point.operating.speed_hz, "Hz")}${point.operating.torque_nm === null ? "" : `, ${number(point.operating.torque_nm)} N·m`}` : "–")));
     return card("Recordings", null, h("div", { class: "machine-recordings" }, table("Recordings", ["When", "File", "State", "Judged", "Operating point"], rows)));
   }

@@ -3,10 +3,15 @@
 import { h } from "/js/lib/dom.js";
 
 const TONES = { unknown: "", ok: "ok", measurement: "run", warning: "warn", alarm: "bad" };
-const WORDS = { unknown: "nothing to judge by", ok: "ok", measurement: "measurement", warning: "warning", alarm: "alarm" };
+const WORDS = { unknown: "not judged", ok: "ok", measurement: "measurement", warning: "warning", alarm: "alarm" };
 
 export function statePill(state) {
   return h("span", { class: "pill", dataset: { tone: TONES[state], state } }, WORDS[state]);
+}
+
+/** `1 baseline`, `2 baselines`. */
+export function counted(count, word) {
+  return `${count} ${word}${count === 1 ? "" : "s"}`;
 }
 
 export function day(iso) {
