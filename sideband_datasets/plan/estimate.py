@@ -12,6 +12,7 @@ from sideband_datasets.plan.check import window_length_s
 from sideband_datasets.plan.filled import Sample, Samples, runs, sampled
 from sideband_datasets.plan.plan import Plan
 from sideband_datasets.plan.size import BYTES_PER_ROW, check_recording, parted
+from sideband_datasets.recipe.values import Choice, Range, drawn
 from sim.core.errors import Problem, SpecError
 from sim.core.lanes import WIDTH
 from sim.solve.api import default_channels
@@ -28,6 +29,8 @@ SECONDS_PER_GROUND = 8e-7
 """Of a sample of the simulation: what sounds beside the model."""
 SECONDS_TO_START = 2.5
 """Of each process, before its first row: loading code and compiled kernels."""
+MOST_SPEEDS = 1000
+"""Of recordings that are looked at for the size of windows that count revolutions."""
 MOST_BYTES = 500_000_000_000
 MOST_ROWS = 5_000_000
 MOST_LANES_BYTES = 2_000_000_000
@@ -97,10 +100,21 @@ def _beside_s(plan: Plan, sample: Sample) -> float:
 
 
 def _window_s(plan: Plan, samples: Samples) -> float:
-    """Mean length of a window, s."""
+    """Mean length of a window, s; where revolutions count, at the speeds of the plan."""
+    recipe = plan.recipe
+    if recipe.windows.length_revolutions is not None and isinstance(recipe.speeds_hz, Range | Choice):
+        step = -(-recipe.count // MOST_SPEEDS)
+        speeds = [_speed_hz(plan, recipe.speeds_hz, number) for number in range(0, recipe.count, step)]
+        return float(np.mean([window_length_s(recipe, speed) for speed in speeds]))
     operating = [sample.drawing.spec.operating for sample in samples.found]
-    lengths = np.array([window_length_s(plan.recipe, at.speed_hz if at else None) for at in operating])
+    lengths = np.array([window_length_s(recipe, at.speed_hz if at else None) for at in operating])
     return float(lengths[samples.like].mean())
+
+
+def _speed_hz(plan: Plan, speeds_hz: Range | Choice, number: int) -> float:
+    """Of a recording: the first axis of its class."""
+    share = float(plan.points(int(plan.kind[number])).at(int(plan.rank[number]))[0])
+    return float(drawn(speeds_hz, share, None, "speeds_hz"))
 
 
 def _longest_s(shards: Sequence[float], workers: int) -> float:

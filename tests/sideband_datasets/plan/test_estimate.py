@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from sideband_datasets.plan import Plan, estimate, make_plan
+from sideband_datasets.plan import Plan, drawing, estimate, make_plan
 from sideband_datasets.plan.filled import runs, sampled
+from sideband_datasets.plan.size import BYTES_PER_ROW
 from sideband_datasets.recipe.read import document_of, read_recipe
 from sideband_datasets.recipe.ready import recipe_named
 from tests.sideband_datasets.small import tiny
@@ -56,3 +57,16 @@ def test_with_background_a_machine_is_simulated_without_its_fault_too():
     plain, beside = (make_plan(tiny(count=48, **more)) for more in ({}, {"shown_db": -5}))
     lanes = [sum(filled for _, filled in runs(p, sampled(p), range(48))) for p in (plain, beside)]
     assert lanes == [48, 48 + int((plain.kind > 0).sum())]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["factorial", "sobol"])
+def test_size_follows_the_speeds_of_the_plan_where_windows_count_revolutions(kind: str):
+    speeds = {"low": 20, "high": 80}
+    windows = {"per_recording": 1, "length_revolutions": 40}
+    plan = make_plan(
+        tiny(count=36, plan=kind, speeds_hz=speeds, windows=windows, duration_s=2.0, sampling_rate_hz=20000)
+    )
+    own = [40 / drawing(plan, number).spec.operating.speed_hz for number in range(36)]
+    samples = sum(own) * plan.rows_per_recording * 20000
+    assert estimate(plan, 1).bytes == pytest.approx(4 * samples + BYTES_PER_ROW * plan.rows, rel=1e-6)
