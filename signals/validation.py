@@ -68,7 +68,7 @@ def problem_of(details: ErrorDetails, prefix: str = "", model: type[BaseModel] |
     """One finding as a field problem."""
     parts = [*([prefix] if prefix else []), *_place(details["loc"])]
     context: Mapping[str, object] = details.get("ctx", {})
-    given = None if details["type"] == "missing" else shown(details.get("input"))
+    given = None if details["type"] == "missing" else context.get("given", shown(details.get("input")))
     if details["type"] in TAGS:
         parts.append(str(context["discriminator"]).strip("'"))
         given = context.get("tag")

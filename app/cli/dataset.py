@@ -86,8 +86,8 @@ def _workers(arguments: argparse.Namespace) -> int:
 
 def _plan(arguments: argparse.Namespace) -> int:
     plan = make_plan(_recipe(arguments))
-    expected = estimate(plan, _workers(arguments))
     check_size(plan, arguments.shard_recordings)
+    expected = estimate(plan, _workers(arguments), arguments.shard_recordings)
     warnings = [*plan.warnings, *_space_warnings(expected)]
     if arguments.json:
         splits = {name: int(plan.of_split(name).size) for name in plan.splits}

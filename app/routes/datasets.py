@@ -75,8 +75,8 @@ def estimate(request: DatasetRequest, state: State) -> DatasetEstimate:
     """Check a request as `POST /v1/datasets` would, and say what it would take. Nothing is simulated."""
     division = divide(request)
     check_bounds(division, state.settings.limits)
-    plan, cost = division.plan, division.cost
-    present = _workers(state)
+    plan, present = division.plan, _workers(state)
+    cost = division.expected(present)
     return DatasetEstimate(
         recordings=cost.recordings,
         rows=cost.rows,
@@ -85,7 +85,7 @@ def estimate(request: DatasetRequest, state: State) -> DatasetEstimate:
         shard_recordings=division.shard_recordings,
         core_seconds=cost.core_seconds,
         workers=present,
-        wall_s=division.wall_s(present),
+        wall_s=cost.wall_s,
         classes=list(plan.recipe.classes),
         balance=balance_of(plan),
         machines={split: int((plan.split_of == k).sum()) for k, split in enumerate(plan.splits)},

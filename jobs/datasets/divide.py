@@ -12,8 +12,8 @@ from sideband_datasets import Recipe, make_plan, read_recipe, recipe_named
 from sideband_datasets.folder.manifest import versions
 from sideband_datasets.folder.shards import Shard, shards_of
 from sideband_datasets.formats.format import format_named
-from sideband_datasets.make.stream import batch_size
 from sideband_datasets.plan import Estimate, Plan, check_shard, estimate, most_recordings, recording_bytes
+from sideband_datasets.plan.size import batch_size
 from sideband_datasets.recipe.read import document_of
 from sim.core.errors import Problem, SpecError, UnknownName
 from sim.core.lanes import WIDTH
@@ -24,8 +24,6 @@ SHARD_S = 120.0
 LEAST_RECORDINGS = 4 * WIDTH
 """Below that, few machines of one structure meet in a shard, and the lanes stay empty."""
 MOST_SHARDS = 4096
-STARTING_S = 2.0
-"""Of each shard: a process, the plan, the upload."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,10 +56,9 @@ class Division:
             "versions": versions(),
         }
 
-    def wall_s(self, workers: int) -> float:
-        """Time with so many workers, s: no shard is made by two."""
-        rounds = math.ceil(len(self.shards) / max(workers, 1))
-        return rounds * (self.cost.core_seconds / len(self.shards) + STARTING_S)
+    def expected(self, workers: int) -> Estimate:
+        """What it takes with so many workers: as the command line tells of the same shards and workers."""
+        return estimate(self.plan, workers, self.shard_recordings)
 
 
 def divide(request: DatasetRequest) -> Division:
@@ -83,7 +80,9 @@ def divide(request: DatasetRequest) -> Division:
         message = f"makes {len(shards)} shards"
         allowed = f"{MOST_SHARDS} or fewer: {math.ceil(plan.recipe.count / MOST_SHARDS) + 1} recordings in each, or so"
         raise SpecError(Problem(field="shard_recordings", message=message, given=size, allowed=allowed))
-    division = Division(plan=plan, format=request.format, shard_recordings=size, shards=shards, cost=cost)
+    division = Division(
+        plan=plan, format=request.format, shard_recordings=size, shards=shards, cost=estimate(plan, 1, size)
+    )
     check_shard(plan, division.shard_most, "shard_recordings", size)
     return division
 

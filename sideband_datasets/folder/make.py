@@ -71,8 +71,8 @@ def make(recipe: Recipe, out: Path, settings: Settings, told: Callable[[Progress
     """
     _check(settings)
     plan = make_plan(recipe)
-    expected = estimate(plan, settings.workers)
     check_size(plan, settings.shard_recordings)
+    expected = estimate(plan, settings.workers, settings.shard_recordings)
     if out.exists() and (not out.is_dir() or any(out.iterdir())):
         raise SpecError(Problem(field="--out", message="is there already", given=str(out), allowed="a new folder"))
     folder = unfinished(out)

@@ -5,15 +5,15 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 from sideband_datasets.folder.layout import DATA, STATE, json_text, sha256, size_of, whole, write_text
 from sideband_datasets.formats import format_named
 from sideband_datasets.make.batch import Failure
-from sideband_datasets.make.stream import batch_size, rows
+from sideband_datasets.make.stream import rows
 from sideband_datasets.plan.plan import Plan
+from sideband_datasets.plan.size import parted
 from sideband_datasets.row import Row
 
 
@@ -61,13 +61,9 @@ def failure_from(document: Mapping[str, Any]) -> Failure:
 
 def shards_of(plan: Plan, suffix: str, size: int | None = None) -> list[Shard]:
     """All shards, split after split, in the order of the plan; `size`: most recordings in each."""
-    most = size or batch_size(plan)
     found = []
     for split in plan.splits:
-        members = plan.of_split(split).tolist()
-        count = -(-len(members) // most)
-        ends = [k * len(members) // count for k in range(count + 1)] if count else []
-        parts = [members[first:last] for first, last in pairwise(ends)]
+        parts = parted(plan, split, size)
         for k, part in enumerate(parts):
             name = f"{split}-{k:05d}-of-{len(parts):05d}{suffix}"
             found.append(Shard(split=split, name=name, recordings=tuple(part)))

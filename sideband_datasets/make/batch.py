@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from sideband_datasets.plan.drawing import Drawing, drawing
 from sideband_datasets.plan.plan import Plan
-from sideband_datasets.plan.tried import outputs_of
+from sideband_datasets.plan.tried import alike, outputs_of
 from signals.recording import Recording, from_response
 from signals.sensors import measure, motion_of
 from sim.assembly.assemble import assemble
@@ -15,8 +15,7 @@ from sim.core.errors import Cancelled, SidebandError
 from sim.core.lanes import WIDTH
 from sim.core.response import Response
 from sim.core.system import System
-from sim.solve.ensemble import Member, simulate_many, structure
-from sim.solve.step_choice import steps_per_output
+from sim.solve.ensemble import Member, simulate_many
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,8 +75,7 @@ def put_together(plan: Plan, drawn: Drawing) -> Ready:
     """A recording's machine, assembled; SpecError where it cannot be built."""
     system = assemble(drawn.spec, seed=drawn.seed)
     outputs = outputs_of(plan, drawn, system)
-    factor = steps_per_output(system, plan.recipe.sampling_rate_hz)
-    return Ready(drawing=drawn, system=system, outputs=outputs, alike=(structure(system), factor, outputs))
+    return Ready(drawing=drawn, system=system, outputs=outputs, alike=alike(plan, system, outputs))
 
 
 def _simulated(

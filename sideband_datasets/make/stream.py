@@ -14,7 +14,7 @@ from sideband_datasets.make.beside import recorded_beside
 from sideband_datasets.make.peaks import Predicted, peaks_of, predicted
 from sideband_datasets.plan.check import window_length_s
 from sideband_datasets.plan.plan import Plan
-from sideband_datasets.plan.size import most_recordings
+from sideband_datasets.plan.size import batch_size
 from sideband_datasets.plan.tried import make_plan
 from sideband_datasets.recipe.model import Recipe
 from sideband_datasets.row import Row
@@ -23,13 +23,7 @@ from signals.sensors.clock import stretch
 from signals.sensors.spec import Tacho
 from signals.series import Series
 from sim.core.errors import Problem, SidebandError, SpecError
-from sim.core.lanes import WIDTH
 from sim.core.speed import mean_ratio
-
-BATCH = 32 * WIDTH
-"""Recordings held at once at most: enough of one structure to fill the lanes."""
-BATCH_BYTES = 64_000_000
-"""Of the samples of the rows held at once, about; where eight recordings have more, as much as a shard may hold."""
 
 
 def rows(
@@ -65,15 +59,6 @@ class _Told:
 
 def _nobody(count: int) -> None:
     """Nobody counts."""
-
-
-def batch_size(plan: Plan) -> int:
-    """Recordings worked on at once: a multiple of the lanes, fewer only where a shard could not hold so many."""
-    recipe = plan.recipe
-    longest_s = min(recipe.duration_s, recipe.windows.length_s or recipe.duration_s)
-    size = 4.0 * plan.rows_per_recording * longest_s * recipe.sampling_rate_hz
-    lanes = max(WIDTH, min(BATCH, int(BATCH_BYTES / size) // WIDTH * WIDTH))
-    return max(1, min(lanes, most_recordings(plan)))
 
 
 def _warn(failure: Failure) -> None:

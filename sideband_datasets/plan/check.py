@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import combinations
 
 import numpy as np
 
-from sideband_datasets.plan.axes import term_parameters
+from sideband_datasets.plan.axes import Axis, drawn_only, recording_axes, term_parameters
 from sideband_datasets.plan.machines import Machine
 from sideband_datasets.plan.quotas import IntArray
 from sideband_datasets.plan.siblings import beside_problems
 from sideband_datasets.recipe.model import FaultTerm, Recipe
-from sideband_datasets.recipe.values import Choice, Factor, Range, Value, least
+from sideband_datasets.recipe.values import Choice, Factor, Range, Value, least, levels_of
 from sim.assembly.assemble import assemble
 from sim.assembly.laws import site_kinds
 from sim.core.errors import Problem, SpecError
@@ -167,3 +168,31 @@ def split_warnings(
         if len(own) < len(names):
             missing = [names[s] for s in range(len(names)) if s not in own]
             yield f"machines {family.name} do not occur in {', '.join(missing)}: too few `instances`"
+
+
+def confounded_warnings(recipe: Recipe, kind: IntArray) -> Iterator[str]:
+    """Sentences on factors of a factorial plan that have more pairs of levels than a class has recordings."""
+    if recipe.plan != "factorial":
+        return
+    for number, name in enumerate(recipe.classes):
+        count = int(np.count_nonzero(kind == number))
+        fault = recipe.faults[number - 1] if number else None
+        axes = [axis for axis in drawn_only(recording_axes(recipe, fault, number - 1)) if _steers(recipe, axis)]
+        told = [
+            f"{a.field} with {b.field} ({levels_of(a.value) * levels_of(b.value)} pairs)"
+            for a, b in combinations(axes, 2)
+            if levels_of(a.value) * levels_of(b.value) > count
+        ]
+        if count and told:
+            yield (
+                f"class {name} has {count} recordings, fewer than pairs of levels of two factors, "
+                f"so one tells of the other: {'; '.join(told)}"
+            )
+
+
+def _steers(recipe: Recipe, axis: Axis) -> bool:
+    """Whether the levels of an axis differ: not where a fault has a single place."""
+    if levels_of(axis.value) == 1:
+        return False
+    parts = axis.field.split(".")
+    return parts[-1] != "sites" or len(recipe.faults[int(parts[1])].terms[int(parts[3])].sites) != 1

@@ -2,32 +2,35 @@
 
 from __future__ import annotations
 
+import heapq
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from sideband_datasets.plan.check import window_length_s
+from sideband_datasets.plan.filled import Sample, Samples, runs, sampled
 from sideband_datasets.plan.plan import Plan
-from sideband_datasets.plan.size import BYTES_PER_ROW, check_recording
-from sideband_datasets.plan.tried import outputs_of, samples_of
-from sim.assembly.assemble import assemble
+from sideband_datasets.plan.size import BYTES_PER_ROW, check_recording, parted
+from sideband_datasets.recipe.values import Choice, Range, drawn
 from sim.core.errors import Problem, SpecError
 from sim.core.lanes import WIDTH
 from sim.solve.api import default_channels
-from sim.solve.settings import PILOT_S
 from sim.solve.step_choice import run_cost
 
-LANES_GAIN = 3.0
-"""The solver's own estimate of a single run over what a recording takes in lanes that are nearly full: 3.0 on the
-bearing rig and the rotor, less on the gearbox where classes do not fill them."""
+LANES_COST = 1.6
+"""A run of eight lanes, filled or not, over the solver's own estimate of a single one: 1.4 to 2.2 on the
+ready recipes."""
 SECONDS_PER_BASE = 3.5e-3
 """Of labelling one spectrum, for each base frequency: 0.022 s for 9, 0.097 s for 19."""
 SECONDS_PER_SAMPLE = 2e-6
 """Of one channel: sensors, features, writing."""
 SECONDS_PER_GROUND = 8e-7
 """Of a sample of the simulation: what sounds beside the model."""
-SECONDS_TO_START = 15.0
-"""A worker loads compiled kernels before its first row."""
+SECONDS_TO_START = 2.5
+"""Of each process, before its first row: loading code and compiled kernels."""
+MOST_SPEEDS = 1000
+"""Of recordings that are looked at for the size of windows that count revolutions."""
 MOST_BYTES = 500_000_000_000
 MOST_ROWS = 5_000_000
 MOST_LANES_BYTES = 2_000_000_000
@@ -36,7 +39,8 @@ MOST_LANES_BYTES = 2_000_000_000
 
 @dataclass(frozen=True, kw_only=True)
 class Estimate:
-    """`bytes`: uncompressed samples and columns; `core_seconds` of one core; `wall_s` for `workers` of them."""
+    """`bytes`: uncompressed samples and columns; `core_seconds` of the processor, the start of every process included;
+    `wall_s` with `workers` on an idle machine that has as many cores."""
 
     recordings: int
     rows: int
@@ -46,45 +50,79 @@ class Estimate:
     wall_s: float
 
 
-def estimate(plan: Plan, workers: int) -> Estimate:
-    """The estimate; SpecError when it is beyond the bounds."""
-    recipe = plan.recipe
-    seconds, speeds = [], []
-    total_s = recipe.settle_s + recipe.duration_s
-    for drawn in samples_of(plan):
-        system = assemble(drawn.spec, seed=drawn.seed)
-        outputs = outputs_of(plan, drawn, system) or default_channels(system)
-        held = WIDTH * (2 if recipe.beside_sound else 1)
-        _check_memory(round(8 * held * len(outputs) * total_s * recipe.sampling_rate_hz))
-        cost = run_cost(
-            system, duration_s=total_s, output_rate_hz=recipe.sampling_rate_hz, channels=len(outputs)
-        ).seconds
-        pilot = 3.0 * min(PILOT_S / total_s, 1.0)
-        spectra = len(recipe.peaks.spectra) * plan.rows_per_recording
-        samples = total_s * recipe.sampling_rate_hz * plan.channels
-        runs = 2 if recipe.beside_sound and drawn.effects and not recipe.siblings else 1
-        beside = SECONDS_PER_GROUND * total_s * recipe.sampling_rate_hz if recipe.background is not None else 0.0
-        seconds.append(
-            runs * cost * (1.0 + pilot) / LANES_GAIN
-            + beside
-            + spectra * SECONDS_PER_BASE * len(system.bases_hz)
-            + SECONDS_PER_SAMPLE * samples
-        )
-        if drawn.spec.operating is not None:
-            speeds.append(drawn.spec.operating.speed_hz)
-    core = float(np.mean(seconds)) * recipe.count
-    length_s = window_length_s(recipe, float(np.mean(speeds)) if speeds else None)
-    size = round(plan.rows * (4 * length_s * recipe.sampling_rate_hz + BYTES_PER_ROW))
+def estimate(plan: Plan, workers: int, shard_recordings: int | None = None) -> Estimate:
+    """The estimate, with at most so many recordings in a shard (none: as `make` divides them); SpecError when it is
+    beyond the bounds."""
+    samples = sampled(plan)
+    simulated = [_simulated_s(plan, sample) for sample in samples.found]
+    size = round(plan.rows * (4 * _window_s(plan, samples) * plan.recipe.sampling_rate_hz + BYTES_PER_ROW))
     check_recording(plan)
     _check_bounds(plan.rows, size)
+    of = {id(sample): seconds for sample, seconds in zip(samples.found, simulated, strict=True)}
+    rest = np.array([_beside_s(plan, sample) for sample in samples.found])[samples.like]
+    shards = []
+    for split in plan.splits:
+        for members in parted(plan, split, shard_recordings):
+            lanes = sum(of[id(sample)] for sample, _ in runs(plan, samples, members))
+            shards.append(LANES_COST * lanes + float(rest[members].sum()))
+    processes = min(workers, len(shards))
     return Estimate(
-        recordings=recipe.count,
+        recordings=plan.recipe.count,
         rows=plan.rows,
         bytes=size,
-        core_seconds=core,
+        core_seconds=sum(shards) + SECONDS_TO_START * (processes + (processes > 1)),
         workers=workers,
-        wall_s=SECONDS_TO_START + core / workers,
+        wall_s=SECONDS_TO_START * (1 + (processes > 1)) + _longest_s(shards, processes),
     )
+
+
+def _simulated_s(plan: Plan, sample: Sample) -> float:
+    """Of one run of a sample's machine alone, by the solver's own estimate; SpecError where eight do not fit."""
+    recipe = plan.recipe
+    total_s = recipe.settle_s + recipe.duration_s
+    channels = len(sample.outputs or default_channels(sample.system))
+    held = WIDTH * (2 if recipe.beside_sound else 1)
+    _check_memory(round(8 * held * channels * total_s * recipe.sampling_rate_hz))
+    cost = run_cost(sample.system, duration_s=total_s, output_rate_hz=recipe.sampling_rate_hz, channels=channels)
+    return cost.seconds
+
+
+def _beside_s(plan: Plan, sample: Sample) -> float:
+    """Of a recording, beside its simulation."""
+    recipe = plan.recipe
+    samples = (recipe.settle_s + recipe.duration_s) * recipe.sampling_rate_hz
+    spectra = len(recipe.peaks.spectra) * plan.rows_per_recording
+    return (
+        SECONDS_PER_GROUND * samples * (recipe.background is not None)
+        + spectra * SECONDS_PER_BASE * len(sample.system.bases_hz)
+        + SECONDS_PER_SAMPLE * samples * plan.channels
+    )
+
+
+def _window_s(plan: Plan, samples: Samples) -> float:
+    """Mean length of a window, s; where revolutions count, at the speeds of the plan."""
+    recipe = plan.recipe
+    if recipe.windows.length_revolutions is not None and isinstance(recipe.speeds_hz, Range | Choice):
+        step = -(-recipe.count // MOST_SPEEDS)
+        speeds = [_speed_hz(plan, recipe.speeds_hz, number) for number in range(0, recipe.count, step)]
+        return float(np.mean([window_length_s(recipe, speed) for speed in speeds]))
+    operating = [sample.drawing.spec.operating for sample in samples.found]
+    lengths = np.array([window_length_s(recipe, at.speed_hz if at else None) for at in operating])
+    return float(lengths[samples.like].mean())
+
+
+def _speed_hz(plan: Plan, speeds_hz: Range | Choice, number: int) -> float:
+    """Of a recording: the first axis of its class."""
+    share = float(plan.points(int(plan.kind[number])).at(int(plan.rank[number]))[0])
+    return float(drawn(speeds_hz, share, None, "speeds_hz"))
+
+
+def _longest_s(shards: Sequence[float], workers: int) -> float:
+    """Until the last worker is done, s: each takes the longest shard that is left, and no shard is made by two."""
+    busy = [0.0] * workers
+    for seconds in sorted(shards, reverse=True):
+        heapq.heapreplace(busy, busy[0] + seconds)
+    return max(busy)
 
 
 def _check_memory(size: int) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from sideband_datasets.plan.apart import check_apart
 from sideband_datasets.plan.axes import drawn_only, levels, recording_axes
-from sideband_datasets.plan.check import channels_of, check_recipe, split_warnings
+from sideband_datasets.plan.check import channels_of, check_recipe, confounded_warnings, split_warnings
 from sideband_datasets.plan.machines import Machine, machines_of
 from sideband_datasets.plan.points import Points
 from sideband_datasets.plan.quotas import IntArray, interleaved, quotas, ranks
@@ -146,5 +146,8 @@ def planned(recipe: Recipe) -> Plan:
         rank=ranks(kind),
         machine=machine,
         channels=channels_of(recipe, families),
-        warnings=tuple(split_warnings(recipe, machines, split_of, kind, machine)),
+        warnings=(
+            *split_warnings(recipe, machines, split_of, kind, machine),
+            *confounded_warnings(recipe, kind),
+        ),
     )

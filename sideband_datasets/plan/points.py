@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
@@ -11,13 +9,13 @@ from typing import Literal
 import numpy as np
 from scipy.stats import qmc
 
+from sideband_datasets.plan.lattice import factorial_point
 from sideband_datasets.plan.seeds import Stream, generator
 from signals.series import FloatArray
 
 Kind = Literal["sobol", "latin_hypercube", "factorial"]
 BLOCK = 256
 """Sobol points are made in blocks; a power of two keeps their balance."""
-GOLDEN = 0.6180339887498949
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +37,7 @@ class Points:
             return np.asarray(_sobol(len(self.levels), self.seed, self.stream, self.number, k // BLOCK)[k % BLOCK])
         if self.kind == "latin_hypercube":
             return np.asarray(_latin(len(self.levels), self.count, self.seed, self.stream, self.number)[k])
-        return factorial_point(self.levels, k, self.count)
+        return factorial_point(self.levels, k, self.count, self.seed, self.stream, self.number)
 
 
 @lru_cache(maxsize=64)
@@ -56,22 +54,3 @@ def _latin(dimensions: int, count: int, seed: int, stream: Stream, number: int) 
     """A Latin hypercube of all points of one plan, (count, d): each of `count` slices of every axis has one."""
     engine = qmc.LatinHypercube(dimensions, rng=generator(seed, stream, number))
     return np.asarray(engine.random(count), dtype=np.float64)
-
-
-def factorial_point(levels: Sequence[int], k: int, count: int) -> FloatArray:
-    """Combination k of all levels, each level's place from 0 to 1 (the middle where there is one level).
-
-    Fewer points than combinations: they are taken in golden-ratio strides, which thin the lattice evenly. More: the
-    combinations repeat.
-    """
-    size = math.prod(levels)
-    step = 1
-    if count < size:
-        step = max(1, round(GOLDEN * size))
-        while math.gcd(step, size) != 1:
-            step += 1
-    rest, place = (k * step) % size, []
-    for level in levels:
-        rest, digit = divmod(rest, level)
-        place.append(digit / (level - 1) if level > 1 else 0.5)
-    return np.asarray(place, dtype=np.float64)

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from sideband_datasets.plan.plan import Plan
 from sideband_datasets.recipe.values import least
 from sim.core.errors import Problem, SpecError
+from sim.core.lanes import WIDTH
 
 BYTES_PER_ROW = 6_000
 """Columns and peaks beside the samples."""
 MOST_SHARD_BYTES = 1_000_000_000
 """Of the rows of a shard before compression. Eight of the largest recordings that may be simulated have no more where
 their windows do not overlap, so lanes stay filled."""
+BATCH = 32 * WIDTH
+"""Recordings held at once at most: enough of one structure to fill the lanes."""
+BATCH_BYTES = 64_000_000
+"""Of the samples of the rows held at once, about; where eight recordings have more, as much as a shard may hold."""
 
 
 def recording_bytes(plan: Plan) -> int:
@@ -29,6 +36,23 @@ def recording_bytes(plan: Plan) -> int:
 def most_recordings(plan: Plan) -> int:
     """Recordings that fit into a shard; 0: not even one does."""
     return MOST_SHARD_BYTES // recording_bytes(plan)
+
+
+def batch_size(plan: Plan) -> int:
+    """Recordings worked on at once: a multiple of the lanes, fewer only where a shard could not hold so many."""
+    recipe = plan.recipe
+    longest_s = min(recipe.duration_s, recipe.windows.length_s or recipe.duration_s)
+    size = 4.0 * plan.rows_per_recording * longest_s * recipe.sampling_rate_hz
+    lanes = max(WIDTH, min(BATCH, int(BATCH_BYTES / size) // WIDTH * WIDTH))
+    return max(1, min(lanes, most_recordings(plan)))
+
+
+def parted(plan: Plan, split: str, size: int | None = None) -> list[list[int]]:
+    """Recordings of a split as its shards hold them, in the order of the plan; `size`: most recordings in each."""
+    members = plan.of_split(split).tolist()
+    count = -(-len(members) // (size or batch_size(plan)))
+    ends = [k * len(members) // count for k in range(count + 1)] if count else []
+    return [members[first:last] for first, last in pairwise(ends)]
 
 
 def check_recording(plan: Plan) -> None:

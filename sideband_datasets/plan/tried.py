@@ -4,7 +4,7 @@ among, put together before hours are spent on it."""
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache
@@ -16,6 +16,7 @@ from sideband_datasets.plan.documents import own_value
 from sideband_datasets.plan.drawing import Drawing, drawing
 from sideband_datasets.plan.machines import Machine
 from sideband_datasets.plan.plan import Plan, planned
+from sideband_datasets.plan.quotas import IntArray
 from sideband_datasets.recipe.model import Recipe
 from sideband_datasets.recipe.read import canonical
 from sideband_datasets.recipe.values import Choice
@@ -26,6 +27,8 @@ from signals.validation import Findings
 from sim.assembly.assemble import assemble
 from sim.core.errors import Problem, SpecError, UnknownName
 from sim.core.system import System
+from sim.solve.ensemble import structure
+from sim.solve.step_choice import steps_per_output
 
 
 def outputs_of(plan: Plan, drawn: Drawing, system: System) -> tuple[str, ...] | None:
@@ -43,6 +46,11 @@ def outputs_of(plan: Plan, drawn: Drawing, system: System) -> tuple[str, ...] | 
     return tuple(sorted(set(needed))) or tuple(known)[:1]
 
 
+def alike(plan: Plan, system: System, outputs: tuple[str, ...] | None) -> Hashable:
+    """What machines must share to be simulated side by side."""
+    return structure(system), steps_per_output(system, plan.recipe.sampling_rate_hz), outputs
+
+
 @lru_cache(maxsize=64)
 def _chain(text: str) -> SensorChain:
     return SensorChain.model_validate_json(text)
@@ -53,11 +61,17 @@ def _text(chain: object) -> str:
     return json.dumps(chain, sort_keys=True)
 
 
-def samples_of(plan: Plan) -> list[Drawing]:
-    """The first recording of every class on every family."""
+def cells_of(plan: Plan) -> IntArray:
+    """Number of the class on the family that each recording is, shape (recordings,)."""
     families = [m.family for m in plan.machines]
     number = np.array([families.index(f) for f in families])[plan.machine]
-    _, first = np.unique(np.stack([plan.kind, number]), axis=1, return_index=True)
+    _, cells = np.unique(np.stack([plan.kind, number]), axis=1, return_inverse=True)
+    return np.asarray(cells, dtype=np.int64).reshape(-1)
+
+
+def samples_of(plan: Plan) -> list[Drawing]:
+    """The first recording of every class on every family."""
+    _, first = np.unique(cells_of(plan), return_index=True)
     return [drawing(plan, int(i)) for i in sorted(first)]
 
 

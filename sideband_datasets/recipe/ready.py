@@ -53,7 +53,7 @@ RECIPES: Mapping[str, Ready] = {
             sentence="The same at 9 to 22 Hz; the two belong together.",
             build=partial(bearings_recipe, round(MACHINES * (1 - SHARE_FAST)), fast=False),
         ),
-        Ready(name="small", sentence="Eight short recordings of the smallest rotor: to try the doors."),
+        Ready(name="small", sentence="Sixteen short recordings (32 rows) of the smallest rotor: to try the doors."),
     )
 }
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Annotated, Literal, Self
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, model_validator
+from pydantic_core import PydanticCustomError
 
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import SpecModel
@@ -15,6 +16,15 @@ Number = Annotated[float, Field(ge=-1e15, le=1e15)]
 Levels = Annotated[int, Field(ge=2, le=100)]
 LEVELS = 3
 """Levels of a range in a factorial plan, unless it says."""
+
+
+RANGE = '{"low": 10, "high": 20}'
+CHOICE = '{"choices": [10, 20]}'
+
+
+def _wrong(message: str, allowed: str, given: str) -> PydanticCustomError:
+    """A finding with what is allowed, and what was given in words of its own."""
+    return PydanticCustomError("value", "{message}", {"message": message, "expected": allowed, "given": given})
 
 
 class Range(SpecModel):
@@ -29,7 +39,7 @@ class Range(SpecModel):
     @model_validator(mode="after")
     def _ordered(self) -> Self:
         if not self.low <= self.high:
-            raise ValueError("`low` is above `high`")
+            raise _wrong("`low` is above `high`", "`low` at or below `high`", f"{self.low:g} and {self.high:g}")
         if self.scale == "log" and self.low <= 0:
             raise ValueError("a logarithmic range begins above zero")
         return self
@@ -49,7 +59,8 @@ class Factor(SpecModel):
     def _ordered(self) -> Self:
         low, high = self.factor
         if not 0 < low <= high:
-            raise ValueError("the two factors must be above zero, the smaller one first")
+            message = "the two factors must be above zero, the smaller one first"
+            raise _wrong(message, "0 < first <= second", f"{low:g} and {high:g}")
         return self
 
 
@@ -74,12 +85,21 @@ def _kind(value: object) -> str:
     return "choice" if "choices" in value else "factor" if "factor" in value else "range"
 
 
+def _no_list(value: object) -> object:
+    if isinstance(value, list | tuple):
+        numbers = ", ".join(f"{item:g}" if isinstance(item, int | float) else str(item)[:40] for item in value[:8])
+        allowed = f"one value, a range {RANGE}, or choices {CHOICE}"
+        raise _wrong("is a list, which may be a range or choices", allowed, f"[{numbers}{', ...' * (len(value) > 8)}]")
+    return value
+
+
 Value = Annotated[
     Annotated[Fixed, Tag("fixed")]
     | Annotated[Range, Tag("range")]
     | Annotated[Factor, Tag("factor")]
     | Annotated[Choice, Tag("choice")],
     Discriminator(_kind),
+    BeforeValidator(_no_list),
 ]
 Drawn = bool | float | str
 

@@ -20,6 +20,7 @@ from jobs.limits import Limits
 from jobs.ports import Lane, Ticket
 from jobs.record import Failure, JobRecord, Progress, ResultRef
 from jobs.status import Status
+from sideband_datasets.plan import estimate
 from sim.core.errors import SpecError
 from store.artefacts.folder import FolderStore
 from store.catalogue import engine, schema, stats
@@ -299,8 +300,11 @@ def test_bounds_of_work_size_and_number(tmp_path: Path) -> None:
         one.ask(format="hdf5")
 
 
+@pytest.mark.slow
 def test_division_keeps_shards_near_the_wanted_time_and_whole_lanes() -> None:
     division = divide(DatasetRequest(recipe="bearing-rig"))
     assert division.shard_recordings % 8 == 0 and 32 <= division.shard_recordings <= 256
     assert sum(len(shard.recordings) for shard in division.shards) == 1000
-    assert division.wall_s(1000) == division.wall_s(len(division.shards)) < division.wall_s(1)
+    alone, each, more = (division.expected(workers).wall_s for workers in (1, len(division.shards), 1000))
+    assert more == each < alone
+    assert division.cost == estimate(division.plan, 1, division.shard_recordings)

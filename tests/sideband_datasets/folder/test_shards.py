@@ -10,8 +10,7 @@ import pytest
 from sideband_datasets.folder.layout import DATA, STATE
 from sideband_datasets.folder.shards import Shard, make_shard
 from sideband_datasets.formats import FORMATS
-from sideband_datasets.make import stream
-from sideband_datasets.plan import make_plan
+from sideband_datasets.plan import make_plan, size
 from tests.sideband_datasets.small import tiny
 
 WINDOWS = {"per_recording": 20, "length_s": 0.5, "overlap": 0.95}
@@ -40,8 +39,8 @@ def peak_bytes(folder: Path, kind: str, recordings: int) -> int:
 def test_memory_does_not_grow_with_the_recordings_of_a_shard(
     kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(stream, "BATCH_BYTES", 0)
-    assert stream.batch_size(make_plan(RECIPE)) == 8
+    monkeypatch.setattr(size, "BATCH_BYTES", 0)
+    assert size.batch_size(make_plan(RECIPE)) == 8
     peak_bytes(tmp_path / "first", kind, 2)
     few, many = peak_bytes(tmp_path / "few", kind, 16), peak_bytes(tmp_path / "many", kind, 32)
     further_rows = (32 - 16) * make_plan(RECIPE).rows_per_recording

@@ -4,7 +4,6 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sideband_datasets.plan.points import factorial_point
 from sideband_datasets.plan.quotas import interleaved, quotas, ranks
 
 weights = st.lists(st.floats(0.01, 100), min_size=1, max_size=12)
@@ -37,17 +36,3 @@ def test_every_stretch_of_the_mixed_order_has_nearly_the_shares(counts):
 
 def test_ranks_count_within_a_kind():
     assert ranks(np.array([0, 1, 0, 0, 1])).tolist() == [0, 0, 1, 2, 1]
-
-
-def test_a_factorial_plan_has_every_combination_once():
-    levels = (3, 2, 4)
-    found = {tuple(factorial_point(levels, k, 24).tolist()) for k in range(24)}
-    assert len(found) == 24
-    assert {p[0] for p in found} == {0.0, 0.5, 1.0}
-
-
-def test_a_thinned_factorial_plan_repeats_nothing_and_uses_all_levels():
-    levels = (3, 3, 3, 3)
-    found = {tuple(factorial_point(levels, k, 27).tolist()) for k in range(27)}
-    assert len(found) == 27
-    assert all({p[d] for p in found} == {0.0, 0.5, 1.0} for d in range(4))

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from sideband_datasets.make.stream import batch_size
 from sideband_datasets.plan import MOST_SHARD_BYTES, check_shard, make_plan, most_recordings, recording_bytes
-from sideband_datasets.plan.size import BYTES_PER_ROW, check_recording
+from sideband_datasets.plan.size import BYTES_PER_ROW, batch_size, check_recording
 from sim.core.errors import SpecError
 from tests.sideband_datasets.small import tiny
 

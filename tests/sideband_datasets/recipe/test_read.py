@@ -49,3 +49,30 @@ def test_no_object_and_no_json_are_told():
     for wrong in ([], {"count": float("nan")}):
         with pytest.raises(SpecError):
             read_recipe(wrong)
+
+
+SPALL = {"term": "outer_spall", "parameters": {"width": [5e-4, 3e-3]}}
+
+
+@pytest.mark.parametrize(
+    ("changes", "field", "given"),
+    [
+        ({"speeds_hz": [10, 20]}, "speeds_hz", "[10, 20]"),
+        ({"faults": [{"name": "a", "terms": [SPALL]}]}, "faults.0.terms.0.parameters.width", "[0.0005, 0.003]"),
+        ({"conditions": {"gravity_m_per_s2": []}}, "conditions.gravity_m_per_s2", "[]"),
+    ],
+)
+def test_a_list_is_told_once_with_what_it_may_have_meant(changes, field, given):
+    with pytest.raises(SpecError) as told:
+        read_recipe(document(**changes))
+    (problem,) = told.value.problems
+    assert (problem.field, problem.given) == (field, given)
+    assert '{"low": 10, "high": 20}' in problem.allowed and '{"choices": [10, 20]}' in problem.allowed
+
+
+@pytest.mark.parametrize("value", [{"low": 40, "high": 20}, {"factor": [40, 20]}])
+def test_two_numbers_in_the_wrong_order_are_shown(value):
+    with pytest.raises(SpecError) as told:
+        read_recipe(document(speeds_hz=value))
+    (problem,) = told.value.problems
+    assert (problem.field, problem.given) == ("speeds_hz", "40 and 20")

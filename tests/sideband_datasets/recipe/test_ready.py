@@ -31,3 +31,8 @@ def test_a_sound_and_a_faulty_recording_can_be_made(name: str) -> None:
     assert [row.fault_type for row in found] == ["healthy", recipe.classes[-1]]
     assert found[1].labels and found[1].severities
     assert all(row.signal.size == row.samples and row.rms > 0 and np.all(np.isfinite(row.signal)) for row in found)
+
+
+def test_small_says_how_many_it_makes() -> None:
+    assert (recipe_named("small").count, make_plan(recipe_named("small")).rows) == (16, 32)
+    assert "Sixteen short recordings (32 rows)" in RECIPES["small"].sentence
