@@ -8,6 +8,7 @@ from dataclasses import replace
 from reconcile.machine.decide import STRUCK, Decision
 from reconcile.machine.revised import Revised
 from reconcile.machine.setting import Found
+from reconcile.machine.weigh import FAR_AHEAD
 from reconcile.verdict import Cause
 
 NO_NEARER = "the machine with the effect that fits best, simulated, is no nearer to the recordings than without it"

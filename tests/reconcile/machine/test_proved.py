@@ -22,8 +22,9 @@ def decided(word: Word = "explained") -> Decision:
     return Decision(word=word, chosen=NAMES[:1], p=6.6e-5, reasons=())
 
 
-def found(struck: float) -> SimpleNamespace:
-    return SimpleNamespace(screen=SimpleNamespace(names=NAMES, direct=np.array([struck, 0.0])))
+def found(struck: float, evidence: float = 10.0) -> SimpleNamespace:
+    screen = SimpleNamespace(names=NAMES, direct=np.array([struck, 0.0]), evidence=np.array([evidence, 0.0]))
+    return SimpleNamespace(screen=screen)
 
 
 def revised(before_db: float, after_db: float) -> SimpleNamespace:
@@ -36,6 +37,14 @@ def test_a_name_whose_machine_is_no_nearer_is_taken_back() -> None:
     assert not any(c.named for c in causes) and [c.term for c in causes] == [c.term for c in CAUSES]
     said = sentence(decision, None, None)
     assert "dry friction at a support at gear" in said and "nothing is named" in said and "missing" not in said
+
+
+def test_so_is_a_set_whose_best_hardly_stands_out() -> None:
+    machine, none = revised(3.69, 3.73), found(0.0, 3.7)
+    decision, _ = proved(decided("ambiguous"), CAUSES, none, machine)  # type: ignore[arg-type]
+    assert decision.word == "not_decidable" and decision.reasons == (NO_NEARER,)
+    struck = found(12.0, 3.7)
+    assert proved(decided("ambiguous"), CAUSES, struck, machine)[0].word == "ambiguous"  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
