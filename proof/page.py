@@ -121,13 +121,14 @@ next to nothing (l041), teeth refine the speed where they are sure (l073; a line
 away; l041, run again, names the right race), and single lines count at one operating point from three sensors on,
 where phases are compared. What single lines of the machines that agree with the baseline make plausible is simulated
 too since then, in turn with what machines of the kind do: l078, named before phases and unknown physics with them, is
-named again. Recordings that did not turn alike, another filter and a sensor mounted anew are told before or beside the
-rules and touch no case here. "Again" and "Sound" were run with phases and this nomination, and show what it won and lost
-of cases that had been looked at: l093 and l078 named, but two outer races named as inner ones (l056, l069: beside their
-own lines, with none of the inner race's), unknown physics told as a set (l068), and a sound machine with eight sensors
-that alarms (s106). Two rules came of these: the silence of what balls would strike counts where they strike another part
-for sure (l056 and l069, run again, are named rightly, 41 before 26 and 37 before 27; l013, l028, l052, l087 and l089 keep
-their answers), and a set whose best effect hardly stands out must come nearer by simulation as a name must (s106). Older
+named again. Recordings that did not turn alike, another filter and a sensor mounted anew are told before or beside
+the rules and touch no case here. "Again" and "Sound" were run with phases and this nomination, and show what it won
+and lost of cases that had been looked at: l093 and l078 named, but two outer races named as inner ones (l056, l069:
+beside their own lines, with none of the inner race's), unknown physics told as a set (l068), and a sound machine with
+eight sensors that alarms (s106). Two rules came of these: the silence of what balls would strike counts where they
+strike another part for sure (l056 and l069, run again, are named rightly, 41 before 26 and 37 before 27; l013, l028,
+l052, l087 and l089 keep their answers), and a set whose best effect hardly stands out must come nearer by simulation
+as a name must (s106). Older
 changes of the engine (run-ups without pulses, standstills and two motions without a force are told or refused, no
 size from a channel that is cut off, words of messages) act before or beside the rules: s122, l087 and l069, run again
 with engine `e14fd6f7b232`, gave the same causes, scores and gains (read off once).
