@@ -4,45 +4,20 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from reconcile.gate.findings import Gate
 from reconcile.machine.engine import reconcile_machine
 from reconcile.machine.turned import told_apart, turned_alike, with_limits
-from reconcile.observe.observation import PointData, observe
-from reconcile.observe.watch import bases_at, watch_list
 from reconcile.verdict import Report, Where
-from signals.recording import Operating, Recording
-from sim.core.response import Channel
 from sim.core.spec import MachineSpec
 from sim.presets import preset
-
-RATE_HZ, SPEED_HZ, SECONDS = 20480.0, 30.0, 1.5
-TIME = np.arange(round(RATE_HZ * SECONDS)) / RATE_HZ
-CHANNELS = tuple(
-    Channel(name=p, quantity="acceleration", unit="m/s^2", location=p, axis="y") for p in ("bearing1", "bearing3")
-)
+from tests.reconcile.machine.teeth import CHANNELS, seen, turning
 
 
 @pytest.fixture(scope="module")
 def machine() -> MachineSpec:
     return preset("paper-lightly-damped")
-
-
-def turning(
-    machine: MachineSpec, seed: int, true_hz: float, stated_hz: float = SPEED_HZ, teeth: float = 1.0
-) -> Recording:
-    rng = np.random.default_rng(seed)
-    mesh = bases_at(machine, true_hz)["f_m"]
-    lines = sum(np.sin(2 * np.pi * mesh * k * TIME + k) / k for k in range(1, 7))
-    samples = teeth * np.array([[1.0], [0.4]]) * lines + 0.2 * rng.normal(size=(2, TIME.size))
-    operating = Operating(shaft="input", speed_hz=stated_hz, torque_nm=25.0)
-    return Recording(sampling_rate_hz=RATE_HZ, channels=CHANNELS, samples=samples, operating=operating)
-
-
-def seen(machine: MachineSpec, test: Recording, baseline: Recording) -> tuple[PointData, ...]:
-    return observe(machine, watch_list(machine), [test], [baseline], seed=0)
 
 
 @pytest.mark.slow
@@ -58,7 +33,7 @@ def seen(machine: MachineSpec, test: Recording, baseline: Recording) -> tuple[Po
 def test_a_test_that_turned_otherwise_than_its_baseline_is_left_out(
     machine: MachineSpec, true_hz: float, teeth: float, kept: bool, word: str
 ) -> None:
-    data = seen(machine, turning(machine, 1, true_hz, teeth=teeth), turning(machine, 2, SPEED_HZ))
+    data = seen(machine, turning(machine, 1, true_hz=true_hz, level=teeth), baseline=turning(machine, 2))
     alike, told = turned_alike(machine, data, CHANNELS)
     assert bool(alike) == kept
     assert told == () if not word else word in told[0], told
@@ -66,7 +41,7 @@ def test_a_test_that_turned_otherwise_than_its_baseline_is_left_out(
 
 @pytest.mark.slow
 def test_where_no_line_confirms_either_it_is_a_limit_and_no_more(machine: MachineSpec) -> None:
-    data = seen(machine, turning(machine, 1, SPEED_HZ, teeth=0.0), turning(machine, 2, SPEED_HZ, teeth=0.0))
+    data = seen(machine, turning(machine, 1, level=0.0), baseline=turning(machine, 2, level=0.0))
     alike, told = turned_alike(machine, data, CHANNELS)
     assert alike == data
     assert told == ("no line confirms the stated 30 Hz of every recording there",)
@@ -74,7 +49,7 @@ def test_where_no_line_confirms_either_it_is_a_limit_and_no_more(machine: Machin
 
 @pytest.mark.slow
 def test_nothing_is_simulated_where_no_test_turned_as_its_baseline_did(machine: MachineSpec) -> None:
-    report = reconcile_machine(machine, [turning(machine, 1, 28.5)], [turning(machine, 2, SPEED_HZ)])
+    report = reconcile_machine(machine, [turning(machine, 1, true_hz=28.5)], [turning(machine, 2)])
     assert report.verdict == "measurement_fault" and report.machine is None and report.causes == ()
     assert report.fault is not None and report.fault.kind == "speed_mismatch"
     assert "28.5 Hz" in report.sentence and "baseline" in report.next_experiment.sentence  # type: ignore[union-attr]
