@@ -128,7 +128,7 @@ beside their own lines, with none of the inner race's), unknown physics told as 
 eight sensors that alarms (s106). Two rules came of these: the silence of what balls would strike counts where they
 strike another part for sure (l056 and l069, run again, are named rightly, 41 before 26 and 37 before 27; l013, l028,
 l052, l087 and l089 keep their answers), and a set whose best effect hardly stands out must come nearer by simulation
-as a name must (s106). Older
+as a name must (s106, run again: not decidable; l068 stays a set). Older
 changes of the engine (run-ups without pulses, standstills and two motions without a force are told or refused, no
 size from a channel that is cut off, words of messages) act before or beside the rules: s122, l087 and l069, run again
 with engine `e14fd6f7b232`, gave the same causes, scores and gains (read off once).

@@ -12,6 +12,7 @@ export function recipeForm(found, changed) {
   let broken = "";
   const fields = h("div", { class: "fields" });
   const classes = h("div", { class: "dataset-classes" });
+  const chosen = h("p", { class: "muted small" }, found.recipes[0].sentence);
   const sentence = h("p", { class: "muted small" });
   const notice = h("p", { class: "field-error", id: "dataset-json-error", role: "alert" });
   const text = h("textarea", { id: "dataset-json", rows: "18", spellcheck: "false", "aria-label": "The whole recipe, JSON", "aria-describedby": "dataset-json-error", oninput: fromText, onchange: tidy });
@@ -26,7 +27,9 @@ export function recipeForm(found, changed) {
   }
 
   function choose() {
-    recipe = copy(found.recipes.find((ready) => ready.name === preset.value).recipe);
+    const ready = found.recipes.find(({ name }) => name === preset.value);
+    recipe = copy(ready.recipe);
+    chosen.textContent = ready.sentence;
     show();
     told();
   }
@@ -86,7 +89,7 @@ export function recipeForm(found, changed) {
   }
 
   const element = h("div", { class: "form-main" },
-    card("Recipe", h("div", { class: "fields" }, labelled("Start from", preset), labelled("Format", format), labelled("Recordings in a shard", shard)), h("p", { class: "muted small" }, found.recipes.map((ready) => `${ready.name}: ${ready.sentence}`).join(" ")), sentence),
+    card("Recipe", h("div", { class: "fields" }, labelled("Start from", preset), labelled("Format", format), labelled("Recordings in a shard", shard)), chosen, sentence),
     card("Main numbers", fields), card("Classes", classes),
     h("details", { class: "card card-body", id: "dataset-whole" }, h("summary", {}, "The whole recipe (JSON)"), notice, text));
   show();
