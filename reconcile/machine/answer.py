@@ -194,8 +194,9 @@ def _machine(revision: Revised | None, unknown: Unknown | None, decision: Decisi
     """With a law that stands, or an effect that is claimed: none where no known effect is."""
     if unknown is not None and unknown.machine is not None:
         return unknown.machine.model_dump(mode="json")
-    claimed = revision is not None and decision.word != "unknown_physics"
-    return revision.machine.model_dump(mode="json") if revision is not None and claimed else None
+    if revision is None or decision.word == "unknown_physics":
+        return None
+    return revision.machine.model_dump(mode="json")
 
 
 def _doubtful(gate: Gate, setting: Setting, word: str) -> bool:
