@@ -1,8 +1,9 @@
 """The plan: which cases there are. A stated fraction of the full crossing, the same for the same split every time.
 
 Every second case stands at the target condition (3 sensors, 20 dB, 3 speeds, baseline); the others run through the nine
-rows of an orthogonal array of sensors x noise x speeds, so each pair of levels occurs equally often. Laws, sites,
-severities and variants go round in cycles of different length.
+rows of an orthogonal array of sensors x noise x speeds, so each pair of levels occurs equally often. All cases of
+the split `third` stand at the target condition. Laws, sites, severities and variants go round in cycles of different
+length.
 """
 
 from __future__ import annotations
@@ -16,9 +17,9 @@ from proof.effects import Law
 from proof.library import CLOSED
 from proof.unknown import OPEN
 
-Split = Literal["dev", "sealed", "later"]
+Split = Literal["dev", "sealed", "later", "third"]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
-SEEDS = {"dev": 20_240_611, "sealed": 7_310_552_903, "later": 5_148_093_277}
+SEEDS = {"dev": 20_240_611, "sealed": 7_310_552_903, "later": 5_148_093_277, "third": 6_902_417_355}
 COUNTS = {
     "dev": {
         "null": 8, "misset": 3, "sensor": 5, "single": 26, "double": 6, "open": 8, "no_baseline": 3, "ambiguous": 3,
@@ -28,10 +29,14 @@ COUNTS = {
         "ambiguous": 12,
     },
     "later": {"null": 14, "sensor": 8, "single": 40, "double": 12, "open": 16, "ambiguous": 4},
+    "third": {"null": 6, "sensor": 4, "single": 16, "double": 4, "open": 6},
 }  # fmt: skip
-"""`later` was sealed when the cases of `sealed` that share the nominal machine's atlases had been looked at."""
+"""`later` was sealed when the cases of `sealed` that share the nominal machine's atlases had been looked at, `third`
+when those of `later` at the target condition had been."""
+TURNED = {"third": 40}
+"""From which number on the cycles of laws, severities and variants go in a split that others have gone before."""
 EXTRA: dict[str, tuple[tuple[Group, int], ...]] = {
-    "dev": (("sensor", 5), ("sensor", 6), ("sensor", 7)), "sealed": (), "later": (),
+    "dev": (("sensor", 5), ("sensor", 6), ("sensor", 7)), "sealed": (), "later": (), "third": (),
 }  # fmt: skip
 """Cases behind the shuffled ones: the faults that the first five leave out."""
 SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS = (3, 1, 8), (20.0, 30.0, 10.0), (3, 1, 5)
@@ -127,16 +132,17 @@ def plan(split: Split) -> tuple[Case, ...]:
     cases = []
     for place, index in enumerate(order):
         group, number = groups[int(index)]
-        cases.append(_case(f"{split[0]}{place + 1:03d}", int(index), SEEDS[split], group, number))
+        cases.append(_case(split, f"{split[0]}{place + 1:03d}", int(index), group, number + TURNED.get(split, 0)))
     for group, number in EXTRA[split]:
-        cases.append(_case(f"{split[0]}{len(cases) + 1:03d}", len(cases), SEEDS[split], group, number))
+        cases.append(_case(split, f"{split[0]}{len(cases) + 1:03d}", len(cases), group, number))
     return tuple(cases)
 
 
-def _case(name: str, index: int, seed: int, group: Group, number: int) -> Case:
+def _case(split: Split, name: str, index: int, group: Group, number: int) -> Case:
+    seed = SEEDS[split]
     rng = np.random.default_rng([seed, index, 0])
     turn = number // 8 if group == "single" else 0  # so that each law meets both kinds of condition
-    row = TARGET if (number + turn) % 2 == 0 else ORTHOGONAL[(number // 2) % 9]
+    row = TARGET if split == "third" or (number + turn) % 2 == 0 else ORTHOGONAL[(number // 2) % 9]
     sensors, snr, speeds = SENSOR_COUNTS[row[0]], SNRS_DB[row[1]], SPEED_COUNTS[row[2]]
     least = {"single": 0, "ambiguous": 2}.get(group, 1)
     level = max(least, (2, 1, 3, 0, 2, 1, 3)[number % 7])

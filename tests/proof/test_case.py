@@ -76,13 +76,13 @@ def test_no_file_for_the_engine_tells_what_is_hidden(short, tmp_path):
 
 def test_the_registry_knows_every_term_of_a_truth():
     known = set(REGISTRY.keys())
-    for case in (*plan("dev"), *plan("sealed"), *plan("later")):
+    for case in (*plan("dev"), *plan("sealed"), *plan("later"), *plan("third")):
         for effect in made.truth_of(case)["effects"]:
             assert set(effect["terms"]) <= known
         assert {term for term, _ in case.causes} <= known
 
 
-@pytest.mark.parametrize("split", ["dev", "sealed", "later"])
+@pytest.mark.parametrize("split", ["dev", "sealed", "later", "third"])
 def test_the_committed_seals_are_those_of_the_plan(split):
     found = seal.manifest(split, plan(split))["sha256"]
     assert found == seal.seals_of(split)

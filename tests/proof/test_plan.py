@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import pytest
 
@@ -13,7 +13,7 @@ from proof.sensor_faults import FAULTS as KNOWN_FAULTS
 from proof.unknown import OPEN
 
 
-@pytest.mark.parametrize(("split", "least"), [("dev", 60), ("sealed", 200), ("later", 90)])
+@pytest.mark.parametrize(("split", "least"), [("dev", 60), ("sealed", 200), ("later", 90), ("third", 36)])
 def test_the_plan_is_the_same_every_time_and_as_large_as_stated(split, least):
     cases = plan(split)
     assert cases == plan(split)
@@ -38,6 +38,13 @@ def test_half_of_the_single_effects_stand_at_the_target_condition():
         assert 0.3 <= len(at_target) / len(all_of_law) <= 0.8, law
 
 
+def test_the_third_split_stands_at_the_target_condition_with_every_severity():
+    cases = plan("third")
+    assert {(len(c.sensors), c.snr_db, len(c.speeds_hz), c.baseline) for c in cases} == {(3, 20.0, 3, True)}
+    assert {c.level for c in cases if c.group == "single"} == {0, 1, 2, 3}
+    assert {c.effects[0].law for c in cases if c.group == "single"} > set(FIRST)
+
+
 def test_every_condition_and_severity_occurs():
     cases = [c for c in plan("sealed") if c.group == "single"]
     assert {len(c.sensors) for c in cases} == {1, 3, 8}
@@ -60,7 +67,7 @@ def test_at_least_six_laws_of_no_library():
     assert not any(OPEN[law].terms for law in OPEN)
 
 
-@pytest.mark.parametrize(("one", "other"), [("dev", "sealed"), ("dev", "later"), ("sealed", "later")])
+@pytest.mark.parametrize(("one", "other"), [*combinations(COUNTS, 2)])
 def test_splits_share_no_machine(one, other):
     first = {c.name: c.rng(1).random() for c in plan(one)}
     second = {c.name: c.rng(1).random() for c in plan(other)}
@@ -73,7 +80,7 @@ def test_tables_agree():
     assert all(law in CLOSED for pair in PAIRS for law in pair)
 
 
-@pytest.mark.parametrize("split", ["dev", "sealed", "later"])
+@pytest.mark.parametrize("split", ["dev", "sealed", "later", "third"])
 def test_every_effect_fits_its_law(split):
     for case in plan(split):
         for hiding in case.effects:
