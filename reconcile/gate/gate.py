@@ -15,6 +15,7 @@ from reconcile.gate.levels import pairs
 from reconcile.gate.mains import hum_findings, without_hum
 from reconcile.gate.samples import repaired, sample_findings
 from reconcile.gate.timing import length_findings, speed_findings, tacho_findings
+from reconcile.gate.tones import tone_findings
 from reconcile.speed import SpeedEstimate, estimate_speed
 from signals.recording import Recording
 from signals.series import FloatArray
@@ -96,6 +97,9 @@ def _analysed(
     clean = [without_hum(r, e) if label in hummed else r for r, e, label in zip(clean, expected, labels, strict=True)]
     bases, tests = clean[:cut], clean[cut:]
     if all(s is not None for s in speeds):
+        tones, tests = tone_findings(tests, labels[cut:], hertz[cut:], expected[cut:], bases)
+        found += tones
+        clean = [*bases, *tests]
         both = list(zip(clean, hertz, strict=True))
         found += alias_findings(both[cut:], labels[cut:], mesh_orders, both[:cut], seed=seed)
     matched = pairs(tests, bases, hertz[cut:], hertz[:cut])

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from reconcile.gate.findings import Finding
+from reconcile.gate.sines import without_sines
 from reconcile.speed.excess import line_excess
 from signals.recording import Recording
 from signals.series import FloatArray
@@ -36,7 +36,7 @@ def hum_findings(
             continue
         power = sum(a**2 / 2 for _, a in lines)
         share = power / max(float(np.var(recording.series(name).samples)), 1e-300)
-        before = [_power(b, name, [hz for hz, _ in lines]) for b in baselines if name in b.names]
+        before = [power_at(b, name, [hz for hz, _ in lines]) for b in baselines if name in b.names]
         grown = None if not before else 10 * np.log10(power / max(*before, 1e-300))
         fault = share > MATERIAL_SHARE if grown is None else bool(grown > GROWN_DB and share > LEAST_SHARE)
         change = "" if grown is None else f", {grown:+.0f} dB against the baseline"
@@ -86,29 +86,11 @@ def hum_lines(recording: Recording, channel: str, expected_hz: FloatArray) -> li
 
 def without_hum(recording: Recording, expected_hz: FloatArray) -> Recording:
     """The recording with sines at its hum lines (frequency refined on the data) fitted and subtracted."""
-    samples = recording.samples.copy()
-    time = np.arange(samples.shape[1]) / recording.sampling_rate_hz
-    for row, name in enumerate(recording.names):
-        for hz, _ in hum_lines(recording, name, expected_hz):
-            fine = _refined(samples[row], time, hz, 1 / recording.duration_s)
-            carrier = np.exp(-2j * np.pi * fine * time)
-            # in blocks of a second the supply's phase may wander
-            blocks = max(1, int(recording.duration_s))
-            for part in np.array_split(np.arange(time.size), blocks):
-                line = 2 * np.mean((samples[row][part] - np.mean(samples[row][part])) * carrier[part])
-                samples[row][part] -= np.real(line * np.conj(carrier[part]))
-    return replace(recording, samples=samples)
+    lines = {name: [hz for hz, _ in hum_lines(recording, name, expected_hz)] for name in recording.names}
+    return without_sines(recording, lines)
 
 
-def _refined(samples: FloatArray, time: FloatArray, hz: float, width_hz: float) -> float:
-    """Frequency within half a bin that holds most, Hz."""
-    window = np.hanning(time.size)
-    trial = hz + width_hz * np.linspace(-0.6, 0.6, 13)
-    level = [abs(np.sum(window * samples * np.exp(-2j * np.pi * f * time))) for f in trial]
-    return float(trial[int(np.argmax(level))])
-
-
-def _power(recording: Recording, channel: str, lines_hz: Sequence[float]) -> float:
+def power_at(recording: Recording, channel: str, lines_hz: Sequence[float]) -> float:
     """Power of a channel in the bins of given lines, its unit squared."""
     spectrum = amplitude_spectrum(recording.series(channel))
     place = np.rint(np.asarray(lines_hz) / spectrum.resolution_hz).astype(np.int64)

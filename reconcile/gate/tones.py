@@ -1,0 +1,167 @@
+"""Tones fixed in Hz: lines that stay where they are while the machine turns faster, and that no baseline has.
+
+An inverter's switching, another machine, a clock: what turns with the shaft moves with it, so a narrow line at the
+same frequency at two speeds is none of its motions. A structure's own frequency stays too but is not narrow. Lines
+beside such a tone at a fixed multiple of the shaft's speed (what a drive's current does to its switching) go with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from reconcile.gate.findings import Finding
+from reconcile.gate.mains import GROWN_DB, LEAST_SHARE, MATERIAL_SHARE, power_at
+from reconcile.gate.sines import without_sines
+from reconcile.speed.excess import line_excess
+from signals.recording import Recording
+from signals.series import FloatArray
+
+APART = 1.03
+"""Ratio of two speeds from which on a line of the machine has moved by many bins."""
+PRESENT_DB = 20.0
+BESIDE_DB = 15.0
+"""Of a line beside a tone."""
+NARROW_DB = 12.0
+"""By which a tone stands above the bins three to eight beside it: a sine does by 40, a mode of the structure not."""
+MOST_LINES = 40
+STAY_BINS, BESIDE_BINS, OWN_BINS = 1.5, 3.0, 2.5
+FARTHEST = 12.0
+"""Orders of the shaft between a tone and a line that goes with it."""
+BESIDE_BLOCK_S = 0.25
+"""Lines beside a tone wander with the speed."""
+
+
+@dataclass(frozen=True)
+class Heard:
+    """One channel of one test: power of the bins over the floor, Hz a bin, the shaft's speed, the machine's lines."""
+
+    excess: FloatArray
+    step_hz: float
+    speed_hz: float
+    expected_hz: FloatArray
+
+    def own(self, hz: float) -> bool:
+        """Whether a frequency is one of the machine's own or of the shaft's harmonics."""
+        reach = OWN_BINS * self.step_hz
+        harmonic = abs(hz - round(hz / self.speed_hz) * self.speed_hz) < reach
+        return harmonic or (self.expected_hz.size > 0 and float(np.min(np.abs(self.expected_hz - hz))) < reach)
+
+    def peak(self, hz: float, bins: float, least_db: float, *, narrow: bool) -> float | None:
+        """Frequency of the strongest bin near `hz`, Hz; None where it does not stand out."""
+        low = max(9, int(np.floor(hz / self.step_hz - bins)))
+        high = min(self.excess.size - 9, int(np.ceil(hz / self.step_hz + bins)) + 1)
+        if low >= high:
+            return None
+        top = low + int(np.argmax(self.excess[low:high]))
+        level = float(self.excess[top])
+        if level < 10 ** (least_db / 10) or level < self.excess[top - 1 : top + 2].max():
+            return None
+        near = max(self.excess[top - 8 : top - 2].max(), self.excess[top + 3 : top + 9].max())
+        return None if narrow and level < near * 10 ** (NARROW_DB / 10) else top * self.step_hz
+
+    def peaks(self, least_db: float, *, narrow: bool) -> list[float]:
+        """The strongest lines, Hz, strongest first."""
+        inner = self.excess[1:-1]
+        tops = 1 + np.flatnonzero((inner >= self.excess[:-2]) & (inner > self.excess[2:]))
+        tops = tops[self.excess[tops] > 10 ** (least_db / 10)]
+        strongest = tops[np.argsort(-self.excess[tops])][:MOST_LINES]
+        found = [self.peak(top * self.step_hz, 0.0, least_db, narrow=narrow) for top in strongest]
+        return [hz for hz in found if hz is not None]
+
+
+def tone_findings(
+    tests: Sequence[Recording],
+    labels: Sequence[str],
+    speeds_hz: Sequence[float],
+    expected_hz: Sequence[FloatArray],
+    baselines: Sequence[Recording],
+) -> tuple[tuple[Finding, ...], list[Recording]]:
+    """One `fixed_tones` a channel, and the tests without them; nothing is claimed of tests at one speed."""
+    order = np.sort(np.asarray(speeds_hz))
+    if not any(b > APART * a > 0 for a, b in pairwise(order)):
+        return (), list(tests)
+    found, clean = [], list(tests)
+    for name in tests[0].names:
+        if any(name not in one.names for one in tests):
+            continue
+        heard = [
+            Heard(*line_excess(one.series(name)), hz, own)
+            for one, hz, own in zip(tests, speeds_hz, expected_hz, strict=True)
+        ]
+        tones = fixed_tones(heard)
+        beside = beside_tones(heard, tones) if tones else []
+        finding = _told(tests, labels[0], name, tones, beside, baselines)
+        if finding is None:
+            continue
+        found.append(finding)
+        clean = [without_sines(one, {name: tones}) for one in clean]
+        clean = [
+            without_sines(one, {name: [tone + o * h.speed_hz for tone, o in beside]}, block_s=BESIDE_BLOCK_S)
+            for one, h in zip(clean, heard, strict=True)
+        ]
+    return tuple(found), clean
+
+
+def fixed_tones(heard: Sequence[Heard]) -> list[float]:
+    """Frequencies, Hz, of narrow lines that all tests have at one place and at least two speeds' own lines have not."""
+    found = []
+    for hz in heard[0].peaks(PRESENT_DB, narrow=True):
+        places = [h.peak(hz, STAY_BINS, PRESENT_DB, narrow=True) for h in heard]
+        free = [h.speed_hz for h in heard if not h.own(hz)]
+        if None not in places and free and max(free) > APART * min(free):
+            found.append(hz)
+    return sorted(found)
+
+
+def beside_tones(heard: Sequence[Heard], tones: Sequence[float]) -> list[tuple[float, float]]:
+    """(tone in Hz, orders of the shaft from it) of lines that keep their distance from a tone in orders."""
+    found: list[tuple[float, float]] = []
+    first = heard[0]
+    for hz in first.peaks(BESIDE_DB, narrow=False):
+        near = min(tones, key=lambda tone: abs(hz - tone))
+        away = (hz - near) / first.speed_hz
+        if abs(away) > FARTHEST or abs(hz - near) < OWN_BINS * first.step_hz:
+            continue
+        places = [near + away * h.speed_hz for h in heard]
+        free = [h.speed_hz for h, place in zip(heard, places, strict=True) if not h.own(place)]
+        met = [h.peak(place, BESIDE_BINS, BESIDE_DB, narrow=False) for h, place in zip(heard, places, strict=True)]
+        if None not in met and free and max(free) > APART * min(free):
+            found.append((near, away))
+    return found
+
+
+def _told(
+    tests: Sequence[Recording],
+    label: str,
+    name: str,
+    tones: Sequence[float],
+    beside: Sequence[tuple[float, float]],
+    baselines: Sequence[Recording],
+) -> Finding | None:
+    """The finding where the tones are new; what a baseline has as well is left to the comparison."""
+    if not tones:
+        return None
+    power = min(power_at(one, name, tones) for one in tests)
+    share = min(power_at(one, name, tones) / max(float(np.var(one.series(name).samples)), 1e-300) for one in tests)
+    before = [power_at(one, name, tones) for one in baselines if name in one.names]
+    grown = 10 * np.log10(power / max(*before, 1e-300)) if before else None
+    if share < (MATERIAL_SHARE if grown is None else LEAST_SHARE) or (grown is not None and grown < GROWN_DB):
+        return None
+    detail = f"narrow lines at {', '.join(f'{hz:.5g}' for hz in tones)} Hz stay there at every speed"
+    detail += f", with lines at fixed orders beside them ({len(beside)})" if beside else ""
+    detail += f" and hold {share:.1%} of the power or more"
+    detail += "" if grown is None else f", {grown:+.0f} dB against the baseline"
+    detail += ": not this machine's motion, but a drive's switching, another machine or the recorder"
+    return Finding(
+        kind="fixed_tones",
+        channel=name,
+        recording=label,
+        detail=detail,
+        severity=float(min(1.0, share)),
+        where=", ".join(f"{hz:.5g} Hz" for hz in tones[:6]),
+        fault=True,
+    )

@@ -1,0 +1,111 @@
+"""Tones that stay in Hz at every speed are told and taken out; a structure's modes and the machine's lines are not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from reconcile.gate import Gate, inspect_measurement
+from reconcile.gate.tones import tone_findings
+from signals.recording import Operating, Recording
+from signals.series import FloatArray
+from sim.core.response import Channel
+
+RATE_HZ, SECONDS, TEETH = 12000.0, 2.0, 23
+TIME = np.arange(int(RATE_HZ * SECONDS)) / RATE_HZ
+SPEEDS_HZ = (22.5, 30.0, 39.0)
+NAMES = ("a0", "a1")
+Adds = Callable[[FloatArray, float, np.random.Generator], FloatArray]
+
+
+def nothing(_turns: FloatArray, _hz: float, _rng: np.random.Generator) -> FloatArray:
+    return np.zeros(TIME.size)
+
+
+def inverter(turns: FloatArray, _hz: float, _rng: np.random.Generator) -> FloatArray:
+    beside = np.sin(2 * np.pi * (4013 * TIME + 4 * turns))
+    return np.asarray(np.sin(2 * np.pi * 2007 * TIME) + 0.7 * np.sin(2 * np.pi * 4013 * TIME) + 0.5 * beside)
+
+
+def ringing(_turns: FloatArray, _hz: float, rng: np.random.Generator) -> FloatArray:
+    """A mode of the structure at 1.5 kHz, lightly damped, driven by noise."""
+    pole = np.exp((-2 * np.pi * 4 + 2j * np.pi * 1500) / RATE_HZ)
+    x = lfilter([1.0], [1.0, -2 * pole.real, abs(pole) ** 2], rng.standard_normal(TIME.size))
+    return np.asarray(2 * x / np.std(x))
+
+
+def knocks(turns: FloatArray, _hz: float, _rng: np.random.Generator) -> FloatArray:
+    """Once a turn: all harmonics of the shaft, some at one frequency at two speeds whose ratio is 3 to 4."""
+    x = np.zeros(TIME.size)
+    x[np.flatnonzero(np.diff(np.floor(turns)) > 0)] = 20.0
+    return x
+
+
+def recorded(hz: float, seed: int, adds: Adds, rows: tuple[float, float] = (1.0, 0.4)) -> Recording:
+    rng = np.random.default_rng(seed)
+    turns = np.cumsum(hz * (1 + 2e-3 * np.sin(2 * np.pi * 0.7 * TIME + seed))) / RATE_HZ
+    lines = sum(np.sin(2 * np.pi * TEETH * k * turns + k) / k for k in range(1, 6))
+    samples = np.stack([lines * g + 0.1 * rng.standard_normal(TIME.size) for g in (1.0, 0.6)])
+    samples += np.asarray(rows)[:, None] * adds(turns, hz, rng)
+    channels = tuple(Channel(name=n, quantity="acceleration", unit="m/s^2", location="bearing1") for n in NAMES)
+    operating = Operating(shaft="input", speed_hz=hz)
+    return Recording(sampling_rate_hz=RATE_HZ, channels=channels, samples=samples, operating=operating)
+
+
+def told(adds: Adds, *, base: Adds | None = nothing, rows: tuple[float, float] = (1.0, 0.4)) -> Gate:
+    baselines = [] if base is None else [recorded(hz, k, base, rows) for k, hz in enumerate(SPEEDS_HZ)]
+    tests = [recorded(hz, 10 + k, adds, rows) for k, hz in enumerate(SPEEDS_HZ)]
+    return inspect_measurement(baselines, tests, mesh_orders=(float(TEETH),))
+
+
+def kinds(gate: Gate) -> set[tuple[str, str]]:
+    return {(f.kind, f.channel) for f in gate.findings if f.fault}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("base", [nothing, None])
+def test_tones_of_a_drive_are_told_and_taken_out(base: Adds | None) -> None:
+    gate = told(inverter, base=base)
+    assert kinds(gate) == {("fixed_tones", "a0"), ("fixed_tones", "a1")}
+    assert gate.fault is not None
+    assert gate.fault.kind == "fixed_tones"
+    assert "2007" in gate.fault.detail
+    assert "4013" in gate.fault.detail
+    assert "fixed orders beside them (1)" in gate.fault.detail
+    for k, hz in enumerate(SPEEDS_HZ):
+        rest = gate.tests[k].series("a0").samples - recorded(hz, 10 + k, nothing).series("a0").samples
+        assert np.std(rest) < 0.1 * np.std(inverter(TIME * hz, hz, np.random.default_rng(0)))
+    assert inspect_measurement(gate.baselines, gate.tests, mesh_orders=(float(TEETH),)).fault is None
+
+
+@pytest.mark.slow
+def test_what_the_baseline_has_as_well_is_left_alone() -> None:
+    gate = told(inverter, base=inverter)
+    assert kinds(gate) == set()
+    same = gate.tests[0].samples == recorded(SPEEDS_HZ[0], 10, inverter).samples
+    assert np.all(same)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("adds", [nothing, ringing, knocks])
+@pytest.mark.parametrize("base", [nothing, None])
+def test_modes_and_harmonics_of_the_shaft_are_no_tones(adds: Adds, base: Adds | None) -> None:
+    assert not [f for f in told(adds, base=base).findings if f.kind == "fixed_tones"]
+
+
+def test_nothing_is_claimed_at_one_speed() -> None:
+    tests = [recorded(30.0, k, inverter) for k in range(2)]
+    found, clean = tone_findings(tests, ["test 1", "test 2"], [30.0, 30.2], [np.zeros(0)] * 2, [])
+    assert found == ()
+    assert clean == tests
+
+
+def test_a_channel_that_only_one_test_has_is_not_asked() -> None:
+    first, second = recorded(22.5, 1, inverter), recorded(39.0, 2, inverter)
+    second = replace(second, channels=second.channels[1:], samples=second.samples[1:])
+    found, _ = tone_findings([first, second], ["test 1", "test 2"], [22.5, 39.0], [np.zeros(0)] * 2, [])
+    assert [f.channel for f in found] == ["a1"]
