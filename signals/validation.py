@@ -72,6 +72,7 @@ def problem_of(details: ErrorDetails, prefix: str = "", model: type[BaseModel] |
     if details["type"] in TAGS:
         parts.append(str(context["discriminator"]).strip("'"))
         given = context.get("tag")
+    parts += [str(context["field"])] if "field" in context else []
     field = ".".join(parts) or "request"
     unit = unit_of(field)
     message, allowed = _message(details), _allowed(details["type"], context)

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, JsonValue, model_validator
 
 from sideband_datasets.recipe.background import Background
-from sideband_datasets.recipe.values import Number, Value
+from sideband_datasets.recipe.values import Number, Value, wrong
 from sim.core.spec import MachineSpec, Name, SpecModel
 
 MOST_RECORDINGS = 200_000
@@ -36,7 +36,8 @@ class Machines(SpecModel):
     @model_validator(mode="after")
     def _one_machine(self) -> Self:
         if (self.preset is None) == (self.machine is None):
-            raise ValueError("give exactly one of `preset` and `machine`")
+            given = "neither" if self.machine is None else "both"
+            raise wrong("is the drawing, unless `machine` is", "one of `preset` and `machine`", given, field="preset")
         return self
 
 
@@ -88,7 +89,8 @@ class Windows(SpecModel):
     @model_validator(mode="after")
     def _one_length(self) -> Self:
         if self.length_s is not None and self.length_revolutions is not None:
-            raise ValueError("give `length_s` or `length_revolutions`, not both")
+            message, allowed = "is the length, unless `length_revolutions` is", "one of the two, or neither"
+            raise wrong(message, allowed, "both", field="length_s")
         return self
 
     def span(self, length: float) -> float:
@@ -163,20 +165,24 @@ class Recipe(SpecModel):
         ):
             twice = sorted({name for name in names if names.count(name) > 1})
             if twice:
-                raise ValueError(f"{what} need different names; twice (or reserved): {', '.join(twice)}")
+                raise wrong("need different names", "no name twice, none reserved", ", ".join(twice), field=what)
         families = [m.name for m in self.machines]
         unknown = sorted({name for chain in self.measurement for name in chain.machines} - set(families))
         if unknown:
-            raise ValueError(f"measurement names machines that there are none of: {', '.join(unknown)}")
+            message, allowed = "names machines that there are none of", ", ".join(families)
+            raise wrong(message, allowed, ", ".join(unknown), field="measurement")
         bare = [name for number, name in enumerate(families) if self.measurement and not self.chains_of(number)]
         if bare:
-            raise ValueError(f"no measurement is for the machines {', '.join(bare)}")
-        if abs(sum(self.splits.values()) - 1.0) > 1e-6:
-            raise ValueError(f"the shares of `splits` add up to {sum(self.splits.values()):g}, not to 1")
+            message = "has nothing for some machines"
+            raise wrong(message, "one without `machines`, or one that names them", ", ".join(bare), field="measurement")
+        shares = sum(self.splits.values())
+        if abs(shares - 1.0) > 1e-6:
+            raise wrong(f"add up to {shares:g}", "shares that add up to 1", f"a sum of {shares:g}", field="splits")
         if not self.faults and self.healthy_share not in (None, 1.0):
-            raise ValueError("without `faults` every recording is healthy")
+            message, allowed = "says that some recordings have a fault, and there are no `faults`", "1, or `faults`"
+            raise wrong(message, allowed, f"{self.healthy_share:g}", field="healthy_share")
         if self.faults and self.healthy_share == 1.0:
-            raise ValueError("`healthy_share` 1 leaves nothing to the faults")
+            raise wrong("leaves nothing to the faults", "below 1, or no `faults`", "1", field="healthy_share")
         return self
 
     def chains_of(self, family: int) -> list[int]:

@@ -22,9 +22,10 @@ RANGE = '{"low": 10, "high": 20}'
 CHOICE = '{"choices": [10, 20]}'
 
 
-def _wrong(message: str, allowed: str, given: str) -> PydanticCustomError:
-    """A finding with what is allowed, and what was given in words of its own."""
-    return PydanticCustomError("value", "{message}", {"message": message, "expected": allowed, "given": given})
+def wrong(message: str, allowed: str, given: str, *, field: str = "") -> PydanticCustomError:
+    """What is allowed, what was given in words of its own, and, of a whole, which field it is about."""
+    told = {"message": message, "expected": allowed, "given": given}
+    return PydanticCustomError("value", "{message}", told | ({"field": field} if field else {}))
 
 
 class Range(SpecModel):
@@ -39,7 +40,7 @@ class Range(SpecModel):
     @model_validator(mode="after")
     def _ordered(self) -> Self:
         if not self.low <= self.high:
-            raise _wrong("`low` is above `high`", "`low` at or below `high`", f"{self.low:g} and {self.high:g}")
+            raise wrong("`low` is above `high`", "`low` at or below `high`", f"{self.low:g} and {self.high:g}")
         if self.scale == "log" and self.low <= 0:
             raise ValueError("a logarithmic range begins above zero")
         return self
@@ -60,7 +61,7 @@ class Factor(SpecModel):
         low, high = self.factor
         if not 0 < low <= high:
             message = "the two factors must be above zero, the smaller one first"
-            raise _wrong(message, "0 < first <= second", f"{low:g} and {high:g}")
+            raise wrong(message, "0 < first <= second", f"{low:g} and {high:g}")
         return self
 
 
@@ -89,7 +90,7 @@ def _no_list(value: object) -> object:
     if isinstance(value, list | tuple):
         numbers = ", ".join(f"{item:g}" if isinstance(item, int | float) else str(item)[:40] for item in value[:8])
         allowed = f"one value, a range {RANGE}, or choices {CHOICE}"
-        raise _wrong("is a list, which may be a range or choices", allowed, f"[{numbers}{', ...' * (len(value) > 8)}]")
+        raise wrong("is a list, which may be a range or choices", allowed, f"[{numbers}{', ...' * (len(value) > 8)}]")
     return value
 
 

@@ -215,7 +215,7 @@ def test_families_have_sensors_of_their_own():
 def test_a_family_without_a_sensor_is_refused():
     changes = _two_families()
     changes["measurement"] = changes["measurement"][:1]
-    with pytest.raises(SpecError, match="no measurement is for the machines rig"):
+    with pytest.raises(SpecError, match=r"measurement: has nothing for some machines.*rig"):
         tiny(**changes)
 
 

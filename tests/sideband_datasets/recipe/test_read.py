@@ -76,3 +76,26 @@ def test_two_numbers_in_the_wrong_order_are_shown(value):
         read_recipe(document(speeds_hz=value))
     (problem,) = told.value.problems
     assert (problem.field, problem.given) == ("speeds_hz", "40 and 20")
+
+
+RIG = {"name": "rig", "preset": "bearing-rig", "instances": 2}
+
+
+@pytest.mark.parametrize(
+    ("changes", "field", "given"),
+    [
+        ({"splits": {"train": 0.7, "test": 0.2}}, "splits", "a sum of 0.9"),
+        ({"machines": [RIG, RIG]}, "machines", "rig"),
+        ({"machines": [{"name": "rig", "instances": 2}]}, "machines.0.preset", "neither"),
+        ({"faults": [], "healthy_share": 0.5}, "healthy_share", "0.5"),
+        ({"faults": [{"name": "a", "terms": [{"term": "outer_spall"}]}], "healthy_share": 1.0}, "healthy_share", "1"),
+        ({"faults": [{"name": "healthy", "terms": [{"term": "outer_spall"}]}]}, "faults", "healthy"),
+        ({"windows": {"length_s": 1.0, "length_revolutions": 10}}, "windows.length_s", "both"),
+        ({"measurement": [{"name": "m", "machines": ["other"], "chain": {}}]}, "measurement", "other"),
+    ],
+)
+def test_what_does_not_fit_together_names_its_field(changes, field, given):
+    with pytest.raises(SpecError) as told:
+        read_recipe(document(**changes))
+    assert [(p.field, p.given) for p in told.value.problems] == [(field, given)]
+    assert told.value.problems[0].allowed
