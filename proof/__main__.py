@@ -12,7 +12,8 @@ from pathlib import Path
 from tqdm import tqdm
 
 from proof.case import make
-from proof.page import SECTIONS, write_page
+from proof.method import SECTIONS
+from proof.page import write_page
 from proof.plan import COUNTS, Case, plan
 from proof.run import Engine, run_case
 from proof.score.one import Score, score

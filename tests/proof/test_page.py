@@ -1,0 +1,47 @@
+"""The page's table of what there was to see."""
+
+from __future__ import annotations
+
+import json
+
+from proof.case import truth_of
+from proof.page import SEEN, seen_rows
+from proof.plan import plan
+from proof.score.one import Score, score
+from proof.visible import Visible
+
+
+def scores(*reports: dict | None) -> list[Score]:
+    singles = [c for c in plan("third") if c.group == "single"]
+    return [score(json.loads(json.dumps(truth_of(c))), report) for c, report in zip(singles, reports, strict=False)]
+
+
+def seen(effect_db: float, drift_db: float) -> Visible:
+    return Visible(effect_db=effect_db, drift_db=drift_db, new_share=0.0)
+
+
+def right(number: int) -> dict:
+    truth = json.loads(json.dumps(truth_of([c for c in plan("third") if c.group == "single"][number])))
+    effect = truth["effects"][0]
+    cause = {"term": effect["terms"][0], "site": effect["sites"][0], "severity": None, "named": True, "score": 9.0}
+    return {"verdict": "explained", "causes": [cause]}
+
+
+def test_single_effects_are_counted_by_what_there_is_to_see():
+    found = scores(
+        right(0), {"verdict": "nothing_missing"}, {"verdict": "unknown_physics"}, {"verdict": "nothing_missing"}
+    )
+    effects = dict(zip((s.name for s in found), (seen(6, 1), seen(0.2, 1), seen(2, 1), seen(3, 1)), strict=True))
+    rows = seen_rows(found, effects)
+    assert [row.rsplit("|", 3)[1:3] for row in rows[2:-1]] == [
+        [" 0/1 ", " 0/1 "],
+        [" 1/1 ", " 0/1 "],
+        [" 1/2 ", " 1/2 "],
+    ]
+    assert [row.split("|")[1].strip() for row in rows[2:-1]] == [title for *_, title in SEEN]
+
+
+def test_no_table_where_not_all_were_measured():
+    found = scores(right(0), right(1))
+    assert seen_rows(found, {found[0].name: seen(1, 1)}) == []
+    assert seen_rows([], {}) == []
