@@ -4,6 +4,7 @@ from __future__ import annotations
 
 SECTIONS = {
     "fresh": "No version of the engine had met these before their run.",
+    "third": "No version of the engine had met these before their run; all at the target condition.",
     "crossing": "No version of the engine had met these before their run: five speeds with one, three and eight "
     "sensors at 30, 10 and 20 dB, twelve of the split's fifteen. l008 and l022 have each set a rule since.",
     "phases": "No version of the engine had met these before their run: one speed and three sensors at 30 dB, one or "

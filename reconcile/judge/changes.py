@@ -14,6 +14,7 @@ from reconcile.calibrate.chain import Chain, Healthy, calibrate_chain
 from reconcile.judge.in_step import Delay, clock_delays, compared
 from reconcile.judge.measured import measured_db, unsteady_db, wander_patterns
 from reconcile.judge.pooled import OneByOne, Pooling, first_sidebands, mesh_lines, pooling
+from reconcile.observe.background import gained_between
 from reconcile.observe.features import Layout, Scale, changed, scale_of, soft_features, through
 from reconcile.observe.observation import PointData
 from reconcile.observe.statistics import Statistics
@@ -147,7 +148,8 @@ def observed_changes(
         phases = len(watched.phased)
         observed.append(changed(_of(one.test, lens), reference, phases).ravel())
         halves.append(np.stack([changed(_of(h, lens), reference, phases).ravel() for h in one.halves]))
-        spread = measured_db(one.test, lens.chain, lens.lines_hz, lens.scale, watched.phased) ** 2
+        fallen = gained_between(one, watched)
+        spread = measured_db(one.test, lens.chain, lens.lines_hz, lens.scale, watched.phased, fallen) ** 2
         if one.baseline is not None:
             spread = spread + measured_db(one.baseline, lens.chain, lens.lines_hz, lens.scale, watched.phased) ** 2
         if not phased:

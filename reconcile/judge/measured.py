@@ -33,10 +33,18 @@ MEDIAN_LOSS = 1.44
 
 
 def measured_db(
-    seen: Statistics, chain: Chain, lines_hz: FloatArray, scale: Scale, phased: Sequence[int]
+    seen: Statistics,
+    chain: Chain,
+    lines_hz: FloatArray,
+    scale: Scale,
+    phased: Sequence[int],
+    fallen: FloatArray | float = 0.0,
 ) -> FloatArray:
-    """(C, F): deviations of the soft features. A line of power P in noise n varies by sqrt(2 P n + n^2)."""
-    noise = chain.line_noise(lines_hz) * seen.resolution_hz
+    """(C, F): deviations of the soft features. A line of power P in noise n varies by sqrt(2 P n + n^2).
+
+    `fallen` (C, L), unit^2/Hz: what fell upon the lines beside the sensors' noise.
+    """
+    noise = (chain.line_noise(lines_hz) + fallen) * seen.resolution_hz
     lobe, scatter = LOBE * noise, LOBE_SCATTER * noise
     power = np.maximum(seen.line - lobe, 0.0)
     line = DB * np.sqrt(2.0 * power * noise + scatter**2) / (seen.line + SOFT * lobe)

@@ -270,6 +270,7 @@ def _stages(
             "overdispersion": found.fitted.overdispersion,
             "lines_left": rest.unmet if lines else None,
             "lines_explained": rest.kept if lines else None,
+            "families_explained": rest.pooled,
             "fitted_with_the_machine": sorted(found.led),
         },
     )

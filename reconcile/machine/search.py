@@ -200,13 +200,16 @@ def leaders(found: Found, budget: Budget, near: Sequence[str] = ()) -> list[str]
 
 def to_fit(setting: Setting, found: Found, budget: Budget) -> list[Task]:
     """What is fitted together with the machine: the leaders, to the whole change. Where the first strikes for sure and
-    what it leaves is another effect's for all one can tell: those that may be second, to what it leaves."""
+    what it leaves is another effect's for all one can tell: the first, and those that may be second, to what it
+    leaves. Fitted alone, a gear that runs out led an outer race's pit with impacts of 12 deviations."""
     leading = leaders(found, budget)
     others = beside(setting, found, leading[0]) if looks_for_second(found) else None
     if others is None or others.p > DETECT_P or others.evidence[0] < LEAST_EVIDENCE:
         return [Task(name=n, view=found.lines(n), target=setting.changes.observed) for n in leading]
     view = found.levels_like(others.view)
-    return [Task(name=n, view=view, target=others.left, second=True) for n in others.names[:FITTED_SECONDS]]
+    first = Task(name=leading[0], view=found.lines(leading[0]), target=setting.changes.observed)
+    seconds = [Task(name=n, view=view, target=others.left, second=True) for n in others.names[:FITTED_SECONDS]]
+    return [first, *seconds]
 
 
 def refined(

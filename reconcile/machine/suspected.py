@@ -9,19 +9,26 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from reconcile.gate.findings import Gate
+from reconcile.gate.findings import Gate, Kind, worst
 from reconcile.gate.spoiled import fault_sentence, without_spoiled
 from reconcile.verdict import Report
 
+LOOSE: Kind = "loose_sensor"
 ALONE = " The other channels alone show nothing missing."
 
 
 def without_suspected(report: Report, gate: Gate) -> Gate | None:
-    """The recordings without a channel that may be loose, where nothing known explains what they show; else None."""
-    if report.verdict != "unknown_physics" or gate.fault is None or gate.fault.kind != "loose_sensor":
+    """The recordings without a channel that may be loose, where nothing known explains what they show; else None.
+
+    Also where the gate was not sure because the others changed a little in that band too: what these say alone decides.
+    """
+    spoiled = any(f.fault and f.kind != LOOSE for f in gate.findings)
+    findings = tuple(replace(f, fault=True) if f.kind == LOOSE else f for f in gate.findings)
+    if report.verdict != "unknown_physics" or spoiled:
         return None
-    fewer = without_spoiled(gate, frozenset(("loose_sensor",)))
-    return None if fewer is gate else fewer
+    marked = replace(gate, findings=findings, fault=worst(findings))
+    fewer = without_spoiled(marked, frozenset((LOOSE,)))
+    return None if fewer is marked else fewer
 
 
 def of_the_sensor(report: Report, others: Report, gate: Gate) -> Report:

@@ -24,7 +24,7 @@ LEAST_VARIANCE = 1e-150
 MEDIAN_OF_EXPONENTIAL = float(np.log(2.0))
 
 
-def _spectrum(samples: FloatArray, rate_hz: float) -> tuple[np.ndarray, FloatArray, float]:
+def hann_spectrum(samples: FloatArray, rate_hz: float) -> tuple[np.ndarray, FloatArray, float]:
     """Hann spectrum (C, n//2+1), its mean squares, whose sum over a lobe is a line's, and the bin width, Hz."""
     n = samples.shape[1]
     window = np.hanning(n + 1)[:-1]
@@ -90,7 +90,7 @@ def _shapes(
         skewness[:, e] = np.mean(square * x, axis=1) / variance**1.5
         envelope = square + analytic.imag**2
         relative = envelope / np.maximum(envelope.mean(axis=1, keepdims=True), 1e-300)
-        _, power, _ = _spectrum(relative, points * bin_hz)
+        _, power, _ = hann_spectrum(relative, points * bin_hz)
         depth[:, e] = _line_powers(power, bin_hz, modulations_hz, slack, 0.5 * (high - low))
     return mean_square, depth, kurtosis, skewness
 
@@ -119,7 +119,7 @@ def extract(
     `phased`: numbers of the lines whose phases are compared.
     """
     top = USABLE * rate_hz
-    spectrum, power, bin_hz = _spectrum(samples, rate_hz)
+    spectrum, power, bin_hz = hann_spectrum(samples, rate_hz)
     kept = list(phased)
     floor, total = _bands(power, bin_hz, top)
     band, depth, kurtosis, skewness = _shapes(samples, rate_hz, modulations_hz, modulation_slack, top)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -43,6 +45,17 @@ def test_the_others_are_asked_of_unknown_physics_on_a_loose_sensor(
     if fewer is not None:
         assert fewer.tests[0].names == ("b",) and fewer.baselines[0].names == ("b",)
         assert fewer.fault is not None, "the finding stays"
+
+
+def test_a_sensor_of_which_the_gate_was_not_sure_is_asked_about_too() -> None:
+    gate = suspecting("loose_sensor")
+    doubted = replace(gate, findings=(replace(gate.findings[0], fault=False),), fault=None)
+    fewer = without_suspected(said("unknown_physics"), doubted)
+    assert fewer is not None and fewer.tests[0].names == ("b",)
+    assert fewer.fault is not None and fewer.fault.channel == "a"
+    report = of_the_sensor(said("unknown_physics"), said("nothing_missing"), fewer)
+    assert report.verdict == "measurement_fault" and report.fault == fewer.fault
+    assert without_suspected(said("unknown_physics"), replace(gate, findings=(), fault=None)) is None
 
 
 def test_the_sensor_is_the_answer_only_where_the_others_have_nothing() -> None:
