@@ -27,6 +27,7 @@ from reconcile.machine.faintest import faintest_seen
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
 from reconcile.machine.octave import doubted_speed, rival_speed
+from reconcile.machine.own_time import own_time, with_own_time
 from reconcile.machine.search import (
     broader,
     fit_views,
@@ -127,6 +128,7 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = with_exchanged(report, setting, channels)
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
+    report = with_own_time(report, own_time(machine, alike, [c.name for c in channels]), machine)
     return with_limits(report, apart)
 
 

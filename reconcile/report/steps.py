@@ -50,6 +50,7 @@ WORDS = {
     "overdispersion": "scatter over what noise explains",
     "lines_left": "single lines left unexplained",
     "lines_explained": "share of the single lines' change explained",
+    "families_explained": "share of the change of families of lines explained",
     "fitted_with_the_machine": "fitted together with the machine",
     "simulated_forms": "forms simulated",
     "level_change_db": "levels changed by, dB",
@@ -60,6 +61,9 @@ WORDS = {
     "growth_db": "deeper than before by, dB",
     "present": "is there",
     "risen": "has risen",
+    "hz": "distance from the teeth's lines at every speed, Hz",
+    "rise_db": "risen by, dB",
+    "elsewhere_db": "most at any other distance, dB",
     "nrmse": "error over the spread",
     "null_95": "of linear systems (95 %)",
 }
