@@ -64,7 +64,8 @@ class ChannelEntry(_Part):
 class OperatingEntry(_Part):
     """The operating point: the shaft's name, its speed in revolutions per second, its torque."""
 
-    shaft: Annotated[str, Field(min_length=1, max_length=80)]
+    shaft: Annotated[str, Field(min_length=1, max_length=80)] = "shaft"
+    """Left out: that of the tacho, else the only one of `kinematics`, else `shaft`."""
     speed_hz: Annotated[float, Field(ge=0, le=1e5, allow_inf_nan=False)]
     torque_nm: Annotated[float, Field(allow_inf_nan=False)] | None = None
 
@@ -127,6 +128,16 @@ class Description(_Part):
     data: Annotated[str, Field(min_length=1, max_length=400)] | None = None
     """The file, relative to the description; default: the one beside it with the same stem."""
 
+    @model_validator(mode="before")
+    @classmethod
+    def _only_shaft(cls, given: object) -> object:
+        if not isinstance(given, Mapping):
+            return given
+        operating, shaft = given.get("operating"), _only_shaft(given)
+        if not isinstance(operating, Mapping) or "shaft" in operating or shaft is None:
+            return given
+        return {**given, "operating": {**operating, "shaft": shaft}}
+
     @field_validator("recorded_at")
     @classmethod
     def _moment(cls, text: str | None) -> str | None:
@@ -148,6 +159,15 @@ class Description(_Part):
         if not channels:
             raise ValueError("give at least one channel")
         return channels
+
+
+def _only_shaft(document: Mapping[str, object]) -> str | None:
+    """The shaft of a description that names but one: that of its tacho, else the only one of its kinematics."""
+    tacho, kinematics = document.get("tacho"), document.get("kinematics")
+    shafts = kinematics.get("shafts") if isinstance(kinematics, Mapping) else None
+    named = [tacho, *(shafts if isinstance(shafts, list) and len(shafts) == 1 else ())]
+    names = [x.get(key) for x, key in zip(named, ("shaft", "name"), strict=False) if isinstance(x, Mapping)]
+    return next((name for name in names if isinstance(name, str) and name), None)
 
 
 def moment(text: str) -> datetime | None:

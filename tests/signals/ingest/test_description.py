@@ -103,3 +103,23 @@ def test_broken_json_is_refused_in_one_line(tmp_path, text: str, reason: str) ->
     assert "\n" not in str(caught.value)
     with pytest.raises(SpecError, match="no such file"):
         read_recording(tmp_path / "nowhere.json")
+
+
+@pytest.mark.parametrize(
+    ("more", "shaft"),
+    [
+        ({}, "shaft"),
+        ({"tacho": {"shaft": "motor", "column": "p"}}, "motor"),
+        ({"kinematics": {"shafts": [{"name": "main"}]}}, "main"),
+        ({"kinematics": {"shafts": [{"name": "one"}, {"name": "two"}]}}, "shaft"),
+        ({"kinematics": {"shafts": 3}, "tacho": 4}, None),
+    ],
+)
+def test_a_shaft_that_is_not_named_is_the_only_one(more: dict, shaft: str | None) -> None:
+    document = {"channels": [CHANNEL], "operating": {"speed_hz": 20.0}, **more}
+    if shaft is None:
+        assert problems(document).keys() >= {"tacho"}
+    else:
+        operating = read_description(document).operating
+        assert operating is not None
+        assert operating.shaft == shaft
