@@ -5,6 +5,7 @@ from __future__ import annotations
 SECTIONS = {
     "fresh": "No version of the engine had met these before their run.",
     "third": "No version of the engine had met these before their run; all at the target condition.",
+    "repeat": "The same 36, all of which had been looked at: t008, t016, t030 and t032 have each set a rule.",
     "crossing": "No version of the engine had met these before their run: five speeds with one, three and eight "
     "sensors at 30, 10 and 20 dB, twelve of the split's fifteen. l008 and l022 have each set a rule since.",
     "phases": "No version of the engine had met these before their run: one speed and three sensors at 30 dB, one or "
@@ -73,6 +74,21 @@ RULES = (
         "a set whose best effect hardly stands out must come nearer by simulation, as a name must",
         'the sound s106 ("Sound"), since not decidable; l068 stays a set',
     ),
+    (
+        (
+            "what impacts bring between the shafts' harmonics is noise upon lines of shafts and teeth "
+            "([decision](decisions/reconcile-background.md))"
+        ),
+        "t008, lost to an eccentric gear by the phases of drowned sidebands; 45 before 32 since",
+    ),
+    (
+        "what modulates the teeth at one frequency in Hz at every speed is no order, and unknown physics",
+        "t016 and t032, a magnetic pull and a torque at twice the supply's frequency, which no one looked for",
+    ),
+    (
+        "a sensor of which the gate is in doubt is left out where nothing known explains what it hears",
+        "t030: beside a loose sensor the others had drifted by 3.6 dB in its band",
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""
 METHOD = """# Proof: concealed cases
@@ -106,15 +122,23 @@ engine of that day, and is development from then on. First runs at the target co
 | s147 to s181 | and adequacy by single lines, sizes from the atlas | 3 of 8 | 0 of 4 alarms | 1 of 2 flagged |
 | s182 to s202 | and machine and effect fitted together | 1 of 5 | 0 of 1 alarms | 1 of 3 flagged |
 | l002 to l051 (split `later`) | and first sidebands of their own | 5 of 11 | 0 of 5 alarms | 1 of 5 flagged |
-| l052 to l094 | and nulls that the metric has not seen | below | below | below |
+| l052 to l094 ("Fresh") | and nulls that the metric has not seen | 6 of 12 | 0 of 2 alarms | 3 of 3 flagged |
+| t001 to t036 (split `third`) | and phases, silence, nomination by lines | 8 of 16 | 0 of 6 alarms | 3 of 6 flagged |
 
-Together with "Fresh" below, first runs at the target condition name and place 22 of 67 effects (33 %, 24 to 43), most
-of them with engines that could less. Of the 14 sound machines of the split `later`, at all conditions, two alarmed at
-their first run (l008, l077; 14 %, 5 to 35); each has set a rule since, so no later figure of theirs counts.
+Together they name and place 30 of 83 effects (36 %, 28 to 45), most of them with engines that could less; the last two
+14 of 28. Of the 20 sound machines of the splits `later` and `third`, at all conditions, two alarmed at their first run
+(l008, l077; 10 %, 3 to 26); each has set a rule since, so no later figure of theirs counts.
 
-**Sections.** "Third" is of the engine of today. The others need no atlas but those of the nominal machine at up to
-three speeds (one has an atlas of its own): of the split `later` those at the target condition with whose names in view
-nothing of the engine was chosen, and those that had been looked at; of `sealed` those without a baseline and one whose
+**What limits it.** Of the 16 single effects of `third` three move the spectrum less than what drifts between two
+recordings of a sound machine (two cracked teeth of 81, an imbalance of the slow gear): none of these is detected, and
+the report says of each that it need not show. The other 13 are all detected and 8 of them named with their
+place. So some 80 % of the plan's effects are there to be seen by this measure, and 95 % named is out of reach of the
+plan, not of the engine alone; what lies between 8 and 13 is the engine's. Faint severities are in the plan on purpose:
+where nothing is to be seen, nothing may be named.
+
+**Sections.** "Third" is the last first run, "Repeat" the same cases with the engine of today. The others need no
+atlas but those of the nominal machine at up to three speeds (one has an atlas of its own): of the split `later` those
+at the target condition with whose names in view nothing of the engine was chosen, and those that had been looked at; of `sealed` those without a baseline and one whose
 nominal machine is mis-set; twelve at five speeds ("Crossing"); and twelve at other conditions with the engine that
 compares phases between sensors ([decision](decisions/reconcile-phases.md), "Phases"). How often cases that nobody has
 met are right is what "Third", "Fresh", "Further", "Crossing" and "Phases" say; "Seen", "Rerun", "Alone", "Again" and
