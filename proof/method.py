@@ -140,7 +140,8 @@ where nothing is to be seen, nothing may be named.
 atlas but those of the nominal machine at up to three speeds (one has an atlas of its own): of the split `later` those
 at the target condition with whose names in view nothing of the engine was chosen, and those that had been looked at;
 of `sealed` those without a baseline and one whose nominal machine is mis-set; twelve at five speeds ("Crossing"); and
-twelve at other conditions with the engine that compares phases between sensors ([decision](decisions/reconcile-phases.md), "Phases"). How often cases that nobody has
+twelve at other conditions with the engine that compares phases between sensors
+([decision](decisions/reconcile-phases.md), "Phases"). How often cases that nobody has
 met are right is what "Third", "Fresh", "Further", "Crossing" and "Phases" say; "Seen", "Rerun", "Alone", "Again" and
 "Sound" are runs again. Without a baseline further eight healthy cases were run on their tests alone while the rule for
 that was made: four alarmed, and with the rule none of these four does.
