@@ -17,7 +17,7 @@ from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
 from reconcile.observe.watch import watch_list
 from reconcile.speed.excess import power_over_floor
-from reconcile.verdict import LineChange, PlaceWeight, Report
+from reconcile.verdict import LineChange, NextExperiment, PlaceWeight, Report
 from signals.series import FloatArray
 from sim.core.spec import MachineSpec
 
@@ -44,6 +44,10 @@ SUPPLY_HZ = 1.0
 TELLS_LITTLE = 10.0
 """Evidence of the best effect below which a set of effects says less than this does."""
 ELECTRIC = ("mains_hum", "fixed_tones")
+OFF = NextExperiment(
+    sentence="Switch the drive off and record the run-down: what a drive brings is gone at once, what another machine "
+    "brings stays."
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -180,7 +184,7 @@ def with_own_time(report: Report, seen: OwnTime | None, machine: MachineSpec) ->
     causes = tuple(replace(cause, named=False) for cause in report.causes)
     return replace(
         report, verdict="unknown_physics", sentence=sentence, where=where, causes=causes, fault=None, undecidable=(),
-        next_experiment=None, machine=None, force=None, faintest=(),
+        next_experiment=OFF, machine=None, force=None, faintest=(),
     )  # fmt: skip
 
 

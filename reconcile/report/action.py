@@ -44,6 +44,10 @@ def _measurement(report: Report) -> str:
     channel = report.fault.channel if report.fault is not None else "the channels"
     if report.fault is not None and report.fault.kind == "loose_sensor":
         return f"check how the sensor of {channel} is fastened; if it is tight, inspect the parts beside it."
+    if report.fault is not None and report.fault.kind == "fixed_tones":
+        return (
+            "find what runs at these frequencies beside the machine, or record with it off, before judging the machine."
+        )
     return f"mend the measurement at {channel} and record again before judging the machine."
 
 

@@ -10,6 +10,7 @@ import pytest
 from reconcile.machine.own_time import OwnTime, own_time, with_own_time
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
+from reconcile.report.action import to_do
 from reconcile.verdict import Cause, Report, SensorFault, Where, Word
 from signals.recording import Operating, Recording
 from signals.series import FloatArray
@@ -145,6 +146,8 @@ def test_it_is_the_answer_where_nothing_sure_speaks_for_another(
         assert sum(site.weight for site in found.where.sites) == pytest.approx(1.0)
         assert not any(cause.named for cause in found.causes)
         assert found.fault is None
+        assert "drive off" in to_do(found)
+        assert to_do(found).startswith("look at input first")
     else:
         assert (found.verdict, found.sentence, found.fault) == (report.verdict, report.sentence, report.fault)
         assert "100.1 Hz" in found.where.limits[-1]

@@ -77,6 +77,10 @@ def of_set(*where: tuple[str, str]) -> Report:
             report("measurement_fault", fault=SensorFault(kind="loose_sensor", channel="de", detail="")),
             "if it is tight",
         ),
+        (
+            report("measurement_fault", fault=SensorFault(kind="fixed_tones", channel="de", detail="")),
+            "record with it off",
+        ),
         (report("unknown_physics", where=Where(sites=(PlaceWeight(site="b2", weight=0.9),))), "look at b2"),
         (
             report("not_decidable", next_experiment=NextExperiment(sentence="Record with a tacho.")),
