@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from reconcile.kinematics.families import Family, Ties
 from reconcile.machine import direct
-from reconcile.machine.direct import MODELLED, MOST, MOST_TURNS, Direct, direct_evidence
+from reconcile.machine.direct import MODELLED, MOST, MOST_TURNS, Direct, direct_evidence, shared_lines
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
 from signals.recording import Operating, Recording
@@ -167,3 +168,18 @@ def test_what_would_strike_and_is_not_heard_beside_sure_impacts_is_unlikely() ->
     assert told["tooth_crack@pinion"] == 1.0 and told["rub@gear"] == 0.0, "teeth are no balls"
     weak = {"outer_spall@bearing1": 7.0, "inner_spall@bearing1": 0.0}
     assert direct.unheard(weak) == weak
+
+
+def family(kind: str, site: str, order: float) -> Family:
+    return Family(kind=kind, site=site, order=order, spacing=1.0, sidebands=1, slip=0.025)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("ball_order", "inner", "told"),
+    [(5.29, 5.0, 9.0), (5.29, 1.0, 1.0), (4.0, 5.0, 5.0)],
+)
+def test_lines_that_slip_leaves_at_one_place_speak_for_both_parts(ball_order: float, inner: float, told: float) -> None:
+    families = (family("inner", "b", 5.32), family("ball", "b", ball_order), family("outer", "b", 3.7))
+    tie = Ties(reference="s", shafts={"s": 1.0}, families=families, meshes=(), races={})
+    evidence = {"inner_spall@b": inner, "ball_spall@b": 9.0, "outer_spall@b": 0.0, "tooth_crack@g": 2.0}
+    assert shared_lines(evidence, tie) == {**evidence, "inner_spall@b": told}
