@@ -84,7 +84,8 @@ def enqueued(record: JobRecord, attempt: int, now: float) -> JobRecord:
 def start(record: JobRecord, *, attempt: int, worker: str, lease_s: float, now: float) -> JobRecord:
     """A worker takes the job. Only one can: a second delivery of the same attempt is stale."""
     if record.status is not Status.ACCEPTED or record.attempt != attempt or record.gone is not None:
-        raise StaleAttempt(f"job {record.id} is {record.status.value}, attempt {record.attempt}; not {attempt}")
+        taken = f"; attempt {attempt} was asked for" if record.attempt != attempt else ": it is taken already"
+        raise StaleAttempt(f"job {record.id} is {record.status.value}, attempt {record.attempt}{taken}")
     progress = Progress(stage="starting")
     return replace(
         record,
