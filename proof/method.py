@@ -138,7 +138,7 @@ place. So some 80 % of the plan's effects are there to be seen by this measure, 
 plan, not of the engine alone; what lies between 8 and 13 is the engine's. Faint severities are in the plan on purpose:
 where nothing is to be seen, nothing may be named.
 
-**Sections.** "Third" is the last first run, "Repeat" the same cases with the engine of today. The others need no
+**Sections.** "Third" is the last first run, "Repeat" the same cases with the rules that came of it. The others need no
 atlas but those of the nominal machine at up to three speeds (one has an atlas of its own): of the split `later` those
 at the target condition with whose names in view nothing of the engine was chosen, and those that had been looked at;
 of `sealed` those without a baseline and one whose nominal machine is mis-set; twelve at five speeds ("Crossing"); and
@@ -152,9 +152,9 @@ the rule for that was made: four alarmed, and with the rule none of these four d
 
 {rules}
 
-Before or beside the rules act, and touch no case here: recordings that did not turn alike, another filter, a sensor
-mounted anew, tones fixed in Hz, run-ups, standstills, two motions without a force, and no size from a channel that is
-cut off.
+Before or beside the rules act, and touch no case here: recordings that did not turn alike, another filter, tones fixed
+in Hz, run-ups, standstills, two motions without a force, no size from a channel that is cut off, and, younger than
+"Repeat", lines of two parts of a bearing that slip leaves at one place, which this machine's bearings have not.
 
 **Placebos** are the right effect elsewhere and other effects at the right place, of which at least six machines were
 simulated: these are the likeliest rivals, and move some of the same bands. Every one is in the report with its gain.
