@@ -150,8 +150,9 @@ def draw(summary: Mapping[str, Any], path: Path) -> None:
             panel.set_xlabel(label)
             panel.set_ylim(0, 1.02)
         panels[0].set_ylabel("share, 90 % interval")
-        if panels[0].get_legend_handles_labels()[1]:
-            panels[0].legend()
-        figure.tight_layout()
+        handles, titles = panels[0].get_legend_handles_labels()
+        if titles:  # beside the panels, where it covers no point
+            figure.legend(handles, titles, loc="center right")
+        figure.tight_layout(rect=(0.0, 0.0, 0.88, 1.0))
         figure.savefig(path, metadata={"Date": None})
         plt.close(figure)
