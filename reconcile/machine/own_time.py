@@ -184,7 +184,7 @@ def with_own_time(report: Report, seen: OwnTime | None, machine: MachineSpec) ->
     causes = tuple(replace(cause, named=False) for cause in report.causes)
     return replace(
         report, verdict="unknown_physics", sentence=sentence, where=where, causes=causes, fault=None, undecidable=(),
-        next_experiment=OFF, machine=None, force=None, faintest=(),
+        next_experiment=OFF, held_out=None, machine=None, force=None, faintest=(),
     )  # fmt: skip
 
 

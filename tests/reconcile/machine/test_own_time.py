@@ -11,7 +11,7 @@ from reconcile.machine.own_time import OwnTime, own_time, with_own_time
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
 from reconcile.report.action import to_do
-from reconcile.verdict import Cause, Report, SensorFault, Where, Word
+from reconcile.verdict import Cause, HeldOut, Report, SensorFault, Where, Word
 from signals.recording import Operating, Recording
 from signals.series import FloatArray
 from sim.core.spec import MachineSpec
@@ -114,7 +114,21 @@ SEEN = OwnTime(hz=100.1, rise_db=5.0, elsewhere_db=0.3)
 
 def said(verdict: Word, score: float = 5.0, fault: SensorFault | None = None) -> Report:
     causes = (Cause(term="outer_spall", site="bearing1", score=score, named=verdict == "explained"),)
-    return Report(verdict=verdict, sentence="so.", level="machine", causes=causes, fault=fault, where=Where())
+    held = HeldOut(
+        metric="m",
+        unit="dB",
+        before=2.0,
+        after=1.0,
+        gain=0.5,
+        gain_low=0.4,
+        gain_high=0.6,
+        retuned=None,
+        black_box=None,
+        placebo=None,
+    )
+    return Report(
+        verdict=verdict, sentence="so.", level="machine", causes=causes, fault=fault, where=Where(), held_out=held
+    )
 
 
 HUM, LOOSE = SensorFault(kind="mains_hum", channel="a"), SensorFault(kind="loose_sensor", channel="a")
@@ -146,6 +160,7 @@ def test_it_is_the_answer_where_nothing_sure_speaks_for_another(
         assert sum(site.weight for site in found.where.sites) == pytest.approx(1.0)
         assert not any(cause.named for cause in found.causes)
         assert found.fault is None
+        assert found.held_out is None, "no gain of an effect that is not the answer"
         assert "drive off" in to_do(found)
         assert to_do(found).startswith("look at input first")
     else:
