@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
@@ -97,27 +97,45 @@ def recordings(case: Case) -> dict[str, tuple[float, FloatArray]]:
 def quiet_tests(case: Case) -> Iterator[tuple[FloatArray, FloatArray, FloatArray, FloatArray]]:
     """For every test: samples at the sensors (channels, n) with the effects, without them, without the drift too, all
     without noise, and the standard deviation of each channel's noise (channels,)."""
-    base = hidden_machine(case.rng(MACHINE))
-    later = base.drifted(case.rng(DRIFT))
-    parameters = dict(NOMINAL) | {"T": case.torque_nm}
-    rows = []
-    for k in range(1, len(case.speeds_hz) + 1):
-        three = []
-        for hidden, effects in ((later, case.effects), (later, ()), (base, ())):
-            machine = changed(arrays_of(hidden, parameters), effects, case)
-            speed, start = _operation(case, machine, k, "test")
-            three.append(_motion(case, machine, speed, start))
-        rows.append(three)
-    ways, _ = _instruments(case, rows[len(rows) // 2][2])
-    heard = [[np.array([through(w, r) for w, r in zip(ways, one, strict=True)]) for one in three] for three in rows]
-    level = np.std(heard[len(heard) // 2][2], axis=1) * 10.0 ** (-case.snr_db / 20.0)
-    for first, second, third in heard:
+    every = tuple(range(len(case.effects)))
+    for (first, second, third), level in _quiet(case, (every, ())):
         yield first, second, third, level
 
 
-def changed(machine: Arrays, effects: tuple[Hiding, ...], case: Case) -> Arrays:
-    """The machine with its hidden effects (the arrays are changed in place)."""
+def quiet_parts(case: Case) -> Iterator[tuple[FloatArray, Sequence[FloatArray], FloatArray]]:
+    """The same with all effects, with all but each of them, and the noise's standard deviation."""
+    every = range(len(case.effects))
+    fewer = tuple(tuple(n for n in every if n != k) for k in every)
+    for (*rows, _), level in _quiet(case, (tuple(every), *fewer)):
+        yield rows[0], rows[1:], level
+
+
+def _quiet(case: Case, chosen: Sequence[Sequence[int]]) -> Iterator[tuple[Sequence[FloatArray], FloatArray]]:
+    """For every test the samples without noise with the `chosen` effects of the case, and last without drift."""
+    base = hidden_machine(case.rng(MACHINE))
+    later = base.drifted(case.rng(DRIFT))
+    parameters = dict(NOMINAL) | {"T": case.torque_nm}
+    machines = [(later, numbers) for numbers in chosen] + [(base, ())]
+    rows = []
+    for k in range(1, len(case.speeds_hz) + 1):
+        motions = []
+        for hidden, numbers in machines:
+            machine = changed(arrays_of(hidden, parameters), case.effects, case, numbers)
+            speed, start = _operation(case, machine, k, "test")
+            motions.append(_motion(case, machine, speed, start))
+        rows.append(motions)
+    ways, _ = _instruments(case, rows[len(rows) // 2][-1])
+    heard = [[np.array([through(w, r) for w, r in zip(ways, one, strict=True)]) for one in each] for each in rows]
+    level = np.std(heard[len(heard) // 2][-1], axis=1) * 10.0 ** (-case.snr_db / 20.0)
+    for each in heard:
+        yield each, level
+
+
+def changed(machine: Arrays, effects: tuple[Hiding, ...], case: Case, numbers: Sequence[int] | None = None) -> Arrays:
+    """The machine with its hidden effects, all or those `numbers` (the arrays are changed in place)."""
     for number, hiding in enumerate(effects):
+        if numbers is not None and number not in numbers:
+            continue
         law = hiding.about()
         site = law.sites.index(hiding.site)
         rng = case.rng(EFFECT, number)

@@ -93,7 +93,7 @@ def _split(section: str, summary: Mapping[str, Any], results: Path) -> str:
             f"\n## {section.capitalize()}: {summary['cases']} cases of split `{split}`\n",
             f"{SECTIONS[section]} Engine `{summary.get('engine', 'unknown')}` (hash of its source).\n",
             f"`make proof SPLIT={split} CASES={','.join(s.name for s in scores)}` runs them again.\n",
-            *rows, "", *wide, "", *seen_rows(scores, seen),
+            *rows, "", *wide, "", *seen_rows(scores, seen), *pair_rows(scores, seen),
             f"Severity error (target: median at most 0.1, 90th percentile 0.3): {_quantiles(error)}.",
             f"Core-seconds (bar 120): {_quantiles(summary['core_seconds'], '.3g')}.",
             f"Held-out gain: {_quantiles(gain)}. Gain of a perfect model, since",
@@ -113,6 +113,22 @@ def seen_rows(scores: Sequence[Score], seen: Mapping[str, Visible]) -> list[str]
     for low, high, title in SEEN:
         part = [s for s in single if low <= seen[s.name].effect_db / max(seen[s.name].drift_db, 1e-9) < high]
         told, named = sum(bool(s.alarm) for s in part), sum(bool(s.place) for s in part)
+        rows.append(f"| {title} | {told}/{len(part)} | {named}/{len(part)} |")
+    return [*rows, ""]
+
+
+def pair_rows(scores: Sequence[Score], seen: Mapping[str, Visible]) -> list[str]:
+    """Of pairs, how many are named rightly by how much there is to see of the fainter of the two beside the other."""
+    pairs = [s for s in scores if s.group == "double"]
+    if not pairs or any(s.name not in seen or not seen[s.name].parts_db for s in pairs):
+        return []
+    rows = [
+        "| two effects, by how far the fainter moves what the other shows | detected | both named |",
+        "|---|---|---|",
+    ]
+    for low, high, title in SEEN:
+        part = [s for s in pairs if low <= min(seen[s.name].parts_db) / max(seen[s.name].drift_db, 1e-9) < high]
+        told, named = sum(bool(s.alarm) for s in part), sum(bool(s.both) for s in part)
         rows.append(f"| {title} | {told}/{len(part)} | {named}/{len(part)} |")
     return [*rows, ""]
 

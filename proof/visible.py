@@ -12,11 +12,12 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from multiprocessing import get_context
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from tqdm import tqdm
 
-from proof.case import quiet_tests
+from proof.case import quiet_parts, quiet_tests
 from proof.machine import FloatArray
 from proof.plan import Case
 
@@ -29,11 +30,13 @@ NEW_DB = 6.0
 @dataclass(frozen=True, kw_only=True)
 class Visible:
     """`effect_db`, `drift_db`: root mean square change of the bins above the noise, by the effects and by the drift
-    alone. `new_share`: share of all bins that the effects lift by 6 dB over signal and noise."""
+    alone. `new_share`: share of all bins that the effects lift by 6 dB over signal and noise. `parts_db`: of several
+    effects, what each changes beside the others."""
 
     effect_db: float
     drift_db: float
     new_share: float
+    parts_db: tuple[float, ...] = ()
 
 
 def visibility(case: Case) -> Visible:
@@ -50,7 +53,18 @@ def visibility(case: Case) -> Visible:
         effect_db=_rms(np.concatenate(effect)),
         drift_db=_rms(np.concatenate(drift)),
         new_share=float(np.mean(np.concatenate(new))),
+        parts_db=_parts(case) if len(case.effects) > 1 else (),
     )
+
+
+def _parts(case: Case) -> tuple[float, ...]:
+    """Of each effect: how far it moves what the others show."""
+    moved: list[list[FloatArray]] = [[] for _ in case.effects]
+    for every, fewer, noise in quiet_parts(case):
+        for own, without in zip(moved, fewer, strict=True):
+            for x, y, level in zip(every, without, noise, strict=True):
+                own.append(_change_db(_bins(x), _bins(y), level**2 * _window_power(x.size)))
+    return tuple(_rms(np.concatenate(own)) for own in moved)
 
 
 def _bins(samples: FloatArray) -> FloatArray:
@@ -76,7 +90,7 @@ def _rms(values: FloatArray) -> float:
 def measure(cases: Sequence[Case], store: Path, jobs: int) -> dict[str, Visible]:
     """Of all cases with effects; what is stored is not made again."""
     found = stored(store)
-    todo = [c for c in cases if c.effects and c.name not in found]
+    todo = [c for c in cases if c.effects and not _measured(c, found.get(c.name))]
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
         for case, one in zip(todo, tqdm(pool.map(visibility, todo), total=len(todo), desc="visible"), strict=True):
             found[case.name] = one
@@ -85,12 +99,20 @@ def measure(cases: Sequence[Case], store: Path, jobs: int) -> dict[str, Visible]
     return found
 
 
+def _measured(case: Case, one: Visible | None) -> bool:
+    return one is not None and (len(case.effects) == 1 or len(one.parts_db) == len(case.effects))
+
+
 def stored(store: Path) -> dict[str, Visible]:
     """By case; empty where nothing is stored."""
     if not store.exists():
         return {}
-    document: Mapping[str, Mapping[str, float]] = json.loads(store.read_text(encoding="utf-8"))
-    return {name: Visible(**values) for name, values in document.items()}
+    document: Mapping[str, Mapping[str, Any]] = json.loads(store.read_text(encoding="utf-8"))
+    return {name: _read(values) for name, values in document.items()}
+
+
+def _read(values: Mapping[str, Any]) -> Visible:
+    return Visible(**{**values, "parts_db": tuple(values.get("parts_db", ()))})
 
 
 def told(one: Visible | None) -> str:
@@ -98,4 +120,5 @@ def told(one: Visible | None) -> str:
     if one is None:
         return ""
     new = f"{one.new_share:.1%} of the bins new"
-    return f"; spectrum moved {one.effect_db:.1f} dB by it, {one.drift_db:.1f} dB by drift alone, {new}"
+    each = f" ({', '.join(f'{part:.1f}' for part in one.parts_db)} by each beside the other)" if one.parts_db else ""
+    return f"; spectrum moved {one.effect_db:.1f} dB by it{each}, {one.drift_db:.1f} dB by drift alone, {new}"

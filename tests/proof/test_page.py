@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 from proof.case import truth_of
-from proof.page import SEEN, seen_rows
+from proof.page import SEEN, pair_rows, seen_rows
 from proof.plan import plan
 from proof.score.one import Score, score
 from proof.visible import Visible
@@ -45,3 +45,17 @@ def test_no_table_where_not_all_were_measured():
     found = scores(right(0), right(1))
     assert seen_rows(found, {found[0].name: seen(1, 1)}) == []
     assert seen_rows([], {}) == []
+
+
+def test_pairs_are_counted_by_the_fainter_of_the_two():
+    pairs = [c for c in plan("third") if c.group == "double"][:2]
+    found = [score(json.loads(json.dumps(truth_of(c))), {"verdict": "unknown_physics"}) for c in pairs]
+    both = dict(zip((s.name for s in found), ((6.0, 0.5), (9.0, 4.0)), strict=True))
+    parts = {name: Visible(effect_db=10, drift_db=1, new_share=0.0, parts_db=two) for name, two in both.items()}
+    rows = pair_rows(found, parts)
+    assert [row.rsplit("|", 3)[1:3] for row in rows[2:-1]] == [
+        [" 1/1 ", " 0/1 "],
+        [" 0/0 ", " 0/0 "],
+        [" 1/1 ", " 0/1 "],
+    ]
+    assert pair_rows(found, {s.name: seen(1, 1) for s in found}) == [], "parts were not measured"

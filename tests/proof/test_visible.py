@@ -34,6 +34,17 @@ def test_more_of_an_effect_shows_more_and_none_shows_nothing(monkeypatch: pytest
     assert strong.drift_db == pytest.approx(faint.drift_db) and strong.drift_db > 0.2
 
 
+@pytest.mark.slow
+def test_of_two_effects_each_is_measured_beside_the_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(making, "DURATION_S", 0.4)
+    first = case(0.5)
+    second = Hiding(law="run_out", site="gear", value=1e-7, variant=0)
+    one, two = visibility(first), visibility(replace(first, effects=(*first.effects, second)))
+    assert one.parts_db == ()
+    assert two.parts_db[0] == pytest.approx(one.effect_db, rel=0.1), "next to nothing stands beside it"
+    assert two.parts_db[1] < 0.1 * one.effect_db
+
+
 def test_bins_that_rise_out_of_the_noise_are_new(monkeypatch: pytest.MonkeyPatch) -> None:
     t = np.arange(4000) / 4000.0
     line, other = np.sin(2 * np.pi * 500.0 * t), 0.1 * np.sin(2 * np.pi * 900.0 * t)
@@ -52,3 +63,5 @@ def test_measured_cases_are_kept_and_told(tmp_path: Path) -> None:
     assert measure([named], store, 1) == {"s001": Visible(effect_db=1.25, drift_db=2.0, new_share=0.004)}
     assert told(stored(store)["s001"]) == "; spectrum moved 1.2 dB by it, 2.0 dB by drift alone, 0.4% of the bins new"
     assert told(None) == ""
+    both = Visible(effect_db=3.0, drift_db=1.0, new_share=0.0, parts_db=(2.5, 0.2))
+    assert told(both).startswith("; spectrum moved 3.0 dB by it (2.5, 0.2 by each beside the other), 1.0 dB")
