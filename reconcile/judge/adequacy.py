@@ -55,3 +55,16 @@ def rest_of(fitted: Fitted, observed: FloatArray, effect: str) -> Rest:
     away = squared_distances(fitted.points[mine], place[None])[:, 0]
     near = mine[np.argsort(away)[:NEAR]]
     return Rest(unmet=left / max(float(np.median(fitted.apart[near])), usual), kept=kept)
+
+
+def rest_beside(fitted: Fitted, observed: FloatArray, effect: str, both: FloatArray) -> Rest:
+    """The same of the nearest of `both` (n, F), dB: what this effect and another show together."""
+    place = fitted.place(observed)
+    points = fitted.metric(fitted.view(fitted.whiten(both)))
+    left = float(squared_distances(points, place[None])[:, 0].min())
+    kept = 1.0 - left / max(float(np.sum(place**2)), 1e-300)
+    usual = float(np.quantile(fitted.null, USUAL))
+    mine = np.flatnonzero((fitted.truth == fitted.paths.names.index(effect)) & np.isfinite(fitted.apart))
+    if mine.size == 0 or left <= usual:
+        return Rest(kept=kept)
+    return Rest(unmet=left / max(float(np.median(fitted.apart[mine])), usual), kept=kept)

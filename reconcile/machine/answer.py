@@ -13,14 +13,15 @@ from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import Decision, decide
-from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
+from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask, with_sums
 from reconcile.machine.limits import limits
 from reconcile.machine.lines import by_name, line_changes
 from reconcile.machine.meter import Meter
+from reconcile.machine.pairs import Pair, named_pair
 from reconcile.machine.pictures import ranking, spectra, turn_maps, with_forms
 from reconcile.machine.proved import proved
 from reconcile.machine.revised import Revised, paths, revised_machine
-from reconcile.machine.second import Beside, fitted_change, second_effect, struck_somewhere
+from reconcile.machine.second import Beside, Together, fitted_change, second_effect, struck_somewhere
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.unknown import Unknown, at_supports
 from reconcile.machine.weigh import merged_weights, of_one_part
@@ -90,19 +91,22 @@ def answer(
     cost: Mapping[str, object],
     fit: Mapping[str, object] | None = None,
     unknown: Unknown | None = None,
+    pair: Pair | None = None,
 ) -> Report:
-    """The report of a machine-level reconciliation; `unknown`: what stage 6 says where no known effect is adequate."""
+    """The report of a machine-level reconciliation; `unknown`: what stage 6 says where no known effect is adequate;
+    `pair`: what stands beside the best effect."""
     observed = setting.changes.observed
     decision = decide(found.screen, views=len(setting.channels) * len(setting.data))
     watched = watch_list(setting.machine)
     layout = _layout(watched, setting)
     weights = of_one_part(merged_weights(found.screen), found.screen.struck)
     missing = decision.word != "nothing_missing"
-    other = second_effect(setting, found, decision)
+    decision, other = named_pair(decision, second_effect(setting, found, decision), pair)
     causes = with_forms(ranked_causes(found, decision, weights, observed, other), found.screen) if missing else ()
-    held = _held(setting, found, decision, layout, unknown) if decision.chosen else None
+    both = other.together if other is not None else None
+    held = _held(setting, found, decision, layout, unknown, both) if decision.chosen else None
     fitted = fitted_change(found, decision.chosen[0], observed) if decision.chosen else None
-    revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter)
+    revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter, both)
     if revision is not None:
         fitted = revision.change
     before = decision
@@ -127,7 +131,7 @@ def answer(
         causes=causes,
         fault=fault,
         held_out=held,
-        undecidable=_undecidable(setting, found, decision),
+        undecidable=_undecidable(setting, found, decision, other, pair),
         next_experiment=_next(setting, decision, lead),
         force=unknown.force if unknown is not None else None,
         machine=_machine(revision, unknown, decision),
@@ -142,9 +146,13 @@ def answer(
     )
 
 
-def _undecidable(setting: Setting, found: Found, decision: Decision) -> tuple[str, ...]:
+def _undecidable(
+    setting: Setting, found: Found, decision: Decision, other: Beside | None, pair: Pair | None
+) -> tuple[str, ...]:
     if decision.word in ("ambiguous", "not_decidable"):
         return tuple(decision.reasons)
+    if decision.word == "explained" and other is None and pair is not None and pair.others:
+        return (f"a second effect stands beside it, one of these: {', '.join(pair.others)}",)
     others = struck_somewhere(setting, found, decision)
     return (f"impacts come from another part too, which these share: {', '.join(others)}",) if others else ()
 
@@ -213,13 +221,22 @@ def _lead(found: Found, decision: Decision) -> float:
     return abs(first - second)
 
 
-def _held(setting: Setting, found: Found, decision: Decision, layout: Layout, unknown: Unknown | None) -> HeldOut:
+def _held(
+    setting: Setting,
+    found: Found,
+    decision: Decision,
+    layout: Layout,
+    unknown: Unknown | None,
+    both: Together | None,
+) -> HeldOut:
     lines = [d.lines_hz for d in setting.data]
     count = len(setting.channels)
+    known = found.unled if unknown is None or unknown.known is None else unknown.known
     held = held_out(
         setting.changes,
-        found.unled if unknown is None or unknown.known is None else unknown.known,
+        known if both is None else with_sums(known, decision.chosen[0], both.sums),
         decision.chosen[0] if unknown is None or unknown.label is None else unknown.label,
+        also=() if both is None else (both.terms[0][1].term,),
         spectral=spectral_mask(layout, setting.seen_through),
         frequency=feature_frequencies(layout, lines, count),
         channel=feature_channels(layout, len(lines), count),

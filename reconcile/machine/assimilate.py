@@ -51,12 +51,14 @@ class Task:
 
 @dataclass(frozen=True, kw_only=True)
 class Ensemble:
-    """Machines with an effect: the `offsets` of each member, its term and the `changes` (n, F) it shows, dB."""
+    """Machines with an effect: the `offsets` of each member, its term and the `changes` (n, F) it shows, dB; `also`: a
+    second effect of each, or none."""
 
     candidate: Candidate
     offsets: tuple[Offsets, ...]
     terms: tuple[TermSpec, ...]
     changes: FloatArray
+    also: tuple[TermSpec, ...] = ()
 
 
 def _moves(param: Param) -> bool:
@@ -106,13 +108,21 @@ def known_ensemble(setting: Setting, known: Catalogued, name: str, members: int)
 
 
 def simulated_again(
-    setting: Setting, candidate: Candidate, offsets: Sequence[Offsets], terms: Sequence[TermSpec], mapper: Mapper
+    setting: Setting,
+    candidate: Candidate,
+    offsets: Sequence[Offsets],
+    terms: Sequence[TermSpec],
+    mapper: Mapper,
+    also: Sequence[TermSpec] = (),
 ) -> Catalogued | None:
-    """What the moved machines show with the effect against what they show without; None where too few run."""
+    """What the moved machines show with the effect, and a second one where there are any, against what they show
+    without; None where too few run."""
     count, based = range(len(offsets)), setting.changes.with_baseline
     every = tuple(offsets)
     rest = replace(setting.plan, offsets=every, twins=every, draws=tuple(Draw(pair=k) for k in count))
-    plan = replace(rest, draws=tuple(Draw(pair=k, candidate=candidate, term=terms[k]) for k in count))
+    more = [(also[k],) if also else () for k in count]
+    draws = tuple(Draw(pair=k, candidate=candidate, term=terms[k], also=more[k]) for k in count)
+    plan = replace(rest, draws=draws)
     healthy, banks = simulated_banks(setting, rest, mapper), simulated_banks(setting, plan, mapper)
     try:
         known = catalogued(plan, banks, setting.seen_through, rest, healthy, with_baseline=based)
@@ -121,19 +131,22 @@ def simulated_again(
     return known if len(known.terms) >= FEWEST else None
 
 
-def moved(
-    before: Ensemble, fine: Fitted, observed: FloatArray, inflation: float, rng: np.random.Generator
-) -> tuple[tuple[Offsets, ...], tuple[TermSpec, ...]]:
-    """Machines and parameters of the members after one assimilation of the single lines of `observed` (F,)."""
-    terms, numbers = before.terms, np.array([o.values for o in before.offsets])
+def moved(before: Ensemble, fine: Fitted, observed: FloatArray, inflation: float, rng: np.random.Generator) -> Ensemble:
+    """Machines and parameters of the members after one assimilation of the single lines of `observed` (F,); what they
+    show is what they showed before."""
+    numbers = np.array([o.values for o in before.offsets])
+    sets = [terms for terms in (before.terms, before.also) if terms]
     shown = fine.view(fine.whiten(before.changes))
     seen = fine.view(fine.whiten(observed)[None])[0]
-    theta = np.concatenate([numbers, [packed(t) for t in terms]], axis=1)
+    parts = [numbers, *(np.array([packed(t) for t in terms]) for terms in sets)]
+    theta = np.concatenate(parts, axis=1)
     errors = inflation * LINE_ERROR**2 * np.eye(seen.size)
     after = smoothed(theta, shown, np.ones(len(theta), dtype=bool), seen, errors, rng)
-    limit, size = FARTHEST * SPREAD, numbers.shape[1]
-    offsets = tuple(Offsets(values=np.clip(row[:size], -limit, limit)) for row in after)
-    return offsets, tuple(unpacked(t, row[size:]) for t, row in zip(terms, after, strict=True))
+    limit = FARTHEST * SPREAD
+    machines, *found = np.split(after, np.cumsum([part.shape[1] for part in parts])[:-1], axis=1)
+    offsets = tuple(Offsets(values=np.clip(row, -limit, limit)) for row in machines)
+    led = [tuple(map(unpacked, terms, rows)) for terms, rows in zip(sets, found, strict=True)]
+    return replace(before, offsets=offsets, terms=led[0], also=led[1] if before.also else ())
 
 
 def assimilated(
@@ -192,10 +205,10 @@ def _steps(
     for _ in range(rounds):
         if now is None:
             return
-        offsets, terms = moved(now, fine, target, float(rounds), rng)
-        more = simulated_again(setting, now.candidate, offsets, terms, mapper)
+        led = moved(now, fine, target, float(rounds), rng)
+        more = simulated_again(setting, led.candidate, led.offsets, led.terms, mapper)
         if more is None:
             return
-        kept = tuple(offsets[k] for k in more.pairs)
+        kept = more.offsets
         yield Offsets(values=np.mean([o.values for o in kept], axis=0)), more
         now = replace(now, offsets=kept, terms=more.terms, changes=more.library.changes)

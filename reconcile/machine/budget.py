@@ -12,7 +12,8 @@ class Budget:
     more of the best `candidates`, then the `effects` best near their best draws in each of `rounds`, on `members`
     machines each, which are then fitted to the observation together with the effect in so many `assimilations`.
     Where no known effect is adequate force laws are tried at the likeliest `supports` bearings, after the best
-    `broader` effects at a place that have few draws got all of them: one not met at its size looks like none."""
+    `broader` effects at a place that have few draws got all of them: one not met at its size looks like none. Beside
+    the best effect so many of those that add most to it are simulated (`pairs`)."""
 
     name: Literal["quick", "full"]
     terms: int
@@ -23,12 +24,31 @@ class Budget:
     broader: int
     members: int
     assimilations: int
+    pairs: int
 
 
 QUICK = Budget(
-    name="quick", terms=10, candidates=4, effects=3, rounds=1, supports=0, broader=0, members=8, assimilations=1
+    name="quick",
+    terms=10,
+    candidates=4,
+    effects=3,
+    rounds=1,
+    supports=0,
+    broader=0,
+    members=8,
+    assimilations=1,
+    pairs=3,
 )
 FULL = Budget(
-    name="full", terms=20, candidates=12, effects=4, rounds=1, supports=2, broader=6, members=16, assimilations=2
+    name="full",
+    terms=20,
+    candidates=12,
+    effects=4,
+    rounds=1,
+    supports=2,
+    broader=6,
+    members=16,
+    assimilations=2,
+    pairs=6,
 )
 BUDGETS = {"quick": QUICK, "full": FULL}

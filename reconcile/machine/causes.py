@@ -16,6 +16,7 @@ from sim.core.spec import TermSpec
 
 MOST_CAUSES = 10
 WHAT_IS_LEFT = "it explains what the first effect leaves of the lines of the mesh"
+TOGETHER = "fitted together with the first effect it explains what that one alone does not"
 ITS_IMPACTS = "impacts come at the lines of this part too"
 
 
@@ -53,6 +54,16 @@ def _beside(found: Found, other: Beside) -> Cause:
     """The second named cause, measured by what the first one leaves."""
     name, left, view = other.names[0], other.left, other.view
     term, site = name.split("@")
+    if other.together is not None:
+        return Cause(
+            term=term,
+            site=site,
+            score=float(other.evidence[0]),
+            severity=other.together.severity,
+            named=True,
+            reasons=(TOGETHER,),
+            values=dict(other.together.terms[0][1].parameters),
+        )
     drawn = best_draws(view, found.known, name, left, count=1)
     return Cause(
         term=term,

@@ -19,7 +19,7 @@ from reconcile.machine.alone import rise_over_sound
 from reconcile.machine.answer import answer, fault_answer, provenance
 from reconcile.machine.assimilate import assimilated
 from reconcile.machine.budget import QUICK, Budget
-from reconcile.machine.decide import decide, leaves_lines, remarkable, tempered, unmeasured
+from reconcile.machine.decide import Decision, decide, leaves_lines, remarkable, tempered, unmeasured
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.drive import on_drive
 from reconcile.machine.exchanged import with_exchanged
@@ -28,6 +28,7 @@ from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
 from reconcile.machine.octave import doubted_speed, rival_speed
 from reconcile.machine.own_time import own_time, with_own_time
+from reconcile.machine.pairs import Pair, best_pair, named_pair
 from reconcile.machine.search import (
     broader,
     fit_views,
@@ -38,6 +39,7 @@ from reconcile.machine.search import (
     screen_atlas,
     to_fit,
 )
+from reconcile.machine.second import second_effect
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.suspected import of_the_sensor, without_suspected
 from reconcile.machine.turned import told_apart, turned_alike, with_limits
@@ -121,10 +123,10 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     looks = _answered(setting, screen_atlas(setting), budget, meter, progress)
     of_kind, setting, found = setting, looks.setting, looks.found
     progress(0.9, "laws that nobody listed")
-    unknown = _force(setting, found, budget, meter)
+    unknown = _force(setting, found, looks.pair, budget, meter)
     progress(0.95, "held-out data")
     cost = {"until_atlas_core_s": atlas_s, "budget": budget.name}
-    report = answer(setting, found, gate, meter, cost, looks.fit, unknown)
+    report = answer(setting, found, gate, meter, cost, looks.fit, unknown, looks.pair)
     report = with_exchanged(report, setting, channels)
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
@@ -140,13 +142,15 @@ def _told_by(meter: Meter, seed: int, budget: Budget) -> Mapping[str, object]:
 @dataclass(frozen=True, kw_only=True)
 class _Looks:
     """What the candidates say (`found`), the setting it stands on, and how well machines agree with the baseline
-    (`fit`); the look at all candidates on machines of the kind, and through the lines of those that agree."""
+    (`fit`); the look at all candidates on machines of the kind, and through the lines of those that agree; what stands
+    beside the best effect (`pair`)."""
 
     setting: Setting
     found: Found
     fit: Mapping[str, object]
     atlas: Found
     lines: Found | None
+    pair: Pair | None = None
 
 
 def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, progress: Progress) -> _Looks:
@@ -183,11 +187,25 @@ def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, prog
     screen = tempered(found.screen, atlas.screen) if based else unmeasured(found.screen)
     screen = replace(screen, struck=tuple(frozenset(part) for part in setting.direct.struck))
     fit = told(local) if local is not None else {}
-    return _Looks(setting=closer, found=replace(found, screen=screen), fit=fit, atlas=atlas, lines=seen)
+    found = replace(found, screen=screen)
+    progress(0.89, "two effects together")
+    pair = _paired(closer, found, budget, meter)
+    return _Looks(setting=closer, found=found, fit=fit, atlas=atlas, lines=seen, pair=pair)
 
 
-def _force(setting: Setting, found: Found, budget: Budget, meter: Meter) -> Unknown | None:
-    decision = decide(found.screen, views=len(setting.channels) * len(setting.data))
+def _decided(setting: Setting, found: Found) -> Decision:
+    return decide(found.screen, views=len(setting.channels) * len(setting.data))
+
+
+def _paired(setting: Setting, found: Found, budget: Budget, meter: Meter) -> Pair | None:
+    decision = _decided(setting, found)
+    if second_effect(setting, found, decision) is not None:
+        return None
+    return best_pair(setting, found, decision, budget.members, budget.pairs, meter)
+
+
+def _force(setting: Setting, found: Found, pair: Pair | None, budget: Budget, meter: Meter) -> Unknown | None:
+    decision, _ = named_pair(_decided(setting, found), None, pair)
     return unknown_force(setting, found, budget.supports, meter) if decision.word == "unknown_physics" else None
 
 

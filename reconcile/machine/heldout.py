@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -92,9 +93,11 @@ def held_out(
     spectral: np.ndarray,
     frequency: FloatArray,
     channel: np.ndarray | None = None,
+    also: Sequence[str] = (),
     seed: int,
 ) -> HeldOut:
-    """Log-spectral distance before and after adding the effect, with a 90 % block-bootstrap interval of the gain.
+    """Log-spectral distance before and after adding the effect, with a 90 % block-bootstrap interval of the gain; its
+    draws may hold further terms (`also`), whose numbers count too.
 
     `black_box` is the better of one curve for all sensors and one for each (`channel` (F,)) with as many numbers."""
     noise = np.nan_to_num(changes.measured, nan=10.0) ** 2
@@ -104,7 +107,7 @@ def held_out(
     rows = known.library.groups
     before = [_distance(w.scored, np.zeros(changes.observed.size), w) for w in ways]
     after, used = _told(known, rows[name], ways, spectral, sigma)
-    count = max(_parameters(name), round(used))
+    count = max(_parameters(name) + sum(_parameters(f"{term}@") for term in also), round(used))
     fits = [levels(w, spectral) for w in ways]
     tuned = [_distance(w.scored, retuned(changes.null, f, sigma), w) for w, f in zip(ways, fits, strict=True)]
     boxes = []
@@ -131,6 +134,14 @@ def held_out(
         numbers=count,
         placebos=placebos,
     )
+
+
+def with_sums(known: Catalogued, name: str, sums: FloatArray) -> Catalogued:
+    """The library in which an effect's draws are what it and another show together, `sums` (n, F), dB."""
+    library = known.library
+    rows = tuple(range(len(library.changes), len(library.changes) + len(sums)))
+    changes = np.concatenate([library.changes, sums])
+    return replace(known, library=replace(library, changes=changes, groups={**library.groups, name: rows}))
 
 
 def _parameters(name: str) -> int:

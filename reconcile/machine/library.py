@@ -10,6 +10,7 @@ import numpy as np
 from reconcile.atlas.bank import Bank
 from reconcile.atlas.candidates import size_parameter, size_range
 from reconcile.atlas.plan import AtlasPlan, Draw
+from reconcile.calibrate.uncertain import Offsets
 from reconcile.judge.changes import Lens, signatures
 from reconcile.judge.space import Library
 from sim.core.errors import Problem, SpecError
@@ -19,12 +20,13 @@ from sim.terms import REGISTRY
 
 @dataclass(frozen=True, kw_only=True)
 class Catalogued:
-    """A library with the simulated term of each row, and the number of the healthy machine it stands on
-    (none where that is not asked)."""
+    """A library with the simulated term of each row, the number of the healthy machine it stands on and how that one
+    is moved (none where these are not asked)."""
 
     library: Library
     terms: tuple[TermSpec, ...]
     pairs: tuple[int, ...] = ()
+    offsets: tuple[Offsets, ...] = ()
 
 
 def share_of(draw: Draw) -> float:
@@ -78,7 +80,10 @@ def catalogued(
         groups={name: tuple(members) for name, members in groups.items()},
         shares=np.array([share_of(plan.draws[k]) for k in rows]),
     )
-    return Catalogued(library=library, terms=tuple(terms), pairs=tuple(plan.draws[k].pair for k in rows))
+    pairs = tuple(plan.draws[k].pair for k in rows)
+    return Catalogued(
+        library=library, terms=tuple(terms), pairs=pairs, offsets=tuple(plan.offsets[pair] for pair in pairs)
+    )
 
 
 def _lasting(key: str) -> bool:
@@ -97,4 +102,9 @@ def joined(first: Catalogued, second: Catalogued) -> Catalogued:
         groups=groups,
         shares=np.concatenate([first.library.shares, second.library.shares]),
     )
-    return Catalogued(library=library, terms=(*first.terms, *second.terms), pairs=(*first.pairs, *second.pairs))
+    return Catalogued(
+        library=library,
+        terms=(*first.terms, *second.terms),
+        pairs=(*first.pairs, *second.pairs),
+        offsets=(*first.offsets, *second.offsets),
+    )

@@ -17,10 +17,11 @@ from reconcile.atlas.bank import Mapper
 from reconcile.atlas.candidates import Candidate
 from reconcile.atlas.plan import AtlasPlan, Draw
 from reconcile.calibrate.chain import band_centres_hz
-from reconcile.calibrate.uncertain import Offsets
+from reconcile.calibrate.uncertain import Offsets, moved
 from reconcile.machine.causes import cause_terms
 from reconcile.machine.local import simulated_banks
 from reconcile.machine.refine import best_draws
+from reconcile.machine.second import Together
 from reconcile.machine.setting import Found, Setting
 from reconcile.observe.features import changed
 from reconcile.observe.statistics import third_octaves
@@ -48,19 +49,27 @@ class Revised:
 
 
 def revised_machine(
-    setting: Setting, found: Found, causes: Sequence[Cause], levels: np.ndarray, mapper: Mapper
+    setting: Setting,
+    found: Found,
+    causes: Sequence[Cause],
+    levels: np.ndarray,
+    mapper: Mapper,
+    both: Together | None = None,
 ) -> Revised | None:
-    """Of the causes that are named, or else the likeliest; `levels` (F,): features compared. None without causes, or
-    where none of the forms runs."""
+    """Of the causes that are named, or else the likeliest, or of two as they were fitted together (`both`); `levels`
+    (F,): features compared. None without causes, or where none of the forms runs."""
     if not causes:
         return None
     terms = cause_terms(causes)
     name = f"{causes[0].term}@{causes[0].site}"
-    forms = _forms(found, name, terms[0], causes[0].severity, setting.changes.observed)
+    forms = [(form, *terms[1:]) for form in _forms(found, name, terms[0], causes[0].severity, setting.changes.observed)]
     machine = found.machine(setting, name)
+    if both is not None:
+        forms = list(both.terms[:FORMS])
+        machine = moved(setting.plan.machine, setting.plan.numbers, both.middle)
     still = Offsets(values=np.zeros(len(setting.plan.numbers)))
     candidate = Candidate(term=causes[0].term, site=causes[0].site)
-    draws = (Draw(pair=0), *(Draw(pair=0, candidate=candidate, term=form, also=terms[1:]) for form in forms))
+    draws = (Draw(pair=0), *(Draw(pair=0, candidate=candidate, term=form[0], also=form[1:]) for form in forms))
     plan = AtlasPlan(
         machine=machine,
         numbers=setting.plan.numbers,
@@ -78,7 +87,7 @@ def revised_machine(
     left = {k: _size((seen - changes[k])[compared]) for k in runs}
     best = min(left, key=lambda k: left[k])
     return Revised(
-        machine=machine.model_copy(update={"terms": [*machine.terms, forms[best], *terms[1:]]}),
+        machine=machine.model_copy(update={"terms": [*machine.terms, *forms[best]]}),
         change=changes[best],
         before_db=_size(seen[compared]),
         after_db=left[best],

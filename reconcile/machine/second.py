@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reconcile.calibrate.uncertain import Offsets
 from reconcile.judge.adequacy import rest_of
 from reconcile.judge.screen import Look, looked
 from reconcile.judge.space import Fitted
@@ -19,7 +20,9 @@ from reconcile.machine.decide import DETECT_P, LOOKS, STRANGE, STRUCK, UNMET_ROU
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.weigh import LEAST_EVIDENCE, SET_WEIGHT, variants
 from reconcile.tail import tail_chance
+from reconcile.verdict import Severity
 from signals.series import FloatArray
+from sim.core.spec import TermSpec
 from sim.terms import REGISTRY
 
 LEAST_KEPT = 0.5
@@ -27,6 +30,18 @@ LEAST_KEPT = 0.5
 and not all effects are simulated."""
 LEFT = 0.9
 """Quantile of the misfit above which something besides the best effect is looked for."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Together:
+    """Two effects fitted together with the machine: the second's size, both terms of every member, the nearest first,
+    how their machines are moved on the mean, and `sums` (n, F), dB: what draws that know nothing of the observation
+    show together."""
+
+    severity: Severity
+    terms: tuple[tuple[TermSpec, TermSpec], ...]
+    middle: Offsets
+    sums: FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,6 +57,8 @@ class Beside:
     misfit: float
     placed: bool = True
     """Whether a pattern, not only impacts that several places share, speaks for the first of them."""
+    together: Together | None = None
+    """None where it was not fitted together with the first effect."""
 
 
 def strikes(name: str) -> bool:

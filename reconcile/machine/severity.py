@@ -9,6 +9,7 @@ from reconcile.judge.space import Fitted
 from reconcile.machine.library import Catalogued
 from reconcile.verdict import Severity
 from signals.series import FloatArray
+from sim.core.params import Param
 from sim.terms import REGISTRY
 
 LEAST_SPREAD = 0.3
@@ -34,11 +35,15 @@ def estimated_severity(fitted: Fitted, known: Catalogued, name: str, observed: F
     rows = np.flatnonzero((fitted.paths.owner == owner) & (fitted.paths.low >= 0))
     squared = fitted.paths.distances(fitted.place(observed))[rows]
     values = np.array([_size(known, fitted, int(k), size.name) for k in rows])
-    logs = np.log(np.maximum(values, 1e-300))
     scale = max(fitted.overdispersion, float(np.partition(squared, min(2, squared.size - 1))[:3].mean()) * 0.1)
-    weights = _weights(squared, scale)
+    return weighted_severity(size, values, _weights(squared, scale))
+
+
+def weighted_severity(size: Param, values: FloatArray, weights: FloatArray) -> Severity:
+    """Weighted mean and 90 % interval of the logarithm of sizes (n,); `weights` (n,) sum to 1."""
+    logs = np.log(np.maximum(values, 1e-300))
     mean = float(weights @ logs)
-    steps = np.diff(np.sort(logs))
+    steps: FloatArray = np.diff(np.sort(logs))
     grid = float(np.median(steps)) if steps.size else 0.3
     spread = np.sqrt(weights @ (logs - mean) ** 2 + LEAST_SPREAD**2 + (0.5 * grid) ** 2)
     low, high = np.exp(mean - COVER * spread), np.exp(mean + COVER * spread)
@@ -46,8 +51,8 @@ def estimated_severity(fitted: Fitted, known: Catalogued, name: str, observed: F
         name=size.name,
         value=float(np.exp(mean)),
         unit=size.unit,
-        low=float(max(low, size.low)),
-        high=float(min(high, size.high)),
+        low=max(float(low), size.low),
+        high=min(float(high), size.high),
     )
 
 

@@ -9,77 +9,16 @@ import numpy as np
 import pytest
 
 from reconcile.atlas.candidates import Candidate, candidates, draw_term
-from reconcile.calibrate.uncertain import Offsets
 from reconcile.judge.adequacy import rest_of
-from reconcile.judge.screen import judge
-from reconcile.judge.space import Library, fit_space
 from reconcile.machine import assimilate
 from reconcile.machine.assimilate import Task, assimilated, known_ensemble, moved, packed, settled, unpacked
-from reconcile.machine.library import Catalogued
 from reconcile.machine.setting import Found
 from sim import presets
 from sim.core.spec import TermSpec
 from sim.core.terms import Term
 from sim.terms import REGISTRY
-from tests.reconcile.judge.made import FEATURES, changes, world
-
-RIGHT, WRONG = "rub@gear", "rub@pinion"
-NUMBERS, MEMBERS = 3, 16
-SIZES = (1e6, 1e8)
-
-
-class Made:
-    """Machines of three numbers: an effect's change grows with its size along one pattern, and the numbers turn it."""
-
-    def __init__(self) -> None:
-        rng = np.random.default_rng(2)
-        self.patterns = {RIGHT: np.zeros(FEATURES), WRONG: np.zeros(FEATURES)}
-        self.patterns[RIGHT][:30], self.patterns[WRONG][30:] = 8.0, 8.0
-        self.turns = {name: rng.normal(0.0, 60.0, (NUMBERS, FEATURES)) * (p != 0) for name, p in self.patterns.items()}
-
-    def change(self, name: str, numbers: np.ndarray, stiffness: float) -> np.ndarray:
-        """(F,) dB."""
-        share = np.log(stiffness / SIZES[0]) / np.log(SIZES[1] / SIZES[0])
-        return np.asarray(self.patterns[name] * (0.5 + share) + numbers @ self.turns[name])
-
-    def catalogue(self, name: str, offsets: list[np.ndarray], terms: list[TermSpec]) -> Catalogued:
-        """As the simulator would make it."""
-        rows = [self.change(name, o, t.parameters["stiffness"]) for o, t in zip(offsets, terms, strict=True)]
-        shares = np.array([np.log(t.parameters["stiffness"] / SIZES[0]) / np.log(100.0) for t in terms])
-        count = tuple(range(len(rows)))
-        library = Library(changes=np.array(rows), groups={name: count}, shares=shares)
-        return Catalogued(library=library, terms=tuple(terms), pairs=count)
-
-
-MADE = Made()
-
-
-def term(name: str, stiffness: float) -> TermSpec:
-    return TermSpec(term="rub", site=name.split("@")[1], parameters={"stiffness": stiffness})
-
-
-def found_in(observed: np.ndarray) -> tuple[SimpleNamespace, Found]:
-    """Sixteen draws of either effect on as many machines."""
-    rng = np.random.default_rng(4)
-    machines = rng.uniform(-0.1, 0.1, (MEMBERS, NUMBERS))
-    sizes = np.exp(rng.uniform(*np.log(SIZES), MEMBERS))
-    parts = [MADE.catalogue(n, list(machines), [term(n, s) for s in sizes]) for n in (RIGHT, WRONG)]
-    both = Library(
-        changes=np.concatenate([p.library.changes for p in parts]),
-        groups={RIGHT: tuple(range(MEMBERS)), WRONG: tuple(range(MEMBERS, 2 * MEMBERS))},
-        shares=np.concatenate([p.library.shares for p in parts]),
-    )
-    known = Catalogued(library=both, terms=(*parts[0].terms, *parts[1].terms), pairs=tuple(range(MEMBERS)) * 2)
-    seen = changes(world(), observed)
-    views = fit_space(seen, both, seed=1), fit_space(seen, both, seed=1, view=seen.single)
-    screen = judge(views, observed, {}, 1.0)
-    setting = SimpleNamespace(
-        changes=seen,
-        seed=0,
-        direct=SimpleNamespace(evidence={}, p=1.0),
-        plan=SimpleNamespace(offsets=tuple(Offsets(values=m) for m in machines)),
-    )
-    return setting, Found(known=known, fitted=views[0], fine=views[1], screen=screen)
+from tests.reconcile.judge.made import FEATURES
+from tests.reconcile.machine.rubs import MADE, MEMBERS, RIGHT, WRONG, found_in
 
 
 def tasks(setting: SimpleNamespace, found: Found, *names: str) -> list[Task]:
@@ -153,9 +92,9 @@ def test_members_move_within_the_bounds_of_numbers_and_parameters(observed: np.n
     setting, before = found_in(np.full(FEATURES, 500.0))
     one = known_ensemble(setting, before.known, RIGHT, MEMBERS)  # type: ignore[arg-type]
     assert one is not None and one.candidate == Candidate(term="rub", site="gear") and before.fine is not None
-    offsets, terms = moved(one, before.fine, np.full(FEATURES, 500.0), 1.0, np.random.default_rng(0))
-    assert np.abs([o.values for o in offsets]).max() <= 0.16 + 1e-12
-    assert all(0.0 <= t.parameters["stiffness"] <= 1e9 for t in terms)
+    led = moved(one, before.fine, np.full(FEATURES, 500.0), 1.0, np.random.default_rng(0))
+    assert np.abs([o.values for o in led.offsets]).max() <= 0.16 + 1e-12
+    assert all(0.0 <= t.parameters["stiffness"] <= 1e9 for t in led.terms)
 
 
 def test_parameters_come_back_as_they_went() -> None:

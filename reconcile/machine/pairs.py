@@ -1,0 +1,256 @@
+"""Two effects fitted together: what a second one adds to the best, first by sums, then by simulating both.
+
+Simulating all pairs is out of reach, and what the first effect leaves of the observed decibels is no second effect's
+change: where both raise a line they add as powers. So the draws of the best effect and those of every other are summed
+so, and each sum is judged as a draw of one effect is. The few seconds that add most are simulated beside the first on
+machines that are fitted to the observation together with both (docs/decisions/reconcile-pairs.md).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reconcile.atlas.bank import Mapper
+from reconcile.atlas.candidates import Candidate, size_parameter
+from reconcile.calibrate.uncertain import Offsets
+from reconcile.judge.adequacy import Rest, rest_beside
+from reconcile.judge.screen import quantile_of_misfit, together
+from reconcile.judge.space import Fitted
+from reconcile.machine.assimilate import Ensemble, moved, simulated_again
+from reconcile.machine.decide import STRANGE, Decision, leaves_lines
+from reconcile.machine.direct import HEARD, faintly_heard
+from reconcile.machine.second import Beside, Together, strikes
+from reconcile.machine.setting import Found, Setting
+from reconcile.machine.severity import weighted_severity
+from reconcile.machine.weigh import LEAST_EVIDENCE, variants
+from signals.series import FloatArray
+from sim.core.terms import Term
+from sim.terms import REGISTRY
+
+FORMS = 4
+"""Draws of the first effect to which others are added: the best of all views together, and of each."""
+PROMISING = 4.0
+"""Log evidence that a second effect must add by sums to be simulated beside the first."""
+LEAST_GAIN, LEAST_BESIDE_IMPACTS = 12.0, 8.0
+"""Log evidence that it must add as simulated; the second beside impacts, which prove the first. Of cases of the proof
+right seconds add 8.7 and 15 beside impacts and 29 beside an unbalance; a wrong one beside a clearance, which is the
+least repeatable, 11."""
+UNTRIED = 6.0
+"""Log evidence by which it must lead what was summed only: simulated beside the first, seconds gain up to 5 more."""
+SIDEBANDS = (2, 4)
+"""Numbers of the views of single sidebands."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sum:
+    """A second effect beside the first: log `gain` over the first alone, `rows` (k, 2): draws of the first and of the
+    second whose sums gain most, the best first, and the view of single lines that speaks for it."""
+
+    name: str
+    gain: float
+    rows: tuple[tuple[int, int], ...]
+    view: Fitted
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pair:
+    """What stands beside the effect `first`, fitted together with it; `others` that may as well, if the first of them
+    is not decided; `gain`: log evidence of the second over the best that the first alone shows."""
+
+    first: str
+    beside: Beside
+    gain: float
+    rest: Rest
+    others: tuple[str, ...] = ()
+
+
+def added(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Two changes at once, dB: what both raise adds as power, else one goes on from where the other ends."""
+    power = 10.0 ** (np.clip(first, 0.0, 200.0) / 10.0) + 10.0 ** (np.clip(second, 0.0, 200.0) / 10.0) - 1.0
+    return np.asarray(np.where((first > 0.0) & (second > 0.0), 10.0 * np.log10(power), first + second))
+
+
+def evidence_in(view: Fitted, changes: FloatArray, observed: FloatArray) -> FloatArray:
+    """Log evidence of each of `changes` (n, F) over no change, (n,)."""
+    place = view.place(observed)
+    points = view.metric(view.view(view.whiten(changes)))
+    nothing = float(np.sum(place**2))
+    return np.asarray((nothing - np.sum((points - place) ** 2, axis=1)) / (2.0 * view.overdispersion))
+
+
+def heard_in(found: Found, first: str) -> list[Fitted]:
+    """The views in which a second effect shows: impacts bring a forest of lines in which sidebands drown, and what
+    stands in it had the pattern of an eccentric gear (33 over the spall alone, in a case without one)."""
+    every = found.views
+    return [view for k, view in enumerate(every) if k not in SIDEBANDS or not strikes(first)]
+
+
+def alone(views: Sequence[Fitted], name: str, observed: FloatArray) -> FloatArray:
+    """Log evidence of an effect's path in every view, (views,)."""
+    values = []
+    for view in views:
+        place = view.place(observed)
+        own = view.paths.owner == view.paths.names.index(name)
+        left = float(view.paths.distances(place)[own].min())
+        values.append((float(np.sum(place**2)) - left) / (2.0 * view.overdispersion))
+    return np.array(values)
+
+
+def _forms(views: Sequence[Fitted], found: Found, name: str, observed: FloatArray) -> list[int]:
+    library = found.known.library
+    rows = list(library.groups[name])
+    told = [evidence_in(view, library.changes[rows], observed) for view in views]
+    best = [int(k) for k in np.argsort(-together(told))[:FORMS]] + [int(np.argmax(one)) for one in told]
+    return [rows[k] for k in dict.fromkeys(best)]
+
+
+def sums(setting: Setting, found: Found, first: str, members: int) -> list[Sum]:
+    """What every other effect that is no form of the first adds to it, the most first; empty without views of lines.
+    What would strike and is not heard at all is none."""
+    observed, library = setting.changes.observed, found.known.library
+    shown = setting.direct.evidence
+    heard = {n for n, value in shown.items() if value >= HEARD} | {*faintly_heard(shown)}
+    others = {
+        n: rows
+        for n, rows in library.groups.items()
+        if n != first and not variants(n, first) and (n in heard or not strikes(n))
+    }
+    rows = [k for own in others.values() for k in own]
+    views = heard_in(found, first)
+    if not rows or len(views) == 1:
+        return []
+    base = alone(views, first, observed)
+    forms = _forms(views, found, first, observed)
+    table = np.array(
+        [
+            [
+                evidence_in(view, added(library.changes[form][None], library.changes[rows]), observed) - least
+                for view, least in zip(views, base, strict=True)
+            ]
+            for form in forms
+        ]
+    )
+    starts = np.cumsum([0, *(len(own) for own in others.values())])
+    seen = []
+    for name, low, high in zip(others, starts[:-1], starts[1:], strict=True):
+        part = table[:, :, low:high]
+        gains = np.array([together(list(one)) for one in part])
+        places = [divmod(int(k), int(high - low)) for k in np.argsort(-gains, axis=None)[:members]]
+        seen.append(
+            Sum(
+                name=name,
+                gain=float(together(list(part.max(axis=(0, 2))[:, None]))[0]),
+                rows=tuple((forms[a], rows[int(low) + b]) for a, b in places),
+                view=views[1 + int(np.argmax(part[places[0][0], 1:, places[0][1]]))],
+            )
+        )
+    return sorted(seen, key=lambda one: -one.gain)
+
+
+def fitted_pair(setting: Setting, found: Found, first: str, second: Sum, mapper: Mapper) -> Pair | None:
+    """Both on the machines of the first one's draws, fitted together; None where too few run."""
+    observed, known = setting.changes.observed, found.known
+    a, b = (list(rows) for rows in zip(*second.rows, strict=True))
+    term, site = first.split("@")
+    start = Ensemble(
+        candidate=Candidate(term=term, site=site),
+        offsets=tuple(known.offsets[k] for k in a),
+        terms=tuple(known.terms[k] for k in a),
+        also=tuple(known.terms[k] for k in b),
+        changes=added(known.library.changes[a], known.library.changes[b]),
+    )
+    rng = np.random.default_rng([setting.seed, 22, *f"{first}+{second.name}".encode()])
+    led = moved(start, found.levels_like(second.view), observed, 1.0, rng)
+    more = simulated_again(setting, led.candidate, led.offsets, led.terms, mapper, also=led.also)
+    if more is None:
+        return None
+    changes = more.library.changes
+    views = heard_in(found, first)
+    told = [evidence_in(v, changes, observed) - x for v, x in zip(views, alone(views, first, observed), strict=True)]
+    gains = together(told)
+    order = np.argsort(-gains)
+    terms = tuple((more.terms[k], led.also[more.pairs[k]]) for k in order)
+    size = size_parameter(_registered(second.name))
+    weights = np.exp(gains[order] - gains.max())
+    both = Together(
+        severity=weighted_severity(
+            size, np.array([abs(t[1].parameters[size.name]) for t in terms]), weights / weights.sum()
+        ),
+        terms=terms,
+        middle=Offsets(values=np.mean([o.values for o in more.offsets], axis=0)),
+        sums=_unled_sums(found, first, second.name),
+    )
+    gain = float(gains.max())
+    beside = Beside(
+        view=second.view,
+        left=observed,
+        names=(second.name,),
+        evidence=np.array([gain]),
+        p=float(np.exp(-max(gain, 0.0))),
+        misfit=_misfit(second.view, changes, observed),
+        together=both,
+    )
+    return Pair(first=first, beside=beside, gain=gain, rest=_rest(found, first, changes, observed))
+
+
+def best_pair(
+    setting: Setting, found: Found, decision: Decision, members: int, most: int, mapper: Mapper
+) -> Pair | None:
+    """What stands beside the best effect, of at most so many that are simulated; None where nothing adds enough, or
+    where both leave what no known effects should."""
+    if decision.word not in ("explained", "ambiguous", "unknown_physics") or not decision.chosen:
+        return None
+    first = found.screen.names[int(np.argmax(found.screen.evidence))]
+    seen = [one for one in sums(setting, found, first, members) if one.gain >= PROMISING]
+    fitted = [fitted_pair(setting, found, first, one, mapper) for one in seen[:most]]
+    least = LEAST_BESIDE_IMPACTS if strikes(first) else LEAST_GAIN
+    pairs = sorted((p for p in fitted if p is not None), key=lambda p: -p.gain)
+    if not pairs or pairs[0].gain < least or (decision.word != "explained" and _inadequate(pairs[0])):
+        return None
+    best = pairs[0]
+    second = best.beside.names[0]
+    rivals = {p.beside.names[0]: p.gain + LEAST_EVIDENCE for p in pairs[1:]}
+    rivals |= {s.name: s.gain + UNTRIED for s in seen[most:]}
+    near = [n for n, reach in rivals.items() if reach > best.gain and not variants(n, second)]
+    return replace(best, others=(second, *near) if near else ())
+
+
+def named_pair(decision: Decision, other: Beside | None, pair: Pair | None) -> tuple[Decision, Beside | None]:
+    """The verdict with what stands beside the best effect: what strikes too, or else what was fitted together."""
+    if other is not None or pair is None or pair.others:
+        return decision, other
+    return replace(decision, word="explained", chosen=(pair.first,), reasons=()), pair.beside
+
+
+def _inadequate(pair: Pair) -> bool:
+    return leaves_lines(pair.rest) or pair.beside.misfit > STRANGE
+
+
+def _rest(found: Found, first: str, changes: FloatArray, observed: FloatArray) -> Rest:
+    lines = [rest_beside(v, observed, first, changes) for v in found.views[1:3]]
+    pooled = rest_beside(found.fitted, observed, first, changes).kept
+    worst = max(lines, key=lambda rest: rest.unmet)
+    return replace(worst, pooled=pooled, elsewhere=worst.unmet, rough=False)
+
+
+def _misfit(view: Fitted, changes: FloatArray, observed: FloatArray) -> float:
+    place = view.place(observed)
+    points = view.metric(view.view(view.whiten(changes)))
+    left = float(np.sum((points - place) ** 2, axis=1).min())
+    return quantile_of_misfit(view, left, float(np.sum(place**2)))
+
+
+def _unled_sums(found: Found, first: str, second: str) -> FloatArray:
+    library = found.unled.library
+    a, b = (library.changes[list(library.groups[name])] for name in (first, second))
+    return np.concatenate([added(one[None], b) for one in a])
+
+
+def _registered(name: str) -> Term:
+    term = REGISTRY.get(name.split("@", maxsplit=1)[0])
+    if term is None:
+        raise ValueError(f"no effect {name}")
+    return term

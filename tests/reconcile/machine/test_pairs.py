@@ -1,0 +1,166 @@
+"""Two effects that are fitted together: a second one is named where it adds what the first alone does not bring."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from reconcile.judge.adequacy import Rest
+from reconcile.machine import pairs
+from reconcile.machine.causes import TOGETHER, ranked_causes
+from reconcile.machine.decide import Decision
+from reconcile.machine.direct import FAINTLY, MOST
+from reconcile.machine.heldout import held_out, with_sums
+from reconcile.machine.pairs import LEAST_GAIN, Pair, added, best_pair, fitted_pair, named_pair, sums
+from tests.reconcile.judge.made import FEATURES
+from tests.reconcile.machine import test_second
+from tests.reconcile.machine.rubs import MADE, MEMBERS, RIGHT, WRONG, found_in
+
+TRUE = np.array([0.06, -0.05, 0.03])
+EXPLAINED = Decision(word="explained", chosen=(RIGHT,), p=1e-6, reasons=())
+UNKNOWN = replace(EXPLAINED, word="unknown_physics")
+
+
+@pytest.fixture
+def simulated(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Simulating is asking the made world; what was asked for."""
+    asked: list[str] = []
+
+    def again(_setting, candidate, offsets, terms, _mapper, also=()):  # type: ignore[no-untyped-def]
+        asked.append(f"{candidate.label}+rub@{also[0].site}")
+        return MADE.catalogue(candidate.label, [o.values for o in offsets], list(terms), also)
+
+    monkeypatch.setattr(pairs, "simulated_again", again)
+    return asked
+
+
+SMALLER = 5e6
+
+
+def seen(second: float | None = None) -> np.ndarray:
+    """A rub at the gear; one of so many N/m at the pinion beside it."""
+    noise = np.random.default_rng(8).normal(0, 1, FEATURES)
+    both = MADE.change(RIGHT, TRUE, 2e7) + noise
+    return both if second is None else both + MADE.change(WRONG, TRUE, second)
+
+
+def pair_in(observed: np.ndarray, decision: Decision = EXPLAINED) -> Pair | None:
+    setting, found = found_in(observed)
+    setting.seed = 0
+    return best_pair(setting, found, decision, 8, 2, map)  # type: ignore[arg-type]
+
+
+@given(st.floats(-30, 60), st.floats(-30, 60))
+def test_two_changes_add_as_powers_where_both_rise(a: float, b: float) -> None:
+    both = float(added(np.array(a), np.array(b)))
+    assert both == pytest.approx(float(added(np.array(b), np.array(a))))
+    assert float(added(np.array(a), np.array(0.0))) == pytest.approx(a)
+    if a > 0.0 and b > 0.0:
+        assert max(a, b) - 1e-9 <= both <= max(a, b) + 3.02 + 1e-9
+    else:
+        assert both == pytest.approx(a + b)
+
+
+def test_what_is_there_beside_the_first_adds_and_nothing_else_does() -> None:
+    setting, found = found_in(seen(SMALLER))
+    (one,) = sums(setting, found, RIGHT, 8)  # type: ignore[arg-type]
+    alone, known = found_in(seen())
+    (none,) = sums(alone, known, RIGHT, 8)  # type: ignore[arg-type]
+    assert one.name == none.name == WRONG and one.gain > 10.0 and none.gain < 1.0
+    assert len(one.rows) == 8 and {a in found.known.library.groups[RIGHT] for a, _ in one.rows} == {True}
+    assert {b in found.known.library.groups[WRONG] for _, b in one.rows} == {True} and one.view is found.fine
+    assert sums(setting, replace(found, fine=None), RIGHT, 8) == []  # type: ignore[arg-type]
+
+
+def test_both_are_fitted_together(simulated: list[str]) -> None:
+    observed = seen(SMALLER)
+    setting, found = found_in(observed)
+    (one,) = sums(setting, found, RIGHT, 8)  # type: ignore[arg-type]
+    pair = fitted_pair(setting, found, RIGHT, one, map)  # type: ignore[arg-type]
+    assert pair is not None and pair.gain > one.gain > LEAST_GAIN
+    assert simulated == [f"{RIGHT}+{WRONG}"]
+    together = pair.beside.together
+    assert together is not None and together.severity.low < SMALLER < together.severity.high
+    assert abs(np.log(together.severity.value / SMALLER)) < 0.7
+    assert [t.site for t in together.terms[0]] == ["gear", "pinion"]
+    assert pair.rest.unmet == 0.0 and pair.rest.kept > 0.9 and not pair.rest.rough
+    start = np.mean([o.values for o in setting.plan.offsets], axis=0)
+    assert np.linalg.norm(together.middle.values - TRUE) < np.linalg.norm(start - TRUE)
+    assert together.sums.shape == (MEMBERS * MEMBERS, FEATURES)
+
+
+def test_a_pair_is_named_and_a_single_effect_gets_no_second(simulated: list[str]) -> None:
+    pair = pair_in(seen(SMALLER))
+    assert pair is not None and pair.first == RIGHT and pair.beside.names == (WRONG,) and pair.others == ()
+    simulated.clear()
+    assert pair_in(seen()) is None and simulated == [], "nothing adds enough to be worth simulating"
+    quiet = replace(EXPLAINED, word="nothing_missing")
+    assert pair_in(seen(SMALLER), quiet) is None and simulated == []
+
+
+def test_what_no_effect_explains_is_a_pair_only_if_both_leave_nothing(
+    simulated: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert pair_in(seen(SMALLER), UNKNOWN) is not None
+    left = Rest(unmet=2.0, kept=0.4, pooled=0.3, elsewhere=2.0, rough=False)
+    monkeypatch.setattr(pairs, "_rest", lambda *_: left)
+    assert pair_in(seen(SMALLER), UNKNOWN) is None
+    assert pair_in(seen(SMALLER)) is not None, "an effect that is named stands, whatever both leave"
+    assert simulated
+
+
+def test_a_rival_close_by_keeps_the_second_from_being_named(
+    simulated: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    setting, found = found_in(seen(SMALLER))
+    (one,) = sums(setting, found, RIGHT, 8)  # type: ignore[arg-type]
+    pair = fitted_pair(setting, found, RIGHT, one, map)  # type: ignore[arg-type]
+    assert pair is not None and simulated
+    for gain, near in ((pair.gain - 1.0, ("rub@pinion", "unbalance@pinion")), (pair.gain - 7.0, ())):
+        untried = replace(one, name="unbalance@pinion", gain=gain)
+        monkeypatch.setattr(pairs, "sums", lambda *_, other=untried: [one, other])
+        told = best_pair(setting, found, EXPLAINED, 8, 1, map)  # type: ignore[arg-type]
+        assert told is not None and told.others == near
+        decision, beside = named_pair(UNKNOWN, None, told)
+        assert (beside is None) == bool(near) and decision.word == ("unknown_physics" if near else "explained")
+    assert named_pair(EXPLAINED, pair.beside, pair)[1] is pair.beside, "what strikes too stands"
+
+
+def test_what_would_strike_stands_beside_only_if_it_is_heard() -> None:
+    observed = test_second.seen((2, 0), 1)
+    setting, found = test_second.found_in(observed, 0.0)
+    spall, seat = test_second.NAMES[:2]
+    for evidence, there in (({}, False), ({spall: FAINTLY - MOST + 0.1}, True), ({spall: 9.0}, True)):
+        setting.direct = SimpleNamespace(evidence=evidence)
+        names = [one.name for one in sums(setting, found, seat, 8)]  # type: ignore[arg-type]
+        assert (spall in names) == there
+        assert not there or names[0] == spall
+
+
+def test_sidebands_do_not_speak_beside_impacts() -> None:
+    _, found = test_second.found_in(test_second.seen((0,), 1), 20.0)
+    spall, seat = test_second.NAMES[:2]
+    found = replace(found, sides=found.fine)
+    assert len(pairs.heard_in(found, seat)) == 3 and len(pairs.heard_in(found, spall)) == 2
+
+
+def test_the_second_cause_has_its_own_size_and_the_forecast_both(simulated: list[str]) -> None:
+    observed = seen(SMALLER)
+    setting, found = found_in(observed)
+    pair = pair_in(observed)
+    assert pair is not None and simulated and pair.beside.together is not None
+    weights = {RIGHT: 0.9, WRONG: 0.1}
+    first, second = ranked_causes(found, EXPLAINED, weights, observed, pair.beside)[:2]
+    assert (first.site, second.site) == ("gear", "pinion") and first.named and second.named
+    assert second.reasons == (TOGETHER,) and second.severity == pair.beside.together.severity
+    spectral, frequency = np.ones(FEATURES, dtype=bool), np.linspace(10.0, 1000.0, FEATURES)
+    both = with_sums(found.known, RIGHT, pair.beside.together.sums)
+    known = {"spectral": spectral, "frequency": frequency, "seed": 1}
+    alone = held_out(setting.changes, found.known, RIGHT, **known)
+    told = held_out(setting.changes, both, RIGHT, also=("rub",), **known)
+    assert told.gain > alone.gain + 0.1 and (told.numbers or 0) > (alone.numbers or 0)
