@@ -52,9 +52,6 @@ MOST = 25.0
 """Log evidence beyond which more impacts prove no more."""
 SURE, HEARD = 8.0, 5.0
 """Log evidence from which impacts are sure; below which none are heard (4.5 deviations of control lines)."""
-FAINTLY = 1.5
-"""Log evidence of lines that have risen beside sure impacts of another part and are too few to count (2.4 deviations):
-the second race of three cases of the proof with both pitted had 2.8 to 3.1."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -145,11 +142,6 @@ def unheard(evidence: Mapping[str, float]) -> dict[str, float]:
     if max(strikers.values(), default=0.0) < SURE:
         return dict(evidence)
     return {**evidence, **{name: value - MOST for name, value in strikers.items() if value < HEARD}}
-
-
-def faintly_heard(evidence: Mapping[str, float]) -> tuple[str, ...]:
-    """What may strike too beside sure impacts: lines have risen, but not so far that they count."""
-    return tuple(name for name, value in evidence.items() if FAINTLY - MOST <= value < 0.0)
 
 
 def _counts(candidate: Candidate, rise: Rise, *, points: int, based: bool) -> bool:

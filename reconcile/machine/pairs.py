@@ -21,7 +21,7 @@ from reconcile.judge.screen import quantile_of_misfit, together
 from reconcile.judge.space import Fitted
 from reconcile.machine.assimilate import Ensemble, moved, simulated_again
 from reconcile.machine.decide import STRANGE, Decision, leaves_lines
-from reconcile.machine.direct import HEARD, faintly_heard
+from reconcile.machine.direct import HEARD
 from reconcile.machine.second import Beside, Together, strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.severity import weighted_severity
@@ -109,10 +109,10 @@ def _forms(views: Sequence[Fitted], found: Found, name: str, observed: FloatArra
 
 def sums(setting: Setting, found: Found, first: str, members: int) -> list[Sum]:
     """What every other effect that is no form of the first adds to it, the most first; empty without views of lines.
-    What would strike and is not heard at all is none."""
+    What would strike and is not heard is none: a ball's pit added 10 to an inner race's beside which an outer race was
+    pitted, and a pit of both races of one bearing looks like a larger one of the inner race."""
     observed, library = setting.changes.observed, found.known.library
-    shown = setting.direct.evidence
-    heard = {n for n, value in shown.items() if value >= HEARD} | {*faintly_heard(shown)}
+    heard = {n for n, value in setting.direct.evidence.items() if value >= HEARD}
     others = {
         n: rows
         for n, rows in library.groups.items()

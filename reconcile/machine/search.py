@@ -16,7 +16,6 @@ from reconcile.judge.space import fit_space
 from reconcile.machine.assimilate import Task
 from reconcile.machine.budget import Budget
 from reconcile.machine.decide import DETECT_P
-from reconcile.machine.direct import faintly_heard
 from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import LANES, first_heat, more_draws, ordered_draws, second_heat, simulated_banks
 from reconcile.machine.refine import best_draws, refined_plan
@@ -95,7 +94,6 @@ def located(
     if looks_for_second(found):
         others = beside(setting, found, best[0])
         best += [n for n in (others.names[:SECONDS] if others else ()) if n not in best]
-    best += [n for n in faintly_heard(setting.direct.evidence) if n not in best]
     second = second_heat(setting.plan, best, draws, first)
     if not second.draws:
         return found  # effects with one place only: the first heat had all of their draws

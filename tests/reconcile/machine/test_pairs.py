@@ -14,7 +14,7 @@ from reconcile.judge.adequacy import Rest
 from reconcile.machine import pairs
 from reconcile.machine.causes import TOGETHER, ranked_causes
 from reconcile.machine.decide import Decision
-from reconcile.machine.direct import FAINTLY, MOST
+from reconcile.machine.direct import HEARD
 from reconcile.machine.heldout import held_out, with_sums
 from reconcile.machine.pairs import LEAST_GAIN, Pair, added, best_pair, fitted_pair, named_pair, sums
 from tests.reconcile.judge.made import FEATURES
@@ -135,7 +135,7 @@ def test_what_would_strike_stands_beside_only_if_it_is_heard() -> None:
     observed = test_second.seen((2, 0), 1)
     setting, found = test_second.found_in(observed, 0.0)
     spall, seat = test_second.NAMES[:2]
-    for evidence, there in (({}, False), ({spall: FAINTLY - MOST + 0.1}, True), ({spall: 9.0}, True)):
+    for evidence, there in (({}, False), ({spall: HEARD - 0.1}, False), ({spall: HEARD}, True)):
         setting.direct = SimpleNamespace(evidence=evidence)
         names = [one.name for one in sums(setting, found, seat, 8)]  # type: ignore[arg-type]
         assert (spall in names) == there
