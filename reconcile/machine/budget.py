@@ -37,7 +37,7 @@ QUICK = Budget(
     broader=0,
     members=8,
     assimilations=1,
-    pairs=3,
+    pairs=2,
 )
 FULL = Budget(
     name="full",

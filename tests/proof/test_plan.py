@@ -8,12 +8,14 @@ from itertools import combinations, pairwise
 import pytest
 
 from proof.library import CLOSED
-from proof.plan import COUNTS, EXTRA, FAULTS, FIRST, PAIRS, plan
+from proof.plan import COUNTS, EXTRA, FAULTS, FIRST, PAIRS, SHOWN_PAIRS, plan
 from proof.sensor_faults import FAULTS as KNOWN_FAULTS
 from proof.unknown import OPEN
 
 
-@pytest.mark.parametrize(("split", "least"), [("dev", 60), ("sealed", 200), ("later", 90), ("third", 36)])
+@pytest.mark.parametrize(
+    ("split", "least"), [("dev", 60), ("sealed", 200), ("later", 90), ("third", 36), ("fourth", 18)]
+)
 def test_the_plan_is_the_same_every_time_and_as_large_as_stated(split, least):
     cases = plan(split)
     assert cases == plan(split)
@@ -43,6 +45,17 @@ def test_the_third_split_stands_at_the_target_condition_with_every_severity():
     assert {(len(c.sensors), c.snr_db, len(c.speeds_hz), c.baseline) for c in cases} == {(3, 20.0, 3, True)}
     assert {c.level for c in cases if c.group == "single"} == {0, 1, 2, 3}
     assert {c.effects[0].law for c in cases if c.group == "single"} > set(FIRST)
+
+
+def test_the_fourth_split_has_pairs_of_which_both_may_show():
+    cases = plan("fourth")
+    assert {(len(c.sensors), c.snr_db, len(c.speeds_hz), c.baseline) for c in cases} == {(3, 20.0, 3, True)}
+    pairs = [tuple(e.law for e in c.effects) for c in cases if c.group == "double"]
+    assert sorted(pairs) == sorted(SHOWN_PAIRS) and not {law for pair in pairs for law in pair} & {
+        "root_crack",
+        "run_out",
+    }
+    assert {c.level for c in cases if c.group == "double"} == {1, 2, 3}
 
 
 def test_every_condition_and_severity_occurs():
@@ -80,7 +93,7 @@ def test_tables_agree():
     assert all(law in CLOSED for pair in PAIRS for law in pair)
 
 
-@pytest.mark.parametrize("split", ["dev", "sealed", "later", "third"])
+@pytest.mark.parametrize("split", ["dev", "sealed", "later", "third", "fourth"])
 def test_every_effect_fits_its_law(split):
     for case in plan(split):
         for hiding in case.effects:
