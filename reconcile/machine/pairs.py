@@ -199,11 +199,11 @@ def fitted_pair(setting: Setting, found: Found, first: str, second: Sum, mapper:
 def best_pair(
     setting: Setting, found: Found, decision: Decision, members: int, most: int, mapper: Mapper
 ) -> Pair | None:
-    """What stands beside the best effect, of at most so many that are simulated; None where nothing adds enough, or
-    where both leave what no known effects should."""
+    """What stands beside the best effect, of at most so many that are simulated; None where nothing adds enough,
+    where both leave what no known effects should, or where another first would do as well."""
     if decision.word not in ("explained", "ambiguous", "unknown_physics") or not decision.chosen:
         return None
-    first = found.screen.names[int(np.argmax(found.screen.evidence))]
+    first = decision.chosen[0]
     seen = [one for one in sums(setting, found, first, members) if one.gain >= PROMISING]
     fitted = [fitted_pair(setting, found, first, one, mapper) for one in seen[:most]]
     least = LEAST_BESIDE_IMPACTS if strikes(first) else LEAST_GAIN
@@ -212,6 +212,8 @@ def best_pair(
         return None
     best = pairs[0]
     second = best.beside.names[0]
+    if any(_as_well(setting, found, rival, best) for rival in decision.chosen[1:]):
+        return None
     rivals = {p.beside.names[0]: p.gain + LEAST_EVIDENCE for p in pairs[1:]}
     rivals |= {s.name: s.gain + UNTRIED for s in seen[most:]}
     near = [n for n, reach in rivals.items() if reach > best.gain and not variants(n, second)]
@@ -223,6 +225,16 @@ def named_pair(decision: Decision, other: Beside | None, pair: Pair | None) -> t
     if other is not None or pair is None or pair.others:
         return decision, other
     return replace(decision, word="explained", chosen=(pair.first,), reasons=()), pair.beside
+
+
+def _as_well(setting: Setting, found: Found, rival: str, best: Pair) -> bool:
+    """Whether a rival of the first, summed with the second, comes near both."""
+    told = dict(zip(found.screen.names, found.screen.evidence, strict=True))
+    second = best.beside.names[0]
+    if rival == second or variants(rival, best.first):
+        return False
+    more = next((one.gain for one in sums(setting, found, rival, 1) if one.name == second), 0.0)
+    return bool(told[rival] + max(more, 0.0) > told[best.first] + best.gain - LEAST_EVIDENCE)
 
 
 def _inadequate(pair: Pair) -> bool:

@@ -114,6 +114,22 @@ def test_what_no_effect_explains_is_a_pair_only_if_both_leave_nothing(
     assert simulated
 
 
+def test_a_first_that_is_not_decided_gets_no_second(simulated: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    setting, found = found_in(seen(SMALLER))
+    screen = found.screen
+    names, evidence = (*screen.names, "unbalance@pinion"), np.append(screen.evidence, screen.evidence.max() - 1.0)
+    rivals = replace(EXPLAINED, word="ambiguous", chosen=(RIGHT, "unbalance@pinion"))
+    found = replace(found, screen=replace(screen, names=names, evidence=evidence))
+    every = {RIGHT: sums(setting, found, RIGHT, 8)}  # type: ignore[arg-type]
+    (one,) = every[RIGHT]
+    for gain, decided in ((0.0, True), (one.gain + 20.0, False)):
+        every["unbalance@pinion"] = [replace(one, gain=gain)]
+        monkeypatch.setattr(pairs, "sums", lambda _s, _f, first, _m: every[first])
+        told = best_pair(setting, found, rivals, 8, 2, map)  # type: ignore[arg-type]
+        assert (told is not None) == decided
+    assert simulated
+
+
 def test_a_rival_close_by_keeps_the_second_from_being_named(
     simulated: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
