@@ -60,6 +60,23 @@ class Changes:
         channel = self.single.chosen.size
         return changed(self.observed.reshape(-1, channel), change.reshape(-1, channel), self.phases).ravel()
 
+    def both(self, first: FloatArray, second: FloatArray) -> FloatArray:
+        """Two changes (..., F) at once: what both raise adds as power, else one goes on from where the other ends.
+
+        That is right on the mean over the phases by which two effects move one line, which nobody knows. Phases add.
+        """
+        power = 10.0 ** (np.clip(first, 0.0, 200.0) / 10.0) + 10.0 ** (np.clip(second, 0.0, 200.0) / 10.0) - 1.0
+        linear = np.asarray(first + second)
+        found = np.where((first > 0.0) & (second > 0.0), 10.0 * np.log10(power), linear)
+        if self.phases:
+            channel = self.single.chosen.size
+            split = (*linear.shape[:-1], -1, channel)
+            turned = changed(linear.reshape(split), np.zeros(channel), self.phases)[..., -self.phases :]
+            found = found.reshape(split)
+            found[..., -self.phases :] = turned
+            found = found.reshape(linear.shape)
+        return np.asarray(found)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Lens:

@@ -13,16 +13,17 @@ from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import Decision, decide
-from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask, with_sums
+from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
 from reconcile.machine.limits import limits
 from reconcile.machine.lines import by_name, line_changes
 from reconcile.machine.meter import Meter
-from reconcile.machine.pairs import Pair, named_pair
+from reconcile.machine.pairs import Pairs, named_pair
 from reconcile.machine.pictures import ranking, spectra, turn_maps, with_forms
 from reconcile.machine.proved import proved
 from reconcile.machine.revised import Revised, paths, revised_machine
-from reconcile.machine.second import Beside, Together, fitted_change, second_effect, struck_somewhere
+from reconcile.machine.second import Beside, fitted_change, second_effect, struck_somewhere
 from reconcile.machine.setting import Found, Setting
+from reconcile.machine.stages import all_stages, gate_stage, of_pairs, revisions
 from reconcile.machine.unknown import Unknown, at_supports
 from reconcile.machine.weigh import merged_weights, of_one_part
 from reconcile.machine.window import angle_window
@@ -56,12 +57,6 @@ def fault_answer(gate: Gate, *, level: Level) -> Report:
     )
 
 
-def gate_stage(gate: Gate) -> Mapping[str, object]:
-    """What the sensor gate found, as a stage of the report."""
-    remarks = [f"{f.recording} {f.channel}: {f.kind}, {f.detail}".strip() for f in gate.findings]
-    return {"name": "sensor gate", "findings": remarks or ["nothing wrong with the measurement"]}
-
-
 def _layout(watched: WatchList, setting: Setting) -> Layout:
     bank = setting.banks[0]
     return Layout(
@@ -91,27 +86,28 @@ def answer(
     cost: Mapping[str, object],
     fit: Mapping[str, object] | None = None,
     unknown: Unknown | None = None,
-    pair: Pair | None = None,
+    pairs: Pairs | None = None,
 ) -> Report:
     """The report of a machine-level reconciliation; `unknown`: what stage 6 says where no known effect is adequate;
-    `pair`: what stands beside the best effect."""
+    `pairs`: what was tried beside the best effect."""
     observed = setting.changes.observed
     decision = decide(found.screen, views=len(setting.channels) * len(setting.data))
     watched = watch_list(setting.machine)
     layout = _layout(watched, setting)
     weights = of_one_part(merged_weights(found.screen), found.screen.struck)
     missing = decision.word != "nothing_missing"
-    decision, other = named_pair(decision, second_effect(setting, found, decision), pair)
+    decision, other = named_pair(decision, second_effect(setting, found, decision), pairs)
     causes = with_forms(ranked_causes(found, decision, weights, observed, other), found.screen) if missing else ()
     both = other.together if other is not None else None
-    held = _held(setting, found, decision, layout, unknown, both) if decision.chosen else None
+    beside = other.names[0] if other is not None and both is not None else None
+    held = _held(setting, found, decision, layout, unknown, beside) if decision.chosen else None
     fitted = fitted_change(found, decision.chosen[0], observed) if decision.chosen else None
     revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter, both)
     if revision is not None:
         fitted = revision.change
     before = decision
     decision, causes = proved(decision, causes, found, revision)
-    other = other if decision is before else None
+    other, held = (other, held) if decision is before else (None, None)
     if unknown is not None and unknown.change is not None:
         fitted = unknown.change
     word, text, fault = _told(setting, decision, gate, causes, held, other, unknown)
@@ -131,11 +127,11 @@ def answer(
         causes=causes,
         fault=fault,
         held_out=held,
-        undecidable=_undecidable(setting, found, decision, other, pair),
+        undecidable=_undecidable(setting, found, decision, other, pairs),
         next_experiment=_next(setting, decision, lead),
         force=unknown.force if unknown is not None else None,
         machine=_machine(revision, unknown, decision),
-        stages=(*_stages(setting, found, gate, decision, fit or {}), *_revisions(revision)),
+        stages=(*all_stages(setting, found, gate, decision, fit or {}), *of_pairs(pairs), *revisions(revision)),
         pictures={
             "spectra": spectra(setting.data, setting.seen_through, fitted, layout, setting.channels),
             "ranking": ranking(setting, found, named) if missing else [],
@@ -147,10 +143,11 @@ def answer(
 
 
 def _undecidable(
-    setting: Setting, found: Found, decision: Decision, other: Beside | None, pair: Pair | None
+    setting: Setting, found: Found, decision: Decision, other: Beside | None, pairs: Pairs | None
 ) -> tuple[str, ...]:
     if decision.word in ("ambiguous", "not_decidable"):
         return tuple(decision.reasons)
+    pair = pairs.best if pairs is not None else None
     if decision.word == "explained" and other is None and pair is not None and pair.others:
         return (f"a second effect stands beside it, one of these: {', '.join(pair.others)}",)
     others = struck_somewhere(setting, found, decision)
@@ -168,11 +165,14 @@ def _told(
 ) -> tuple[Word, str, SensorFault | None]:
     """Verdict, sentence and sensor fault."""
     severity: Severity | None = causes[0].severity if causes else None
-    word, text = decision.word, sentence(decision, severity, held)
+    both = other is not None and other.together is not None
+    word, text = decision.word, sentence(decision, severity, None if both else held)
     if unknown is not None:
         text = f"{text} {law_sentence(unknown.force, tried=unknown.tried)}"
     if other is not None:
         text = f"{text} Beside it: {title(other.names[0])}{size(causes[1].severity)}."
+    if both and held is not None:
+        text = f"{text} Together they take {held.gain:.0%} off the distance of spectra on data not fitted."
     if gate.fault is None or word not in ("nothing_missing", "not_decidable") or _doubtful(gate, setting, word):
         return word, text, None
     # a fault that is sure goes before a rest of which nothing can be told
@@ -202,7 +202,7 @@ def _machine(revision: Revised | None, unknown: Unknown | None, decision: Decisi
     """With a law that stands, or an effect that is claimed: none where no known effect is."""
     if unknown is not None and unknown.machine is not None:
         return unknown.machine.model_dump(mode="json")
-    if revision is None or decision.word == "unknown_physics":
+    if revision is None or decision.word not in ("explained", "ambiguous"):
         return None
     return revision.machine.model_dump(mode="json")
 
@@ -227,16 +227,16 @@ def _held(
     decision: Decision,
     layout: Layout,
     unknown: Unknown | None,
-    both: Together | None,
+    beside: str | None,
 ) -> HeldOut:
     lines = [d.lines_hz for d in setting.data]
     count = len(setting.channels)
     known = found.unled if unknown is None or unknown.known is None else unknown.known
     held = held_out(
         setting.changes,
-        known if both is None else with_sums(known, decision.chosen[0], both.sums),
+        known,
         decision.chosen[0] if unknown is None or unknown.label is None else unknown.label,
-        also=() if both is None else (both.terms[0][1].term,),
+        beside=beside,
         spectral=spectral_mask(layout, setting.seen_through),
         frequency=feature_frequencies(layout, lines, count),
         channel=feature_channels(layout, len(lines), count),
@@ -248,63 +248,6 @@ def _held(
 def _next(setting: Setting, decision: Decision, lead: float) -> NextExperiment | None:
     heard = sensor_sites(setting.machine, setting.simulated)
     return next_experiment(decision.chosen, lead, len(setting.data), heard)
-
-
-def _stages(
-    setting: Setting, found: Found, gate: Gate, decision: Decision, fit: Mapping[str, object]
-) -> tuple[Mapping[str, object], ...]:
-    speeds: Sequence[str] = [
-        f"{d.point.speed_hz:g} Hz stated, {d.spectra[0].speed_hz:.3f} Hz found ({d.spectra[0].estimate.method})"
-        for d in setting.data
-    ]
-    gains = [float(np.median(lens.chain.gain_db)) for lens in setting.seen_through[:1]]
-    rest = found.screen.rest
-    lines = rest.kept != 1.0 or rest.unmet != 0.0  # without teeth there is no view of single lines
-    return (
-        gate_stage(gate),
-        {"name": "observe", "speeds": speeds, "features": int(np.isfinite(found.fitted.whiten.sigma).sum())},
-        {"name": "calibrate", "median_gain_db": gains, "mode": "A" if setting.changes.with_baseline else "B", **fit},
-        {
-            "name": "impacts",
-            "found": list(setting.direct.told)
-            or ["no part's lines modulate more deeply than those of sound machines here (levels may have risen)"],
-        },
-        {
-            "name": "is anything missing",
-            "length": found.screen.length,
-            "null_median": float(np.median(found.fitted.null)),
-            "p_any": found.screen.p_any,
-            "p_best": found.screen.p_best,
-            "p_direct": found.screen.p_direct,
-            "p_lines": found.screen.p_lines,
-            "p_first": found.screen.p_first,
-            "p": decision.p,
-        },
-        {"name": "nominate", "candidates": len(found.screen.names), "draws": len(found.known.terms)},
-        {
-            "name": "judge",
-            "misfit": found.screen.misfit,
-            "overdispersion": found.fitted.overdispersion,
-            "lines_left": rest.unmet if lines else None,
-            "lines_explained": rest.kept if lines else None,
-            "families_explained": rest.pooled,
-            "fitted_with_the_machine": sorted(found.led),
-        },
-    )
-
-
-def _revisions(revision: Revised | None) -> tuple[Mapping[str, object], ...]:
-    """How well the revised machine does, simulated: no forecast, on the recordings themselves."""
-    if revision is None:
-        return ()
-    return (
-        {
-            "name": "revised machine",
-            "simulated_forms": revision.forms,
-            "level_change_db": round(revision.before_db, 2),
-            "left_of_it_db": round(revision.after_db, 2),
-        },
-    )
 
 
 def provenance(seed: int, draws: int, meter: Meter, cost: Mapping[str, object]) -> Mapping[str, object]:

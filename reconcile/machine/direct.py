@@ -8,13 +8,13 @@ other's slip.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from reconcile.kinematics.envelopes import envelopes
-from reconcile.kinematics.families import Ties, ties
+from reconcile.kinematics.families import Family, Ties, ties
 from reconcile.kinematics.judge import DEFECTS, Candidate, candidates, same
 from reconcile.kinematics.observe import Observation, reach_of
 from reconcile.kinematics.spec import of_machine
@@ -101,11 +101,12 @@ def direct_evidence(
         elif term.strikes is not None:
             evidence |= {f"{term.key}@{b.name}": _ball(every, tie, term.strikes, b.name) for b in machine.bearings}
     evidence = shared_lines(evidence, tie)
+    spared = unjudged(evidence, tie, [c.family for c in seen if c.risen and c not in every])
     firm = [c for c in every if c.present and c.risen]
     several = combs(tests, baselines, tie, every, seed) if baselines else ()
     usual = [f"{c.family.key}: {c.z:.1f}, but sound machines show as much" for c in seen if c.risen and c not in every]
     return Direct(
-        evidence={name: min(value, MOST) for name, value in unheard(evidence).items() if value != 0.0},
+        evidence={name: min(value, MOST) for name, value in unheard(evidence, spared).items() if value != 0.0},
         p=min([1.0, *(c.chance for c in firm), *(chance for _, chance in heights.values())]),
         told=(
             *(f"{c.family.key}: {c.z:.1f} deviations of control lines" for c in every if c.risen and c.z > 2.0),
@@ -132,16 +133,32 @@ def shared_lines(evidence: Mapping[str, float], tie: Ties) -> dict[str, float]:
     return found
 
 
-def unheard(evidence: Mapping[str, float]) -> dict[str, float]:
+def unjudged(evidence: Mapping[str, float], tie: Ties, usual: Sequence[Family]) -> set[str]:
+    """Effects whose silence says nothing: their lines lie within slip of those of a part that is struck for sure, or
+    are there (`usual`) and no more than sound machines show."""
+    rolling = {t.strikes: [u.key for u in REGISTRY if u.strikes == t.strikes] for t in REGISTRY if t.strikes != "tooth"}
+    families = [f for f in tie.families if f.kind in rolling]
+    sure = [f for f in families if max(evidence.get(f"{key}@{f.site}", 0.0) for key in rolling[f.kind]) >= SURE]
+    spared = [
+        f
+        for f in families
+        if any(f.kind != g.kind and abs(g.order / f.order - 1.0) < max(f.slip, g.slip) for g in sure)
+        or any(f.kind == g.kind and same(f, g) for g in usual)
+    ]
+    return {f"{key}@{f.site}" for f in spared for key in rolling[f.kind]}
+
+
+def unheard(evidence: Mapping[str, float], spared: Collection[str] = ()) -> dict[str, float]:
     """Where balls strike one part for sure, the silence of other parts that they would strike is evidence too: what
     a pit of one race and one of the other do to the levels is nearly alike, what they strike is not. With phases
     between sensors the pattern of a pit of the wrong race led two of the proof's outer races (l056, l069) by 14 and 18,
-    where the right race's lines stood 8 deviations out of control lines and the other's not at all."""
+    where the right race's lines stood 8 deviations out of control lines and the other's not at all. That of the
+    `spared` says nothing."""
     rolling = {t.key for t in REGISTRY if t.strikes is not None and t.strikes != "tooth"}
     strikers = {name: value for name, value in evidence.items() if name.split("@")[0] in rolling}
     if max(strikers.values(), default=0.0) < SURE:
         return dict(evidence)
-    return {**evidence, **{name: value - MOST for name, value in strikers.items() if value < HEARD}}
+    return {**evidence, **{n: value - MOST for n, value in strikers.items() if value < HEARD and n not in spared}}
 
 
 def _counts(candidate: Candidate, rise: Rise, *, points: int, based: bool) -> bool:

@@ -28,7 +28,7 @@ from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
 from reconcile.machine.octave import doubted_speed, rival_speed
 from reconcile.machine.own_time import own_time, with_own_time
-from reconcile.machine.pairs import Pair, best_pair, named_pair
+from reconcile.machine.pairs import Pairs, best_pair, named_pair
 from reconcile.machine.search import (
     broader,
     fit_views,
@@ -123,10 +123,10 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     looks = _answered(setting, screen_atlas(setting), budget, meter, progress)
     of_kind, setting, found = setting, looks.setting, looks.found
     progress(0.9, "laws that nobody listed")
-    unknown = _force(setting, found, looks.pair, budget, meter)
+    unknown = _force(setting, found, looks.pairs, budget, meter)
     progress(0.95, "held-out data")
     cost = {"until_atlas_core_s": atlas_s, "budget": budget.name}
-    report = answer(setting, found, gate, meter, cost, looks.fit, unknown, looks.pair)
+    report = answer(setting, found, gate, meter, cost, looks.fit, unknown, looks.pairs)
     report = with_exchanged(report, setting, channels)
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
@@ -143,14 +143,14 @@ def _told_by(meter: Meter, seed: int, budget: Budget) -> Mapping[str, object]:
 class _Looks:
     """What the candidates say (`found`), the setting it stands on, and how well machines agree with the baseline
     (`fit`); the look at all candidates on machines of the kind, and through the lines of those that agree; what stands
-    beside the best effect (`pair`)."""
+    beside the best effect (`pairs`)."""
 
     setting: Setting
     found: Found
     fit: Mapping[str, object]
     atlas: Found
     lines: Found | None
-    pair: Pair | None = None
+    pairs: Pairs | None = None
 
 
 def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, progress: Progress) -> _Looks:
@@ -189,23 +189,23 @@ def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, prog
     fit = told(local) if local is not None else {}
     found = replace(found, screen=screen)
     progress(0.89, "two effects together")
-    pair = _paired(closer, found, budget, meter)
-    return _Looks(setting=closer, found=found, fit=fit, atlas=atlas, lines=seen, pair=pair)
+    pairs = _paired(closer, found, budget, meter)
+    return _Looks(setting=closer, found=found, fit=fit, atlas=atlas, lines=seen, pairs=pairs)
 
 
 def _decided(setting: Setting, found: Found) -> Decision:
     return decide(found.screen, views=len(setting.channels) * len(setting.data))
 
 
-def _paired(setting: Setting, found: Found, budget: Budget, meter: Meter) -> Pair | None:
+def _paired(setting: Setting, found: Found, budget: Budget, meter: Meter) -> Pairs | None:
     decision = _decided(setting, found)
     if second_effect(setting, found, decision) is not None:
         return None
     return best_pair(setting, found, decision, budget.members, budget.pairs, meter)
 
 
-def _force(setting: Setting, found: Found, pair: Pair | None, budget: Budget, meter: Meter) -> Unknown | None:
-    decision, _ = named_pair(_decided(setting, found), None, pair)
+def _force(setting: Setting, found: Found, pairs: Pairs | None, budget: Budget, meter: Meter) -> Unknown | None:
+    decision, _ = named_pair(_decided(setting, found), None, pairs)
     return unknown_force(setting, found, budget.supports, meter) if decision.word == "unknown_physics" else None
 
 

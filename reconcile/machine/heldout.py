@@ -93,21 +93,21 @@ def held_out(
     spectral: np.ndarray,
     frequency: FloatArray,
     channel: np.ndarray | None = None,
-    also: Sequence[str] = (),
+    beside: str | None = None,
     seed: int,
 ) -> HeldOut:
-    """Log-spectral distance before and after adding the effect, with a 90 % block-bootstrap interval of the gain; its
-    draws may hold further terms (`also`), whose numbers count too.
+    """Log-spectral distance before and after adding the effect, or it and another `beside` it, with a 90 %
+    block-bootstrap interval of the gain. Placebos of a pair keep the first and put something else for the second.
 
     `black_box` is the better of one curve for all sensors and one for each (`channel` (F,)) with as many numbers."""
     noise = np.nan_to_num(changes.measured, nan=10.0) ** 2
     drift = np.mean(np.nan_to_num(changes.null) ** 2, axis=0)
     sigma = np.sqrt(noise + drift + 1.0)
     ways, how = splits(changes, spectral)
-    rows = known.library.groups
+    named = known if beside is None else with_sums(changes, known, name, beside)
     before = [_distance(w.scored, np.zeros(changes.observed.size), w) for w in ways]
-    after, used = _told(known, rows[name], ways, spectral, sigma)
-    count = max(_parameters(name) + sum(_parameters(f"{term}@") for term in also), round(used))
+    after, used = _told(named, named.library.groups[name], ways, spectral, sigma)
+    count = max(_parameters(name) + (0 if beside is None else _parameters(beside)), round(used))
     fits = [levels(w, spectral) for w in ways]
     tuned = [_distance(w.scored, retuned(changes.null, f, sigma), w) for w, f in zip(ways, fits, strict=True)]
     boxes = []
@@ -116,7 +116,7 @@ def held_out(
         boxes.append(np.concatenate([_distance(w.scored, m, w) for w, m in zip(ways, made, strict=True)]))
     first = np.concatenate(before)
     low, high = _interval(before, after, np.random.default_rng([seed, 5]))
-    placebos = _placebos(known, name, ways, spectral, sigma, before)
+    placebos = _placebos(changes, known, name, beside, ways, spectral, sigma, before)
     full = [p.gain for p in placebos if p.draws >= MANY] or [p.gain for p in placebos]
     return HeldOut(
         metric="log_spectral_distance",
@@ -133,15 +133,18 @@ def held_out(
         ceiling=_ceiling(first, ways, np.sqrt(noise + drift)),
         numbers=count,
         placebos=placebos,
+        effects=(name,) if beside is None else (name, beside),
     )
 
 
-def with_sums(known: Catalogued, name: str, sums: FloatArray) -> Catalogued:
-    """The library in which an effect's draws are what it and another show together, `sums` (n, F), dB."""
+def with_sums(changes: Changes, known: Catalogued, first: str, second: str) -> Catalogued:
+    """The library in which the first effect's draws are what each of them and each of the second's show together."""
     library = known.library
+    own, other = (library.changes[list(library.groups[name])] for name in (first, second))
+    sums = np.concatenate([changes.both(one[None], other) for one in own])
     rows = tuple(range(len(library.changes), len(library.changes) + len(sums)))
-    changes = np.concatenate([library.changes, sums])
-    return replace(known, library=replace(library, changes=changes, groups={**library.groups, name: rows}))
+    both = np.concatenate([library.changes, sums])
+    return replace(known, library=replace(library, changes=both, groups={**library.groups, first: rows}))
 
 
 def _parameters(name: str) -> int:
@@ -159,21 +162,26 @@ def _told(
 
 
 def _placebos(
+    changes: Changes,
     known: Catalogued,
     name: str,
+    beside: str | None,
     ways: Sequence[Split],
     spectral: np.ndarray,
     sigma: FloatArray,
     before: Sequence[FloatArray],
 ) -> tuple[Placebo, ...]:
-    """The right law at wrong places and wrong laws at the right place, the best first."""
-    term, site = name.split("@")
+    """The right law at wrong places and wrong laws at the right place, the best first; of two effects, for the second,
+    beside the first."""
+    term, site = (beside or name).split("@")
     found = []
     for other, rows in known.library.groups.items():
         law, place = other.split("@")
-        if other == name or (law == term) == (place == site):
+        if other in (name, beside) or (law == term) == (place == site):
             continue
-        left = np.concatenate(_told(known, rows, ways, spectral, sigma)[0])
+        summed = known if beside is None else with_sums(changes, known, name, other)
+        drawn = rows if beside is None else summed.library.groups[name]
+        left = np.concatenate(_told(summed, drawn, ways, spectral, sigma)[0])
         if left.size == sum(b.size for b in before):
             found.append(Placebo(term=law, site=place, gain=_gain(np.concatenate(before), left), draws=len(rows)))
     return tuple(sorted(found, key=lambda p: -p.gain))

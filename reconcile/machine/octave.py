@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 
 from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import doubts
-from reconcile.machine.answer import gate_stage
+from reconcile.machine.stages import gate_stage
 from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
 from reconcile.observe.watch import bases_at

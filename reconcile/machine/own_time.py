@@ -12,6 +12,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reconcile.kinematics.families import Family, ties
+from reconcile.kinematics.spec import of_machine
 from reconcile.observe.extract import USABLE, hann_spectrum
 from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
@@ -19,6 +21,7 @@ from reconcile.observe.watch import watch_list
 from reconcile.speed.excess import power_over_floor
 from reconcile.verdict import LineChange, NextExperiment, PlaceWeight, Report
 from signals.series import FloatArray
+from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
 
 APART = 1.03
@@ -33,6 +36,8 @@ LEAST_LEVEL_DB, MOST_LEVEL_DB = 5.0, 35.0
 """Above the local floor: what chance reaches, and more proves no more."""
 OWN_HZ = 1.0
 """Distance from an order of a shaft below which a frequency may be that order's."""
+MULTIPLES = 4
+"""Of what a bearing's part modulates with: at two speeds its third and its second may meet, at 2:3."""
 LEAST_DB, AHEAD = 1.2, 2.0
 """Mean rise at the speed where it is least, and over that at any frequency elsewhere. Sound machines of the proof's
 third split come to 0.3 dB; a pit's forest of lines to 3.5 dB, but at many frequencies."""
@@ -74,18 +79,18 @@ def own_time(machine: MachineSpec, data: Sequence[PointData], channels: Sequence
     watched = watch_list(machine).lines
     first = [k for k, line in enumerate(watched) if line.family == "mesh" and set(line.orders.values()) == {1.0}]
     shafts = [k for k, line in enumerate(watched) if line.family == "shaft" and set(line.orders.values()) == {1.0}]
-    if not first:
+    slowest = min((float(d.lines_hz[k]) for d in data for k in first), default=0.0)
+    grid = np.arange(LOWEST_HZ, min(HIGHEST_HZ, HIGHEST_SHARE * slowest), STEP_HZ)
+    reached = _in_reach(data, first, float(grid[-1])) if grid.size > 1 else []
+    if not reached:
         return None
-    top = min(HIGHEST_HZ, HIGHEST_SHARE * min(float(d.lines_hz[k]) for d in data for k in first))
-    grid = np.arange(LOWEST_HZ, top, STEP_HZ)
-    if grid.size < 2:
-        return None
-    rises = np.stack([_rise(d, first, grid) for d in data])
+    bearings = _parts(machine)
+    rises = np.stack([_rise(d, reached, grid) for d in data])
     least = rises.mean(axis=(1, 2)).min(axis=0)
     while least.max() >= LEAST_DB:
         best = int(np.argmax(least))
         hz = _middle(grid, least, best)
-        if _free(data, shafts, hz):
+        if _free(data, shafts, hz) and not _of_a_part(data, bearings, hz):
             break
         least[np.abs(grid - hz) <= SEPARATE_HZ] = 0.0  # an order, with what its line leaks
     else:
@@ -96,7 +101,7 @@ def own_time(machine: MachineSpec, data: Sequence[PointData], channels: Sequence
     elsewhere = float(least[away].max(initial=0.0))
     if least[best] < max(LEAST_DB, AHEAD * elsewhere):
         return None
-    lines = _lines(data, first, rises[..., best], hz, channels)
+    lines = _lines(data, reached[0][0], rises[..., best], hz, channels)
     return OwnTime(hz=hz, rise_db=float(least[best]), elsewhere_db=elsewhere, lines=lines)
 
 
@@ -116,31 +121,61 @@ def _free(data: Sequence[PointData], shafts: Sequence[int], hz: float) -> bool:
     return bool(clear) and max(clear) > APART * min(clear)
 
 
-def _rise(one: PointData, first: Sequence[int], grid: FloatArray) -> FloatArray:
+def _parts(machine: MachineSpec) -> tuple[Family, ...]:
+    """What bearings modulate with; none where shafts are not tied."""
+    try:
+        return ties(of_machine(machine), machine.operating.shaft if machine.operating else None).families
+    except SpecError:
+        return ()
+
+
+def _of_a_part(data: Sequence[PointData], families: Sequence[Family], hz: float) -> bool:
+    """Whether one part's low multiples, within its slip, meet the frequency at every speed."""
+
+    def met(family: Family, speed_hz: float) -> bool:
+        own = [k * family.order * speed_hz for k in range(1, MULTIPLES + 1)]
+        return any(abs(hz - at) <= OWN_HZ + family.slip * at for at in own)
+
+    turning = [f for f in families if f.slip > 0.0]
+    return any(all(met(f, d.spectra[0].speed_hz) for d in data) for f in turning)
+
+
+def _in_reach(data: Sequence[PointData], first: Sequence[int], widest_hz: float) -> list[tuple[int, int]]:
+    """Harmonics of the teeth (line, order) whose sidebands are below the band's end in all recordings."""
+
+    def reached(mesh: int, order: int) -> bool:
+        return all(
+            one is not None
+            and order * one.speed_hz / d.point.speed_hz * float(d.lines_hz[mesh]) + widest_hz <= USABLE * one.rate_hz
+            for d in data
+            for one in d.spectra
+        )
+
+    return [(mesh, order) for mesh in first for order in range(1, HARMONICS + 1) if reached(mesh, order)]
+
+
+def _rise(one: PointData, reached: Sequence[tuple[int, int]], grid: FloatArray) -> FloatArray:
     """(sidebands, C, grid): level of each sideband above the floor in the test less that in the baseline, dB."""
     test, baseline = one.spectra
     assert baseline is not None
-    return _levels(test, one, first, grid) - _levels(baseline, one, first, grid)
+    return _levels(test, one, reached, grid) - _levels(baseline, one, reached, grid)
 
 
-def _levels(one: Steady, point: PointData, first: Sequence[int], grid: FloatArray) -> FloatArray:
+def _levels(one: Steady, point: PointData, reached: Sequence[tuple[int, int]], grid: FloatArray) -> FloatArray:
     _, power, bin_hz = hann_spectrum(one.samples, one.rate_hz)
     above = 10.0 * np.log10(np.maximum(np.stack([power_over_floor(row) for row in power]), 1e-3))
     above = np.clip(above, LEAST_LEVEL_DB, MOST_LEVEL_DB)
     above = np.max(np.stack([np.roll(above, k, axis=1) for k in (-1, 0, 1)]), axis=0)
     scale = one.speed_hz / point.point.speed_hz
     found = []
-    for mesh in first:
-        for order in range(1, HARMONICS + 1):
-            middle = order * scale * float(point.lines_hz[mesh])
-            if middle + grid[-1] > USABLE * one.rate_hz:
-                continue
-            found += [above[:, np.rint((middle + side * grid) / bin_hz).astype(int)] for side in (-1.0, 1.0)]
-    return np.stack(found) if found else np.zeros((1, power.shape[0], grid.size))
+    for mesh, order in reached:
+        middle = order * scale * float(point.lines_hz[mesh])
+        found += [above[:, np.rint((middle + side * grid) / bin_hz).astype(int)] for side in (-1.0, 1.0)]
+    return np.stack(found)
 
 
 def _lines(
-    data: Sequence[PointData], first: Sequence[int], rises: FloatArray, hz: float, channels: Sequence[str]
+    data: Sequence[PointData], mesh: int, rises: FloatArray, hz: float, channels: Sequence[str]
 ) -> tuple[LineChange, ...]:
     """The sidebands of the teeth's first harmonic at every speed, each on the channel where it rose most, that rose."""
     found = []
@@ -153,7 +188,7 @@ def _lines(
             found.append(
                 LineChange(
                     label=f"teeth {'+' if sign > 0 else '-'} {hz:.4g} Hz",
-                    frequency_hz=float(d.lines_hz[first[0]] + sign * hz),
+                    frequency_hz=float(d.lines_hz[mesh] + sign * hz),
                     change_db=float(rises[k, row, channel]),
                     channel=channels[channel],
                     locked_to=locked,

@@ -67,18 +67,22 @@ class Pair:
     others: tuple[str, ...] = ()
 
 
-def added(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Two changes at once, dB: what both raise adds as power, else one goes on from where the other ends."""
-    power = 10.0 ** (np.clip(first, 0.0, 200.0) / 10.0) + 10.0 ** (np.clip(second, 0.0, 200.0) / 10.0) - 1.0
-    return np.asarray(np.where((first > 0.0) & (second > 0.0), 10.0 * np.log10(power), first + second))
-
-
 def evidence_in(view: Fitted, changes: FloatArray, observed: FloatArray) -> FloatArray:
     """Log evidence of each of `changes` (n, F) over no change, (n,)."""
     place = view.place(observed)
     points = view.metric(view.view(view.whiten(changes)))
     nothing = float(np.sum(place**2))
     return np.asarray((nothing - np.sum((points - place) ** 2, axis=1)) / (2.0 * view.overdispersion))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pairs:
+    """What was tried beside the effect `first`: of each second the log evidence it adds by sums, and as simulated where
+    it was; the pair that stands, if any."""
+
+    first: str
+    tried: tuple[tuple[str, float, float | None], ...]
+    best: Pair | None = None
 
 
 def heard_in(found: Found, first: str) -> list[Fitted]:
@@ -127,7 +131,8 @@ def sums(setting: Setting, found: Found, first: str, members: int) -> list[Sum]:
     table = np.array(
         [
             [
-                evidence_in(view, added(library.changes[form][None], library.changes[rows]), observed) - least
+                evidence_in(view, setting.changes.both(library.changes[form][None], library.changes[rows]), observed)
+                - least
                 for view, least in zip(views, base, strict=True)
             ]
             for form in forms
@@ -160,7 +165,7 @@ def fitted_pair(setting: Setting, found: Found, first: str, second: Sum, mapper:
         offsets=tuple(known.offsets[k] for k in a),
         terms=tuple(known.terms[k] for k in a),
         also=tuple(known.terms[k] for k in b),
-        changes=added(known.library.changes[a], known.library.changes[b]),
+        changes=setting.changes.both(known.library.changes[a], known.library.changes[b]),
     )
     rng = np.random.default_rng([setting.seed, 22, *f"{first}+{second.name}".encode()])
     led = moved(start, found.levels_like(second.view), observed, 1.0, rng)
@@ -181,7 +186,6 @@ def fitted_pair(setting: Setting, found: Found, first: str, second: Sum, mapper:
         ),
         terms=terms,
         middle=Offsets(values=np.mean([o.values for o in more.offsets], axis=0)),
-        sums=_unled_sums(found, first, second.name),
     )
     gain = float(gains.max())
     beside = Beside(
@@ -198,30 +202,37 @@ def fitted_pair(setting: Setting, found: Found, first: str, second: Sum, mapper:
 
 def best_pair(
     setting: Setting, found: Found, decision: Decision, members: int, most: int, mapper: Mapper
-) -> Pair | None:
-    """What stands beside the best effect, of at most so many that are simulated; None where nothing adds enough,
-    where both leave what no known effects should, or where another first would do as well."""
+) -> Pairs | None:
+    """What stands beside the best effect, of at most so many that are simulated: nothing where none adds enough, where
+    both leave what no known effects should, or where another first would do as well. None where none is looked for."""
     if decision.word not in ("explained", "ambiguous", "unknown_physics") or not decision.chosen:
         return None
     first = decision.chosen[0]
     seen = [one for one in sums(setting, found, first, members) if one.gain >= PROMISING]
-    fitted = [fitted_pair(setting, found, first, one, mapper) for one in seen[:most]]
-    least = LEAST_BESIDE_IMPACTS if strikes(first) else LEAST_GAIN
-    pairs = sorted((p for p in fitted if p is not None), key=lambda p: -p.gain)
-    if not pairs or pairs[0].gain < least or (decision.word != "explained" and _inadequate(pairs[0])):
-        return None
-    best = pairs[0]
-    second = best.beside.names[0]
-    if any(_as_well(setting, found, rival, best) for rival in decision.chosen[1:]):
-        return None
-    rivals = {p.beside.names[0]: p.gain + LEAST_EVIDENCE for p in pairs[1:]}
-    rivals |= {s.name: s.gain + UNTRIED for s in seen[most:]}
-    near = [n for n, reach in rivals.items() if reach > best.gain and not variants(n, second)]
-    return replace(best, others=(second, *near) if near else ())
+    fitted = {one.name: fitted_pair(setting, found, first, one, mapper) for one in seen[:most]}
+    pairs = sorted((p for p in fitted.values() if p is not None), key=lambda p: -p.gain)
+    simulated = {name: None if pair is None else pair.gain for name, pair in fitted.items()}
+    tried = tuple((one.name, one.gain, simulated.get(one.name)) for one in seen)
+    best = pairs[0] if pairs and _stands(setting, found, decision, pairs[0]) else None
+    if best is not None:
+        second = best.beside.names[0]
+        rivals = {p.beside.names[0]: p.gain + LEAST_EVIDENCE for p in pairs[1:]}
+        rivals |= {s.name: s.gain + UNTRIED for s in seen[most:]}
+        near = [n for n, reach in rivals.items() if reach > best.gain and not variants(n, second)]
+        best = replace(best, others=(second, *near) if near else ())
+    return Pairs(first=first, tried=tried, best=best)
 
 
-def named_pair(decision: Decision, other: Beside | None, pair: Pair | None) -> tuple[Decision, Beside | None]:
+def _stands(setting: Setting, found: Found, decision: Decision, best: Pair) -> bool:
+    least = LEAST_BESIDE_IMPACTS if strikes(best.first) else LEAST_GAIN
+    if best.gain < least or (decision.word != "explained" and _inadequate(best)):
+        return False
+    return not any(_as_well(setting, found, rival, best) for rival in decision.chosen[1:])
+
+
+def named_pair(decision: Decision, other: Beside | None, pairs: Pairs | None) -> tuple[Decision, Beside | None]:
     """The verdict with what stands beside the best effect: what strikes too, or else what was fitted together."""
+    pair = pairs.best if pairs is not None else None
     if other is not None or pair is None or pair.others:
         return decision, other
     return replace(decision, word="explained", chosen=(pair.first,), reasons=()), pair.beside
@@ -234,7 +245,7 @@ def _as_well(setting: Setting, found: Found, rival: str, best: Pair) -> bool:
     if rival == second or variants(rival, best.first):
         return False
     more = next((one.gain for one in sums(setting, found, rival, 1) if one.name == second), 0.0)
-    return bool(told[rival] + max(more, 0.0) > told[best.first] + best.gain - LEAST_EVIDENCE)
+    return bool(told[rival] + max(more, 0.0) > told[best.first] + best.gain - UNTRIED)
 
 
 def _inadequate(pair: Pair) -> bool:
@@ -253,12 +264,6 @@ def _misfit(view: Fitted, changes: FloatArray, observed: FloatArray) -> float:
     points = view.metric(view.view(view.whiten(changes)))
     left = float(np.sum((points - place) ** 2, axis=1).min())
     return quantile_of_misfit(view, left, float(np.sum(place**2)))
-
-
-def _unled_sums(found: Found, first: str, second: str) -> FloatArray:
-    library = found.unled.library
-    a, b = (library.changes[list(library.groups[name])] for name in (first, second))
-    return np.concatenate([added(one[None], b) for one in a])
 
 
 def _registered(name: str) -> Term:

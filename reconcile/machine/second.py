@@ -35,13 +35,11 @@ LEFT = 0.9
 @dataclass(frozen=True, kw_only=True)
 class Together:
     """Two effects fitted together with the machine: the second's size, both terms of every member, the nearest first,
-    how their machines are moved on the mean, and `sums` (n, F), dB: what draws that know nothing of the observation
-    show together."""
+    and how their machines are moved on the mean."""
 
     severity: Severity
     terms: tuple[tuple[TermSpec, TermSpec], ...]
     middle: Offsets
-    sums: FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,7 +14,7 @@ from scipy.ndimage import maximum_filter1d
 
 from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import doubts
-from reconcile.machine.answer import gate_stage
+from reconcile.machine.stages import gate_stage
 from reconcile.observe.observation import SAME_SPEED, PointData
 from reconcile.observe.steady import Steady
 from reconcile.speed import SpeedEstimate, line_logs

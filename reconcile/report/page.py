@@ -109,6 +109,8 @@ def _held_out(report: Report) -> Markup:
     if found is not None:
         best = report.causes[0] if report.causes and report.verdict in ("explained", "ambiguous") else None
         subject = "what was found" if best is None else cause(best)
+        if len(found.effects) > 1:
+            subject = " and ".join(cause(c) for c in report.causes[:2])
         bars = Markup(distances(found, subject) + gains(found, subject))
     return section(
         "Improvement on data never fitted", held_out_words(found), bars, told(held_out_table(found)), key, *panels

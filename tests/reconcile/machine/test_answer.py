@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
-from reconcile.machine.answer import _doubtful, _machine
+from reconcile.machine.answer import _doubtful, _machine, _told
 from reconcile.machine.decide import Decision
-from reconcile.verdict import SensorFault, Word
+from reconcile.machine.pairs import Pairs
+from reconcile.machine.second import Beside
+from reconcile.machine.stages import of_pairs
+from reconcile.verdict import Cause, HeldOut, SensorFault, Word
 from sim.presets import preset
 
 
@@ -29,9 +33,41 @@ def test_a_loose_sensor_at_one_point_is_no_answer_where_nothing_else_is_unusual(
     assert _doubtful(gate, setting, word) is doubtful  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize(("word", "given"), [("explained", True), ("ambiguous", True), ("unknown_physics", False)])
+CLAIMED = (("explained", True), ("ambiguous", True), ("unknown_physics", False), ("not_decidable", False))
+
+
+@pytest.mark.parametrize(("word", "given"), CLAIMED)
 def test_a_machine_is_given_only_with_an_effect_that_is_claimed(word: Word, given: bool) -> None:
     revision = SimpleNamespace(machine=preset("paper-lightly-damped"))
     decision = Decision(word=word, chosen=("rub@gear",), p=1e-4, reasons=())
     assert (_machine(revision, None, decision) is not None) == given  # type: ignore[arg-type]
     assert _machine(None, None, decision) is None
+
+
+HELD = HeldOut(
+    metric="log_spectral_distance", unit="dB", before=4.0, after=3.0, gain=0.25, gain_low=0.2, gain_high=0.3,
+    retuned=0.0, black_box=0.0, placebo=0.0,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("together", [True, False])
+def test_the_gain_is_said_of_what_it_was_held_out_with(together: bool) -> None:
+    decision = Decision(word="explained", chosen=("unbalance@pinion",), p=1e-4, reasons=())
+    causes = tuple(Cause(term=t, site=s, score=9.0) for t, s in (("unbalance", "pinion"), ("rub", "gear")))
+    both = SimpleNamespace() if together else None
+    other = Beside(
+        view=None, left=None, names=("rub@gear",), evidence=np.array([9.0]), p=1e-4, misfit=0.1, together=both,  # type: ignore[arg-type]
+    )  # fmt: skip
+    gate = SimpleNamespace(fault=None)
+    _, text, _ = _told(SimpleNamespace(), decision, gate, causes, HELD, other, None)  # type: ignore[arg-type]
+    first, second = text.split(" Beside it: ")
+    assert first.startswith("Unbalance at pinion") and second.startswith("Rub at gear")
+    assert ("25%" in second) == together and ("25%" in first) == (not together)
+    assert ("Together they take" in second) == together
+
+
+def test_what_was_tried_beside_the_first_is_told() -> None:
+    tried = (("rub@gear", 9.0, 12.5), ("backlash@mesh1", 4.2, None))
+    (stage,) = of_pairs(Pairs(first="unbalance@pinion", tried=tried))
+    assert stage["adds"] == ["rub@gear: 9.0 by sums, 12.5 simulated", "backlash@mesh1: 4.2 by sums"]
+    assert of_pairs(Pairs(first="unbalance@pinion", tried=())) == of_pairs(None) == ()

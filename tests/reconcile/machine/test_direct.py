@@ -174,6 +174,19 @@ def family(kind: str, site: str, order: float) -> Family:
     return Family(kind=kind, site=site, order=order, spacing=1.0, sidebands=1, slip=0.025)  # type: ignore[arg-type]
 
 
+def test_silence_says_nothing_where_slip_or_sound_machines_leave_it_open() -> None:
+    families = (family("inner", "b", 5.32), family("ball", "b", 5.29), family("outer", "b", 3.7))
+    tie = Ties(reference="s", shafts={"s": 1.0}, families=families, meshes=(), races={})
+    heard = {"inner_spall@b": 9.0, "ball_spall@b": 3.9, "outer_spall@b": 0.0}
+    spared = direct.unjudged(heard, tie, [])
+    assert spared == {"ball_spall@b"}, "the balls' lines lie within slip of the inner race's"
+    told = direct.unheard(heard, spared)
+    assert told["ball_spall@b"] == 3.9 and told["outer_spall@b"] == -direct.MOST
+    assert direct.unjudged(heard, tie, [families[2]]) == {"ball_spall@b", "outer_spall@b"}
+    quiet = {**heard, "inner_spall@b": 5.0}
+    assert direct.unjudged(quiet, tie, []) == set()
+
+
 @pytest.mark.parametrize(
     ("ball_order", "inner", "told"),
     [(5.29, 5.0, 9.0), (5.29, 1.0, 1.0), (4.0, 5.0, 5.0)],

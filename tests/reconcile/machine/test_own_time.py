@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.machine.own_time import OwnTime, own_time, with_own_time
+from reconcile.observe.extract import USABLE
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
 from reconcile.report.action import to_do
@@ -95,6 +96,22 @@ def test_what_turns_with_a_shaft_is_none(machine: MachineSpec) -> None:
     assert told(machine, at_order(2.7)) is None
     assert told(machine, at_many) is None
     assert told(machine, at_hz(60.0)) is None, "the second order of one of two speeds"
+
+
+@pytest.mark.slow
+def test_what_a_bearing_modulates_with_is_none(machine: MachineSpec) -> None:
+    """At 20 Hz its third line is where the second is at 30 Hz."""
+    outer, slipped = 2.57355, 0.983
+    several = lambda hz: sum(at_order(k * slipped * outer)(hz) for k in (1, 2, 3))  # noqa: E731
+    assert told(machine, several, speeds_hz=(20.0, 30.0)) is None
+    assert told(machine, at_hz(150.0), speeds_hz=(21.7, 31.7)) is not None
+
+
+@pytest.mark.slow
+def test_harmonics_that_not_all_speeds_reach_are_left_out(machine: MachineSpec) -> None:
+    fast = RATE_HZ * USABLE / (2.5 * 23)
+    seen = told(machine, at_hz(100.0), speeds_hz=(22.5, fast))
+    assert seen is not None and seen.hz == pytest.approx(100.0, abs=0.7)
 
 
 @pytest.mark.slow

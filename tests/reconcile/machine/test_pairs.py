@@ -16,8 +16,10 @@ from reconcile.machine.causes import TOGETHER, ranked_causes
 from reconcile.machine.decide import Decision
 from reconcile.machine.direct import HEARD
 from reconcile.machine.heldout import held_out, with_sums
-from reconcile.machine.pairs import LEAST_GAIN, Pair, added, best_pair, fitted_pair, named_pair, sums
-from tests.reconcile.judge.made import FEATURES
+from reconcile.machine.pairs import LEAST_GAIN, Pair, best_pair, fitted_pair, named_pair, sums
+from reconcile.observe.phases import DB_PER_RAD
+from sim.core.spec import TermSpec
+from tests.reconcile.judge.made import FEATURES, changes, world
 from tests.reconcile.machine import test_second
 from tests.reconcile.machine.rubs import MADE, MEMBERS, RIGHT, WRONG, found_in
 
@@ -26,14 +28,21 @@ EXPLAINED = Decision(word="explained", chosen=(RIGHT,), p=1e-6, reasons=())
 UNKNOWN = replace(EXPLAINED, word="unknown_physics")
 
 
+MEMBERS_MADE: list[tuple[TermSpec, TermSpec]] = []
+"""First and second effect of the members that were simulated last."""
+
+
 @pytest.fixture
 def simulated(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Simulating is asking the made world; what was asked for."""
     asked: list[str] = []
 
     def again(_setting, candidate, offsets, terms, _mapper, also=()):  # type: ignore[no-untyped-def]
+        """The first member does not run."""
         asked.append(f"{candidate.label}+rub@{also[0].site}")
-        return MADE.catalogue(candidate.label, [o.values for o in offsets], list(terms), also)
+        MEMBERS_MADE[:] = list(zip(terms, also, strict=True))
+        made = MADE.catalogue(candidate.label, [o.values for o in offsets[1:]], list(terms[1:]), also[1:])
+        return replace(made, pairs=tuple(range(1, len(terms))))
 
     monkeypatch.setattr(pairs, "simulated_again", again)
     return asked
@@ -51,19 +60,38 @@ def seen(second: float | None = None) -> np.ndarray:
 
 def pair_in(observed: np.ndarray, decision: Decision = EXPLAINED) -> Pair | None:
     setting, found = found_in(observed)
-    setting.seed = 0
-    return best_pair(setting, found, decision, 8, 2, map)  # type: ignore[arg-type]
+    pairs_of = best_pair(setting, found, decision, 8, 2, map)  # type: ignore[arg-type]
+    return pairs_of.best if pairs_of is not None else None
+
+
+MIXED = changes(world(), np.zeros(FEATURES))
+
+
+def summed(a: float, b: float, phases: int = 0) -> np.ndarray:
+    full = np.full(FEATURES, a), np.full(FEATURES, b)
+    return replace(MIXED, phases=phases).both(*full)
 
 
 @given(st.floats(-30, 60), st.floats(-30, 60))
 def test_two_changes_add_as_powers_where_both_rise(a: float, b: float) -> None:
-    both = float(added(np.array(a), np.array(b)))
-    assert both == pytest.approx(float(added(np.array(b), np.array(a))))
-    assert float(added(np.array(a), np.array(0.0))) == pytest.approx(a)
+    both = float(summed(a, b)[0])
+    assert both == pytest.approx(float(summed(b, a)[0]))
+    assert float(summed(a, 0.0)[0]) == pytest.approx(a)
     if a > 0.0 and b > 0.0:
         assert max(a, b) - 1e-9 <= both <= max(a, b) + 3.02 + 1e-9
     else:
         assert both == pytest.approx(a + b)
+
+
+@given(st.floats(-25, 25), st.floats(-25, 25))
+def test_phases_add_and_turn_round(a: float, b: float) -> None:
+    turn = 2 * np.pi * DB_PER_RAD
+    mixed = summed(a, b, phases=7)
+    assert mixed[-8] == pytest.approx(summed(a, b)[0]), "levels as before"
+    assert abs(mixed[-1]) <= 0.5 * turn + 1e-9
+    assert (mixed[-1] - (a + b)) / turn == pytest.approx(round((mixed[-1] - (a + b)) / turn), abs=1e-9)
+    rows = replace(MIXED, phases=7).both(np.full((3, 1, FEATURES), a), np.full(FEATURES, b))
+    assert np.allclose(rows, mixed)
 
 
 def test_what_is_there_beside_the_first_adds_and_nothing_else_does() -> None:
@@ -88,10 +116,10 @@ def test_both_are_fitted_together(simulated: list[str]) -> None:
     assert together is not None and together.severity.low < SMALLER < together.severity.high
     assert abs(np.log(together.severity.value / SMALLER)) < 0.7
     assert [t.site for t in together.terms[0]] == ["gear", "pinion"]
+    assert len(together.terms) == 7 and all(pair in MEMBERS_MADE[1:] for pair in together.terms)
     assert pair.rest.unmet == 0.0 and pair.rest.kept > 0.9 and not pair.rest.rough
     start = np.mean([o.values for o in setting.plan.offsets], axis=0)
     assert np.linalg.norm(together.middle.values - TRUE) < np.linalg.norm(start - TRUE)
-    assert together.sums.shape == (MEMBERS * MEMBERS, FEATURES)
 
 
 def test_a_pair_is_named_and_a_single_effect_gets_no_second(simulated: list[str]) -> None:
@@ -126,7 +154,7 @@ def test_a_first_that_is_not_decided_gets_no_second(simulated: list[str], monkey
         every["unbalance@pinion"] = [replace(one, gain=gain)]
         monkeypatch.setattr(pairs, "sums", lambda _s, _f, first, _m: every[first])
         told = best_pair(setting, found, rivals, 8, 2, map)  # type: ignore[arg-type]
-        assert (told is not None) == decided
+        assert told is not None and (told.best is not None) == decided
     assert simulated
 
 
@@ -141,10 +169,15 @@ def test_a_rival_close_by_keeps_the_second_from_being_named(
         untried = replace(one, name="unbalance@pinion", gain=gain)
         monkeypatch.setattr(pairs, "sums", lambda *_, other=untried: [one, other])
         told = best_pair(setting, found, EXPLAINED, 8, 1, map)  # type: ignore[arg-type]
-        assert told is not None and told.others == near
+        assert told is not None and told.best is not None and told.best.others == near
+        assert [(name, simulated is None) for name, _, simulated in told.tried] == [
+            (WRONG, False),
+            ("unbalance@pinion", True),
+        ]
         decision, beside = named_pair(UNKNOWN, None, told)
         assert (beside is None) == bool(near) and decision.word == ("unknown_physics" if near else "explained")
-    assert named_pair(EXPLAINED, pair.beside, pair)[1] is pair.beside, "what strikes too stands"
+    assert told is not None and named_pair(EXPLAINED, pair.beside, told)[1] is pair.beside, "what strikes too stands"
+    assert named_pair(EXPLAINED, None, None) == (EXPLAINED, None)
 
 
 def test_what_would_strike_stands_beside_only_if_it_is_heard() -> None:
@@ -175,8 +208,15 @@ def test_the_second_cause_has_its_own_size_and_the_forecast_both(simulated: list
     assert (first.site, second.site) == ("gear", "pinion") and first.named and second.named
     assert second.reasons == (TOGETHER,) and second.severity == pair.beside.together.severity
     spectral, frequency = np.ones(FEATURES, dtype=bool), np.linspace(10.0, 1000.0, FEATURES)
-    both = with_sums(found.known, RIGHT, pair.beside.together.sums)
+    library = found.known.library
+    flat = np.concatenate([library.changes, np.zeros((8, FEATURES))])
+    groups = {**library.groups, "rub@wheel": tuple(range(len(library.changes), len(flat)))}
+    more = replace(found.known, library=replace(library, changes=flat, groups=groups))
     known = {"spectral": spectral, "frequency": frequency, "seed": 1}
-    alone = held_out(setting.changes, found.known, RIGHT, **known)
-    told = held_out(setting.changes, both, RIGHT, also=("rub",), **known)
+    alone = held_out(setting.changes, more, RIGHT, **known)
+    told = held_out(setting.changes, more, RIGHT, beside=WRONG, **known)
     assert told.gain > alone.gain + 0.1 and (told.numbers or 0) > (alone.numbers or 0)
+    assert (alone.effects, told.effects) == ((RIGHT,), (RIGHT, WRONG))
+    (placebo,) = told.placebos
+    assert placebo.site == "wheel" and placebo.gain == pytest.approx(alone.gain, abs=0.1), "the first with nothing"
+    assert len(with_sums(setting.changes, more, RIGHT, WRONG).library.groups[RIGHT]) == MEMBERS * MEMBERS
