@@ -49,7 +49,7 @@ def defect_report(
         where=Where(
             sites=_merged(weights),
             lines=tuple(line for c in chosen for line in lines_of(c, tests, baselines)),
-            limits=() if one_site else ("bearings of one geometry at one speed make the same lines",),
+            limits=() if one_site else ("bearings whose orders lie within slip of each other make the same lines",),
         ),
         causes=causes,
         held_out=held,
@@ -176,7 +176,7 @@ def _undecided(
 ) -> list[str]:
     found = []
     if not all(decided(w) for w in weights):
-        found.append("which of the bearings of one geometry it is: their lines coincide")
+        found.append("which of these bearings it is: their lines coincide, or lie within slip of each other")
     if any(extent is None for extent, _ in sizes):
         found.append(NO_SIZE)
     found += [

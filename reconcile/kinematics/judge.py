@@ -30,6 +30,10 @@ SECOND_SHARE = 0.5
 SECOND_LEVEL = 1e-3
 SAME_ORDER = 0.5
 """Families nearer than this share of the slip are one to the data."""
+ONE_LINE = 0.004
+"""Measured orders nearer than this are of one line: jitter and the search's grid move them by 0.2 %."""
+LIKE_SHARE = 0.7
+"""Of the score of the firmest reading of a line that another reading of it must have."""
 DEFECTS = ("outer", "inner", "ball")
 
 
@@ -129,6 +133,7 @@ def named(
     first = next((c for c in every if c.family.kind in DEFECTS and c.present and c.risen and c.deep), None)
     if first is None:
         return (), every
+    first = nearest_drawing(first, every)
     second = next(
         (
             c
@@ -142,6 +147,21 @@ def named(
         None,
     )
     return ((first,) if second is None else (first, second)), every
+
+
+def one_line(a: Candidate, b: Candidate) -> bool:
+    """Whether two candidates read one line as parts of two bearings."""
+    like = a.family.kind == b.family.kind and a.family.spacing == b.family.spacing
+    return like and abs(a.best.order / b.best.order - 1) < ONE_LINE
+
+
+def nearest_drawing(first: Candidate, every: Sequence[Candidate]) -> Candidate:
+    """Of the readings of one line the one that lies nearest to its drawing: with races 2 % apart the searches of both
+    find it, and chance decides whose score is higher."""
+    alike = [
+        c for c in every if c.present and c.risen and c.deep and one_line(c, first) and c.z >= LIKE_SHARE * first.z
+    ]
+    return min(alike, key=lambda c: abs(c.best.slip), default=first)
 
 
 def same(a: Family, b: Family) -> bool:

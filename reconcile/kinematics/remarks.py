@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from reconcile.kinematics.families import Family, Ties
-from reconcile.kinematics.judge import DEFECTS, LEAST_Z, SECOND_SHARE, Candidate, named, same
+from reconcile.kinematics.judge import DEFECTS, LEAST_Z, SECOND_SHARE, Candidate, named, one_line, same
 from reconcile.kinematics.observe import Observation
 from reconcile.verdict import Report
 from sim.terms import REGISTRY
@@ -54,7 +54,9 @@ def _risen_too(report: Report, every: Sequence[Candidate]) -> list[str]:
         if c.family.kind in DEFECTS
         and c.risen
         and c.z >= least
-        and not any(c is s or (c.family.kind == s.family.kind and same(c.family, s.family)) for s in spoken)
+        and not any(
+            c is s or one_line(c, s) or (c.family.kind == s.family.kind and same(c.family, s.family)) for s in spoken
+        )
     ]
 
 

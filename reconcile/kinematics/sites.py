@@ -6,23 +6,31 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reconcile.kinematics.families import Ties
+from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.judge import Candidate, same
 from reconcile.kinematics.observe import Observation
 from reconcile.verdict import PlaceWeight
 
 DECIDED = 0.8
+USUAL_SLIP = 0.01
+"""Standard deviation of an order about its drawing's (R. B. Randall, J. Antoni, Mech. Syst. Signal Process. 25 (2011)
+485-520, section 2: 1 to 2 %)."""
 
 
 def places(candidate: Candidate, tests: Sequence[Observation], ties: Ties) -> tuple[PlaceWeight, ...]:
     """Sites that make the candidate's lines with their weights, the likeliest first; they sum to one.
 
     Bearings of one geometry on shafts of one speed have equal orders: then the score in the channels located at each
-    of them decides; without such channels they weigh the same.
+    of them decides; without such channels they weigh the same. Of bearings whose orders both lie within slip of the
+    lines the one nearer to its drawing is likelier.
     """
-    sites = [f.site for f in ties.families if f.kind == candidate.family.kind and same(f, candidate.family)]
+    measured = candidate.best.order
+    alike = [f for f in ties.families if f.kind == candidate.family.kind and _reaches(f, candidate.family, measured)]
+    sites = [f.site for f in alike]
     if len(sites) == 1:
         return (PlaceWeight(site=sites[0], weight=1.0),)
+    slip = np.array([measured / f.order - 1.0 if not same(f, candidate.family) else candidate.best.slip for f in alike])
+    drawn = -0.5 * (slip / USUAL_SLIP) ** 2
     heard = []
     for site in sites:
         scores = [
@@ -33,13 +41,18 @@ def places(candidate: Candidate, tests: Sequence[Observation], ties: Ties) -> tu
         ]
         heard.append(max(scores) if scores else np.nan)
     values = np.asarray(heard)
-    if np.any(np.isnan(values)):
-        return tuple(PlaceWeight(site=s, weight=1 / len(sites)) for s in sites)
     # a deviation of lead is worth e^(1/2) only: scores of one source differ by a few between sensors
-    weight = np.exp((values - np.max(values)) / 2)
+    told = drawn if np.any(np.isnan(values)) else drawn + values / 2
+    weight = np.exp(told - np.max(told))
     weight /= np.sum(weight)
     order = np.argsort(-weight)
     return tuple(PlaceWeight(site=sites[i], weight=float(weight[i])) for i in order)
+
+
+def _reaches(family: Family, named: Family, measured: float) -> bool:
+    """Whether a family has the lines of the named one, or may have what was measured."""
+    near = abs(measured / family.order - 1.0) <= family.slip and family.spacing == named.spacing
+    return near or same(family, named)
 
 
 def decided(weights: Sequence[PlaceWeight]) -> bool:

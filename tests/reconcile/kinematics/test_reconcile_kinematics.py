@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.answer import BOUND
+from reconcile.kinematics.families import Family
+from reconcile.kinematics.judge import nearest_drawing
 from sim.core.errors import SpecError
 from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, shaft_lines, sound, train
 
@@ -43,6 +46,35 @@ def test_a_defect_is_named_at_its_place(term: str, with_baseline: bool) -> None:
     assert held.gain_low > 0
     assert held.gain > max(held.retuned or 0, held.black_box or 0, held.placebo or 0)
     json.dumps(report.document())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("other", "verdict"), [(3.505, "explained"), (3.53, "ambiguous")])
+def test_of_two_races_within_slip_the_nearer_drawing_comes_first(other: float, verdict: str) -> None:
+    orders = {"ftf": other / 9, "bpfo": other, "bpfi": 9 - other, "bsf": 2.35}
+    bearings = [{"name": "fan", "shaft": "shaft", "orders": orders}, {**BEARING, "name": "drive"}]
+    spec = read_kinematic_spec({"kinematics": {"shafts": [SHAFT], "bearings": bearings}})
+    report = reconcile_kinematics(spec, [recorded(defect("outer_spall", 3, slip=0.0))], [BASELINE], seed=3)
+    assert report.verdict == verdict
+    assert [(c.term, c.site) for c in report.causes][:2] == [("outer_spall", "drive"), ("outer_spall", "fan")]
+    assert abs(float(report.causes[0].values["slip"])) < 0.003, "from its own drawing"
+    assert not any("rose too" in text for text in report.undecidable), "one line is no second defect"
+
+
+def reading(site: str, order: float, z: float, slip: float, spacing: float = 1.0) -> SimpleNamespace:
+    """One line read as this bearing's."""
+    family = Family(kind="outer", site=site, order=order, spacing=spacing, sidebands=0, slip=0.025)
+    best = SimpleNamespace(order=order * (1 + slip), slip=slip)
+    return SimpleNamespace(family=family, best=best, z=z, present=True, risen=True, deep=True)
+
+
+def test_chance_does_not_choose_between_readings_of_one_line() -> None:
+    fan, drive = reading("fan", 3.505, 19.0, 0.0228), reading("drive", 3.585, 18.7, 0.0)
+    assert nearest_drawing(fan, [fan, drive]) is drive  # type: ignore[arg-type]
+    elsewhere, faint = reading("drive", 3.585, 18.7, -0.015), reading("drive", 3.585, 9.0, 0.0)
+    geared = reading("drive", 3.585, 18.7, 0.0, spacing=0.5)
+    for other in (elsewhere, faint, geared):
+        assert nearest_drawing(fan, [fan, other]) is fan  # type: ignore[arg-type]
 
 
 @pytest.mark.slow
