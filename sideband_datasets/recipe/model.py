@@ -9,6 +9,7 @@ from pydantic import Field, JsonValue, model_validator
 from sideband_datasets.recipe.background import Background
 from sideband_datasets.recipe.values import Number, Value, wrong
 from sim.core.spec import MachineSpec, Name, SpecModel
+from sim.terms import REGISTRY
 
 MOST_RECORDINGS = 200_000
 MOST_DURATION_S = 60.0
@@ -183,6 +184,22 @@ class Recipe(SpecModel):
             raise wrong(message, allowed, f"{self.healthy_share:g}", field="healthy_share")
         if self.faults and self.healthy_share == 1.0:
             raise wrong("leaves nothing to the faults", "below 1, or no `faults`", "1", field="healthy_share")
+        return self
+
+    @model_validator(mode="after")
+    def _healthy_stays_healthy(self) -> Self:
+        """No defect of a class in what all recordings have."""
+        hidden = {t.term for f in self.faults for t in f.terms if (known := REGISTRY.get(t.term)) and known.strikes}
+        everywhere: dict[str, str] = {}
+        for number, family in enumerate(self.machines):
+            for part, keys in (("set", family.set), ("vary", family.vary)):
+                everywhere |= {
+                    key: f"machines.{number}.{part}.{key}" for key, value in keys.items() if value is not None
+                }
+        for key, field in (*everywhere.items(), *((key, f"conditions.{key}") for key in self.conditions)):
+            if key.split("@", maxsplit=1)[0] in hidden:
+                message = "puts a defect of `faults` into healthy recordings too"
+                raise wrong(message, "what sound machines have; defects stand in `faults`", key, field=field)
         return self
 
     def chains_of(self, family: int) -> list[int]:

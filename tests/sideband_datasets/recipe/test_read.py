@@ -70,6 +70,24 @@ def test_a_list_is_told_once_with_what_it_may_have_meant(changes, field, given):
     assert '{"low": 10, "high": 20}' in problem.allowed and '{"choices": [10, 20]}' in problem.allowed
 
 
+PITTED = [{"name": "outer", "terms": [{"term": "outer_spall"}]}]
+WIDTH = {"outer_spall@drive_end.width": 2e-3}
+
+
+@pytest.mark.parametrize("part", ["set", "vary"])
+def test_a_defect_of_a_class_is_in_no_healthy_recording(part):
+    machine = document()["machines"][0]
+    for changes, field in (
+        ({"machines": [{**machine, part: WIDTH}]}, f"machines.0.{part}.outer_spall@drive_end.width"),
+        ({"conditions": WIDTH}, "conditions.outer_spall@drive_end.width"),
+    ):
+        with pytest.raises(SpecError, match="healthy recordings too") as told:
+            read_recipe(document(faults=PITTED, **changes))
+        assert told.value.problems[0].field == field
+    other = [{"name": "loose", "terms": [{"term": "pedestal_looseness"}]}]
+    assert read_recipe(document(faults=other, conditions=WIDTH)), "all of these machines have it, whatever their class"
+
+
 @pytest.mark.parametrize("value", [{"low": 40, "high": 20}, {"factor": [40, 20]}])
 def test_two_numbers_in_the_wrong_order_are_shown(value):
     with pytest.raises(SpecError) as told:
