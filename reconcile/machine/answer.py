@@ -43,6 +43,7 @@ from reconcile.verdict import (
     Where,
     Word,
 )
+from signals.series import FloatArray
 
 
 def fault_answer(gate: Gate, *, level: Level) -> Report:
@@ -101,15 +102,11 @@ def answer(
     both = other.together if other is not None else None
     beside = other.names[0] if other is not None and both is not None else None
     held = _held(setting, found, decision, layout, unknown, beside) if decision.chosen else None
-    fitted = fitted_change(found, decision.chosen[0], observed) if decision.chosen else None
     revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter, both)
-    if revision is not None:
-        fitted = revision.change
+    fitted = _fitted(setting, found, decision, revision, unknown)
     before = decision
     decision, causes = proved(decision, causes, found, revision)
     other, held = (other, held) if decision is before else (None, None)
-    if unknown is not None and unknown.change is not None:
-        fitted = unknown.change
     word, text, fault = _told(setting, decision, gate, causes, held, other, unknown)
     lead = _lead(found, decision)
     named = decision.chosen[0] if decision.word == "explained" else None
@@ -132,14 +129,32 @@ def answer(
         force=unknown.force if unknown is not None else None,
         machine=_machine(revision, unknown, decision),
         stages=(*all_stages(setting, found, gate, decision, fit or {}), *of_pairs(pairs), *revisions(revision)),
-        pictures={
-            "spectra": spectra(setting.data, setting.seen_through, fitted, layout, setting.channels),
-            "ranking": ranking(setting, found, named) if missing else [],
-            "paths": paths(setting),
-            "heat": turn_maps(setting.machine, setting.data, setting.channels, where.angle_window),
-        },
+        pictures=_pictures(setting, layout, fitted, where, ranking(setting, found, named) if missing else []),
         provenance=provenance(setting.seed, len(setting.plan.draws), meter, cost),
     )
+
+
+def _pictures(
+    setting: Setting, layout: Layout, fitted: FloatArray | None, where: Where, ranked: list[dict[str, object]]
+) -> dict[str, object]:
+    """`fitted` (F,): the change that what is named shows, dB; None where nothing is."""
+    return {
+        "spectra": spectra(setting.data, setting.seen_through, fitted, layout, setting.channels),
+        "ranking": ranked,
+        "paths": paths(setting),
+        "heat": turn_maps(setting.machine, setting.data, setting.channels, where.angle_window),
+    }
+
+
+def _fitted(
+    setting: Setting, found: Found, decision: Decision, revision: Revised | None, unknown: Unknown | None
+) -> FloatArray | None:
+    """The change (F,) that stands for the answer: of the law found, of the revised machine, or of the nearest draw."""
+    if unknown is not None and unknown.change is not None:
+        return unknown.change
+    if revision is not None:
+        return revision.change
+    return fitted_change(found, decision.chosen[0], setting.changes.observed) if decision.chosen else None
 
 
 def _undecidable(
