@@ -66,7 +66,7 @@ SHOWN_PAIRS = (
     ("wider_clearance", "imbalance"), ("loose_fit", "loose_seat"), ("outer_pit", "imbalance"),
 )  # fmt: skip
 """Of the split `fourth`: effects that mostly move the spectrum more than drift does, so that there are two to be told.
-Of 25 pairs of `PAIRS` at the target condition 13 have one that does not: cracks of teeth and gears that run out."""
+Of 25 pairs of `PAIRS` at the target condition 12 have one that does not: cracks of teeth and gears that run out."""
 FAULTS = ("clipping", "dropouts", "mains_hum", "loose_sensor", "stuck", "swapped", "gain_change", "aliasing")
 
 
