@@ -7,8 +7,8 @@ SECTIONS = {
     "third": "No version of the engine had met these before their run; all at the target condition.",
     "repeat": "The same 36, all of which had been looked at: t008, t016, t030 and t032 have each set a rule.",
     "fourth": "No version of the engine had met these before their run; all at the target condition. Ten of the "
-    "eighteen have two effects, of laws that mostly show. Other work shared the machine while these ran, which core-seconds "
-    "show: a case in which nothing is missing took 133.",
+    "eighteen have two effects, of laws that mostly show. Other work shared the machine while these ran, which "
+    "core-seconds show: one that ended with nothing missing took 133.",
     "lone": "No version of the engine had met these before their run: one sensor, 20 dB at one speed or 10 dB at "
     "three, nine of the ten with one sensor that were left.",
     "crossing": "No version of the engine had met these before their run: five speeds with one, three and eight "
