@@ -145,9 +145,9 @@ class HeldOut:
     ceiling: float | None = None
     """Gain of a perfect model: drift between the recordings and noise stay, known from healthy machines."""
     numbers: int | None = None
+    """Free numbers of the black box: as many as the effect's forecast uses."""
     effects: tuple[str, ...] = ()
     """Whose forecast it is, `effect@site`; two where both were fitted together."""
-    """Free numbers of the black box: as many as the effect's forecast uses."""
     placebos: tuple[Placebo, ...] = ()
     """All wrong places and laws that were forecast; `placebo` is the median of those with draws enough."""
 
