@@ -17,6 +17,7 @@ from scipy.ndimage import maximum_filter1d
 
 from reconcile.speed.excess import line_excess, mains_bins
 from reconcile.speed.octave import octave_rival
+from reconcile.speed.refine import refined
 from signals.recording import Recording
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
@@ -34,6 +35,8 @@ USUAL_ERROR = 0.03
 ENOUGH = 0.8
 """Confidence from which the found speed replaces the stated one."""
 MIN_TURNS = 4.0
+SAME = 1e-9
+"""Scores that differ by less are of the same bins."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,7 +94,7 @@ def estimate_speed(
             stated_hz=stated,
         )
     # a line near the shaft's own must not lead away from the teeth
-    speed, half = _refined(combs, coarse, found_by, 1.0 / (recording.duration_s * min(found_by)))
+    speed, half = refined(combs, coarse, found_by)
     return SpeedEstimate(
         shaft=name,
         speed_hz=speed,
@@ -127,7 +130,23 @@ def _found(
     """Best speed of a comb and the confidence in it."""
     speeds, score = _best_speed(combs, orders, stated, search)
     best = int(np.argmax(score))
-    return float(speeds[best]), _confidence(combs, orders, float(score[best]), stated, search, seed)
+    confidence = _confidence(combs, orders, float(score[best]), stated, search, seed)
+    return _middle(speeds, score - _log_prior(speeds, stated), best), confidence
+
+
+def _middle(speeds: FloatArray, score: FloatArray, best: int) -> float:
+    """Middle of the speeds next to that at `best` at which the lines count most.
+
+    Few lines are in reach of a range of speeds, of which the prior takes the end nearest to the stated one.
+    """
+    low = high = best
+    while low > 0 and score[low - 1] >= score[best] - SAME:
+        low -= 1
+    while high + 1 < score.size and score[high + 1] >= score[best] - SAME:
+        high += 1
+    near = score[low : high + 1]
+    top = np.flatnonzero(near >= np.max(near) - SAME)
+    return float(np.mean(speeds[low + top]))
 
 
 def _explains_more(
@@ -217,8 +236,12 @@ def _best_speed(
     for log, width in combs:
         wide = maximum_filter1d(log, 3)
         total += comb_score(wide, width, speeds, orders)
-    score = total / len(combs) - 0.5 * ((speeds / stated - 1) / USUAL_ERROR) ** 2
-    return speeds, np.asarray(score, dtype=np.float64)
+    return speeds, total / len(combs) + _log_prior(speeds, stated)
+
+
+def _log_prior(speeds: FloatArray, stated: float) -> FloatArray:
+    """Of a speed where one is stated, shape (speeds,)."""
+    return np.asarray(-0.5 * ((speeds / stated - 1) / USUAL_ERROR) ** 2, dtype=np.float64)
 
 
 def comb_score(log: FloatArray, resolution_hz: float, speeds_hz: FloatArray, orders: Sequence[float]) -> FloatArray:
@@ -254,32 +277,3 @@ def _confidence(
     scale = max(float(np.std(tops)) * np.sqrt(6) / np.pi, 1.0)  # one unit of log power: no line, no confidence
     place = float(np.mean(tops)) - 0.5772 * scale
     return float(np.exp(-np.exp(-np.clip((best - place) / scale, -50.0, 50.0))))
-
-
-def _refined(
-    combs: Sequence[tuple[FloatArray, float]], coarse: float, orders: Sequence[float], step_hz: float
-) -> tuple[float, float]:
-    """Speed refined order by order (low orders first: each narrows the range of the next) and half its interval, which
-    starts at `step_hz`."""
-    speed, half = coarse, step_hz
-    for order in sorted(orders):
-        estimates, weights = [], []
-        for log, resolution in combs:
-            low = int(np.floor(order * (speed - half) / resolution))
-            high = int(np.ceil(order * (speed + half) / resolution)) + 1
-            if high + 1 >= log.size or low < 1:
-                continue
-            peak = low + int(np.argmax(log[low:high]))
-            if log[peak] <= 0.0:
-                continue
-            a, b, c = log[peak - 1], log[peak], log[peak + 1]
-            curve = a - 2 * b + c
-            shift = 0.5 * (a - c) / curve if curve < 0 else 0.0
-            estimates.append((peak + float(np.clip(shift, -0.5, 0.5))) * resolution / order)
-            weights.append(float(log[peak]))
-        if estimates:
-            found = float(np.average(estimates, weights=weights))
-            new_half = 0.5 * step_hz / order
-            if abs(found - speed) <= half:
-                speed, half = found, max(min(half, 1.5 * new_half), 1e-5 * found)
-    return speed, half

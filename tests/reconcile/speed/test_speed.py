@@ -58,6 +58,31 @@ def test_a_line_near_the_shafts_own_does_not_lead_away_from_the_teeth() -> None:
     assert found.high_hz - found.low_hz < 0.2
 
 
+@pytest.mark.parametrize("error", [-0.03, 0.0, 0.02])
+@pytest.mark.parametrize("true_hz", [14.7, 23.1, 33.5])
+def test_a_single_line_gives_the_speed_to_half_a_bin(true_hz: float, error: float) -> None:
+    """Two seconds resolve half a hertz: several per cent of a slow shaft, in all of which its line is within reach."""
+    angle = 2 * np.pi * true_hz * np.arange(int(2 * RATE_HZ)) / RATE_HZ
+    found = estimate_speed(recorded(comb(angle, (1,), 6), true_hz * (1 + error)))
+    assert found.method == "harmonics"
+    assert found.speed_hz == pytest.approx(true_hz, abs=0.25)
+    assert found.low_hz <= true_hz <= found.high_hz
+
+
+@pytest.mark.slow
+def test_a_bearings_lines_seldom_lead_away_from_a_single_line() -> None:
+    """Of races whose lines come near a multiple of the shaft's that multiple is all there is."""
+    rng = np.random.default_rng(8)
+    time = np.arange(int(2 * RATE_HZ)) / RATE_HZ
+    away = 0
+    for i in range(30):
+        true_hz, order = rng.uniform(20.0, 40.0), rng.choice([2.4, 3.57, 4.42, 5.58])
+        rows = comb(2 * np.pi * true_hz * time, (1, order, 2 * order), i)
+        found = estimate_speed(recorded(rows, true_hz))
+        away += found.method == "harmonics" and abs(found.speed_hz / true_hz - 1) > 0.25 / true_hz
+    assert away <= 3
+
+
 def test_mains_lines_are_no_shaft() -> None:
     t = np.arange(int(8 * RATE_HZ)) / RATE_HZ
     mains = sum(3 * np.cos(2 * np.pi * 50 * k * t) for k in (1, 2, 3, 4))
