@@ -138,6 +138,10 @@ COLUMNS: tuple[Column, ...] = (
     _c("kurtosis", "number", "Pearson's kurtosis, 3 for a Gaussian."),
     _c("skewness", "number", "Skewness."),
     _c("crest_factor", "number", "Peak over standard deviation."),
-    _c("peaks", "peaks", "Labelled peaks of the amplitude and the envelope spectrum."),
+    _c(
+        "peaks",
+        "peaks",
+        "Labelled peaks of the spectra that the recipe names, amplitude or envelope; each peak says of which.",
+    ),
     _c("signal", "signal", "The samples."),
 )

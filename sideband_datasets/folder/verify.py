@@ -43,8 +43,10 @@ def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> li
         if not all(type(number) is int for number in numbers):
             raise ValueError("rows and bytes of shards are whole numbers")
         versions_then, others = dict(manifest["versions"]), dict(manifest["files"])
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
-        return [Finding(where=MANIFEST, what=f"cannot be read: {error!r}")]
+    except KeyError as error:
+        return [Finding(where=MANIFEST, what=f"has no {error}: it was emptied or cut")]
+    except (ValueError, TypeError, AttributeError) as error:
+        return [Finding(where=MANIFEST, what=f"cannot be read: {error}")]
     try:
         plan = make_plan(recipe)
     except SidebandError as error:

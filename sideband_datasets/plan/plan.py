@@ -10,6 +10,7 @@ import numpy as np
 from sideband_datasets.plan.apart import check_apart
 from sideband_datasets.plan.axes import drawn_only, levels, recording_axes
 from sideband_datasets.plan.check import channels_of, check_recipe, confounded_warnings, split_warnings
+from sideband_datasets.plan.doubtful import doubtful_warnings
 from sideband_datasets.plan.machines import Machine, machines_of
 from sideband_datasets.plan.points import Points
 from sideband_datasets.plan.quotas import IntArray, interleaved, quotas, ranks
@@ -149,5 +150,6 @@ def planned(recipe: Recipe) -> Plan:
         warnings=(
             *split_warnings(recipe, machines, split_of, kind, machine),
             *confounded_warnings(recipe, kind),
+            *doubtful_warnings(recipe),
         ),
     )

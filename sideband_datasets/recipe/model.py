@@ -187,6 +187,13 @@ class Recipe(SpecModel):
         return self
 
     @model_validator(mode="after")
+    def _said_once(self) -> Self:
+        for key, field in (("speed_hz", "speeds_hz"), ("torque_nm", "torques_nm")):
+            if key in self.conditions and getattr(self, field) is not None:
+                raise wrong(f"is drawn by `{field}` already", "one of the two", key, field=f"conditions.{key}")
+        return self
+
+    @model_validator(mode="after")
     def _healthy_stays_healthy(self) -> Self:
         """No defect of a class in what all recordings have."""
         hidden = {t.term for f in self.faults for t in f.terms if (known := REGISTRY.get(t.term)) and known.strikes}

@@ -97,6 +97,11 @@ def test_a_manifest_that_is_no_json_is_a_finding(copy):
     assert "manifest.json: cannot be read" in told(copy)
 
 
+def test_an_emptied_manifest_is_told_by_what_it_lacks(copy):
+    (copy / "manifest.json").write_text("{}")
+    assert told(copy) == "manifest.json: has no 'recipe': it was emptied or cut"
+
+
 def test_a_folder_without_a_dataset_is_refused(tmp_path):
     with pytest.raises(SpecError, match=r"manifest\.json"):
         verify(tmp_path)

@@ -88,6 +88,13 @@ def test_a_defect_of_a_class_is_in_no_healthy_recording(part):
     assert read_recipe(document(faults=other, conditions=WIDTH)), "all of these machines have it, whatever their class"
 
 
+@pytest.mark.parametrize(("key", "field"), [("speed_hz", "speeds_hz"), ("torque_nm", "torques_nm")])
+def test_speed_and_load_are_drawn_once(key, field):
+    with pytest.raises(SpecError, match=f"drawn by `{field}` already") as told:
+        read_recipe(document(**{field: {"low": 25, "high": 40}, "conditions": {key: 30.0}}))
+    assert told.value.problems[0].field == f"conditions.{key}"
+
+
 @pytest.mark.parametrize("value", [{"low": 40, "high": 20}, {"factor": [40, 20]}])
 def test_two_numbers_in_the_wrong_order_are_shown(value):
     with pytest.raises(SpecError) as told:

@@ -1,0 +1,35 @@
+"""What a recipe hardly means is told, and planned as it says."""
+
+from __future__ import annotations
+
+import pytest
+
+from sideband_datasets import make_plan
+from tests.sideband_datasets.small import document, tiny
+
+STIFFNESS = "bearings.bearing1.support.stiffness_y_n_per_m"
+OTHER = "bearings.bearing2.support.stiffness_y_n_per_m"
+LONG = {"count": 60, "machines": [{**document()["machines"][0], "instances": 10}]}
+
+
+@pytest.mark.parametrize(("part", "value"), [("vary", {"low": 2e7, "high": 5e7}), ("set", 2e7)])
+def test_what_conditions_replace_is_told(part, value):
+    machine = {"name": "rotor", "preset": "rotor", "instances": 10, "vary": {OTHER: {"factor": [0.5, 2.0]}}}
+    machines = [{**machine, part: {**machine.get(part, {}), STIFFNESS: value}}]
+    replaced = {**LONG, "machines": machines, "conditions": {STIFFNESS: {"low": 1e7, "high": 1e8}}}
+    (told,) = make_plan(tiny(**replaced)).warnings
+    assert told == f"`{part}` of machines rotor has no effect on {STIFFNESS}: `conditions` replaces it"
+    assert not make_plan(tiny(**replaced | {"conditions": {STIFFNESS: {"factor": [0.9, 1.1]}}})).warnings
+
+
+@pytest.mark.parametrize("width", [0, 0.0, {"choices": [0, 1e-3]}])
+def test_a_fault_of_no_size_is_told(width):
+    faults = [{"name": "outer", "terms": [{"term": "outer_spall", "parameters": {"width": width}}]}]
+    (told,) = make_plan(tiny(**LONG, faults=faults)).warnings
+    assert told == "class outer: outer_spall of width 0 is labelled as a fault all the same"
+
+
+@pytest.mark.parametrize("width", [1e-3, {"low": 0, "high": 1e-3}, {"choices": [5e-4, 1e-3]}])
+def test_a_size_is_not(width):
+    faults = [{"name": "outer", "terms": [{"term": "outer_spall", "parameters": {"width": width}}]}]
+    assert not make_plan(tiny(**LONG, faults=faults)).warnings
