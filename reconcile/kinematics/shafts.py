@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,6 +19,8 @@ PRESENT_DB = 15.0
 STRONGEST_TO = 10.0
 MATERIAL_DB = 6.0
 """A shaft line that has grown counts if it is among the strongest up to order 10: a weak one wanders with load."""
+LEAST_PERIODS = 10.0
+"""Of a line in a recording, for it to be parted from the slow motion that a speed that wanders makes."""
 KURTOSIS_RATIO = 3.0
 KURTOSIS_LEAST = 1.5
 """Excess kurtosis of a complex envelope: 0 for noise, -1 for a steady line."""
@@ -35,11 +38,13 @@ class ShaftChange:
     growth_db: float
     median_db: float
     label: str
+    seldom: bool = False
+    """Whether most of the tests at other speeds show no such growth."""
 
     @property
     def grown(self) -> bool:
-        """Whether it is more than one sensor's."""
-        return self.growth_db > GROWTH_DB and self.median_db > MEDIAN_GROWTH_DB
+        """Whether it is more than one sensor's, and at most speeds."""
+        return self.growth_db > GROWTH_DB and self.median_db > MEDIAN_GROWTH_DB and not self.seldom
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,13 +74,18 @@ def shaft_changes(
     scales differ between sessions.
     """
     found: list[ShaftChange] = []
+    compared: Counter[tuple[str, float]] = Counter()
     for test in tests:
         base = matched(test, baselines)
         if base is None:
             continue
         spectra = _spectra(test, base)
+        turns = min(o.speed.speed_hz * o.recording.duration_s for o in (test, base))
         for shaft, ratio in ties.shafts.items():
             for multiple in MULTIPLES:
+                if multiple * ratio * turns < LEAST_PERIODS:
+                    continue
+                compared[shaft, multiple] += 1
                 rows = _growths(spectra, multiple * ratio)
                 if rows:
                     channel, growth = max(rows, key=lambda row: row[1])
@@ -90,7 +100,12 @@ def shaft_changes(
                             label=test.label,
                         )
                     )
-    return tuple(sorted(found, key=lambda c: -c.growth_db))
+    often = Counter((c.shaft, c.multiple) for c in found if c.grown)
+    told = [
+        replace(c, seldom=2 * often[c.shaft, c.multiple] < compared[c.shaft, c.multiple]) if c.grown else c
+        for c in found
+    ]
+    return tuple(sorted(told, key=lambda c: -c.growth_db))
 
 
 def _spectra(test: Observation, base: Observation) -> list[tuple[str, OrderLines, OrderLines]]:
