@@ -29,6 +29,8 @@ HALF_WIDTH = 0.3
 """Over which a line's power is summed, share of the smallest distance of sidebands."""
 ERRORS = 4.0
 MIN_LINES = 8
+MIN_MULTIPLES = 3
+"""A tooth is short against a turn: runout and a speed that wanders reach the first multiple, seldom the second."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,8 +47,10 @@ class GearEvidence:
     lines: int
     window: AngleWindow | None
     label: str
-    beside_db: float = 0.0
+    beside_db: float
     """Growth of the places half-way between the sidebands, against the mesh lines."""
+    multiples: int
+    """Of the shaft, at which sidebands have grown."""
     seldom: bool = False
     """Whether most of the tests at other speeds show no such growth."""
 
@@ -54,7 +58,8 @@ class GearEvidence:
     def grown(self) -> bool:
         """Whether the growth is that of a fault."""
         firm = self.lines >= MIN_LINES and self.growth_db > ERRORS * self.error_db and not self.seldom
-        return firm and self.growth_db > GROWTH_DB and self.growth_db - self.beside_db > GROWTH_DB
+        local = self.multiples >= MIN_MULTIPLES and self.growth_db - self.beside_db > GROWTH_DB
+        return firm and local and self.growth_db > GROWTH_DB
 
 
 def gear_evidence(
@@ -83,10 +88,9 @@ def gear_evidence(
 
 
 def _of_most(tests: Sequence[GearEvidence]) -> GearEvidence:
-    """The evidence of the test that shows it most; it has grown only where it has in half of those that tell."""
+    """The evidence of the test that shows it most; it has grown only where it has in half of the tests."""
     first = max(tests, key=lambda g: (g.grown, g.growth_db))
-    told = [g for g in tests if g.lines >= MIN_LINES]
-    return first if 2 * sum(g.grown for g in told) >= len(told) else replace(first, seldom=True)
+    return first if 2 * sum(g.grown for g in tests) >= len(tests) else replace(first, seldom=True)
 
 
 def sideband_orders(mesh_order: float, shaft: float, other: float) -> FloatArray:
@@ -139,8 +143,14 @@ def _one(
         lines=int(values.size),
         window=window,
         label=test.label,
+        multiples=int(np.unique(_multiples(orders, order, ratio)[there & (growth > GROWTH_DB)]).size),
         beside_db=_beside(lines, orders[there], (order, ratio, other), half, mesh_change[beside[there]]),
     )
+
+
+def _multiples(orders: FloatArray, mesh_order: float, ratio: float) -> FloatArray:
+    """Of a shaft of `ratio`, by which sidebands at `orders` (n,) stand off their mesh line, (n,)."""
+    return np.asarray(np.rint(np.abs(orders - np.rint(orders / mesh_order) * mesh_order) / ratio), dtype=np.float64)
 
 
 def _beside(

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from reconcile.kinematics.envelopes import Envelopes, envelopes
 from reconcile.kinematics.families import Family, Ties
-from reconcile.speed import SpeedEstimate, estimate_speed, shaft_angle
+from reconcile.speed import SpeedEstimate, estimate_speed, followed_angle, shaft_angle
 from signals.recording import Recording
+from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
 
 MOST_DOUBT = 0.012
 """Share by which the search widens where the speed could not be read: wider, every comb meets every line."""
 MIN_TURNS = 12.0
+SPEED_HARMONICS = (1, 2, 3)
+"""Of the teeth, by which the mean speed is read."""
+ANGLE_HARMONICS = 5
+"""Of the teeth, by which its wander is followed."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +40,7 @@ class Observation:
 
 def observe(recording: Recording, ties: Ties, label: str, *, stated_hz: float | None, seed: int) -> Observation:
     """Speed, angle and envelopes of a recording that has passed the gate; SpecError names the field alone."""
-    teeth = tuple(z * k for z in ties.mesh_orders for k in (1, 2, 3))
+    teeth = tuple(z * k for z in ties.mesh_orders for k in SPEED_HARMONICS)
     nyquist = recording.sampling_rate_hz / 2
     stated = recording.operating.speed_hz if recording.operating is not None else stated_hz
     usable = tuple(z for z in teeth if stated is not None and z * stated * 1.1 < nyquist)
@@ -48,7 +54,7 @@ def observe(recording: Recording, ties: Ties, label: str, *, stated_hz: float | 
                 allowed=f"at least {MIN_TURNS:g} turns",
             )
         )
-    angle = shaft_angle(recording, speed, orders=usable)
+    angle = _angle(recording, speed, usable, ties)
     base, top = reach_of(ties.families)
     if top * speed.speed_hz * 2 > recording.sampling_rate_hz:
         allowed = f"at least {2 * top * speed.speed_hz:.5g}"
@@ -60,6 +66,19 @@ def observe(recording: Recording, ties: Ties, label: str, *, stated_hz: float | 
         envelopes(recording, name, np.asarray(angle), highest_base=base, highest_order=top) for name in recording.names
     )
     return Observation(label=label, recording=recording, speed=speed, doubt=float(doubt), channels=found)
+
+
+def _angle(recording: Recording, speed: SpeedEstimate, orders: Sequence[float], ties: Ties) -> FloatArray:
+    """By all lines of the teeth where they tell how the speed wanders; else by pulses, or by what single channels give
+    at the shaft's harmonics and `orders`."""
+    if speed.method == "harmonics" and ties.mesh_orders:
+        teeth = sorted(z * k for z in ties.mesh_orders for k in range(1, ANGLE_HARMONICS + 1))
+        slowest = min(ties.shafts.values())
+        rate = recording.sampling_rate_hz
+        angle = followed_angle(recording.samples, rate, speed.speed_hz, orders=teeth, slowest=slowest)
+        if angle is not None:
+            return angle
+    return shaft_angle(recording, speed, orders=orders)
 
 
 def reach_of(families: tuple[Family, ...]) -> tuple[float, float]:
