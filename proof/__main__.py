@@ -12,6 +12,7 @@ from pathlib import Path
 from tqdm import tqdm
 
 from proof.case import make
+from proof.kinematic import told_table
 from proof.method import SECTIONS
 from proof.page import write_page
 from proof.plan import COUNTS, Case, plan
@@ -35,6 +36,7 @@ def parser() -> argparse.ArgumentParser:
         ("seal", "write the hashes of a split's truths into proof/seals"),
         ("run", "run the engine on cases, one stored JSON each; what is stored is not run again"),
         ("score", "score stored results against the truth"),
+        ("kinematics", "run the engine on cases told by drawings alone, and print a table of its answers"),
         ("visible", "measure how much of the hidden effects there is to see, for the page"),
         ("page", "write docs/proof.md from the stored summaries"),
     ):
@@ -42,10 +44,12 @@ def parser() -> argparse.ArgumentParser:
         if name != "page":
             command.add_argument("--split", choices=tuple(COUNTS), required=name != "score", default="dev")
             command.add_argument("--cases", default="", help="names, comma-separated; or a number: the first so many")
-        if name in {"run", "score"}:
+        if name in {"run", "score", "kinematics"}:
             command.add_argument("--data", type=Path, help="folder of the cases (default .cache/proof/SPLIT)")
-            command.add_argument("--reports", type=Path, help="folder of results (default .cache/proof/SPLIT-results)")
-        if name in {"generate", "score"}:
+            command.add_argument(
+                "--reports", type=Path, help="folder of results (default .cache/proof/SPLIT-results, or -kinematics)"
+            )
+        if name in {"generate", "score", "kinematics"}:
             command.add_argument("--truth", type=Path, help="folder of the truths (default .cache/proof/SPLIT-truth)")
         if name == "generate":
             command.add_argument("--out", type=Path, help="folder of the cases (default .cache/proof/SPLIT)")
@@ -78,11 +82,12 @@ def chosen(given: argparse.Namespace) -> list[Case]:
 
 def _folder(given: argparse.Namespace, name: str) -> Path:
     value: Path | None = getattr(given, name, None)
+    kind = "kinematics" if given.command == "kinematics" else "results"
     defaults = {
         "out": ROOT / ".cache" / "proof" / given.split,
         "data": ROOT / ".cache" / "proof" / given.split,
         "truth": ROOT / ".cache" / "proof" / f"{given.split}-truth",
-        "reports": ROOT / ".cache" / "proof" / f"{given.split}-results",
+        "reports": ROOT / ".cache" / "proof" / f"{given.split}-{kind}",
     }
     return value or defaults[name]
 
@@ -103,6 +108,16 @@ def run(given: argparse.Namespace) -> None:
     engine = Engine(budget=given.budget, atlas=given.atlas, jobs=given.jobs)
     for case in tqdm(chosen(given), desc="engine"):
         run_case(engine, _folder(given, "data") / case.name, _folder(given, "reports"), fresh=given.fresh)
+
+
+def kinematics(given: argparse.Namespace) -> None:
+    """Run the engine on drawings alone and print what its answers are worth."""
+    told = []
+    for case in tqdm(chosen(given), desc="engine"):
+        result = run_case(Engine(by_kinematics=True), _folder(given, "data") / case.name, _folder(given, "reports"))
+        truth = json.loads((_folder(given, "truth") / f"{case.name}.json").read_text(encoding="utf-8"))
+        told.append((truth, result["report"]))
+    sys.stdout.write(told_table(told))
 
 
 def scored(cases: Sequence[Case], truths: Path, reports: Path) -> list[Score]:
@@ -162,7 +177,8 @@ def main() -> None:
     """Run a command."""
     given = parser().parse_args()
     commands = {
-        "generate": generate, "seal": seal, "run": run, "score": score_all, "visible": visible, "page": page,
+        "generate": generate, "seal": seal, "run": run, "score": score_all, "kinematics": kinematics,
+        "visible": visible, "page": page,
     }  # fmt: skip
     commands[given.command](given)
 

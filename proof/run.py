@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from proof.engine_id import engine_id
+from proof.kinematic import write_kinematics
 
 TIMEOUT_S = 3_600.0
 KEPT_ERROR = 2_000
@@ -29,6 +30,8 @@ class Engine:
     timeout_s: float = TIMEOUT_S
     atlas: Path | None = None
     jobs: int | None = None
+    by_kinematics: bool = False
+    """Whether the engine gets the drawings alone instead of the machine."""
 
     def call(self, machine: Path, case: Path, out: Path) -> list[str]:
         """The whole command."""
@@ -71,8 +74,13 @@ def run_case(engine: Engine, case: Path, results: Path, *, fresh: bool = False) 
 
 def _reconciled(engine: Engine, case: Path, folder: Path) -> dict[str, Any]:
     machine, out = folder / "machine.json", folder / "out"
-    made = [*engine.command, "machine", "--from-reference", str(case / "machine.json"), "--out", str(machine)]
-    for command in (made, engine.call(machine, case, out)):
+    commands = [engine.call(machine, case, out)]
+    if engine.by_kinematics:
+        write_kinematics(case, machine)
+    else:
+        made = [*engine.command, "machine", "--from-reference", str(case / "machine.json"), "--out", str(machine)]
+        commands.insert(0, made)
+    for command in commands:
         error = _failure(command, engine.timeout_s)
         if error is not None:
             return {"report": None, "error": error}
