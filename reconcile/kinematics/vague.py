@@ -183,15 +183,19 @@ def nothing_report(
     return Report(
         verdict="nothing_missing",
         sentence=f"No family of lines is firmer {against}; changes of level may be load, speed or mounting, or an "
-        "effect that only a machine that can be simulated tells."
-        + (
-            f" But {', '.join(c.family.key for c in old)} is deep in both: the baseline has that defect." if old else ""
-        ),
+        "effect that only a machine that can be simulated tells." + _in_both(old),
         level="kinematics",
         where=Where(lines=lines),
         undecidable=("changes of level",) if baselines else ("changes of level: there is no baseline",),
         next_experiment=NextExperiment(sentence=FULLER),
     )
+
+
+def _in_both(old: Sequence[Candidate]) -> str:
+    if not old:
+        return ""
+    which = ", ".join(c.family.key for c in old)
+    return f" But {which} is deep in both: a defect of the baseline too, or how this bearing sounds when it is sound."
 
 
 def _without_baseline(
