@@ -5,7 +5,7 @@ A local tooth fault modulates the mesh once a turn of its gear: sidebands at man
 J. Vib. Acoust. 108 (1986) 165-170). Load, mounting and transfer path change mesh lines and the sidebands beside them
 alike; so each sideband is held against the mesh line it surrounds, and what counts is modulation that has grown. A
 speed that wanders modulates the mesh as well, at no multiple of a shaft: in short recordings it reaches the sidebands
-of slow shafts, and as well the places half-way between them, against which they are held too.
+of slow shafts, but then also the places half-way between them, above which they must stand.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reconcile.kinematics.families import Ties
-from reconcile.kinematics.lines import OrderLines, level_changes, matched, order_lines
+from reconcile.kinematics.lines import OrderLines, at_half_of_speeds, level_changes, matched, order_lines
 from reconcile.kinematics.observe import Observation
 from reconcile.observe.turn import LocalEnergy, local_energy, prominence, window_of
 from reconcile.verdict import AngleWindow
@@ -29,6 +29,9 @@ HALF_WIDTH = 0.3
 """Over which a line's power is summed, share of the smallest distance of sidebands."""
 ERRORS = 4.0
 MIN_LINES = 8
+CONTRAST_DB = 6.0
+CONTRAST_WIDTH = 0.1
+"""Share of the distance of sidebands to each side of a place: nothing of the sideband itself reaches half-way."""
 MIN_MULTIPLES = 3
 """A tooth is short against a turn: runout and a speed that wanders reach the first multiple, seldom the second."""
 
@@ -47,18 +50,18 @@ class GearEvidence:
     lines: int
     window: AngleWindow | None
     label: str
-    beside_db: float
-    """Growth of the places half-way between the sidebands, against the mesh lines."""
+    contrast_db: float
+    """Of the sidebands over the places half-way between them, in this test."""
     multiples: int
     """Of the shaft, at which sidebands have grown."""
     seldom: bool = False
-    """Whether most of the tests at other speeds show no such growth."""
+    """Whether it has grown, but at fewer than half of the speeds."""
 
     @property
     def grown(self) -> bool:
         """Whether the growth is that of a fault."""
         firm = self.lines >= MIN_LINES and self.growth_db > ERRORS * self.error_db and not self.seldom
-        local = self.multiples >= MIN_MULTIPLES and self.growth_db - self.beside_db > GROWTH_DB
+        local = self.multiples >= MIN_MULTIPLES and self.contrast_db > CONTRAST_DB
         return firm and local and self.growth_db > GROWTH_DB
 
 
@@ -66,7 +69,7 @@ def gear_evidence(
     tests: Sequence[Observation], baselines: Sequence[Observation], ties: Ties
 ) -> tuple[GearEvidence, ...]:
     """One entry a mesh and shaft, the strongest growth first; empty without a baseline at the same speed."""
-    found: dict[tuple[str, str], list[GearEvidence]] = {}
+    found: dict[tuple[str, str], list[tuple[float, GearEvidence]]] = {}
     for test in tests:
         best: dict[tuple[str, str], GearEvidence] = {}
         base = matched(test, baselines)
@@ -83,14 +86,15 @@ def gear_evidence(
                     if key not in best or (one.grown, one.growth_db) > (best[key].grown, best[key].growth_db):
                         best[key] = one
         for key, one in best.items():
-            found.setdefault(key, []).append(one)
+            found.setdefault(key, []).append((test.speed.speed_hz, one))
     return tuple(sorted(map(_of_most, found.values()), key=lambda g: (-g.grown, -g.growth_db)))
 
 
-def _of_most(tests: Sequence[GearEvidence]) -> GearEvidence:
-    """The evidence of the test that shows it most; it has grown only where it has in half of the tests."""
-    first = max(tests, key=lambda g: (g.grown, g.growth_db))
-    return first if 2 * sum(g.grown for g in tests) >= len(tests) else replace(first, seldom=True)
+def _of_most(tests: Sequence[tuple[float, GearEvidence]]) -> GearEvidence:
+    """The evidence of the test that shows it most; it has grown only where it has at half of the speeds."""
+    first = max((one for _, one in tests), key=lambda g: (g.grown, g.growth_db))
+    rare = first.grown and not at_half_of_speeds([(speed, one.grown) for speed, one in tests])
+    return replace(first, seldom=True) if rare else first
 
 
 def sideband_orders(mesh_order: float, shaft: float, other: float) -> FloatArray:
@@ -144,7 +148,7 @@ def _one(
         window=window,
         label=test.label,
         multiples=int(np.unique(_multiples(orders, order, ratio)[there & (growth > GROWTH_DB)]).size),
-        beside_db=_beside(lines, orders[there], (order, ratio, other), half, mesh_change[beside[there]]),
+        contrast_db=_contrast(lines[0], orders[there], (order, ratio, other)),
     )
 
 
@@ -153,27 +157,27 @@ def _multiples(orders: FloatArray, mesh_order: float, ratio: float) -> FloatArra
     return np.asarray(np.rint(np.abs(orders - np.rint(orders / mesh_order) * mesh_order) / ratio), dtype=np.float64)
 
 
-def _beside(
-    lines: tuple[OrderLines, OrderLines],
-    orders: FloatArray,
-    mesh: tuple[float, float, float],
-    half: float,
-    mesh_change: FloatArray,
-) -> float:
-    """Mean growth half a distance beyond sidebands at `orders` (n,), dB, against the changes (n,) of their mesh lines.
+def _contrast(now: OrderLines, orders: FloatArray, mesh: tuple[float, float, float]) -> float:
+    """Mean of the sidebands at `orders` (n,) over the places half a distance to both sides of them, dB.
 
-    `mesh`: orders of the mesh, of the shaft and of the other shaft, where whose multiples are nothing is told.
+    `mesh`: orders of the mesh, of the shaft and of the other shaft; a place at whose multiple counts only where all do.
     """
     order, ratio, other = mesh
-    away = orders - np.rint(orders / order) * order
-    between = orders + np.sign(away) * ratio / 2
-    multiple = (np.abs(away) + ratio / 2) / other
-    free = np.abs(multiple - np.rint(multiple)) * other > half
-    (now, _), (before, _) = (x.within(between, half) for x in lines)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        change = 10 * np.log10(now / before) - mesh_change
-    told = np.isfinite(change) & (free if np.any(free) else True)
-    return float(np.mean(change[told])) if np.any(told) else 0.0
+    half = CONTRAST_WIDTH * ratio
+    power, _ = now.within(orders, half)
+    beside = []
+    for step in (-ratio / 2, ratio / 2):
+        away = np.abs(orders + step - np.rint(orders / order) * order) / other
+        level, _ = now.within(orders + step, half)
+        beside.append(np.where(np.abs(away - np.rint(away)) * other > half, level, np.nan))
+    places = np.array(beside)
+    if not np.any(np.isfinite(places)):
+        places = np.array([now.within(orders + step, half)[0] for step in (-ratio / 2, ratio / 2)])
+    told = np.isfinite(power) & np.any(np.isfinite(places), axis=0)
+    if not np.any(told):
+        return 0.0
+    levels = 10 * np.log10(places[:, told])
+    return float(np.mean(10 * np.log10(power[told]) - np.nanmean(levels, axis=0)))
 
 
 def _window(

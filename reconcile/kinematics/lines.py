@@ -84,6 +84,20 @@ def matched(test: Observation, baselines: Sequence[Observation]) -> Observation 
     return near
 
 
+def at_half_of_speeds(tests: Sequence[tuple[float, bool]]) -> bool:
+    """Whether what is told of tests (speed in Hz, whether it has grown) has grown at half of their speeds or more.
+
+    Tests within 3 % are of one speed, at which one that shows it is enough: a fault may be as new as the last of them.
+    """
+    groups: list[tuple[float, bool]] = []
+    for speed, grown in sorted(tests):
+        if groups and speed / groups[-1][0] - 1 <= SAME_SPEED:
+            groups[-1] = (groups[-1][0], groups[-1][1] or grown)
+        else:
+            groups.append((speed, grown))
+    return 2 * sum(grown for _, grown in groups) >= len(groups)
+
+
 def level_changes(now: OrderLines, before: OrderLines, orders: FloatArray, half_width: float) -> FloatArray:
     """Change of the power within `half_width` of each order, dB, (n,); NaN where the line is not there now.
 

@@ -123,6 +123,12 @@ def _judged(
         report = gear_report(gears, tests)
     else:
         report = _without_a_part(known, tie, tests, baselines, every, grown, seed)
+    rare = [f"{c.multiple:g} x {c.shaft} grew by {c.growth_db:.0f} dB in {c.label}" for c in changes if c.seldom]
+    rare += [f"sidebands of {g.shaft} around {g.mesh} by {g.growth_db:.0f} dB in {g.label}" for g in gears if g.seldom]
+    if rare:
+        report = replace(
+            report, undecidable=(*report.undecidable, f"at fewer than half of the speeds: {', '.join(rare)}")
+        )
     return report, every
 
 

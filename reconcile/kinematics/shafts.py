@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from reconcile.kinematics.families import Ties
-from reconcile.kinematics.lines import OrderLines, matched, order_lines
+from reconcile.kinematics.lines import OrderLines, at_half_of_speeds, matched, order_lines
 from reconcile.kinematics.observe import Observation
 
 GROWTH_DB = 10.0
@@ -19,7 +18,7 @@ PRESENT_DB = 15.0
 STRONGEST_TO = 10.0
 MATERIAL_DB = 6.0
 """A shaft line that has grown counts if it is among the strongest up to order 10: a weak one wanders with load."""
-LEAST_PERIODS = 10.0
+LEAST_PERIODS = 8.0
 """Of a line in a recording, for it to be parted from the slow motion that a speed that wanders makes."""
 KURTOSIS_RATIO = 3.0
 KURTOSIS_LEAST = 1.5
@@ -39,7 +38,7 @@ class ShaftChange:
     median_db: float
     label: str
     seldom: bool = False
-    """Whether most of the tests at other speeds show no such growth."""
+    """Whether it has grown, but at fewer than half of the speeds."""
 
     @property
     def grown(self) -> bool:
@@ -74,7 +73,7 @@ def shaft_changes(
     scales differ between sessions.
     """
     found: list[ShaftChange] = []
-    compared: Counter[tuple[str, float]] = Counter()
+    speeds: dict[tuple[str, float], list[tuple[float, bool]]] = {}
     for test in tests:
         base = matched(test, baselines)
         if base is None:
@@ -85,26 +84,12 @@ def shaft_changes(
             for multiple in MULTIPLES:
                 if multiple * ratio * turns < LEAST_PERIODS:
                     continue
-                compared[shaft, multiple] += 1
-                rows = _growths(spectra, multiple * ratio)
-                if rows:
-                    channel, growth = max(rows, key=lambda row: row[1])
-                    found.append(
-                        ShaftChange(
-                            shaft=shaft,
-                            multiple=multiple,
-                            order=multiple * ratio,
-                            channel=channel,
-                            growth_db=growth,
-                            median_db=float(np.median([g for _, g in rows])),
-                            label=test.label,
-                        )
-                    )
-    often = Counter((c.shaft, c.multiple) for c in found if c.grown)
-    told = [
-        replace(c, seldom=2 * often[c.shaft, c.multiple] < compared[c.shaft, c.multiple]) if c.grown else c
-        for c in found
-    ]
+                change = _change(spectra, shaft, multiple, ratio, test.label)
+                seen = speeds.setdefault((shaft, multiple), [])
+                seen.append((test.speed.speed_hz, change is not None and change.grown))
+                if change is not None:
+                    found.append(change)
+    told = [replace(c, seldom=c.grown and not at_half_of_speeds(speeds[c.shaft, c.multiple])) for c in found]
     return tuple(sorted(told, key=lambda c: -c.growth_db))
 
 
@@ -116,6 +101,25 @@ def _spectra(test: Observation, base: Observation) -> list[tuple[str, OrderLines
         if now is not None and before is not None:
             rows.append((channel, now, before))
     return rows
+
+
+def _change(
+    spectra: Sequence[tuple[str, OrderLines, OrderLines]], shaft: str, multiple: float, ratio: float, label: str
+) -> ShaftChange | None:
+    """The change of one line of a test in the channel where it grew most; None where no channel has it."""
+    rows = _growths(spectra, multiple * ratio)
+    if not rows:
+        return None
+    channel, growth = max(rows, key=lambda row: row[1])
+    return ShaftChange(
+        shaft=shaft,
+        multiple=multiple,
+        order=multiple * ratio,
+        channel=channel,
+        growth_db=growth,
+        median_db=float(np.median([g for _, g in rows])),
+        label=label,
+    )
 
 
 def _growths(spectra: Sequence[tuple[str, OrderLines, OrderLines]], order: float) -> list[tuple[str, float]]:

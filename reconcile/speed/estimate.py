@@ -135,18 +135,16 @@ def _found(
 
 
 def _middle(speeds: FloatArray, score: FloatArray, best: int) -> float:
-    """Middle of the speeds next to that at `best` at which the lines count most.
+    """Middle of the speeds around that at `best` for which the same bins speak.
 
     Few lines are in reach of a range of speeds, of which the prior takes the end nearest to the stated one.
     """
     low = high = best
-    while low > 0 and score[low - 1] >= score[best] - SAME:
+    while low > 0 and abs(score[low - 1] - score[best]) <= SAME:
         low -= 1
-    while high + 1 < score.size and score[high + 1] >= score[best] - SAME:
+    while high + 1 < score.size and abs(score[high + 1] - score[best]) <= SAME:
         high += 1
-    near = score[low : high + 1]
-    top = np.flatnonzero(near >= np.max(near) - SAME)
-    return float(np.mean(speeds[low + top]))
+    return float((speeds[low] + speeds[high]) / 2)
 
 
 def _explains_more(

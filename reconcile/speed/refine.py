@@ -6,41 +6,51 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from signals.series import FloatArray
+from reconcile.speed.excess import mains_bins
+from signals.series import BoolArray, FloatArray
 
 REACH_BINS = 1.5
 """Bins between a line and a speed's multiple at which it counts for the speed: half a bin and the neighbour."""
 LINE_BINS = 0.75
 """Half the interval of a single line's frequency, bins, if it is spread over fewer."""
+VALLEY_LOG = 1.5
+"""Log power by which a line must rise again to be another one."""
 
 
 def refined(combs: Sequence[tuple[FloatArray, float]], coarse: float, orders: Sequence[float]) -> tuple[float, float]:
     """Speed refined order by order (low orders first: each narrows the range of the next) and half its interval.
 
-    The interval starts at what a line of the lowest order may be off and still count.
+    The interval starts at what a line of the lowest order may be off and still count. Where the first line is spread so
+    far that its centre is beyond that, the speed stays and the interval reaches to the centre.
     """
-    speed, half = coarse, REACH_BINS * combs[0][1] / min(orders)
+    speed, half, doubt = coarse, REACH_BINS * combs[0][1] / min(orders), 0.0
+    hum = [mains_bins(log.size, resolution) for log, resolution in combs]
+    found_any = False
     for order in sorted(orders):
         lines = [
             line
-            for log, resolution in combs
-            if (line := _line(log, order * (speed - half) / resolution, order * (speed + half) / resolution))
+            for (log, resolution), masked in zip(combs, hum, strict=True)
+            if (line := _line(log, masked, order * (speed - half) / resolution, order * (speed + half) / resolution))
         ]
         if not lines:
             continue
         places, widths, weights = np.array(lines).T
         bins = combs[0][1] / order
         found = float(np.average(places, weights=weights)) * bins
+        spread = float(np.average(widths, weights=weights))
         if abs(found - speed) <= half:
-            spread = float(np.average(widths, weights=weights))
             speed, half = found, min(half, max(LINE_BINS, spread) * bins)
-    return speed, half
+        elif not found_any:
+            doubt = abs(found - speed) + spread * bins
+        found_any = True
+    return speed, max(half, doubt)
 
 
-def _line(log: FloatArray, low: float, high: float) -> tuple[float, float, float] | None:
+def _line(log: FloatArray, masked: BoolArray, low: float, high: float) -> tuple[float, float, float] | None:
     """Place, spread and log power of the strongest line between two places, all places in bins.
 
-    Of a line that a wandering speed has spread the centre of its power is the mean.
+    Of a line that a wandering speed has spread the centre of its power is the mean; a line beside it, across a valley,
+    is another, and one that hum may have cut (`masked`) is none.
     """
     first, last = int(np.floor(low)), int(np.ceil(high)) + 1
     if first < 1 or last + 1 >= log.size:
@@ -48,13 +58,23 @@ def _line(log: FloatArray, low: float, high: float) -> tuple[float, float, float
     peak = first + int(np.argmax(log[first:last]))
     if log[peak] <= 0.0:
         return None
-    one, other = peak, peak
-    while one > 1 and log[one - 1] > 0.0:
-        one -= 1
-    while other + 1 < log.size and log[other + 1] > 0.0:
-        other += 1
+    one, other = _end(log, peak, -1), _end(log, peak, 1)
+    if masked[one - 1] or masked[other + 1]:
+        return None
     bins = np.arange(one, other + 1)
     power = np.exp(log[bins])
     place = float(np.average(bins, weights=power))
     spread = float(np.sqrt(np.average((bins - place) ** 2, weights=power)))
     return place, spread, float(log[peak])
+
+
+def _end(log: FloatArray, peak: int, step: int) -> int:
+    """The last bin of the line at `peak` towards `step`: where noise begins, or the valley before another line."""
+    place = lowest = peak
+    while 1 <= place + step < log.size - 1 and log[place + step] > 0.0:
+        place += step
+        if log[place] < log[lowest]:
+            lowest = place
+        elif log[place] > log[lowest] + VALLEY_LOG:
+            return lowest
+    return place

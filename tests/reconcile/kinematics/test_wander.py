@@ -8,6 +8,7 @@ import pytest
 from reconcile.kinematics import read_kinematic_spec
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.gears import GearEvidence, gear_evidence
+from reconcile.kinematics.lines import at_half_of_speeds
 from reconcile.kinematics.observe import observe
 from reconcile.kinematics.shafts import shaft_changes
 from tests.strategies.impulses import RATE_HZ, recorded
@@ -73,7 +74,7 @@ def test_wander_is_no_tooth_fault(seed: int) -> None:
 def test_a_tooth_fault_is_one_with_wander_too() -> None:
     first = told(0, wander=0.002, fault=0.8)[0]
     assert first.grown and first.gear == "gear"
-    assert first.growth_db - first.beside_db > 6.0
+    assert first.contrast_db > 6.0 and first.multiples >= 3
 
 
 @pytest.mark.slow
@@ -86,6 +87,36 @@ def test_growth_at_one_speed_of_three_is_seldom() -> None:
     ]
     assert not any(g.grown for g in gear_evidence(now, before, TIE))
     assert gear_evidence(now[:1], before, TIE)[0].grown, "alone it is all there is"
+
+
+@pytest.mark.slow
+def test_the_newest_of_several_tests_at_one_speed_is_enough() -> None:
+    before = [seen(gearbox(1, 30.0), 30.0, "baseline")]
+    now = [seen(gearbox(9 + k, 30.0, fault=f), 30.0, f"test {k}") for k, f in enumerate((0.0, 0.0, 0.8))]
+    assert gear_evidence(now, before, TIE)[0].grown
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seconds", [0.65, 0.8, 1.0, 1.3])
+def test_a_tooth_fault_is_found_in_few_turns_of_its_gear(seconds: float) -> None:
+    """5.5 to 11 turns, in which its sidebands are as wide as half their distance."""
+    before, now = (seen(gearbox(k, 30.0, fault=f, seconds=seconds), 30.0, "r") for k, f in ((1, 0.0), (2, 0.8)))
+    assert gear_evidence([now], [before], TIE)[0].gear == "gear"
+    assert gear_evidence([now], [before], TIE)[0].grown
+
+
+@pytest.mark.parametrize(
+    ("tests", "held"),
+    [
+        ([], True),
+        ([(30.0, False)], False),
+        ([(30.0, False), (30.2, False), (30.4, True)], True),
+        ([(22.5, False), (30.0, True), (39.0, False)], False),
+        ([(22.5, False), (30.0, True), (39.0, True)], True),
+    ],
+)
+def test_half_of_the_speeds(tests: list[tuple[float, bool]], held: bool) -> None:
+    assert at_half_of_speeds(tests) is held
 
 
 def test_few_periods_of_a_slow_line_are_not_compared() -> None:
