@@ -37,14 +37,17 @@ def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> li
     try:
         manifest = json.loads((out / MANIFEST).read_text(encoding="utf-8"))
         recipe = read_recipe(manifest["recipe"])
-        suffix = FORMATS[manifest["format"]].suffix
+        kind = manifest["format"]
+        if kind not in FORMATS:
+            raise ValueError(f"its format is {kind!r}, not one of {', '.join(FORMATS)}")
+        suffix = FORMATS[kind].suffix
         listed = {e["file"]: {key: e[key] for key in ("sha256", "split", "rows")} for e in manifest["shards"]}
         numbers = [e[key] for e in manifest["shards"] for key in ("rows", "bytes")]
         if not all(type(number) is int for number in numbers):
             raise ValueError("rows and bytes of shards are whole numbers")
         versions_then, others = dict(manifest["versions"]), dict(manifest["files"])
     except KeyError as error:
-        return [Finding(where=MANIFEST, what=f"has no {error}: it was emptied or cut")]
+        return [Finding(where=MANIFEST, what=f"lacks {error}: it was emptied or cut")]
     except (ValueError, TypeError, AttributeError) as error:
         return [Finding(where=MANIFEST, what=f"cannot be read: {error}")]
     try:

@@ -190,7 +190,9 @@ class Recipe(SpecModel):
     def _said_once(self) -> Self:
         for key, field in (("speed_hz", "speeds_hz"), ("torque_nm", "torques_nm")):
             if key in self.conditions and getattr(self, field) is not None:
-                raise wrong(f"is drawn by `{field}` already", "one of the two", key, field=f"conditions.{key}")
+                raise wrong(
+                    f"is drawn by `{field}` already", "other names, or no such field", key, field=f"conditions.{key}"
+                )
         return self
 
     @model_validator(mode="after")

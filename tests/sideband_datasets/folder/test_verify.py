@@ -99,7 +99,13 @@ def test_a_manifest_that_is_no_json_is_a_finding(copy):
 
 def test_an_emptied_manifest_is_told_by_what_it_lacks(copy):
     (copy / "manifest.json").write_text("{}")
-    assert told(copy) == "manifest.json: has no 'recipe': it was emptied or cut"
+    assert told(copy) == "manifest.json: lacks 'recipe': it was emptied or cut"
+
+
+def test_an_unknown_format_is_told_with_those_there_are(copy):
+    manifest = json.loads((copy / "manifest.json").read_text())
+    (copy / "manifest.json").write_text(json.dumps({**manifest, "format": "csvx"}))
+    assert "manifest.json: cannot be read: its format is 'csvx', not one of parquet" in told(copy)
 
 
 def test_a_folder_without_a_dataset_is_refused(tmp_path):

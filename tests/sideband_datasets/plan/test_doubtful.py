@@ -29,6 +29,24 @@ def test_a_fault_of_no_size_is_told(width):
     assert told == "class outer: outer_spall of width 0 is labelled as a fault all the same"
 
 
+@pytest.mark.parametrize(("part", "given"), [("set", {"speed_hz": 11.0}), ("set", {"operating.speed_hz": 11.0})])
+def test_what_the_speeds_replace_is_told(part, given):
+    machines = [{**document()["machines"][0], "instances": 10, part: given}]
+    (told,) = make_plan(tiny(**{**LONG, "machines": machines})).warnings
+    assert told.endswith(f"no effect on {next(iter(given))}: `speeds_hz` replaces it")
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "plan", "zero"),
+    [(0, 1e-3, "factorial", True), (0, 1e-3, "sobol", False), (0, 0, "sobol", True), (1e-4, 1e-3, "factorial", False)],
+)
+def test_a_range_holds_its_ends_in_factorial_plans(low, high, plan, zero):
+    width = {"low": low, "high": high}
+    faults = [{"name": "outer", "terms": [{"term": "outer_spall", "parameters": {"width": width}}]}]
+    told = make_plan(tiny(**LONG, faults=faults, plan=plan)).warnings
+    assert any("labelled as a fault all the same" in text for text in told) is zero
+
+
 @pytest.mark.parametrize("width", [1e-3, {"low": 0, "high": 1e-3}, {"choices": [5e-4, 1e-3]}])
 def test_a_size_is_not(width):
     faults = [{"name": "outer", "terms": [{"term": "outer_spall", "parameters": {"width": width}}]}]
