@@ -52,7 +52,9 @@ def answer(truth: Mapping[str, Any], report: Mapping[str, Any] | None) -> str:
     if not told & right:
         return _loud(verdict)
     named = {(c["term"], c["site"]) for c in report["causes"] if c["named"]}
-    return "named with its place" if named and named <= right else "in the set"
+    if named - right:
+        return "a wrong name"
+    return "named with its place" if named else "in the set"
 
 
 def _loud(verdict: str) -> str:

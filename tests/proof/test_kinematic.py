@@ -38,7 +38,8 @@ def test_the_engine_reads_what_it_is_given_and_gets_drawings_only() -> None:
     ("hidden", "said", "worth"),
     [
         (truth(PIT), report("explained", (*RIGHT, True)), "named with its place"),
-        (truth(PIT), report("explained", (*RIGHT, True), (*OTHER, True)), "in the set"),
+        (truth(PIT), report("explained", (*RIGHT, True), (*OTHER, True)), "a wrong name"),
+        (truth(PIT), report("explained", (*OTHER, True), (*RIGHT, False)), "a wrong name"),
         (truth(PIT), report("ambiguous", (*OTHER, False), (*RIGHT, False)), "in the set"),
         (truth(PIT), report("explained", (*OTHER, True)), "other (explained)"),
         (truth(PIT), report("nothing_missing"), "quiet"),

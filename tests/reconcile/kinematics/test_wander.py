@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reconcile.kinematics import read_kinematic_spec
+from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.gears import GearEvidence, gear_evidence
 from reconcile.kinematics.lines import at_half_of_speeds
@@ -87,6 +87,8 @@ def test_growth_at_one_speed_of_three_is_seldom() -> None:
     ]
     assert not any(g.grown for g in gear_evidence(now, before, TIE))
     assert gear_evidence(now[:1], before, TIE)[0].grown, "alone it is all there is"
+    report = reconcile_kinematics(SPEC, [o.recording for o in now], [o.recording for o in before], seed=0)
+    assert any("at fewer than half of the speeds: sidebands of out" in text for text in report.undecidable)
 
 
 @pytest.mark.slow
