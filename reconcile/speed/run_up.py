@@ -10,12 +10,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d
+from scipy.fft import prev_fast_len, rfft
 from scipy.signal import butter, sosfiltfilt
 
 from reconcile.speed.excess import mains_bins
 from signals.recording import Recording
-from signals.series import FloatArray
+from signals.series import FloatArray, IntArray
 
 TOP_HZ = 800.0
 """Highest frequency looked at, of signals and of envelopes."""
@@ -113,15 +113,18 @@ def _centred(values: FloatArray) -> FloatArray:
     return np.asarray(values - np.mean(values), dtype=np.float64)
 
 
-def _floor(power: FloatArray) -> FloatArray:
-    """Median of the block of bins around each bin."""
-    whole = power[: power.size // BLOCK * BLOCK].reshape(-1, BLOCK)
-    middle = np.repeat(np.median(whole, axis=1), BLOCK)
-    return np.asarray(np.pad(middle, (0, power.size - middle.size), mode="edge"), dtype=np.float64)
+def _strong_bins(power: FloatArray) -> IntArray:
+    """Bins above `STRONG` times the median of the block of bins around them."""
+    blocks = power.size // BLOCK
+    sorted_half = np.partition(power[: blocks * BLOCK].reshape(blocks, BLOCK), (BLOCK // 2 - 1, BLOCK // 2), axis=1)
+    middle = 0.5 * (sorted_half[:, BLOCK // 2 - 1] + sorted_half[:, BLOCK // 2])
+    block = np.minimum(np.arange(power.size) // BLOCK, blocks - 1)
+    return np.nonzero(power > STRONG * middle[block])[0]
 
 
 def _narrow_lines(part: FloatArray, rate_hz: float, changes: FloatArray) -> FloatArray:
     """Narrow lines of the spectrum, read with each of `changes`, shape (changes,); those of the mains left out."""
+    part = part[: prev_fast_len(part.size, real=True)]
     time = np.arange(part.size) / rate_hz
     length = part.size / rate_hz
     window = np.hanning(part.size)
@@ -129,15 +132,17 @@ def _narrow_lines(part: FloatArray, rate_hz: float, changes: FloatArray) -> Floa
     found = np.empty(changes.size)
     bow = time**2 / length - time
     mains = mains_bins(top, 1.0 / length)
+    around = np.arange(-NARROW, NARROW + 1)
     for k, c in enumerate(changes):
         turns = time + c / 2 * bow  # of a speed from 1 - c/2 to 1 + c/2: even steps of these are even angles
-        power = np.abs(np.fft.rfft(np.interp(time, turns, part) * window)[:top]) ** 2
+        spectrum = rfft(np.interp(time, turns, part) * window)[:top]
+        power = spectrum.real**2 + spectrum.imag**2
         power += FAINT * np.mean(power)
-        near = maximum_filter1d(power, 2 * NARROW + 1)
-        beside = np.maximum(np.roll(power, NARROW), np.roll(power, -NARROW))
-        line = (power == near) & (power > BESIDE * beside) & (power > STRONG * _floor(power))
-        line[: 2 * NARROW] = False
+        strong = _strong_bins(power)
         if abs(c) < STEP:
-            line &= ~mains
-        found[k] = np.count_nonzero(line)
+            strong = strong[~mains[strong]]
+        near = power.take(strong[:, None] + around, mode="clip")
+        beside = np.maximum(near[:, 0], near[:, -1])
+        line = (power[strong] == np.max(near, axis=1)) & (power[strong] > BESIDE * beside)
+        found[k] = np.count_nonzero(line & (strong >= 2 * NARROW) & (strong < power.size - NARROW))
     return found
