@@ -13,9 +13,9 @@ from sideband_datasets.formats import FORMATS
 from sideband_datasets.plan import make_plan, size
 from tests.sideband_datasets.small import tiny
 
-WINDOWS = {"per_recording": 20, "length_s": 0.5, "overlap": 0.95}
-RECIPE = tiny(count=32, duration_s=1.0, windows=WINDOWS, peaks={"spectra": []}, splits={"train": 1.0})
-ROW_BYTES = 4 * 4000
+WINDOWS = {"per_recording": 20, "length_s": 0.25, "overlap": 0.95}
+RECIPE = tiny(count=24, duration_s=0.5, windows=WINDOWS, peaks={"spectra": []}, splits={"train": 1.0})
+ROW_BYTES = 4 * 2000
 
 
 def peak_bytes(folder: Path, kind: str, recordings: int) -> int:
@@ -42,6 +42,6 @@ def test_memory_does_not_grow_with_the_recordings_of_a_shard(
     monkeypatch.setattr(size, "BATCH_BYTES", 0)
     assert size.batch_size(make_plan(RECIPE)) == 8
     peak_bytes(tmp_path / "first", kind, 2)
-    few, many = peak_bytes(tmp_path / "few", kind, 16), peak_bytes(tmp_path / "many", kind, 32)
-    further_rows = (32 - 16) * make_plan(RECIPE).rows_per_recording
+    few, many = peak_bytes(tmp_path / "few", kind, 16), peak_bytes(tmp_path / "many", kind, 24)
+    further_rows = (24 - 16) * make_plan(RECIPE).rows_per_recording
     assert many - few < 0.1 * further_rows * ROW_BYTES, (few, many)
