@@ -21,6 +21,8 @@ NOISE_LOG = 1.5
 """Log power over the floor below which a bin counts nothing: noise passes it in 1 % of the bins."""
 LARGEST_LOG = 7.0
 CONTROLS = 300
+TOGETHER = 10
+"""Control orders searched at once, which bounds the memory."""
 AWAY = 0.035
 """Share by which a control order must differ from orders of parts, their halves and multiples."""
 SHAFT_BINS = 2.0
@@ -185,11 +187,13 @@ def _controls(
     values: FloatArray, envelopes: Envelopes, family: Family, orders: FloatArray, reach: float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """(best scores at the control orders (bands, controls), their medians and robust deviations (bands, 1))."""
-    rows = [
-        np.max(scores(values, envelopes, family, trials(family, o, reach, envelopes.order_step)), axis=1)
-        for o in orders
-    ]
-    control = np.stack(rows, axis=1)
+    found = []
+    for few in np.array_split(orders, -(-orders.size // TOGETHER)):
+        bases = [trials(family, float(o), reach, envelopes.order_step) for o in few]
+        first = np.cumsum([0, *(b.size for b in bases[:-1])])
+        table = scores(values, envelopes, family, np.concatenate(bases))
+        found.append(np.maximum.reduceat(table, first, axis=1))
+    control = np.concatenate(found, axis=1)
     centre = np.median(control, axis=1, keepdims=True)
     spread = np.maximum(1.4826 * np.median(np.abs(control - centre), axis=1, keepdims=True), LEAST_SPREAD)
     return control, centre, spread
