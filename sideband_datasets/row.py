@@ -105,7 +105,7 @@ COLUMNS: tuple[Column, ...] = (
     _c("unit", "text", "Unit of the signal."),
     _c("sampling_rate_hz", "number", "Sampling rate of the signal.", "Hz"),
     _c("samples", "whole", "Length of the signal."),
-    _c("speed_hz", "number", "Mean speed of the driven shaft, revolutions a second.", "Hz"),
+    _c("speed_hz", "number", "Mean speed of the driven shaft in the window, revolutions a second.", "Hz"),
     _c("load_nm", "number", "Torque of the driven shaft, where there is one.", "N m"),
     _c("fault_type", "text", "Class of the recording."),
     _c("fault_location", "text", "Part that the (first) effect of the fault acts on."),

@@ -68,8 +68,8 @@ def planned_columns(drawn: Drawing) -> dict[str, object]:
     }
 
 
-def columns_of(made: Made, channel: Channel, bases_hz: Mapping[str, float]) -> dict[str, object]:
-    """Columns that all windows of a channel share."""
+def columns_of(made: Made, channel: Channel, bases_hz: Mapping[str, float], speed_ratio: float) -> dict[str, object]:
+    """Columns that all rows of a window share. `speed_ratio`: mean speed in the window over that of all simulated."""
     drawn, operating = made.drawing, made.recording.operating
     bearing = bearing_of(drawn, channel)
     return {
@@ -80,7 +80,7 @@ def columns_of(made: Made, channel: Channel, bases_hz: Mapping[str, float]) -> d
         "quantity": channel.quantity,
         "unit": channel.unit,
         "sampling_rate_hz": made.recording.sampling_rate_hz,
-        "speed_hz": operating.speed_hz if operating is not None else None,
+        "speed_hz": operating.speed_hz * speed_ratio if operating is not None else None,
         "load_nm": operating.torque_nm if operating is not None else None,
         "bearing_id": bearing,
         **frequencies(drawn, bearing, bases_hz),

@@ -108,14 +108,20 @@ def _cut_or_failed(plan: Plan, made: Made, members: Sequence[int]) -> list[Row] 
         return failed(plan, made, error)
 
 
+def speed_ratio(made: Made, first_s: float, last_s: float) -> float:
+    """Mean speed in a stretch over the mean of all that was simulated; 1 where it holds."""
+    profile = made.response.speed
+    if profile[0] == 0:
+        return 1.0
+    end_s = float(made.recording.start_s + made.recording.duration_s)
+    return mean_ratio(profile, first_s, last_s) / max(mean_ratio(profile, 0.0, end_s), 1e-12)
+
+
 def bases_of(made: Made, first_s: float, last_s: float) -> Mapping[str, float]:
     """Base frequencies at the mean speed of a stretch, as the recorder's clock has them if there is a tacho, Hz."""
     response, chain = made.response, made.drawing.chain
-    bases = response.bases_hz
-    if response.speed[0] != 0:
-        end_s = float(made.recording.start_s + made.recording.duration_s)
-        ratio = mean_ratio(response.speed, first_s, last_s) / max(mean_ratio(response.speed, 0.0, end_s), 1e-12)
-        bases = {name: hz * ratio for name, hz in bases.items()}
+    ratio = speed_ratio(made, first_s, last_s)
+    bases = {name: hz * ratio for name, hz in response.bases_hz.items()} if ratio != 1.0 else response.bases_hz
     if chain is not None and any(isinstance(channel, Tacho) for channel in chain.channels):
         bases = {name: hz / stretch(chain.clock) for name, hz in bases.items()}
     return bases
@@ -174,6 +180,7 @@ def _row(
     channel = recording.channels[channel_row]
     signal = recording.samples[channel_row, first : first + length].astype(np.float32)
     start_s = recording.start_s + first / recording.sampling_rate_hz
+    ratio = speed_ratio(made, start_s, start_s + length / recording.sampling_rate_hz)
     # Features and peaks are those of the samples as they are stored.
     series = Series(
         samples=signal.astype(np.float64),
@@ -184,7 +191,7 @@ def _row(
         start_s=start_s,
     )
     said = features(series)
-    columns = columns_of(made, channel, bases_hz)
+    columns = columns_of(made, channel, bases_hz, ratio)
     return Row(
         **columns,  # type: ignore[arg-type]
         signal_id=f"{made.drawing.recording_id}-w{window:03d}-{channel.name}",

@@ -161,7 +161,9 @@ def split_warnings(
     for number, name in enumerate(recipe.classes):
         present = np.unique(split[kind == number])
         missing = [names[s] for s in range(len(names)) if s not in present]
-        if 0 < len(missing) < len(names):
+        if len(missing) == len(names) and (number or recipe.healthy_share != 0.0):
+            yield f"class {name} has no recording: too small a share of {recipe.count}"
+        elif 0 < len(missing) < len(names):
             yield f"class {name} does not occur in {', '.join(missing)}: too few recordings for every split"
     for family in recipe.machines:
         own = {int(s) for m, s in zip(machines, split_of, strict=True) if m.family == family.name}

@@ -6,16 +6,41 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from sideband_datasets.plan.axes import drawn_only, machine_axes
 from sideband_datasets.recipe.model import Recipe
-from sideband_datasets.recipe.values import Choice, Factor, Range, Value
+from sideband_datasets.recipe.values import Choice, Factor, Range, Value, ends_of
 from signals.shorthand import path_of
 from sim.terms import REGISTRY
+
+ALIKE = 1e-3
+"""Share of a number within which two machines are one to a classifier."""
 
 
 def doubtful_warnings(recipe: Recipe) -> Iterator[str]:
     """Sentences on values that others replace, and on faults of no size."""
     yield from _replaced(recipe)
     yield from _of_no_size(recipe)
+    yield from _nearly_one(recipe)
+
+
+def _nearly_one(recipe: Recipe) -> Iterator[str]:
+    """Machines of several splits that differ by next to nothing are one machine heard in all of them."""
+    for number, family in enumerate(recipe.machines):
+        varied = drawn_only([axis for axis in machine_axes(recipe, number) if axis.field.startswith("machines.")])
+        if len(recipe.splits) > 1 and family.instances > 1 and varied and all(_narrow(a.value) for a in varied):
+            yield (
+                f"machines {family.name} differ by less than {ALIKE:.1%} in everything that varies: to a classifier "
+                "they are one machine, which stands in several splits"
+            )
+
+
+def _narrow(value: Value) -> bool:
+    if isinstance(value, Choice):
+        return len(set(value.choices)) == 1
+    if not isinstance(value, Range | Factor):
+        return True
+    low, high = ends_of(value)
+    return high - low <= ALIKE * max(abs(low), abs(high))
 
 
 def _replaced(recipe: Recipe) -> Iterator[str]:

@@ -11,6 +11,7 @@ from sideband_datasets.plan.documents import holders
 from signals.shorthand import path_of
 from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
+from sim.terms import REGISTRY
 
 NOT_BUILT_IN = ("schema_version", "name", "notes", "operating", "loads", "gravity_m_per_s2")
 """Of a machine's description, what is no property of the machine: words, how it is run, what acts from outside.
@@ -35,7 +36,17 @@ def content_of(spec: MachineSpec, conditions: Iterable[str]) -> str:
         document.pop(key, None)
     for key in conditions:
         _without(document, path_of(key))
+    document["terms"] = sorted((t for t in document["terms"] if not _nothing(t)), key=hashed)
     return hashed(document)
+
+
+def _nothing(term: Mapping[str, Any]) -> bool:
+    """Whether an effect is of the size at which it changes nothing."""
+    known = REGISTRY.get(term["term"])
+    if known is None or known.severity is None or not known.zero_is_healthy:
+        return False
+    default = next(p.default for p in known.params if p.name == known.severity)
+    return bool(term["parameters"].get(known.severity, default) == 0)
 
 
 def _without(document: dict[str, Any], key: str) -> None:

@@ -22,7 +22,8 @@ from signals.sensors import SensorChain
 from signals.series import FloatArray
 from signals.shorthand import path_of
 from signals.validation import problems_of
-from sim.core.errors import SpecError
+from sim.core.errors import Problem, SpecError, UnknownName
+from sim.core.near import did_you_mean
 from sim.core.spec import MachineSpec
 from sim.presets import preset
 
@@ -63,7 +64,13 @@ def told_as(field: str) -> Iterator[None]:
 
 def base_machine(family: Machines, number: int) -> MachineSpec:
     """What all of a family have in common."""
-    machine = preset(family.preset) if family.preset is not None else family.machine
+    try:
+        machine = preset(family.preset) if family.preset is not None else family.machine
+    except UnknownName as error:
+        message = f"is no ready machine{did_you_mean(error.name, error.known)}"
+        problem = Problem(field=f"machines.{number}.preset", message=message, given=error.name,
+                          allowed=", ".join(error.known))  # fmt: skip
+        raise SpecError(problem) from error
     assert machine is not None
     with told_as(f"machines.{number}.set"):
         return apply_overrides(machine, family.set)

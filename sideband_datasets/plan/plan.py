@@ -11,10 +11,12 @@ from sideband_datasets.plan.apart import check_apart
 from sideband_datasets.plan.axes import drawn_only, levels, recording_axes
 from sideband_datasets.plan.check import channels_of, check_recipe, confounded_warnings, split_warnings
 from sideband_datasets.plan.doubtful import doubtful_warnings
+from sideband_datasets.plan.ends import check_ends
 from sideband_datasets.plan.machines import Machine, machines_of
 from sideband_datasets.plan.points import Points
 from sideband_datasets.plan.quotas import IntArray, interleaved, quotas, ranks
 from sideband_datasets.plan.seeds import Stream, generator
+from sideband_datasets.plan.sound import check_sound, ordinary_warnings
 from sideband_datasets.recipe.model import Recipe
 from sim.core.errors import Problem, SpecError
 
@@ -134,6 +136,8 @@ def _siblings(recipe: Recipe, machines: Sequence[Machine]) -> tuple[IntArray, In
 def planned(recipe: Recipe) -> Plan:
     """The plan; SpecError lists what of the recipe contradicts itself."""
     check_recipe(recipe)
+    check_sound(recipe)
+    check_ends(recipe)
     families = [machines_of(recipe, number) for number in range(len(recipe.machines))]
     machines = _mixed_families(recipe, families)
     split_of = _splits(recipe, machines)
@@ -151,5 +155,6 @@ def planned(recipe: Recipe) -> Plan:
             *split_warnings(recipe, machines, split_of, kind, machine),
             *confounded_warnings(recipe, kind),
             *doubtful_warnings(recipe),
+            *ordinary_warnings(recipe),
         ),
     )

@@ -1,31 +1,24 @@
-"""The plan of a recipe, with one recording of every class and family, and one machine of every name that is chosen
-among, put together before hours are spent on it."""
+"""The plan of a recipe, with one recording of every class and family put together before hours are spent on it."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Hashable, Iterator
-from contextlib import contextmanager
+from collections.abc import Hashable
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
 from sideband_datasets.plan.carried import told_of_rates
-from sideband_datasets.plan.documents import own_value
 from sideband_datasets.plan.drawing import Drawing, drawing
-from sideband_datasets.plan.machines import Machine
 from sideband_datasets.plan.plan import Plan, planned
 from sideband_datasets.plan.quotas import IntArray
 from sideband_datasets.recipe.model import Recipe
 from sideband_datasets.recipe.read import canonical
-from sideband_datasets.recipe.values import Choice
 from signals.sensors import SensorChain, outputs_needed, pickups, quantities_of
 from signals.sensors.clock import nominal_rate_hz
-from signals.shorthand import path_of
 from signals.validation import Findings
 from sim.assembly.assemble import assemble
-from sim.core.errors import Problem, SpecError, UnknownName
 from sim.core.system import System
 from sim.solve.ensemble import structure
 from sim.solve.step_choice import steps_per_output
@@ -75,42 +68,11 @@ def samples_of(plan: Plan) -> list[Drawing]:
     return [drawing(plan, int(i)) for i in sorted(first)]
 
 
-def named_choices(plan: Plan) -> Iterator[tuple[str, Machine]]:
-    """The first machine that has each of the names which are chosen among (a bearing, say), and the recipe's field:
-    numbers of a range are alike, but one name of a list may be wrong."""
-    for number, family in enumerate(plan.recipe.machines):
-        texts = [
-            path
-            for path, value in family.vary.items()
-            if isinstance(value, Choice) and any(isinstance(item, str) for item in value.choices)
-        ]
-        seen: set[tuple[str, object]] = set()
-        for machine in plan.machines:
-            if not texts or machine.family != plan.recipe.machines[number].name:
-                continue
-            new = {(path, own_value(machine.spec, path_of(path))) for path in texts} - seen
-            if new:
-                seen |= new
-                yield f"machines.{number}.vary.{min(new, key=str)[0]}.choices", machine
-
-
-@contextmanager
-def _in_field(field: str) -> Iterator[None]:
-    try:
-        yield
-    except UnknownName as error:
-        raise SpecError(Problem(field=field, message=f"has an {error}")) from error
-
-
 @lru_cache(maxsize=4)
 def _tried(text: str) -> Plan:
     recipe = Recipe.model_validate_json(text)
     plan = planned(recipe)
     findings = Findings()
-    for field, machine in named_choices(plan):
-        with findings.step(), _in_field(field):
-            assemble(machine.spec, seed=machine.seed)
-    findings.settle()
     tried: list[tuple[Drawing, System]] = []
     for drawn in samples_of(plan):
         with findings.step():

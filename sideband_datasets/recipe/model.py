@@ -15,8 +15,12 @@ MOST_RECORDINGS = 200_000
 MOST_DURATION_S = 60.0
 MOST_WINDOWS = 1000
 HEALTHY = "healthy"
+IN_ALL = "puts a defect into all recordings, healthy ones too"
+DAMAGE_STANDS = "what sound machines have; defects stand in `faults`, those of all recordings in every class of it"
 Key = Annotated[str, Field(min_length=1, max_length=200)]
 ShortName = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_-]{0,39}$")]
+SplitName = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,39}$")]
+"""As the Hugging Face loader takes them."""
 Text = Annotated[str, Field(max_length=2000)]
 
 
@@ -148,7 +152,7 @@ class Recipe(SpecModel):
     peaks: Peaks = Peaks()
     plan: Literal["sobol", "latin_hypercube", "factorial"] = "sobol"
     """How ranges are filled; `factorial` combines levels for recordings (machines then are a Latin hypercube)."""
-    splits: dict[ShortName, Annotated[float, Field(gt=0, le=1)]] = Field(
+    splits: dict[SplitName, Annotated[float, Field(gt=0, le=1)]] = Field(
         default_factory=lambda: {"train": 0.7, "validation": 0.15, "test": 0.15}, min_length=1, max_length=10
     )
     """Shares of the recordings; every machine belongs to one split."""
@@ -166,7 +170,10 @@ class Recipe(SpecModel):
         ):
             twice = sorted({name for name in names if names.count(name) > 1})
             if twice:
-                raise wrong("need different names", "no name twice, none reserved", ", ".join(twice), field=what)
+                allowed = (
+                    f"no name twice; `{HEALTHY}` is the class without a fault" if what == "faults" else "no name twice"
+                )
+                raise wrong("need different names", allowed, ", ".join(twice), field=what)
         families = [m.name for m in self.machines]
         unknown = sorted({name for chain in self.measurement for name in chain.machines} - set(families))
         if unknown:
@@ -176,6 +183,8 @@ class Recipe(SpecModel):
         if bare:
             message = "has nothing for some machines"
             raise wrong(message, "one without `machines`, or one that names them", ", ".join(bare), field="measurement")
+        if "all" in self.splits:
+            raise wrong("is what loaders call all splits together", "another name", "all", field="splits")
         shares = sum(self.splits.values())
         if abs(shares - 1.0) > 1e-6:
             raise wrong(f"add up to {shares:g}", "shares that add up to 1", f"a sum of {shares:g}", field="splits")
@@ -197,8 +206,7 @@ class Recipe(SpecModel):
 
     @model_validator(mode="after")
     def _healthy_stays_healthy(self) -> Self:
-        """No defect of a class in what all recordings have."""
-        hidden = {t.term for f in self.faults for t in f.terms if (known := REGISTRY.get(t.term)) and known.strikes}
+        """No damage in what all recordings have."""
         everywhere: dict[str, str] = {}
         for number, family in enumerate(self.machines):
             for part, keys in (("set", family.set), ("vary", family.vary)):
@@ -206,9 +214,9 @@ class Recipe(SpecModel):
                     key: f"machines.{number}.{part}.{key}" for key, value in keys.items() if value is not None
                 }
         for key, field in (*everywhere.items(), *((key, f"conditions.{key}") for key in self.conditions)):
-            if key.split("@", maxsplit=1)[0] in hidden:
-                message = "puts a defect of `faults` into healthy recordings too"
-                raise wrong(message, "what sound machines have; defects stand in `faults`", key, field=field)
+            term = REGISTRY.get(key.split("@", maxsplit=1)[0]) if "@" in key else None
+            if term is not None and term.damages:
+                raise wrong(IN_ALL, DAMAGE_STANDS, key, field=field)
         return self
 
     def chains_of(self, family: int) -> list[int]:

@@ -105,12 +105,19 @@ class Term:
     """Keys that cannot act at the same site."""
     strikes: Literal["outer", "inner", "ball", "tooth"] | None = None
     """The part whose every passage gives an impact, for local defects; none for what acts all the time."""
+    damage: bool = False
+    """A defect that no sound machine has, though it does not strike; what `strikes` is one anyway."""
     lasting: bool = False
     """A machine has it from its first day or never: it does not come between a baseline and a later recording."""
     repeats: str | None = None
     """Parameter that tells several effects of this kind at one site apart; none: one a site."""
     demo: Demo = field(default_factory=Demo)
     validation: tuple[Validation, ...] = ()
+
+    @property
+    def damages(self) -> bool:
+        """Whether a machine that has it is no sound one, however small it is."""
+        return self.damage or self.strikes is not None
 
     def values(self, given: Values, where: str) -> dict[str, float]:
         """Fill defaults and check bounds; SpecError lists every field that is wrong."""

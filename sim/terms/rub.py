@@ -236,6 +236,7 @@ TERM = Rub(
     ),
     severity="stiffness",
     order=30,
+    damage=True,
     demo=Demo(
         machine="rotor",
         values={"gap": 4e-6, "stiffness": 5e7, "friction": 0.05},

@@ -166,6 +166,7 @@ TERM = ShaftCrack(
     ),
     severity="loss",
     order=30,
+    damage=True,
     demo=Demo(values={"loss": 0.3}),
     validation=(
         Validation(

@@ -127,3 +127,18 @@ def test_a_recording_that_fails_is_told_and_the_others_stay(monkeypatch):
 def test_rows_beyond_the_dataset_are_refused():
     with pytest.raises(SpecError, match="0 to 47"):
         rows(RECIPE, [48])
+
+
+@pytest.mark.slow
+def test_speed_and_frequencies_of_a_row_are_those_of_its_window():
+    recipe = tiny(count=2, faults=[], peaks={"spectra": []}, splits={"train": 1.0}, speeds_hz=None)
+    (rotor,) = recipe.model_dump(mode="json", exclude_none=True)["machines"]
+    ramp = {"profile": {"kind": "ramp", "end_ratio": 2.0, "duration_s": 0.15}}
+    moving = tiny(**{**recipe.model_dump(mode="json", exclude_none=True), "machines": [{**rotor, "set": ramp}]})
+    found = [row for row in rows(moving) if row.bpfo_hz and row.speed_hz]
+    assert len({row.speed_hz for row in found}) > 2, "the speed rises from window to window"
+    held = next(iter(rows(recipe)))
+    assert held.bpfo_hz and held.speed_hz
+    for row in found:
+        assert row.bpfo_hz and row.speed_hz
+        assert row.bpfo_hz / row.speed_hz == pytest.approx(held.bpfo_hz / held.speed_hz, rel=1e-9)

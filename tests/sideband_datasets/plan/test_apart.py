@@ -53,7 +53,7 @@ def test_a_channel_without_a_path_goes_with_its_machine():
 
 
 def test_one_split_may_have_one_path():
-    plan = planned(tiny(measurement=_measured({}), splits={"all": 1.0}))
+    plan = planned(tiny(measurement=_measured({}), splits={"train": 1.0}))
     assert len({path for m in plan.machines for path in m.channel_paths.values()}) == 1
 
 
@@ -81,5 +81,5 @@ def test_one_machine_under_other_names_or_speeds_is_refused(changes):
 
 def test_one_split_may_have_one_machine_at_many_speeds():
     machines = [{**document()["machines"][0], "vary": {"speed_hz": {"low": 20, "high": 40}}}]
-    plan = planned(tiny(machines=machines, splits={"all": 1.0}))
+    plan = planned(tiny(machines=machines, splits={"train": 1.0}))
     assert len({m.content for m in plan.machines}) == 1

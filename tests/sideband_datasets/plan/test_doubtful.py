@@ -51,3 +51,11 @@ def test_a_range_holds_its_ends_in_factorial_plans(low, high, plan, zero):
 def test_a_size_is_not(width):
     faults = [{"name": "outer", "terms": [{"term": "outer_spall", "parameters": {"width": width}}]}]
     assert not make_plan(tiny(**LONG, faults=faults)).warnings
+
+
+@pytest.mark.parametrize(("factor", "told"), [((1.0, 1.0001), True), ((0.9, 1.1), False)])
+def test_machines_that_hardly_differ_are_told(factor, told):
+    (rotor,) = document()["machines"]
+    vary = {"bearings.bearing1.support.stiffness_y_n_per_m": {"factor": factor}}
+    found = make_plan(tiny(machines=[{**rotor, "vary": vary}])).warnings
+    assert any("one machine, which stands in several splits" in w for w in found) == told

@@ -55,3 +55,11 @@ def test_the_id_of_all_paths_is_the_machine_s_own_without_any():
     assert path_id_of("rig-0001", bare) == path_id_of("rig-0001", None) != path_id_of("rig-0002", bare)
     heard = {"channels": [{"name": "a", "path": MODES}]}
     assert path_id_of("rig-0001", heard) == path_id_of("rig-0002", heard)
+
+
+def test_an_effect_of_no_size_and_the_order_of_effects_make_no_other_machine():
+    one = apply_overrides(PAIR, {"unbalance@pinion.moment": 1e-5, "eccentricity@gear.amplitude": 1e-5})
+    other = apply_overrides(PAIR, {"eccentricity@gear.amplitude": 1e-5, "unbalance@pinion.moment": 1e-5})
+    assert one.terms != other.terms
+    assert content_of(one, ()) == content_of(other, ()) != content_of(PAIR, ())
+    assert content_of(apply_overrides(PAIR, {"tooth_crack@pinion.depth": 0.0}), ()) == content_of(PAIR, ())

@@ -138,7 +138,7 @@ def test_machines_that_are_all_alike_are_refused():
         ({"windows": {"length_revolutions": 10}}, "at 25 Hz"),
         ({"splits": {"a": 0.2, "b": 0.2, "c": 0.2, "d": 0.2, "e": 0.2}}, "5 splits need as many machines"),
         ({"windows": {"length_s": 1e-5}}, "windows.length_s: is too short"),
-        ({"speeds_hz": {"low": 30, "high": 1800}}, "speeds_hz: .*if rpm were meant"),
+        ({"speeds_hz": {"low": 30, "high": 1800}}, "speeds_hz.high: .*if rpm were meant"),
         ({"torques_nm": 5}, "torques_nm: needs a machine with one torque"),
         ({"faults": [{"name": "x", "terms": [{**OUTER, "sites": ["bearing1"]}] * 2}]}, "acts at every one of these"),
         ({"conditions": {"bearings.bearing7.cage_phase_rad": 1.0}}, "bearing7"),

@@ -33,7 +33,7 @@ def test_a_recipe_is_frozen():
         ({"splits": {"train": 0.5}}, "add up to 0.5"),
         ({"plan": "random"}, "plan"),
         ({"faults": []}, None),
-        ({"faults": [{"name": "healthy", "terms": [{"term": "unbalance"}]}]}, "reserved"),
+        ({"faults": [{"name": "healthy", "terms": [{"term": "unbalance"}]}]}, "`healthy` is the class without a fault"),
         ({"schema_version": 2}, "schema_version"),
     ],
 )
@@ -75,17 +75,25 @@ WIDTH = {"outer_spall@drive_end.width": 2e-3}
 
 
 @pytest.mark.parametrize("part", ["set", "vary"])
-def test_a_defect_of_a_class_is_in_no_healthy_recording(part):
+@pytest.mark.parametrize("faults", [PITTED, [{"name": "loose", "terms": [{"term": "pedestal_looseness"}]}], []])
+def test_no_recording_that_is_labelled_healthy_has_a_defect(part, faults):
     machine = document()["machines"][0]
     for changes, field in (
         ({"machines": [{**machine, part: WIDTH}]}, f"machines.0.{part}.outer_spall@drive_end.width"),
         ({"conditions": WIDTH}, "conditions.outer_spall@drive_end.width"),
+        ({"conditions": {"shaft_crack@shaft.depth": 0.3}}, "conditions.shaft_crack@shaft.depth"),
     ):
-        with pytest.raises(SpecError, match="healthy recordings too") as told:
-            read_recipe(document(faults=PITTED, **changes))
+        with pytest.raises(SpecError, match="healthy ones too") as told:
+            read_recipe(document(faults=faults, **changes))
         assert told.value.problems[0].field == field
-    other = [{"name": "loose", "terms": [{"term": "pedestal_looseness"}]}]
-    assert read_recipe(document(faults=other, conditions=WIDTH)), "all of these machines have it, whatever their class"
+    assert read_recipe(document(faults=faults, conditions={"unbalance@disc.moment": 1e-4}))
+
+
+@pytest.mark.parametrize("name", ["hold-out", "all", "../x"])
+def test_splits_have_names_that_loaders_take(name):
+    with pytest.raises(SpecError) as told:
+        read_recipe(document(splits={name: 0.5, "train": 0.5}))
+    assert told.value.problems[0].field.startswith("splits")
 
 
 @pytest.mark.parametrize(("key", "field"), [("speed_hz", "speeds_hz"), ("torque_nm", "torques_nm")])
