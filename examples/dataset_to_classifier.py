@@ -29,7 +29,7 @@ from learn.orders import FaultOrders
 from learn.train import fit_head
 from reconcile.kinematics import described_kinematics
 from sideband_datasets import Recipe, read_recipe, recipe_named
-from sideband_datasets.folder import Progress, Settings, make
+from sideband_datasets.folder import Progress, Settings, make, resume, unfinished
 from sideband_datasets.recipe.read import document_of
 from signals.ingest.file import load_description, read_recording
 from sim.core.errors import SidebandError
@@ -86,6 +86,14 @@ def tested_on_recording(model: Model, path: Path) -> None:
     print("  " + ", ".join(f"{label} {p:.2f}" for label, p in found["probabilities"].items()))
 
 
+def dataset(recipe: Recipe, out: Path, workers: int) -> None:
+    """Make it, or go on with what an interrupted run left; one of another recipe is refused."""
+    if not out.is_dir() and not unfinished(out).is_dir():
+        make(recipe, out, Settings(workers=workers), told)
+    elif resume(out, workers, told)["recipe"] != json.loads(json.dumps(document_of(recipe))):
+        raise ValueError(f"{out} holds a dataset of another recipe: give another --out, or remove it")
+
+
 def told(progress: Progress) -> None:
     """Rows done, on one line."""
     print(f"\r   {progress.rows} of {progress.total} rows", end="", flush=True)
@@ -96,13 +104,15 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--recording", type=Path, metavar="R.json", help="description of a measured recording")
     parser.add_argument("--recipe", type=Path, help="another recipe, JSON (default: a small bearing rig)")
-    parser.add_argument("--out", type=Path, default=Path("out/example"), help="new folder for the dataset")
+    parser.add_argument(
+        "--out", type=Path, default=Path("out/example"), help="folder of the dataset; one that is begun is gone on with"
+    )
     parser.add_argument("--workers", type=int, default=2)
     given = parser.parse_args(argv)
     try:
         recipe = small_recipe() if given.recipe is None else read_recipe(json.loads(given.recipe.read_text()))
-        print(f"1. simulating {recipe.count} recordings into {given.out}")
-        make(recipe, given.out, Settings(workers=given.workers), told)
+        print(f"1. simulating {recipe.count} recordings into {given.out} (what is there is kept)")
+        dataset(recipe, given.out, given.workers)
         print("\n2. training on the split `train`")
         model = trained(rows_of(given.out, "train"))
         save(model, given.out.parent / f"{given.out.name}.model.json")

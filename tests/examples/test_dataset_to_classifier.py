@@ -40,8 +40,15 @@ def test_the_way_from_recipe_to_verdict(tmp_path: Path, capsys: pytest.CaptureFi
     assert "32 of 32 rows" in told and "r.json: " in told and "geometry known" in told
     assert verify(out) == []
     assert load(tmp_path / "made" / "example.model.json").made_by["real_samples"] == 0
-    assert main(given) == 2, "a dataset is not overwritten"
-    assert "is there already" in capsys.readouterr().err
+    shard = next((out / "data").iterdir())
+    before = shard.stat().st_mtime_ns
+    out.rename(out.with_name("example.partial"))
+    assert main(given) == 0, "what is there is gone on with"
+    assert shard.stat().st_mtime_ns == before
+    capsys.readouterr()
+    (tmp_path / "recipe.json").write_text(json.dumps({**tiny(), "seed": 9}))
+    assert main(given) == 2, "a dataset is not taken for another"
+    assert "another recipe" in capsys.readouterr().err
 
 
 @pytest.mark.slow
