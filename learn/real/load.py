@@ -19,7 +19,8 @@ from sim.parts.bearing.catalogue import lookup
 ROOT = Path(__file__).resolve().parents[2]
 RECORDINGS = ROOT.parent / "shared" / "recordings"
 BEARINGS = {"cwru": "6205", "hit_sm_mfs": "6205", "uestc": "UC204", "ims_healthy": "ZA-2115"}
-"""Sizes as the sources state them; of `uestc` the series only, and 204 is its smallest common insert."""
+"""Sizes as the sources state them. Not of `uestc`, whose source states the series only: its 8 balls were inferred from
+orders found in the recordings themselves, and 204 is an insert of the series that fits."""
 LABELS = {"healthy": "healthy", "outer-race": "outer", "inner-race": "inner", "ball": "ball", "broken": "tooth"}
 TEETH = {"openei_gear": (32, 80)}
 """Of the stage on the shaft whose speed is told: as seen in the recordings' lines, the source does not state them."""

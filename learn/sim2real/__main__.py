@@ -16,6 +16,7 @@ from learn.sim2real.ablations import MACHINES as FEWER
 from learn.sim2real.ablations import USUAL, smaller
 from learn.sim2real.gear_table import GearExample, gear_heads, gear_table
 from learn.sim2real.report import Results, report
+from learn.sim2real.rigs import RIGS
 from learn.sim2real.table import Table, pool_of, some, table, train
 from learn.sim2real.training_data import made, recipes
 from sideband_datasets.recipe.bearings import MACHINES
@@ -25,7 +26,6 @@ from sim.version import PHYSICS_VERSION
 SEED, ABLATED, PAIRS = 1, FEWER, 100
 MORE_MADE = 1.6
 """Small data sets have a machine of every family, so this many times what is asked for."""
-RIGS = ("cwru", "hit_sm_mfs", "uestc", "ims_healthy", "motor_acoustic", "openei_gear")
 
 
 def main(argv: list[str] | None = None) -> int:

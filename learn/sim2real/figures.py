@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from learn.sim2real.answers import Answer
+from learn.sim2real.rigs import INFERRED
 from learn.sim2real.scores import score, sign_test
 
 KINDS = ("recording", "window")
@@ -81,6 +82,11 @@ def pooled(answers: Sequence[Answer]) -> dict[str, object]:
 def other_rigs(answers: Sequence[Answer]) -> list[Answer]:
     """Without the rig that features and ranges were chosen with."""
     return [a for a in answers if a.unit.case.rig != DEVELOPMENT_RIG]
+
+
+def stated_bearings(answers: Sequence[Answer]) -> list[Answer]:
+    """Without the rigs whose bearing was inferred from orders in their own recordings."""
+    return [a for a in answers if a.unit.case.rig not in INFERRED]
 
 
 def paired(one: Sequence[Answer], other: Sequence[Answer], kind: str) -> dict[str, object]:

@@ -12,7 +12,7 @@ from learn.model import Model
 from learn.real.load import Case
 from learn.sim2real import tables
 from learn.sim2real.answers import Answer, ByModel, Way, ask, by_detector
-from learn.sim2real.figures import controls, other_rigs, paired, pooled, rigs
+from learn.sim2real.figures import controls, other_rigs, paired, pooled, rigs, stated_bearings
 from learn.sim2real.fitted_rule import fitted_db, refitted
 from learn.sim2real.gear_answers import gear_ways
 from learn.sim2real.rivals import rivals_table
@@ -23,6 +23,7 @@ GIVEN, NEAR = "speed and geometry given", "speed estimated near the stated one"
 RIVAL = "classical detector (same information)"
 FITTED = "classical detector, threshold fitted to windows"
 UNKNOWN = "geometry unknown"
+STATED = "bearings of stated size"
 Ways = dict[str, list[Answer]]
 
 
@@ -84,15 +85,20 @@ def asked_all(model: Model, ablated: Mapping[str, Model], cases: Sequence[Case],
 def text_of(asked: Asked, rivals: str) -> str:
     """The tables."""
     ways, alone = asked.ways, asked.alone
-    elsewhere = {name: other_rigs(alone[name]) for name in (GIVEN, RIVAL, FITTED) if name in alone}
+    compared = {name: alone[name] for name in (GIVEN, RIVAL, FITTED) if name in alone}
     rows = {
         **ways,
         **{f"{name}, bearings of known size": answers for name, answers in alone.items() if name != FITTED},
-        **{f"{name}, bearings of known size, without the development rig": a for name, a in elsewhere.items() if a},
     }
+    for what, chosen in (
+        ("bearings of known size, without the development rig", other_rigs),
+        (STATED, stated_bearings),
+    ):
+        rows |= {f"{name}, {what}": some for name, answers in compared.items() if (some := chosen(answers))}
     parts = [
         tables.summary(rows, asked.rule_db),
         tables.by_rig("By rig, speed and geometry given:", {"": ways[GIVEN], "detector: ": ways[RIVAL]}),
+        tables.inferred(ways[GIVEN]),
         tables.by_rig("Geometry unknown, by rig:", {"": ways[UNKNOWN]}),
         tables.by_class("Right of all by true class, bearings of known size:", alone),
         tables.paired_table(GIVEN, alone),
@@ -120,6 +126,10 @@ def line_of(asked: Asked) -> dict[str, object]:
         "pooled_bearings": pooled(main),
         "pooled_detector_bearings": pooled(detector),
         "pooled_other_rigs": {"model": pooled(other_rigs(main)), "detector": pooled(other_rigs(detector))},
+        "pooled_stated_bearings": {
+            "model": pooled(stated_bearings(main)),
+            "detector": pooled(stated_bearings(detector)),
+        },
         "geometry_unknown": rigs(ways[UNKNOWN]) | {"pooled": pooled(ways[UNKNOWN])},
         "speed_estimated": pooled(ways[NEAR]),
         "speed_estimated_bearings": pooled(alone[NEAR]),
@@ -132,6 +142,7 @@ def line_of(asked: Asked) -> dict[str, object]:
             **rigs(fitted),
             "pooled": pooled(fitted),
             "pooled_other_rigs": pooled(other_rigs(fitted)),
+            "pooled_stated_bearings": pooled(stated_bearings(fitted)),
             "paired": paired([a for a in main if a.unit.window is not None], fitted, "window"),
         }
     return line

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from learn.gears.assess import CLASSES as GEAR_CLASSES
 from learn.sim2real.answers import Answer
 from learn.sim2real.figures import KINDS, figure, paired, right, share
+from learn.sim2real.rigs import INFERRED
 from learn.sim2real.scores import confusion
 from sideband_datasets.recipe.bearings import CLASSES
 
@@ -33,6 +34,18 @@ def by_rig(title: str, ways: Mapping[str, Sequence[Answer]]) -> str:
         cells = [share(figure(answers, rig, kind)) for answers in ways.values() for kind in KINDS]
         lines.append(f"| {rig} | {' | '.join(cells)} |")
     return "\n".join(lines)
+
+
+def inferred(answers: Sequence[Answer]) -> str:
+    """A note on rigs whose bearing is a conclusion from their own recordings; empty without such."""
+    named = [rig for rig in INFERRED if any(a.unit.case.rig == rig for a in answers)]
+    if not named:
+        return ""
+    return (
+        f"The bearing of {', '.join(named)} is not stated: its size was inferred "
+        "from orders found in these recordings,\n"
+        'faulty ones among them. "Bearings of stated size", above, is without.'
+    )
 
 
 def by_class(title: str, ways: Mapping[str, Sequence[Answer]]) -> str:

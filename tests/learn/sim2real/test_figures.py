@@ -1,4 +1,4 @@
-from learn.sim2real.figures import controls, other_rigs, paired, pooled, rigs
+from learn.sim2real.figures import controls, other_rigs, paired, pooled, rigs, stated_bearings
 
 
 def some(made):
@@ -38,6 +38,11 @@ def test_pooled_counts_rigs_of_one_class_too(made):
 
 def test_the_development_rig_can_be_left_out(made):
     assert pooled(other_rigs(some(made)))["classes"] == ["healthy", "outer"]
+
+
+def test_rigs_whose_bearing_was_inferred_can_be_left_out(made):
+    guessed = made.answer(made.case("e", "inner", rig="uestc"), "inner")
+    assert "inner" not in pooled(stated_bearings([*some(made), guessed]))["classes"]
 
 
 def test_pairs_count_recordings_and_not_windows(made):

@@ -8,7 +8,7 @@ from learn.features import NAMES
 from learn.model import default_model
 from learn.sim2real import __main__ as command
 from learn.sim2real.answers import by_detector
-from learn.sim2real.report import FITTED, GIVEN, NEAR, RIVAL, UNKNOWN, Asked, line_of, text_of
+from learn.sim2real.report import FITTED, GIVEN, NEAR, RIVAL, STATED, UNKNOWN, Asked, line_of, text_of
 from learn.sim2real.rivals import said_by, trained_on
 
 
@@ -37,6 +37,8 @@ def test_the_line_has_every_rig_every_control_and_both_detectors(asked):
     assert line["pooled"]["balanced_accuracy"] == round((2 / 3 + 1 + 1) / 3, 4)
     assert line["pooled_other_rigs"]["model"]["balanced_accuracy"] == 1.0
     assert line["pooled_other_rigs"]["detector"]["balanced_accuracy"] == 0.5
+    assert line["pooled_stated_bearings"]["model"]["n"] == line["pooled_stated_bearings"]["detector"]["n"] == 4
+    assert line["detector_fitted"]["pooled_stated_bearings"]["windows"]["n"] == 4
     assert line["paired"][0] == {"unit": "recording", "recordings": 4, "better": 2, "worse": 0, "sign_test_p": 0.5}
     assert line["detector_fitted"]["rule_db"] == 14.25
     assert line["detector_fitted"]["pooled"]["windows"]["n"] == 4
@@ -56,6 +58,22 @@ def test_the_text_tells_what_counts_nowhere_and_how_many_of_each_class_are_right
     assert f"| {FITTED} | window | 4 | 2 | 0 | 0.5 |" in text
     assert "The fitted threshold is 14.2 dB" in text
     assert f"| {GIVEN}, bearings of known size, without the development rig | 1.000" in text
+
+
+@pytest.mark.slow
+def test_the_text_tells_which_bearing_was_inferred_and_the_figures_without_it(asked, made):
+    assert "inferred" not in text_of(asked, "rivals")
+    guessed = [made.answer(made.case("B", "ball", rig="uestc"), "outer", window=w) for w in (None, 0)]
+    alone = {name: [*answers, *guessed] for name, answers in asked.alone.items()}
+    more = replace(asked, alone=alone, ways={**asked.ways, **alone})
+    text, line = text_of(more, "rivals"), line_of(more)
+    assert "The bearing of uestc is not stated" in text
+    assert f"| {GIVEN}, bearings of known size | 0.833" in text
+    assert f"| {GIVEN}, {STATED} | 1.000" in text
+    assert f"| {RIVAL}, {STATED} | 0.333" in text
+    assert f"| {FITTED}, {STATED} |" in text
+    assert line["pooled_stated_bearings"]["model"]["balanced_accuracy"] == 1.0
+    assert line["pooled_stated_bearings"]["detector"]["windows"]["balanced_accuracy"] == 0.3333
 
 
 def test_a_rival_of_another_rig_cannot_name_a_class_that_rig_lacks(made):
