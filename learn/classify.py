@@ -13,7 +13,7 @@ from learn.gears.assess import StageAnswer, assess_stage, knows_gears
 from learn.gears.stage import Stage
 from learn.heard import check_rate, check_size
 from learn.model import Model
-from learn.remarks import check_learnt, of_parts, of_speed
+from learn.remarks import check_learnt, of_parts, of_sites, of_speed
 from learn.speed import Speed, by_pulses
 from reconcile.stated import check_speeds, given
 from signals.checks import inspect
@@ -113,6 +113,7 @@ def classify(
         "remarks": [
             *remarks,
             *of_speed(chosen, speed, sites[0].ratio if sites else 1.0),
+            *of_sites(sites),
             *of_parts(parts),
             *(f"{f.channel}: {f.kind}: {f.message}" for f in inspect(chosen)),
         ][:MOST_REMARKS],
@@ -200,4 +201,5 @@ def _lines(answer: Assessment, speed_hz: float, names: Sequence[str]) -> list[di
             "channel": names[f.channel],
         }
         for f in sorted(answer.found.values(), key=lambda f: -f.z)
+        if f.searched
     ]
