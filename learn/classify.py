@@ -11,40 +11,20 @@ from learn.assess import Assessment, assess, estimated
 from learn.describe import Site
 from learn.gears.assess import StageAnswer, assess_stage, knows_gears
 from learn.gears.stage import Stage
-from learn.heard import check_rate, check_size
+from learn.heard import check_rate
+from learn.measured import measured
 from learn.model import Model
 from learn.remarks import check_learnt, of_parts, of_sites, of_speed
 from learn.speed import Speed, by_pulses
 from reconcile.stated import check_speeds, given
-from signals.checks import inspect
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
 
-VIBRATION = ("acceleration", "velocity", "displacement", "sound pressure")
 PART = ("bearing", "stage", "gear", "label", "probabilities")
 MOST_REMARKS = 20
 PER_NEPER_DB = float(10 / np.log(10))
 """Decibels in a natural logarithm of powers."""
 SYMBOLS = {"outer": "BPFO", "inner": "BPFI", "ball": "2 BSF", "cage": "4 FTF"}
-
-
-def usable(recording: Recording, channels: Sequence[str] | None = None) -> Recording:
-    """The recording's vibration channels, or those named; SpecError where none is left or samples are not finite."""
-    names = list(channels) if channels else [c.name for c in recording.channels if c.quantity in VIBRATION]
-    if not names:
-        known = ", ".join(f"{c.name} ({c.quantity or '-'})" for c in recording.channels)
-        raise SpecError(
-            Problem(field="channels", message="hold no vibration", given=known, allowed=", ".join(VIBRATION))
-        )
-    chosen = recording.select(channels=names)
-    for row, name in enumerate(names):
-        values = chosen.samples[row]
-        if not np.all(np.isfinite(values)):
-            raise SpecError(Problem(field=f"channels.{name}", message="has samples that are not finite"))
-        if float(np.ptp(values)) == 0.0:
-            raise SpecError(Problem(field=f"channels.{name}", message="is constant: nothing was measured"))
-        check_size(values, name)
-    return chosen
 
 
 def speed_of(recording: Recording, sites: Sequence[Site], *, trust: bool) -> Speed:
@@ -83,7 +63,8 @@ def classify(
     remarks: list[str] = []
     if stages and not knows_gears(model):
         stages, remarks = (), ["gears: are not looked at, the model was not trained on any"]
-    chosen = usable(recording, channels)
+    heard = measured(recording, channels)
+    chosen = heard.recording
     speed = speed_of(chosen, sites, trust=trust_speed)
     parts = []
     if sites or not stages:
@@ -115,8 +96,9 @@ def classify(
             *of_speed(chosen, speed, sites[0].ratio if sites else 1.0),
             *of_sites(sites),
             *of_parts(parts),
-            *(f"{f.channel}: {f.kind}: {f.message}" for f in inspect(chosen)),
+            *heard.remarks(),
         ][:MOST_REMARKS],
+        "measurement_faults": heard.faults(),
     }
 
 
