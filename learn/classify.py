@@ -15,7 +15,8 @@ from learn.heard import check_rate
 from learn.measured import measured
 from learn.model import Model
 from learn.remarks import check_learnt, of_parts, of_sites, of_speed
-from learn.speed import Speed, by_pulses
+from learn.speed import Speed
+from learn.tacho import Pulses, pulses_of
 from reconcile.stated import check_speeds, given
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
@@ -27,11 +28,11 @@ PER_NEPER_DB = float(10 / np.log(10))
 SYMBOLS = {"outer": "BPFO", "inner": "BPFI", "ball": "2 BSF", "cage": "4 FTF"}
 
 
-def speed_of(recording: Recording, sites: Sequence[Site], *, trust: bool) -> Speed:
-    """Pulses; the stated speed where it is to be trusted; else what the lines say."""
-    pulses = by_pulses(recording)
-    if pulses is not None:
-        return pulses
+def speed_of(recording: Recording, sites: Sequence[Site], pulses: Pulses, *, trust: bool) -> Speed:
+    """Pulses all along; the stated speed where it is to be trusted; else what the lines say, near the pulses' speed
+    where these cover only a part, or the stated one."""
+    if pulses.firm and pulses.speed_hz is not None:
+        return Speed(speed_hz=pulses.speed_hz, method="tacho", standing=np.inf)
     stated = recording.operating.speed_hz if recording.operating is not None else None
     if not trust and stated is not None:
         check_learnt(stated)
@@ -42,7 +43,8 @@ def speed_of(recording: Recording, sites: Sequence[Site], *, trust: bool) -> Spe
             )
         return Speed(speed_hz=stated, method="given", standing=0.0)
     orders = sites[0].orders if sites and sites[0].ratio == 1.0 else None
-    return estimated(list(recording.samples), recording.sampling_rate_hz, stated or None, orders)
+    start = pulses.speed_hz if pulses.used else stated
+    return estimated(list(recording.samples), recording.sampling_rate_hz, start or None, orders)
 
 
 def classify(
@@ -65,7 +67,8 @@ def classify(
         stages, remarks = (), ["gears: are not looked at, the model was not trained on any"]
     heard = measured(recording, channels)
     chosen = heard.recording
-    speed = speed_of(chosen, sites, trust=trust_speed)
+    pulses = pulses_of(chosen, trust=trust_speed)
+    speed = speed_of(chosen, sites, pulses, trust=trust_speed)
     parts = []
     if sites or not stages:
         remarks += check_rate(chosen.sampling_rate_hz, speed.speed_hz, sites)
@@ -93,12 +96,13 @@ def classify(
         "parts": [{name: part[name] for name in PART} for part in parts],
         "remarks": [
             *remarks,
+            *pulses.remarks,
             *of_speed(chosen, speed, sites[0].ratio if sites else 1.0),
             *of_sites(sites),
             *of_parts(parts),
             *heard.remarks(),
         ][:MOST_REMARKS],
-        "measurement_faults": heard.faults(),
+        "measurement_faults": [*heard.faults(), *pulses.faults()],
     }
 
 

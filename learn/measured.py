@@ -88,7 +88,7 @@ def _gone(findings: Sequence[Finding]) -> Mapping[str, list[Finding]]:
 
 
 def _share(found: Sequence[Finding], recording: Recording) -> float:
-    return sum(f.samples for f in found) / recording.samples.shape[1]
+    return float(sum(f.samples for f in found) / recording.samples.shape[1])
 
 
 def _nothing(name: str, found: Sequence[Finding], recording: Recording) -> Problem:
