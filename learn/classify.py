@@ -11,16 +11,16 @@ from learn.assess import Assessment, assess, estimated
 from learn.describe import Site
 from learn.gears.assess import StageAnswer, assess_stage, knows_gears
 from learn.gears.stage import Stage
-from learn.heard import check_rate, check_size
+from learn.heard import check_rate
+from learn.measured import measured
 from learn.model import Model
-from learn.remarks import check_learnt, of_parts, of_speed
-from learn.speed import Speed, by_pulses
+from learn.remarks import check_learnt, of_parts, of_sites, of_speed
+from learn.speed import Speed
+from learn.tacho import Pulses, pulses_of
 from reconcile.stated import check_speeds, given
-from signals.checks import inspect
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
 
-VIBRATION = ("acceleration", "velocity", "displacement", "sound pressure")
 PART = ("bearing", "stage", "gear", "label", "probabilities")
 MOST_REMARKS = 20
 PER_NEPER_DB = float(10 / np.log(10))
@@ -28,30 +28,11 @@ PER_NEPER_DB = float(10 / np.log(10))
 SYMBOLS = {"outer": "BPFO", "inner": "BPFI", "ball": "2 BSF", "cage": "4 FTF"}
 
 
-def usable(recording: Recording, channels: Sequence[str] | None = None) -> Recording:
-    """The recording's vibration channels, or those named; SpecError where none is left or samples are not finite."""
-    names = list(channels) if channels else [c.name for c in recording.channels if c.quantity in VIBRATION]
-    if not names:
-        known = ", ".join(f"{c.name} ({c.quantity or '-'})" for c in recording.channels)
-        raise SpecError(
-            Problem(field="channels", message="hold no vibration", given=known, allowed=", ".join(VIBRATION))
-        )
-    chosen = recording.select(channels=names)
-    for row, name in enumerate(names):
-        values = chosen.samples[row]
-        if not np.all(np.isfinite(values)):
-            raise SpecError(Problem(field=f"channels.{name}", message="has samples that are not finite"))
-        if float(np.ptp(values)) == 0.0:
-            raise SpecError(Problem(field=f"channels.{name}", message="is constant: nothing was measured"))
-        check_size(values, name)
-    return chosen
-
-
-def speed_of(recording: Recording, sites: Sequence[Site], *, trust: bool) -> Speed:
-    """Pulses; the stated speed where it is to be trusted; else what the lines say."""
-    pulses = by_pulses(recording)
-    if pulses is not None:
-        return pulses
+def speed_of(recording: Recording, sites: Sequence[Site], pulses: Pulses, *, trust: bool) -> Speed:
+    """Pulses all along; the stated speed where it is to be trusted; else what the lines say, near the pulses' speed
+    where these cover only a part, or the stated one."""
+    if pulses.firm and pulses.speed_hz is not None:
+        return Speed(speed_hz=pulses.speed_hz, method="tacho", standing=np.inf)
     stated = recording.operating.speed_hz if recording.operating is not None else None
     if not trust and stated is not None:
         check_learnt(stated)
@@ -62,7 +43,8 @@ def speed_of(recording: Recording, sites: Sequence[Site], *, trust: bool) -> Spe
             )
         return Speed(speed_hz=stated, method="given", standing=0.0)
     orders = sites[0].orders if sites and sites[0].ratio == 1.0 else None
-    return estimated(list(recording.samples), recording.sampling_rate_hz, stated or None, orders)
+    start = pulses.speed_hz if pulses.used else stated
+    return estimated(list(recording.samples), recording.sampling_rate_hz, start or None, orders)
 
 
 def classify(
@@ -83,8 +65,10 @@ def classify(
     remarks: list[str] = []
     if stages and not knows_gears(model):
         stages, remarks = (), ["gears: are not looked at, the model was not trained on any"]
-    chosen = usable(recording, channels)
-    speed = speed_of(chosen, sites, trust=trust_speed)
+    heard = measured(recording, channels)
+    chosen = heard.recording
+    pulses = pulses_of(chosen, trust=trust_speed)
+    speed = speed_of(chosen, sites, pulses, trust=trust_speed)
     parts = []
     if sites or not stages:
         remarks += check_rate(chosen.sampling_rate_hz, speed.speed_hz, sites)
@@ -112,10 +96,13 @@ def classify(
         "parts": [{name: part[name] for name in PART} for part in parts],
         "remarks": [
             *remarks,
+            *pulses.remarks,
             *of_speed(chosen, speed, sites[0].ratio if sites else 1.0),
+            *of_sites(sites),
             *of_parts(parts),
-            *(f"{f.channel}: {f.kind}: {f.message}" for f in inspect(chosen)),
+            *heard.remarks(),
         ][:MOST_REMARKS],
+        "measurement_faults": [*heard.faults(), *pulses.faults()],
     }
 
 
@@ -200,4 +187,5 @@ def _lines(answer: Assessment, speed_hz: float, names: Sequence[str]) -> list[di
             "channel": names[f.channel],
         }
         for f in sorted(answer.found.values(), key=lambda f: -f.z)
+        if f.searched
     ]

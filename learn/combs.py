@@ -25,6 +25,8 @@ MAINS_HZ, MAINS_MULTIPLES, MAINS_SHARE = (50.0, 60.0), 4, 0.002
 FINEST_HZ = 1.0
 """Such combs are told from others by spectra with bins no wider."""
 LOW_ORDER, HIGH_ORDER = 1.3, 14.0
+BEYOND = 0.05
+"""By which the search goes beyond an unusual order: slip and a doubtful speed."""
 OVERSAMPLING = 2.0
 LEAST_SPREAD = 0.7
 SLIP = 0.03
@@ -59,10 +61,13 @@ def logs(bank: Bank, *, shaft_lines: bool = False) -> FloatArray:
     return np.asarray(maximum_filter1d(values, 3, axis=1), dtype=np.float64)
 
 
-def grid(bank: Bank) -> FloatArray:
-    """Base orders of the search, so fine that the highest harmonic moves by half a bin, shape (orders,)."""
+def grid(bank: Bank, wanted: Sequence[float] = ()) -> FloatArray:
+    """Base orders of the search, so fine that the highest harmonic moves by half a bin, shape (orders,); wider where
+    one of the orders that are `wanted` lies beyond those of usual bearings."""
     step = bank.step / (OVERSAMPLING * TOP_HARMONIC)
-    return np.arange(LOW_ORDER, HIGH_ORDER, step)
+    low, high = min((LOW_ORDER, *wanted)), max((HIGH_ORDER, *wanted))
+    low = LOW_ORDER if low == LOW_ORDER else max(low * (1 - BEYOND), step)
+    return np.arange(low, high if high == HIGH_ORDER else high * (1 + BEYOND), step)
 
 
 def of_mains(bank: Bank, base: FloatArray) -> BoolArray:

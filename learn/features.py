@@ -10,12 +10,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from learn.bank import Bank
+from learn.bank import HIGHEST_ORDER, Bank
 from learn.combs import SLIP, Comb, Search, away_from, grid, lift, logs, search, tail
 from learn.orders import FaultOrders
 from signals.series import FloatArray
 
 FAMILIES = ("outer", "inner", "ball", "cage")
+HIGHEST_BASE = 0.9 * HIGHEST_ORDER
+"""Up to this order a family is searched for: its first line must be within the envelope's spectrum."""
 LEAST_DEPTH = 1e-3
 LINE_EXCESS = 14.0
 """Power over the floor from which a bin is a line: noise passes it in one bin of a million."""
@@ -48,6 +50,8 @@ class Found:
     chance: float
     lift: float
     depth: float
+    searched: bool = True
+    """False: the order is beyond the envelope's spectrum, and nothing is told."""
 
 
 def combs(orders: FaultOrders) -> dict[str, Comb]:
@@ -87,13 +91,16 @@ def known_orders(orders: FaultOrders) -> tuple[float, ...]:
 
 def find(bank: Bank, orders: FaultOrders, doubt: float = 0.0) -> dict[str, Found]:
     """Every family; `doubt` (relative, of the speed) widens the search."""
-    values, base = logs(bank), grid(bank)
+    # the cage's own order is below the grid: its fourth harmonic is searched as a base
+    sought = {"outer": orders.outer, "inner": orders.inner, "ball": orders.ball, "cage": 4 * orders.cage}
+    values, base = logs(bank), grid(bank, [o for o in sought.values() if o <= HIGHEST_BASE])
     away = away_from(base, known_orders(orders))
     found = {}
     for family, comb in combs(orders).items():
-        order = {"outer": orders.outer, "inner": orders.inner, "ball": orders.ball, "cage": orders.cage}[family]
-        if family == "cage":
-            order *= 4  # the cage's own order is below the grid: its fourth harmonic is searched as a base
+        order = sought[family]
+        if order > HIGHEST_BASE:
+            found[family] = _unsearched(bank, family, order)
+            continue
         s: Search = search(values, bank.step, base, comb, away)
         z, at, band = s.near(order, SLIP + doubt)
         tops = s.tops(away, SLIP + doubt)
@@ -110,6 +117,24 @@ def find(bank: Bank, orders: FaultOrders, doubt: float = 0.0) -> dict[str, Found
             depth=comb_depth(bank, band, at, comb),
         )
     return found
+
+
+def _unsearched(bank: Bank, family: str, order: float) -> Found:
+    """Of a family beyond the spectrum: neither here nor there."""
+    low, high = float(bank.bands_hz[0, 0]), float(bank.bands_hz[0, 1])
+    return Found(
+        family=family,
+        order=order,
+        slip=0.0,
+        band=0,
+        band_hz=(low, high),
+        channel=bank.channel[0],
+        z=0.0,
+        chance=0.0,
+        lift=0.0,
+        depth=0.0,
+        searched=False,
+    )
 
 
 def vector(bank: Bank, orders: FaultOrders, doubt: float = 0.0) -> tuple[FloatArray, dict[str, Found]]:
@@ -151,6 +176,8 @@ def _db(depth: float) -> float:
 
 def _side(bank: Bank, band: int, order: float, spacing: float) -> float:
     """Log ratio of the first sidebands to the carrier over three harmonics."""
+    if order > HIGHEST_BASE:
+        return 0.0
     k = np.asarray(np.arange(1, 4) * order, dtype=np.float64)
     carrier = float(np.sqrt(np.sum(line_depths(bank, band, k) ** 2)))
     sides = float(np.sqrt(np.sum(line_depths(bank, band, np.concatenate([k - spacing, k + spacing])) ** 2)))

@@ -170,7 +170,7 @@ def _cages(values: FloatArray, step: float) -> list[FloatArray]:
     orders = np.array([g.orders.cage for g in usual()])
     width = max(1, int(2 * SLIP * float(np.median(orders)) / (base[1] - base[0])))
     lifts = []
-    for pair in whole.cage_curves(values, step, away):
+    for pair in whole.cage_curves(values, step, away, base):
         wide = [maximum_filter1d(curve, width) for curve in pair]
         lifts.append([np.interp(orders, base, w) - np.median(w[away]) for w in wide])
     best = np.max(lifts, axis=0)

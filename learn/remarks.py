@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from learn.describe import Site
+from learn.features import HIGHEST_BASE as TOP
 from learn.speed import HIGHEST_HZ, LOWEST_HZ, Speed
 from reconcile.stated import FAST_HZ
 from signals.recording import Recording
@@ -48,6 +50,21 @@ def of_speed(recording: Recording, speed: Speed, ratio: float = 1.0) -> list[str
         per_second = (stated or 0.0) / PER_MINUTE
         rpm = f"; as revolutions per minute it would be {per_second:.4g} Hz"
         said.append(told + (rpm if LOWEST_HZ <= per_second <= HIGHEST_HZ else ""))
+    return said
+
+
+def of_sites(sites: Iterable[Site]) -> list[str]:
+    """Bearings unlike those learnt from: an outer ring that turns, lines beyond what is searched."""
+    said = []
+    for site in sites:
+        o = site.orders
+        if o.cage > 0.5:
+            said.append(
+                f"{site.name}: its cage's order says that the outer ring turns; inner rings' turning was learnt"
+            )
+        beyond = [name for name, order in (("BPFO", o.outer), ("BPFI", o.inner), ("2 BSF", o.ball)) if order > TOP]
+        if beyond:
+            said.append(f"{site.name}: {', '.join(beyond)} above order {TOP:g}: not looked for")
     return said
 
 

@@ -14,7 +14,6 @@ import numpy as np
 
 from learn.bank import MIN_TURNS
 from learn.shaft import Shaft, shaft
-from signals.recording import Recording
 from signals.series import FloatArray
 
 LOWEST_HZ, HIGHEST_HZ = 8.0, 64.0
@@ -44,15 +43,6 @@ class Speed:
     doubt: float = 0.0
     likely: tuple[float, ...] = ()
     """Speeds near a stated one, each as likely as the next: where lines do not decide, all are to be tried."""
-
-
-def by_pulses(recording: Recording) -> Speed | None:
-    """Mean speed of the tacho's pulses."""
-    if recording.tacho is None or len(recording.tacho.pulse_times_s) < 3:
-        return None
-    times = np.asarray(recording.tacho.pulse_times_s, dtype=np.float64)
-    turns = (times.size - 1) / recording.tacho.pulses_per_revolution
-    return Speed(speed_hz=float(turns / (times[-1] - times[0])), method="tacho", standing=np.inf)
 
 
 def candidates(channels: Sequence[FloatArray], rate_hz: float, stated_hz: float | None) -> list[Speed]:

@@ -17,6 +17,8 @@ STUCK_SAMPLES = 32
 CLIPPED_RUN = 3
 OVERSHOOT_SHARE = 0.02
 """A run at the extreme is clipping when the slope before it would have carried the signal 2 % of its range beyond."""
+FARTHEST = 50.0
+"""Ranges beyond which no clipped signal goes, however high its gain: one that would was not there."""
 MAX_PLACES = 20
 
 
@@ -87,7 +89,8 @@ def _clipped(samples: FloatArray, runs: IntArray, value: FloatArray) -> BoolArra
     before = np.abs(_difference(samples, runs[:, 0] - 1, runs[:, 0] - 2))
     after = np.abs(_difference(samples, runs[:, 1], runs[:, 1] + 1))
     overshoot = np.maximum(before, after) * length / 2
-    return np.asarray(extreme & (overshoot > OVERSHOOT_SHARE * (high - low)), dtype=np.bool_)
+    cut = (overshoot > OVERSHOOT_SHARE * (high - low)) & (overshoot <= FARTHEST * (high - low))
+    return np.asarray(extreme & cut, dtype=np.bool_)
 
 
 def _difference(samples: FloatArray, a: IntArray, b: IntArray) -> FloatArray:

@@ -46,7 +46,8 @@ def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
     model = load(arguments.model) if arguments.model is not None else default_model()
     recording = read_recording(arguments.recording)
-    shaft = recording.operating.shaft if recording.operating is not None else None
+    told = recording.operating or recording.tacho
+    shaft = told.shaft if told is not None else None
     spec = _kinematics(arguments)
     found = classify(
         recording,

@@ -159,8 +159,9 @@ def _bearing(bearing: KinematicBearing) -> tuple[BearingOrders, Race]:
         gamma = max((o.bpfi - o.bpfo) / (o.bpfi + o.bpfo), 0.02)
         spin = o.bsf if o.bsf is not None else (1 - gamma**2) / (2 * gamma)
         cage = o.ftf if o.ftf is not None else o.bpfo / (o.bpfo + o.bpfi)
-        orders = BearingOrders(bpfo=o.bpfo, bpfi=o.bpfi, bsf=spin, ftf=cage)
-        return orders, Race(balls=balls, ratio=gamma, pitch_m=None, cage=cage)
+        return BearingOrders(bpfo=o.bpfo, bpfi=o.bpfi, bsf=spin, ftf=cage), Race(
+            balls=balls, ratio=gamma, pitch_m=None, cage=cage
+        )
     geometry = lookup(bearing.catalogue).geometry() if bearing.catalogue is not None else _given(bearing)
     found = defect_orders(geometry)
     orders = BearingOrders(bpfo=found.outer_pass, bpfi=found.inner_pass, bsf=found.ball_spin, ftf=found.cage)

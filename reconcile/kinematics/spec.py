@@ -10,6 +10,7 @@ from pydantic import Field, ValidationError, model_validator
 from pydantic_core import ErrorDetails
 
 from reconcile.kinematics.catalogued import uncatalogued
+from reconcile.kinematics.plausible import implausible
 from signals.validation import problem_of
 from sim.core.errors import Problem, SpecError
 from sim.core.near import did_you_mean
@@ -25,12 +26,13 @@ class KinematicShaft(SpecModel):
 
 
 class BearingOrders(SpecModel):
-    """Cycles per revolution of the shaft, as a maker's table prints them. `bsf` is the spin, half of the ball line."""
+    """Cycles per revolution of the shaft, as a maker's table prints them. `bsf` is the spin, half of the ball line.
+    What cannot be of one bearing is refused (`reconcile.kinematics.plausible`)."""
 
-    bpfo: Annotated[float, Field(gt=0, le=200)]
-    bpfi: Annotated[float, Field(gt=0, le=200)]
-    bsf: Annotated[float, Field(gt=0, le=200)] | None = None
-    ftf: Annotated[float, Field(gt=0, lt=1)] | None = None
+    bpfo: Annotated[float, Field(gt=0)]
+    bpfi: Annotated[float, Field(gt=0)]
+    bsf: Annotated[float, Field(gt=0)] | None = None
+    ftf: Annotated[float, Field(gt=0)] | None = None
 
 
 class KinematicBearing(SpecModel):
@@ -87,7 +89,7 @@ class KinematicSpec(SpecModel):
 
     @model_validator(mode="after")
     def _tied(self) -> KinematicSpec:
-        problems = [*_repeated(self), *_untied(self), *_contradicted(self)]
+        problems = [*_repeated(self), *_untied(self), *_contradicted(self), *_implausible(self)]
         if problems:
             raise NotTied(problems)
         return self
@@ -103,7 +105,8 @@ SPEEDS_AGREE = 0.02
 
 
 class NotTied(ValueError):
-    """Parts that name parts which are not there; `problems` say the field within `kinematics`."""
+    """Parts that name parts which are not there, or contradict each other; `problems` say the field, from
+    `kinematics` on."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
         self.problems = tuple(problems)
@@ -162,6 +165,13 @@ def _contradicted(spec: KinematicSpec) -> Iterator[Problem]:
             allowed=f"{made:.4g}, or no speed_hz where a mesh makes it",
             unit="Hz",
         )
+
+
+def _implausible(spec: KinematicSpec) -> Iterator[Problem]:
+    """Stated orders that cannot be of one bearing."""
+    for i, bearing in enumerate(spec.bearings):
+        if (o := bearing.orders) is not None:
+            yield from implausible(f"bearings.{i}.orders", o.bpfo, o.bpfi, o.bsf, o.ftf)
 
 
 def read_kinematic_spec(document: object) -> KinematicSpec:

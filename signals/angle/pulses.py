@@ -48,6 +48,26 @@ def pulse_times(series: Series, *, threshold: float | None = None, hysteresis: f
     return np.asarray(series.start_s + (found - 1 + share) / series.sampling_rate_hz, dtype=np.float64)
 
 
+def covered(times_s: FloatArray, start_s: float, duration_s: float) -> float:
+    """Share of a recording that lies between the first and the last of its pulses, shape (pulses,), s; 0 to 1."""
+    both = min(float(times_s[-1]), start_s + duration_s) - max(float(times_s[0]), start_s)
+    return max(both, 0.0) / duration_s
+
+
+def check_inside(times_s: FloatArray, start_s: float, duration_s: float) -> None:
+    """SpecError where all pulses, shape (pulses,), s, lie before or after the recording."""
+    if covered(times_s, start_s, duration_s) == 0.0:
+        raise SpecError(
+            Problem(
+                field="tacho.pulse_times_s",
+                message="lie outside the recording: are they on another clock?",
+                given=f"{times_s[0]:.6g} to {times_s[-1]:.6g}",
+                allowed=f"times within {start_s:.6g} to {start_s + duration_s:.6g}",
+                unit="s",
+            )
+        )
+
+
 def recorded_tacho(
     series: Series, *, shaft: str, pulses_per_revolution: int = 1, threshold: float | None = None
 ) -> Tacho:

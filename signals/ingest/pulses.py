@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 
 import numpy as np
 
-from signals.angle.pulses import recorded_tacho
+from signals.angle.pulses import check_inside, recorded_tacho
 from signals.ingest.description import TachoEntry
 from signals.readers.load import Stored, Want
 from signals.recording import Tacho
@@ -33,9 +33,15 @@ def tacho_of(
     sampling_rate_hz: float,
     start_s: float,
 ) -> Tacho:
-    """Pulse times on the clock of the samples. `channels` are the recording's, as stored; `further` as wanted above."""
+    """Pulse times on the clock of the samples. `channels` are the recording's, as stored; `further` as wanted above.
+
+    SpecError where no pulse is within the recording.
+    """
     if entry.pulse_times_s is not None:
-        return _of_times(entry, further)
+        found = _of_times(entry, further)
+        count = next(iter(channels.values())).size
+        check_inside(found.pulse_times_s, start_s, count / sampling_rate_hz)
+        return found
     source = entry.channel if entry.channel is not None else entry.column
     stored = further[CHANNEL].samples if CHANNEL in further else channels[str(source)]
     samples = next(iter(channels.values())).size

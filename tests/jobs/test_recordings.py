@@ -39,7 +39,7 @@ RECORDING = Recording(
     ),
     samples=np.random.default_rng(6).normal(size=(2, 700)),
     operating=Operating(shaft="input", speed_hz=20.0, torque_nm=4.0),
-    tacho=Tacho(shaft="input", pulse_times_s=np.arange(1, 13) * 0.05, pulses_per_revolution=2),
+    tacho=Tacho(shaft="input", pulse_times_s=2.0 + np.arange(1, 13) * 0.05, pulses_per_revolution=2),
     condition="baseline",
     notes="n",
     start_s=2.0,

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from learn.classify import usable
 from learn.describe import Site
 from learn.heard import check_rate, check_size
+from learn.measured import measured
 from learn.orders import of_ratio
 from signals.recording import Operating, Recording
 from sim.core.errors import SpecError
@@ -40,6 +40,6 @@ def test_samples_that_have_no_squares_are_refused(scale: float) -> None:
     operating = Operating(shaft="shaft", speed_hz=30.0)
     one = Recording(sampling_rate_hz=12000.0, channels=(channel,), samples=noise, operating=operating)
     with pytest.raises(SpecError) as refused:
-        usable(one)
+        measured(one)
     assert refused.value.problems[0].field == "channels.a"
     check_size(noise[0] / scale, "a")

@@ -3,7 +3,8 @@ import pytest
 
 from learn.assess import estimated, stretches
 from learn.orders import of_ratio
-from learn.speed import USUAL_ERROR, by_pulses, candidates
+from learn.speed import USUAL_ERROR, candidates
+from learn.tacho import pulses_of
 from signals.recording import Recording, Tacho
 from sim.core.errors import SpecError
 from sim.core.response import Channel
@@ -54,7 +55,7 @@ def test_pulses_come_first():
         samples=np.zeros((1, 10)),
         tacho=Tacho(shaft="s", pulse_times_s=np.arange(50) / 40.0, pulses_per_revolution=2),
     )
-    assert by_pulses(recording).speed_hz == pytest.approx(20.0)
+    assert pulses_of(recording).speed_hz == pytest.approx(20.0)
 
 
 def test_stretches_are_equal_and_not_too_long():

@@ -82,7 +82,7 @@ def test_lift_is_over_the_middle_of_what_is_found_elsewhere():
 def test_cage_of_an_empty_spectrum_is_nothing(bearing):
     base = cage_grid(0.0125)
     near = np.abs(base / bearing.cage - 1) < 0.03
-    assert cage(np.zeros((3, 3200)), 0.0125, near, foreign(base, bearing.cage)) == (0.0, 0.0)
+    assert cage(np.zeros((3, 3200)), 0.0125, near, foreign(base, bearing.cage), base) == (0.0, 0.0)
 
 
 @pytest.mark.slow

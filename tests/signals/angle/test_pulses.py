@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from signals.angle import pulse_times
-from signals.angle.pulses import recorded_tacho
+from signals.angle.pulses import check_inside, covered, recorded_tacho
 from signals.series import Series
 from signals.spectra import order_spectrum
 from sim.core.errors import SpecError
@@ -48,3 +48,11 @@ def test_the_tacho_carries_orders() -> None:
 def test_a_channel_without_pulses_is_refused() -> None:
     with pytest.raises(SpecError, match="fewer than two pulses"):
         pulse_times(Series(samples=np.zeros(100), sampling_rate_hz=RATE, unit="V", name="tacho"))
+
+
+def test_pulses_beside_a_recording_are_refused_and_the_rest_is_a_share_of_it() -> None:
+    assert covered(np.array([0.5, 1.0, 1.5]), 0.0, 2.0) == pytest.approx(0.5)
+    assert covered(np.array([-1.0, 5.0]), 0.0, 2.0) == 1.0
+    check_inside(np.array([1.5, 2.5]), 0.0, 2.0)
+    with pytest.raises(SpecError, match="pulse_times_s"):
+        check_inside(np.array([2.5, 3.5]), 0.0, 2.0)

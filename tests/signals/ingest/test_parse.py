@@ -166,6 +166,8 @@ def test_tacho_from_a_channel_a_column_times_or_an_array(read, tmp_path) -> None
     back = {"shaft": "input", "pulse_times_s": [0.1, 0.3, 0.2]}
     assert "pulse 2 is not after" in refusal(read, tmp_path / "p.npz", tacho=back)
     assert "exactly one" in refusal(read, tmp_path / "p.npz", tacho={"shaft": "input"})
+    late = {"shaft": "input", "pulse_times_s": [1e3, 1e3 + 1.0]}
+    assert "lie outside the recording" in refusal(read, tmp_path / "p.npz", tacho=late)
 
 
 def test_sizes_are_refused_before_anything_is_read(read, archive) -> None:
@@ -193,7 +195,7 @@ def test_what_the_encoders_write_comes_back(tmp_path, samples, fmt: str, name: s
         ),
         samples=samples,
         operating=Operating(shaft="input", speed_hz=20.0),
-        tacho=Tacho(shaft="input", pulse_times_s=np.array([0.05, 0.1]), pulses_per_revolution=3),
+        tacho=Tacho(shaft="input", pulse_times_s=np.array([0.3, 0.35]), pulses_per_revolution=3),
         start_s=0.25,
     )
     (tmp_path / f"r.{fmt}").write_bytes(encode(recording, fmt))
@@ -203,7 +205,7 @@ def test_what_the_encoders_write_comes_back(tmp_path, samples, fmt: str, name: s
     np.testing.assert_allclose(found.samples, recording.samples, rtol=tolerance, atol=tolerance)
     assert found.channels == recording.channels
     assert (found.sampling_rate_hz, found.start_s, found.operating) == (610.35, 0.25, recording.operating)
-    np.testing.assert_array_equal(found.tacho.pulse_times_s, [0.05, 0.1])
+    np.testing.assert_array_equal(found.tacho.pulse_times_s, [0.3, 0.35])
 
 
 @given(unit=st.sampled_from(sorted(UNITS)), value=st.floats(-1e6, 1e6))

@@ -1,0 +1,77 @@
+"""What a recording's pulses are worth: followed all along, a place to start from, or not its shaft's at all."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from learn.speed import SEARCH
+from reconcile.speed.run_up import COVERED
+from signals.angle.pulses import check_inside, covered
+from signals.recording import Recording
+
+FEWEST = 3
+"""Pulses that tell a speed."""
+WHOLE = 0.02
+"""By which a ratio of speeds may miss a whole number and still be one of pulses."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pulses:
+    """Mean speed by the pulses (None: they tell none), whether it holds for the whole recording (`firm`), and what is
+    to be said: `kinds` for programs, `remarks` for people. `used`: they count in some way."""
+
+    speed_hz: float | None = None
+    firm: bool = False
+    used: bool = False
+    kinds: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
+
+    def faults(self) -> list[dict[str, object]]:
+        """One object a kind, as of channels: `channel` is `tacho`."""
+        return [{"channel": "tacho", "kind": kind, "left_out": not self.used} for kind in self.kinds]
+
+
+def pulses_of(recording: Recording, *, trust: bool = False) -> Pulses:
+    """The pulses held against the recording's span and its stated speed; `trust`: that one is exact.
+
+    SpecError where all of them lie outside the recording.
+    """
+    tacho, operating = recording.tacho, recording.operating
+    if tacho is None:
+        return Pulses()
+    times = np.asarray(tacho.pulse_times_s, dtype=np.float64)
+    check_inside(times, recording.start_s, recording.duration_s)
+    if operating is not None and tacho.shaft != operating.shaft:
+        said = f"tacho: its pulses are of {tacho.shaft}, the stated speed of {operating.shaft}: they are not used"
+        return Pulses(kinds=("other_shaft",), remarks=(said,))
+    if times.size < FEWEST:
+        said = f"tacho: {times.size} pulses tell no speed: they are not used"
+        return Pulses(kinds=("few_pulses",), remarks=(said,))
+    hz = float((times.size - 1) / tacho.pulses_per_revolution / (times[-1] - times[0]))
+    stated = operating.speed_hz if operating is not None and operating.speed_hz > 0 else None
+    share = covered(times, recording.start_s, recording.duration_s)
+    apart = stated is not None and abs(hz / stated - 1) > SEARCH
+    firm = share >= COVERED
+    used = firm or not (apart or trust)
+    kinds, remarks = [], []
+    if not firm:
+        kinds.append("partial")
+        then = f"the search starts from their {hz:.4g} Hz" if used else "they are not used"
+        remarks.append(f"tacho: its pulses cover {share:.0%} of the recording: {then}")
+    if stated is not None and apart:
+        kinds.append("contradicted")
+        taken = f"{hz:.4g} Hz is" if used else f"the stated {stated:.4g} Hz is"
+        per_turn = _per_turn(hz / stated, tacho.pulses_per_revolution)
+        remarks.append(f"tacho: its pulses make {hz:.4g} Hz, but {stated:.4g} Hz are stated: {taken} taken{per_turn}")
+    return Pulses(speed_hz=hz, firm=firm, used=used, kinds=tuple(kinds), remarks=tuple(remarks))
+
+
+def _per_turn(ratio: float, stated: int) -> str:
+    """The number of pulses a turn that would explain it, as a question."""
+    wanted = stated * ratio
+    whole = round(wanted)
+    if whole < 1 or whole == stated or abs(wanted / whole - 1) > WHOLE:
+        return ""
+    return f"; are there {whole} pulses per revolution?"
