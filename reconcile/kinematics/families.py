@@ -13,6 +13,7 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Literal
 
+from reconcile.kinematics.plausible import spin_of
 from reconcile.kinematics.spec import BearingOrders, KinematicBearing, KinematicSpec
 from sim.core.errors import Problem, SpecError
 from sim.parts.bearing.catalogue import lookup
@@ -157,7 +158,7 @@ def _bearing(bearing: KinematicBearing) -> tuple[BearingOrders, Race]:
         o = bearing.orders
         balls = max(3, round(o.bpfo + o.bpfi))
         gamma = max((o.bpfi - o.bpfo) / (o.bpfi + o.bpfo), 0.02)
-        spin = o.bsf if o.bsf is not None else (1 - gamma**2) / (2 * gamma)
+        spin = spin_of(o.bpfo, o.bpfi, o.bsf) if o.bsf is not None else (1 - gamma**2) / (2 * gamma)
         cage = o.ftf if o.ftf is not None else o.bpfo / (o.bpfo + o.bpfi)
         return BearingOrders(bpfo=o.bpfo, bpfi=o.bpfi, bsf=spin, ftf=cage), Race(
             balls=balls, ratio=gamma, pitch_m=None, cage=cage

@@ -26,7 +26,7 @@ class KinematicShaft(SpecModel):
 
 
 class BearingOrders(SpecModel):
-    """Cycles per revolution of the shaft, as a maker's table prints them. `bsf` is the spin, half of the ball line.
+    """Cycles per revolution of the shaft, as a maker's table prints them. `bsf` is the spin, or the ball line, twice of it: told by the size.
     What cannot be of one bearing is refused (`reconcile.kinematics.plausible`)."""
 
     bpfo: Annotated[float, Field(gt=0)]

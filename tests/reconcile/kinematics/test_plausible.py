@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import asdict
 
+import numpy as np
 import pytest
 
 from reconcile.kinematics import read_kinematic_spec
-from reconcile.kinematics.plausible import implausible
+from reconcile.kinematics.plausible import implausible, spin_of
 from sim.core.errors import SpecError
 from sim.parts.bearing import catalogue, defect_orders
 
@@ -32,8 +33,8 @@ def test_races_that_cannot_be(bpfo: float, bpfi: float, field: str, told: str) -
 @pytest.mark.parametrize(
     ("bsf", "ftf", "field", "told"),
     [
-        (0.1, None, "orders.bsf", "no spin"),
-        (4.714, None, "orders.bsf", "twice its spin"),
+        (0.1, None, "orders.bsf", "neither spin nor line"),
+        (9.4, None, "orders.bsf", "neither spin nor line"),
         (None, 0.9, "orders.ftf", "cage"),
         (None, 25.0, "orders.ftf", "cage"),
     ],
@@ -61,3 +62,14 @@ def test_the_refusal_names_the_field_of_the_document() -> None:
     with pytest.raises(SpecError) as refused:
         read_kinematic_spec({"kinematics": {"shafts": [{"name": "a"}], "bearings": [bearing]}})
     assert [p.field for p in refused.value.problems] == ["kinematics.bearings.0.orders"]
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.2035, 0.35])
+@pytest.mark.parametrize("degrees", [0.0, 25.0, 45.0])
+def test_a_ball_is_known_by_its_spin_or_by_its_line(ratio: float, degrees: float) -> None:
+    cosine = float(np.cos(np.radians(degrees)))
+    gamma = ratio * cosine
+    races, spin = (4.5 * (1 - gamma), 4.5 * (1 + gamma)), cosine * (1 - gamma**2) / (2 * gamma)
+    for stated in (spin, 2 * spin):
+        assert not list(implausible("orders", *races, stated, None))
+        assert spin_of(*races, stated) == pytest.approx(spin)
