@@ -11,7 +11,7 @@ import argparse  # noqa: E402
 import json  # noqa: E402
 
 from bench.cases import CHANNELS, START_S, cases  # noqa: E402
-from bench.dataset import datasets  # noqa: E402
+from bench.dataset import SCARCE, SCARCE_LOOPED, datasets  # noqa: E402
 from bench.ensemble import MEMBERS, ensemble, prices  # noqa: E402
 from bench.precision import STRETCH_S, our_rows, scipy_rows  # noqa: E402
 from bench.process import cold_first_step_s, fresh_compile_s, peak_memory_mb  # noqa: E402
@@ -106,6 +106,7 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help="only speed, error and ratio; a small dataset")
     parser.add_argument("--only", choices=("dataset",), help="nothing but the rows per second of a dataset")
     parser.add_argument("--rows", type=int, default=None, metavar="N", help="of the dataset, instead of its default")
+    parser.add_argument("--looped", type=int, default=None, metavar="N", help="rows of its plain loop (as many)")
     given = parser.parse_args()
     result: dict[str, float | None] = {}
     if given.only is None:
@@ -115,7 +116,8 @@ def main() -> None:
             work_precision()
             result |= processes()
             result |= service()
-    result |= datasets(quick=given.quick, rows=given.rows)
+    rows, looped = (None, None) if given.only or given.quick else (SCARCE, SCARCE_LOOPED)
+    result |= datasets(quick=given.quick, rows=given.rows or rows, looped_rows=given.looped or looped)
     rounded = {name: None if value is None else float(f"{value:.4g}") for name, value in result.items()}
     print("\nBENCH " + json.dumps(rounded))
 

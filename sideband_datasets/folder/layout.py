@@ -21,7 +21,6 @@ FAILURES = "failures.jsonl"
 DATA = "data"
 STATE = "state"
 SETTINGS = "make.json"
-LOCK = "lock"
 BLOCK_BYTES = 1 << 20
 
 

@@ -2,33 +2,40 @@
 
 from __future__ import annotations
 
-import contextlib
-import fcntl
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from sideband_datasets.folder.card import card
 from sideband_datasets.folder.croissant import croissant
+from sideband_datasets.folder.finding import Finding
 from sideband_datasets.folder.layout import (
     CARD,
     CROISSANT,
     DATA,
     FAILURES,
-    LOCK,
     MANIFEST,
     SETTINGS,
     STATE,
     json_text,
-    remove,
     sha256,
-    synced,
     unfinished,
     write_text,
 )
 from sideband_datasets.folder.manifest import failures_text, manifest, versions
 from sideband_datasets.folder.pool import Job, made_by_workers
+from sideband_datasets.folder.publish import (
+    alone,
+    check_free,
+    check_not_begun,
+    damage,
+    manifest_of,
+    publish,
+    refused,
+    sweep,
+)
 from sideband_datasets.folder.shards import Receipt, Shard, finished, make_shard, shards_of
 from sideband_datasets.folder.space import check_space
 from sideband_datasets.formats import format_named
@@ -42,6 +49,8 @@ from sim.core.errors import Problem, SpecError
 
 MOST_WORKERS = 256
 MOST_IN_A_SHARD = 100_000
+SAID_TWICE = ("recipe", "format", "versions")
+"""In the manifest and in what was begun."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,52 +82,74 @@ def make(recipe: Recipe, out: Path, settings: Settings, told: Callable[[Progress
     plan = make_plan(recipe)
     check_size(plan, settings.shard_recordings)
     expected = estimate(plan, settings.workers, settings.shard_recordings)
-    if out.exists() and (not out.is_dir() or any(out.iterdir())):
-        raise SpecError(Problem(field="--out", message="is there already", given=str(out), allowed="a new folder"))
+    check_free(out)
     folder = unfinished(out)
-    if (folder / STATE / SETTINGS).exists():
-        message = "was begun already"
-        allowed = f"`sideband dataset resume {out}`, or another --out"
-        raise SpecError(Problem(field="--out", message=message, given=str(out), allowed=allowed))
+    check_not_begun(folder, out)
     check_space(expected.bytes, out)
-    for name in (DATA, STATE):
-        (folder / name).mkdir(parents=True, exist_ok=True)
     document = {
         "recipe": document_of(recipe),
         "format": settings.format,
         "shard_recordings": settings.shard_recordings,
         "versions": versions(),
     }
-    write_text(folder / STATE / SETTINGS, json_text(document))
-    return _carry_on(plan, out, settings, told)
+    folder.mkdir(parents=True, exist_ok=True)
+    with alone(folder):
+        # Another command may have been faster.
+        check_not_begun(folder, out)
+        for name in (DATA, STATE):
+            (folder / name).mkdir(exist_ok=True)
+        write_text(folder / STATE / SETTINGS, json_text(document))
+        return _carry_on(plan, out, settings, told)
 
 
 def resume(out: Path, workers: int, told: Callable[[Progress], None]) -> dict[str, object]:
-    """Finish a dataset that was interrupted: the same bytes as if it had not been. Returns its manifest."""
+    """Finish a dataset that was interrupted: the same bytes as if it had not been. Returns its manifest.
+
+    SpecError where none was begun, another command is making it, versions changed since, or a folder that had all its
+    files has lost one, or has a damaged one, and nothing is left to make it again from.
+    """
     folder = unfinished(out)
     if not folder.is_dir():
-        if (out / MANIFEST).is_file():
-            return _manifest(out)
+        if (manifest := manifest_of(out)) is not None:
+            return manifest
         message = "holds no dataset that was begun"
         raise SpecError(Problem(field="--out", message=message, given=str(out), allowed="`sideband dataset make`"))
+    check_free(out)
+    with alone(folder):
+        sweep(folder)
+        return _resume(folder, out, workers, told)
+
+
+def _resume(folder: Path, out: Path, workers: int, told: Callable[[Progress], None]) -> dict[str, object]:
+    begun = _begun(folder)
     if (folder / MANIFEST).is_file():
-        # Everything was written; only the name was missing.
-        _publish(folder, out)
-        return _manifest(out)
-    if not (folder / STATE / SETTINGS).is_file():
+        # Everything was written; what is sound lacks but its name.
+        manifest = manifest_of(folder)
+        same = manifest is not None and (begun is None or all(begun[k] == manifest.get(k) for k in SAID_TWICE))
+        found = [] if manifest is None else damage(folder, manifest)
+        if manifest is not None and same and not found:
+            publish(folder, out, manifest)
+            return manifest
+        if begun is None:
+            raise refused(out, found or [Finding(where=MANIFEST, what="cannot be read")])
+    if begun is None:
         message = f"nothing was begun in {folder.name} yet; remove it and make the dataset"
         raise SpecError(Problem(field="--out", message=message, given=str(out)))
-    document = json.loads((folder / STATE / SETTINGS).read_text(encoding="utf-8"))
     now = versions()
-    if document["versions"] != now:
-        changed = [
-            f"{k} {document['versions'].get(k)} -> {now.get(k)}" for k in now if document["versions"].get(k) != now[k]
-        ]
+    if begun["versions"] != now:
+        changed = [f"{k} {begun['versions'].get(k)} -> {now.get(k)}" for k in now if begun["versions"].get(k) != now[k]]
         message = f"was begun with other versions ({', '.join(changed)}): its rows would not be of one kind"
         raise SpecError(Problem(field="--out", message=message, given=str(out), allowed="make it anew"))
-    settings = Settings(format=document["format"], workers=workers, shard_recordings=document["shard_recordings"])
+    settings = Settings(format=begun["format"], workers=workers, shard_recordings=begun["shard_recordings"])
     _check(settings)
-    return _carry_on(make_plan(read_recipe(document["recipe"])), out, settings, told)
+    (folder / DATA).mkdir(exist_ok=True)
+    return _carry_on(make_plan(read_recipe(begun["recipe"])), out, settings, told)
+
+
+def _begun(folder: Path) -> dict[str, Any] | None:
+    """What is made in the folder; None when that is not said, or no more."""
+    path = folder / STATE / SETTINGS
+    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
 
 
 def check_size(plan: Plan, shard_recordings: int | None) -> None:
@@ -127,11 +158,6 @@ def check_size(plan: Plan, shard_recordings: int | None) -> None:
         _check_number("--shard-recordings", shard_recordings, MOST_IN_A_SHARD)
         largest = min(shard_recordings, max(plan.of_split(split).size for split in plan.splits))
         check_shard(plan, largest, "--shard-recordings", shard_recordings)
-
-
-def _manifest(out: Path) -> dict[str, object]:
-    found: dict[str, object] = json.loads((out / MANIFEST).read_text(encoding="utf-8"))
-    return found
 
 
 def _check(settings: Settings) -> None:
@@ -146,43 +172,24 @@ def _check_number(field: str, value: int, most: int) -> None:
         raise SpecError(Problem(field=field, message="is out of bounds", given=value, allowed=f"1 to {most}"))
 
 
-@contextlib.contextmanager
-def _alone(folder: Path) -> Iterator[None]:
-    """One command at a time; the lock goes with its process, however that ends."""
-    with (folder / STATE / LOCK).open("w") as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError as error:
-            message = "is being made by another command"
-            raise SpecError(Problem(field="--out", message=message, given=folder.name)) from error
-        yield
-
-
 def _carry_on(plan: Plan, out: Path, settings: Settings, told: Callable[[Progress], None]) -> dict[str, object]:
+    """Make what is left, and publish it; the caller is alone in the folder."""
     folder = unfinished(out)
     shards = shards_of(plan, format_named(settings.format).suffix, settings.shard_recordings)
-    with _alone(folder):
-        _sweep(folder)
-        receipts = {shard: receipt for shard in shards if (receipt := finished(folder, shard)) is not None}
-        # The largest first: workers then end together.
-        left = sorted((s for s in shards if s not in receipts), key=lambda shard: -len(shard.recordings))
-        kept = sum(len(shard.recordings) for shard in receipts) * plan.rows_per_recording
-        told(Progress(rows=kept, kept=kept, total=plan.rows))
+    receipts = {shard: receipt for shard in shards if (receipt := finished(folder, shard)) is not None}
+    # The largest first: workers then end together.
+    left = sorted((s for s in shards if s not in receipts), key=lambda shard: -len(shard.recordings))
+    kept = sum(len(shard.recordings) for shard in receipts) * plan.rows_per_recording
+    told(Progress(rows=kept, kept=kept, total=plan.rows))
 
-        def count(rows: int) -> None:
-            told(Progress(rows=min(kept + rows, plan.rows), kept=kept, total=plan.rows))
+    def count(rows: int) -> None:
+        told(Progress(rows=min(kept + rows, plan.rows), kept=kept, total=plan.rows))
 
-        receipts |= dict(_made(plan, left, folder, settings, count))
-        told(Progress(rows=plan.rows, kept=kept, total=plan.rows))
-        document = _finish(plan, [receipts[shard] for shard in shards], folder, settings.format)
-        _publish(folder, out)
+    receipts |= dict(_made(plan, left, folder, settings, count))
+    told(Progress(rows=plan.rows, kept=kept, total=plan.rows))
+    document = _finish(plan, [receipts[shard] for shard in shards], folder, settings.format)
+    publish(folder, out, document)
     return document
-
-
-def _sweep(folder: Path) -> None:
-    """What killed workers left under no name of its own."""
-    for left in [*(folder / DATA).glob(".*"), *(folder / STATE).glob(".*")]:
-        remove(left)
 
 
 def _made(
@@ -212,10 +219,3 @@ def _finish(plan: Plan, receipts: list[Receipt], folder: Path, kind: str) -> dic
     document = manifest(plan, receipts, kind, others)
     write_text(folder / MANIFEST, json_text(document))
     return document
-
-
-def _publish(folder: Path, out: Path) -> None:
-    """The finished folder takes its name, whole."""
-    remove(folder / STATE)
-    folder.replace(out.absolute())
-    synced(out.absolute())

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from sideband_datasets.folder.finding import Finding
-from sideband_datasets.folder.layout import DATA, FAILURES, MANIFEST, files_below, sha256, unfinished
+from sideband_datasets.folder.layout import DATA, FAILURES, MANIFEST, unfinished
+from sideband_datasets.folder.listed import file_findings
 from sideband_datasets.folder.manifest import versions
 from sideband_datasets.folder.said import failures_in, receipts_of, said_findings, written_findings
 from sideband_datasets.folder.seen import Seen, row_hash
@@ -19,7 +20,7 @@ from sideband_datasets.make.batch import Failure
 from sideband_datasets.make.stream import rows
 from sideband_datasets.plan.seeds import Stream, generator
 from sideband_datasets.plan.tried import make_plan
-from sideband_datasets.recipe.read import checksum, read_recipe
+from sideband_datasets.recipe.read import read_recipe
 from sim.core.errors import Problem, SidebandError, SpecError
 
 Told = Callable[[str], object]
@@ -40,12 +41,12 @@ def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> li
         kind = manifest["format"]
         if kind not in FORMATS:
             raise ValueError(f"its format is {kind!r}, not one of {', '.join(FORMATS)}")
-        suffix = FORMATS[kind].suffix
         listed = {e["file"]: {key: e[key] for key in ("sha256", "split", "rows")} for e in manifest["shards"]}
         numbers = [e[key] for e in manifest["shards"] for key in ("rows", "bytes")]
         if not all(type(number) is int for number in numbers):
             raise ValueError("rows and bytes of shards are whole numbers")
-        versions_then, others = dict(manifest["versions"]), dict(manifest["files"])
+        versions_then = dict(manifest["versions"])
+        dict(manifest["files"])
     except KeyError as error:
         return [Finding(where=MANIFEST, what=f"lacks {error}: it was emptied or cut")]
     except (ValueError, TypeError, AttributeError) as error:
@@ -55,7 +56,7 @@ def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> li
     except SidebandError as error:
         return [Finding(where=MANIFEST, what=f"its recipe is refused: {error}")]
     told("checksums")
-    found = list(_files(out, manifest, listed, others, suffix))
+    found = list(file_findings(out, manifest))
     told("rows")
     broken = {finding.where for finding in found}
     seen = Seen(plan=plan)
@@ -85,24 +86,6 @@ def _said(out: Path, manifest: Mapping[str, Any], seen: Seen, broken: set[str], 
     if clean and not found:
         found += written_findings(out, manifest, seen.plan, receipts)
     return found
-
-
-def _files(
-    out: Path, manifest: Mapping[str, Any], listed: Mapping[str, Any], others: Mapping[str, Any], suffix: str
-) -> Iterator[Finding]:
-    if manifest.get("recipe_sha256") != checksum(manifest["recipe"]):
-        yield Finding(where=MANIFEST, what="the recipe is not the one that was made (its checksum differs)")
-    expected = {file: entry["sha256"] for file, entry in listed.items()} | dict(others)
-    for file, wanted in expected.items():
-        if not (out / file).exists():
-            yield Finding(where=file, what="is missing")
-        elif sha256(out / file) != wanted:
-            yield Finding(where=file, what="differs from what was written (its checksum is another)")
-    for path in files_below(out):
-        name = path.relative_to(out).as_posix()
-        inside = any(name.startswith(f"{file}/") for file in listed) if suffix == ".zarr" else False
-        if name not in expected and name != MANIFEST and not inside:
-            yield Finding(where=name, what="is surplus: the manifest does not list it")
 
 
 def _missing(seen: Seen, failures: Iterable[Failure]) -> Iterator[Finding]:

@@ -11,7 +11,11 @@ import numpy as np
 import pytest
 
 import sideband_client
-from sideband_datasets.folder import verify
+from jobs.datasets.words import SHARD
+from jobs.status import Status
+from sideband_datasets import read_recipe
+from sideband_datasets.folder import Settings, make, verify
+from sideband_datasets.folder.layout import files_below, sha256
 from store.settings import StoreSettings
 from tests.service import postgresql
 from tests.service.buckets import bucket_server, raw_client
@@ -22,6 +26,8 @@ from tests.sideband_datasets.small import document
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(bool(postgresql.missing()), reason=postgresql.missing() or "-")]
 
 BUCKET = "service"
+SHARDS = 8
+"""Of two recordings each: enough for two workers to get in each other's way."""
 
 
 @pytest.fixture
@@ -63,32 +69,51 @@ def test_a_dataset_of_two_workers_needs_no_shared_folder(
     parts: Parts, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     pytest.importorskip("zarr", reason="the extra `datasets` is not installed")
-    shards = 2  # of more than a hundred small files each
+    kind = "npz"
+    recipe = document(count=2 * SHARDS, peaks={"spectra": []})
+    alone = tmp_path / "alone"
+    make(read_recipe(recipe), alone, Settings(format=kind, shard_recordings=2), lambda progress: None)
     with postgresql.cluster() as database, bucket_server(BUCKET) as endpoint:
         bucket = f"s3://{BUCKET}/jobs?endpoint={endpoint}"
         stores = StoreSettings(data_dir=parts.folder, redis_url=parts.url, database_url=database, artefact_url=bucket)
         monkeypatch.setenv("DATABASE_URL", database)
         monkeypatch.setenv("ARTEFACT_URL", bucket)
-        first = replace(parts, folder=tmp_path / "w1").start_worker("w1")
-        with LiveServer(parts.app(stores=stores)) as http, sideband_client.connect(str(http.base_url)) as client:
-            recipe = document(count=2 * shards, peaks={"spectra": []})
-            job = client.make_dataset(recipe, format="zarr", shard_recordings=2)
-            eventually(lambda: finished_shards(http, job.id) >= 1, within_s=120)
+        app = parts.app(stores=stores)
+        with LiveServer(app) as http, sideband_client.connect(str(http.base_url)) as client:
+            first, second = (replace(parts, folder=tmp_path / name).start_worker(name) for name in ("w1", "w2"))
+            eventually(lambda: len(client.health()["workers"]) == 2)
+            job = client.make_dataset(recipe, format=kind, shard_recordings=2)
+
+            def holders(status: Status) -> list[str | None]:
+                shards = app.state.sideband.stores.catalogue.parts.of(job.id, status)
+                return [part.worker for part in shards if part.kind == SHARD]
+
+            both = {"w1", "w2"}
+            eventually(lambda: set(holders(Status.SUCCESSFUL)) == both == set(holders(Status.RUNNING)), within_s=120)
+            assert first.poll() is None and second.poll() is None
             first.kill()
             first.wait()
-            assert 1 <= finished_shards(http, job.id) < shards, "the first worker leaves some to the second"
-            replace(parts, folder=tmp_path / "w2").start_worker("w2")
+            assert len(holders(Status.SUCCESSFUL)) < SHARDS, "the first worker leaves some to the second"
             job.wait(timeout_s=120)
-            assert finished_shards(http, job.id) == shards
+            assert finished_shards(http, job.id) == SHARDS and set(holders(Status.SUCCESSFUL)) == both
             folder = job.dataset().download(tmp_path / "made")
+            assert _checksums(folder) == _checksums(alone), "byte for byte what one process makes by itself"
             assert verify(folder) == [] and job.dataset().rows(5, 1)[0]["columns"]["fault_origin"] == "simulated"
-            assert len(list((folder / "data").iterdir())) == shards
+            many = client.make_dataset({**recipe, "count": 3, "splits": {"train": 1.0}}, format="zarr").wait(
+                timeout_s=120
+            )
+            assert verify(many.dataset().download(tmp_path / "many")) == [], "a shard of more than a hundred files"
             assert _names(endpoint)
             job.delete()
+            many.delete()
             assert _names(endpoint) == set(), "the shards go with the dataset"
         for worker in parts.workers:
             worker.terminate()
             worker.wait(20)
+
+
+def _checksums(folder: Path) -> dict[str, str]:
+    return {path.relative_to(folder).as_posix(): sha256(path) for path in files_below(folder)}
 
 
 def _gone_bucket_is_told(http: httpx.Client, endpoint: str) -> None:
