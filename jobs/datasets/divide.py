@@ -12,7 +12,7 @@ from sideband_datasets import Recipe, make_plan, read_recipe, recipe_named
 from sideband_datasets.folder.manifest import versions
 from sideband_datasets.folder.shards import Shard, shards_of
 from sideband_datasets.formats.format import format_named
-from sideband_datasets.plan import Estimate, Plan, check_shard, estimate, most_recordings, recording_bytes
+from sideband_datasets.plan import Estimate, Plan, check_shard, estimate, most_recordings, plan_again, recording_bytes
 from sideband_datasets.plan.size import batch_size
 from sideband_datasets.recipe.read import document_of
 from sim.core.errors import Problem, SpecError, UnknownName
@@ -88,8 +88,16 @@ def divide(request: DatasetRequest) -> Division:
 
 
 def division_of(document: Mapping[str, object]) -> tuple[Plan, list[Shard]]:
-    """Plan and shards of a request as it is kept."""
-    plan = make_plan(read_recipe(document["recipe"]))
+    """Plan and shards of a request as it is kept, all machines looked at once more."""
+    return _divided(make_plan(read_recipe(document["recipe"])), document)
+
+
+def division_again(document: Mapping[str, object]) -> tuple[Plan, list[Shard]]:
+    """As `division_of`, of a request that was accepted: no machine is built before its recordings are made."""
+    return _divided(plan_again(read_recipe(document["recipe"])), document)
+
+
+def _divided(plan: Plan, document: Mapping[str, object]) -> tuple[Plan, list[Shard]]:
     suffix = format_named(str(document["format"])).suffix
     return plan, shards_of(plan, suffix, cast(int, document["shard_recordings"]))
 

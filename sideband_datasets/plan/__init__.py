@@ -5,7 +5,7 @@ from sideband_datasets.plan.estimate import Estimate, estimate
 from sideband_datasets.plan.machines import Machine
 from sideband_datasets.plan.plan import Plan
 from sideband_datasets.plan.size import MOST_SHARD_BYTES, check_shard, most_recordings, recording_bytes
-from sideband_datasets.plan.tried import make_plan
+from sideband_datasets.plan.tried import make_plan, plan_again
 
 __all__ = [
     "MOST_SHARD_BYTES",
@@ -19,5 +19,6 @@ __all__ = [
     "estimate",
     "make_plan",
     "most_recordings",
+    "plan_again",
     "recording_bytes",
 ]

@@ -12,17 +12,13 @@ from functools import lru_cache
 import numpy as np
 
 from sideband_datasets.plan.carried import told_of_rates
-from sideband_datasets.plan.documents import own_value
 from sideband_datasets.plan.drawing import Drawing, drawing
-from sideband_datasets.plan.machines import Machine
-from sideband_datasets.plan.plan import Plan, planned
+from sideband_datasets.plan.plan import Plan, inspected, laid_out
 from sideband_datasets.plan.quotas import IntArray
 from sideband_datasets.recipe.model import Recipe
 from sideband_datasets.recipe.read import canonical
-from sideband_datasets.recipe.values import Choice
 from signals.sensors import SensorChain, outputs_needed, pickups, quantities_of
 from signals.sensors.clock import nominal_rate_hz
-from signals.shorthand import path_of
 from signals.validation import Findings
 from sim.assembly.assemble import assemble
 from sim.core.errors import Problem, SpecError, UnknownName
@@ -63,8 +59,8 @@ def _text(chain: object) -> str:
 
 def cells_of(plan: Plan) -> IntArray:
     """Number of the class on the family that each recording is, shape (recordings,)."""
-    families = [m.family for m in plan.machines]
-    number = np.array([families.index(f) for f in families])[plan.machine]
+    _, first, family = np.unique(plan.family, return_index=True, return_inverse=True)
+    number = first[family.reshape(-1)][plan.machine]
     _, cells = np.unique(np.stack([plan.kind, number]), axis=1, return_inverse=True)
     return np.asarray(cells, dtype=np.int64).reshape(-1)
 
@@ -73,25 +69,6 @@ def samples_of(plan: Plan) -> list[Drawing]:
     """The first recording of every class on every family."""
     _, first = np.unique(cells_of(plan), return_index=True)
     return [drawing(plan, int(i)) for i in sorted(first)]
-
-
-def named_choices(plan: Plan) -> Iterator[tuple[str, Machine]]:
-    """The first machine that has each of the names which are chosen among (a bearing, say), and the recipe's field:
-    numbers of a range are alike, but one name of a list may be wrong."""
-    for number, family in enumerate(plan.recipe.machines):
-        texts = [
-            path
-            for path, value in family.vary.items()
-            if isinstance(value, Choice) and any(isinstance(item, str) for item in value.choices)
-        ]
-        seen: set[tuple[str, object]] = set()
-        for machine in plan.machines:
-            if not texts or machine.family != plan.recipe.machines[number].name:
-                continue
-            new = {(path, own_value(machine.spec, path_of(path))) for path in texts} - seen
-            if new:
-                seen |= new
-                yield f"machines.{number}.vary.{min(new, key=str)[0]}.choices", machine
 
 
 @contextmanager
@@ -105,9 +82,10 @@ def _in_field(field: str) -> Iterator[None]:
 @lru_cache(maxsize=4)
 def _tried(text: str) -> Plan:
     recipe = Recipe.model_validate_json(text)
-    plan = planned(recipe)
+    plan = laid_out(recipe)
     findings = Findings()
-    for field, machine in named_choices(plan):
+    for field, number in inspected(plan).named:
+        machine = plan.machines[number]
         with findings.step(), _in_field(field):
             assemble(machine.spec, seed=machine.seed)
     findings.settle()
@@ -126,3 +104,15 @@ def _tried(text: str) -> Plan:
 def make_plan(recipe: Recipe) -> Plan:
     """The plan of a recipe; SpecError lists what of it cannot be made."""
     return _tried(canonical(recipe))
+
+
+@lru_cache(maxsize=4)
+def _again(text: str) -> Plan:
+    return laid_out(Recipe.model_validate_json(text))
+
+
+def plan_again(recipe: Recipe) -> Plan:
+    """The plan of a recipe that `make_plan` took before: the same recordings, in a time that does not grow with the
+    number of machines. None is built yet, nothing is checked again, and warnings of sampling rates are left out.
+    """
+    return _again(canonical(recipe))
