@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import cast
 
@@ -61,12 +62,11 @@ class Division:
         return estimate(self.plan, workers, self.shard_recordings)
 
 
-def divide(request: DatasetRequest) -> Division:
-    """What the request asks for, divided; SpecError names every field that must change."""
+@contextmanager
+def _told_of(request: DatasetRequest) -> Iterator[None]:
+    """Problems of a recipe raised inside carry the names that the request has for their fields."""
     try:
-        suffix = format_named(request.format).suffix
-        plan = make_plan(_recipe(request.recipe))
-        cost = estimate(plan, 1)
+        yield
     except UnknownName as error:
         message = f"is not a known {error.kind}{did_you_mean(error.name, error.known)}"
         allowed = ", ".join(error.known)
@@ -74,6 +74,22 @@ def divide(request: DatasetRequest) -> Division:
         raise SpecError(problem) from None
     except SpecError as error:
         raise SpecError([replace(p, field=_within(p.field)) for p in error.problems]) from None
+
+
+def recipe_of(request: DatasetRequest) -> Recipe:
+    """The recipe that a request asks for, read; SpecError names its wrong fields."""
+    with _told_of(request):
+        form = request.recipe
+        return recipe_named(form) if isinstance(form, str) else read_recipe(form)
+
+
+def divide(request: DatasetRequest) -> Division:
+    """What the request asks for, divided; SpecError names every field that must change."""
+    recipe = recipe_of(request)
+    with _told_of(request):
+        suffix = format_named(request.format).suffix
+        plan = make_plan(recipe)
+        cost = estimate(plan, 1)
     size = request.shard_recordings or _size(plan, cost)
     shards = tuple(shards_of(plan, suffix, size))
     if len(shards) > MOST_SHARDS:
@@ -108,10 +124,6 @@ def balance_of(plan: Plan) -> dict[str, dict[str, int]]:
     for recording, kind in enumerate(plan.kind.tolist()):
         found[plan.split(recording)][plan.recipe.classes[kind]] += plan.rows_per_recording
     return found
-
-
-def _recipe(form: object) -> Recipe:
-    return recipe_named(form) if isinstance(form, str) else read_recipe(form)
 
 
 def _place(error: UnknownName, request: DatasetRequest) -> str:

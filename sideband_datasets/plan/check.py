@@ -9,6 +9,7 @@ import numpy as np
 
 from sideband_datasets.plan.axes import Axis, drawn_only, recording_axes, term_parameters
 from sideband_datasets.plan.machines import Family
+from sideband_datasets.plan.most import counted_problems
 from sideband_datasets.plan.quotas import IntArray
 from sideband_datasets.plan.siblings import beside_problems
 from sideband_datasets.recipe.model import FaultTerm, Recipe
@@ -44,6 +45,7 @@ def check_recipe(recipe: Recipe) -> None:
             if any(part in OF_THE_MACHINE for part in path.split(".")):
                 message = "belongs to the machine: drawn for every recording, one path would stand in several splits"
                 problems.append(Problem(field=f"measurement.{k}.each.{path}", message=message, allowed="`vary`"))
+    problems += counted_problems(recipe)
     problems += _window_problems(recipe)
     problems += beside_problems(recipe)
     if problems:

@@ -13,6 +13,7 @@ from pydantic import ValidationError
 from sideband_datasets.plan.axes import Axis, drawn_only, levels, machine_axes
 from sideband_datasets.plan.documents import holders, value_in
 from sideband_datasets.plan.identity import channel_paths, content_of, path_id_of
+from sideband_datasets.plan.most import check_drawn
 from sideband_datasets.plan.points import Points
 from sideband_datasets.plan.seeds import Stream, whole_seed
 from sideband_datasets.recipe.model import Machines, Recipe
@@ -172,12 +173,15 @@ class Family:
 
 
 def families_of(recipe: Recipe) -> list[Family]:
-    """All families, none of their machines built; SpecError for a base or a chain that cannot be."""
+    """All families, none of their machines built; SpecError for a base or a chain that cannot be, and for more
+    machines than may be built."""
     bases = [base_machine(family, number) for number, family in enumerate(recipe.machines)]
     chains = [chain_document(recipe, k) for k in range(len(recipe.measurement))]
+    every = [machine_axes(recipe, number) for number in range(len(bases))]
+    longest = max((len(str(chain)) for chain in chains), default=0)
+    check_drawn(recipe, every, [len(base.model_dump_json()) + longest for base in bases])
     found = []
-    for number, base in enumerate(bases):
-        axes = machine_axes(recipe, number)
+    for number, (base, axes) in enumerate(zip(bases, every, strict=True)):
         own = _own_values(axes, base, chains)
         found.append(Family(recipe=recipe, number=number, base=base, axes=axes, own=own, chains=chains))
     return found
