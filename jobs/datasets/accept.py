@@ -63,7 +63,7 @@ def accept_dataset(desk: Desk, request: DatasetRequest, *, submitter: str, scope
 def divided(request: DatasetRequest, limits: Limits) -> Division:
     """What the request asks for, divided; SpecError for what is beyond this server's bounds.
 
-    What its numbers alone put beyond them is refused before any machine is built.
+    A size that its numbers alone put beyond them is refused before any machine is built, and then alone.
     """
     recipe = recipe_of(request)
     problem = _too_large(recipe.count, least_bytes(recipe), limits)
