@@ -63,6 +63,7 @@ _CLASSES: tuple[tuple[type[SidebandError], str, int], ...] = (
     (errors.IllegalTransition, "conflict", 409),
     (errors.IdempotencyConflict, "idempotency-conflict", 422),
     (errors.QueueFull, "queue-full", 429),
+    (errors.PlannersBusy, "planners-busy", 429),
     (errors.BudgetSpent, "cost-limit", 429),
     (errors.BudgetTooSmall, "beyond-cost-limit", 403),
     (errors.BrokerAway, "broker-away", 503),
@@ -128,7 +129,7 @@ def _choice(kind: str, name: str, known: Sequence[str], location: str) -> FieldE
 
 
 def _headers(error: SidebandError, status: int) -> dict[str, str]:
-    if isinstance(error, errors.QueueFull | errors.BudgetSpent):
+    if isinstance(error, errors.QueueFull | errors.PlannersBusy | errors.BudgetSpent):
         return {"Retry-After": str(error.retry_after_s)}
     if status == 503 or (isinstance(error, errors.ResultNotReady) and error.status.active):
         return {"Retry-After": str(RETRY_AFTER_S)}

@@ -15,10 +15,11 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from bench.process import ROOT
 from jobs import transitions
-from jobs.datasets.divide import divide, division_of
+from jobs.datasets.divide import divide, division_again
 from jobs.datasets.request import DatasetRequest
 from jobs.datasets.settle import settle
 from jobs.datasets.words import DATASET, SHARD
@@ -37,6 +38,8 @@ from store.queue.rq_queue import RqQueue, connect
 PARTS, TICKETS, TIMES = 3000, 500, 100
 LARGE = 100_000
 """Recordings of the plan that is divided."""
+MANY, OF_MANY = 5000, 20_000
+"""Machines, and recordings of them."""
 
 
 def main() -> None:
@@ -45,7 +48,7 @@ def main() -> None:
     for measure in (_catalogue, _broker, _plans, _shards):
         for name, milliseconds in measure():
             found[name] = round(milliseconds, 3)
-            print(f"{name:40s}{milliseconds:10.2f} ms", flush=True)
+            print(f"{name:56s}{milliseconds:10.2f} ms", flush=True)
     print(f"load of the machine: {os.getloadavg()[0]:.1f}")
     print("SCALE", json.dumps(found))
 
@@ -117,13 +120,21 @@ def _broker() -> Iterator[tuple[str, float]]:
         yield "broker: ask for a ticket", _ms(lambda: queue.holds(next(asked)), TICKETS)
 
 
-def _request(count: int, shard: int) -> DatasetRequest:
-    recipe = {**document_of(recipe_named("small")), "count": count}
+def _request(count: int, shard: int, *, name: str = "small", machines: int | None = None) -> DatasetRequest:
+    recipe: dict[str, Any] = {**document_of(recipe_named(name)), "count": count}
+    if machines is not None:
+        recipe["machines"] = [{**recipe["machines"][0], "instances": machines}]
     return DatasetRequest(recipe=recipe, format="parquet", shard_recordings=shard)
 
 
 def _plans() -> Iterator[tuple[str, float]]:
-    yield f"plan of {LARGE} recordings", _ms(lambda: divide(_request(LARGE, 100)))
+    """Each accepted, then planned again as every shard does."""
+    for name, count, machines in (("small", LARGE, 8), ("small", OF_MANY, MANY), ("bearing-rig", OF_MANY, MANY)):
+        request = _request(count, 100, name=name, machines=machines)
+        document = request.model_dump()
+        what = f"{name}, {count} of {machines} machines"
+        yield f"accept {what}", _ms(lambda asked=request: divide(asked))  # type: ignore[misc]
+        yield f"plan a shard: {what}", _ms(lambda kept=document: division_again(kept))  # type: ignore[misc]
 
 
 def _shards() -> Iterator[tuple[str, float]]:
@@ -150,7 +161,7 @@ def _forked(recordings: int) -> float:
 
 def _one_shard(recordings: int) -> None:
     request = _request(2 * recordings, recordings)
-    plan, shards = division_of(divide(request).document)
+    plan, shards = division_again(divide(request).document)
     with tempfile.TemporaryDirectory() as name:
         for inner in (DATA, STATE):
             (Path(name) / inner).mkdir()

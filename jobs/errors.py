@@ -8,6 +8,7 @@ JobError
  |   +- StaleAttempt       a worker reports for an attempt that is no longer its own
  +- IdempotencyConflict    the same key was used with another request
  +- QueueFull              too much work is waiting; try later
+ +- PlannersBusy           as many datasets are being planned as may be at a time; try later
  +- BudgetSpent            the API key's core-seconds of a day are used; try later
  +- BudgetTooSmall         one request is beyond the API key's core-seconds of a day
  +- BrokerAway             the queue's server cannot be reached
@@ -78,6 +79,17 @@ class QueueFull(JobError):
     def __init__(self, waiting: int, allowed: int, retry_after_s: int) -> None:
         self.waiting, self.allowed, self.retry_after_s = waiting, allowed, retry_after_s
         super().__init__(f"{waiting} jobs are waiting, {allowed} may; try again in {retry_after_s} s")
+
+
+class PlannersBusy(JobError):
+    """As many datasets are being planned as this process plans at a time."""
+
+    def __init__(self, allowed: int, retry_after_s: int) -> None:
+        self.allowed, self.retry_after_s = allowed, retry_after_s
+        super().__init__(
+            f"{allowed} datasets are being planned for others, as many as are planned at a time; "
+            f"try again in {retry_after_s} s"
+        )
 
 
 class BudgetSpent(JobError):

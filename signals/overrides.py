@@ -10,6 +10,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from signals.copied import copied
 from signals.shorthand import LONG, NAMES, TORQUE, path_of, set_torque
 from signals.validation import problems_of, shown
 from sim.core.errors import Problem, SpecError
@@ -35,7 +36,7 @@ def apply_overrides(machine: MachineSpec, overrides: Mapping[str, object]) -> Ma
     """
     if not overrides:
         return machine
-    document: dict[str, Any] = copy.deepcopy(machine.model_dump(mode="json"))
+    document: dict[str, Any] = copied(machine.model_dump(mode="json"))
     problems = _twice(overrides)
     # The torque comes last: it is that of the driven shaft, which may be changed too.
     for key, value in sorted(overrides.items(), key=lambda item: item[0] in TORQUE):

@@ -26,8 +26,9 @@ from app.routes.responses import problems
 from app.routes.simulations import KeyName, SubmitterName, named
 from app.schemas import JobPage, SubmittedView, submitted_view
 from app.state import AppState, HolderBudget, Principal, State
-from jobs.datasets.accept import accept_dataset, check_bounds
-from jobs.datasets.divide import balance_of, divide
+from jobs.datasets.accept import accept_dataset, divided
+from jobs.datasets.divide import balance_of
+from jobs.datasets.planning import planning
 from jobs.datasets.request import DatasetRequest
 from jobs.datasets.stored import StoredDataset
 from jobs.datasets.words import DATASET
@@ -70,13 +71,14 @@ def submit(
     return submitted_view(taken.record, submitter=name, created=taken.created)
 
 
-@router.post(f"{ADDRESS}/estimate", response_model=DatasetEstimate, responses=problems(400, 401, 413, 415, 422))
+@router.post(f"{ADDRESS}/estimate", response_model=DatasetEstimate, responses=problems(400, 401, 413, 415, 422, 429))
 def estimate(request: DatasetRequest, state: State) -> DatasetEstimate:
     """Check a request as `POST /v1/datasets` would, and say what it would take. Nothing is simulated."""
-    division = divide(request)
-    check_bounds(division, state.settings.limits)
-    plan, present = division.plan, _workers(state)
-    cost = division.expected(present)
+    present = _workers(state)
+    with planning():
+        division = divided(request, state.settings.limits)
+        cost = division.expected(present)
+    plan = division.plan
     return DatasetEstimate(
         recordings=cost.recordings,
         rows=cost.rows,

@@ -7,7 +7,8 @@ from itertools import islice
 from jobs import transitions
 from jobs.accept import RESERVED_BYTES, Acceptance, Desk, charged, hand_over, needs_work, replayed, reserve
 from jobs.datasets import family
-from jobs.datasets.divide import Division, divide
+from jobs.datasets.divide import Division, divide, recipe_of
+from jobs.datasets.planning import planning
 from jobs.datasets.request import DatasetRequest
 from jobs.datasets.words import ASSEMBLY, DATASET, METHOD_VERSION, SHARD
 from jobs.errors import QueueFull, StoreFull
@@ -16,6 +17,7 @@ from jobs.limits import Limits
 from jobs.parts import Part
 from jobs.record import Cost
 from jobs.status import Status
+from sideband_datasets.plan import least_bytes
 from sim.core.errors import Problem, SpecError
 
 AT_ONCE = 32
@@ -35,8 +37,8 @@ def accept_dataset(desk: Desk, request: DatasetRequest, *, submitter: str, scope
         earlier = replayed(desk, scope, key, body)
         if earlier is not None:
             return earlier
-    division = divide(request)
-    check_bounds(division, desk.limits)
+    with planning():
+        division = divided(request, desk.limits)
     identifier = job_id(DATASET, division.document, f"{desk.engine.version} {METHOD_VERSION}")
     new_work = needs_work(desk.catalogue, identifier)
     if new_work:
@@ -58,27 +60,46 @@ def accept_dataset(desk: Desk, request: DatasetRequest, *, submitter: str, scope
     return Acceptance(record=record, created=created, replayed=False)
 
 
+def divided(request: DatasetRequest, limits: Limits) -> Division:
+    """What the request asks for, divided; SpecError for what is beyond this server's bounds.
+
+    A size that its numbers alone put beyond them is refused before any machine is built, and then alone.
+    """
+    recipe = recipe_of(request)
+    problem = _too_large(recipe.count, least_bytes(recipe), limits)
+    if problem is not None:
+        raise SpecError(problem)
+    division = divide(request)
+    check_bounds(division, limits)
+    return division
+
+
 def check_bounds(division: Division, limits: Limits) -> None:
     """Refuse what is beyond this server's bounds, every broken one named."""
     cost = division.cost
-    found = (
-        ("would take too long to compute", cost.core_seconds / 3600.0, limits.dataset_core_hours, "core-hours"),
-        ("would be too large", cost.bytes, limits.dataset_bytes, "bytes"),
-    )
-    problems = [
-        Problem(
-            field="recipe.count",
-            message=f"{message} (estimated {given:.3g} {unit})",
-            given=cost.recordings,
-            allowed=f"<= {bound:g}",
-            unit=unit,
-        )
-        for message, given, bound, unit in found
-        if given > bound
-    ]
+    hours = cost.core_seconds / 3600.0
+    long = _beyond("would take too long to compute", cost.recordings, hours, limits.dataset_core_hours, "core-hours")
+    found = (long, _too_large(cost.recordings, cost.bytes, limits))
+    problems = [problem for problem in found if problem is not None]
     problems += _memory_problems(division, limits)
     if problems:
         raise SpecError(problems)
+
+
+def _too_large(recordings: int, size: int, limits: Limits) -> Problem | None:
+    return _beyond("would be too large", recordings, size, limits.dataset_bytes, "bytes")
+
+
+def _beyond(message: str, recordings: int, needed: float, bound: float, unit: str) -> Problem | None:
+    if needed <= bound:
+        return None
+    return Problem(
+        field="recipe.count",
+        message=f"{message} (estimated {needed:.3g} {unit})",
+        given=recordings,
+        allowed=f"<= {bound:g}",
+        unit=unit,
+    )
 
 
 def _memory_problems(division: Division, limits: Limits) -> list[Problem]:

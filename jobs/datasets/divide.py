@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import cast
 
@@ -12,7 +13,7 @@ from sideband_datasets import Recipe, make_plan, read_recipe, recipe_named
 from sideband_datasets.folder.manifest import versions
 from sideband_datasets.folder.shards import Shard, shards_of
 from sideband_datasets.formats.format import format_named
-from sideband_datasets.plan import Estimate, Plan, check_shard, estimate, most_recordings, recording_bytes
+from sideband_datasets.plan import Estimate, Plan, check_shard, estimate, most_recordings, plan_again, recording_bytes
 from sideband_datasets.plan.size import batch_size
 from sideband_datasets.recipe.read import document_of
 from sim.core.errors import Problem, SpecError, UnknownName
@@ -61,12 +62,11 @@ class Division:
         return estimate(self.plan, workers, self.shard_recordings)
 
 
-def divide(request: DatasetRequest) -> Division:
-    """What the request asks for, divided; SpecError names every field that must change."""
+@contextmanager
+def _told_of(request: DatasetRequest) -> Iterator[None]:
+    """Problems of a recipe raised inside carry the names that the request has for their fields."""
     try:
-        suffix = format_named(request.format).suffix
-        plan = make_plan(_recipe(request.recipe))
-        cost = estimate(plan, 1)
+        yield
     except UnknownName as error:
         message = f"is not a known {error.kind}{did_you_mean(error.name, error.known)}"
         allowed = ", ".join(error.known)
@@ -74,6 +74,22 @@ def divide(request: DatasetRequest) -> Division:
         raise SpecError(problem) from None
     except SpecError as error:
         raise SpecError([replace(p, field=_within(p.field)) for p in error.problems]) from None
+
+
+def recipe_of(request: DatasetRequest) -> Recipe:
+    """The recipe that a request asks for, read; SpecError names its wrong fields."""
+    with _told_of(request):
+        form = request.recipe
+        return recipe_named(form) if isinstance(form, str) else read_recipe(form)
+
+
+def divide(request: DatasetRequest) -> Division:
+    """What the request asks for, divided; SpecError names every field that must change."""
+    recipe = recipe_of(request)
+    with _told_of(request):
+        suffix = format_named(request.format).suffix
+        plan = make_plan(recipe)
+        cost = estimate(plan, 1)
     size = request.shard_recordings or _size(plan, cost)
     shards = tuple(shards_of(plan, suffix, size))
     if len(shards) > MOST_SHARDS:
@@ -88,8 +104,16 @@ def divide(request: DatasetRequest) -> Division:
 
 
 def division_of(document: Mapping[str, object]) -> tuple[Plan, list[Shard]]:
-    """Plan and shards of a request as it is kept."""
-    plan = make_plan(read_recipe(document["recipe"]))
+    """Plan and shards of a request as it is kept, all machines looked at once more."""
+    return _divided(make_plan(read_recipe(document["recipe"])), document)
+
+
+def division_again(document: Mapping[str, object]) -> tuple[Plan, list[Shard]]:
+    """As `division_of`, of a request that was accepted: no machine is built before its recordings are made."""
+    return _divided(plan_again(read_recipe(document["recipe"])), document)
+
+
+def _divided(plan: Plan, document: Mapping[str, object]) -> tuple[Plan, list[Shard]]:
     suffix = format_named(str(document["format"])).suffix
     return plan, shards_of(plan, suffix, cast(int, document["shard_recordings"]))
 
@@ -100,10 +124,6 @@ def balance_of(plan: Plan) -> dict[str, dict[str, int]]:
     for recording, kind in enumerate(plan.kind.tolist()):
         found[plan.split(recording)][plan.recipe.classes[kind]] += plan.rows_per_recording
     return found
-
-
-def _recipe(form: object) -> Recipe:
-    return recipe_named(form) if isinstance(form, str) else read_recipe(form)
 
 
 def _place(error: UnknownName, request: DatasetRequest) -> str:

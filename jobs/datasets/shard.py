@@ -10,7 +10,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, cast
 
-from jobs.datasets.divide import division_of
+from jobs.datasets.divide import division_again
 from jobs.errors import DatasetRefused
 from jobs.ports import ArtefactStore, JobCatalogue
 from jobs.record import ResultRef
@@ -48,7 +48,7 @@ def make_part(
         for inner in (DATA, STATE):
             (folder / inner).mkdir()
         try:
-            plan, shards = division_of(document)
+            plan, shards = division_again(document)
             shard = shards[cast(int, request["shard"])]
             count = _counting(reporter, len(shard.recordings) * plan.rows_per_recording)
             receipt = make_shard(plan, shard, folder, kind, made=count, cancelled=reporter.cancelled)

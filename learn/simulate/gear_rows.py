@@ -70,10 +70,11 @@ def gear_rows(count: int, seed: int, part: int, parts: int) -> Iterator[GearRow]
 def _fours(recorded: Recipe, part: int, parts: int, fast: bool) -> Iterator[_Four]:
     """Machines one after the other; those with the same teeth are simulated together."""
     plan = make_plan(recorded)
-    families = sorted({m.family for m in plan.machines})[part::parts]
+    names = [plan.recipe.machines[f].name for f in plan.family.tolist()]
+    families = sorted(set(names))[part::parts]
     size = plan.rows_per_recording
     for family in families:
-        chosen = [m for m in range(len(plan.machines)) if plan.machines[m].family == family]
+        chosen = [m for m, name in enumerate(names) if name == family]
         wanted = [int(r) * size + c for m in chosen for r in np.flatnonzero(plan.machine == m) for c in range(size)]
         found = {row.row: row for row in dataset_rows(recorded, wanted, failed=_left_out)}
         for m in chosen:

@@ -26,8 +26,8 @@ class KinematicShaft(SpecModel):
 
 
 class BearingOrders(SpecModel):
-    """Cycles per revolution of the shaft, as a maker's table prints them. `bsf` is the spin, or the ball line, twice of it: told by the size.
-    What cannot be of one bearing is refused (`reconcile.kinematics.plausible`)."""
+    """Cycles per revolution of the shaft, as a maker's table prints them. `bsf` is the spin of a ball, or its line,
+    twice that: told by the size. What cannot be of one bearing is refused (`reconcile.kinematics.plausible`)."""
 
     bpfo: Annotated[float, Field(gt=0)]
     bpfi: Annotated[float, Field(gt=0)]

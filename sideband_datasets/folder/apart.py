@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 from sideband_datasets.folder.shards import Receipt
-from sideband_datasets.plan.machines import Machine
 from sideband_datasets.plan.plan import Plan
+from sideband_datasets.plan.walk import Known, known_of
 
 MOST_NAMED = 5
 
@@ -19,7 +19,14 @@ def in_two(pairs: Iterable[tuple[str, str]]) -> list[str]:
 
 def apart(plan: Plan, receipts: Sequence[Receipt]) -> str:
     """What the made rows show, for the card: of machines by name and by what they are built of, of paths by channel."""
-    known = {machine.machine_id: machine for machine in plan.machines}
+    bare: set[str] = set()
+    known: dict[str, Known] = {}
+    there = {name for receipt in receipts for name in receipt.machines}
+    for number in range(len(plan.machines)):
+        if plan.machine_id(number) in there:
+            machine = plan.machines[number]
+            known[machine.machine_id] = known_of(machine)
+            bare |= {c["name"] for c in (machine.chain or {}).get("channels", ()) if not c.get("path")}
     made = [(receipt.split, known[name]) for receipt in receipts for name in receipt.machines]
     contents = in_two((split, machine.content) for split, machine in made)
     paths = in_two((split, path) for split, machine in made for path in machine.channel_paths.values())
@@ -40,15 +47,14 @@ def apart(plan: Plan, receipts: Sequence[Receipt]) -> str:
     )
     return (
         f"No machine and no transfer path occurs in two splits: checked on the rows made, of {counted}. Machines that "
-        f"differ only in name, speed or load count as one.{_bare(plan, machines)}"
+        f"differ only in name, speed or load count as one.{_bare(plan, bare)}"
     )
 
 
-def _bare(plan: Plan, machines: Sequence[Machine]) -> str:
-    """A sentence on the channels without a transfer path, if there are any."""
+def _bare(plan: Plan, found: Collection[str]) -> str:
+    """A sentence on the channels `found` without a transfer path, if there are any."""
     if not plan.recipe.measurement:
         return " Signals are the machine's own outputs: the path is the machine's own."
-    found = {c["name"] for m in machines if m.chain is not None for c in m.chain["channels"] if not c.get("path")}
     if not found:
         return ""
     return f" Without a transfer path in the chain, the path being the machine's own: {', '.join(sorted(found))}."

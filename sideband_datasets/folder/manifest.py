@@ -93,7 +93,7 @@ def manifest(plan: Plan, receipts: Sequence[Receipt], kind: str, others: Mapping
         "classes": rows_by_class(plan, receipts),
         "splits": _splits(plan, receipts),
         "warnings": list(plan.warnings),
-        "machines": {m.machine_id: plan.splits[int(s)] for m, s in zip(plan.machines, plan.split_of, strict=True)},
+        "machines": {plan.machine_id(m): plan.splits[s] for m, s in enumerate(plan.split_of.tolist())},
         "columns": [{"name": c.name, "unit": c.unit, "description": c.sentence} for c in COLUMNS],
         "shards": [
             {"file": f"{DATA}/{r.name}", "split": r.split, "rows": r.rows, "bytes": r.bytes, "sha256": r.sha256}

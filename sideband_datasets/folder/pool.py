@@ -15,7 +15,7 @@ from multiprocessing.sharedctypes import Synchronized
 from pathlib import Path
 
 from sideband_datasets.folder.shards import Receipt, Shard, make_shard
-from sideband_datasets.plan.tried import make_plan
+from sideband_datasets.plan.tried import plan_again
 from sideband_datasets.recipe.model import Recipe
 from sim.core.errors import SidebandError
 
@@ -62,7 +62,7 @@ def _count(rows: int) -> None:
 
 
 def _work(job: Job, shard: Shard) -> Receipt:
-    plan = make_plan(Recipe.model_validate_json(job.recipe))
+    plan = plan_again(Recipe.model_validate_json(job.recipe))
     return make_shard(plan, shard, job.folder, job.kind, made=_count)
 
 

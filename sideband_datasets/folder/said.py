@@ -41,7 +41,7 @@ def failures_in(out: Path, plan: Plan, seen: Seen) -> tuple[list[Failure], list[
                 continue
             planned = {
                 "recording_id": f"{plan.recipe.name}-{number:06d}",
-                "machine_id": plan.machines[int(plan.machine[number])].machine_id,
+                "machine_id": plan.machine_id(int(plan.machine[number])),
                 "fault_type": plan.recipe.classes[int(plan.kind[number])],
                 "split": plan.split(number),
             }

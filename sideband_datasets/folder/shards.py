@@ -11,7 +11,7 @@ from typing import Any
 from sideband_datasets.folder.layout import DATA, STATE, json_text, sha256, size_of, whole, write_text
 from sideband_datasets.formats import format_named
 from sideband_datasets.make.batch import Failure
-from sideband_datasets.make.stream import rows
+from sideband_datasets.make.stream import rows_of
 from sideband_datasets.plan.plan import Plan
 from sideband_datasets.plan.size import parted
 from sideband_datasets.row import Row
@@ -114,7 +114,7 @@ def make_shard(
     size = plan.rows_per_recording
     wanted = [number * size + k for number in shard.recordings for k in range(size)]
     failures: list[Failure] = []
-    passed = _Passed(rows(plan.recipe, wanted, failed=failures.append, cancelled=cancelled, made=made))
+    passed = _Passed(rows_of(plan, wanted, failed=failures.append, cancelled=cancelled, made=made))
     data = folder / DATA / shard.name
     with whole(data) as path:
         format_named(kind).write(path, passed)

@@ -125,7 +125,7 @@ def failure_of(plan: Plan, number: int, error: SidebandError) -> Failure:
         recording=number,
         recording_id=f"{plan.recipe.name}-{number:06d}",
         rows=tuple(range(first, first + plan.rows_per_recording)),
-        machine_id=plan.machines[int(plan.machine[number])].machine_id,
+        machine_id=plan.machine_id(int(plan.machine[number])),
         fault_type=plan.recipe.classes[int(plan.kind[number])],
         split=plan.split(number),
         kind=type(error).__name__,

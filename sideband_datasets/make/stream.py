@@ -41,7 +41,18 @@ def rows(
     `made` is told how many rows were done, ahead of the rows themselves, which come in their order.
     Raises SpecError for a recipe that cannot be planned or an index beyond it, Cancelled.
     """
-    plan = make_plan(recipe)
+    return rows_of(make_plan(recipe), indices, failed=failed, cancelled=cancelled, made=made)
+
+
+def rows_of(
+    plan: Plan,
+    indices: Sequence[int] | None = None,
+    *,
+    failed: Callable[[Failure], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+    made: Callable[[int], None] | None = None,
+) -> Iterator[Row]:
+    """`rows` of a plan that was made before: only the machines of these rows are built."""
     wanted = range(plan.rows) if indices is None else [int(i) for i in indices]
     beyond = [i for i in wanted if not 0 <= i < plan.rows] if indices is not None else []
     if beyond:

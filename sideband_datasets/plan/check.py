@@ -8,7 +8,8 @@ from itertools import combinations
 import numpy as np
 
 from sideband_datasets.plan.axes import Axis, drawn_only, recording_axes, term_parameters
-from sideband_datasets.plan.machines import Machine
+from sideband_datasets.plan.machines import Family
+from sideband_datasets.plan.most import counted_problems
 from sideband_datasets.plan.quotas import IntArray
 from sideband_datasets.plan.siblings import beside_problems
 from sideband_datasets.recipe.model import FaultTerm, Recipe
@@ -44,6 +45,7 @@ def check_recipe(recipe: Recipe) -> None:
             if any(part in OF_THE_MACHINE for part in path.split(".")):
                 message = "belongs to the machine: drawn for every recording, one path would stand in several splits"
                 problems.append(Problem(field=f"measurement.{k}.each.{path}", message=message, allowed="`vary`"))
+    problems += counted_problems(recipe)
     problems += _window_problems(recipe)
     problems += beside_problems(recipe)
     if problems:
@@ -134,14 +136,15 @@ def sites_of(machine: MachineSpec, wanted: FaultTerm, term: Term, field: str) ->
     return found
 
 
-def channels_of(recipe: Recipe, families: Sequence[Sequence[Machine]]) -> int:
+def channels_of(recipe: Recipe, families: Sequence[Family]) -> int:
     """Channels of a recording: the same number in all, so that a row has one number."""
     if recipe.measurement:
         counts = {m.name: _listed(m.chain.get("channels")) for m in recipe.measurement}
         field = "measurement"
     else:
         field = "machines"
-        counts = {family[0].family: len(default_channels(assemble(family[0].spec))) for family in families}
+        firsts = [family.built(0) for family in families]
+        counts = {first.family: len(default_channels(assemble(first.spec))) for first in firsts}
     if len(set(counts.values())) > 1:
         told = ", ".join(f"{name}: {count}" for name, count in counts.items())
         raise SpecError(Problem(field=field, message="must all give the same number of channels", given=told))
@@ -153,7 +156,7 @@ def _listed(value: object) -> int:
 
 
 def split_warnings(
-    recipe: Recipe, machines: Sequence[Machine], split_of: IntArray, kind: IntArray, machine: IntArray
+    recipe: Recipe, family_of: IntArray, split_of: IntArray, kind: IntArray, machine: IntArray
 ) -> Iterator[str]:
     """Sentences on classes and families that are missing in a split, and on paths that all machines share."""
     names = list(recipe.splits)
@@ -165,8 +168,8 @@ def split_warnings(
             yield f"class {name} has no recording: too small a share of {recipe.count}"
         elif 0 < len(missing) < len(names):
             yield f"class {name} does not occur in {', '.join(missing)}: too few recordings for every split"
-    for family in recipe.machines:
-        own = {int(s) for m, s in zip(machines, split_of, strict=True) if m.family == family.name}
+    for number, family in enumerate(recipe.machines):
+        own = set(split_of[family_of == number].tolist())
         if len(own) < len(names):
             missing = [names[s] for s in range(len(names)) if s not in own]
             yield f"machines {family.name} do not occur in {', '.join(missing)}: too few `instances`"

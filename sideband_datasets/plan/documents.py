@@ -12,7 +12,11 @@ from sim.core.spec import MachineSpec
 
 def own_value(machine: MachineSpec, key: str) -> object:
     """What a machine has under the name of a change; None where it has nothing there."""
-    document = machine.model_dump(mode="json")
+    return value_in(machine.model_dump(mode="json"), key)
+
+
+def value_in(document: Mapping[str, Any], key: str) -> object:
+    """`own_value` of a machine's description as JSON."""
     if "@" in key:
         term, _, place = key.partition("@")
         site, _, parameter = place.partition(".")

@@ -12,11 +12,13 @@ from sideband_datasets.plan.axes import drawn_only, levels, recording_axes
 from sideband_datasets.plan.check import channels_of, check_recipe, confounded_warnings, split_warnings
 from sideband_datasets.plan.doubtful import doubtful_warnings
 from sideband_datasets.plan.ends import check_ends
-from sideband_datasets.plan.machines import Machine, machines_of
+from sideband_datasets.plan.machines import Machine, families_of, machine_id_of
 from sideband_datasets.plan.points import Points
+from sideband_datasets.plan.population import Population
 from sideband_datasets.plan.quotas import IntArray, interleaved, quotas, ranks
 from sideband_datasets.plan.seeds import Stream, generator
 from sideband_datasets.plan.sound import check_sound, ordinary_warnings
+from sideband_datasets.plan.walk import walked
 from sideband_datasets.recipe.model import Recipe
 from sim.core.errors import Problem, SpecError
 
@@ -26,11 +28,14 @@ class Plan:
     """Everything is a pure function of the recipe; arrays have shape (recordings,).
 
     `kind`: number of the class, 0 healthy; `rank`: how many of that class come before, its point of the class' plan;
-    `machine`: number in `machines`; `split_of`: number of each machine's split, shape (machines,).
+    `machine`: number in `machines`, which are built when they are asked for; `split_of`, `family`, `instance`: numbers
+    of each machine's split and family, and its own in the family, shape (machines,).
     """
 
     recipe: Recipe
-    machines: tuple[Machine, ...]
+    machines: Sequence[Machine]
+    family: IntArray
+    instance: IntArray
     splits: tuple[str, ...]
     split_of: IntArray
     kind: IntArray
@@ -49,6 +54,10 @@ class Plan:
     def rows(self) -> int:
         """Rows when every recording succeeds."""
         return self.recipe.count * self.rows_per_recording
+
+    def machine_id(self, machine: int) -> str:
+        """Name of a machine by its number in `machines`; it is not built."""
+        return machine_id_of(self.recipe.machines[int(self.family[machine])].name, int(self.instance[machine]))
 
     def split(self, recording: int) -> str:
         """The split of a recording: that of its machine."""
@@ -84,31 +93,30 @@ def class_weights(recipe: Recipe) -> list[float]:
     return [recipe.healthy_share, *(left * weight for weight in weights)]
 
 
-def _mixed_families(recipe: Recipe, families: Sequence[Sequence[Machine]]) -> list[Machine]:
-    """All machines, families mixed evenly, each family in a drawn order."""
-    shuffled = []
-    for number, family in enumerate(families):
-        order = generator(recipe.seed, Stream.ORDER, 1, number).permutation(len(family))
-        shuffled.append(iter([family[k] for k in order]))
-    return [next(shuffled[number]) for number in interleaved([len(family) for family in families])]
+def _mixed_families(recipe: Recipe) -> tuple[IntArray, IntArray]:
+    """Family of every machine and its number there: families mixed evenly, each in a drawn order."""
+    counts = [family.instances for family in recipe.machines]
+    family = interleaved(counts)
+    instance = np.zeros_like(family)
+    for number, count in enumerate(counts):
+        instance[family == number] = generator(recipe.seed, Stream.ORDER, 1, number).permutation(count)
+    return family, instance
 
 
-def _splits(recipe: Recipe, machines: Sequence[Machine]) -> IntArray:
-    """Split of each machine; every split has one. SpecError where one machine, or one path, would stand in two."""
+def _splits(recipe: Recipe, machines: int) -> IntArray:
+    """Split of each of so many machines; every split has one."""
     names, shares = list(recipe.splits), list(recipe.splits.values())
-    if len(machines) < len(names):
+    if machines < len(names):
         message = f"{len(names)} splits need as many machines, so that none occurs in two"
         allowed = f"{len(names)} or more `instances` in all, or fewer splits"
-        raise SpecError(Problem(field="splits", message=message, given=len(machines), allowed=allowed))
-    split_of = interleaved(quotas(shares, len(machines), least=1))
-    check_apart(recipe, machines, split_of)
-    return split_of
+        raise SpecError(Problem(field="splits", message=message, given=machines, allowed=allowed))
+    return interleaved(quotas(shares, machines, least=1))
 
 
-def _recordings(recipe: Recipe, machines: Sequence[Machine], split_of: IntArray) -> tuple[IntArray, IntArray]:
+def _recordings(recipe: Recipe, family: IntArray, split_of: IntArray) -> tuple[IntArray, IntArray]:
     """Class and machine of every recording, mixed. Exact to one: classes, splits; machines within their split."""
     if recipe.siblings:
-        return _siblings(recipe, machines)
+        return _siblings(recipe, family)
     per_split = quotas(list(recipe.splits.values()), recipe.count)
     machine: list[int] = []
     for split, count in enumerate(per_split):
@@ -121,30 +129,48 @@ def _recordings(recipe: Recipe, machines: Sequence[Machine], split_of: IntArray)
     return kind[order], np.asarray(machine, dtype=np.int64)[order]
 
 
-def _siblings(recipe: Recipe, machines: Sequence[Machine]) -> tuple[IntArray, IntArray]:
+def _siblings(recipe: Recipe, family: IntArray) -> tuple[IntArray, IntArray]:
     """One recording of each class of every machine, machine after machine, those of a family together: a shard then
     has siblings side by side, and machines enough of one structure."""
-    classes, families = len(recipe.classes), [family.name for family in recipe.machines]
-    order = sorted(range(len(machines)), key=lambda m: families.index(machines[m].family))
-    wanted = classes * len(machines)
+    classes = len(recipe.classes)
+    wanted = classes * family.size
     if recipe.count != wanted:
-        message = f"`siblings` records each of {len(machines)} machines once in each of {classes} classes"
+        message = f"`siblings` records each of {family.size} machines once in each of {classes} classes"
         raise SpecError(Problem(field="count", message=message, given=recipe.count, allowed=f"{wanted}"))
-    return np.tile(np.arange(classes), len(machines)), np.repeat(np.asarray(order, dtype=np.int64), classes)
+    order = np.argsort(family, kind="stable").astype(np.int64)
+    return np.tile(np.arange(classes), family.size), np.repeat(order, classes)
+
+
+def inspected(plan: Plan) -> None:
+    """Every end and choice tried, every machine of a plan built once; SpecError for what cannot be, for damage in what
+    is called sound, and where one machine would stand in two splits."""
+    check_sound(plan.recipe)
+    check_ends(plan.recipe)
+    check_apart(plan.recipe, plan.machines, walked(plan.machines), plan.split_of)
 
 
 def planned(recipe: Recipe) -> Plan:
-    """The plan; SpecError lists what of the recipe contradicts itself."""
+    """The plan, all its machines looked at; SpecError lists what of the recipe contradicts itself."""
+    plan = laid_out(recipe)
+    inspected(plan)
+    return plan
+
+
+def laid_out(recipe: Recipe) -> Plan:
+    """The plan with no machine built yet; SpecError lists what of the recipe itself contradicts.
+
+    Whether each machine can be built and stands in one split is not asked: that takes all of them (`planned`).
+    """
     check_recipe(recipe)
-    check_sound(recipe)
-    check_ends(recipe)
-    families = [machines_of(recipe, number) for number in range(len(recipe.machines))]
-    machines = _mixed_families(recipe, families)
-    split_of = _splits(recipe, machines)
-    kind, machine = _recordings(recipe, machines, split_of)
+    family, instance = _mixed_families(recipe)
+    split_of = _splits(recipe, family.size)
+    kind, machine = _recordings(recipe, family, split_of)
+    families = families_of(recipe)
     return Plan(
         recipe=recipe,
-        machines=tuple(machines),
+        machines=Population(families, family, instance),
+        family=family,
+        instance=instance,
         splits=tuple(recipe.splits),
         split_of=split_of,
         kind=kind,
@@ -152,7 +178,7 @@ def planned(recipe: Recipe) -> Plan:
         machine=machine,
         channels=channels_of(recipe, families),
         warnings=(
-            *split_warnings(recipe, machines, split_of, kind, machine),
+            *split_warnings(recipe, family, split_of, kind, machine),
             *confounded_warnings(recipe, kind),
             *doubtful_warnings(recipe),
             *ordinary_warnings(recipe),

@@ -39,6 +39,16 @@ class Points:
             return np.asarray(_latin(len(self.levels), self.count, self.seed, self.stream, self.number)[k])
         return factorial_point(self.levels, k, self.count, self.seed, self.stream, self.number)
 
+    def table(self) -> FloatArray:
+        """All points, shape (count, dimensions): `at` of every number."""
+        if not self.levels:
+            return np.zeros((self.count, 0))
+        if self.kind == "sobol":
+            engine = qmc.Sobol(len(self.levels), scramble=True, rng=generator(self.seed, self.stream, self.number))
+            blocks = [engine.random(BLOCK) for _ in range(-(-self.count // BLOCK))]
+            return np.asarray(np.concatenate(blocks)[: self.count], dtype=np.float64)
+        return np.stack([self.at(k) for k in range(self.count)])
+
 
 @lru_cache(maxsize=64)
 def _sobol(dimensions: int, seed: int, stream: Stream, number: int, block: int) -> FloatArray:

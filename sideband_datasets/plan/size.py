@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 from sideband_datasets.plan.plan import Plan
+from sideband_datasets.recipe.model import Recipe
 from sideband_datasets.recipe.values import least
 from sim.core.errors import Problem, SpecError
 from sim.core.lanes import WIDTH
@@ -31,6 +32,21 @@ def recording_bytes(plan: Plan) -> int:
         slowest_hz = least(recipe.speeds_hz) if recipe.speeds_hz is not None else None
         longest_s = min(longest_s, windows.length_revolutions / slowest_hz) if slowest_hz else longest_s
     return round(plan.rows_per_recording * (4 * longest_s * recipe.sampling_rate_hz + BYTES_PER_ROW))
+
+
+def least_bytes(recipe: Recipe) -> int:
+    """Samples and columns of all rows of a recipe, at least, by its numbers alone: no machine is built for it."""
+    windows = recipe.windows
+    chains = [choice.chain.get("channels") for choice in recipe.measurement]
+    channels = min((len(found) for found in chains if isinstance(found, list)), default=1)
+    shortest_s = recipe.duration_s / windows.span(1.0)
+    if windows.length_s is not None:
+        shortest_s = windows.length_s
+    elif windows.length_revolutions is not None:
+        shortest_s = 0.0
+    return round(
+        recipe.count * windows.per_recording * channels * (4 * shortest_s * recipe.sampling_rate_hz + BYTES_PER_ROW)
+    )
 
 
 def most_recordings(plan: Plan) -> int:

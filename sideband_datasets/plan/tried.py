@@ -11,7 +11,7 @@ import numpy as np
 
 from sideband_datasets.plan.carried import told_of_rates
 from sideband_datasets.plan.drawing import Drawing, drawing
-from sideband_datasets.plan.plan import Plan, planned
+from sideband_datasets.plan.plan import Plan, inspected, laid_out
 from sideband_datasets.plan.quotas import IntArray
 from sideband_datasets.recipe.model import Recipe
 from sideband_datasets.recipe.read import canonical
@@ -56,8 +56,8 @@ def _text(chain: object) -> str:
 
 def cells_of(plan: Plan) -> IntArray:
     """Number of the class on the family that each recording is, shape (recordings,)."""
-    families = [m.family for m in plan.machines]
-    number = np.array([families.index(f) for f in families])[plan.machine]
+    _, first, family = np.unique(plan.family, return_index=True, return_inverse=True)
+    number = first[family.reshape(-1)][plan.machine]
     _, cells = np.unique(np.stack([plan.kind, number]), axis=1, return_inverse=True)
     return np.asarray(cells, dtype=np.int64).reshape(-1)
 
@@ -71,7 +71,8 @@ def samples_of(plan: Plan) -> list[Drawing]:
 @lru_cache(maxsize=4)
 def _tried(text: str) -> Plan:
     recipe = Recipe.model_validate_json(text)
-    plan = planned(recipe)
+    plan = laid_out(recipe)
+    inspected(plan)
     findings = Findings()
     tried: list[tuple[Drawing, System]] = []
     for drawn in samples_of(plan):
@@ -88,3 +89,15 @@ def _tried(text: str) -> Plan:
 def make_plan(recipe: Recipe) -> Plan:
     """The plan of a recipe; SpecError lists what of it cannot be made."""
     return _tried(canonical(recipe))
+
+
+@lru_cache(maxsize=4)
+def _again(text: str) -> Plan:
+    return laid_out(Recipe.model_validate_json(text))
+
+
+def plan_again(recipe: Recipe) -> Plan:
+    """The plan of a recipe that `make_plan` took before: the same recordings, in a time that does not grow with the
+    number of machines. None is built yet, nothing is checked again, and warnings of sampling rates are left out.
+    """
+    return _again(canonical(recipe))

@@ -9,6 +9,7 @@ from typing import Any
 import httpx
 import pytest
 
+from jobs.datasets import planning
 from tests.service.parts import LiveServer, Parts, open_parts
 from tests.sideband_datasets.small import document
 
@@ -45,6 +46,17 @@ def test_estimate_says_what_it_takes_and_keeps_nothing(client: httpx.Client) -> 
     assert found["core_seconds"] > 0 and found["wall_s"] > 0 and found["bytes"] > 48 * 4 * 320
     assert found["limits"]["dataset_core_hours"] == 200.0
     assert client.get(ADDRESS).json()["total"] == 0
+
+
+def test_who_plans_beside_too_many_is_told_when_to_come_again(
+    client: httpx.Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(planning, "WAIT_S", 0.01)
+    with planning.planning(), planning.planning():
+        for address in (ADDRESS, f"{ADDRESS}/estimate"):
+            reply = client.post(address, json=BODY)
+            assert problem(reply, 429)["type"].endswith("planners-busy") and reply.headers["Retry-After"] == "5"
+    assert client.post(f"{ADDRESS}/estimate", json=BODY).status_code == 200
 
 
 @pytest.mark.slow

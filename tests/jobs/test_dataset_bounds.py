@@ -6,8 +6,12 @@ from pathlib import Path
 
 import pytest
 
+from jobs.datasets import accept, planning
+from jobs.datasets.accept import divided
 from jobs.datasets.divide import divide
 from jobs.datasets.request import DatasetRequest
+from jobs.errors import PlannersBusy
+from jobs.limits import Limits
 from sideband_datasets.plan import MOST_SHARD_BYTES
 from sim.core.errors import SpecError
 from tests.jobs.test_datasets import RECIPE, House
@@ -49,3 +53,29 @@ def test_memory_of_a_shard_is_bounded_as_that_of_a_simulation(tmp_path: Path) ->
         House(tmp_path / "b", memory_bytes=needed - 1).ask()
     (problem,) = told.value.problems
     assert (problem.field, problem.given, problem.allowed) == ("shard_recordings", 3, "<= 2")
+
+
+def test_what_its_numbers_put_beyond_the_bounds_is_refused_before_it_is_planned(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def never(request: DatasetRequest) -> None:
+        raise AssertionError("was planned")
+
+    monkeypatch.setattr(accept, "divide", never)
+    large = DatasetRequest(recipe=document(count=200_000))
+    limits = Limits(dataset_bytes=1_000_000_000)
+    with pytest.raises(SpecError) as told:
+        divided(large, limits)
+    (problem,) = told.value.problems
+    assert (problem.field, problem.given, problem.allowed) == ("recipe.count", 200_000, "<= 1e+09")
+    with pytest.raises(SpecError):
+        House(tmp_path, dataset_bytes=1000).ask()
+
+
+def test_no_more_are_planned_at_a_time_than_may_be(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(planning, "WAIT_S", 0.01)
+    with planning.planning():
+        with planning.planning(), pytest.raises(PlannersBusy, match="try again in 5 s"), planning.planning():
+            pass
+        with planning.planning():
+            pass

@@ -10,7 +10,7 @@ import pytest
 from jobs import recover, transitions
 from jobs.accept import Desk
 from jobs.control import Caller, cancel, delete, expire_results
-from jobs.datasets.accept import accept_dataset
+from jobs.datasets.accept import accept_dataset, check_bounds
 from jobs.datasets.divide import divide
 from jobs.datasets.request import DatasetRequest
 from jobs.datasets.settle import settle
@@ -288,6 +288,9 @@ def test_bounds_of_work_size_and_number(tmp_path: Path) -> None:
     house = House(tmp_path, dataset_core_hours=1e-6, dataset_bytes=10)
     with pytest.raises(SpecError) as told:
         house.ask()
+    assert [problem.unit for problem in told.value.problems] == ["bytes"], "its numbers tell before it is planned"
+    with pytest.raises(SpecError) as told:
+        check_bounds(divide(DatasetRequest(recipe=RECIPE)), house.desk.limits)
     assert [problem.unit for problem in told.value.problems] == ["core-hours", "bytes"]
     (tmp_path / "b").mkdir()
     one = House(tmp_path / "b", datasets=1)
