@@ -109,7 +109,7 @@ def answer(
     other, held = (other, held) if decision is before else (None, None)
     word, text, fault = _told(setting, decision, gate, causes, held, other, unknown)
     lead = _lead(found, decision)
-    named = decision.chosen[0] if decision.word == "explained" else None
+    named = [f"{c.term}@{c.site}" for c in causes if c.named]
     placed = _with_second(weights, other)
     if unknown is not None:
         placed = at_supports(weights, unknown.force.site, [b.name for b in setting.machine.bearings])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -90,10 +90,13 @@ def _best(screen: Screen) -> list[int]:
     return [int(k) for k in np.argsort(-screen.evidence)[:MOST_RANKED]]
 
 
-def ranking(setting: Setting, found: Found, named: str | None) -> list[dict[str, object]]:
-    """The best ten candidates with their evidence and its 90 % interval."""
+def ranking(setting: Setting, found: Found, named: Collection[str]) -> list[dict[str, object]]:
+    """The best ten candidates, and those that are `named` wherever they stand alone, with their evidence as the only
+    effect and its 90 % interval."""
     screen = found.screen
     intervals = evidence_intervals(found.views, setting.changes, screen.evidence, setting.seed)
+    best = _best(screen)
+    shown = {screen.names[k] for k in best}
     heads = forms(screen)
     return [
         {
@@ -101,10 +104,10 @@ def ranking(setting: Setting, found: Found, named: str | None) -> list[dict[str,
             "score": float(screen.evidence[k]),
             "low": float(intervals[0, k]),
             "high": float(intervals[1, k]),
-            "named": screen.names[k] == named,
+            "named": screen.names[k] in named,
             "form_of": heads.get(screen.names[k], ""),
         }
-        for k in _best(screen)
+        for k in (*best, *(screen.names.index(name) for name in named if name in screen.names and name not in shown))
     ]
 
 

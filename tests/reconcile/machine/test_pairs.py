@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reconcile.judge.adequacy import Rest
-from reconcile.machine import pairs
+from reconcile.machine import pairs, pictures
 from reconcile.machine.causes import TOGETHER, ranked_causes
 from reconcile.machine.decide import Decision
 from reconcile.machine.direct import HEARD
@@ -220,3 +220,13 @@ def test_the_second_cause_has_its_own_size_and_the_forecast_both(simulated: list
     (placebo,) = told.placebos
     assert placebo.site == "wheel" and placebo.gain == pytest.approx(alone.gain, abs=0.1), "the first with nothing"
     assert len(with_sums(setting.changes, more, RIGHT, WRONG).library.groups[RIGHT]) == MEMBERS * MEMBERS
+
+
+def test_the_ranking_marks_both_names_and_shows_them_wherever_they_stand(monkeypatch: pytest.MonkeyPatch) -> None:
+    setting, found = found_in(seen(SMALLER))
+    rows = pictures.ranking(setting, found, [RIGHT, WRONG])
+    assert sum(bool(row["named"]) for row in rows) == 2
+    monkeypatch.setattr(pictures, "MOST_RANKED", 1)
+    fewer = pictures.ranking(setting, found, [RIGHT, WRONG])
+    assert sorted(row["score"] for row in fewer if row["named"]) == sorted(r["score"] for r in rows if r["named"])
+    assert not any(row["named"] for row in pictures.ranking(setting, found, []))
