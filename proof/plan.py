@@ -2,8 +2,8 @@
 
 Every second case stands at the target condition (3 sensors, 20 dB, 3 speeds, baseline); the others run through the nine
 rows of an orthogonal array of sensors x noise x speeds, so each pair of levels occurs equally often. All cases of
-the splits `third` and `fourth` stand at the target condition. Laws, sites, severities and variants go round in cycles
-of different length.
+the splits `third`, `fourth` and `quiet` stand at the target condition. Laws, sites, severities and variants go round in
+cycles of different length.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from proof.effects import Law
 from proof.library import CLOSED
 from proof.unknown import OPEN
 
-Split = Literal["dev", "sealed", "later", "third", "fourth"]
+Split = Literal["dev", "sealed", "later", "third", "fourth", "quiet"]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
     "dev": 20_240_611,
@@ -26,6 +26,7 @@ SEEDS = {
     "later": 5_148_093_277,
     "third": 6_902_417_355,
     "fourth": 8_219_604_731,
+    "quiet": 3_471_980_629,
 }
 COUNTS = {
     "dev": {
@@ -38,13 +39,16 @@ COUNTS = {
     "later": {"null": 14, "sensor": 8, "single": 40, "double": 12, "open": 16, "ambiguous": 4},
     "third": {"null": 6, "sensor": 4, "single": 16, "double": 4, "open": 6},
     "fourth": {"null": 2, "single": 6, "double": 10},
+    "quiet": {"null": 40},
 }  # fmt: skip
 """`later` was sealed when the cases of `sealed` that share the nominal machine's atlases had been looked at, `third`
-when those of `later` at the target condition had been; `fourth` when two effects were first fitted together."""
-TURNED = {"third": 40, "fourth": 60}
+when those of `later` at the target condition had been; `fourth` when two effects were first fitted together;
+`quiet`, of sound machines alone, to count false alarms at the target condition."""
+TURNED = {"third": 40, "fourth": 60, "quiet": 80}
 """From which number on the cycles of laws, severities and variants go in a split that others have gone before."""
 EXTRA: dict[str, tuple[tuple[Group, int], ...]] = {
     "dev": (("sensor", 5), ("sensor", 6), ("sensor", 7)), "sealed": (), "later": (), "third": (), "fourth": (),
+    "quiet": (),
 }  # fmt: skip
 """Cases behind the shuffled ones: the faults that the first five leave out."""
 SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS = (3, 1, 8), (20.0, 30.0, 10.0), (3, 1, 5)
