@@ -17,6 +17,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
+from app.cli import dataset_upload
 from app.cli.files import json_text, local_path, read_json
 from sideband_datasets import Recipe, make_plan, read_recipe, recipe_named
 from sideband_datasets.folder import Progress, Settings, check_size, free_bytes, make, resume, unfinished, verify
@@ -53,6 +54,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     checked.add_argument("--seed", metavar="N", type=int, default=0, help="which rows are made again")
     card = actions.add_parser("card", help="print the card of a dataset", allow_abbrev=False)
     card.add_argument("out", metavar="DIR", type=Path)
+    sent = actions.add_parser("upload", help="put a dataset into a bucket, whole or not at all", allow_abbrev=False)
+    dataset_upload.configure(sent)
     ready = actions.add_parser("recipes", help="list the ready recipes, or print one", allow_abbrev=False)
     ready.add_argument("name", metavar="NAME", nargs="?")
     for action in (plan, checked):
@@ -67,6 +70,7 @@ def run(arguments: argparse.Namespace) -> int:
         "resume": _resume,
         "verify": _verify,
         "card": _card,
+        "upload": dataset_upload.run,
         "recipes": _recipes,
     }[arguments.action](arguments)
 

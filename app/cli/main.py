@@ -32,7 +32,7 @@ COMMANDS = {
     "reconcile": Command(
         module="app.cli.reconcile", sentence="find what a machine's model lacks against recordings, and name it"
     ),
-    "dataset": Command(module="app.cli.dataset", sentence="plan, make, resume and verify a dataset for training"),
+    "dataset": Command(module="app.cli.dataset", sentence="plan, make, resume, verify, upload a training dataset"),
     "classify": Command(
         module="app.cli.classify", sentence="name a recording's bearing fault, by a model trained on simulations"
     ),

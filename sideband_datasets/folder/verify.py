@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -10,18 +9,19 @@ from typing import Any
 import numpy as np
 
 from sideband_datasets.folder.finding import Finding
-from sideband_datasets.folder.layout import DATA, FAILURES, MANIFEST, unfinished
+from sideband_datasets.folder.layout import DATA, FAILURES, MANIFEST
 from sideband_datasets.folder.listed import file_findings
 from sideband_datasets.folder.manifest import versions
+from sideband_datasets.folder.opened import opened
 from sideband_datasets.folder.said import failures_in, receipts_of, said_findings, written_findings
 from sideband_datasets.folder.seen import Seen, row_hash
-from sideband_datasets.formats import FORMATS, record_of
+from sideband_datasets.formats import record_of
 from sideband_datasets.make.batch import Failure
 from sideband_datasets.make.stream import rows
 from sideband_datasets.plan.seeds import Stream, generator
 from sideband_datasets.plan.tried import make_plan
 from sideband_datasets.recipe.read import read_recipe
-from sim.core.errors import Problem, SidebandError, SpecError
+from sim.core.errors import SidebandError
 
 Told = Callable[[str], object]
 
@@ -31,28 +31,12 @@ def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> li
 
     SpecError when there is no dataset to look at.
     """
-    if not (out / MANIFEST).is_file():
-        hint = "it is unfinished: `sideband dataset resume`" if unfinished(out).exists() else "a finished dataset"
-        message = f"has no {MANIFEST}"
-        raise SpecError(Problem(field="DIR", message=message, given=str(out), allowed=hint))
+    manifest = opened(out)
+    if isinstance(manifest, Finding):
+        return [manifest]
+    listed = {e["file"]: {key: e[key] for key in ("sha256", "split", "rows")} for e in manifest["shards"]}
     try:
-        manifest = json.loads((out / MANIFEST).read_text(encoding="utf-8"))
-        recipe = read_recipe(manifest["recipe"])
-        kind = manifest["format"]
-        if kind not in FORMATS:
-            raise ValueError(f"its format is {kind!r}, not one of {', '.join(FORMATS)}")
-        listed = {e["file"]: {key: e[key] for key in ("sha256", "split", "rows")} for e in manifest["shards"]}
-        numbers = [e[key] for e in manifest["shards"] for key in ("rows", "bytes")]
-        if not all(type(number) is int for number in numbers):
-            raise ValueError("rows and bytes of shards are whole numbers")
-        versions_then = dict(manifest["versions"])
-        dict(manifest["files"])
-    except KeyError as error:
-        return [Finding(where=MANIFEST, what=f"lacks {error}: it was emptied or cut")]
-    except (ValueError, TypeError, AttributeError) as error:
-        return [Finding(where=MANIFEST, what=f"cannot be read: {error}")]
-    try:
-        plan = make_plan(recipe)
+        plan = make_plan(read_recipe(manifest["recipe"]))
     except SidebandError as error:
         return [Finding(where=MANIFEST, what=f"its recipe is refused: {error}")]
     told("checksums")
@@ -67,7 +51,7 @@ def verify(out: Path, *, remake: int = 0, seed: int = 0, told: Told = str) -> li
     found += _said(out, manifest, seen, broken, clean=not found)
     if remake:
         told("rows made again")
-        found += _remade(versions_then, seen, remake, seed)
+        found += _remade(dict(manifest["versions"]), seen, remake, seed)
     return found
 
 

@@ -1,4 +1,4 @@
-"""Where artefacts go, from ARTEFACT_URL."""
+"""A place in an object store, from a URL."""
 
 from __future__ import annotations
 
@@ -24,36 +24,41 @@ class S3Place:
     region: str = ""
 
 
-def s3_place(url: str) -> S3Place:
-    """Read `s3://bucket/prefix?endpoint=...&region=...`; raises SpecError. Keys of access never stand in the URL."""
+def s3_place(url: str, field: str = "ARTEFACT_URL", allowed: str = ALLOWED) -> S3Place:
+    """Read `s3://bucket/prefix?endpoint=...&region=...`; raises SpecError, of the `field` that the URL was given in.
+
+    Keys of access never stand in the URL.
+    """
+
+    def refused(message: str, given: str | None) -> SpecError:
+        return SpecError(Problem(field=field, message=message, given=given, allowed=allowed))
+
     try:
         parts = urlsplit(url)
         query = parse_qsl(parts.query, keep_blank_values=True, strict_parsing=bool(parts.query))
     except ValueError as error:
-        raise _refused("is not a URL", None) from error
+        raise refused("is not a URL", None) from error
     if "@" in parts.netloc:
         # Not repeated: a secret is in it.
-        raise _refused("must not hold a secret; set AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY", None)
+        raise refused("must not hold a secret; set AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY", None)
+    if parts.scheme != "s3":
+        raise refused("is not of a bucket", url)
     options = dict(query)
     unknown = sorted(set(options) - {"endpoint", "region"})
     if unknown or len(options) != len(query):
-        raise _refused(f"has an option it does not know or a repeated one: {', '.join(unknown) or 'repeated'}", url)
+        raise refused(f"has an option it does not know or a repeated one: {', '.join(unknown) or 'repeated'}", url)
     place = S3Place(bucket=parts.netloc, prefix=parts.path.strip("/"), **options)
     if not _BUCKET.fullmatch(place.bucket):
-        raise _refused("does not name a bucket", url)
+        raise refused("does not name a bucket", url)
     if not _PREFIX.fullmatch(place.prefix) or ".." in place.prefix:
-        raise _refused("has a prefix of other than letters, digits, `.`, `_`, `-` and `/`", url)
+        raise refused("has a prefix of other than letters, digits, `.`, `_`, `-` and `/`", url)
     if place.endpoint and not _is_endpoint(place.endpoint):
-        raise _refused("has an endpoint that is not http://HOST[:PORT] or https://HOST[:PORT]", url)
+        raise refused("has an endpoint that is not http://HOST[:PORT] or https://HOST[:PORT]", url)
     if place.region and not _REGION.fullmatch(place.region):
-        raise _refused("has a region that is not a region's name", url)
+        raise refused("has a region that is not a region's name", url)
     return place
 
 
 def _is_endpoint(text: str) -> bool:
     parts = urlsplit(text)
     return parts.scheme in ("http", "https") and bool(parts.hostname) and parts.path in ("", "/") and not parts.query
-
-
-def _refused(message: str, given: str | None) -> SpecError:
-    return SpecError(Problem(field="ARTEFACT_URL", message=message, given=given, allowed=ALLOWED))

@@ -17,11 +17,11 @@ from pathlib import Path
 from threading import Lock
 from typing import Any, BinaryIO, cast
 
-import boto3
 from botocore.config import Config
 
 from store.artefacts.naming import checked
 from store.artefacts.place import S3Place
+from store.artefacts.s3_client import PROBE, WORK, connected
 from store.artefacts.s3_errors import outside, translated
 from store.artefacts.s3_parts import DIGEST, MOST_PARTS, PART_BYTES, put_parts
 from store.artefacts.spool import Digesting, local_disk
@@ -29,8 +29,6 @@ from store.artefacts.spool import Digesting, local_disk
 CHUNK = 1 << 20
 MAX_BYTES = min(5 * 2**40, MOST_PARTS * PART_BYTES)
 """Largest object: 625 GiB; results are bounded far below."""
-WORK = Config(connect_timeout=5, read_timeout=30, retries={"mode": "standard", "total_max_attempts": 3})
-PROBE = Config(connect_timeout=2, read_timeout=2, retries={"mode": "standard", "total_max_attempts": 1})
 PROBE_EVERY_S = 30.0
 """A health question writes at most so often; in between the bucket is only asked for."""
 PROBE_KEY = "health/probe"
@@ -146,15 +144,8 @@ class S3Store:
             return found
 
     def _connected(self, config: Config) -> Any:  # noqa: ANN401
-        place = self._place
-        style = Config(s3={"addressing_style": "path" if place.endpoint else "auto"}, signature_version="s3v4")
         with translated():
-            return boto3.session.Session().client(
-                "s3",
-                endpoint_url=place.endpoint or None,
-                region_name=place.region or os.environ.get("AWS_REGION") or "us-east-1",
-                config=config.merge(style),
-            )
+            return connected(self._place, config)
 
 
 def _proved(pieces: Iterator[bytes], digest: str) -> Iterator[bytes]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import contextlib
 import hashlib
+from collections.abc import Mapping
 from typing import Any, BinaryIO
 
 from botocore.exceptions import BotoCoreError, ClientError
@@ -17,10 +18,19 @@ DIGEST = "sha256"
 """Of the whole object, in its metadata: what a store checks of an object in parts are the digests of the parts."""
 
 
-def put_parts(client: Any, target: dict[str, str], raw: BinaryIO, *, part_bytes: int, digest: str) -> None:  # noqa: ANN401
+def put_parts(
+    client: Any,  # noqa: ANN401
+    target: dict[str, str],
+    raw: BinaryIO,
+    *,
+    part_bytes: int,
+    digest: str,
+    condition: Mapping[str, str] | None = None,
+) -> None:
     """Send what is left in `raw` to the `target` (Bucket, Key); a failed upload is taken back as far as the store lets.
 
-    `digest`: SHA-256 of the whole, hexadecimal. Memory: one part.
+    `digest`: SHA-256 of the whole, hexadecimal. `condition`: of the last request, which makes the object, as
+    IfNoneMatch. Memory: one part.
     """
     begun = client.create_multipart_upload(**target, ChecksumAlgorithm="SHA256", Metadata={DIGEST: digest})
     upload = {**target, "UploadId": begun["UploadId"]}
@@ -28,7 +38,7 @@ def put_parts(client: Any, target: dict[str, str], raw: BinaryIO, *, part_bytes:
         parts: list[dict[str, object]] = []
         while part := raw.read(part_bytes):
             parts.append(_sent(client, upload, len(parts) + 1, part))
-        client.complete_multipart_upload(**upload, MultipartUpload={"Parts": parts})
+        client.complete_multipart_upload(**upload, MultipartUpload={"Parts": parts}, **(condition or {}))
     except BaseException:
         # What went wrong first is what is told.
         with contextlib.suppress(BotoCoreError, ClientError):

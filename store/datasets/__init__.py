@@ -1,0 +1,1 @@
+"""Finished datasets in an object store."""
