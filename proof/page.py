@@ -12,13 +12,15 @@ import matplotlib as mpl
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 
-from proof.method import METHOD, RULES, SECTIONS
+from proof.method import FIRST_RUNS, METHOD, RULES, SECTIONS
 from proof.plan import COUNTS, FIRST, OTHERS
 from proof.score.one import Score
+from proof.score.rates import MEASURES, Rate, at_target, rate
 from proof.score.table import failures
 from proof.unknown import OPEN
 from proof.visible import Visible, stored, told
 
+HALF = 0.5
 SEEN = (
     (0.0, 1.0, "less than drift alone does"),
     (1.0, 3.0, "one to three times as far as drift"),
@@ -46,7 +48,6 @@ TARGETS = (
     ("double", "false_name", "a name beside the pair's"),
     ("single", "severity_covered", "90 % intervals cover 85-95 %"),
     ("single", "beats_black_box", "beats the black box in at least 80 %"),
-    ("single", "gain_above_half", "spectral distance cut by at least 50 % where it can be"),
     ("single", "placebo_improves", "placebos (the median of each case's) improve in at most 5 %"),
     ("ambiguous", "cannot_tell", '"cannot tell" in at least 90 % of look-alikes'),
 )
@@ -58,7 +59,11 @@ def write_page(docs: Path, results: Path) -> Path:
     single = COUNTS["sealed"]["single"] + COUNTS["sealed"]["open"]
     counts = {f"n_{split}": sum(groups.values()) for split, groups in COUNTS.items()}
     rules = "\n".join(["| rule | set by |", "|---|---|", *(f"| {rule} | {by} |" for rule, by in RULES)])
-    parts = [METHOD.format(rules=rules, laws=laws, crossing=laws * 4 * 27, n_single=single, **counts)]
+    parts = [
+        METHOD.format(
+            together=together(results), rules=rules, laws=laws, crossing=laws * 4 * 27, n_single=single, **counts
+        )
+    ]
     for section in SECTIONS:
         kept = results / f"{section}.json"
         if not kept.exists():
@@ -79,6 +84,7 @@ def _split(section: str, summary: Mapping[str, Any], results: Path) -> str:
     scores = [Score(**(s | {"laws": tuple(s["laws"])})) for s in summary["scores"]]
     rows = ["| target (at the target condition) | reached |", "|---|---|"]
     rows += [f"| {sentence} | {_rate(summary, 'target', group, measure)} |" for group, measure, sentence in TARGETS]
+    rows += [*cut_rows(scores), *wrong_rows([s for s in scores if at_target(s)])]
     wide = ["| group | cases run | verdict right | mechanism | place |", "|---|---|---|---|---|"]
     for group, title in TITLES.items():
         row, planned = summary["groups"]["all"].get(group), COUNTS[split].get(group, 0)
@@ -96,11 +102,58 @@ def _split(section: str, summary: Mapping[str, Any], results: Path) -> str:
             *rows, "", *wide, "", *seen_rows(scores, seen), *pair_rows(scores, seen),
             f"Severity error (target: median at most 0.1, 90th percentile 0.3): {_quantiles(error)}.",
             f"Core-seconds (bar 120): {_quantiles(summary['core_seconds'], '.3g')}.",
-            f"Held-out gain: {_quantiles(gain)}. Gain of a perfect model, since",
-            f"drift between the recordings and noise stay: {_quantiles(summary['ceiling'])}.\n",
+            f"Held-out gain: {_quantiles(gain)}. Gain that drift between the recordings and noise let a perfect",
+            f"model expect: {_quantiles(summary['ceiling'])}{_above(scores)}.\n",
             f"![curves](proof/{section}.svg)\n", "### Every case that is wrong in something\n", *listed, "",
         ]
     )  # fmt: skip
+
+
+def cut_rows(scores: Sequence[Score]) -> list[str]:
+    """How often the spectral distance is cut by half: of all single effects, undetected ones too, and of those of which
+    a gain was measured and drift and noise let one expect as much."""
+    single = [s for s in scores if s.group == "single" and at_target(s)]
+    room = [s for s in single if s.gain is not None and s.ceiling is not None and s.ceiling >= HALF]
+    rows = []
+    for part, words in ((single, "of all"), (room, "of those detected where drift and noise leave room for it")):
+        found = Rate(hits=sum(s.gain is not None and s.gain >= HALF for s in part), n=len(part)).document()
+        rows.append(f"| spectral distance cut by at least 50 %, {words} | {_written(found) if part else '-'} |")
+    return rows
+
+
+def wrong_rows(scores: Sequence[Score]) -> list[str]:
+    """Names given to single effects that are wrong in kind or place, and to machines where nothing is hidden."""
+    single = [s for s in scores if s.group == "single"]
+    found = Rate(hits=sum(s.verdict == "explained" and not s.place for s in single), n=len(single))
+    sound = [s for s in scores if s.group in ("null", "misset", "sensor")]
+    named = Rate(hits=sum(s.verdict == "explained" for s in sound), n=len(sound))
+    rows = ((found, "one effect named as another or elsewhere"), (named, "a name where no effect is hidden"))
+    return [f"| {words} | {_written(r.document()) if r.n else '-'} |" for r, words in rows]
+
+
+def together(results: Path) -> str:
+    """Table of all stored first runs, each with the engine of its day."""
+    scores = []
+    for section in FIRST_RUNS:
+        if (results / f"{section}.json").exists():
+            kept = json.loads((results / f"{section}.json").read_text(encoding="utf-8"))["scores"]
+            scores += [Score(**(s | {"laws": tuple(s["laws"])})) for s in kept]
+    asked = [t for t in TARGETS if t[1] in ("alarm", "mechanism", "place", "top_three", "unknown_flagged", "both")]
+    rows = ["| stored first runs | at the target condition | at all conditions |", "|---|---|---|"]
+    parts = [[s for s in scores if at_target(s)], scores]
+    for group, measure, words in asked:
+        cells = [rate([s for s in part if s.group == group], MEASURES[measure]) for part in parts]
+        rows.append(f"| {words} | {' | '.join(_written(c.document()) if c.n else '-' for c in cells)} |")
+    for first, second in zip(*(wrong_rows(part) for part in parts), strict=True):
+        rows.append(f"{first} {second.split('|')[2].strip()} |")
+    return "\n".join(rows)
+
+
+def _above(scores: Sequence[Score]) -> str:
+    """How many gains are surely above what was expected at most: an expectation is no bound."""
+    told = [s for s in scores if s.ceiling is not None and s.gain_low is not None]
+    over = sum(s.gain_low > s.ceiling for s in told if s.gain_low is not None and s.ceiling is not None)
+    return f"; {over} of {len(told)} gains are surely above it, as it is an expectation and no bound" if over else ""
 
 
 def seen_rows(scores: Sequence[Score], seen: Mapping[str, Visible]) -> list[str]:
@@ -135,8 +188,10 @@ def pair_rows(scores: Sequence[Score], seen: Mapping[str, Visible]) -> list[str]
 
 def _rate(summary: Mapping[str, Any], part: str, group: str, measure: str) -> str:
     found = summary["groups"][part].get(group, {}).get(measure)
-    if found is None:
-        return "-"
+    return "-" if found is None else _written(found)
+
+
+def _written(found: Mapping[str, float]) -> str:
     share = 100 * found["hits"] / found["n"]
     return f"{found['hits']}/{found['n']} = {share:.0f} % ({100 * found['low']:.0f} to {100 * found['high']:.0f})"
 

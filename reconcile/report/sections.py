@@ -208,7 +208,7 @@ def held_out_table(found: HeldOut | None) -> Markup:
         ("placebo", "", percent(found.placebo)),
     ]
     if found.ceiling is not None:
-        rows.append(("a perfect model: drift and noise stay", "", percent(found.ceiling)))
+        rows.append(("expected of a perfect model: drift and noise stay", "", percent(found.ceiling)))
     metric = found.metric.replace("_", " ")
     marked = [False, True, *[False] * (len(rows) - 2)]
     return Markup(tag("p", f"Measure: {metric}.") + table(("model", metric, "gain over without it"), rows, marked))

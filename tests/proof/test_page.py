@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict, replace
+from pathlib import Path
 
 from proof.case import truth_of
-from proof.page import SEEN, pair_rows, seen_rows
+from proof.page import SEEN, cut_rows, pair_rows, seen_rows, together, wrong_rows
 from proof.plan import plan
 from proof.score.one import Score, score
 from proof.visible import Visible
@@ -59,3 +61,31 @@ def test_pairs_are_counted_by_the_fainter_of_the_two():
         [" 1/1 ", " 0/1 "],
     ]
     assert pair_rows(found, {s.name: seen(1, 1) for s in found}) == [], "parts were not measured"
+
+
+def test_halved_distances_count_the_undetected_too():
+    missed, halved, hopeless = scores(right(0), right(1), right(2))
+    found = [
+        replace(missed, gain=None, ceiling=None),
+        replace(halved, gain=0.6, ceiling=0.7),
+        replace(hopeless, gain=0.2, ceiling=0.3),
+    ]
+    of_all, of_room = cut_rows(found)
+    assert "1/3 = 33 %" in of_all and "1/1 = 100 %" in of_room
+
+
+def test_wrong_names_are_counted_in_kind_and_place_and_where_nothing_is_hidden():
+    elsewhere = right(1)
+    elsewhere["causes"][0]["site"] = "nowhere"
+    healthy = next(c for c in plan("third") if c.group == "null")
+    sound = [score(json.loads(json.dumps(truth_of(healthy))), right(0))]
+    one, nothing = wrong_rows([*scores(right(0), elsewhere, {"verdict": "nothing_missing"}), *sound])
+    assert "1/3" in one and "1/1" in nothing
+
+
+def test_first_runs_are_counted_together(tmp_path: Path):
+    for section, found in (("third", scores(right(0))), ("fourth", scores(right(0), {"verdict": "unknown_physics"}))):
+        kept = {"scores": [asdict(s) for s in found]}
+        (tmp_path / f"{section}.json").write_text(json.dumps(kept), encoding="utf-8")
+    (row,) = [row for row in together(tmp_path).splitlines() if "with place" in row]
+    assert row.count("2/3 = 67 %") == 2
