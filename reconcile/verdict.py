@@ -143,8 +143,8 @@ class HeldOut:
     held: str = ""
     """What was held out: an unseen speed, load, a later time."""
     ceiling: float | None = None
-    """Gain expected of a perfect model: drift between the recordings and noise stay, known from healthy machines. No bound:
-    less may have drifted on the machine at hand."""
+    """Gain expected of a perfect model: drift between the recordings and noise stay, known from healthy machines; no
+    bound, as less may have drifted on the machine at hand."""
     numbers: int | None = None
     """Free numbers of the black box: as many as the effect's forecast uses."""
     effects: tuple[str, ...] = ()
