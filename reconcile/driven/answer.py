@@ -161,7 +161,8 @@ def _undecidable(found: Analysis, assumed: str, calibrated: bool) -> tuple[str, 
     if found.left is not None and found.left.p_value < ALPHA:
         part = 100 * found.left.statistic
         said.append(
-            f"What is left is small but not noise: other smooth laws explain {part:.0f} % of its whitened power."
+            f"What is left is not noise: other smooth laws explain {part:.0f} % of its whitened power, so something "
+            "is missing besides, or is of another form."
         )
     said += _saturation(found)
     return (*said, assumed) if assumed else tuple(said)

@@ -42,6 +42,9 @@ def _reasons(found: Analysis) -> tuple[str, ...]:
         if low <= 0.0 <= high:
             law = found.final.model.laws[i]
             failed.append(f"the interval of {law.shown()} includes zero ({low:.3g} to {high:.3g} around {value:.3g})")
+        elif found.final.model.laws[i].rate and value < 0.0:
+            law = found.final.model.laws[i]
+            failed.append(f"{law.words} ({law.shown()}) of this sign feeds energy in, which no passive part does")
     for v in found.validations:
         where = f"fitted on {v.fitted_on}, held out {v.held}"
         if v.gain[1] <= max(v.retuned, 0.0):

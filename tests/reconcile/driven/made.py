@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -61,3 +62,25 @@ def recording(
         Channel(name="displacement", quantity="displacement", unit="m", location="mass", axis="y"),
     )
     return Recording(sampling_rate_hz=RATE, channels=channels, samples=np.vstack([u, x]))
+
+
+def hysteretic(*, seed: int, share: float = 0.4, n: int = 9000, noise: float = 0.002) -> Recording:
+    """Bouc-Wen hysteresis that carries `share` of the stiffness (Y.-K. Wen, J. Eng. Mech. Div. ASCE 102 (1976) 249-263,
+    exponent 1), yielding at 0.3 mm: no law of displacement and rate. White noise on the displacement."""
+    linear = recording(None, seed=seed, n=n, noise=0.0)
+    u = linear.samples[0]
+    w, inner, yields = 2 * math.pi * FREQUENCY, 8, 3e-4
+    stiffness, h = MASS * w * w, 1 / RATE / inner
+    x = v = z = 0.0
+    out = np.empty(n)
+    for i in range(n):
+        out[i] = x
+        last, following = u[i], u[min(i + 1, n - 1)]
+        for j in range(inner):
+            force = last + (following - last) * j / inner
+            carried = stiffness * ((1 - share) * x + share * z)
+            v += h * (force - 2 * DAMPING * w * MASS * v - carried) / MASS
+            x += h * v
+            z += h * (v - 0.5 * (abs(v) * z + v * abs(z)) / yields)
+    out += noise * out.std() * np.random.default_rng(seed).normal(size=n)
+    return replace(linear, samples=np.vstack([u, out]))

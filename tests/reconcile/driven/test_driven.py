@@ -25,7 +25,7 @@ from sim.core.spec import MachineSpec, MeasuredLoad
 from sim.presets import preset
 from sim.solve.api import simulate
 from sim.terms import REGISTRY
-from tests.reconcile.driven.made import DAMPING, FREQUENCY, MASS, RATE, recording
+from tests.reconcile.driven.made import DAMPING, FREQUENCY, MASS, RATE, hysteretic, recording
 
 SILVERBOX = Path(__file__).resolve().parents[4] / "shared" / "recordings" / "silverbox" / "SNLS80mV.mat"
 SPEC = preset("oscillator")
@@ -218,3 +218,12 @@ def test_error_is_relative_to_the_spread() -> None:
     run = ready(data, 0.0)
     silent = Model(stiffness=1e4, damping=10.0, gain=0.0)
     assert nrmse(errors(silent, run), run.compared) == pytest.approx(1.0, rel=0.05)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2])
+def test_hysteresis_which_is_no_listed_law_gets_no_name_that_feeds_energy_in(seed: int) -> None:
+    report = reconcile_driven(SPEC, [hysteretic(seed=seed)], seed=1)
+    assert report.verdict == "unknown_physics", report.sentence
+    assert not any(c.named for c in report.causes) and report.force is not None and report.force.law is None
+    assert any("feeds energy in" in reason for c in report.causes for reason in c.reasons)
