@@ -74,7 +74,9 @@ class Severity:
 
 @dataclass(frozen=True, kw_only=True)
 class Cause:
-    """A candidate: a registered term at a site. `score` is its predictive log score over nothing missing.
+    """A candidate: a registered term at a site. `score`, in `score_unit`, ranks the causes of one report: its
+    predictive log score over nothing missing (nats), or, at level `kinematics`, how many robust deviations its lines
+    stand above what foreign orders show, weighted by place. Scores of different units do not compare.
 
     `named` is true only when all rules for giving a name hold; `reasons` says which did not.
     """
@@ -88,6 +90,12 @@ class Cause:
     values: Mapping[str, float] = field(default_factory=dict)
     forms: Mapping[str, float] = field(default_factory=dict)
     """Scores of other forms of the effect at this site: terms that exclude this one there; judged together with it."""
+    score_unit: str = "nats"
+
+
+NOT_JUDGED = (
+    "No channel is usable, so nothing is said of the machine: cut the recordings where they are sound, or record anew.",
+)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,7 +10,7 @@ from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.kinematics.judge import Candidate
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.picture import envelope_picture, of_the_answer
-from reconcile.verdict import Report
+from reconcile.verdict import NOT_JUDGED, Report
 from sim.core.errors import SpecError
 
 
@@ -43,7 +43,8 @@ def finished(
     if report.verdict != "measurement_fault":
         report = replace(report, where=replace(report.where, limits=(*report.where.limits, *doubts(gate))))
     pictures = envelope_picture(of_the_answer(every, report.causes), tests, baselines)
-    return replace(report, stages=tuple(stages), pictures=pictures)
+    causes = tuple(replace(c, score_unit="deviations") for c in report.causes)
+    return replace(report, causes=causes, stages=tuple(stages), pictures=pictures)
 
 
 def _row(c: Candidate) -> dict[str, object]:
@@ -71,6 +72,7 @@ def fault_report(gate: Gate) -> Report:
         + (" Apart from it these kinematics show nothing missing." if gate.usable else ""),
         level="kinematics",
         fault=gate.fault,
+        undecidable=() if gate.usable else NOT_JUDGED,
     )
 
 

@@ -32,6 +32,7 @@ from reconcile.observe.features import Layout
 from reconcile.observe.watch import WatchList, watch_list
 from reconcile.origin import origin
 from reconcile.verdict import (
+    NOT_JUDGED,
     Cause,
     HeldOut,
     Level,
@@ -54,6 +55,7 @@ def fault_answer(gate: Gate, *, level: Level) -> Report:
         sentence=fault_sentence(fault),
         level=level,
         fault=fault,
+        undecidable=NOT_JUDGED,
         stages=(gate_stage(gate),),
     )
 

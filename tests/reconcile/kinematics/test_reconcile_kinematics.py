@@ -13,6 +13,7 @@ from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.answer import BOUND
 from reconcile.kinematics.families import Family
 from reconcile.kinematics.judge import nearest_drawing
+from reconcile.verdict import NOT_JUDGED
 from sim.core.errors import SpecError
 from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, shaft_lines, sound, train
 
@@ -197,6 +198,14 @@ def test_unbalance_is_one_of_a_set() -> None:
     test = sound(2) + 4 * np.sin(2 * np.pi * SPEED_HZ * t)
     report = reconcile_kinematics(SPEC, [recorded(test)], [BASELINE], seed=0)
     assert report.verdict == "ambiguous" and report.causes[0].term == "unbalance"
+    assert {c.score_unit for c in report.causes} == {"deviations"}
+
+
+def test_where_no_channel_is_usable_the_machine_is_not_judged() -> None:
+    rows = sound(8)
+    rows[2000:2400] = np.nan
+    report = reconcile_kinematics(SPEC, [recorded(rows)], [BASELINE], seed=0)
+    assert report.verdict == "measurement_fault" and report.undecidable == NOT_JUDGED
 
 
 @pytest.mark.slow
