@@ -51,6 +51,8 @@ def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
     linear = f"{100 * found.fitted_nrmse:.2g} %"
     if judgement.verdict == "nothing_missing":
         return f"A linear model of {site} explains the recording up to noise (free-run error {linear})."
+    if judgement.verdict == "not_decidable":
+        return f"The output does not follow the input: the best linear model of {site} leaves {linear} of it."
     if not found.final.model.laws or judgement.reasons:
         said = f"A force on {site} is missing from the linear model, and no stable law describes it"
         flown = [f"the free run on {v.held} with {_law_words(found)} diverges" for v in found.validations if v.diverged]
@@ -113,7 +115,7 @@ def _held_out(found: Analysis) -> HeldOut | None:
 
 
 def _force(found: Analysis, freed: Freed, judgement: Judgement, site: str, mass: float) -> EstimatedForce | None:
-    if judgement.verdict == "nothing_missing":
+    if judgement.verdict in ("nothing_missing", "not_decidable"):
         return None
     over, model = freed.over, found.final.model
     argument = "velocity_m_per_s" if freed.rate else "displacement_m"
@@ -152,7 +154,7 @@ def _stages(found: Analysis, assumed: str) -> tuple[Mapping[str, object], ...]:
     return tuple(stages)
 
 
-def _undecidable(found: Analysis, assumed: str, calibrated: bool) -> tuple[str, ...]:
+def _undecidable(found: Analysis, judgement: Judgement, assumed: str, calibrated: bool) -> tuple[str, ...]:
     said = []
     if not calibrated:
         said.append(
@@ -165,10 +167,15 @@ def _undecidable(found: Analysis, assumed: str, calibrated: bool) -> tuple[str, 
             "is missing besides, or is of another form."
         )
     said += _saturation(found)
+    if judgement.verdict == "not_decidable":
+        said += judgement.reasons
     return (*said, assumed) if assumed else tuple(said)
 
 
 def _next(judgement: Judgement) -> NextExperiment | None:
+    if judgement.verdict == "not_decidable":
+        text = "Check which channel is the force and which the motion, the cables, and that both were recorded at once."
+        return NextExperiment(sentence=text)
     if judgement.verdict in ("ambiguous", "unknown_physics") or judgement.reasons:
         text = "Drive with about twice the amplitude over the same band: laws of different power then part."
         return NextExperiment(sentence=text)
@@ -181,7 +188,7 @@ def answer(spec: MachineSpec, found: Analysis, *, seed: int, provenance: Mapping
     mass = mass_kg(found.final.model, data, site)
     shown, freed, name = shown_stretch(found), freed_force(found, mass, seed), site.body.name
     limits = ("One degree of freedom: a force between the mass and the ground is the only place.",)
-    nothing = judgement.verdict == "nothing_missing"
+    nothing = judgement.verdict in ("nothing_missing", "not_decidable")
     return Report(
         verdict=judgement.verdict,
         sentence=_sentence(found, judgement, name),
@@ -190,9 +197,11 @@ def answer(spec: MachineSpec, found: Analysis, *, seed: int, provenance: Mapping
         causes=_causes(found, judgement, name, mass),
         held_out=_held_out(found),
         force=_force(found, freed, judgement, name, mass),
-        undecidable=_undecidable(found, data.assumed, data.calibrated),
+        undecidable=_undecidable(found, judgement, data.assumed, data.calibrated),
         next_experiment=_next(judgement),
-        machine=revised(spec, found.published, data, shown.drive).model_dump(mode="json"),
+        machine=None
+        if judgement.verdict == "not_decidable"
+        else revised(spec, found.published, data, shown.drive).model_dump(mode="json"),
         stages=_stages(found, data.assumed),
         pictures=pictures(found, shown, freed),
         provenance={**provenance, "output_offset": found.published.output_offset},

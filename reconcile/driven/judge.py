@@ -17,6 +17,11 @@ of the error where a placebo leaves 0.5 gains 0.87 over it. Both are asked on th
 law must be found there; the way back tells whether it holds for another motion (`retuned`).
 """
 
+UNRELATED = 0.9
+"""Share of the output that even the fitted linear model leaves, from which the output does not follow the input: that
+nothing more explains it then says nothing of the machine."""
+NO_RELATION = "no linear model explains the output by the input, and nothing that is tried adds to it"
+
 
 @dataclass(frozen=True, kw_only=True)
 class Judgement:
@@ -66,6 +71,8 @@ def _no_better_than_placebo(v: Validation) -> tuple[str, ...]:
 def judge(found: Analysis) -> Judgement:
     """Apply the rules in order: something missing, a law that survived, alone, better than its rivals."""
     if found.missing.p_value >= ALPHA:
+        if found.fitted_nrmse > UNRELATED:
+            return Judgement(verdict="not_decidable", reasons=(NO_RELATION,), rivals=())
         return Judgement(verdict="nothing_missing", reasons=(), rivals=())
     laws = found.final.model.laws
     if not laws:

@@ -177,17 +177,21 @@ def _checked(recording: Recording, stated: float | None, search: float) -> float
         )
     if not 0 < search <= 0.3:
         raise SpecError(Problem(field="search", message="is out of range", given=search, allowed="above 0, up to 0.3"))
-    if stated * recording.duration_s < MIN_TURNS:
+    _long_enough(recording, stated)
+    return float(stated)
+
+
+def _long_enough(recording: Recording, speed_hz: float) -> None:
+    if speed_hz * recording.duration_s < MIN_TURNS:
         raise SpecError(
             Problem(
                 field="samples",
                 message="are too short to hold the turns needed to read a speed",
                 given=recording.duration_s,
-                allowed=f"at least {MIN_TURNS / stated:.3g}",
+                allowed=f"at least {MIN_TURNS / speed_hz:.3g}",
                 unit="s",
             )
         )
-    return float(stated)
 
 
 def _by_pulses(recording: Recording, shaft: str, stated: float | None) -> SpeedEstimate:
@@ -200,6 +204,7 @@ def _by_pulses(recording: Recording, shaft: str, stated: float | None) -> SpeedE
         raise SpecError(Problem(field="tacho.pulse_times_s", message=message, given=f"{pulses.size} pulses", unit="s"))
     per_turn = recording.tacho.pulses_per_revolution
     speed = (pulses.size - 1) / float(pulses[-1] - pulses[0]) / per_turn
+    _long_enough(recording, speed)
     half = float(np.std(steps)) / float(np.mean(steps)) * speed * 2 / (pulses.size - 1)
     return SpeedEstimate(
         shaft=shaft,

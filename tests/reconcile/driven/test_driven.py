@@ -227,3 +227,13 @@ def test_hysteresis_which_is_no_listed_law_gets_no_name_that_feeds_energy_in(see
     assert report.verdict == "unknown_physics", report.sentence
     assert not any(c.named for c in report.causes) and report.force is not None and report.force.law is None
     assert any("feeds energy in" in reason for c in report.causes for reason in c.reasons)
+
+
+@pytest.mark.slow
+def test_an_output_that_does_not_follow_the_input_decides_nothing() -> None:
+    linear = recording(None, seed=4)
+    noise = linear.samples[1].std() * np.random.default_rng(4).normal(size=linear.samples.shape[1])
+    report = reconcile_driven(SPEC, [replace(linear, samples=np.vstack([linear.samples[0], noise]))], seed=1)
+    assert report.verdict == "not_decidable" and "does not follow the input" in report.sentence
+    assert report.machine is None and report.undecidable and report.next_experiment is not None
+    assert report.force is None and not report.where.sites

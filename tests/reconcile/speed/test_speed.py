@@ -161,3 +161,10 @@ def test_few_pulses_known_to_a_sample_do_not_shake_the_angle() -> None:
 
     rough = tacho_angle(made.series("a"), tacho)
     assert shake(angle) < 0.75 * shake(rough)
+
+
+def test_pulses_of_a_few_turns_are_no_recording_to_judge() -> None:
+    rows = np.random.default_rng(3).normal(size=int(0.1 * RATE_HZ))
+    pulses = Tacho(shaft="shaft", pulse_times_s=np.arange(0.0, 0.1, 1 / 30.0), pulses_per_revolution=1)
+    with pytest.raises(SpecError, match="too short"):
+        estimate_speed(recorded(rows, 30.0, pulses))
