@@ -56,7 +56,7 @@ def covered(times_s: FloatArray, start_s: float, duration_s: float) -> float:
 
 def check_inside(times_s: FloatArray, start_s: float, duration_s: float) -> None:
     """SpecError where all pulses, shape (pulses,), s, lie before or after the recording."""
-    if covered(times_s, start_s, duration_s) == 0.0:
+    if times_s[-1] < start_s or times_s[0] > start_s + duration_s:
         raise SpecError(
             Problem(
                 field="tacho.pulse_times_s",
