@@ -71,12 +71,18 @@ def write_page(docs: Path, results: Path) -> Path:
         summary = json.loads(kept.read_text(encoding="utf-8"))
         picture = docs / "proof" / f"{section}.svg"
         picture.parent.mkdir(parents=True, exist_ok=True)
-        draw(summary, picture)
+        if _drawn(summary):
+            draw(summary, picture)
         parts.append(_split(section, summary, results))
     target = docs / "proof.md"
     docs.mkdir(parents=True, exist_ok=True)
     target.write_text("\n".join(parts), encoding="utf-8")
     return target
+
+
+def _drawn(summary: Mapping[str, Any]) -> bool:
+    """Whether there are single effects, which the curves are of."""
+    return bool(summary["curves"]["level"]["alarm"])
 
 
 def _split(section: str, summary: Mapping[str, Any], results: Path) -> str:
@@ -104,7 +110,8 @@ def _split(section: str, summary: Mapping[str, Any], results: Path) -> str:
             f"Core-seconds (bar 120): {_quantiles(summary['core_seconds'], '.3g')}.",
             f"Held-out gain: {_quantiles(gain)}. Gain that drift between the recordings and noise let a perfect",
             f"model expect: {_quantiles(summary['ceiling'])}{_above(scores)}.\n",
-            f"![curves](proof/{section}.svg)\n", "### Every case that is wrong in something\n", *listed, "",
+            *([f"![curves](proof/{section}.svg)\n"] if _drawn(summary) else []),
+            "### Every case that is wrong in something\n", *listed, "",
         ]
     )  # fmt: skip
 
