@@ -82,8 +82,8 @@ def json_text(document: object) -> str:
 def local_path(text: str) -> Path:
     """A path that something is written to: a URL would become folders of its name. For argparse."""
     if re.match(r"[A-Za-z][A-Za-z0-9+.-]*://", text):
-        message = f"{text} is a URL, and this writes to a disk only: name a folder and copy it with a tool of the store"
-        raise argparse.ArgumentTypeError(f"{message} (docs/datasets.md, Buckets)")
+        message = f"{text} is a URL, and this writes to a disk only: name a folder or file"
+        raise argparse.ArgumentTypeError(f"{message} (a dataset's folder goes to s3:// by `sideband dataset upload`)")
     return Path(text)
 
 

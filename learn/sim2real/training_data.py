@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
+from multiprocessing import get_context
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -24,18 +26,30 @@ def recipes(machines: int = MACHINES, seed: int = 1, variant: Variant = FULL) ->
 
 @contextmanager
 def made(wanted: tuple[Recipe, ...], folder: Path | None, processes: int) -> Iterator[list[Path]]:
-    """Their folders, each made below `folder` unless it is there already; of a temporary one, gone afterwards."""
+    """Their folders, side by side: each made below `folder` unless it is there; of a temporary one, gone afterwards."""
     with TemporaryDirectory() as temporary:
-        found = []
-        for recipe in wanted:
-            out = (folder or Path(temporary)) / recipe.name
-            out.parent.mkdir(parents=True, exist_ok=True)
-            if unfinished(out).is_dir():
-                resume(out, processes, _untold)
-            elif not (out / MANIFEST).is_file():
-                make(recipe, out, Settings(workers=processes), _untold)
-            found.append(out)
-        yield found
+        outs = [(folder or Path(temporary)) / recipe.name for recipe in wanted]
+        if processes > 1 and len(wanted) > 1:
+            with ProcessPoolExecutor(len(wanted), mp_context=get_context("spawn")) as pool:
+                list(pool.map(_made, wanted, outs, _shared(processes, len(wanted))))
+        else:
+            for recipe, out in zip(wanted, outs, strict=True):
+                _made(recipe, out, processes)
+        yield outs
+
+
+def _shared(processes: int, among: int) -> list[int]:
+    """So many for each: a small dataset is one shard, at which others would wait."""
+    return [max(1, processes // among + (k < processes % among)) for k in range(among)]
+
+
+def _made(recipe: Recipe, out: Path, processes: int) -> None:
+    """One folder, made, made to the end, or there already."""
+    out.parent.mkdir(parents=True, exist_ok=True)
+    if unfinished(out).is_dir():
+        resume(out, processes, _untold)
+    elif not (out / MANIFEST).is_file():
+        make(recipe, out, Settings(workers=processes), _untold)
 
 
 def _untold(progress: Progress) -> None:

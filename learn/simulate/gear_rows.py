@@ -15,8 +15,9 @@ from learn.simulate.chain import drawn_chain, motion_of_ring
 from learn.simulate.gears import FAULTS, GEARS, HEALTHY, RATE_HZ, SETTLE_S, SOUND, TOOTH, recipe
 from learn.simulate.other_gears import modulation, other_mesh, twist_rad
 from learn.simulate.tooth_shows import SHOWS_DB, tooth_db
-from sideband_datasets import Recipe, make_plan
-from sideband_datasets import rows as dataset_rows
+from sideband_datasets import Recipe
+from sideband_datasets.make.stream import rows_of
+from sideband_datasets.plan.tried import plan_again
 from signals.sensors.measure import measure
 from signals.series import FloatArray
 
@@ -69,14 +70,14 @@ def gear_rows(count: int, seed: int, part: int, parts: int) -> Iterator[GearRow]
 
 def _fours(recorded: Recipe, part: int, parts: int, fast: bool) -> Iterator[_Four]:
     """Machines one after the other; those with the same teeth are simulated together."""
-    plan = make_plan(recorded)
+    plan = plan_again(recorded)  # drawn by this program, so nothing has to be tried first
     names = [plan.recipe.machines[f].name for f in plan.family.tolist()]
     families = sorted(set(names))[part::parts]
     size = plan.rows_per_recording
     for family in families:
         chosen = [m for m, name in enumerate(names) if name == family]
         wanted = [int(r) * size + c for m in chosen for r in np.flatnonzero(plan.machine == m) for c in range(size)]
-        found = {row.row: row for row in dataset_rows(recorded, wanted, failed=_left_out)}
+        found = {row.row: row for row in rows_of(plan, wanted, failed=_left_out)}
         for m in chosen:
             spec = plan.machines[m].spec
             motions: dict[str, FloatArray] = {}

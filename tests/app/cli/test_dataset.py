@@ -89,7 +89,7 @@ def test_a_url_is_no_folder(
             main(arguments)
         assert ended.value.code == 2, arguments
         error = capsys.readouterr().err
-        assert "is a URL" in error and "docs/datasets.md" in error
+        assert "is a URL" in error and "sideband dataset upload" in error
     assert list(tmp_path.iterdir()) == []
 
 

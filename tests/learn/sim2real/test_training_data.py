@@ -48,6 +48,18 @@ def test_a_folder_is_made_once_and_then_read(tmp_path):
         assert (again[0] / MANIFEST).stat().st_mtime_ns == written
 
 
+@pytest.mark.slow
+def test_datasets_made_side_by_side_have_the_bytes_of_those_made_alone(tmp_path):
+    one, other = (
+        siblings(count=6, name=name, machines=[{"name": "rotor", "preset": "rotor", "instances": 2, "vary": VARY}])
+        for name in ("one", "other")
+    )
+    with made((one,), tmp_path / "alone", 1) as alone, made((one, other), tmp_path / "beside", 2) as beside:
+        assert [folder.name for folder in beside] == ["one", "other"]
+        assert (beside[0] / MANIFEST).read_bytes() == (alone[0] / MANIFEST).read_bytes()
+        assert (beside[1] / MANIFEST).is_file()
+
+
 VARY = {"bearings.bearing1.support.stiffness_y_n_per_m": {"factor": [0.5, 2.0]}}
 
 
