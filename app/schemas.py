@@ -26,6 +26,8 @@ class ProgressView(Reply):
     name their own."""
     eta_s: float | None
     """Estimated time left, s."""
+    rows_per_s: float | None = None
+    """Of a dataset: rows made in a second since it was begun."""
 
 
 class FailureView(Reply):

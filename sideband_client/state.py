@@ -14,13 +14,14 @@ ENDED = ("successful", "failed", "dismissed")
 
 @dataclass(frozen=True, kw_only=True)
 class Progress:
-    """Status word, share done (0 to 1), stage, estimated time left in seconds, attempt."""
+    """Status word, share done (0 to 1), stage, estimated time left in seconds, attempt; of a dataset rows a second."""
 
     status: str
     fraction: float
     stage: str
     eta_s: float | None
     attempt: int
+    rows_per_s: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,6 +59,7 @@ def state_of(document: Mapping[str, Any]) -> JobState:
                 stage=str(progress["stage"]),
                 eta_s=_optional(progress["eta_s"]),
                 attempt=int(document["attempt"]),
+                rows_per_s=_optional(progress.get("rows_per_s")),
             ),
             request=document["request"],
             failure=document["failure"],
@@ -78,6 +80,7 @@ def progress_of(data: Mapping[str, Any]) -> Progress:
             stage=str(data["stage"]),
             eta_s=_optional(data["eta_s"]),
             attempt=int(data["attempt"]),
+            rows_per_s=_optional(data.get("rows_per_s")),
         )
     except (KeyError, TypeError, ValueError) as error:
         raise BadReply(f"an event of the server lacks or garbles {error}") from error

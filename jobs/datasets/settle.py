@@ -81,6 +81,12 @@ def shards_of(record: JobRecord) -> int:
     return count
 
 
+def _rows(record: JobRecord) -> int:
+    count = record.source["rows"]
+    assert isinstance(count, int)
+    return count
+
+
 def _mended(record: JobRecord, dataset_id: str, now: float) -> JobRecord:
     lost = record.gone is not None or record.status is Status.DISMISSED
     return family.revived(record, dataset_id, now) if lost else record
@@ -132,7 +138,8 @@ def _tell(catalogue: JobCatalogue, now: float, record: JobRecord, tally: Tally) 
     elapsed_s = now - (record.started_at or now)
     eta_s = elapsed_s * (1.0 - share) / new if new > LEAST_FOR_ETA else None
     stage = "assembling" if done == total else f"making shards, {done} of {total} done"
-    progress = Progress(fraction=round(SHARDS_END * share, 4), stage=stage, eta_s=eta_s)
+    rate = new * _rows(record) / elapsed_s if eta_s is not None and elapsed_s > 0 else None
+    progress = Progress(fraction=round(SHARDS_END * share, 4), stage=stage, eta_s=eta_s, rows_per_s=rate)
     was = record.progress
     if stage != was.stage or progress.fraction >= was.fraction + TELL_EVERY:
         catalogue.change(record.id, lambda r: family.told(r, record.attempt, progress, now))

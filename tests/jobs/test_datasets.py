@@ -159,6 +159,8 @@ def test_goes_from_shards_to_assembly_to_the_end(house: House) -> None:
     )
     record = house.settle(dataset)
     assert 0.1 < record.progress.fraction < 0.13 and record.progress.eta_s is not None
+    rows, elapsed_s = dataset.source["rows"], house.now - (record.started_at or 0.0)
+    assert isinstance(rows, int) and record.progress.rows_per_s == pytest.approx(rows / 8 / elapsed_s)
     assert record.lease_until is None and house.catalogue.lapsed(house.now + 1e6, 10)[0].id == shards[0].id
     result = ResultRef(attempt=1, size_bytes=1, sha256="", expires_at=5000.0)
     house.catalogue.change(shards[0].id, lambda r: transitions.succeed(r, attempt=1, result=result, now=house.clock()))

@@ -93,10 +93,11 @@ function markers(peaks, factor) {
       ctx.arc(x, y, 3, 0, 7);
       ctx.fill();
       const half = ctx.measureText(peak.label).width / 2 + 3;
-      if (last.some(([from, to]) => x + half > from && x - half < to)) continue;
-      last = [...last, [x - half, x + half]];
+      const centre = Math.min(Math.max(x, plot.box.left + half), plot.box.right - half);
+      if (last.some(([from, to]) => centre + half > from && centre - half < to)) continue;
+      last = [...last, [centre - half, centre + half]];
       stroke(ctx, x, y - 4, x, y - 9);
-      ctx.fillText(peak.label, x, y - 10);
+      ctx.fillText(peak.label, centre, y - 10);
     }
   };
 }

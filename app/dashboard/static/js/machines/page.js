@@ -10,6 +10,7 @@ import { card, counted, day, statePill, table } from "/js/machines/words.js";
 
 const LIMIT = 200;
 const MOST_ALARMS = 60;
+const SHOWN_ALARMS = 4;
 /** How the server begins why a recording is not judged. */
 const UNHELD = "not held against baselines: ";
 const DAY_MS = 86_400_000;
@@ -72,13 +73,32 @@ export function machinePage(main, { id: name }) {
     return h("button", { type: "button", class: "row-button machine-name", onclick: () => open(point.recording) }, point.name);
   }
 
-  function alarmsCard() {
-    const byId = new Map(found.points.map((point) => [point.recording, point]));
-    const rows = found.alarms.slice(0, MOST_ALARMS).map((alarm) => h("tr", { dataset: { alarm: alarm.kind, severity: alarm.severity } },
+  function alarmRow(alarm, byId) {
+    return h("tr", { dataset: { alarm: alarm.kind, severity: alarm.severity } },
       h("td", { class: "small num" }, day(alarm.time)), h("td", {}, statePill(alarm.severity)),
       h("td", {}, alarm.message, h("details", { class: "rule" }, h("summary", {}, "Rule"), h("p", { class: "muted small" }, alarm.rule))),
       h("td", { class: "num small" }, alarm.value === null ? "–" : `${quantity(alarm.value, alarm.unit)} > ${quantity(alarm.limit, alarm.unit)}`),
-      h("td", { class: "small" }, opener(byId.get(alarm.recording)))));
+      h("td", { class: "small" }, opener(byId.get(alarm.recording))));
+  }
+
+  /** A recording's alarms: those of named parts first, the largest of the others, the rest behind a button. */
+  function alarmRows(alarms, byId) {
+    const ofParts = (alarm) => alarm.kind === "family";
+    const rows = [...alarms.filter(ofParts), ...alarms.filter((each) => !ofParts(each))].map((each) => alarmRow(each, byId));
+    const rest = rows.slice(SHOWN_ALARMS);
+    if (rest.length < 2) return rows;
+    for (const row of rest) row.hidden = true;
+    const all = h("tr", { class: "more-alarms" }, h("td", { colspan: "5" }, h("button", { type: "button", class: "row-button small", onclick: () => {
+      for (const row of rest) row.hidden = false;
+      all.remove();
+    } }, `${rest.length} more of ${byId.get(alarms[0].recording).name}`)));
+    return [...rows, all];
+  }
+
+  function alarmsCard() {
+    const byId = new Map(found.points.map((point) => [point.recording, point]));
+    const shown = found.alarms.slice(0, MOST_ALARMS);
+    const rows = [...new Set(shown.map((alarm) => alarm.recording))].flatMap((id) => alarmRows(shown.filter((alarm) => alarm.recording === id), byId));
     const more = found.alarms.length > MOST_ALARMS ? h("p", { class: "card-body muted small" }, `${found.alarms.length - MOST_ALARMS} more in this time.`) : null;
     const judged = found.points.some((point) => point.condition !== "baseline" && point.state !== "unknown");
     return card("Alarms", h("span", { class: "muted small num" }, rows.length || judged ? String(found.alarms.length) : "not judged"),

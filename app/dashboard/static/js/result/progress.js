@@ -17,7 +17,8 @@ export function progressPanel(job) {
   function update(data) {
     const fraction = typeof data.progress === "number" ? data.progress : data.fraction ?? 0;
     stage.textContent = data.cancel_requested ? "Stopping" : STAGES[data.stage] ?? data.stage ?? "";
-    left.textContent = `${Math.round(fraction * 100)} %${data.eta_s ? ` · about ${duration(data.eta_s)} left` : ""}`;
+    const rate = data.rows_per_s ? ` · ${number(data.rows_per_s, 2)} rows/s` : "";
+    left.textContent = `${Math.round(fraction * 100)} %${rate}${data.eta_s ? ` · about ${duration(data.eta_s)} left` : ""}`;
     bar.style.width = `${fraction * 100}%`;
     progress.setAttribute("aria-valuenow", String(Math.round(fraction * 100)));
   }
