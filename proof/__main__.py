@@ -19,6 +19,7 @@ from proof.plan import COUNTS, Case, plan
 from proof.run import Engine, run_case
 from proof.score.one import Score, score
 from proof.score.rates import summary
+from proof.score.stored import OtherRun, together
 from proof.score.table import table
 from proof.seal import broken, seals_of, write_manifest
 from proof.visible import measure, told
@@ -62,6 +63,7 @@ def parser() -> argparse.ArgumentParser:
             command.add_argument("--jobs", type=int, default=2, help="processes")
         if name == "score":
             command.add_argument("--keep", action="store_true", help="store the summary in proof/results")
+            command.add_argument("--add", action="store_true", help="to the stored summary of the same engine")
             command.add_argument("--name", choices=tuple(SECTIONS), help="section of the page (default: the split)")
         if name == "page":
             command.add_argument("--docs", type=Path, default=ROOT / "docs")
@@ -151,10 +153,15 @@ def score_all(given: argparse.Namespace) -> None:
     if given.keep and len(engines) > 1:
         raise SystemExit(f"results of several engines ({', '.join(engines)}): run the cases again")
     scores = scored(cases, truths, reports)
+    path = HERE / "results" / f"{given.name or given.split}.json"
+    if given.add and path.exists():
+        try:
+            scores = together(path, given.split, engines[0], scores)
+        except OtherRun as error:
+            raise SystemExit(str(error)) from error
     document = {"split": given.split, "engine": engines[0], **summary(scores), "scores": [asdict(s) for s in scores]}
     sys.stderr.write(table(scores))
     if given.keep:
-        path = HERE / "results" / f"{given.name or given.split}.json"
         path.parent.mkdir(exist_ok=True)
         path.write_text(json.dumps(document, sort_keys=True, indent=1) + "\n", encoding="utf-8")
     sys.stdout.write(json.dumps(document, sort_keys=True) + "\n")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from proof.plan import COUNTS, plan
 from proof.run import Engine, run_case, slim
 from proof.score.one import channel_name, score
 from proof.score.rates import Rate, at_target, summary, wilson
+from proof.score.stored import OtherRun, together
 from proof.score.table import table
 
 
@@ -283,3 +285,18 @@ def test_what_the_report_says_it_would_have_seen_is_held_against_it():
     assert "need not show" in told()[1] and "though by its own table it shows" in told(seen_from=1e-9)[1]
     assert told(site="elsewhere")[0] is None and score(case, {"verdict": "nothing_missing"}).told_unseen is None
     assert score(case, right(case) | {"faintest": [row]}).told_unseen is None
+
+
+def test_scores_of_parts_of_a_split_are_joined_and_first_runs_stand(tmp_path):
+    first = [
+        replace(score(truth("null"), {"verdict": v}), name=n) for n, v in (("q1", "nothing_missing"), ("q2", "failed"))
+    ]
+    path = tmp_path / "quiet.json"
+    document = {"split": "quiet", "engine": "abc", "scores": [asdict(s) for s in first]}
+    path.write_text(json.dumps(document), encoding="utf-8")
+    later = [replace(first[0], name=name, verdict="explained", alarm=True) for name in ("q1", "q3")]
+    found = together(path, "quiet", "abc", later)
+    assert [(s.name, s.alarm) for s in found] == [("q1", False), ("q2", False), ("q3", True)]
+    assert found[0] == first[0]
+    with pytest.raises(OtherRun, match="engine abc"):
+        together(path, "quiet", "abd", later)
