@@ -1,4 +1,4 @@
-"""Scores that a stored summary holds, so that a split may be run in parts on machines of which none keeps the reports."""
+"""Scores that a stored summary holds: a split may be run in parts, whose reports are not kept together."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
 from proof.score.one import Score
 
@@ -28,6 +29,7 @@ def together(path: Path, split: str, engine: str, scores: Sequence[Score]) -> li
     names = {field.name for field in fields(Score)}
     found = {s.name: s for s in scores}
     for stored in document["scores"]:
-        one = Score(**{k: tuple(v) if isinstance(v, list) else v for k, v in stored.items() if k in names})
+        values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in stored.items() if k in names}
+        one = Score(**values)
         found[one.name] = one
     return [found[name] for name in sorted(found)]
