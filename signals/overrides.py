@@ -133,7 +133,9 @@ def _set_term(document: dict[str, Any], key: str, value: object) -> Problem | No
     if not (term and site and parameter):
         return Problem(field=f"set.{key}", message="is not a parameter of a term", given=key, allowed=SYNTAX)
     if isinstance(value, bool) or not isinstance(value, int | float):
-        return Problem(field=f"set.{key}", message="must be a number", given=shown(value), allowed="a finite number")
+        number = "a finite number"
+        allowed = number if parameter != "law" else f"{number}: of a law in the machine file's `custom_laws`"
+        return Problem(field=f"set.{key}", message="must be a number", given=shown(value), allowed=allowed)
     terms: list[dict[str, Any]] = document["terms"]
     for spec in terms:
         if spec["term"] == term and spec["site"] == site:

@@ -32,6 +32,7 @@ def ordinary_warnings(recipe: Recipe) -> Iterator[str]:
     for number, family in enumerate(recipe.machines):
         keys = [key for key in (*family.set, *family.vary, *recipe.conditions) if "@" in key]
         own = {t.term for t in base_machine(family, number).terms} | {key.split("@", maxsplit=1)[0] for key in keys}
+        yield from _untold(recipe, family.name, own)
         for fault in recipe.faults:
             shared = sorted({t.term for t in fault.terms} & own)
             if shared:
@@ -39,3 +40,14 @@ def ordinary_warnings(recipe: Recipe) -> Iterator[str]:
                     f"machines {family.name} have {', '.join(shared)} of their own, in healthy recordings too: class "
                     f"{fault.name} differs by the size alone, and replaces it where both act at one part"
                 )
+
+
+def _untold(recipe: Recipe, name: str, own: set[str]) -> Iterator[str]:
+    """Play, looseness and bends that no class tells of."""
+    told = {t.term for fault in recipe.faults for t in fault.terms}
+    worn = [key for key in sorted(own - told) if (term := REGISTRY.get(key)) is not None and term.wear]
+    if worn:
+        yield (
+            f"machines {name} have {', '.join(worn)} in all recordings, and no class tells of it: healthy ones hold it "
+            "too, which is right only of sizes that a sound machine has"
+        )

@@ -91,6 +91,7 @@ TERM = BentShaft(
         ),
     ),
     severity="bow",
+    wear=True,
     order=20,
     demo=Demo(leading=1),
     validation=(

@@ -82,6 +82,7 @@ TERM = FitClearance(
     params=WALL_PARAMS,
     references=("seed eqs (28)-(34)", "Palmgren, Ball and Roller Bearing Engineering, 3rd ed. 1959 (line contact)"),
     severity="gap",
+    wear=True,
     zero_is_healthy=False,
     passive=True,
     order=20,

@@ -110,6 +110,7 @@ TERM = FitClearanceSeries(
     ),
     references=("seed eq (34), read as a series connection", "Persson 1964 (conforming contact)"),
     severity="gap",
+    wear=True,
     passive=True,
     order=20,
     excludes=("fit_clearance",),

@@ -92,6 +92,7 @@ TERM = PedestalLooseness(
         ),
     ),
     severity="loss",
+    wear=True,
     order=30,
     excludes=("fit_clearance",),
     demo=Demo(

@@ -134,3 +134,8 @@ def test_a_record_too_short_for_a_spectrum_is_refused_with_the_least_that_is_not
     assert problem.field == "duration_s" and least * 30_000 == pytest.approx(LEAST_SAMPLES, rel=1e-5)
     request = SimulationRequest(preset="paper-demo", duration_s=least)
     assert resolve(request, ENGINE, Limits()).cost.steps > 0
+
+
+def test_a_formula_where_a_number_stands_is_sent_to_the_laws() -> None:
+    (problem,) = refused({"custom_force@gear.law": "50*x"})
+    assert problem.field == "set.custom_force@gear.law" and "custom_laws" in str(problem.allowed)

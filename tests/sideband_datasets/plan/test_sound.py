@@ -40,3 +40,18 @@ def test_a_class_without_a_recording_is_told():
     told = planned(tiny(count=12, healthy_share=0.999)).warnings
     assert any(w.startswith("class outer has no recording") for w in told)
     assert not any("has no recording" in w for w in planned(tiny(count=12, healthy_share=0.0)).warnings)
+
+
+@pytest.mark.parametrize(
+    "key", ["bent_shaft@disc.bow", "pedestal_looseness@bearing1.loss", "fit_clearance@bearing1.gap"]
+)
+def test_play_and_looseness_in_all_recordings_are_told_unless_a_class_has_them(key):
+    (rotor,) = document()["machines"]
+    term, value = key.split("@")[0], 0.3 if "loss" in key else 1e-5
+    changes = {"machines": [{**rotor, "set": {**rotor.get("set", {}), key: value}}]}
+    told = planned(tiny(**changes)).warnings
+    assert any(f"have {term} in all recordings, and no class tells of it" in w for w in told)
+    worn = {"name": "worn", "terms": [{"term": term, "sites": [key.split("@")[1].split(".")[0]]}]}
+    told = planned(tiny(**changes, faults=[*document()["faults"], worn])).warnings
+    assert not any("no class tells" in w for w in told)
+    assert not any("no class tells" in w for w in planned(tiny()).warnings)
