@@ -75,6 +75,8 @@ def _tile(value: str, label: str) -> Markup:
 
 def _place(report: Report, best: PlaceWeight) -> Markup:
     """The tile of the place: one, or the several that a set leaves open."""
+    if report.verdict == "not_decidable":
+        return _tile(best.site, f"leads with {percent(best.weight)} of the evidence; the place is not decided")
     kinds, sites = undecided(report)
     if report.verdict != "ambiguous" or not sites:
         return _tile(best.site, f"most likely place, {percent(best.weight)} of the evidence")
