@@ -52,9 +52,10 @@ def _checked(spec: MachineSpec, recordings: Sequence[Recording]) -> list[Driven]
                 )
             )
         if abs(data.step_s / found[0].step_s - 1.0) > 1e-6:
-            message = "sampling rates of the recordings differ"
-            where, allowed = place(one, "recording", i, "sampling_rate_hz"), f"{1.0 / found[0].step_s:g}"
-            raise SpecError(Problem(field=where, message=message, given=1.0 / data.step_s, allowed=allowed, unit="Hz"))
+            first_place = place(recordings[0], "recording", 0, "sampling_rate_hz")
+            message = f"differs from {first_place}, which has {1.0 / found[0].step_s:g} Hz: either may be wrong"
+            where = place(one, "recording", i, "sampling_rate_hz")
+            raise SpecError(Problem(field=where, message=message, given=1.0 / data.step_s, allowed="the same in both"))
     return found
 
 
