@@ -11,7 +11,7 @@ from reconcile.atlas.places import sensor_sites
 from reconcile.judge.adequacy import Rest
 from reconcile.judge.screen import Screen
 from reconcile.machine.decide import GLARING, STRANGE, chance, decide, remarkable, tempered, unmeasured
-from reconcile.machine.weigh import MOST_NAMED, credible_set, merged_weights, of_the_set, plausible, variants
+from reconcile.machine.weigh import MOST_NAMED, credible_set, merged_weights, plausible, variants
 from reconcile.machine.words import next_experiment, sentence, title
 from reconcile.verdict import HeldOut, Severity
 from sim import presets
@@ -313,22 +313,3 @@ def test_fitted_machines_make_no_change_more_glaring_than_it_was() -> None:
     assert decide(tempered(local, first), views=9).word == "nothing_missing"
     assert tempered(first, local).strongest == 9.0
     assert tempered(local, replace(first, p_best=0.02)).p_first == 0.02
-
-
-def test_places_share_alike_where_the_set_is_not_made_by_the_weights() -> None:
-    """One sensor at one point: what explains half as much stays in the set, so its place is as open as the first's."""
-    one = screen([20.0, 12.0])
-    few, weights = decide(one, views=1), merged_weights(one)
-    assert weights[NAMES[0]] > 0.99
-    assert of_the_set(weights, few.chosen) == {NAMES[0]: 0.5, NAMES[1]: 0.5}
-    assert of_the_set(weights, decide(one, views=9).chosen) == weights
-    near = merged_weights(screen([20.0, 19.5, 19.0]))
-    assert of_the_set(near, NAMES[:3]) == near, "the weights made the set"
-    struck = of_the_set(near, NAMES[1:2])
-    assert struck == {NAMES[1]: 1.0}, "only its impacts told"
-
-
-def test_a_place_behind_by_pattern_is_shown_where_only_impacts_tell() -> None:
-    weights = merged_weights(screen([2.9, -8.0]))
-    chosen = (NAMES[1], NAMES[0])
-    assert of_the_set(weights, chosen) == {NAMES[1]: 0.5, NAMES[0]: 0.5}
