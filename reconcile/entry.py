@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from reconcile.atlas.bank import Mapper
@@ -15,6 +15,7 @@ from reconcile.kinematics import KinematicSpec, reconcile_kinematics
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.engine import Progress, reconcile_machine
 from reconcile.stated import (
+    Given,
     check_locations,
     check_shafts,
     check_speeds,
@@ -24,7 +25,7 @@ from reconcile.stated import (
     unplaced,
     unstated,
 )
-from reconcile.told import about, place, sent_as
+from reconcile.told import about, sent_as
 from reconcile.unsteady import unsteady
 from reconcile.verdict import Level, Report
 from signals.recording import Recording
@@ -65,56 +66,45 @@ def check_size(tests: Sequence[Recording], baselines: Sequence[Recording]) -> No
 
 def check_channels(tests: Sequence[Recording], baselines: Sequence[Recording]) -> None:
     """Channels, units and rates must agree between all recordings: nothing is matched by guess. The odd one out is
-    told: what most have is right, of two the first."""
-    first = _usual((*tests, *baselines))
-    order = "first" if first is tests[0] else "other"
-    whose = f"{order} recording's ({first.label})" if first.label else f"{order} recording's"
-    problems = []
-    for kind, several in (("recording", tests), ("baseline", baselines)):
-        for k, other in enumerate(several):
-            for c, (a, b) in enumerate(zip(first.channels, other.channels, strict=False)):
-                if (a.location, a.axis, a.quantity, a.unit) != (b.location, b.axis, b.quantity, b.unit):
-                    problems.append(
-                        Problem(
-                            field=place(other, kind, k, f"channels[{c}]"),
-                            message=f"differs from the {whose} channel",
-                            given=f"{b.location} {b.axis} {b.quantity} {b.unit}",
-                            allowed=f"{a.location} {a.axis} {a.quantity} {a.unit}",
-                        )
-                    )
-            if len(other.channels) != len(first.channels):
-                problems.append(
-                    Problem(
-                        field=place(other, kind, k, "channels"),
-                        message=f"are not as many as the {whose}",
-                        given=len(other.channels),
-                        allowed=str(len(first.channels)),
-                    )
-                )
-            if abs(other.sampling_rate_hz / first.sampling_rate_hz - 1.0) > 1e-6:
-                problems.append(
-                    Problem(
-                        field=place(other, kind, k, "sampling_rate_hz"),
-                        message=f"differs from the {whose}",
-                        given=other.sampling_rate_hz,
-                        allowed=f"{first.sampling_rate_hz:g}",
-                        unit="Hz",
-                    )
-                )
+    told: what most have is right; where as many differ, both are told and neither is called wrong."""
+    several = given(tests, baselines)
+    often = Counter(_form(one.recording) for one in several)
+    most = max(often.values())
+    usual = next(one for one in several if often[_form(one.recording)] == most)
+    sure = list(often.values()).count(most) == 1
+    problems = [p for other in several if other is not usual for p in _unlike(usual, other, sure)]
     if problems:
         raise SpecError(problems)
 
 
-def _usual(several: Sequence[Recording]) -> Recording:
-    """The first of those that have the rate and channels of most."""
+def _form(one: Recording) -> tuple[object, ...]:
+    named = tuple((c.location, c.axis, c.quantity, c.unit) for c in one.channels)
+    return (round(one.sampling_rate_hz, 3), *named)
 
-    def form(one: Recording) -> tuple[object, ...]:
-        named = tuple((c.location, c.axis, c.quantity, c.unit) for c in one.channels)
-        return (round(one.sampling_rate_hz, 3), *named)
 
-    often = Counter(form(one) for one in several)
-    most = max(often.values())
-    return next(one for one in several if often[form(one)] == most)
+def _unlike(usual: Given, other: Given, sure: bool) -> Iterator[Problem]:
+    """What differs between two recordings, the first of them the usual one where that is `sure`."""
+    for c, (a, b) in enumerate(zip(usual.recording.channels, other.recording.channels, strict=False)):
+        if (a.location, a.axis, a.quantity, a.unit) != (b.location, b.axis, b.quantity, b.unit):
+            said = [f"{x.location} {x.axis} {x.quantity} {x.unit}" for x in (a, b)]
+            yield _differs(usual, other, f"channels[{c}]", said[0], said[1], sure)
+    mine, theirs = usual.recording, other.recording
+    if len(mine.channels) != len(theirs.channels):
+        yield _differs(usual, other, "channels", len(mine.channels), len(theirs.channels), sure)
+    if abs(theirs.sampling_rate_hz / mine.sampling_rate_hz - 1.0) > 1e-6:
+        yield _differs(usual, other, "sampling_rate_hz", mine.sampling_rate_hz, theirs.sampling_rate_hz, sure, "Hz")
+
+
+def _differs(
+    usual: Given, other: Given, field: str, here: object, there: object, sure: bool, unit: str = ""
+) -> Problem:
+    """`there` is what the `other` recording has, `here` what the usual one has."""
+    place, shown = usual.field(field), (f"{here:g}" if isinstance(here, float) else str(here))
+    if sure:
+        message = f"differs from most others' ({place})"
+        return Problem(field=other.field(field), message=message, given=there, allowed=shown, unit=unit)
+    message = f"differs from {place}, which has {shown}{f' {unit}' if unit else ''}: either may be wrong"
+    return Problem(field=other.field(field), message=message, given=there, allowed="the same in both", unit="")
 
 
 def check_descriptions(

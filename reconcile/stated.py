@@ -19,6 +19,9 @@ FASTER = 5.0
 """Times `FAST_HZ` from which sixty times another speed is rpm without asking the lines."""
 SAME = 0.05
 """By which a factor of 60 may be missed: slip and labels."""
+ABOUT = 0.3
+"""The same for the machine's own speed against what was recorded at another load or setting."""
+PULSES = "the pulses"
 USUAL = 0.1
 """A stated speed this near a nominal one is in the unit of the drawing."""
 SURE = 0.99
@@ -253,19 +256,49 @@ def _by_lines(recording: Recording, speed: float) -> str | None:
 
 
 def _nominal_in_rpm(nominal: Mapping[str, float | None], field: str, several: Sequence[Given]) -> Iterator[Problem]:
-    """Speeds of the machine that are 60 times those of a recording, and high; slow rolls of fast machines are none.
+    """Speeds of the machine that are about 60 times those of a recording (by pulses, else as stated), and high; slow
+    rolls of fast machines are none: one whose own lines confirm it, or beside which the nominal speed is recorded.
 
-    A slow roll is one whose own lines confirm it, or beside which the nominal speed is recorded.
+    A shaft whose speed no recording tells is held against Nyquist's frequency and its lines.
     """
     for shaft, usual in nominal.items():
         if usual is None or usual <= FAST_HZ:
             continue
-        here = [(one, speed) for one in several for name, speed in filter(None, [_stated(one)]) if name == shaft]
-        slow = next(((one, speed) for one, speed in here if sixty_times(usual, speed)), None)
-        if slow is None or any(_runs_at(usual, one.recording, speed) for one, speed in here):
+        here = [(one, *found) for one in several if (found := _turned(one, shaft)) is not None]
+        if not here:
+            why = _unrecorded(usual, several)
+            if why is not None:
+                yield _rpm(field.format(shaft=shaft), usual, why)
             continue
-        if _certainty(slow[0].recording, slow[1]) < ENOUGH:
-            yield _rpm(field.format(shaft=shaft), usual, f"{slow[0].field('operating.speed_hz')} is {slow[1]:.4g}")
+        slow = next((x for x in here if abs(usual / (PER_MINUTE * x[1]) - 1.0) <= ABOUT), None)
+        if slow is None or any(_runs_at(usual, one.recording, speed) for one, speed, _ in here):
+            continue
+        one, speed, why = slow
+        pulsed = why.startswith(PULSES)
+        # just a sixtieth is no slow roll if pulses count it, or if the nominal speed is faster than machines turn
+        certain = sixty_times(usual, speed) and (pulsed or usual > FAST_HZ * FASTER)
+        if certain or not (pulsed or _certainty(one.recording, speed) >= ENOUGH):
+            yield _rpm(field.format(shaft=shaft), usual, why)
+
+
+def _turned(one: Given, shaft: str) -> tuple[float, str] | None:
+    """Speed of a shaft in a recording, Hz, by pulses or else as stated, and what says so; None where nothing does."""
+    pulses = _pulses_hz(one.recording, shaft)
+    if pulses is not None:
+        return pulses, f"{PULSES} of {one.field('tacho')} say {pulses:.4g} Hz"
+    stated = _stated(one)
+    if stated is None or stated[0] != shaft:
+        return None
+    return stated[1], f"{one.field('operating.speed_hz')} is {stated[1]:.4g}"
+
+
+def _unrecorded(usual: float, several: Sequence[Given]) -> str | None:
+    """What says that a shaft's speed is in rpm where no recording states or counts it, or None."""
+    slowest = min(several, key=lambda one: one.recording.sampling_rate_hz).recording
+    if usual >= slowest.sampling_rate_hz / 2:
+        return f"half the sampling rate is {slowest.sampling_rate_hz / 2:.4g} Hz"
+    found = [_by_lines(one.recording, usual) for one in several]
+    return found[0] if found and all(why is not None for why in found) else None
 
 
 def _runs_at(usual: float, recording: Recording, speed: float) -> bool:

@@ -117,11 +117,17 @@ class Faintest:
 
 @dataclass(frozen=True, kw_only=True)
 class SensorFault:
-    """The mismatch is in the measurement."""
+    """The mismatch is in the measurement. `channel`: empty where it is all of them or not known which."""
 
     kind: str
     channel: str
     detail: str = ""
+    recordings: tuple[str, ...] = ()
+    """In which it was seen: `test 1`, `baseline 2`."""
+    left_out: bool = False
+    """Whether the channel was left out of the analysis."""
+    doubtful: bool = False
+    """Whether the machine itself may look like that on one channel: a damaged part beside a sensor as a loose one."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -192,6 +198,9 @@ class Report:
     where: Where = field(default_factory=Where)
     causes: tuple[Cause, ...] = ()
     fault: SensorFault | None = None
+    """What is wrong with the measurement: the answer where the verdict says so, else the worst beside it."""
+    measurement_faults: tuple[SensorFault, ...] = ()
+    """All that is wrong with the measurement, `fault` first."""
     held_out: HeldOut | None = None
     force: EstimatedForce | None = None
     undecidable: tuple[str, ...] = ()

@@ -50,18 +50,22 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
     dropout: at least 32 zeros in a row; stuck: 32 equal other values; clipping: runs of at least 3 samples
     at the largest or smallest value that the signal enters too steeply to be turning there.
     """
-    findings: list[Finding] = []
-    for name, samples in zip(recording.names, recording.samples, strict=True):
-        finite = np.isfinite(samples)
-        found: list[_Found] = [("not_finite", "samples are not finite numbers", _runs(~finite))]
-        if samples.size > 1 and np.any(finite) and np.ptp(samples[finite]) == 0:
-            found.append(("constant", "the channel never changes", np.array([[0, samples.size]])))
-        else:
-            found += _stretches(samples)
-        for kind, message, runs in found:
-            if len(runs):
-                findings.append(_finding(recording, name, kind, message, runs))
-    return tuple(findings)
+    return tuple(
+        _finding(recording, name, kind, message, runs)
+        for name, samples in zip(recording.names, recording.samples, strict=True)
+        for kind, message, runs in defects(samples)
+    )
+
+
+def defects(samples: FloatArray) -> tuple[_Found, ...]:
+    """Kind, words and stretches (first, stop), (runs, 2), of every defect of one channel (n,); see `inspect`."""
+    finite = np.isfinite(samples)
+    found: list[_Found] = [("not_finite", "samples are not finite numbers", _runs(~finite))]
+    if samples.size > 1 and np.any(finite) and np.ptp(samples[finite]) == 0:
+        found.append(("constant", "the channel never changes", np.array([[0, samples.size]])))
+    else:
+        found += _stretches(samples)
+    return tuple(one for one in found if len(one[2]))
 
 
 def _stretches(samples: FloatArray) -> list[_Found]:

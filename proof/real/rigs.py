@@ -135,7 +135,7 @@ WHY = {
     "impacts once a turn: a rub or a loose part make the same.",
     "Motor1_UnbalancedRotor_2Weights_Yaxis_30Hz": "The clock of the phone repeats and skips; orders of such a record "
     "mean nothing.",
-    "dataBenchmark": "A tank is no mass on a spring: the ceiling of its level is named, but no force that is tried, a "
-    "square root among them, predicts the other recording clearly better than a linear model fitted to it does.",
+    "dataBenchmark": "A tank is no mass on a spring: the ceiling of its level is named, but of some 400 samples with a "
+    "red error chance explains as much as the laws that are tried, a square root among them, do.",
 }
 """Why a row is wrong or undecided, by its test recording."""

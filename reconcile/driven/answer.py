@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from reconcile.driven.ceiling import Ceiling, ceilings
 from reconcile.driven.forced import ALPHA, Analysis
-from reconcile.driven.judge import Judgement, judge
+from reconcile.driven.judge import TOO_FEW, Judgement, judge
 from reconcile.driven.machine import driven_site, mass_kg, revised, term_key, weighed
 from reconcile.driven.model import LINEAR
 from reconcile.driven.nominate import Trial, score_nats
@@ -51,6 +51,9 @@ def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
     linear = f"{100 * found.fitted_nrmse:.2g} %"
     if judgement.verdict == "nothing_missing":
         return f"A linear model of {site} explains the recording up to noise (free-run error {linear})."
+    if judgement.reasons == (TOO_FEW,):
+        said = f"A linear model of {site} leaves {linear} of the output, and {TOO_FEW}"
+        return "; ".join([said, *_saturation(found)]) + "."
     if judgement.verdict == "not_decidable":
         return f"The output does not follow the input: the best linear model of {site} leaves {linear} of it."
     if not found.final.model.laws or judgement.reasons:
@@ -173,6 +176,8 @@ def _undecidable(found: Analysis, judgement: Judgement, assumed: str, calibrated
 
 
 def _next(judgement: Judgement) -> NextExperiment | None:
+    if judgement.reasons == (TOO_FEW,):
+        return NextExperiment(sentence="Record ten times as long, over the same band and amplitude.")
     if judgement.verdict == "not_decidable":
         text = "Check which channel is the force and which the motion, the cables, and that both were recorded at once."
         return NextExperiment(sentence=text)

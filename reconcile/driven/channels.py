@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from sim.core.response import Channel
 from sim.core.spec import MachineSpec, MeasuredLoad
 
 FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
 INPUT_WORDS = frozenset({"input", "drive", "excitation", "force_in", "u"})
 OUTPUT_WORDS = frozenset({"output", "response", "out", "y"})
 MOTIONS = {"displacement": 0, "velocity": 1, "acceleration": 2}
@@ -33,6 +34,9 @@ class Driven:
     """The input is a motion, and the output the force that it takes."""
     assumed: str = ""
     """What had to be assumed about the roles."""
+    bad_drive: BoolArray | None = None
+    bad_answer: BoolArray | None = None
+    """Samples (n,) at which a channel was away, held or cut off; None: nowhere."""
 
     @property
     def order(self) -> int:
@@ -47,14 +51,12 @@ class Driven:
 
     def part(self, first: int, last: int) -> Driven:
         """Samples first <= i < last."""
-        return Driven(
-            step_s=self.step_s,
+        return replace(
+            self,
             drive=self.drive[first:last],
             answer=self.answer[first:last],
-            drive_channel=self.drive_channel,
-            answer_channel=self.answer_channel,
-            prescribed=self.prescribed,
-            assumed=self.assumed,
+            bad_drive=None if self.bad_drive is None else self.bad_drive[first:last],
+            bad_answer=None if self.bad_answer is None else self.bad_answer[first:last],
         )
 
 

@@ -9,13 +9,19 @@ from dataclasses import replace
 from reconcile.driven.answer import answer
 from reconcile.driven.channels import Driven, driven_of
 from reconcile.driven.direction import directed
-from reconcile.driven.forced import analyse
+from reconcile.driven.faulty import UNIT_NOT_KNOWN, beside, fault_report, held_against
+from reconcile.driven.forced import Analysis, analyse
+from reconcile.driven.judge import ROUGH
 from reconcile.driven.machine import driven_site
+from reconcile.driven.measured import LEAST_KEPT
+from reconcile.driven.model import share_kept
 from reconcile.driven.prescribed.answer import reconcile_prescribed
 from reconcile.driven.split import parts_of
+from reconcile.driven.spoiled import Mended, mended, proved, sensor_fault, with_bad
+from reconcile.gate.findings import Finding
 from reconcile.origin import origin
 from reconcile.told import about, place
-from reconcile.verdict import Report
+from reconcile.verdict import NOT_JUDGED, Report
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec
@@ -45,17 +51,11 @@ def _checked(spec: MachineSpec, recordings: Sequence[Recording]) -> list[Driven]
                     allowed=f"{least} samples",
                 )
             )
-        for name, values in (("input", data.drive), ("output", data.answer)):
-            if values.std() == 0.0:
-                channel = data.drive_channel if name == "input" else data.answer_channel
-                message = f"the {name} does not move"
-                raise SpecError(
-                    Problem(field=place(one, "recording", i, channel.name), message=message, given=float(values[0]))
-                )
         if abs(data.step_s / found[0].step_s - 1.0) > 1e-6:
-            message = "sampling rates of the recordings differ"
-            where, allowed = place(one, "recording", i, "sampling_rate_hz"), f"{1.0 / found[0].step_s:g}"
-            raise SpecError(Problem(field=where, message=message, given=1.0 / data.step_s, allowed=allowed, unit="Hz"))
+            first_place = place(recordings[0], "recording", 0, "sampling_rate_hz")
+            message = f"differs from {first_place}, which has {1.0 / found[0].step_s:g} Hz: either may be wrong"
+            where = place(one, "recording", i, "sampling_rate_hz")
+            raise SpecError(Problem(field=where, message=message, given=1.0 / data.step_s, allowed="the same in both"))
     return found
 
 
@@ -64,23 +64,82 @@ def _further(recording: Recording, spec: MachineSpec, motion_drives: bool) -> Dr
         return driven_of(recording, spec, motion_drives=motion_drives)
 
 
+def _read(
+    spec: MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording]
+) -> tuple[list[Driven], list[Driven], list[Mended]]:
+    """Input and output of tests and baselines, and what was wrong with their samples."""
+    several = [mended(r, f"test {i}") for i, r in enumerate(tests, 1)]
+    rested = [mended(r, f"baseline {i}") for i, r in enumerate(baselines, 1)]
+    data = _checked(spec, [m.recording for m in several])
+    past = [_further(m.recording, spec, data[0].prescribed) for m in rested]
+    for i, (one, other) in enumerate(zip(baselines, past, strict=True)):
+        for mine, theirs in (
+            (data[0].drive_channel, other.drive_channel),
+            (data[0].answer_channel, other.answer_channel),
+        ):
+            if (mine.quantity, mine.unit) != (theirs.quantity, theirs.unit):
+                where = place(one, "baseline", i, f"channels.{theirs.name}")
+                message = f"measures something else than {place(tests[0], 'recording', 0, f'channels.{mine.name}')}"
+                given, allowed = f"{theirs.quantity} {theirs.unit}", f"{mine.quantity} {mine.unit}"
+                raise SpecError(Problem(field=where, message=message, given=given, allowed=allowed))
+    return (
+        [with_bad(d, m) for d, m in zip(data, several, strict=True)],
+        [with_bad(d, m) for d, m in zip(past, rested, strict=True)],
+        [*several, *rested],
+    )
+
+
 def reconcile_driven(
     spec: MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording] = (), *, seed: int = 0
 ) -> Report:
     """Reconcile an oscillator with recordings of its input and output.
 
-    A lone recording is cut into consecutive thirds; of several, the one that goes farthest is held out. Baselines are
-    not needed (the linear model is calibrated on the recordings themselves) and only counted.
+    A lone recording is cut into consecutive thirds; of several, the one that goes farthest is held out. The linear
+    model is calibrated on the recordings themselves; baselines tell whether units or channels have changed.
     """
     started = time.process_time()
-    driven_site(spec)
-    data = _checked(spec, tests)
-    provenance: dict[str, object] = {
-        "recordings": len(tests),
-        "baselines_not_used": len(baselines),
-    }
-    if data[0].prescribed:
-        report = reconcile_prescribed(spec, parts_of(data), seed=seed, provenance=provenance, assumed=data[0].assumed)
+    site = driven_site(spec)
+    data, past, read = _read(spec, tests, baselines)
+    provenance: dict[str, object] = {"recordings": len(tests), "baselines": len(baselines)}
+    lost = [m.hopeless((d.drive_channel.name, d.answer_channel.name)) for d, m in zip(data, read, strict=False)]
+    gone = [fault for fault in lost if fault is not None]
+    sound = [d for d, m in zip(past, read[len(tests) :], strict=True) if m.hopeless(_names(d)) is None]
+    findings = [f for m in read for f in m.findings]
+    if gone:
+        report = fault_report(gone, NOT_JUDGED)
+    elif data[0].prescribed:
+        parts = parts_of(data)
+        report = reconcile_prescribed(spec, parts, seed=seed, provenance=provenance, assumed=data[0].assumed)
+        report = beside(report, [sensor_fault(f) for f in findings if _counts(f, data[0])])
     else:
-        report = answer(spec, analyse(parts_of(data), seed), seed=seed, provenance=provenance)
-    return replace(report, provenance={**origin(seed, time.process_time() - started), **report.provenance})
+        held = held_against(data, sound, site)
+        if held.undecided:
+            report = fault_report(held.faults, UNIT_NOT_KNOWN)
+        else:
+            found = analyse(parts_of(held.data), seed)
+            report = answer(spec, found, seed=seed, provenance=provenance)
+            report = replace(report, where=replace(report.where, limits=(*report.where.limits, *held.remarks)))
+            shown = proved(findings, held.data, found.published, left_over(report, found) < ROUGH)
+            if share_kept(found.fitted_run) < LEAST_KEPT and shown:
+                report = fault_report([*held.faults, *shown], NOT_JUDGED)
+            else:
+                report = beside(report, [*held.faults, *shown], held.data[0].drive_channel.name)
+    return replace(
+        report, provenance={**origin(seed, time.process_time() - started), **provenance, **report.provenance}
+    )
+
+
+def left_over(report: Report, found: Analysis) -> float:
+    """Share of the output that the answer leaves: on held-out data where a law is named, else by the linear model."""
+    if report.verdict == "explained" and report.held_out is not None:
+        return report.held_out.after
+    return found.fitted_nrmse if report.verdict == "nothing_missing" else 1.0
+
+
+def _names(data: Driven) -> tuple[str, str]:
+    return data.drive_channel.name, data.answer_channel.name
+
+
+def _counts(found: Finding, data: Driven) -> bool:
+    """Whether a finding is a sure fault of a test's prescribed motion, which may well stand still, or its force."""
+    return found.kind == "not_finite" and found.channel in _names(data) and found.recording.startswith("test")

@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import signal
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.model import Model, Run, answer_to, simulated
@@ -21,6 +22,9 @@ SMOOTHING = 33
 """Lines over which the error's spectrum is averaged for whitening."""
 FLOOR = 1e-3
 """Smallest spectrum over the median one: whitening must not blow up lines where nothing was measured."""
+TAPERED = 0.5
+"""Share of a stretch over which it fades in and out: made linear oscillators whose force is noisy leave an error that
+is a hundred times as strong at the resonance as elsewhere, and without it 11 of 40 alarmed at p < 0.01."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,33 +36,58 @@ class Missing:
     p_value: float
 
 
-def sensitivities(model: Model, run: Run) -> FloatArray:
-    """What changes of the linear parameters do to the output, (n - skip, 5)."""
-    x = simulated(model, run) - model.output_offset
-    v = np.gradient(x, run.data.step_s)
-    causes = (x, v, run.data.drive, np.ones(x.size))
+def displaced(model: Model, run: Run) -> FloatArray:
+    """Displacement of the linear model along the measured input, (n,), whatever derivative the output is."""
+    if run.data.order == 0:
+        return np.asarray(simulated(model, run) - model.output_offset)
+    return answer_to(model, model.gain * run.data.drive + model.offset, run.data.step_s, 0)
+
+
+def _sensitivities(model: Model, run: Run, x: FloatArray) -> FloatArray:
+    """What changes of the linear parameters do to the output, (n - skip, 5), along a displacement x (n,)."""
+    causes = (x, np.gradient(x, run.data.step_s), run.data.drive, np.ones(x.size))
     found = [answer_to(model, c, run.data.step_s, run.data.order)[run.skip :] for c in causes]
-    return np.column_stack([*found, np.ones(x.size - run.skip)])
+    return _counted_columns(np.column_stack([*found, np.ones(x.size - run.skip)]), run)
 
 
-def _signals(model: Model, run: Run) -> FloatArray:
-    x = simulated(model, run) - model.output_offset
+def _signals(model: Model, run: Run, x: FloatArray) -> FloatArray:
     v = np.gradient(x, run.data.step_s)
-    return np.column_stack(
-        [answer_to(model, law.values(x, v), run.data.step_s, run.data.order)[run.skip :] for law in SMOOTH]
-    )
+    found = [answer_to(model, law.values(x, v), run.data.step_s, run.data.order)[run.skip :] for law in SMOOTH]
+    return _counted_columns(np.column_stack(found), run)
+
+
+def _counted_columns(columns: FloatArray, run: Run) -> FloatArray:
+    """Signals (n - skip, k) as the error has them: 0 where a channel was spoiled."""
+    return columns if run.kept is None else columns * run.kept[:, None]
+
+
+def _smooth(power: FloatArray) -> FloatArray:
+    """Mean over `SMOOTHING` lines."""
+    return np.convolve(np.pad(power, SMOOTHING // 2, mode="edge"), np.ones(SMOOTHING) / SMOOTHING, mode="valid")
+
+
+def _taper(n: int) -> FloatArray:
+    """Weights (n,) that fade in and out: an end cut off sharply leaks from strong lines into weak ones, of error and
+    signals alike, and what both have in common then looks like a cause."""
+    return np.asarray(signal.windows.tukey(n, TAPERED), dtype=np.float64)
+
+
+def _lines(error: FloatArray) -> FloatArray:
+    """Amplitudes of an error's lines, (n // 2 + 1,), of what goes on without its ends."""
+    fade = _taper(error.size)
+    return np.asarray(np.abs(np.fft.rfft(error * fade)) / np.sqrt(np.mean(fade**2)))
 
 
 def _whitener(error: FloatArray) -> FloatArray:
     """Amplitude factors by line, (n // 2 + 1,)."""
-    power = np.abs(np.fft.rfft(error)) ** 2
-    smooth = np.convolve(np.pad(power, SMOOTHING // 2, mode="edge"), np.ones(SMOOTHING) / SMOOTHING, mode="valid")
+    smooth = _smooth(_lines(error) ** 2)
     return np.asarray(1.0 / np.sqrt(np.maximum(smooth, FLOOR * float(np.median(smooth)) + 1e-300)))
 
 
 def _white(columns: FloatArray, factors: FloatArray) -> FloatArray:
     n = columns.shape[0]
-    return np.asarray(np.fft.irfft(np.fft.rfft(columns, axis=0) * factors[:, None], n, axis=0))
+    faded = columns * _taper(n)[:, None]
+    return np.asarray(np.fft.irfft(np.fft.rfft(faded, axis=0) * factors[:, None], n, axis=0))
 
 
 def _frame(columns: FloatArray) -> FloatArray:
@@ -67,8 +96,17 @@ def _frame(columns: FloatArray) -> FloatArray:
     return np.asarray(left[:, sizes > 1e-9 * sizes[0]])
 
 
-def score_test(error: FloatArray, retuning: FloatArray, causes: FloatArray, rng: np.random.Generator) -> Missing:
-    """Test an error (n,) against signals of candidate causes (n, k), free of what retuning explains (n, m)."""
+def score_test(
+    error: FloatArray,
+    retuning: FloatArray,
+    causes: FloatArray,
+    rng: np.random.Generator,
+    kept: FloatArray | None = None,
+) -> Missing:
+    """Test an error (n,) against signals of candidate causes (n, k), free of what retuning explains (n, m).
+
+    `kept` (n,): 0 where error and signals were set to 0.
+    """
     factors = _whitener(error)
     held = _frame(_white(retuning, factors))
     signals = _white(causes, factors)
@@ -79,16 +117,17 @@ def score_test(error: FloatArray, retuning: FloatArray, causes: FloatArray, rng:
         rest = white - held @ (held.T @ white)
         return float(np.sum((frame.T @ rest) ** 2) / max(float(rest @ rest), 1e-300))
 
-    lines = np.abs(np.fft.rfft(error))
+    lines, seen = _lines(error), 1.0 if kept is None else kept
     found = share(error)
     null = []
     for _ in range(RESAMPLES):
         turned = lines * np.exp(2j * np.pi * rng.uniform(size=lines.size))
-        null.append(share(np.fft.irfft(turned, error.size)))
+        null.append(share(seen * np.fft.irfft(turned, error.size)))
     p = (1 + sum(value >= found for value in null)) / (RESAMPLES + 1)
     return Missing(statistic=found, null_95=float(np.quantile(null, 0.95)), p_value=float(p))
 
 
 def anything_missing(model: Model, run: Run, error: FloatArray, rng: np.random.Generator) -> Missing:
     """Test the error (n - skip,) that a fitted model left on a stretch."""
-    return score_test(error, sensitivities(model, run), _signals(model, run), rng)
+    x = displaced(model, run)
+    return score_test(error, _sensitivities(model, run, x), _signals(model, run, x), rng, run.kept)

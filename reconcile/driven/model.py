@@ -90,6 +90,8 @@ class Run:
     skip: int
     led: float = 0.0
     """Share of the natural angular frequency at which the whole run is led to what was measured; 0: a free run."""
+    kept: FloatArray | None = None
+    """(n - skip,): 0 where a channel was spoiled and errors do not count, else 1; None: all of them count."""
 
     @property
     def compared(self) -> FloatArray:
@@ -107,7 +109,21 @@ def held_linear(run: Run) -> Run:
 def ready(data: Driven, memory_s: float) -> Run:
     """A stretch whose first samples, at most a third of it, are left for the start to be forgotten."""
     skip = min(int(memory_s / data.step_s), data.answer.size // 3)
-    return Run(data=data, fine=refined(data.drive), skip=skip)
+    return Run(data=data, fine=refined(data.drive), skip=skip, kept=_kept(data, skip))
+
+
+def _kept(data: Driven, skip: int) -> FloatArray | None:
+    """Where errors count: not where the output was spoiled, nor, for the memory, after the input was, or after an
+    output that should have led the run."""
+    if data.bad_drive is None and data.bad_answer is None:
+        return None
+    none = np.zeros(data.answer.size, dtype=np.bool_)
+    drive = none if data.bad_drive is None else data.bad_drive
+    answer = none if data.bad_answer is None else data.bad_answer
+    start = drive | (answer & (np.arange(answer.size) < skip))
+    since = np.cumsum(start.astype(np.int64))
+    before = np.concatenate([np.zeros(min(skip + 1, since.size), dtype=np.int64), since[: -(skip + 1)]])
+    return np.where((since > before) | answer, 0.0, 1.0)[skip:]
 
 
 def _pull(model: Model, run: Run) -> FloatArray:
@@ -157,13 +173,23 @@ def bounded(values: FloatArray, run: Run) -> FloatArray:
 
 
 def errors(model: Model, run: Run) -> FloatArray:
-    """Measured less simulated where it counts, (n - skip,), bounded."""
-    return bounded(run.compared - simulated(model, run)[run.skip :], run)
+    """Measured less simulated where it counts, (n - skip,), bounded; 0 where a channel was spoiled."""
+    return counted(bounded(run.compared - simulated(model, run)[run.skip :], run), run)
+
+
+def counted(error: FloatArray, run: Run) -> FloatArray:
+    """An error (n - skip,) with 0 where a channel was spoiled."""
+    return error if run.kept is None else error * run.kept
 
 
 def diverges(model: Model, run: Run) -> bool:
     """Whether the free run flies off."""
     return bool(np.abs(errors(model, run)).max() >= RUNAWAY * float(run.data.answer.std()))
+
+
+def share_kept(run: Run) -> float:
+    """Share of the compared samples that count."""
+    return 1.0 if run.kept is None else float(np.mean(run.kept))
 
 
 def nrmse(error: FloatArray, measured: FloatArray) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 
 from reconcile.driven.channels import Driven, FloatArray
 from reconcile.driven.fit import fit
-from reconcile.driven.model import Model, Run, answer_to, errors
+from reconcile.driven.model import Model, Run, answer_to, counted, errors
 from reconcile.force_law.library import CUBIC_DRAG, DRAG, Law
 from reconcile.force_law.samples import IntArray
 from sim.core.compiled import jit
@@ -76,7 +76,7 @@ def black_box_error(box: BlackBox, run: Run) -> FloatArray:
     out, first = np.zeros(run.data.answer.size), max(run.skip, LAGS)
     out[:first] = run.data.answer[:first] / box.scale[1]
     _run_box(box.products, box.coefficients, run.data.drive / box.scale[0], first, out)
-    return np.asarray(run.compared - box.scale[1] * out[run.skip :])
+    return counted(np.asarray(run.compared - box.scale[1] * out[run.skip :]), run)
 
 
 def placebo_errors(
@@ -97,4 +97,4 @@ def placebo_errors(
     answer = answer_to(linear, shifted, other.data.step_s, other.data.order)[other.skip :]
     half = answer.size // 2
     size = float(answer[:half] @ base[:half]) / max(float(answer[:half] @ answer[:half]), 1e-300)
-    return errors(fitted.model, other), np.asarray(base - size * answer)
+    return errors(fitted.model, other), counted(np.asarray(base - size * answer), other)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from reconcile.faults import measurement_faults, with_faults
 from reconcile.gate import Gate
 from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.kinematics.judge import Candidate
@@ -44,7 +45,8 @@ def finished(
         report = replace(report, where=replace(report.where, limits=(*report.where.limits, *doubts(gate))))
     pictures = envelope_picture(of_the_answer(every, report.causes), tests, baselines)
     causes = tuple(replace(c, score_unit="deviations") for c in report.causes)
-    return replace(report, causes=causes, stages=tuple(stages), pictures=pictures)
+    report = replace(report, causes=causes, stages=tuple(stages), pictures=pictures)
+    return with_faults(report, measurement_faults(gate))
 
 
 def _row(c: Candidate) -> dict[str, object]:

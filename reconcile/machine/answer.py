@@ -25,7 +25,7 @@ from reconcile.machine.second import Beside, fitted_change, second_effect, struc
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.stages import all_stages, gate_stage, of_pairs, revisions
 from reconcile.machine.unknown import Unknown, at_supports
-from reconcile.machine.weigh import merged_weights, of_one_part
+from reconcile.machine.weigh import merged_weights, of_one_part, of_the_set
 from reconcile.machine.window import angle_window
 from reconcile.machine.words import law_sentence, next_experiment, sentence, size, title, with_points
 from reconcile.observe.features import Layout
@@ -45,6 +45,9 @@ from reconcile.verdict import (
     Word,
 )
 from signals.series import FloatArray
+
+SETS = ("explained", "ambiguous", "not_decidable")
+"""Verdicts on one name or a set of them, whose places are those of the set."""
 
 
 def fault_answer(gate: Gate, *, level: Level) -> Report:
@@ -112,7 +115,8 @@ def answer(
     word, text, fault = _told(setting, decision, gate, causes, held, other, unknown)
     lead = _lead(found, decision)
     named = [f"{c.term}@{c.site}" for c in causes if c.named]
-    placed = _with_second(weights, other)
+    shown = of_the_set(weights, decision.chosen) if decision.word in SETS else weights
+    placed = _with_second(shown, other)
     if unknown is not None:
         placed = at_supports(weights, unknown.force.site, [b.name for b in setting.machine.bearings])
     where = _where(setting, layout, watched, placed) if missing else Where(limits=limits(setting))

@@ -12,6 +12,7 @@ from reconcile.judge.screen import Screen
 from reconcile.machine.weigh import (
     FAR_AHEAD,
     LEAST_EVIDENCE,
+    MOST_NAMED,
     credible_set,
     lead,
     merged_weights,
@@ -61,8 +62,6 @@ GREAT = 25.0
 """Deviations of the most changed group that impacts of a known effect do not bring without its pattern."""
 FAINT = 14.0
 """Deviations of the most changed group below which a change that no effect explains may be too faint to tell."""
-MOST_NAMED = 6
-"""A set larger than this says nothing: the place or the mechanism is then not decidable."""
 
 
 @dataclass(frozen=True, kw_only=True)

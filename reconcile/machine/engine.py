@@ -11,6 +11,7 @@ from reconcile.atlas.keep import Forgetful, Keeper, kept_bank
 from reconcile.atlas.places import simulated_channels, standard_channels
 from reconcile.atlas.plan import AtlasPlan, atlas_plan, with_tooth_pairs
 from reconcile.calibrate.uncertain import uncertain_numbers
+from reconcile.faults import measurement_faults, with_faults
 from reconcile.gate import inspect_measurement
 from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import without_spoiled
@@ -27,7 +28,7 @@ from reconcile.machine.faintest import faintest_seen
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
 from reconcile.machine.octave import doubted_speed, rival_speed
-from reconcile.machine.own_time import own_time, with_own_time
+from reconcile.machine.own_time import explained_by, own_time, with_own_time
 from reconcile.machine.pairs import Pairs, best_pair, named_pair
 from reconcile.machine.search import (
     broader,
@@ -79,7 +80,8 @@ def reconcile_machine(
     progress(0.0, "sensor gate")
     gate = _gate(machine, on_drive(machine, tests), on_drive(machine, baselines), seed)
     if not gate.usable:
-        return replace(fault_answer(gate, level="machine"), provenance=_told_by(meter, seed, budget))
+        told_by = _told_by(meter, seed, budget)
+        return with_faults(replace(fault_answer(gate, level="machine"), provenance=told_by), measurement_faults(gate))
     paired = with_tooth_pairs(machine)
     chosen = candidates(paired) if nominated is None else tuple(nominated)
     plan = atlas_plan(paired, uncertain_numbers(paired), chosen, seed=seed)
@@ -90,7 +92,7 @@ def reconcile_machine(
     if fewer is not None:
         report = of_the_sensor(report, _reconciled(asked, fewer, _silent), fewer)
     progress(1.0, "done")
-    return report
+    return with_faults(report, measurement_faults(gate), explained_by(report))
 
 
 @dataclass(frozen=True, kw_only=True)

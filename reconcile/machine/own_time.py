@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reconcile.gate.findings import Kind
 from reconcile.kinematics.families import Family, ties
 from reconcile.kinematics.spec import of_machine
 from reconcile.observe.extract import USABLE, hann_spectrum
@@ -48,7 +49,7 @@ SUPPLIES_HZ = (50.0, 60.0)
 SUPPLY_HZ = 1.0
 TELLS_LITTLE = 10.0
 """Evidence of the best effect below which a set of effects says less than this does."""
-ELECTRIC = ("mains_hum", "fixed_tones")
+ELECTRIC: tuple[Kind, ...] = ("mains_hum", "fixed_tones")
 OFF = NextExperiment(
     sentence="Switch the drive off and record the run-down: what a drive brings is gone at once, what another machine "
     "brings stays."
@@ -197,6 +198,12 @@ def _lines(
                 )
             )
     return tuple(found)
+
+
+def explained_by(report: Report) -> tuple[Kind, ...]:
+    """Kinds of faults that are the machine's own where what keeps its own time is the answer."""
+    told = any(stage.get("name") == "own time" for stage in report.stages)
+    return ELECTRIC if told and report.verdict == "unknown_physics" else ()
 
 
 def with_own_time(report: Report, seen: OwnTime | None, machine: MachineSpec) -> Report:

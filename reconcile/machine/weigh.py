@@ -18,6 +18,8 @@ SET_WEIGHT = 0.95
 """The answer is the smallest set of candidates that carries this weight: one name leads its next rival by 3 of log
 evidence. A loose fit of 11 um was named a support that stiffens, 2.8 ahead of the fit (f007 of the proof); right names
 looked at since lead by 4 and more."""
+MOST_NAMED = 6
+"""A set larger than this says nothing: the place or the mechanism is then not decidable."""
 LEAST_EVIDENCE = 3.0
 """Log evidence a named cause needs over nothing missing."""
 
@@ -92,6 +94,21 @@ def credible_set(weights: dict[str, float], level: float = SET_WEIGHT) -> tuple[
         if total >= level:
             break
     return tuple(chosen)
+
+
+def of_the_set(weights: dict[str, float], chosen: Sequence[str]) -> dict[str, float]:
+    """Weights of an answer that leaves `chosen` open, as sure as it is.
+
+    Where these are not the set that the weights make (only impacts tell, or so few views that nothing which explains
+    half as much is excluded), the answer does not trust what chooses among them, and they share alike.
+    """
+    own = set(credible_set(weights))
+    if set(chosen) == own or not chosen or (len(chosen) == MOST_NAMED and set(chosen) < own):
+        return weights
+    if set(chosen) < own:
+        total = sum(weights[name] for name in chosen)
+        return {name: weights[name] / total for name in chosen}
+    return {name: 1.0 / len(chosen) for name in chosen}
 
 
 def plausible(screen: Screen) -> list[str]:

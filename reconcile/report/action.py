@@ -17,10 +17,17 @@ def to_do(report: Report) -> str:
     """The sentence for a verdict, with the next experiment where one is advised."""
     if EXCHANGED in report.sentence:
         return "check which recording is which: the baseline shows more than the tests."
-    advice = ACTIONS[report.verdict](report)
+    advice = f"{ACTIONS[report.verdict](report)}{_sensor_too(report)}"
     if report.next_experiment is None or report.verdict not in OPEN:
         return advice
     return f"{advice} {report.next_experiment.sentence}".strip()
+
+
+def _sensor_too(report: Report) -> str:
+    """What is to be mended where a fault of the measurement stands beside the answer."""
+    if report.fault is None or report.verdict == "measurement_fault":
+        return ""
+    return f" Mend the measurement at {report.fault.channel or 'all channels'} too."
 
 
 def undecided(report: Report) -> tuple[list[str], list[str]]:

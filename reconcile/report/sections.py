@@ -75,6 +75,8 @@ def _tile(value: str, label: str) -> Markup:
 
 def _place(report: Report, best: PlaceWeight) -> Markup:
     """The tile of the place: one, or the several that a set leaves open."""
+    if report.verdict == "not_decidable":
+        return _tile(best.site, f"leads with {percent(best.weight)} of the evidence; the place is not decided")
     kinds, sites = undecided(report)
     if report.verdict != "ambiguous" or not sites:
         return _tile(best.site, f"most likely place, {percent(best.weight)} of the evidence")
@@ -90,7 +92,7 @@ def head(report: Report) -> Markup:
     tiles = []
     named = [c for c in report.causes if c.named]
     if report.fault is not None:
-        tiles.append(_tile(report.fault.kind.replace("_", " "), f"on {report.fault.channel}"))
+        tiles.append(_tile(report.fault.kind.replace("_", " "), f"on {report.fault.channel or 'the measurement'}"))
     if report.where.sites:
         best = max(report.where.sites, key=lambda s: s.weight)
         tiles.append(_place(report, best))
@@ -122,11 +124,25 @@ def head(report: Report) -> Markup:
 
 
 def fault(report: Report) -> Markup:
-    """What is wrong with the measurement."""
-    if report.fault is None:
+    """What is wrong with the measurement: the fault that is the answer, and all that stand beside it or the answer."""
+    if report.fault is None and not report.measurement_faults:
         return Markup("")
-    said = f"{report.fault.kind.replace('_', ' ')} on channel {report.fault.channel}."
-    return section("The measurement", told(tag("p", said), tag("p", report.fault.detail, css="muted")))
+    faults = report.measurement_faults or ((report.fault,) if report.fault is not None else ())
+    rows = [
+        (
+            f.kind.replace("_", " "),
+            f.channel or "–",
+            ", ".join(f.recordings) or "–",
+            f.detail,
+            "; ".join(
+                words for words, holds in (("left out", f.left_out), ("or the machine's own", f.doubtful)) if holds
+            )
+            or "–",
+        )
+        for f in faults
+    ]
+    heads = ("fault", "channel", "recordings", "what was seen", "remark")
+    return section("The measurement", told(table(heads, rows)))
 
 
 def where_table(where: Where) -> Markup:

@@ -79,6 +79,19 @@ def test_the_odd_one_out_is_told_be_it_the_first() -> None:
     assert [p.field for p in refused.value.problems] == ["recording[0].channels[0]"]
 
 
+def test_of_two_that_differ_neither_is_called_wrong() -> None:
+    now, rest = replace(recording(rate_hz=10240.0), label="now.json"), replace(recording(), label="rest.json")
+    with pytest.raises(SpecError) as refused:
+        check_channels([now], [rest])
+    (problem,) = refused.value.problems
+    assert problem.field == "rest.json: sampling_rate_hz"
+    assert "now.json: sampling_rate_hz, which has 10240 Hz: either may be wrong" in problem.message
+    assert (problem.given, problem.allowed) == (20480.0, "the same in both")
+    two = replace(recording(channel(), channel("bearing2")), label="two.json")
+    with pytest.raises(SpecError, match=r"rest\.json: channels: differs from two\.json: channels, which has 2"):
+        check_channels([two], [rest])
+
+
 def test_matching_recordings_pass_whatever_their_names_and_lengths() -> None:
     renamed = replace(channel(), name="anything")
     check_channels([recording()], [recording(renamed, seconds=2.0)])

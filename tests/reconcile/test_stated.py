@@ -196,3 +196,33 @@ def test_a_test_that_is_called_a_baseline_beside_baselines_that_are_not_is_told(
     one, other = quiet(), replace(quiet(), condition="baseline")
     assert exchanged(given([other], [one])) and not exchanged(given([one], [other]))
     assert not exchanged(given([other], [other])) and not exchanged(given([other], []))
+
+
+def pulsed(speed_hz: float, *, shaft: str = "shaft") -> Recording:
+    """Pulses, and no stated speed."""
+    times = np.arange(0.0, 2.0, 1.0 / speed_hz)
+    tacho = Tacho(pulse_times_s=times, pulses_per_revolution=1, shaft=shaft)
+    return replace(quiet(shaft=shaft), operating=None, tacho=tacho)
+
+
+FIELD = "kinematics.shafts.{shaft}.speed_hz"
+
+
+def test_the_machines_speed_in_rpm_is_told_by_pulses_alone() -> None:
+    with pytest.raises(SpecError, match=r"1797 rpm = 29\.95 Hz \(the pulses of recording\[0\]\.tacho say"):
+        check_speeds({"shaft": 1797.0}, FIELD, given([pulsed(29.95)], []))
+    check_speeds({"shaft": 1797.0}, FIELD, given([pulsed(24.0)], []))  # may be a slow roll
+    check_speeds({"shaft": 29.95}, FIELD, given([pulsed(29.95)], []))
+
+
+def test_the_machines_speed_in_rpm_is_told_at_another_load_too() -> None:
+    with pytest.raises(SpecError, match=r"1800 rpm = 30 Hz \(recording\[0\]\.operating\.speed_hz is 25\)"):
+        check_speeds({"shaft": 1800.0}, FIELD, given([quiet(25.0)], []))
+    check_speeds({"shaft": 1800.0}, FIELD, given([quiet(12.0)], []))
+
+
+def test_a_shaft_whose_speed_nothing_tells_does_not_outrun_the_sampling() -> None:
+    several = given([quiet(25.0, rate_hz=2000.0)], [])
+    with pytest.raises(SpecError, match=r"shafts\.other\.speed_hz: looks like rpm.*half the sampling rate is 1000 Hz"):
+        check_speeds({"shaft": 25.0, "other": 1500.0}, FIELD, several)
+    check_speeds({"shaft": 25.0, "other": 300.0}, FIELD, several)

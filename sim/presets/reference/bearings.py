@@ -179,7 +179,8 @@ def merged(entry: Entry | None, balls: float | None, ratio: float | None, names:
         if balls is None or ratio is None:
             missing = [n for n, v in zip(names, (balls, ratio), strict=True) if v is None]
             message = "is missing, and `bearings` gives no geometry either"
-            raise SpecError([Problem(field=f"parameters.{n}", message=message) for n in missing])
+            allowed = {names[0]: "a whole number from 3 to 64", names[1]: "above 0, below 0.9"}
+            raise SpecError([Problem(field=f"parameters.{n}", message=message, allowed=allowed[n]) for n in missing])
         return Entry(geometry=BallGeometry(balls=int(balls), diameter_ratio=ratio)), ""
     same = (balls is None or balls == entry.geometry.balls) and (
         ratio is None or abs(ratio - entry.ratio) <= RATIO_TOLERANCE * entry.ratio

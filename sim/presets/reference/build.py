@@ -122,7 +122,10 @@ def _check_ball_stiffness(given: Mapping[str, float], rolling: tuple[Entry, ...]
         return
     if not all(entry.has_diameters for entry in rolling):
         message = "is missing, and no ball diameters are given to derive it by Hertz contact"
-        raise SpecError(Problem(field="parameters.kre", message=message, unit="N/m^1.5", allowed="a number"))
+        key = KEYS["kre"]
+        raise SpecError(
+            Problem(field="parameters.kre", message=message, unit=key.unit, allowed=f"{key.low:g} to {key.high:g}")
+        )
     notes["kre"] = "derived: Hertz contact of ball and both races, each bearing from its diameters"
 
 

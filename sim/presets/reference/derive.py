@@ -56,7 +56,8 @@ def kinematic_values(p: Mapping[str, float], notes: dict[str, str], warnings: li
             notes[name] = f"derived: {value:.9g} {unit} ({rule})"
         elif abs(given - value) > AGREEMENT * abs(value):
             message = f"contradicts {rule} = {value:.9g}"
-            problems.append(Problem(field=f"parameters.{name}", message=message, given=given, unit=unit))
+            allowed = f"{value:.9g} (within {AGREEMENT:.2g} of it), or left out"
+            problems.append(Problem(field=f"parameters.{name}", message=message, given=given, allowed=allowed))
     if problems:
         raise SpecError(problems)
     balance = p["T"] * p["z2"] / p["z1"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from sim.core.errors import Problem, SpecError
@@ -106,7 +106,10 @@ def checked(given: Mapping[str, object]) -> dict[str, float]:
                 values[name] = float(value)
     problems += [
         Problem(
-            field=f"parameters.{key.name}", message=f"is missing: {key.sentence}", unit=key.unit, allowed="a number"
+            field=f"parameters.{key.name}",
+            message=f"is missing: {key.sentence.rstrip('.')}",
+            unit=key.unit,
+            allowed=f"{'a whole number, ' if key.whole else ''}{key.low:g} to {key.high:g}",
         )
         for key in KEYS.values()
         if key.absence == "refused" and key.name not in given
@@ -128,6 +131,15 @@ def _unknown(name: str) -> Problem:
 def _wrong(key: Key, value: object) -> Problem | None:
     field = f"parameters.{key.name}"
     problem = key.problem(value, field)
+    if problem is not None and key.unit == "Hz" and _as_rpm(key, value):
+        return replace(
+            problem, message=f"{problem.message} (it would fit as rpm: speeds are in revolutions per second)"
+        )
     if problem is None and (key.whole or key.name in ("nb1", "nb2")) and float(value) % 1 != 0:  # type: ignore[arg-type]
         return Problem(field=field, message="must be a whole number", given=value, allowed="a whole number")
     return problem
+
+
+def _as_rpm(key: Key, value: object) -> bool:
+    """Whether a number is too large for a speed and would not be in rpm."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and key.high < value <= 60.0 * key.high

@@ -10,8 +10,8 @@ import pytest
 from reconcile.atlas.places import sensor_sites
 from reconcile.judge.adequacy import Rest
 from reconcile.judge.screen import Screen
-from reconcile.machine.decide import GLARING, MOST_NAMED, STRANGE, chance, decide, remarkable, tempered, unmeasured
-from reconcile.machine.weigh import credible_set, merged_weights, plausible, variants
+from reconcile.machine.decide import GLARING, STRANGE, chance, decide, remarkable, tempered, unmeasured
+from reconcile.machine.weigh import MOST_NAMED, credible_set, merged_weights, plausible, variants
 from reconcile.machine.words import next_experiment, sentence, title
 from reconcile.verdict import HeldOut, Severity
 from sim import presets

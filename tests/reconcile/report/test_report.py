@@ -30,7 +30,7 @@ from reconcile.verdict import (
 from sim.presets import preset
 
 KEYS = {
-    "to_do", "faintest", "provenance", "level", "stages", "pictures",
+    "to_do", "faintest", "measurement_faults", "provenance", "level", "stages", "pictures",
     "verdict", "sentence", "where", "causes", "fault", "held_out", "force", "undecidable", "next_experiment", "machine",
 }  # fmt: skip
 NASTY = '<script>alert("x")</script>&'

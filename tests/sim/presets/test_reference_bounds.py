@@ -37,3 +37,22 @@ def test_the_output_torque_is_the_balance_whatever_the_file_says() -> None:
 
 def test_gravity_of_a_file_acts_along_y() -> None:
     assert machine_from_reference(NEEDED | {"gravity": 9.81}, ROWS, GRID).gravity_m_per_s2 == 9.81
+
+
+def test_refusals_of_missing_and_contradicting_numbers_say_what_is_allowed() -> None:
+    for gone, words in (("kf", "1e-06 to 1e+10"), ("z1", "a whole number, 6 to 2000"), ("nb1", "a whole number")):
+        with pytest.raises(SpecError) as caught:
+            machine_from_reference({k: v for k, v in NEEDED.items() if k != gone}, ROWS, GRID)
+        (problem,) = caught.value.problems
+        assert problem.field == f"parameters.{gone}"
+        assert words in problem.allowed
+    with pytest.raises(SpecError) as caught:
+        machine_from_reference(NEEDED | {"fm": 1.0}, ROWS, GRID)
+    (problem,) = caught.value.problems
+    assert problem.given == 1.0
+    assert problem.allowed.startswith("690 (within 0.0001 of it)")
+
+
+def test_a_speed_that_would_fit_as_rpm_is_told_so() -> None:
+    with pytest.raises(SpecError, match=r"fr1: is out of bounds \(it would fit as rpm.*given 1800"):
+        machine_from_reference(NEEDED | {"fr1": 1800.0}, ROWS, GRID)

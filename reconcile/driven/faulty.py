@@ -1,0 +1,100 @@
+"""Faults of the measurement at level `driven`: found, put right where that is possible, reported."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from reconcile.driven.channels import Driven
+from reconcile.driven.machine import Site
+from reconcile.driven.measured import Look, against_file, exchanged, look, remarks, scaled, swap_fault
+from reconcile.faults import with_faults
+from reconcile.gate.spoiled import fault_sentence
+from reconcile.verdict import NextExperiment, Report, SensorFault
+
+UNIT_NOT_KNOWN = ("Mass, stiffness and any law would be in unknown units: nothing is said of the machine.",)
+QUIET = ("nothing_missing", "not_decidable")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Held:
+    """Recordings held against each other and the machine file: with what could be put right, faults and remarks.
+
+    `undecided`: something is wrong that could not be put right.
+    """
+
+    data: list[Driven]
+    faults: list[SensorFault]
+    remarks: tuple[str, ...]
+    undecided: bool
+
+
+def held_against(tests: Sequence[Driven], baselines: Sequence[Driven], site: Site) -> Held:
+    """Channels exchanged, then units: against the first baseline, else the machine file, else the first test."""
+    faults, undecided = list[SensorFault](), False
+    looks = [_unswapped(look(d), f"test {i}", faults) for i, d in enumerate(tests, 1)]
+    rested = [_unswapped(look(d), f"baseline {i}", []) for i, d in enumerate(baselines, 1)]
+    for i, one in enumerate(looks):
+        if rested:
+            found, against = scaled(one, rested[0]), "baseline 1"
+        else:
+            found, against = against_file(one, site), "the machine file"
+            if found is None and i > 0:
+                found, against = scaled(one, looks[0]), "test 1"
+        if found is None:
+            continue
+        faults.append(found.fault(one.data, f"test {i + 1}", against))
+        undecided |= found.drives is None or against == "test 1"
+        looks[i] = replace(one, data=found.undone(one.data))
+    said = () if faults else remarks(looks, site)
+    return Held(data=[one.data for one in looks], faults=faults, remarks=said, undecided=undecided)
+
+
+def _unswapped(one: Look, recording: str, faults: list[SensorFault]) -> Look:
+    """The look with force and motion as they are; a swap is added to `faults`."""
+    other = exchanged(one)
+    if other is None:
+        return one
+    faults.append(swap_fault(one, other, recording))
+    return other
+
+
+def fault_report(faults: Sequence[SensorFault], undecidable: tuple[str, ...]) -> Report:
+    """The answer where the measurement does not carry an analysis."""
+    report = Report(
+        verdict="measurement_fault",
+        sentence=fault_sentence(faults[0]),
+        level="driven",
+        fault=faults[0],
+        undecidable=undecidable,
+        next_experiment=NextExperiment(sentence="Correct the description or the channel, or cut the sound part out."),
+        stages=({"stage": "gate", "findings": [_said(f) for f in faults]},),
+    )
+    return with_faults(report, faults)
+
+
+def beside(report: Report, faults: Sequence[SensorFault], force: str = "") -> Report:
+    """The report with faults that were put right or left out; the answer where nothing else is missing or decidable.
+
+    `force`: the channel that drives; where it is cut off it drives no model, and what is missing may be that alone.
+    """
+    found = [{"stage": "gate", "findings": [_said(f) for f in faults] or ["nothing wrong with the measurement"]}]
+    report = replace(report, stages=(*found, *report.stages))
+    if not faults:
+        return report
+    cut = any(f.kind == "clipped" and f.channel == force for f in faults)
+    if report.verdict not in QUIET and not cut:
+        return with_faults(report, faults)
+    rest = (
+        " Apart from it the linear model explains the recordings."
+        if report.verdict == "nothing_missing" and not cut
+        else ""
+    )
+    said = f"{fault_sentence(faults[0])}{rest}"
+    causes = tuple(replace(c, named=False) for c in report.causes)
+    answer = replace(report, verdict="measurement_fault", sentence=said, fault=faults[0], causes=causes)
+    return with_faults(answer, faults)
+
+
+def _said(fault: SensorFault) -> str:
+    return f"{fault.channel}: {fault.kind}, {fault.detail}" if fault.channel else f"{fault.kind}, {fault.detail}"

@@ -1,0 +1,187 @@
+"""Units and channels held against other recordings and the machine file: by the linear model that each one fits.
+
+A unit scales force or motion and leaves frequency and damping as they are, and no machine does that: another mass or
+spring moves the frequency. Force and motion exchanged make an answer that comes before its cause: a mass on a spring
+cannot give it, and gives it well the other way round.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from reconcile.driven.channels import Driven
+from reconcile.driven.forced import calibrate
+from reconcile.driven.judge import UNRELATED
+from reconcile.driven.machine import Site, weighed
+from reconcile.driven.model import Model, nrmse, share_kept
+from reconcile.driven.split import Part
+from reconcile.verdict import SensorFault
+
+FORCE_RATIOS = {"kN against N": 1000.0, "kgf against N": 9.80665, "lbf against N": 4.44822}
+MOTION_RATIOS = {
+    "displacement": {"mm against m": 1000.0, "µm against m": 1e6, "inch against m": 39.3701, "inch against mm": 25.4},
+    "velocity": {"mm/s against m/s": 1000.0, "inch/s against m/s": 39.3701, "inch/s against mm/s": 25.4},
+    "acceleration": {"g against m/s^2": 9.80665, "mm/s^2 against m/s^2": 1000.0},
+}
+OTHER_RATIOS = {"V against mV": 1000.0}
+NEAR_UNIT = 0.08
+"""By which a ratio of units may be missed."""
+SAME_FREQUENCY, SAME_FREQUENCY_FILE = 0.05, 0.1
+"""Within which two recordings, or a recording and the machine file, are of one oscillator."""
+OTHER_GAIN = 1.3
+"""Ratio of two recordings' gains from which on one of them is wrong: the fit of one is good to some per cent."""
+LEVEL_SHARE = 0.35
+"""Of the change, in logarithms, that a channel's own level may have changed by to be the one that is right."""
+FITS = 0.5
+"""Share of the output that a linear model may leave to be held against another."""
+REVERSED, REVERSED_UNRELATED = 0.6, 0.85
+"""Error the other way round, over the error as described, below which the channels are exchanged; the second where the
+motion does not follow the force at all."""
+LEAST_KEPT = 0.3
+"""Share of the samples that must be sound for a fit to be held against another."""
+MOST_M_PER_S2 = 1e4
+"""A thousand g: no vibration of a part that is meant to stay whole."""
+FILE_OFF = 1.3
+"""Ratio of mass or frequency to the machine file's that is worth a remark."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Look:
+    """A recording with the linear model that it fits, and the share of the output that this leaves."""
+
+    data: Driven
+    model: Model
+    left: float
+
+    @property
+    def frequency_hz(self) -> float:
+        """Of the fitted oscillator."""
+        return math.sqrt(self.model.stiffness) / (2.0 * math.pi)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scaled:
+    """A channel whose numbers are `factor` times too large; `drives` None: force or motion, which is not known."""
+
+    factor: float
+    drives: bool | None
+    words: str
+    unit: bool
+    """Whether the factor is a ratio of units."""
+
+    def fault(self, data: Driven, recording: str, against: str) -> SensorFault:
+        """For the report; `against`: what it was held against."""
+        names = (data.drive_channel.name, data.answer_channel.name)
+        channel = "" if self.drives is None else names[0 if self.drives else 1]
+        whose = f"{channel} is" if channel else f"{names[1]} over {names[0]} is"
+        detail = (
+            f"{recording}: by {against}, of one frequency, {whose} {self.factor:.4g} times too large ({self.words})"
+        )
+        kind = "unit_mismatch" if self.unit else "gain_change"
+        return SensorFault(kind=kind, channel=channel, detail=detail, recordings=(recording,))
+
+    def undone(self, data: Driven) -> Driven:
+        """The recording with the numbers put right."""
+        if self.drives is None:
+            return data
+        return (
+            replace(data, drive=data.drive / self.factor)
+            if self.drives
+            else replace(data, answer=data.answer / self.factor)
+        )
+
+
+def look(data: Driven) -> Look:
+    """Fit the linear model to the liveliest stretch."""
+    found = calibrate(Part(name="", data=data))
+    kept = share_kept(found.run)
+    left = nrmse(found.linear.error, found.run.compared) / math.sqrt(kept) if kept > LEAST_KEPT else 1.0
+    return Look(data=data, model=found.linear.model, left=left)
+
+
+def exchanged(one: Look) -> Look | None:
+    """The recording with its channels exchanged, where a mass on a spring fits only then."""
+    if one.left < FITS or one.data.prescribed:
+        return None
+    data = one.data
+    turned = replace(data, drive=data.answer, answer=data.drive, bad_drive=data.bad_answer, bad_answer=data.bad_drive)
+    other = look(turned)
+    least = REVERSED_UNRELATED if one.left > UNRELATED else REVERSED
+    return other if other.left < least * one.left else None
+
+
+def swap_fault(one: Look, other: Look, recording: str) -> SensorFault:
+    """For the report."""
+    drive, answer = one.data.drive_channel.name, one.data.answer_channel.name
+    detail = (
+        f"{recording}: {answer} comes before {drive}; a linear model leaves {100 * one.left:.2g} % as described, "
+        f"{100 * other.left:.2g} % with {drive} and {answer} exchanged"
+    )
+    return SensorFault(kind="swapped_channels", channel=drive, detail=detail, recordings=(recording,))
+
+
+def scaled(one: Look, reference: Look) -> Scaled | None:
+    """What the numbers of a recording are wrong by against another of the same oscillator, or None."""
+    if max(one.left, reference.left) > FITS or abs(one.frequency_hz / reference.frequency_hz - 1.0) > SAME_FREQUENCY:
+        return None
+    gain = abs(one.model.gain / reference.model.gain) if reference.model.gain else 1.0
+    if gain == 0.0 or abs(math.log(gain)) < math.log(OTHER_GAIN):
+        return None
+    pushed = math.log(float(one.data.drive.std()) / float(reference.data.drive.std()))
+    moved = math.log(float(one.data.answer.std()) / float(reference.data.answer.std()))
+    drives = None if min(abs(pushed), abs(moved)) > LEVEL_SHARE * abs(math.log(gain)) else abs(moved) < abs(pushed)
+    return _scaled(one.data, gain, drives)
+
+
+def _scaled(data: Driven, gain: float, drives: bool | None) -> Scaled | None:
+    """From a ratio of gains, motion over force. Which channel is not known: the factor of the motion is told."""
+    force = FORCE_RATIOS if data.drive_channel.quantity in ("force", "torque") else OTHER_RATIOS
+    motion = MOTION_RATIOS.get(data.answer_channel.quantity, OTHER_RATIOS)
+    possible = {**(force if drives is not False else {}), **(motion if drives is not True else {})}
+    near = [words for words, ratio in possible.items() if abs(abs(math.log(gain)) - math.log(ratio)) < NEAR_UNIT]
+    if not near:
+        return Scaled(factor=1.0 / gain if drives else gain, drives=drives, words="no ratio of units", unit=False)
+    exact = possible[near[0]]
+    larger = exact if (gain > 1.0) != bool(drives) else 1.0 / exact
+    return Scaled(factor=larger, drives=drives, words=" or ".join(near), unit=True)
+
+
+def against_file(one: Look, site: Site) -> Scaled | None:
+    """A ratio of units between the mass that a recording tells and the machine file's, their frequencies being one."""
+    mass, frequency = of_file(site)
+    if not weighed(one.model, one.data) or one.left > FITS or frequency is None:
+        return None
+    if abs(one.frequency_hz / frequency - 1.0) > SAME_FREQUENCY_FILE:
+        return None
+    gain = one.model.gain * mass
+    pushed = float(one.data.drive.std()) / mass
+    moved = float(one.data.answer.std()) * (2.0 * math.pi * one.frequency_hz) ** (2 - one.data.order)
+    too_much = [pushed > MOST_M_PER_S2, moved > MOST_M_PER_S2]
+    drives = too_much[0] if sum(too_much) == 1 else None
+    found = _scaled(one.data, gain, drives) if abs(math.log(gain)) > math.log(OTHER_GAIN) else None
+    return found if found is not None and found.unit else None
+
+
+def of_file(site: Site) -> tuple[float, float | None]:
+    """Mass, kg, and natural frequency, Hz, of the machine file (None: it has no spring)."""
+    body = site.body
+    stiffness = body.stiffness_x_n_per_m if site.axis == "x" else body.stiffness_y_n_per_m
+    return body.mass_kg, math.sqrt(stiffness / body.mass_kg) / (2.0 * math.pi) if stiffness > 0 else None
+
+
+def remarks(several: Sequence[Look], site: Site) -> tuple[str, ...]:
+    """Where the recordings tell another oscillator than the machine file has."""
+    mass, frequency = of_file(site)
+    one = several[0]
+    if not weighed(one.model, one.data) or one.left > FITS or frequency is None:
+        return ()
+    here = (1.0 / one.model.gain, one.frequency_hz)
+    if all(abs(math.log(a / b)) < math.log(FILE_OFF) for a, b in zip(here, (mass, frequency), strict=True)):
+        return ()
+    told = (
+        f"The recordings tell {here[0]:.3g} kg at {here[1]:.4g} Hz, the machine file {mass:.3g} kg at "
+        f"{frequency:.4g} Hz: if that is this machine, look at the units of force and motion."
+    )
+    return (told,)

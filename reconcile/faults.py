@@ -1,0 +1,75 @@
+"""Faults of the measurement beside an answer about the machine: all in a list, those that are sure in the sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from reconcile.gate.findings import FAULTS, Finding, Gate, Kind
+from reconcile.gate.spoiled import HEARD
+from reconcile.verdict import Report, SensorFault
+
+MOST_NAMED = 3
+"""Faults that a sentence names; the list has all."""
+
+
+def measurement_faults(gate: Gate) -> tuple[SensorFault, ...]:
+    """Every fault that the gate found, one a kind and channel, those that spoil most first."""
+    groups: dict[tuple[str, str], list[Finding]] = {}
+    for one in (f for f in gate.findings if f.fault):
+        groups.setdefault((one.kind, one.channel), []).append(one)
+    worst = [max(same, key=lambda f: f.severity) for same in groups.values()]
+    order = sorted(range(len(worst)), key=lambda i: (FAULTS.index(worst[i].kind), -worst[i].severity))
+    heard = gate.tests[0].names if gate.tests else ()
+    every = list(groups.values())
+    return tuple(
+        SensorFault(
+            kind=worst[i].kind,
+            channel=worst[i].channel,
+            detail=worst[i].detail + (f"; {worst[i].where}" if worst[i].where else ""),
+            recordings=tuple(dict.fromkeys(f.recording for f in every[i])),
+            left_out=bool(worst[i].channel) and gate.usable and worst[i].channel not in (*heard, "tacho"),
+            doubtful=worst[i].kind in HEARD,
+        )
+        for i in order
+    )
+
+
+def with_faults(report: Report, found: Sequence[SensorFault], explained: Sequence[Kind] = ()) -> Report:
+    """The report with the faults `found`, without kinds that the answer itself explains.
+
+    A verdict of `measurement_fault` keeps its `fault`, which then leads the list. Beside any other the first that is
+    sure is `fault` and the sure ones stand in the sentence; what the machine itself may do is undecidable.
+    """
+    kept = tuple(f for f in found if f.kind not in explained)
+    if report.verdict == "measurement_fault":
+        first = report.fault
+        if first is not None and all((f.kind, f.channel) != (first.kind, first.channel) for f in kept):
+            kept = (first, *kept)
+        return replace(report, measurement_faults=kept)
+    if not kept:
+        return report
+    sure = [f for f in kept if not f.doubtful]
+    open_ones = tuple(
+        f"whether {_words(f)} is the sensor's or the machine's own, which may do the same" for f in kept if f.doubtful
+    )
+    sentence = f"{report.sentence} {_beside(sure)}" if sure else report.sentence
+    return replace(
+        report,
+        sentence=sentence,
+        fault=sure[0] if sure else None,
+        measurement_faults=kept,
+        undecidable=(*report.undecidable, *open_ones),
+    )
+
+
+def _words(fault: SensorFault) -> str:
+    """`clipped on de`."""
+    return fault.kind.replace("_", " ") + (f" on {fault.channel}" if fault.channel else "")
+
+
+def _beside(sure: Sequence[SensorFault]) -> str:
+    named = [_words(f) + (" (left out)" if f.left_out else "") for f in sure[:MOST_NAMED]]
+    if len(sure) > MOST_NAMED:
+        named.append(f"{len(sure) - MOST_NAMED} more")
+    return f"Beside it the measurement is at fault: {', '.join(named)}."

@@ -1,0 +1,26 @@
+"""Weights of places are those of the set that the verdict leaves open."""
+
+from __future__ import annotations
+
+from reconcile.machine.decide import decide
+from reconcile.machine.weigh import merged_weights, of_the_set
+from tests.reconcile.machine.test_decide import NAMES, screen
+
+
+def test_places_share_alike_where_the_set_is_not_made_by_the_weights() -> None:
+    """One sensor at one point: what explains half as much stays in the set, so its place is as open as the first's."""
+    one = screen([20.0, 12.0])
+    few, weights = decide(one, views=1), merged_weights(one)
+    assert weights[NAMES[0]] > 0.99
+    assert of_the_set(weights, few.chosen) == {NAMES[0]: 0.5, NAMES[1]: 0.5}
+    assert of_the_set(weights, decide(one, views=9).chosen) == weights
+    near = merged_weights(screen([20.0, 19.5, 19.0]))
+    assert of_the_set(near, NAMES[:3]) == near, "the weights made the set"
+    struck = of_the_set(near, NAMES[1:2])
+    assert struck == {NAMES[1]: 1.0}, "only its impacts told"
+
+
+def test_a_place_behind_by_pattern_is_shown_where_only_impacts_tell() -> None:
+    weights = merged_weights(screen([2.9, -8.0]))
+    chosen = (NAMES[1], NAMES[0])
+    assert of_the_set(weights, chosen) == {NAMES[1]: 0.5, NAMES[0]: 0.5}
