@@ -7,7 +7,7 @@ that speed, and that the description must be put right.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 
 from reconcile.gate import Gate
@@ -52,18 +52,25 @@ def left_out(
     """Gate and recordings without those that surely turned elsewhere, and what is said of these; all of them where
     every test is one."""
     sure = {label for label, found in far.items() if not found.own}
-    kept = [[i for i, one in enumerate(several) if one.label not in sure] for several in (tests, baselines)]
-    if not kept[0] or not sure:
+    if all(one.label in sure for one in tests):
         return gate, list(tests), list(baselines), ()
     told = tuple(
         f"{one.label} was left out: {_lines(one, far[one.label])}" for one in (*tests, *baselines) if one.label in sure
     )
+    return *without(gate, tests, baselines, sure), told
+
+
+def without(
+    gate: Gate, tests: Sequence[Observation], baselines: Sequence[Observation], labels: Collection[str]
+) -> tuple[Gate, list[Observation], list[Observation]]:
+    """Gate and observations without the recordings of these labels."""
+    kept = [[i for i, one in enumerate(several) if one.label not in labels] for several in (tests, baselines)]
     gate = replace(
         gate,
         tests=tuple(gate.tests[i] for i in kept[0]),
         baselines=tuple(gate.baselines[i] for i in kept[1]),
     )
-    return gate, [tests[i] for i in kept[0]], [baselines[i] for i in kept[1]], told
+    return gate, [tests[i] for i in kept[0]], [baselines[i] for i in kept[1]]
 
 
 def told_elsewhere(
@@ -91,7 +98,8 @@ def told_elsewhere(
     if not against and not any(far[one.label].own for one in here):
         return Report(
             verdict="measurement_fault",
-            sentence=f"The speed is not the one stated: {told}. Nothing is judged by the stated one.{found_there}",
+            sentence=f"The stated speed does not hold: {told}, and none is near that. Nothing is judged by it."
+            + found_there,
             level="kinematics",
             where=stated.report.where if there is None else there.report.where,
             causes=at_either(*pairs[1:]),

@@ -11,10 +11,11 @@ import numpy as np
 
 from reconcile.gate import inspect_measurement
 from reconcile.gate.spoiled import GONE, without_spoiled
+from reconcile.gate.whole import whole_stretches
 from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.apart import with_speeds
 from reconcile.kinematics.doubted import against_rivals, factor_of, restated, unconfirmed
-from reconcile.kinematics.elsewhere import left_out, told_elsewhere, turned_elsewhere
+from reconcile.kinematics.elsewhere import left_out, told_elsewhere, turned_elsewhere, without
 from reconcile.kinematics.extent import Extent
 from reconcile.kinematics.faint import impulsive_report, shallow_report
 from reconcile.kinematics.families import Ties, ties
@@ -75,13 +76,17 @@ def _reconciled(
     )
     if not gate.usable:
         return finished(fault_report(gate), gate, (), ())
-    gate = without_spoiled(gate, GONE)
     stated = {s.name: s.speed_hz for s in known.shafts}[tie.reference]
+    whole = whole_stretches(without_spoiled(gate, GONE), tests, baselines, stated)
+    gate = whole.gate
+    if not gate.usable:
+        return finished(fault_report(gate), gate, (), ())
     try:
         seen = _observed(gate.tests, "test", tie, stated, seed)
         past = _observed(gate.baselines, "baseline", tie, stated, seed)
     except SpecError as error:
         return finished(refused_report(error), gate, (), ())
+    gate, seen, past = without(gate, seen, past, whole.lost)
     far = turned_elsewhere((*seen, *past), tie, seed)
     gate, seen, past, told = left_out(gate, seen, past, far)
     first, every = _judged(known, tie, seen, past, seed)
@@ -94,7 +99,7 @@ def _reconciled(
         report = with_speeds(report, seen, past)
     if report.verdict != "measurement_fault":
         report = remarked(report, tie, seen, past, every, seed)
-    report = replace(report, where=replace(report.where, limits=(*report.where.limits, *told)))
+    report = replace(report, where=replace(report.where, limits=(*report.where.limits, *told, *whole.told)))
     if report.verdict in ("nothing_missing", "not_decidable") and gate.fault is not None:
         report = fault_report(gate)
     return finished(report, gate, seen, every, past)

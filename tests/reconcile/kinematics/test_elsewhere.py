@@ -133,4 +133,4 @@ def test_nothing_is_left_out_where_no_test_would_be_left() -> None:
     kept = left_out(gate, [seen("test 1")], [seen("baseline 1")], {"baseline 1": far()})  # type: ignore[list-item]
     assert (kept[0].baselines, kept[2]) == ((), []) and kept[3][0].startswith("baseline 1 was left out")
     unsure = left_out(gate, [seen("test 1")], [seen("baseline 1")], {"baseline 1": far(own=True)})  # type: ignore[list-item]
-    assert unsure[0] is gate and unsure[3] == ()
+    assert unsure[0] == gate and unsure[3] == ()
