@@ -106,3 +106,10 @@ def test_a_size_beside_infinite_samples_is_refused_all_the_same() -> None:
     samples[0, 3:6] = np.inf, np.nan, 1e40
     with pytest.raises(SpecError, match=r"channels\.a: .*sample 5 \(given 1e\+40\)"):
         recording(samples=samples)
+
+
+def test_of_a_simulation_what_is_left_of_nothing_is_taken_but_no_absurd_size() -> None:
+    samples = np.full((2, 100), 1e-40)
+    assert recording(samples=samples, origin="simulated").samples[0, 0] == 1e-40
+    with pytest.raises(SpecError, match="no sensor gives"):
+        recording(samples=1e240 * samples, origin="simulated")
