@@ -1,31 +1,17 @@
-"""Whether a recording can hold what is looked for at all: its lines below half the rate, numbers that have squares."""
+"""Whether a recording can hold what is looked for at all: its lines below half the rate."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 
-import numpy as np
-
 from learn.describe import Site
-from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
 
 HARMONICS = 3
 """Of a race's line that a recording should hold: so many are scored."""
 USUAL = 3.0
 """Order of the outer race of usual bearings, at least (6 balls and more)."""
-LARGEST = 1e100
-"""Beyond it powers of samples are no numbers any more."""
-
-
-def check_size(values: FloatArray, name: str) -> None:
-    """SpecError for samples (n,) of which powers cannot be computed."""
-    largest = float(np.max(np.abs(values)))
-    if largest > LARGEST or float(np.ptp(values)) < 1.0 / LARGEST:
-        message = "has samples that no sensor gives"
-        allowed = f"differences from {1.0 / LARGEST:g}, values up to {LARGEST:g}"
-        raise SpecError(Problem(field=f"channels.{name}", message=message, given=largest, allowed=allowed))
 
 
 def check_rate(rate_hz: float, speed_hz: float, sites: Sequence[Site]) -> list[str]:

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from learn.heard import check_size
 from signals.checks import Finding, inspect
 from signals.recording import Recording
 from signals.series import FloatArray
@@ -46,7 +45,7 @@ class Measured:
 def measured(recording: Recording, channels: Sequence[str] | None = None) -> Measured:
     """The recording's vibration channels, or those named, without the dead ones.
 
-    SpecError where no channel is one of vibration, none is left, or samples are not finite or have no squares.
+    SpecError where no channel is one of vibration, none is left, or samples are not finite.
     """
     names = list(channels) if channels else [c.name for c in recording.channels if c.quantity in VIBRATION]
     if not names:
@@ -63,8 +62,6 @@ def measured(recording: Recording, channels: Sequence[str] | None = None) -> Mea
     kept = [name for name in names if name not in dead]
     if not kept:
         raise SpecError([_nothing(name, found, chosen) for name, found in dead.items()])
-    for name in kept:
-        check_size(chosen.samples[names.index(name)], name)
     return Measured(recording=chosen.select(channels=kept), findings=findings, left_out=tuple(dead))
 
 

@@ -68,6 +68,18 @@ def defects(samples: FloatArray) -> tuple[_Found, ...]:
     return tuple(one for one in found if len(one[2]))
 
 
+def held(samples: FloatArray) -> BoolArray:
+    """Samples (n,) of stuck stretches, dropouts and constant channels: where nothing was measured, shape (n,)."""
+    if samples.size > 1 and np.ptp(samples) == 0:
+        return np.ones(samples.size, dtype=np.bool_)
+    mask = np.zeros(samples.size + 1, dtype=np.int64)
+    for kind, _, runs in _stretches(samples):
+        if kind in ("stuck", "dropout"):
+            mask[runs[:, 0]] += 1
+            mask[runs[:, 1]] -= 1
+    return np.asarray(np.cumsum(mask)[:-1] > 0, dtype=np.bool_)
+
+
 def _stretches(samples: FloatArray) -> list[_Found]:
     """Equal-value runs of a channel that moves, told apart by value and length."""
     equal = _runs(np.concatenate(([False], np.diff(samples) == 0)))

@@ -17,6 +17,9 @@ from sim.core.speed import mean_ratio, warped_times
 Condition = Literal["baseline", "unknown"]
 Origin = Literal["measured", "simulated"]
 DIMENSIONLESS = "1"
+LARGEST, SMALLEST = 1e30, 1e-30
+"""Between them lies every size of a real channel, in whatever unit: counts of a converter of 64 bits reach 2e19, a
+picometre is 1e-12 m. Beyond them powers of samples soon are no numbers, or nothing."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,7 +45,8 @@ class Recording:
     """Synchronous channels. `samples` has shape (channels, n), row i in the unit of `channels[i]`.
 
     The first sample is at `start_s`. NaN is allowed here (it is found by `signals.checks.inspect`, with its
-    place) but every analysis refuses it.
+    place) but every analysis refuses it. SpecError for sizes that no sensor gives (above 1e30; of measured ones also
+    all below 1e-30: what a simulation leaves of nothing may be smaller).
     """
 
     sampling_rate_hz: float
@@ -63,7 +67,7 @@ class Recording:
         object.__setattr__(self, "sampling_rate_hz", checked_rate(self.sampling_rate_hz))
         object.__setattr__(self, "channels", tuple(self.channels))
         samples = np.asarray(self.samples, dtype=np.float64)
-        problems = list(_problems(self.channels, samples))
+        problems = list(_problems(self.channels, samples, 0.0 if self.origin == "simulated" else SMALLEST))
         if problems:
             raise SpecError(problems)
         object.__setattr__(self, "samples", read_only(samples))
@@ -132,7 +136,7 @@ class Recording:
         return int(np.ceil((time_s - self.start_s) * self.sampling_rate_hz - 1e-6))
 
 
-def _problems(channels: Sequence[Channel], samples: FloatArray) -> list[Problem]:
+def _problems(channels: Sequence[Channel], samples: FloatArray, smallest: float) -> list[Problem]:
     problems: list[Problem] = []
     if samples.ndim != 2 or samples.shape[0] != len(channels) or samples.size == 0:
         problems.append(
@@ -148,10 +152,28 @@ def _problems(channels: Sequence[Channel], samples: FloatArray) -> list[Problem]
         if not channel.unit:
             message = f"unknown unit is refused, never guessed ('{DIMENSIONLESS}' means dimensionless)"
             problems.append(Problem(field=f"channels[{row}].unit", message=message, given=channel.unit))
+        if samples.ndim == 2 and row < samples.shape[0] and samples.size:
+            problems += _size(channel, samples[row], smallest)
         if not channel.name or names.index(channel.name) != row:
             message = "must be present and different from the others"
             problems.append(Problem(field=f"channels[{row}].name", message=message, given=channel.name))
     return problems
+
+
+def _size(channel: Channel, samples: FloatArray, smallest: float) -> list[Problem]:
+    """What is said of a channel's samples (n,) that no sensor gives; infinite ones are found as not finite."""
+    high, low = float(np.fmax.reduce(samples)), float(np.fmin.reduce(samples))
+    if np.isinf(high) or np.isinf(low):
+        finite = samples[np.isfinite(samples)]
+        high, low = float(np.max(finite, initial=0.0)), float(np.min(finite, initial=0.0))
+    largest = max(high, -low)
+    if not (largest > LARGEST or 0.0 < largest < smallest):
+        return []
+    place = int(np.argmax(np.nan_to_num(np.abs(samples), nan=0.0, posinf=0.0)))
+    message = f"has samples of a size that no sensor gives, the largest is sample {place}"
+    allowed = f"0, or the largest from {smallest:g} to {LARGEST:g}"
+    given = float(samples[place])
+    return [Problem(field=f"channels.{channel.name}", message=message, given=given, allowed=allowed, unit=channel.unit)]
 
 
 def _tacho(response: Response, operating: OperatingSpec) -> Tacho | None:

@@ -89,18 +89,32 @@ def _of_defect(defect: Defect, label: str, n: int, value: float) -> Finding:
     )
 
 
-def _absences(samples: FloatArray, recording: Recording, name: str, label: str) -> list[Finding]:
-    """Stretches in which the signal is all but gone though not exactly constant (converter noise remains)."""
-    length = max(16, int(QUIET_WINDOW_S * recording.sampling_rate_hz))
+def away(samples: FloatArray, sampling_rate_hz: float) -> BoolArray:
+    """Samples (n,) of stretches in which the signal is all but gone though not exactly constant, shape (n,)."""
+    quiet, length = _quiet_blocks(samples, sampling_rate_hz)
+    mask = np.zeros(samples.size, dtype=np.bool_)
+    mask[: quiet.size * length] = np.repeat(quiet, length)
+    return mask
+
+
+def _quiet_blocks(samples: FloatArray, sampling_rate_hz: float) -> tuple[BoolArray, int]:
+    """(whether each block is quiet, none where most are, samples a block)."""
+    length = max(16, int(QUIET_WINDOW_S * sampling_rate_hz))
     count = samples.size // length
     if count < 20:
-        return []
+        return np.zeros(0, dtype=np.bool_), length
     blocks = samples[: count * length].reshape(count, length)
     size = np.std(blocks, axis=1)
     quiet: BoolArray = np.asarray(size < QUIET_RATIO * float(np.median(size)), dtype=np.bool_)
     # a slow strong line has quiet windows around its extremes: the level must be away from the extremes as well
     quiet &= np.abs(np.mean(blocks, axis=1) - np.mean(samples)) < 0.5 * np.std(samples)
-    if not np.any(quiet) or np.mean(quiet) > 0.5:
+    return (quiet if np.mean(quiet) <= 0.5 else np.zeros_like(quiet)), length
+
+
+def _absences(samples: FloatArray, recording: Recording, name: str, label: str) -> list[Finding]:
+    """Stretches in which the signal is all but gone though not exactly constant (converter noise remains)."""
+    quiet, length = _quiet_blocks(samples, recording.sampling_rate_hz)
+    if not np.any(quiet):
         return []
     start = float(np.flatnonzero(quiet)[0] * length / recording.sampling_rate_hz + recording.start_s)
     share = float(np.mean(quiet))

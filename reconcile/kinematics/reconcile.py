@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -11,9 +11,11 @@ import numpy as np
 
 from reconcile.gate import inspect_measurement
 from reconcile.gate.spoiled import GONE, without_spoiled
+from reconcile.gate.whole import whole_stretches
 from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.apart import with_speeds
 from reconcile.kinematics.doubted import against_rivals, factor_of, restated, unconfirmed
+from reconcile.kinematics.elsewhere import left_out, told_elsewhere, turned_elsewhere, without
 from reconcile.kinematics.extent import Extent
 from reconcile.kinematics.faint import impulsive_report, shallow_report
 from reconcile.kinematics.families import Ties, ties
@@ -74,20 +76,30 @@ def _reconciled(
     )
     if not gate.usable:
         return finished(fault_report(gate), gate, (), ())
-    gate = without_spoiled(gate, GONE)
     stated = {s.name: s.speed_hz for s in known.shafts}[tie.reference]
+    whole = whole_stretches(without_spoiled(gate, GONE), tests, baselines, stated)
+    gate = whole.gate
+    if not gate.usable:
+        return finished(fault_report(gate), gate, (), ())
     try:
         seen = _observed(gate.tests, "test", tie, stated, seed)
         past = _observed(gate.baselines, "baseline", tie, stated, seed)
     except SpecError as error:
         return finished(refused_report(error), gate, (), ())
+    gate, seen, past = without(gate, seen, past, whole.lost)
+    far = turned_elsewhere((*seen, *past), tie, seed)
+    gate, seen, past, told = left_out(gate, seen, past, far)
     first, every = _judged(known, tie, seen, past, seed)
-    at = partial(_at_rival, known, tie, (gate.tests, seen), (gate.baselines, past), seed)
+    recordings = (gate.tests, seen), (gate.baselines, past)
     here = Judged(report=first, every=every)
-    report = against_rivals(here, seen, tie, at, stated, _other_speeds(here, seen, past, tie, seed))
+    elsewhere = told_elsewhere(here, seen, far, partial(_at_speeds, known, tie, *recordings, seed))
+    at = partial(_at_rival, known, tie, *recordings, seed)
+    report = elsewhere or against_rivals(here, seen, tie, at, stated, _other_speeds(here, seen, past, tie, seed))
     if report.sentence == first.sentence:  # else the speed is doubted already
         report = with_speeds(report, seen, past)
-    report = remarked(report, tie, seen, past, every, seed)
+    if report.verdict != "measurement_fault":
+        report = remarked(report, tie, seen, past, every, seed)
+    report = replace(report, where=replace(report.where, limits=(*report.where.limits, *told, *whole.told)))
     if report.verdict in ("nothing_missing", "not_decidable") and gate.fault is not None:
         report = fault_report(gate)
     return finished(report, gate, seen, every, past)
@@ -143,8 +155,26 @@ def _at_rival(
 ) -> Judged | None:
     """The answer at `factor` times the speed of the recordings whose lines allow that (`firmly`: of all without
     pulses); None if they can't carry it."""
+    several = (*tests[1], *baselines[1])
+    speeds = {o.label: factor * o.speed.speed_hz for o in several if _allows(o, tie, factor, firmly)}
+    return _at_speeds(known, tie, tests, baselines, seed, speeds)
+
+
+def _at_speeds(
+    known: KinematicSpec,
+    tie: Ties,
+    tests: tuple[Sequence[Recording], Sequence[Observation]],
+    baselines: tuple[Sequence[Recording], Sequence[Observation]],
+    seed: int,
+    speeds_hz: Mapping[str, float],
+) -> Judged | None:
+    """The answer where each recording that `speeds_hz` has by its label turned as fast as there; None if they can't
+    carry it."""
     again = [
-        [restated(r, o, factor) if _allows(o, tie, factor, firmly) else r for r, o in zip(*several, strict=True)]
+        [
+            restated(r, o, speeds_hz[o.label] / o.speed.speed_hz) if o.label in speeds_hz else r
+            for r, o in zip(*several, strict=True)
+        ]
         for several in (tests, baselines)
     ]
     try:

@@ -55,6 +55,8 @@ def _measurement(report: Report) -> str:
         return (
             "find what runs at these frequencies beside the machine, or record with it off, before judging the machine."
         )
+    if report.fault is not None and report.fault.kind == "speed_mismatch":
+        return "correct the speed that the description states, or give a tacho, before judging the machine."
     return f"mend the measurement at {channel} and record again before judging the machine."
 
 

@@ -81,7 +81,7 @@ def estimate_speed(
         return _by_pulses(recording, name, stated)
     stated = _checked(recording, stated, search)
     combs = line_logs(recording)
-    coarse, confidence, found_by = _coarse(combs, orders, stated, search, seed)
+    coarse, confidence, found_by = coarse_speed(combs, orders, stated, search, seed)
     if confidence < ENOUGH:
         low, high = stated * (1 - search), stated * (1 + search)
         return SpeedEstimate(
@@ -107,7 +107,7 @@ def estimate_speed(
     )
 
 
-def _coarse(
+def coarse_speed(
     combs: Sequence[tuple[FloatArray, float]], orders: Sequence[float], stated: float, search: float, seed: int
 ) -> tuple[float, float, tuple[float, ...]]:
     """Speed, confidence and the orders to refine it by: `orders` alone, being finer, where they are sure and lie with

@@ -29,14 +29,14 @@ def octave_rival(
     """
 
     def level(order: float) -> float:
-        return float(np.mean([_near(log, order * speed_hz / resolution) for log, resolution in combs]))
+        return float(np.mean([peak_near(log, order * speed_hz / resolution) for log, resolution in combs]))
 
     if _only_even(level, harmonics, orders):
         return 2 * speed_hz
     return speed_hz / 2 if _between(level, harmonics) else None
 
 
-def _near(log: FloatArray, place: float) -> float:
+def peak_near(log: FloatArray, place: float) -> float:
     """Largest of the three bins around a place; 0 beyond Nyquist."""
     middle = round(place)
     return float(np.max(log[max(middle - 1, 0) : middle + 2])) if middle + 1 < log.size else 0.0

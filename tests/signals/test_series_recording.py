@@ -79,3 +79,37 @@ def test_series_says_where_it_is_not_finite() -> None:
 def test_operating_point_is_kept() -> None:
     point = Operating(shaft="input", speed_hz=30.0, torque_nm=25.0)
     assert recording(operating=point).select(channels=["a"]).operating == point
+
+
+@pytest.mark.parametrize("largest", [1e300, -1e200, 1e31, 1e-31, -1e-300])
+def test_sizes_that_no_sensor_gives_are_refused_with_their_place(largest: float) -> None:
+    """Squares of these are no numbers, or nothing: an analysis would end in the middle."""
+    samples = np.zeros((2, 100))
+    samples[1, 7] = largest
+    with pytest.raises(SpecError) as caught:
+        recording(samples=samples)
+    (problem,) = caught.value.problems
+    assert (problem.field, problem.given, problem.unit) == ("channels.x", largest, "m")
+    assert "sample 7" in problem.message and "1e-30 to 1e+30" in problem.allowed
+
+
+@pytest.mark.parametrize("largest", [0.0, 2.0**63, -(2.0**31), 1e-15, np.nan, np.inf, -np.inf])
+def test_real_sizes_silence_and_what_is_not_finite_are_taken(largest: float) -> None:
+    """What is not finite is found with its place by `signals.checks.inspect`."""
+    samples = np.zeros((2, 100))
+    samples[1, 7] = largest
+    assert np.array_equal(recording(samples=samples).samples, samples, equal_nan=True)
+
+
+def test_a_size_beside_infinite_samples_is_refused_all_the_same() -> None:
+    samples = np.zeros((2, 100))
+    samples[0, 3:6] = np.inf, np.nan, 1e40
+    with pytest.raises(SpecError, match=r"channels\.a: .*sample 5 \(given 1e\+40\)"):
+        recording(samples=samples)
+
+
+def test_of_a_simulation_what_is_left_of_nothing_is_taken_but_no_absurd_size() -> None:
+    samples = np.full((2, 100), 1e-40)
+    assert recording(samples=samples, origin="simulated").samples[0, 0] == 1e-40
+    with pytest.raises(SpecError, match="no sensor gives"):
+        recording(samples=1e240 * samples, origin="simulated")

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reconcile.kinematics import read_kinematic_spec
+from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.combs import Stretch, Train, comb_power, fitted, predicted
 from reconcile.kinematics.envelopes import envelopes
 from reconcile.kinematics.evidence import family_evidence
@@ -15,7 +15,7 @@ from reconcile.kinematics.families import ties
 from reconcile.kinematics.gears import gear_evidence
 from reconcile.kinematics.judge import fisher, holm
 from reconcile.kinematics.observe import observe
-from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, train
+from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, sound, train
 
 SPEC = read_kinematic_spec(
     {"kinematics": {"shafts": [{"name": "shaft"}], "bearings": [{"name": "b", "shaft": "shaft", "catalogue": "6205"}]}}
@@ -115,3 +115,12 @@ def test_a_tooth_fault_is_told_from_load() -> None:
     assert first.grown and first.gear == "gear"
     assert first.window is not None and first.window.shaft == "out"
     assert first.window.centre_deg == pytest.approx(np.degrees(2.0), abs=8.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scale", [1e-29, 1e28])
+def test_the_largest_and_smallest_sizes_that_are_taken_can_be_judged(scale: float) -> None:
+    rng = np.random.default_rng(2)
+    rows = sound(1), sound(2) + train(rng, 3.5848, 1.0)
+    report = reconcile_kinematics(SPEC, [recorded(scale * rows[1])], [recorded(scale * rows[0])], seed=3)
+    assert (report.verdict, report.causes[0].term) == ("explained", "outer_spall")

@@ -43,7 +43,11 @@ def motion(*, speed: MeasuredSpeed | None = None, rate_hz: float = RATE_HZ, **ch
         quantity = f"angular_{last}" if axis == "theta" else last
         described.append(Channel(name=name, quantity=quantity, unit="SI", location=part, axis=axis))
     recording = Recording(
-        sampling_rate_hz=rate_hz, channels=tuple(described), samples=np.stack(list(channels.values())), notes="test"
+        sampling_rate_hz=rate_hz,
+        channels=tuple(described),
+        samples=np.stack(list(channels.values())),
+        notes="test",
+        origin="simulated",
     )
     return Motion(
         recording=recording,

@@ -1,0 +1,132 @@
+"""Recordings whose lines are those of a shaft at a speed far from the one that their description states.
+
+Every order hangs on the stated speed, so nothing is named by it there. Such a test is left out where others remain,
+and so is such a baseline; of tests alone the report says at which speed the lines stand, what the recordings show at
+that speed, and that the description must be put right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import replace
+
+from reconcile.gate import Gate
+from reconcile.kinematics.doubted import CLEAR_Z
+from reconcile.kinematics.families import Ties
+from reconcile.kinematics.observe import Observation
+from reconcile.kinematics.unread import Judged, at_either
+from reconcile.speed.elsewhere import Elsewhere, lines_elsewhere
+from reconcile.verdict import NextExperiment, Report, SensorFault
+
+HARDLY = 0.95
+"""Confidence below which lines near the stated speed may be some of another fundamental's: every third multiple of one
+is every second of another."""
+QUIET = ("nothing_missing", "not_decidable")
+ADVICE = NextExperiment(
+    sentence="Correct the speed that the description states, or give a tacho; if another machine makes these lines, "
+    "record with it off."
+)
+
+
+def turned_elsewhere(several: Sequence[Observation], tie: Ties, seed: int) -> dict[str, Elsewhere]:
+    """By label, of the recordings whose stated speed nothing confirms, where their lines stand if that is clear."""
+    found = {}
+    for one in several:
+        speed = one.speed
+        if speed.stated_hz is None or speed.method == "tacho" or (speed.method != "stated" and _sure(one)):
+            continue
+        others = [r for name, r in tie.shafts.items() if name != tie.reference]
+        far = lines_elsewhere(one.recording, speed.stated_hz, ratios=others, teeth=tie.mesh_orders, seed=seed)
+        if far is not None and (speed.method == "stated" or not far.own):
+            found[one.label] = far
+    return found
+
+
+def _sure(one: Observation) -> bool:
+    return one.speed.confidence >= HARDLY or one.speed.rival_hz is not None
+
+
+def left_out(
+    gate: Gate, tests: Sequence[Observation], baselines: Sequence[Observation], far: Mapping[str, Elsewhere]
+) -> tuple[Gate, list[Observation], list[Observation], tuple[str, ...]]:
+    """Gate and recordings without those that surely turned elsewhere, and what is said of these; all of them where
+    every test is one."""
+    sure = {label for label, found in far.items() if not found.own}
+    if all(one.label in sure for one in tests):
+        return gate, list(tests), list(baselines), ()
+    told = tuple(
+        f"{one.label} was left out: {_lines(one, far[one.label])}" for one in (*tests, *baselines) if one.label in sure
+    )
+    return *without(gate, tests, baselines, sure), told
+
+
+def without(
+    gate: Gate, tests: Sequence[Observation], baselines: Sequence[Observation], labels: Collection[str]
+) -> tuple[Gate, list[Observation], list[Observation]]:
+    """Gate and observations without the recordings of these labels."""
+    kept = [[i for i, one in enumerate(several) if one.label not in labels] for several in (tests, baselines)]
+    gate = replace(
+        gate,
+        tests=tuple(gate.tests[i] for i in kept[0]),
+        baselines=tuple(gate.baselines[i] for i in kept[1]),
+    )
+    return gate, [tests[i] for i in kept[0]], [baselines[i] for i in kept[1]]
+
+
+def told_elsewhere(
+    stated: Judged,
+    tests: Sequence[Observation],
+    far: Mapping[str, Elsewhere],
+    at: Callable[[Mapping[str, float]], Judged | None],
+) -> Report | None:
+    """The report where most tests have lines of a shaft far from their stated speed; None where they have not.
+
+    `at(speeds)`: the answer at these speeds (Hz, by label). The verdict is a fault of the measurement where no line is
+    near the stated speed and the bearings' lines do not speak for it; else nothing is named.
+    """
+    here = [one for one in tests if one.label in far]
+    if 2 * len(here) <= len(tests):
+        return None
+    first = here[0]
+    hz = far[first.label].speed_hz
+    there = at({label: found.speed_hz for label, found in far.items()})
+    told = "; ".join(f"{one.label}: {_lines(one, far[one.label])}" for one in here)
+    note = f"whether {first.speed.shaft} turns at {first.speed.stated_hz:.4g} Hz as stated: {told}"
+    found_there = "" if there is None else f" At {hz:.4g} Hz: {there.report.sentence}"
+    pairs = ((stated, first.speed.speed_hz), *(((there, hz),) if there is not None else ()))
+    against = there is not None and stated.z > there.z + CLEAR_Z
+    if not against and not any(far[one.label].own for one in here):
+        return Report(
+            verdict="measurement_fault",
+            sentence=f"The stated speed does not hold: {told}, and none is near that. Nothing is judged by it."
+            + found_there,
+            level="kinematics",
+            where=stated.report.where if there is None else there.report.where,
+            causes=at_either(*pairs[1:]),
+            fault=SensorFault(kind="speed_mismatch", channel="", detail=told),
+            undecidable=(note, *(() if there is None else there.report.undecidable)),
+            next_experiment=ADVICE,
+        )
+    if stated.report.verdict in QUIET and (there is None or there.z == 0.0):
+        return replace(stated.report, undecidable=(note, *stated.report.undecidable))
+    nearer = there is not None and there.z > stated.z
+    shown, at_hz = (there.report, hz) if there is not None and nearer else (stated.report, first.speed.speed_hz)
+    return replace(
+        shown,
+        verdict="ambiguous",
+        sentence=f"The speed is not decided: {told}. At {at_hz:.4g} Hz: {shown.sentence}",
+        causes=at_either(*pairs),
+        undecidable=(note, *shown.undecidable),
+        next_experiment=ADVICE,
+    )
+
+
+def _lines(one: Observation, found: Elsewhere) -> str:
+    """Where they stand: `the lines of a shaft at 32 Hz (1, 2 and 3 times), the description states 25 Hz`."""
+    *many, last = [str(k) for k in found.harmonics] or [""]
+    which = [f"{', '.join(many)} and {last} times it" if many else f"{last} time it"] if last else []
+    which += ["its teeth"] if found.by_teeth else []
+    return (
+        f"the lines of a shaft at {found.speed_hz:.4g} Hz ({', '.join(which)}), the description states "
+        f"{one.speed.stated_hz:.4g} Hz"
+    )
