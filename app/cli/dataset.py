@@ -168,8 +168,10 @@ def _interruptible(out: Path) -> Iterator[None]:
 
 def _done(out: Path, manifest: dict[str, object]) -> int:
     print(f"{out}: {manifest['rows']} rows, {manifest['failed_rows']} failed, {manifest['bytes']} bytes")
-    splits = manifest["splits"]
-    assert isinstance(splits, dict)
+    splits, warnings = manifest["splits"], manifest["warnings"]
+    assert isinstance(splits, dict) and isinstance(warnings, list)
+    for told in warnings:
+        print(f"warning: {told}", file=sys.stderr)
     empty = [name for name, found in splits.items() if not found["rows"]]
     for name in empty:
         print(f"split {name} has no row: `{out}/failures.jsonl` says why", file=sys.stderr)

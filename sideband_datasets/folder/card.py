@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from sideband_datasets.folder.added import added, range_text
 from sideband_datasets.folder.apart import apart
+from sideband_datasets.folder.held import HEAD, held
 from sideband_datasets.folder.layout import DATA
 from sideband_datasets.folder.manifest import rows_by_class, versions
 from sideband_datasets.folder.shards import Receipt
@@ -103,6 +104,7 @@ def card(plan: Plan, receipts: Sequence[Receipt], kind: str) -> str:
         "## Classes\n\n" + _table(("class", "rows"), ((name, str(count)) for name, count in counts.items())),
         f"## Splits\n\n{apart(plan, receipts)}\n\n" + _table(("split", "machines", "rows"), splits),
         "".join(f"* {told}\n" for told in plan.warnings).rstrip(),
+        "## What all machines have\n\n" + _table(HEAD, held(recipe)),
         f"## What was varied\n\nSampled by a plan of kind {recipe.plan}, seed {recipe.seed}. SI units.\n\n"
         + _table(("what", "range"), _ranges(recipe)),
         added(recipe),

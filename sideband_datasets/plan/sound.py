@@ -43,7 +43,7 @@ def ordinary_warnings(recipe: Recipe) -> Iterator[str]:
 
 
 def _untold(recipe: Recipe, name: str, own: set[str]) -> Iterator[str]:
-    """Play, looseness and bends that no class tells of."""
+    """Play, looseness, bends and forces of one's own that no class tells of."""
     told = {t.term for fault in recipe.faults for t in fault.terms}
     worn = [key for key in sorted(own - told) if (term := REGISTRY.get(key)) is not None and term.wear]
     if worn:

@@ -108,7 +108,7 @@ class Term:
     damage: bool = False
     """A defect that no sound machine has, though it does not strike; what `strikes` is one anyway."""
     wear: bool = False
-    """Play, a loose seat, a bend: a sound machine may have a little of it, and much is a fault."""
+    """Play, a loose seat, a bend, a force of one's own: a sound machine has little of it, and much is a fault."""
     lasting: bool = False
     """A machine has it from its first day or never: it does not come between a baseline and a later recording."""
     repeats: str | None = None

@@ -162,6 +162,7 @@ TERM = CustomForce(
     ),
     references=("the law is the user's own; language and limits are on the page",),
     severity="scale",
+    wear=True,
     order=30,
     repeats="law",
     demo=Demo(leading=2, prepare=_demonstration, note="With a force of 50 cos(phi) + 20 cos(2 phi) N on bearing 1."),

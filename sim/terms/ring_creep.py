@@ -66,6 +66,7 @@ TERM = RingCreep(
     ),
     references=("Harris & Kotzalas, Rolling Bearing Analysis, 5th ed. 2006, ch. 10 (both rings turning)",),
     severity="ratio",
+    wear=True,
     order=20,
     demo=Demo(
         machine="rotor",

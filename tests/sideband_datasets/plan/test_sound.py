@@ -55,3 +55,13 @@ def test_play_and_looseness_in_all_recordings_are_told_unless_a_class_has_them(k
     told = planned(tiny(**changes, faults=[*document()["faults"], worn])).warnings
     assert not any("no class tells" in w for w in told)
     assert not any("no class tells" in w for w in planned(tiny()).warnings)
+
+
+def test_a_force_of_ones_own_in_a_drawing_is_told():
+    machine = preset("rotor").model_dump(mode="json")
+    machine["custom_laws"] = [{"name": "knock", "dof": "disc.y", "expression": "10*sin(phi)"}]
+    machine["terms"].append({"term": "custom_force", "site": "disc", "parameters": {"law": 1}})
+    (rotor,) = document()["machines"]
+    alone = {k: v for k, v in rotor.items() if k not in ("preset", "set")}
+    told = planned(tiny(machines=[{**alone, "machine": machine}])).warnings
+    assert any("have custom_force in all recordings" in w for w in told)
