@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from signals.checks import Finding, inspect
+from signals.checks import Finding, Place, inspect
 from signals.recording import Recording
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
 
 VIBRATION = ("acceleration", "velocity", "displacement", "sound pressure")
-GONE = ("constant", "stuck", "dropout")
+GONE = ("constant", "stuck", "dropout", "silent")
 """Kinds of findings in whose samples nothing was measured; clipped ones still tell when something passed."""
 DEAD = 0.1
 """Share of such samples from which a channel is left out."""
+SILENT = 1e-3
+"""RMS about the mean over that of the loudest channel of its quantity and unit, below which a channel hears nothing of
+the machine: 60 dB, where places on one machine seldom differ by 40 (a convention, no measurement)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,13 +59,29 @@ def measured(recording: Recording, channels: Sequence[str] | None = None) -> Mea
     chosen = recording.select(channels=names)
     for name, values in zip(names, chosen.samples, strict=True):
         _check_finite(chosen, name, values)
-    findings = inspect(chosen)
+    findings = (*inspect(chosen), *_silent(chosen))
     gone = _gone(findings)
     dead = {name: found for name, found in gone.items() if _share(found, chosen) > DEAD}
     kept = [name for name in names if name not in dead]
     if not kept:
         raise SpecError([_nothing(name, found, chosen) for name, found in dead.items()])
     return Measured(recording=chosen.select(channels=kept), findings=findings, left_out=tuple(dead))
+
+
+def _silent(recording: Recording) -> Iterator[Finding]:
+    """Channels in which next to nothing is heard beside others: not connected, or of another unit than stated."""
+    loudness = np.std(recording.samples, axis=1)
+    for k, channel in enumerate(recording.channels):
+        alike = [(c.quantity, c.unit) == (channel.quantity, channel.unit) for c in recording.channels]
+        loudest = float(np.max(loudness[alike]))
+        if 0.0 < loudness[k] < SILENT * loudest:
+            below = 20 * np.log10(loudest / loudness[k])
+            message = f"{below:.0f} dB below the loudest channel of its unit; is it connected, and is its unit right?"
+            count = recording.samples.shape[1]
+            place = Place(
+                first=0, stop=count, start_s=recording.start_s, stop_s=recording.start_s + recording.duration_s
+            )
+            yield Finding(channel=channel.name, kind="silent", message=message, count=1, samples=count, places=(place,))
 
 
 def _check_finite(recording: Recording, name: str, values: FloatArray) -> None:

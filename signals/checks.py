@@ -10,7 +10,8 @@ import numpy as np
 from signals.recording import Recording
 from signals.series import BoolArray, FloatArray, IntArray
 
-FindingKind = Literal["not_finite", "constant", "stuck", "dropout", "clipping"]
+FindingKind = Literal["not_finite", "constant", "stuck", "dropout", "clipping", "silent"]
+"""`silent` is told where channels are held against each other, not by `inspect`."""
 _Found = tuple[FindingKind, str, IntArray]
 STUCK_SAMPLES = 32
 """A converter repeats a value a few times near an extreme; 32 equal values in a moving signal is a fault."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -95,3 +97,14 @@ def test_the_answer_lists_what_is_wrong_with_the_measurement() -> None:
     assert found["channels"] == ["c0"]
     assert found["measurement_faults"] == [{"channel": "c1", "kind": "dropout", "left_out": True}]
     assert any(remark.startswith("c1: dropout") for remark in found["remarks"])
+
+
+def test_a_channel_far_below_its_neighbours_is_left_out_and_said() -> None:
+    found = measured(recording(noise(), 1e-4 * noise()[::-1]))
+    assert found.left_out == ("c1",) and [f["kind"] for f in found.faults()] == ["silent"]
+    assert "80 dB below the loudest channel" in found.remarks()[0]
+    assert measured(recording(noise(), 0.01 * noise()[::-1])).left_out == ()
+    other = recording(noise(), 1e-4 * noise()[::-1])
+    units = (other.channels[0], replace(other.channels[1], quantity="velocity", unit="m/s"))
+    assert measured(replace(other, channels=units)).left_out == ()
+    assert measured(recording(1e-4 * noise())).left_out == ()
