@@ -9,8 +9,8 @@ SECTIONS = {
     "fourth": "No version of the engine had met these before their run; all at the target condition. Ten of the "
     "eighteen have two effects, of laws that mostly show. Other work shared the machine while these ran, which "
     "core-seconds show: one that ended with nothing missing took 133.",
-    "quiet": "No version of the engine had met these before their run: the first seven of forty sound machines at "
-    "the target condition, sealed to count false alarms; the others have not been run. Other work shared the machine.",
+    "quiet": "No version of the engine had met these before their run: forty sound machines at the target condition, "
+    "sealed to count false alarms, run in two parts. Other work shared the machine.",
     "lone": "No version of the engine had met these before their run: one sensor, 20 dB at one speed or 10 dB at "
     "three, nine of the ten with one sensor that were left.",
     "crossing": "No version of the engine had met these before their run: five speeds with one, three and eight "

@@ -172,6 +172,10 @@ def _done(out: Path, manifest: dict[str, object]) -> int:
     assert isinstance(splits, dict) and isinstance(warnings, list)
     for told in warnings:
         print(f"warning: {told}", file=sys.stderr)
+    doubted = manifest.get("doubted_rows")
+    if isinstance(doubted, dict) and doubted:
+        found = ", ".join(f"{count} of {name}" for name, count in doubted.items())
+        print(f"rows whose numbers the simulation doubts (column `warnings`): {found}", file=sys.stderr)
     empty = [name for name, found in splits.items() if not found["rows"]]
     for name in empty:
         print(f"split {name} has no row: `{out}/failures.jsonl` says why", file=sys.stderr)

@@ -9,7 +9,7 @@ from sideband_datasets.folder.added import added, range_text
 from sideband_datasets.folder.apart import apart
 from sideband_datasets.folder.held import HEAD, held
 from sideband_datasets.folder.layout import DATA
-from sideband_datasets.folder.manifest import rows_by_class, versions
+from sideband_datasets.folder.manifest import doubted_rows, rows_by_class, versions
 from sideband_datasets.folder.shards import Receipt
 from sideband_datasets.formats import FORMATS
 from sideband_datasets.plan.axes import term_parameters
@@ -71,6 +71,12 @@ def _front_matter(plan: Plan, kind: str, rows: int) -> str:
 SIZES = (("0", "1K", 1000), ("1K", "10K", 10_000), ("10K", "100K", 100_000), ("100K", "1M", 1_000_000))
 
 
+def _doubted(receipts: Sequence[Receipt]) -> str:
+    found = ", ".join(f"{count} of {name}" for name, count in doubted_rows(receipts).items())
+    told = "The simulation doubts its own numbers in some rows (column `warnings`, which is not to be trained on)"
+    return f"{told}: {found}." if found else ""
+
+
 def _table(head: tuple[str, ...], body: Iterator[tuple[str, ...]]) -> str:
     lines = [head, tuple("---" for _ in head), *body]
     return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)
@@ -101,6 +107,7 @@ def card(plan: Plan, receipts: Sequence[Receipt], kind: str) -> str:
         f"# {recipe.name}\n\n{recipe.notes}".rstrip(),
         what,
         f"{failed} recordings {COULD_NOT[recipe.shown_db is not None]}; `failures.jsonl` lists them with reasons.",
+        _doubted(receipts),
         "## Classes\n\n" + _table(("class", "rows"), ((name, str(count)) for name, count in counts.items())),
         f"## Splits\n\n{apart(plan, receipts)}\n\n" + _table(("split", "machines", "rows"), splits),
         "".join(f"* {told}\n" for told in plan.warnings).rstrip(),

@@ -66,6 +66,14 @@ def rows_by_class(plan: Plan, receipts: Sequence[Receipt]) -> dict[str, int]:
     return {name: counts[name] for name in plan.recipe.classes}
 
 
+def doubted_rows(receipts: Sequence[Receipt]) -> dict[str, int]:
+    """Rows that carry a warning of the simulation, by class; a class without any is left out."""
+    counts: Counter[str] = Counter()
+    for receipt in receipts:
+        counts.update(receipt.doubted)
+    return dict(sorted(counts.items()))
+
+
 def _splits(plan: Plan, receipts: Sequence[Receipt]) -> dict[str, dict[str, int]]:
     return {
         split: {
@@ -92,6 +100,7 @@ def manifest(plan: Plan, receipts: Sequence[Receipt], kind: str, others: Mapping
         "bytes": sum(receipt.bytes for receipt in receipts),
         "classes": rows_by_class(plan, receipts),
         "splits": _splits(plan, receipts),
+        "doubted_rows": doubted_rows(receipts),
         "warnings": list(plan.warnings),
         "machines": {plan.machine_id(m): plan.splits[s] for m, s in enumerate(plan.split_of.tolist())},
         "columns": [{"name": c.name, "unit": c.unit, "description": c.sentence} for c in COLUMNS],

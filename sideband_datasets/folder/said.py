@@ -19,8 +19,8 @@ from sideband_datasets.formats import FORMATS
 from sideband_datasets.make.batch import Failure
 from sideband_datasets.plan.plan import Plan
 
-WORDED = ("warnings", "columns", "recipe", "recipe_sha256")
-"""Of the manifest: written in the words of the version that made it, so compared only with the same version."""
+WORDED = ("warnings", "columns", "recipe", "recipe_sha256", "doubted_rows")
+"""Of the manifest: in the words of the version that made it, or unknown to others: compared with the same one only."""
 OF_FAILURES = ("failed_rows", "failed_recordings", "classes")
 LONGEST = 120
 MADE_WITH = re.compile(r"Made with (.+)\.$", re.MULTILINE)
@@ -71,6 +71,7 @@ def receipts_of(out: Path, document: Mapping[str, Any], seen: Seen, failures: Co
                 machines=tuple(sorted(seen.machines_of.get(file, ()))),
                 paths=tuple(sorted(seen.paths_of.get(file, ()))),
                 failures=() if number else tuple(failures),
+                doubted=dict(seen.doubted_of.get(file, {})),
             )
         )
     return found

@@ -36,6 +36,7 @@ class Seen:
         """Rows of each file that could be read."""
         self.machines_of: dict[str, set[str]] = {}
         self.paths_of: dict[str, set[str]] = {}
+        self.doubted_of: dict[str, Counter[str]] = {}
         self._split_of: dict[tuple[str, str], str] = {}
         self._leaks: set[tuple[str, str]] = set()
         self._drawn: Drawing | None = None
@@ -45,7 +46,7 @@ class Seen:
         found: list[Finding] = []
         differs: dict[str, tuple[int, str]] = {}
         count = 0
-        self.machines_of[file], self.paths_of[file] = set(), set()
+        self.machines_of[file], self.paths_of[file], self.doubted_of[file] = set(), set(), Counter()
         try:
             for record in FORMATS[kind].read(out / file):
                 count += 1
@@ -71,6 +72,7 @@ class Seen:
         self.there[number] = True
         self.fingerprints[number] = row_hash(dict(record))
         self.classes[str(record["fault_type"])] += 1
+        self.doubted_of[file].update([str(record["fault_type"])] if len(record["warnings"]) else [])
         self.machines_of[file].add(str(record["machine_id"]))
         self.paths_of[file].add(str(record["path_id"]))
         if record["split"] != split:

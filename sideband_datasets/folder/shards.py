@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +46,8 @@ class Receipt:
     paths: tuple[str, ...]
     """Ids of the transfer paths of its rows, sorted."""
     failures: tuple[Failure, ...]
+    doubted: Mapping[str, int] = field(default_factory=dict)
+    """Rows whose `warnings` are not empty, by class."""
 
 
 def receipt_from(document: Mapping[str, Any]) -> Receipt:
@@ -92,12 +95,14 @@ class _Passed:
         self.count = 0
         self.machines: set[str] = set()
         self.paths: set[str] = set()
+        self.doubted: Counter[str] = Counter()
 
     def __iter__(self) -> Iterator[Row]:
         for row in self._found:
             self.count += 1
             self.machines.add(row.machine_id)
             self.paths.add(row.path_id)
+            self.doubted.update([row.fault_type] if row.warnings else [])
             yield row
 
 
@@ -127,6 +132,7 @@ def make_shard(
         machines=tuple(sorted(passed.machines)),
         paths=tuple(sorted(passed.paths)),
         failures=tuple(sorted(failures, key=lambda failure: failure.recording)),
+        doubted=dict(sorted(passed.doubted.items())),
     )
     write_text(receipt_path(folder, shard), json_text(asdict(receipt)))
     return receipt

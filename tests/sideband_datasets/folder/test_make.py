@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from pathlib import Path
 
 import psutil
@@ -49,6 +50,17 @@ def test_the_folder_holds_every_row_of_the_recipe(made):
     assert manifest["rows"] == 48
     assert manifest["splits"]["train"] == {"machines": 2, "recordings": 6, "rows": 24}
     assert sum(manifest["classes"].values()) == 48
+    doubted = Counter(r["fault_type"] for r in found if len(r["warnings"]))
+    assert doubted and manifest["doubted_rows"] == doubted
+    assert all(f"{count} of {name}" in (made / "README.md").read_text() for name, count in doubted.items())
+
+
+@pytest.mark.slow
+def test_a_wrong_count_of_doubted_rows_is_found(copy):
+    path = copy / "manifest.json"
+    document = json.loads(path.read_text())
+    path.write_text(json.dumps({**document, "doubted_rows": {}}))
+    assert any("doubted_rows is {}" in finding.what for finding in verify(copy))
 
 
 def test_shards_hold_every_recording_once_and_one_split_each():
