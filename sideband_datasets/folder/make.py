@@ -44,7 +44,7 @@ from sideband_datasets.plan.plan import Plan
 from sideband_datasets.plan.size import check_shard
 from sideband_datasets.plan.tried import make_plan
 from sideband_datasets.recipe.model import Recipe
-from sideband_datasets.recipe.read import canonical, document_of, read_recipe
+from sideband_datasets.recipe.read import canonical, document_of, identity, read_recipe
 from sim.core.errors import Problem, SpecError
 
 MOST_WORKERS = 256
@@ -176,7 +176,8 @@ def _carry_on(plan: Plan, out: Path, settings: Settings, told: Callable[[Progres
     """Make what is left, and publish it; the caller is alone in the folder."""
     folder = unfinished(out)
     shards = shards_of(plan, format_named(settings.format).suffix, settings.shard_recordings)
-    receipts = {shard: receipt for shard in shards if (receipt := finished(folder, shard)) is not None}
+    recipe = identity(plan.recipe)
+    receipts = {shard: receipt for shard in shards if (receipt := finished(folder, shard, recipe)) is not None}
     # The largest first: workers then end together.
     left = sorted((s for s in shards if s not in receipts), key=lambda shard: -len(shard.recordings))
     kept = sum(len(shard.recordings) for shard in receipts) * plan.rows_per_recording

@@ -31,9 +31,18 @@ def check_free(out: Path) -> None:
 def check_not_begun(folder: Path, out: Path) -> None:
     """SpecError when the folder `out` is made in holds any file, whatever it is."""
     if folder.exists() and (not folder.is_dir() or files_below(folder)):
-        message = f"was begun already: {folder.name} is not empty"
+        message = f"was begun already{_of_recipe(folder)}: {folder.name} is not empty"
         allowed = f"`sideband dataset resume {out}`, or another --out"
         raise SpecError(Problem(field="--out", message=message, given=str(out), allowed=allowed))
+
+
+def _of_recipe(folder: Path) -> str:
+    """Which dataset an unfinished folder is to be, where that can be read."""
+    with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
+        begun = json.loads((folder / STATE / SETTINGS).read_text(encoding="utf-8"))
+        recipe, kind = begun["recipe"], begun["format"]
+        return f" as {recipe['name']} (seed {recipe['seed']}, {recipe['count']} recordings, {kind})"
+    return ""
 
 
 @contextlib.contextmanager

@@ -15,6 +15,7 @@ from sideband_datasets.make.batch import Failure
 from sideband_datasets.make.stream import rows_of
 from sideband_datasets.plan.plan import Plan
 from sideband_datasets.plan.size import parted
+from sideband_datasets.recipe.read import identity
 from sideband_datasets.row import Row
 
 
@@ -46,6 +47,8 @@ class Receipt:
     paths: tuple[str, ...]
     """Ids of the transfer paths of its rows, sorted."""
     failures: tuple[Failure, ...]
+    recipe: str = ""
+    """Its SHA-256: a shard of another one is no part of what is resumed."""
     doubted: Mapping[str, int] = field(default_factory=dict)
     """Rows whose `warnings` are not empty, by class."""
 
@@ -78,13 +81,13 @@ def receipt_path(folder: Path, shard: Shard) -> Path:
     return folder / STATE / f"{shard.stem}.json"
 
 
-def finished(folder: Path, shard: Shard) -> Receipt | None:
-    """The receipt of a shard that is there and unchanged; None when it has to be made."""
+def finished(folder: Path, shard: Shard, recipe: str) -> Receipt | None:
+    """The receipt of a shard that is there, unchanged and of the recipe (SHA-256); None when it has to be made."""
     path, data = receipt_path(folder, shard), folder / DATA / shard.name
     if not path.is_file() or not data.exists():
         return None
     receipt = receipt_from(json.loads(path.read_text(encoding="utf-8")))
-    return receipt if receipt.sha256 == sha256(data) else None
+    return receipt if receipt.recipe == recipe and receipt.sha256 == sha256(data) else None
 
 
 class _Passed:
@@ -132,6 +135,7 @@ def make_shard(
         machines=tuple(sorted(passed.machines)),
         paths=tuple(sorted(passed.paths)),
         failures=tuple(sorted(failures, key=lambda failure: failure.recording)),
+        recipe=identity(plan.recipe),
         doubted=dict(sorted(passed.doubted.items())),
     )
     write_text(receipt_path(folder, shard), json_text(asdict(receipt)))

@@ -97,6 +97,26 @@ def test_an_interrupted_dataset_is_not_there_and_resumes_to_the_same_bytes(made,
 
 
 @pytest.mark.slow
+def test_shards_of_another_recipe_are_no_part_of_what_is_resumed(tmp_path):
+    out, recipe = tmp_path / "set", tiny(count=6)
+
+    def interrupt(progress):
+        if progress.rows:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        make(recipe, out, Settings(shard_recordings=2), interrupt)
+    with pytest.raises(SpecError, match=rf"was begun already as {recipe.name} \(seed {recipe.seed}, 6 recordings"):
+        make(tiny(count=6, seed=77), out, Settings(), _silent)
+    settings = unfinished(out) / "state" / "make.json"
+    document = json.loads(settings.read_text())
+    document["recipe"]["seed"] = 77
+    settings.write_text(json.dumps(document))
+    assert resume(out, 1, _silent)["recipe"]["seed"] == 77
+    assert verify(out) == []
+
+
+@pytest.mark.slow
 def test_a_finished_folder_that_only_lacks_its_name_gets_it(made, tmp_path):
     out = tmp_path / "set"
     for name, content in contents(made).items():
