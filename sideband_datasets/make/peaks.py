@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sideband_datasets.make.batch import Made
+from sideband_datasets.plan.doubtful import STEADY
 from sideband_datasets.recipe.model import Peaks
 from sideband_datasets.row import Peak
 from signals.labels.canonical import Candidate, merge_lines
@@ -27,8 +28,6 @@ from sim.core.speed import warped_times
 REFERENCE = "f_r1"
 LABELLED = ("acceleration", "velocity", "displacement")
 LEAST_SAMPLES = 256
-STEADY = 0.01
-"""Range of the speed in a window, relative to nominal, above which a line has no one frequency in it."""
 SPECTRA: Mapping[str, Callable[[Series], Spectrum]] = {"amplitude": amplitude_spectrum, "envelope": envelope_spectrum}
 
 

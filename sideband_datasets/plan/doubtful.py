@@ -7,13 +7,18 @@ from collections.abc import Iterator
 import numpy as np
 
 from sideband_datasets.plan.axes import drawn_only, machine_axes
+from sideband_datasets.plan.machines import base_machine
 from sideband_datasets.recipe.model import Recipe
 from sideband_datasets.recipe.values import Choice, Factor, Range, Value, ends_of
 from signals.shorthand import path_of
+from sim.core.spec.operating import RampSpeed
 from sim.terms import REGISTRY
 
 ALIKE = 1e-3
 """Share of a number within which two machines are one to a classifier."""
+
+STEADY = 0.01
+"""Range of the speed in a window, relative to nominal, above which a line has no one frequency in it."""
 
 
 def doubtful_warnings(recipe: Recipe) -> Iterator[str]:
@@ -21,6 +26,7 @@ def doubtful_warnings(recipe: Recipe) -> Iterator[str]:
     yield from _replaced(recipe)
     yield from _of_no_size(recipe)
     yield from _nearly_one(recipe)
+    yield from _unsteady(recipe)
 
 
 def _nearly_one(recipe: Recipe) -> Iterator[str]:
@@ -31,6 +37,18 @@ def _nearly_one(recipe: Recipe) -> Iterator[str]:
             yield (
                 f"machines {family.name} differ by less than {ALIKE:.1%} in everything that varies: to a classifier "
                 "they are one machine, which stands in several splits"
+            )
+
+
+def _unsteady(recipe: Recipe) -> Iterator[str]:
+    """Ramps smear lines over a window, so nothing is labelled in it."""
+    for number, family in enumerate(recipe.machines):
+        operating = base_machine(family, number).operating
+        profile = operating.profile if operating is not None else None
+        if recipe.peaks.spectra and isinstance(profile, RampSpeed) and abs(profile.end_ratio - 1.0) > STEADY:
+            yield (
+                f"machines {family.name} change speed while they are recorded: windows in which it changes by over "
+                f"{STEADY:.0%} have no labelled peaks"
             )
 
 

@@ -59,3 +59,13 @@ def test_machines_that_hardly_differ_are_told(factor, told):
     vary = {"bearings.bearing1.support.stiffness_y_n_per_m": {"factor": factor}}
     found = make_plan(tiny(machines=[{**rotor, "vary": vary}])).warnings
     assert any("one machine, which stands in several splits" in w for w in found) == told
+
+
+def test_a_ramp_leaves_no_labelled_peaks_and_is_told():
+    (rotor,) = document()["machines"]
+    ramp = {"profile.kind": "ramp", "profile.end_ratio": 1.5, "profile.duration_s": 0.4}
+    machines = [{**rotor, "set": {**rotor.get("set", {}), **ramp}}]
+    told = make_plan(tiny(machines=machines, peaks={"spectra": ["envelope"]})).warnings
+    assert any("change speed while they are recorded" in w for w in told)
+    assert not any("change speed" in w for w in make_plan(tiny(machines=machines, peaks={"spectra": []})).warnings)
+    assert not any("change speed" in w for w in make_plan(tiny(peaks={"spectra": ["envelope"]})).warnings)
