@@ -30,7 +30,7 @@ def done(client: httpx.Client) -> dict:
 
 def test_job_succeeds_and_says_where_its_result_is(done: dict) -> None:
     assert done["status"] == "successful"
-    assert done["progress"] == {"fraction": 1.0, "stage": "done", "eta_s": 0.0}
+    assert done["progress"] == {"fraction": 1.0, "stage": "done", "eta_s": 0.0, "rows_per_s": None}
     assert done["links"]["result"].endswith("/result")
     assert len(done["result"]["sha256"]) == 64
 
