@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from learn import features, geometries, unknown, whole
-from learn.bank import MIN_TURNS, Bank, bank
+from learn import geometries
+from learn.bank import Bank, bank
 from learn.features import Found
+from learn.looked import Looked, row_of, stretches
 from learn.model import Head, Model
 from learn.orders import FaultOrders
 from learn.severity import severity_index
@@ -17,16 +18,12 @@ from learn.speed import HIGHEST_HZ, SEARCH, Speed, candidates
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
 
-LONGEST_TURNS = 20.0
-"""Longer recordings are read in equal stretches. Over many turns even the faint lines of a sound machine become
-certain; over few only deep ones do. They show where lines are; longer recordings are answered by the whole."""
 WHOLE = "whole"
 """Head of the features of `learn.whole`: it answers for recordings longer than a stretch, their geometry known."""
 ANYWHERE = "anywhere"
 """Head of the features of `learn.geometries`: the same, their geometry unknown."""
 SPEED_TURNS = 80.0
 """The stretch a speed is read from."""
-MOST_STRETCHES = 12
 MOST_LINES = 15.0
 """Bearing lines count for a speed up to this: a strong fault must not outweigh the shaft's own lines."""
 LEAST_PROBABILITY = 1e-4
@@ -59,20 +56,23 @@ def assess(
 ) -> Assessment:
     """Class of a recording; channels are looked at together, as more bands. Too short a one to tell its speed is
     answered at each of the `likely` ones, and the answers' mean is taken."""
+    seen = Looked(channels=tuple(channels), rate_hz=rate_hz, speed_hz=speed_hz, orders=orders, doubt=doubt)
+    return answered(seen, model, likely)
+
+
+def answered(seen: Looked, model: Model, likely: Sequence[float] = ()) -> Assessment:
+    """The same, of a recording that was looked at: what several models say of it needs one look."""
+    orders = seen.orders
     head = model.heads["known" if orders is not None else "unknown"]
-    parts = stretches(channels, rate_hz, speed_hz)
-    rows, shown = [], []
-    for part in parts:
-        spectra = bank(part, rate_hz, speed_hz)
-        rows.append(_row(spectra, orders, doubt))
-        shown.append(spectra)
-    p = pooled(head, np.stack([r[0] for r in rows]))
     wanted = {WHOLE} if orders is not None else {WHOLE, ANYWHERE}
-    if len(parts) > 1 and wanted <= set(model.heads):
-        p = of_whole(channels, rate_hz, speed_hz, model, orders, doubt)
-    elif len(parts) == 1 and likely:
-        p = np.mean([_of_pieces(channels, rate_hz, f, head, orders, doubt / len(likely)) for f in likely], axis=0)
+    p = pooled(head, seen.table)
+    if len(seen.shown) > 1 and wanted <= set(model.heads):
+        p = of_whole(seen, model)
+    elif len(seen.shown) == 1 and likely:
+        tried = [replace(seen, speed_hz=f, doubt=seen.doubt / len(likely)) for f in likely]
+        p = np.mean([pooled(head, one.table) for one in tried], axis=0)
     label = head.classes[int(np.argmax(p))]
+    rows = seen.rows
     strongest = int(
         np.argmax([r[1].get("z", 0.0) if orders is None else max(f.z for f in r[2].values()) for r in rows])
     )
@@ -81,39 +81,18 @@ def assess(
         probabilities=dict(zip(head.classes, (float(x) for x in p), strict=True)),
         found=rows[strongest][2],
         comb=rows[strongest][1],
-        stretches=len(parts),
-        turns=sum(s.turns for s in shown),
+        stretches=len(seen.shown),
+        turns=sum(s.turns for s in seen.shown),
         geometry="known" if orders is not None else "unknown",
-        severity=_severity(shown, [r[2] for r in rows], label),
+        severity=_severity(seen.shown, [r[2] for r in rows], label),
     )
 
 
-def _of_pieces(
-    channels: Sequence[FloatArray],
-    rate_hz: float,
-    speed_hz: float,
-    head: Head,
-    orders: FaultOrders | None,
-    doubt: float,
-) -> FloatArray:
-    """Probabilities (classes,) by stretches, at one speed."""
-    parts = stretches(channels, rate_hz, speed_hz)
-    return pooled(head, np.stack([_row(bank(part, rate_hz, speed_hz), orders, doubt)[0] for part in parts]))
-
-
-def of_whole(
-    channels: Sequence[FloatArray],
-    rate_hz: float,
-    speed_hz: float,
-    model: Model,
-    orders: FaultOrders | None,
-    doubt: float = 0.0,
-) -> FloatArray:
+def of_whole(seen: Looked, model: Model) -> FloatArray:
     """Probabilities (classes,) by the recording in as few parts as may be."""
-    parts = [bank(part, rate_hz, speed_hz) for part in stretches(channels, rate_hz, speed_hz, whole.TURNS)]
-    if orders is None:
-        return pooled(model.heads[ANYWHERE], np.stack([geometries.vector(one, model.heads[WHOLE]) for one in parts]))
-    return pooled(model.heads[WHOLE], np.stack([whole.vector(one, orders, doubt)[0] for one in parts]))
+    if seen.orders is not None:
+        return pooled(model.heads[WHOLE], seen.long_table)
+    return pooled(model.heads[ANYWHERE], np.stack([geometries.vector(one, model.heads[WHOLE]) for one in seen.long]))
 
 
 def _severity(shown: Sequence[Bank], found: Sequence[dict[str, Found]], label: str) -> float | None:
@@ -138,7 +117,7 @@ def estimated(
             part = stretches(channels, rate_hz, one.speed_hz, SPEED_TURNS)[0]
         except SpecError:
             continue
-        _, comb, families = _row(bank(part, rate_hz, one.speed_hz), orders, 0.0)
+        _, comb, families = row_of(bank(part, rate_hz, one.speed_hz), orders, 0.0)
         lines = max((f.z for n, f in families.items() if n != "cage"), default=comb.get("z", 0.0))
         fit = one.standing + min(lines, MOST_LINES)
         if best is None or fit > best[0]:
@@ -150,34 +129,8 @@ def estimated(
     return best[1]
 
 
-def _row(
-    spectra: Bank, orders: FaultOrders | None, doubt: float
-) -> tuple[FloatArray, dict[str, float], dict[str, Found]]:
-    if orders is None:
-        row, comb = unknown.vector(spectra)
-        return row, comb, {}
-    row, found = features.vector(spectra, orders, doubt)
-    return row, {}, found
-
-
 def pooled(head: Head, rows: FloatArray) -> FloatArray:
     """Probabilities (classes,) of stretches taken together: geometric mean, so that none decides alone."""
     p = np.maximum(head.probabilities(rows), LEAST_PROBABILITY)
     mean = np.exp(np.mean(np.log(p), axis=0))
     return np.asarray(mean / np.sum(mean), dtype=np.float64)
-
-
-def stretches(
-    channels: Sequence[FloatArray], rate_hz: float, speed_hz: float, longest: float = LONGEST_TURNS
-) -> list[list[FloatArray]]:
-    """Equal stretches of all channels, none longer than `longest` turns."""
-    samples = min(c.size for c in channels)
-    turns = samples / rate_hz * speed_hz
-    if turns < MIN_TURNS:
-        allowed = f"at least {MIN_TURNS / speed_hz:.3g}"
-        raise SpecError(
-            Problem(field="samples", message="are too few turns", given=samples / rate_hz, allowed=allowed, unit="s")
-        )
-    count = min(max(1, int(np.ceil(turns / longest))), MOST_STRETCHES)
-    length = min(samples // count, int(longest * rate_hz / speed_hz))
-    return [[np.asarray(c[i * length : (i + 1) * length], dtype=np.float64) for c in channels] for i in range(count)]

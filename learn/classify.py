@@ -7,14 +7,16 @@ from typing import Any
 
 import numpy as np
 
-from learn.assess import Assessment, assess, estimated
+from learn.assess import Assessment, answered, estimated
 from learn.describe import Site
+from learn.elsewhere import Elsewhere, elsewhere, known_to
 from learn.gears.assess import StageAnswer, assess_stage, knows_gears
 from learn.gears.stage import Stage
 from learn.heard import check_rate
+from learn.looked import Looked
 from learn.measured import measured
 from learn.model import Model
-from learn.remarks import check_learnt, of_parts, of_sites, of_speed
+from learn.remarks import FOREIGN, check_learnt, of_parts, of_sites, of_speed
 from learn.speed import Speed
 from learn.tacho import Pulses, pulses_of
 from reconcile.stated import check_speeds, given
@@ -72,7 +74,7 @@ def classify(
     parts = []
     if sites or not stages:
         remarks += check_rate(chosen.sampling_rate_hz, speed.speed_hz, sites)
-        parts = _bearings(chosen, model, sites, speed)
+        parts = _bearings(chosen, model, sites, stages, speed)
     unseen: list[SpecError] = []
     for stage in stages:
         try:
@@ -106,15 +108,22 @@ def classify(
     }
 
 
-def _bearings(chosen: Recording, model: Model, sites: Sequence[Site], speed: Speed) -> list[dict[str, Any]]:
+def _bearings(
+    chosen: Recording, model: Model, sites: Sequence[Site], stages: Sequence[Stage], speed: Speed
+) -> list[dict[str, Any]]:
     """Each bearing that is described, or any usual one."""
     found = []
     for site in sites or (None,):
         ratio = site.ratio if site is not None else 1.0
-        orders = site.orders if site is not None else None
-        likely = [f * ratio for f in speed.likely]
-        rows = list(chosen.samples)
-        answer = assess(rows, chosen.sampling_rate_hz, speed.speed_hz * ratio, model, orders, speed.doubt, likely)
+        seen = Looked(
+            channels=tuple(chosen.samples),
+            rate_hz=chosen.sampling_rate_hz,
+            speed_hz=speed.speed_hz * ratio,
+            orders=site.orders if site is not None else None,
+            doubt=speed.doubt,
+        )
+        answer = answered(seen, model, [f * ratio for f in speed.likely])
+        foreign = elsewhere(seen.long, *known_to(site, sites, stages)) if site is not None else None
         found.append(
             {
                 "label": answer.label,
@@ -126,10 +135,18 @@ def _bearings(chosen: Recording, model: Model, sites: Sequence[Site], speed: Spe
                 "severity_index": answer.severity,
                 "turns": answer.turns,
                 "stretches": answer.stretches,
-                "lines": _lines(answer, speed.speed_hz * ratio, chosen.names),
+                "lines": [*_lines(answer, seen.speed_hz, chosen.names), *_foreign(foreign, seen.speed_hz)],
             }
         )
     return found
+
+
+def _foreign(found: Elsewhere | None, speed_hz: float) -> list[dict[str, Any]]:
+    """Impacts of no part of the bearing, as one more line."""
+    if found is None:
+        return []
+    hz = found.order * speed_hz
+    return [{"family": FOREIGN, "order": found.order, "frequency_hz": hz, "z": found.z, "depth": found.depth}]
 
 
 def _gears(chosen: Recording, model: Model, stage: Stage, speed: Speed) -> dict[str, Any]:

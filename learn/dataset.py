@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -46,7 +47,7 @@ def rows_of(folders: Sequence[Path], part: int = 0, parts: int = 1) -> Iterator[
         document = _manifest(folder)
         numbers = {name: before + k for k, name in enumerate(sorted(document["machines"]))}
         before += len(numbers)
-        specs = {m.machine_id: m.spec for m in make_plan(read_recipe(document["recipe"])).machines}
+        specs = _machines(json.dumps(document["recipe"]))
         read = format_named(document["format"]).read
         for shard in document["shards"]:
             for record in read(folder / shard["file"]):
@@ -61,6 +62,12 @@ def rows_of(folders: Sequence[Path], part: int = 0, parts: int = 1) -> Iterator[
                     speed_hz=record["speed_hz"],
                     orders=_orders(specs[record["machine_id"]], record["bearing_id"]),
                 )
+
+
+@lru_cache(maxsize=4)
+def _machines(recipe: str) -> dict[str, MachineSpec]:
+    """Machines of a recipe by name: planned once in a process, whatever number of parts it reads."""
+    return {m.machine_id: m.spec for m in make_plan(read_recipe(json.loads(recipe))).machines}
 
 
 def _manifest(folder: Path) -> dict[str, Any]:

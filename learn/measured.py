@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from learn.unheard import of_noise
 from signals.checks import Finding, Place, inspect
 from signals.recording import Recording
 from signals.series import FloatArray
@@ -65,7 +66,8 @@ def measured(recording: Recording, channels: Sequence[str] | None = None) -> Mea
     kept = [name for name in names if name not in dead]
     if not kept:
         raise SpecError([_nothing(name, found, chosen) for name, found in dead.items()])
-    return Measured(recording=chosen.select(channels=kept), findings=findings, left_out=tuple(dead))
+    heard = chosen.select(channels=kept)
+    return Measured(recording=heard, findings=(*findings, *of_noise(heard)), left_out=tuple(dead))
 
 
 def _silent(recording: Recording) -> Iterator[Finding]:

@@ -18,6 +18,8 @@ PLAIN = 3.0
 """Deviations over other orders from which lines of a family stand out at a look."""
 OWN = {"outer": ("BPFO",), "inner": ("BPFI",), "ball": ("2 BSF", "4 FTF")}
 """Families of lines that a label's fault makes."""
+FOREIGN = "foreign"
+"""Family of lines that are of no part of the bearing (`learn.elsewhere`)."""
 PER_MINUTE = 60.0
 
 
@@ -81,8 +83,17 @@ def of_parts(parts: Iterable[Mapping[str, Any]]) -> list[str]:
         if chance < UNSURE or (label == "ball" and part["stage"] is None):
             why = "balls are the least sure" if label == "ball" else f"{chance:.2f} is below {UNSURE:g}"
             said.append(f"{where}: look closer before acting on '{label}': {why}")
+        said += [_of_foreign(where, label, line) for line in part["lines"] if line["family"] == FOREIGN]
         own = [line["z"] for line in part["lines"] if line["family"] in OWN.get(label, ())]
         if own and max(own) < PLAIN:
             most = f"{max(own):.1f} deviations over other orders"
             said.append(f"{where}: '{label}' rests on no line that stands out ({most} at most): is this the bearing?")
     return said
+
+
+def _of_foreign(where: str, label: str, line: Mapping[str, Any]) -> str:
+    also = ", and 'healthy' is of the stated bearing alone" if label == "healthy" else ""
+    return (
+        f"{where}: clear impacts at order {line['order']:.4g} ({line['frequency_hz']:.4g} Hz) are of no part of it: "
+        f"they are another part's, or the bearing is not the one stated{also}"
+    )

@@ -69,9 +69,12 @@ def pulses_of(recording: Recording, *, trust: bool = False) -> Pulses:
 
 
 def _per_turn(ratio: float, stated: int) -> str:
-    """The number of pulses a turn that would explain it, as a question."""
+    """The number of pulses a turn, or of turns a pulse, that would explain it, as a question."""
     wanted = stated * ratio
-    whole = round(wanted)
-    if whole < 1 or whole == stated or abs(wanted / whole - 1) > WHOLE:
-        return ""
-    return f"; are there {whole} pulses per revolution?"
+    pulses, turns = round(wanted), round(1 / wanted)
+    if pulses >= 1 and abs(wanted / pulses - 1) <= WHOLE:
+        many = f"{pulses} pulses" if pulses > 1 else "1 pulse"
+        return f"; is pulses_per_revolution {pulses} ({many} a turn)?" if pulses != stated else ""
+    if turns > 1 and abs(wanted * turns - 1) <= WHOLE:
+        return f"; does it pulse once in {turns} turns, or lose pulses? It must pulse at least once a turn"
+    return ""

@@ -90,7 +90,7 @@ def _fundamental(bank: Bank, band: int, order: float) -> float:
 
 
 def vector(bank: Bank) -> tuple[FloatArray, dict[str, float]]:
-    """(features in the order of `NAMES`, the comb found: order, band, z)."""
+    """(features in the order of `NAMES`, the comb found: order, band, z, depth)."""
     values, base = logs(bank), grid(bank)
     everywhere = away_from(base, ())
     carriers = search(values, bank.step, base, Comb(harmonics=4), everywhere)
@@ -118,7 +118,7 @@ def vector(bank: Bank) -> tuple[FloatArray, dict[str, float]]:
         *(_best_within(bank, carriers if f != "inner" else with_shaft, f) for f in ("outer", "inner", "ball")),
         *impulsiveness(bank),
     ]
-    return np.asarray(row, dtype=np.float64), {"order": order, "band": float(band), "z": z}
+    return np.asarray(row, dtype=np.float64), {"order": order, "band": float(band), "z": z, "depth": depth}
 
 
 def _best_within(bank: Bank, s: Search, family: str) -> float:

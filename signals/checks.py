@@ -10,7 +10,7 @@ import numpy as np
 from signals.recording import Recording
 from signals.series import BoolArray, FloatArray, IntArray
 
-FindingKind = Literal["not_finite", "constant", "stuck", "dropout", "clipping", "silent"]
+FindingKind = Literal["not_finite", "constant", "stuck", "dropout", "clipping", "silent", "noise"]
 """`silent` is told where channels are held against each other, not by `inspect`."""
 _Found = tuple[FindingKind, str, IntArray]
 STUCK_SAMPLES = 32

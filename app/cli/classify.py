@@ -38,7 +38,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--machine", metavar="FILE", type=Path, default=None, help="machine or kinematics: bearings, gears"
     )
     parser.add_argument("--channel", metavar="NAME", nargs="+", default=None, help="only these channels")
-    parser.add_argument("--trust-speed", action="store_true", help="take the stated speed as exact")
+    parser.add_argument(
+        "--trust-speed", action="store_true", help="take the stated speed as exact, where no tacho tells it all along"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from learn.model import Model, load, save
@@ -24,8 +25,6 @@ from sideband_datasets.recipe.read import identity
 from sim.version import PHYSICS_VERSION
 
 SEED, ABLATED, PAIRS = 1, FEWER, 100
-MORE_MADE = 1.6
-"""Small data sets have a machine of every family, so this many times what is asked for."""
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -69,9 +68,11 @@ def main(argv: list[str] | None = None) -> int:
 
 def _trained(given: argparse.Namespace, found: Table, began: float) -> tuple[Model, str]:
     _tell(began, f"{len(set(found.machines))} machines, {len(found.labels)} pieces of recordings")
-    model = train(found, seed=given.seed, made_by={})
-    _tell(began, "trained")
-    pairs = gear_table(given.pairs, given.seed, given.processes)
+    with ThreadPoolExecutor(1) as beside:
+        simulated = beside.submit(gear_table, given.pairs, given.seed, given.processes)
+        model = train(found, seed=given.seed, made_by={})
+        _tell(began, "trained")
+        pairs = simulated.result()
     _tell(began, f"{len({p.machine for p in pairs})} gear pairs simulated, {len(pairs)} recordings")
     heads = {**model.heads, **gear_heads(pairs, given.seed)}
     held = f"{len(set(found.machines))} machines, {len(found.labels)} pieces"
@@ -104,7 +105,7 @@ def _made_by(given: argparse.Namespace, found: Table, pairs: list[GearExample]) 
 def _ablated(given: argparse.Namespace, found: Table, began: float) -> dict[str, Model]:
     """Models of smaller data sets, the first a part of the large one; `learn.sim2real.ablations` has more of them."""
     usual, *others = USUAL
-    part = some(found, round(MORE_MADE * given.ablated))
+    part = some(found, given.ablated)
     models = {usual: train(part, seed=given.seed, made_by={})}
     _tell(began, f"{usual}: {len(part.labels)} pieces of {len(set(part.machines))} machines")
     for name in others:

@@ -9,8 +9,9 @@ from functools import partial
 
 import numpy as np
 
-from learn.assess import Assessment, assess, estimated
+from learn.assess import Assessment, answered, assess, estimated
 from learn.detector import kinematic_detector
+from learn.looked import Looked
 from learn.model import Model
 from learn.real.load import Case
 from learn.speed import Speed
@@ -84,8 +85,12 @@ class ByModel:
         if self.speed != "given":
             found = estimated(rows, case.rate_hz, case.stated_hz if self.speed == "near" else None, orders)
         answer = assess(rows, case.rate_hz, found.speed_hz, self.model, orders, found.doubt, found.likely)
-        shares = ", ".join(f"{k} {p:.2f}" for k, p in answer.probabilities.items())
-        return Answer(unit=unit, label=answer.label, detail=f"{shares}; {found.speed_hz:.2f} Hz", assessment=answer)
+        return _answer(unit, answer, found.speed_hz)
+
+
+def _answer(unit: Unit, answer: Assessment, speed_hz: float) -> Answer:
+    shares = ", ".join(f"{k} {p:.2f}" for k, p in answer.probabilities.items())
+    return Answer(unit=unit, label=answer.label, detail=f"{shares}; {speed_hz:.2f} Hz", assessment=answer)
 
 
 def _of_case(case: Case, way: Way, windows: bool) -> list[Answer]:
@@ -96,3 +101,23 @@ def ask(cases: Sequence[Case], way: Way, *, windows: bool = True, pool: Executor
     """Answers on all units, recording by recording."""
     work = partial(_of_case, way=way, windows=windows)
     return [answer for part in (pool.map(work, cases) if pool is not None else map(work, cases)) for answer in part]
+
+
+def _by_models(case: Case, models: Mapping[str, Model]) -> dict[str, list[Answer]]:
+    found: dict[str, list[Answer]] = {name: [] for name in models}
+    for unit in units(case):
+        seen = Looked(
+            channels=tuple(unit.channels), rate_hz=case.rate_hz, speed_hz=case.speed_hz, orders=case.orders, doubt=0.0
+        )
+        for name, model in models.items():
+            found[name].append(_answer(unit, answered(seen, model), case.speed_hz))
+    return found
+
+
+def ask_models(
+    cases: Sequence[Case], models: Mapping[str, Model], pool: Executor | None = None
+) -> dict[str, list[Answer]]:
+    """What several models answer at the speed and geometry given: each unit is looked at once."""
+    work = partial(_by_models, models=models)
+    parts = list(pool.map(work, cases) if pool is not None else map(work, cases))
+    return {name: [answer for part in parts for answer in part[name]] for name in models}

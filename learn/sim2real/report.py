@@ -11,7 +11,7 @@ from learn.gears.assess import CLASSES as GEAR_CLASSES
 from learn.model import Model
 from learn.real.load import Case
 from learn.sim2real import tables
-from learn.sim2real.answers import Answer, ByModel, Way, ask, by_detector
+from learn.sim2real.answers import Answer, ByModel, Way, ask, ask_models, by_detector
 from learn.sim2real.figures import controls, other_rigs, paired, pooled, rigs, stated_bearings
 from learn.sim2real.fitted_rule import fitted_db, refitted
 from learn.sim2real.gear_answers import gear_ways
@@ -52,7 +52,7 @@ def report(
     """Everything. Recordings whose condition is none of the classes are answered and listed, and count nowhere."""
     asked = asked_all(model, ablated, cases, pool)
     known = [c for c in cases if c.orders is not None and c.label in CLASSES]
-    return Results(text=text_of(asked, rivals_table(known, seed)), line="SIM2REAL " + json.dumps(line_of(asked)))
+    return Results(text=text_of(asked, rivals_table(known, seed, pool)), line="SIM2REAL " + json.dumps(line_of(asked)))
 
 
 def asked_all(model: Model, ablated: Mapping[str, Model], cases: Sequence[Case], pool: Executor | None) -> Asked:
@@ -61,7 +61,8 @@ def asked_all(model: Model, ablated: Mapping[str, Model], cases: Sequence[Case],
     stages, bearings = [c for c in scored if c.teeth is not None], [c for c in scored if c.teeth is None]
     known, unsized = [c for c in bearings if c.orders is not None], [c for c in bearings if c.orders is None]
     given, near = ByModel(model=model), ByModel(model=model, speed="near")
-    alone: Ways = {GIVEN: ask(known, given, pool=pool), RIVAL: ask(known, by_detector, pool=pool)}
+    by_models = ask_models(known, {GIVEN: model, **ablated}, pool)
+    alone: Ways = {GIVEN: by_models[GIVEN], RIVAL: ask(known, by_detector, pool=pool)}
     rule = fitted_db(alone[RIVAL])
     if rule is not None:
         alone[FITTED] = refitted(alone[RIVAL], rule)
@@ -76,8 +77,8 @@ def asked_all(model: Model, ablated: Mapping[str, Model], cases: Sequence[Case],
         UNKNOWN: (bearings, ByModel(model=model, geometry=False), True),
         f"{UNKNOWN}, {NEAR}": (bearings, ByModel(model=model, geometry=False, speed="near"), True),
     }
-    others |= {f"smaller data set, {name}": (known, ByModel(model=other), True) for name, other in ablated.items()}
     ways |= {name: ask(which, way, windows=cut, pool=pool) for name, (which, way, cut) in others.items()}
+    ways |= {f"smaller data set, {name}": by_models[name] for name in ablated}
     unscored = ask([c for c in cases if c not in scored], given, windows=False, pool=pool)
     return Asked(ways=ways, alone=alone, unscored=unscored, rule_db=rule)
 

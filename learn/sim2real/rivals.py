@@ -7,6 +7,7 @@ head for whole recordings, and it can name only the classes its rig has (HIT-SM 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from concurrent.futures import Executor
 
 import numpy as np
 
@@ -23,14 +24,17 @@ from signals.series import FloatArray
 FEWEST = 2
 
 
-def rows_of(cases: Sequence[Case]) -> list[tuple[Unit, FloatArray]]:
+def rows_of(cases: Sequence[Case], pool: Executor | None = None) -> list[tuple[Unit, FloatArray]]:
     """Features of all units at the true speed and geometry."""
+    return [row for part in (pool.map(_rows, cases) if pool is not None else map(_rows, cases)) for row in part]
+
+
+def _rows(case: Case) -> list[tuple[Unit, FloatArray]]:
+    assert case.orders is not None
     found = []
-    for case in cases:
-        assert case.orders is not None
-        for unit in units(case):
-            row, _ = features.vector(bank(list(unit.channels), case.rate_hz, case.speed_hz), case.orders)
-            found.append((unit, row))
+    for unit in units(case):
+        row, _ = features.vector(bank(list(unit.channels), case.rate_hz, case.speed_hz), case.orders)
+        found.append((unit, row))
     return found
 
 
@@ -55,9 +59,9 @@ def said_by(head: Head, rows: Sequence[tuple[Unit, FloatArray]]) -> list[str]:
     return [head.classes[int(k)] for k in np.argmax(p, axis=1)]
 
 
-def rivals_table(cases: Sequence[Case], seed: int) -> str:
+def rivals_table(cases: Sequence[Case], seed: int, pool: Executor | None = None) -> str:
     """Each rig with several classes as the teacher of each other one."""
-    rigs = {r: rows_of([c for c in cases if c.rig == r]) for r in dict.fromkeys(c.rig for c in cases)}
+    rigs = {r: rows_of([c for c in cases if c.rig == r], pool) for r in dict.fromkeys(c.rig for c in cases)}
     teachers = [r for r, rows in rigs.items() if len({u.case.label for u, _ in rows}) > 1]
     lines = [
         "Trained on another real rig (comparison only): features of pieces, no head for whole recordings; a class",

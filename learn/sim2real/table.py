@@ -15,9 +15,10 @@ from pathlib import Path
 import numpy as np
 
 from learn import features, geometries, unknown, whole
-from learn.assess import ANYWHERE, WHOLE, stretches
+from learn.assess import ANYWHERE, WHOLE
 from learn.bank import bank
 from learn.dataset import Row, rows_of
+from learn.looked import stretches
 from learn.model import Head, Model
 from learn.train import fit_head
 from sideband_datasets.recipe.bearings import CLASSES

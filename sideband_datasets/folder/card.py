@@ -30,7 +30,10 @@ NOT_MODELLED = """\
 * Other machines nearby, process noise and changes of temperature are absent unless the measurement chain adds them.
 * Errors that are random in a machine (pitch errors) belong to the machine: they are the same in all its recordings."""
 
-
+BARE = """\
+* The recipe has no `background`: machines sound of nothing but themselves, so that a fault raises the level (RMS) far
+  more than it does on most measured machines, and a classifier may learn little else. Recipes `bearings-fast` and
+  `bearings-slow` have one."""
 COULD_NOT = ("could not be made", "could not be made or do not show their fault")
 """Without and with a choice of recordings."""
 
@@ -115,7 +118,7 @@ def card(plan: Plan, receipts: Sequence[Receipt], kind: str) -> str:
         f"## What was varied\n\nSampled by a plan of kind {recipe.plan}, seed {recipe.seed}. SI units.\n\n"
         + _table(("what", "range"), _ranges(recipe)),
         added(recipe),
-        "## What is not modelled\n\n" + NOT_MODELLED,
+        "## What is not modelled\n\n" + NOT_MODELLED + (f"\n{BARE}" if recipe.background is None else ""),
         "## Columns\n\n" + _table(("column", "unit", "meaning"), ((c.name, c.unit, c.sentence) for c in COLUMNS)),
         cite,
         "## Checksums (SHA-256)\n\n" + _table(("file", "sha256"), ((f"{DATA}/{r.name}", r.sha256) for r in receipts)),

@@ -9,7 +9,7 @@ from sideband_datasets.folder.shards import Receipt
 from sideband_datasets.formats import FORMATS
 from sideband_datasets.plan.plan import Plan
 from sideband_datasets.recipe.read import identity
-from sideband_datasets.row import COLUMNS, Column
+from sideband_datasets.row import COLUMNS, Column, Kind
 
 CONFORMS_TO = "http://mlcommons.org/croissant/1.0"
 CONTEXT: dict[str, object] = {
@@ -50,7 +50,7 @@ CONTEXT: dict[str, object] = {
     "subField": "cr:subField",
     "transform": "cr:transform",
 }
-TYPES = {
+TYPES: dict[Kind, str] = {
     "text": "sc:Text",
     "whole": "sc:Integer",
     "number": "sc:Float",
@@ -59,8 +59,16 @@ TYPES = {
     "numbers": "sc:Float",
     "signal": "sc:Float",
 }
-"""Of columns by kind. Peaks are objects in a list, which the format has no field for."""
-REPEATED = ("texts", "numbers", "signal")
+"""Of columns by kind; peaks, objects in a list, have a field for each key."""
+PEAK: dict[str, Kind] = {
+    "label": "text",
+    "frequency_hz": "number",
+    "amplitude": "number",
+    "status": "text",
+    "component": "text",
+    "spectrum": "text",
+}
+REPEATED = ("texts", "numbers", "signal", "peaks")
 SHARDS, ROWS = "shards", "rows"
 
 
@@ -101,21 +109,30 @@ def croissant(plan: Plan, receipts: Sequence[Receipt], kind: str) -> dict[str, o
             "includes": f"{DATA}/*{FORMATS[kind].suffix}",
         }
         document["distribution"] = [every, *shards]
-        fields = [_field(column) for column in COLUMNS if column.kind in TYPES]
+        fields = [_field(column) for column in COLUMNS]
         document["recordSet"] = [{"@type": "cr:RecordSet", "@id": ROWS, "name": ROWS, "field": fields}]
     return document
 
 
 def _field(column: Column) -> dict[str, object]:
     unit = f" Unit: {column.unit}." if column.unit else ""
-    found: dict[str, object] = {
-        "@type": "cr:Field",
-        "@id": f"{ROWS}/{column.name}",
-        "name": column.name,
-        "description": column.sentence + unit,
-        "dataType": TYPES[column.kind],
-        "source": {"fileSet": {"@id": SHARDS}, "extract": {"column": column.name}},
-    }
+    at = f"{ROWS}/{column.name}"
+    found: dict[str, object] = {"@type": "cr:Field", "@id": at, "name": column.name}
+    found["description"] = column.sentence + unit
+    if column.kind == "peaks":
+        found["subField"] = [_key(at, column.name, key, kind) for key, kind in PEAK.items()]
+    else:
+        found |= {"dataType": TYPES[column.kind], "source": _source(column.name)}
     if column.kind in REPEATED:
         found["repeated"] = True
     return found
+
+
+def _key(at: str, column: str, key: str, kind: Kind) -> dict[str, object]:
+    """A key of the objects in a column."""
+    source = _source(column) | {"transform": {"jsonPath": key}}
+    return {"@type": "cr:Field", "@id": f"{at}/{key}", "name": key, "dataType": TYPES[kind], "source": source}
+
+
+def _source(column: str) -> dict[str, object]:
+    return {"fileSet": {"@id": SHARDS}, "extract": {"column": column}}

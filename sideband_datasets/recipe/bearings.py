@@ -166,11 +166,13 @@ class Variant:
 
     `chain`: structure, fastening, noise, hum, filter, converter and a drawn rate; without it the ring's motion in y is
     taken as it is. `background`: rolling noise, knocks, neighbours and a ball's free axis. `spread`: of the machines.
+    `rare`: families that would have less than half a machine have one; else they are left out.
     """
 
     chain: bool = True
     background: bool = True
     spread: bool = True
+    rare: bool = True
 
 
 FULL = Variant()
@@ -180,6 +182,8 @@ def bearings_recipe(count: int, *, fast: bool, seed: int = 1, variant: Variant =
     """About `count` machines and four recordings of each; without spread all are one machine but for their faults."""
     kinds = families() if variant.spread else tuple(f for f in families() if f.name == "usual9")
     total = sum(f.share for f in kinds)
+    if not variant.rare:
+        kinds = tuple(kind for kind in kinds if round(count * kind.share / total))
     instances = [max(1, round(count * kind.share / total)) for kind in kinds]
     place = f"{BEARINGS[0]}.outer"
     return read_recipe(

@@ -33,7 +33,10 @@ class Ready:
 RECIPES: Mapping[str, Ready] = {
     ready.name: ready
     for ready in (
-        Ready(name="bearing-rig", sentence="Motor shaft on two ball bearings: healthy, outer race, inner race, ball."),
+        Ready(
+            name="bearing-rig",
+            sentence="Motor shaft on two ball bearings: healthy, outer, inner, ball; no background.",
+        ),
         Ready(
             name="gearbox",
             sentence="The paper's gearbox: healthy, loose fit, crack, broken tooth, unbalance, spall with crack.",

@@ -34,6 +34,10 @@ def noise() -> FloatArray:
     return np.random.default_rng(1).standard_normal(N)
 
 
+def alive() -> FloatArray:
+    return noise() + np.sin(2 * np.pi * 75.0 * np.arange(N) / 4000.0)
+
+
 def spike() -> FloatArray:
     return np.where(np.arange(N) == 3000, 1.0, 0.0)
 
@@ -63,7 +67,7 @@ def test_where_nothing_was_measured_is_refused(dead) -> None:  # type: ignore[no
 
 @pytest.mark.parametrize("dead", DEAD)
 def test_a_dead_channel_is_left_out_where_another_lives(dead) -> None:  # type: ignore[no-untyped-def]
-    found = measured(recording(dead(), noise()))
+    found = measured(recording(dead(), alive()))
     assert found.recording.names == ("c1",) and found.left_out == ("c0",)
     assert all(f["channel"] == "c0" and f["left_out"] for f in found.faults())
     assert found.remarks() and all("left out of the answer" in remark for remark in found.remarks())
@@ -92,8 +96,8 @@ def test_samples_that_are_not_finite_are_refused_with_number_and_place() -> None
 
 @pytest.mark.slow
 def test_the_answer_lists_what_is_wrong_with_the_measurement() -> None:
-    assert classify(recording(noise()), default_model(), trust_speed=True)["measurement_faults"] == []
-    found = classify(recording(noise(), spike()), default_model(), trust_speed=True)
+    assert classify(recording(alive()), default_model(), trust_speed=True)["measurement_faults"] == []
+    found = classify(recording(alive(), spike()), default_model(), trust_speed=True)
     assert found["channels"] == ["c0"]
     assert found["measurement_faults"] == [{"channel": "c1", "kind": "dropout", "left_out": True}]
     assert any(remark.startswith("c1: dropout") for remark in found["remarks"])
@@ -101,7 +105,7 @@ def test_the_answer_lists_what_is_wrong_with_the_measurement() -> None:
 
 def test_a_channel_far_below_its_neighbours_is_left_out_and_said() -> None:
     found = measured(recording(noise(), 1e-4 * noise()[::-1]))
-    assert found.left_out == ("c1",) and [f["kind"] for f in found.faults()] == ["silent"]
+    assert found.left_out == ("c1",) and "silent" in [f["kind"] for f in found.faults() if f["channel"] == "c1"]
     assert "80 dB below the loudest channel" in found.remarks()[0]
     assert measured(recording(noise(), 0.01 * noise()[::-1])).left_out == ()
     other = recording(noise(), 1e-4 * noise()[::-1])

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from learn.assess import estimated, stretches
+from learn.assess import estimated
+from learn.looked import stretches
 from learn.orders import of_ratio
 from learn.speed import USUAL_ERROR, candidates
 from learn.tacho import pulses_of

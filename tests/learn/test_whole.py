@@ -2,9 +2,10 @@ import numpy as np
 import pytest
 
 from learn import geometries, unknown, whole
-from learn.assess import assess, stretches
+from learn.assess import assess
 from learn.bank import bank
 from learn.combs import lift, logs
+from learn.looked import stretches
 from learn.model import Model
 from learn.sim2real.table import Example, joined, train
 from learn.whole import NAMES, cage, cage_grid, foreign, taken_out, vector

@@ -16,7 +16,7 @@ def test_croissant_holds_for_its_own_tool(made):
     assert not dataset.metadata.issues.errors
     found = list(dataset.records(record_set="rows"))
     assert len(found) == 48
-    assert {"rows/signal", "rows/bpfo_hz", "rows/labels"} <= set(found[0])
+    assert {"rows/signal", "rows/bpfo_hz", "rows/labels", "rows/peaks"} <= set(found[0])
 
 
 def test_croissant_has_the_checksum_of_every_shard(made):
