@@ -7,6 +7,7 @@ import multiprocessing
 import os
 import signal
 import threading
+import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -22,6 +23,8 @@ from sim.core.errors import SidebandError
 ATTEMPTS = 5
 """Times a shard is tried whose worker died: more than that, and it is the shard that kills it."""
 LOOK_S = 0.5
+LEAVE_S = 5.0
+"""Given to idle processes to end by themselves and return what they hold."""
 
 
 class WorkersDied(SidebandError):
@@ -105,6 +108,18 @@ class _Pool:
         self.stop()
         self._counter.value = rows
 
+    def close(self) -> None:
+        """Where nothing is left to do: processes end by themselves, those that do not in time are ended."""
+        if self._executor is not None:
+            processes = list((self._executor._processes or {}).values())
+            self._executor.shutdown(wait=False)
+            until = time.monotonic() + LEAVE_S
+            for process in processes:
+                process.join(max(0.0, until - time.monotonic()))
+                if process.is_alive():
+                    process.terminate()
+        self.stop()
+
     def stop(self) -> None:
         if self._executor is not None:
             # Only its own: whoever calls this may have other children.
@@ -145,6 +160,7 @@ def made_by_workers(
                 waiting = [_again(shard, attempts) for shard in running.values()] + waiting
                 running = {}
                 pool.renew(done)
+        pool.close()
     finally:
         pool.stop()
 

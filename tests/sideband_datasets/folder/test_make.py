@@ -189,6 +189,19 @@ def _workers(process: psutil.Process) -> list[psutil.Process]:
 
 
 @pytest.mark.slow
+def test_workers_that_are_done_leave_nothing_behind(tmp_path):
+    """Zarr's compressor holds semaphores, which processes that are ended instead of ending leave to the system."""
+    pytest.importorskip("zarr")
+    (tmp_path / "recipe.json").write_text(json.dumps(document_of(tiny(count=4, peaks={"spectra": []}))))
+    found = subprocess.run(
+        [sys.executable, "-m", "app.cli.main", "dataset", "make", "recipe.json", "--out", "set", "--format", "zarr",
+         "--workers", "2", "--shard-recordings", "2"],
+        cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert "leaked" not in found.stderr and "Warning" not in found.stderr
+
+
+@pytest.mark.slow
 def test_a_killed_worker_and_a_killed_command_cost_nothing_but_their_shards(made, tmp_path):
     (tmp_path / "recipe.json").write_text(json.dumps(document_of(RECIPE)))
     out = tmp_path / "set"
