@@ -18,6 +18,11 @@ from learn.speed import HIGHEST_HZ, SEARCH, Speed, candidates
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
 
+CLASSES = ("healthy", "outer", "inner", "ball")
+"""That heads of bearings answer with, in this order."""
+KNOWN, UNKNOWN = "known", "unknown"
+"""Heads of stretches, by whether the geometry is known."""
+_NEEDED = f"`{KNOWN}` and `{UNKNOWN}` at least"
 WHOLE = "whole"
 """Head of the features of `learn.whole`: it answers for recordings longer than a stretch, their geometry known."""
 ANYWHERE = "anywhere"
@@ -63,7 +68,7 @@ def assess(
 def answered(seen: Looked, model: Model, likely: Sequence[float] = ()) -> Assessment:
     """The same, of a recording that was looked at: what several models say of it needs one look."""
     orders = seen.orders
-    head = model.heads["known" if orders is not None else "unknown"]
+    head = model.heads[KNOWN if orders is not None else UNKNOWN]
     wanted = {WHOLE} if orders is not None else {WHOLE, ANYWHERE}
     p = pooled(head, seen.table)
     if len(seen.shown) > 1 and wanted <= set(model.heads):
@@ -86,6 +91,22 @@ def answered(seen: Looked, model: Model, likely: Sequence[float] = ()) -> Assess
         geometry="known" if orders is not None else "unknown",
         severity=_severity(seen.shown, [r[2] for r in rows], label),
     )
+
+
+def check_heads(model: Model) -> None:
+    """SpecError for a model that cannot answer: a head is missing, or names other classes than the first."""
+    heads = {name: model.heads[name] for name in (KNOWN, UNKNOWN, WHOLE, ANYWHERE) if name in model.heads}
+    for name in (KNOWN, UNKNOWN):
+        if name not in heads:
+            told = ", ".join(sorted(model.heads))
+            raise SpecError(Problem(field="model.heads", message=f"lack `{name}`", given=told, allowed=_NEEDED))
+    for name, head in heads.items():
+        if head.classes != CLASSES:
+            given = ", ".join(head.classes)
+            message = "names other classes, or in another order"
+            raise SpecError(
+                Problem(field=f"model.heads.{name}.classes", message=message, given=given, allowed=", ".join(CLASSES))
+            )
 
 
 def of_whole(seen: Looked, model: Model) -> FloatArray:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 
-from learn.assess import Assessment, answered, estimated
+from learn.assess import Assessment, answered, check_heads, estimated
 from learn.describe import Site
 from learn.elsewhere import Elsewhere, elsewhere, known_to
 from learn.gears.assess import StageAnswer, assess_stage, knows_gears
@@ -49,6 +50,16 @@ def speed_of(recording: Recording, sites: Sequence[Site], pulses: Pulses, *, tru
     return estimated(list(recording.samples), recording.sampling_rate_hz, start or None, orders)
 
 
+@contextmanager
+def _said_by(pulses: Pulses) -> Iterator[None]:
+    """A refusal that may be the pulses' fault says what is wrong with these."""
+    try:
+        yield
+    except SpecError as error:
+        said = [Problem(field="tacho", message=remark.removeprefix("tacho: ")) for remark in pulses.remarks]
+        raise SpecError([*error.problems, *said]) from None
+
+
 def classify(
     recording: Recording,
     model: Model,
@@ -64,17 +75,20 @@ def classify(
     whose mesh or turns the recording does not hold is refused only if nothing else is there to answer for.
     """
     check_speeds({}, "", given([recording], []))
+    check_heads(model)
     remarks: list[str] = []
     if stages and not knows_gears(model):
         stages, remarks = (), ["gears: are not looked at, the model was not trained on any"]
     heard = measured(recording, channels)
     chosen = heard.recording
     pulses = pulses_of(chosen, trust=trust_speed)
-    speed = speed_of(chosen, sites, pulses, trust=trust_speed)
+    with _said_by(pulses):
+        speed = speed_of(chosen, sites, pulses, trust=trust_speed)
     parts = []
     if sites or not stages:
         remarks += check_rate(chosen.sampling_rate_hz, speed.speed_hz, sites)
-        parts = _bearings(chosen, model, sites, stages, speed)
+        with _said_by(pulses):
+            parts = _bearings(chosen, model, sites, stages, speed)
     unseen: list[SpecError] = []
     for stage in stages:
         try:
@@ -97,12 +111,12 @@ def classify(
         "lines": first["lines"],
         "parts": [{name: part[name] for name in PART} for part in parts],
         "remarks": [
+            *heard.remarks(),
             *remarks,
             *pulses.remarks,
             *of_speed(chosen, speed, sites[0].ratio if sites else 1.0),
             *of_sites(sites),
             *of_parts(parts),
-            *heard.remarks(),
         ][:MOST_REMARKS],
         "measurement_faults": [*heard.faults(), *pulses.faults()],
     }

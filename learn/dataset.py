@@ -37,6 +37,11 @@ class Row:
     orders: FaultOrders
 
 
+def machines_of(folders: Sequence[Path]) -> list[str]:
+    """Names of the machines of folders that are read together, by their numbers."""
+    return [name for folder in folders for name in sorted(_manifest(folder)["machines"])]
+
+
 def rows_of(folders: Sequence[Path], part: int = 0, parts: int = 1) -> Iterator[Row]:
     """Rows of every `parts`-th machine, from `part` on. A row with no speed or bearing is left out.
 

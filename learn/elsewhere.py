@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from learn import unknown
 from learn.bank import Bank
 from learn.describe import Site
+from learn.features import line_depths
 from learn.gears.stage import Stage
 from learn.orders import FaultOrders
 
@@ -18,8 +21,12 @@ RELATIVES = (0.5, 1.0, 2.0)
 REACH = 0.03
 """Relative, of an order and its relatives: slip."""
 SHAFT_REACH = 0.01
-HIGHEST = 12.5
-"""Order up to which other shafts' turns are left out."""
+FEW = 3
+"""Multiples of another shaft's turns that stand alone: unbalance, misalignment."""
+APART_BINS = 5
+"""Of lines that are told from each other."""
+BETWEEN = 0.3
+"""Depth of the neighbouring multiples' lines, over the line's own, from which it is one of many of that shaft's."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +45,7 @@ def elsewhere(parts: Sequence[Bank], own: Sequence[FaultOrders], shafts: Sequenc
     for part in parts:
         comb = unknown.vector(part)[1]
         clear = comb["z"] >= CLEAR and comb["depth"] >= DEEP
-        if clear and not _related(comb["order"], own) and not _turns(comb["order"], shafts):
+        if clear and not _related(comb["order"], own) and not _turns(part, comb, shafts):
             found.append(Elsewhere(order=comb["order"], z=comb["z"], depth=comb["depth"]))
     if not found:
         return None
@@ -66,11 +73,17 @@ def _related(order: float, own: Iterable[FaultOrders]) -> bool:
     return any(abs(order / (m * base) - 1) <= REACH for base in bases for m in RELATIVES)
 
 
-def _turns(order: float, shafts: Iterable[float]) -> bool:
-    """Whether a multiple of another shaft's turns is this order."""
-    return any(
-        abs(order / (k * shaft) - 1) <= SHAFT_REACH
-        for shaft in shafts
-        if shaft > 0
-        for k in range(1, int(HIGHEST / shaft) + 1)
-    )
+def _turns(part: Bank, comb: Mapping[str, float], shafts: Iterable[float]) -> bool:
+    """Whether the comb is another shaft's turns: one of the first multiples, or one of many beside each other."""
+    order, band = comb["order"], int(comb["band"])
+    for shaft in shafts:
+        k = round(order / shaft) if shaft > 0 else 0
+        if k < 1 or abs(order / (k * shaft) - 1) > SHAFT_REACH:
+            continue
+        if k <= FEW:
+            return True
+        aside = shaft * np.ceil(APART_BINS * part.step / shaft)
+        line, *beside = line_depths(part, band, np.array([order, order - aside, order + aside]))
+        if min(beside) >= BETWEEN * line:
+            return True
+    return False

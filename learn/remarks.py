@@ -11,6 +11,7 @@ from learn.speed import HIGHEST_HZ, LOWEST_HZ, Speed
 from reconcile.stated import FAST_HZ
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
+from sim.parts.bearing.catalogue import CatalogueRow, lookup
 
 UNSURE = 0.7
 """Probability below which a measured recording is to be looked at again (docs/sim2real.md)."""
@@ -21,6 +22,8 @@ OWN = {"outer": ("BPFO",), "inner": ("BPFI",), "ball": ("2 BSF", "4 FTF")}
 FOREIGN = "foreign"
 """Family of lines that are of no part of the bearing (`learn.elsewhere`)."""
 PER_MINUTE = 60.0
+SLOWEST_HZ = 1.0
+"""Speed that a number of revolutions per minute is asked to be."""
 
 
 def check_learnt(stated_hz: float) -> None:
@@ -51,7 +54,7 @@ def of_speed(recording: Recording, speed: Speed, ratio: float = 1.0) -> list[str
         told = f"speed: {turning:.4g} Hz is not among those learnt from ({LOWEST_HZ:g} to {HIGHEST_HZ:g} Hz)"
         per_second = (stated or 0.0) / PER_MINUTE
         rpm = f"; as revolutions per minute it would be {per_second:.4g} Hz"
-        said.append(told + (rpm if LOWEST_HZ <= per_second <= HIGHEST_HZ else ""))
+        said.append(told + (rpm if turning > HIGHEST_HZ and SLOWEST_HZ <= per_second <= HIGHEST_HZ else ""))
     return said
 
 
@@ -60,6 +63,10 @@ def of_sites(sites: Iterable[Site]) -> list[str]:
     said = []
     for site in sites:
         o = site.orders
+        if site.alike:
+            said.append(f"{site.name}: {', '.join(site.alike)} has the same orders: what is said may be of either")
+        if site.catalogued is not None:
+            said.append(_of_catalogue(site.name, lookup(site.catalogued)))
         if o.cage > 0.5:
             said.append(
                 f"{site.name}: its cage's order says that the outer ring turns; inner rings' turning was learnt"
@@ -68,6 +75,14 @@ def of_sites(sites: Iterable[Site]) -> list[str]:
         if beyond:
             said.append(f"{site.name}: {', '.join(beyond)} above order {TOP:g}: not looked for")
     return said
+
+
+def _of_catalogue(name: str, row: CatalogueRow) -> str:
+    """Makers fill one size differently: whose bearing was meant."""
+    inferred = ", sizes inferred from its printed orders" if row.basis == "inferred" else ""
+    return (
+        f"{name}: {row.designation} is taken as {row.maker}'s, {row.balls} {row.element}s{inferred}; others may differ"
+    )
 
 
 def of_parts(parts: Iterable[Mapping[str, Any]]) -> list[str]:
@@ -94,6 +109,6 @@ def of_parts(parts: Iterable[Mapping[str, Any]]) -> list[str]:
 def _of_foreign(where: str, label: str, line: Mapping[str, Any]) -> str:
     also = ", and 'healthy' is of the stated bearing alone" if label == "healthy" else ""
     return (
-        f"{where}: clear impacts at order {line['order']:.4g} ({line['frequency_hz']:.4g} Hz) are of no part of it: "
+        f"{where}: clear impacts at order {line['order']:.3g} ({line['frequency_hz']:.3g} Hz) are of no part of it: "
         f"they are another part's, or the bearing is not the one stated{also}"
     )

@@ -5,14 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.ndimage import median_filter
 
 from learn.speed import SEARCH
 from reconcile.speed.run_up import COVERED
 from signals.angle.pulses import check_inside, covered
 from signals.recording import Recording
+from signals.series import FloatArray
 
 FEWEST = 3
 """Pulses that tell a speed."""
+LOST, TWICE = 1.5, 0.6
+"""Steps between pulses over the middle of those around from which one was lost, below which one came twice."""
+AROUND = 9
+"""Steps whose middle is taken."""
 WHOLE = 0.02
 """By which a ratio of speeds may miss a whole number and still be one of pulses."""
 
@@ -49,14 +55,19 @@ def pulses_of(recording: Recording, *, trust: bool = False) -> Pulses:
     if times.size < FEWEST:
         said = f"tacho: {times.size} pulses tell no speed: they are not used"
         return Pulses(kinds=("few_pulses",), remarks=(said,))
-    hz = float((times.size - 1) / tacho.pulses_per_revolution / (times[-1] - times[0]))
+    irregular = uneven(times)
+    hz = _mean_hz(times, irregular) / tacho.pulses_per_revolution
     stated = operating.speed_hz if operating is not None and operating.speed_hz > 0 else None
     share = covered(times, recording.start_s, recording.duration_s)
     apart = stated is not None and abs(hz / stated - 1) > SEARCH
-    firm = share >= COVERED
+    firm = share >= COVERED and not irregular
     used = firm or not (apart or trust)
     kinds, remarks = [], []
-    if not firm:
+    if irregular:
+        kinds.append("irregular")
+        then = f"the search starts from the {hz:.4g} Hz of the usual ones" if used else "they are not used"
+        remarks.append(f"tacho: {irregular} of its steps are too long or short (pulses lost or doubled): {then}")
+    if share < COVERED:
         kinds.append("partial")
         then = f"the search starts from their {hz:.4g} Hz" if used else "they are not used"
         remarks.append(f"tacho: its pulses cover {share:.0%} of the recording: {then}")
@@ -78,3 +89,17 @@ def _per_turn(ratio: float, stated: int) -> str:
     if turns > 1 and abs(wanted * turns - 1) <= WHOLE:
         return f"; does it pulse once in {turns} turns, or lose pulses? It must pulse at least once a turn"
     return ""
+
+
+def uneven(times_s: FloatArray) -> int:
+    """Steps between pulses that are much longer or shorter than those around them: of lost and doubled pulses."""
+    steps = np.diff(times_s)
+    usual = median_filter(steps, size=min(AROUND, steps.size), mode="nearest")
+    return int(np.sum((steps > LOST * usual) | (steps < TWICE * usual)))
+
+
+def _mean_hz(times_s: FloatArray, irregular: int) -> float:
+    """Pulses a second: the mean, or where some are lost or doubled that of the middle step."""
+    if irregular:
+        return float(1.0 / np.median(np.diff(times_s)))
+    return float((times_s.size - 1) / (times_s[-1] - times_s[0]))

@@ -95,7 +95,7 @@ def _text(found: Mapping[str, Any]) -> str:
 
 
 def _line(line: Mapping[str, Any]) -> str:
-    where = f"  {line['family']:<8} order {line['order']:.4g}, {line['frequency_hz']:.5g} Hz"
+    where = f"  {line['family']:<8} order {line['order']:.3g}, {line['frequency_hz']:.3g} Hz"
     if "peak_over_mean_db" in line:
         return (
             f"{where}: one place of the turn {line['peak_over_mean_db']:.0f} dB over the others' mean, "
@@ -105,6 +105,6 @@ def _line(line: Mapping[str, Any]) -> str:
         return f"{where}: {line['z']:.1f} deviations over other orders"
     low, high = line["band_hz"]
     return (
-        f"{where} ({line['slip']:+.2%}): {line['z']:.1f} deviations over other orders, depth {line['depth']:.2g} "
+        f"{where} ({line['slip']:+.0%}): {line['z']:.1f} deviations over other orders, depth {line['depth']:.2g} "
         f"of the envelope in {low:.0f}-{high:.0f} Hz of {line['channel']}"
     )

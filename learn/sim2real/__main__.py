@@ -8,9 +8,11 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from learn.dataset import machines_of
 from learn.model import Model, load, save
 from learn.real.load import RECORDINGS, Case, available, case, index
 from learn.sim2real.ablations import MACHINES as FEWER
@@ -20,7 +22,7 @@ from learn.sim2real.report import Results, report
 from learn.sim2real.rigs import RIGS
 from learn.sim2real.table import Table, pool_of, some, table, train
 from learn.sim2real.training_data import made, recipes
-from sideband_datasets.recipe.bearings import MACHINES
+from sideband_datasets.recipe.bearings import MACHINES, UNUSUAL_NAME
 from sideband_datasets.recipe.read import identity
 from sim.version import PHYSICS_VERSION
 
@@ -48,14 +50,14 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--docs", type=Path, default=None, help="also write the tables to this page")
     given = parser.parse_args(argv)
     began = time.monotonic()
-    found = None if given.from_model else _bearings(given, began)
+    found, usual = (None, ()) if given.from_model else _bearings(given, began)
     model, held = (load(given.from_model), "") if found is None else _trained(given, found, began)
     if given.model is not None:
         save(model, given.model)
     if not available():
         print(f"skipped: there are no recordings at {RECORDINGS}")
         return 0
-    ablated = _ablated(given, found, began) if given.ablated and found is not None else {}
+    ablated = _ablated(given, found, usual, began) if given.ablated and found is not None else {}
     cases = [case(e) for e in index() if e["dataset"] in RIGS]
     _tell(began, f"{len(cases)} measured recordings read")
     with pool_of(given.processes) as pool:
@@ -80,13 +82,17 @@ def _trained(given: argparse.Namespace, found: Table, began: float) -> tuple[Mod
     return Model(heads=heads, made_by=_made_by(given, found, pairs)), held
 
 
-def _bearings(given: argparse.Namespace, began: float) -> Table:
-    """Features of the datasets that are given, or of those that are made."""
+def _bearings(given: argparse.Namespace, began: float) -> tuple[Table, Sequence[int]]:
+    """Features of the datasets that are given, or of those that are made; machines with bearings of the catalogue."""
     if given.dataset:
-        return table(given.dataset, given.processes)
+        return table(given.dataset, given.processes), _usual(given.dataset)
     with made(recipes(given.machines, given.seed), given.keep, given.processes) as folders:
         _tell(began, f"datasets made: {', '.join(folder.name for folder in folders)}")
-        return table(folders, given.processes)
+        return table(folders, given.processes), _usual(folders)
+
+
+def _usual(folders: Sequence[Path]) -> list[int]:
+    return [k for k, name in enumerate(machines_of(folders)) if not name.startswith(UNUSUAL_NAME)]
 
 
 def _made_by(given: argparse.Namespace, found: Table, pairs: list[GearExample]) -> dict[str, object]:
@@ -102,10 +108,11 @@ def _made_by(given: argparse.Namespace, found: Table, pairs: list[GearExample]) 
     }
 
 
-def _ablated(given: argparse.Namespace, found: Table, began: float) -> dict[str, Model]:
-    """Models of smaller data sets, the first a part of the large one; `learn.sim2real.ablations` has more of them."""
+def _ablated(given: argparse.Namespace, found: Table, among: Sequence[int], began: float) -> dict[str, Model]:
+    """Models of smaller data sets of the catalogue's bearings, the first a part of the large one;
+    `learn.sim2real.ablations` has more of them."""
     usual, *others = USUAL
-    part = some(found, given.ablated)
+    part = some(found, given.ablated, among)
     models = {usual: train(part, seed=given.seed, made_by={})}
     _tell(began, f"{usual}: {len(part.labels)} pieces of {len(set(part.machines))} machines")
     for name in others:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
@@ -125,9 +125,9 @@ def joined(found: Sequence[Example]) -> Table:
     )
 
 
-def some(found: Table, machines: int) -> Table:
-    """The rows of about so many machines, evenly picked; at least one."""
-    names = sorted(set(found.machines))
+def some(found: Table, machines: int, among: Container[int] | None = None) -> Table:
+    """The rows of about so many machines, evenly picked of those `among` the given ones (none: all); at least one."""
+    names = sorted(k for k in set(found.machines) if among is None or k in among)
     chosen = names[:: max(1, round(len(names) / max(machines, 1)))]
     short, long = np.isin(found.machines, chosen), np.isin(found.long_machines, chosen)
     return Table(

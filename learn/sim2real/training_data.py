@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
@@ -10,9 +11,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from sideband_datasets.folder import Progress, Settings, make, resume
-from sideband_datasets.folder.layout import MANIFEST, unfinished
+from sideband_datasets.folder.layout import MANIFEST, SETTINGS, STATE, unfinished
 from sideband_datasets.recipe import Recipe
 from sideband_datasets.recipe.bearings import FULL, MACHINES, SHARE_FAST, Variant, bearings_recipe
+from sideband_datasets.recipe.read import identity, read_recipe
+from sim.core.errors import Problem, SpecError
 
 
 def recipes(machines: int = MACHINES, seed: int = 1, variant: Variant = FULL) -> tuple[Recipe, Recipe]:
@@ -46,10 +49,23 @@ def _shared(processes: int, among: int) -> list[int]:
 def _made(recipe: Recipe, out: Path, processes: int) -> None:
     """One folder, made, made to the end, or there already."""
     out.parent.mkdir(parents=True, exist_ok=True)
+    _check_same(recipe, out)
     if unfinished(out).is_dir():
         resume(out, processes, _untold)
     elif not (out / MANIFEST).is_file():
         make(recipe, out, Settings(workers=processes), _untold)
+
+
+def _check_same(recipe: Recipe, out: Path) -> None:
+    """SpecError for a folder that holds another dataset, or was begun as one, under the same name."""
+    for path in (out / MANIFEST, unfinished(out) / STATE / SETTINGS):
+        if path.is_file():
+            there = read_recipe(json.loads(path.read_text(encoding="utf-8"))["recipe"])
+            if identity(there) != identity(recipe):
+                given = f"seed {there.seed}, {there.count} recordings"
+                wanted = f"seed {recipe.seed}, {recipe.count} recordings, or another folder"
+                message = f"{out.name} is there, of another recipe"
+                raise SpecError(Problem(field="--keep", message=message, given=given, allowed=wanted))
 
 
 def _untold(progress: Progress) -> None:

@@ -49,6 +49,8 @@ from sim.core.errors import Problem, SpecError
 
 MOST_WORKERS = 256
 MOST_IN_A_SHARD = 100_000
+WRITTEN = {"recipe", "format", "shard_recordings", "versions"}
+"""Of what was begun."""
 SAID_TWICE = ("recipe", "format", "versions")
 """In the manifest and in what was begun."""
 
@@ -149,7 +151,17 @@ def _resume(folder: Path, out: Path, workers: int, told: Callable[[Progress], No
 def _begun(folder: Path) -> dict[str, Any] | None:
     """What is made in the folder; None when that is not said, or no more."""
     path = folder / STATE / SETTINGS
-    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+    if not path.is_file():
+        return None
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+        if set(found) == WRITTEN and isinstance(found["versions"], dict):
+            return dict(found)
+    except (ValueError, TypeError):
+        pass
+    place, given = f"{folder.name}/{STATE}/{SETTINGS}", f"{path.stat().st_size} bytes"
+    message = "is damaged; remove the unfinished folder and make the dataset again"
+    raise SpecError(Problem(field=place, message=message, given=given))
 
 
 def check_size(plan: Plan, shard_recordings: int | None) -> None:

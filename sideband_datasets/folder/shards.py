@@ -86,7 +86,10 @@ def finished(folder: Path, shard: Shard, recipe: str) -> Receipt | None:
     path, data = receipt_path(folder, shard), folder / DATA / shard.name
     if not path.is_file() or not data.exists():
         return None
-    receipt = receipt_from(json.loads(path.read_text(encoding="utf-8")))
+    try:
+        receipt = receipt_from(json.loads(path.read_text(encoding="utf-8")))
+    except (ValueError, TypeError, KeyError):  # damaged: the shard is made again
+        return None
     return receipt if receipt.recipe == recipe and receipt.sha256 == sha256(data) else None
 
 

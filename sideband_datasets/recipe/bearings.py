@@ -63,6 +63,10 @@ class Bearings:
     """How many machines, relative to the other families."""
 
 
+UNUSUAL_NAME = "free"
+"""Of families of bearings that the catalogue lacks, before their number."""
+
+
 @cache
 def families() -> tuple[Bearings, ...]:
     """Catalogue bearings by number of balls, as common as the catalogue has them, then unusual ones."""
@@ -76,7 +80,7 @@ def families() -> tuple[Bearings, ...]:
     ]
     free = [
         Bearings(
-            name=f"free{k}",
+            name=f"{UNUSUAL_NAME}{k}",
             geometry=BallGeometry(
                 balls=z, ball_diameter_m=ratio * PITCH_M, pitch_diameter_m=PITCH_M, contact_angle_deg=angle
             ),
@@ -166,7 +170,7 @@ class Variant:
 
     `chain`: structure, fastening, noise, hum, filter, converter and a drawn rate; without it the ring's motion in y is
     taken as it is. `background`: rolling noise, knocks, neighbours and a ball's free axis. `spread`: of the machines.
-    `rare`: families that would have less than half a machine have one; else they are left out.
+    `rare`: bearings that the catalogue lacks; without them fewer families share the lanes of the solver.
     """
 
     chain: bool = True
@@ -181,9 +185,9 @@ FULL = Variant()
 def bearings_recipe(count: int, *, fast: bool, seed: int = 1, variant: Variant = FULL) -> Recipe:
     """About `count` machines and four recordings of each; without spread all are one machine but for their faults."""
     kinds = families() if variant.spread else tuple(f for f in families() if f.name == "usual9")
-    total = sum(f.share for f in kinds)
     if not variant.rare:
-        kinds = tuple(kind for kind in kinds if round(count * kind.share / total))
+        kinds = tuple(kind for kind in kinds if kind.sizes)
+    total = sum(f.share for f in kinds)
     instances = [max(1, round(count * kind.share / total)) for kind in kinds]
     place = f"{BEARINGS[0]}.outer"
     return read_recipe(

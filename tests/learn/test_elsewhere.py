@@ -43,6 +43,17 @@ def test_turns_of_another_shaft_are_not(impacts) -> None:  # type: ignore[no-unt
     assert elsewhere(banks, [OTHER], [2.478]) is None
 
 
+@pytest.mark.parametrize("slow", [0.35, 0.1, 0.05])
+def test_a_slow_shaft_in_mesh_hides_no_bearing(impacts, slow) -> None:  # type: ignore[no-untyped-def]
+    assert elsewhere(parts(impacts(4.2)), [OTHER], [slow]) is not None
+
+
+def test_a_tooth_of_a_slow_shaft_is_that_shaft(impacts) -> None:  # type: ignore[no-untyped-def]
+    banks = parts(impacts(0.45))
+    with_many = [part for part in banks if elsewhere([part], [OTHER]) is not None]
+    assert all(elsewhere([part], [OTHER], [0.45]) is None for part in with_many)
+
+
 def test_what_is_known_is_taken_per_turn_of_the_bearings_own_shaft(bearing) -> None:  # type: ignore[no-untyped-def]
     slow = Site(name="slow", orders=bearing, ratio=0.5)
     fast = Site(name="fast", orders=OTHER, ratio=1.0)

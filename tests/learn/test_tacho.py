@@ -63,6 +63,29 @@ def test_a_contradiction_is_told_with_both_numbers() -> None:
     assert "does it pulse once in 2 turns" in pulses_of(recording(pulses(12.5))).remarks[0]
 
 
+def test_lost_and_doubled_pulses_are_no_speed() -> None:
+    """A hole in the middle leaves first and last pulse where they were."""
+    all_of_them = pulses(25.0)
+    hole = np.delete(all_of_them, slice(12, 37))
+    few = np.delete(all_of_them, [7, 19, 33])
+    doubled = np.sort(np.concatenate([all_of_them, all_of_them[[5, 22, 40]] + 0.002]))
+    for times, steps in ((hole, 1), (few, 3), (doubled, 6)):
+        found = pulses_of(recording(times, None))
+        assert not found.firm and found.used and "irregular" in found.kinds, found
+        assert found.speed_hz == pytest.approx(25.0, rel=1e-3)
+        assert f"{steps} of its steps" in found.remarks[0] or times is doubled
+    assert not pulses_of(recording(hole), trust=True).used
+
+
+def test_a_speed_that_changes_and_marks_that_are_uneven_are_regular() -> None:
+    turns = np.arange(0.0, 60.0)
+    ramp = np.cumsum(1.0 / np.linspace(20.0, 40.0, 60))
+    ramp = ramp / ramp[-1] * 1.99
+    assert pulses_of(recording(ramp, None)).firm
+    two = np.sort(np.concatenate([turns, turns + 0.45])) / 30.5
+    assert pulses_of(recording(two, None, per_turn=2)).kinds == ()
+
+
 def test_pulses_of_another_shaft_and_too_few_are_not_used() -> None:
     assert pulses_of(recording(pulses(25.0), shaft="b")).faults() == [
         {"channel": "tacho", "kind": "other_shaft", "left_out": True}

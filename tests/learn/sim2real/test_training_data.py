@@ -1,12 +1,16 @@
 """The datasets that training is done on."""
 
+import json
+
 import numpy as np
 import pytest
 
 from learn.sim2real.table import Table, part_table, some
 from learn.sim2real.training_data import made, recipes
-from sideband_datasets.folder.layout import MANIFEST
+from sideband_datasets.folder.layout import MANIFEST, SETTINGS, STATE, unfinished
 from sideband_datasets.recipe import recipe_named
+from sideband_datasets.recipe.read import document_of
+from sim.core.errors import SpecError
 from tests.sideband_datasets.beside import siblings
 
 
@@ -35,6 +39,7 @@ def test_a_part_of_a_table_holds_all_rows_of_its_machines():
     assert part.labels == tuple(f"label {m}" for m in part.machines)
     assert part.long_labels == tuple(f"label {m}" for m in part.long_machines)
     assert (len(part.unknown), len(part.long), len(part.anywhere)) == (15, 10, 10)
+    assert sorted(set(some(table, 2, [1, 3, 5, 7]).machines)) == [1, 5]
     assert len(some(table, 0).machines) == 3 and some(table, 99).machines == table.machines
 
 
@@ -46,6 +51,16 @@ def test_a_folder_is_made_once_and_then_read(tmp_path):
     with made((recipe,), tmp_path, 1) as again:
         assert again == folders
         assert (again[0] / MANIFEST).stat().st_mtime_ns == written
+    other = recipe.model_copy(update={"seed": recipe.seed + 1})
+    with pytest.raises(SpecError, match="of another recipe") as refused, made((other,), tmp_path, 1):
+        pass
+    assert refused.value.problems[0].field == "--keep"
+    folders[0].rename(unfinished(folders[0]))
+    (unfinished(folders[0]) / STATE).mkdir()
+    begun = json.dumps({"recipe": document_of(recipe)})
+    (unfinished(folders[0]) / STATE / SETTINGS).write_text(begun)
+    with pytest.raises(SpecError, match="of another recipe"), made((other,), tmp_path, 1):
+        pass
 
 
 @pytest.mark.slow

@@ -6,6 +6,7 @@ import json
 import pytest
 
 from sideband_datasets import COLUMNS
+from sideband_datasets.formats import FORMATS
 
 
 @pytest.mark.slow
@@ -17,6 +18,12 @@ def test_croissant_holds_for_its_own_tool(made):
     found = list(dataset.records(record_set="rows"))
     assert len(found) == 48
     assert {"rows/signal", "rows/bpfo_hz", "rows/labels", "rows/peaks"} <= set(found[0])
+    wanted = {r["row"]: r["peaks"] for p in sorted((made / "data").iterdir()) for r in FORMATS["parquet"].read(p)}
+    for row in found:
+        assert [p["rows/peaks/frequency_hz"] for p in row["rows/peaks"]] == pytest.approx(
+            [p["frequency_hz"] for p in wanted[row["rows/row"]]]
+        )
+    assert any(wanted.values())
 
 
 def test_croissant_has_the_checksum_of_every_shard(made):

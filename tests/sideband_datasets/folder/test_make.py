@@ -131,13 +131,23 @@ def test_what_is_there_is_not_overwritten(made, tmp_path):
         make(RECIPE, made, Settings(), _silent)
     out = tmp_path / "set"
     (unfinished(out) / "state").mkdir(parents=True)
-    (unfinished(out) / "state" / "make.json").write_text('{"versions": {"physics": "0"}}')
+    begun = {"recipe": document_of(RECIPE), "format": "parquet", "shard_recordings": None, "versions": {"physics": "0"}}
+    (unfinished(out) / "state" / "make.json").write_text(json.dumps(begun))
     with pytest.raises(SpecError, match="was begun already"):
         make(RECIPE, out, Settings(), _silent)
     with pytest.raises(SpecError, match="other versions"):
         resume(out, 1, _silent)
     with pytest.raises(SpecError, match="holds no dataset"):
         resume(tmp_path / "nothing", 1, _silent)
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[]", "null", '{"versions": 1}', "{"])
+def test_damaged_settings_are_refused_with_their_place(text, tmp_path):
+    out = tmp_path / "set"
+    (unfinished(out) / "state").mkdir(parents=True)
+    (unfinished(out) / "state" / "make.json").write_text(text)
+    with pytest.raises(SpecError, match=r"set\.partial/state/make\.json: is damaged"):
+        resume(out, 1, _silent)
 
 
 @pytest.mark.slow

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from sideband_datasets.folder.layout import DATA, STATE
-from sideband_datasets.folder.shards import Shard, make_shard
+from sideband_datasets.folder.shards import Shard, finished, make_shard, receipt_path, shards_of
 from sideband_datasets.formats import FORMATS
 from sideband_datasets.plan import make_plan, size
 from tests.sideband_datasets.small import tiny
@@ -32,6 +32,19 @@ def peak_bytes(folder: Path, kind: str, recordings: int) -> int:
         tracemalloc.stop()
     assert receipt.rows == recordings * plan.rows_per_recording
     return peak
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("damage", ["", "{}", "[]", "{"])
+def test_a_shard_whose_receipt_is_damaged_is_made_again(damage: str, tmp_path: Path) -> None:
+    for name in (DATA, STATE):
+        (tmp_path / name).mkdir()
+    plan = make_plan(tiny(count=2, peaks={"spectra": []}, splits={"train": 1.0}))
+    (shard,) = shards_of(plan, FORMATS["parquet"].suffix)
+    receipt = make_shard(plan, shard, tmp_path, "parquet")
+    assert finished(tmp_path, shard, receipt.recipe) == receipt
+    receipt_path(tmp_path, shard).write_text(damage)
+    assert finished(tmp_path, shard, receipt.recipe) is None
 
 
 @pytest.mark.slow

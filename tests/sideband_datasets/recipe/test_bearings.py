@@ -20,6 +20,13 @@ def test_every_family_of_bearings_has_a_machine():
     assert {m.name for m in bearings_recipe(30, fast=False).machines} == {f.name for f in families()}
 
 
+@pytest.mark.parametrize("count", [1, 3, 21])
+def test_without_unusual_bearings_the_catalogues_take_their_share(count):
+    found = bearings_recipe(count, fast=True, variant=Variant(rare=False)).machines
+    assert {m.name for m in found} == {f.name for f in families() if f.sizes}
+    assert abs(sum(m.instances for m in found) - max(count, len(found))) <= 1
+
+
 def test_ingredients_can_be_left_out():
     bare = bearings_recipe(30, fast=True, variant=Variant(chain=False, background=False, spread=False))
     assert [chain.name for chain in bare.measurement] == ["bare"]
