@@ -81,11 +81,11 @@ def check_unasked(stamps: FloatArray, name: str, rate_hz: float | None) -> None:
     unit, nearest = min(found.items(), key=lambda one: abs(math.log(one[1] / rate_hz)))
     message = (
         f"does not agree with the column {name!r}, whose steps of {1 / per_unit:.6g} are those of this rate in none of "
-        f"{', '.join(TIMES)}: correct the rate, or state the column's unit as `time`, or another name for it in the "
-        "file if it is not the time"
+        f"{', '.join(TIMES)}: correct the rate, or state `time` with its column and unit instead; a column that is not "
+        "the time needs another name in the file"
     )
-    allowed = f"{nearest:.9g} if it is in {unit}"
-    raise SpecError(Problem(field="sampling_rate_hz", message=message, given=rate_hz, allowed=allowed, unit="Hz"))
+    allowed = f"{nearest:.6g} Hz if {name!r} is in {unit}"
+    raise SpecError(Problem(field="sampling_rate_hz", message=message, given=f"{rate_hz:.9g} Hz", allowed=allowed))
 
 
 def agree(stated_hz: float, found_hz: float, field: str, source: str, tolerance: float = RATE_TOLERANCE) -> None:
