@@ -200,7 +200,7 @@ def _contradicted(
     why = _sixtieth(shaft, speed, nominal, several)
     if why is not None:
         # sixty times what the drawing says and faster than machines turn: lines of impacts are found at any speed
-        return why if speed > FAST_HZ * FASTER or not _confirmed(one.recording, speed) else None
+        return why if speed > FAST_HZ * FASTER or not confirmed(one.recording, speed) else None
     if speed >= one.recording.sampling_rate_hz / 2:
         return f"half the sampling rate is {one.recording.sampling_rate_hz / 2:.4g} Hz"
     return _by_lines(one.recording, speed) if speed > FAST_HZ else None
@@ -242,8 +242,8 @@ def _certainty(recording: Recording, speed: float) -> float:
         return 0.0
 
 
-def _confirmed(recording: Recording, speed: float) -> bool:
-    """Lines of a shaft at the speed, and none at a sixtieth of it, of which they might be high harmonics or teeth."""
+def confirmed(recording: Recording, speed: float) -> bool:
+    """Lines of a shaft at the speed, Hz, and none at a sixtieth, of which they might be high harmonics or teeth."""
     return _certainty(recording, speed) >= ENOUGH and _certainty(recording, speed / PER_MINUTE) < SURE
 
 

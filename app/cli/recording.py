@@ -1,7 +1,8 @@
 """Reads a recording (R.json and the data beside it) and says what is in it: channels, levels in SI, rate, duration.
 
 With --check it also looks for defects (samples that are not finite, stuck stretches, dropouts, clipping, mains hum) and
-says where; the exit code is then 1 if any channel has one. What cannot be read is refused with its place (exit code 2).
+says where; the exit code is then 1 if any channel has one. A stated speed that looks like rpm, and sensors that hear
+noise alone, are remarked on. What cannot be read is refused with its place (exit code 2).
 
 Example: sideband recording R.json --check
 """
@@ -14,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from app.cli.files import json_text
+from learn.doubts import doubts
 from signals.ingest import ingest, report
 
 FOUND = 1
@@ -28,8 +30,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
-    document: dict[str, Any] = report(ingest(arguments.description))
-    if not arguments.check:
+    found = ingest(arguments.description)
+    document: dict[str, Any] = report(found)
+    if arguments.check:
+        document["remarks"] = [*document["remarks"], *doubts(found.recording)]
+    else:
         del document["findings"], document["mains_hum"]
     print(json_text(document) if arguments.json else _text(document), end="")
     return FOUND if document.get("findings") else 0

@@ -52,7 +52,7 @@ def scale_of(entry: ChannelEntry, unit_in_file: str, field: str) -> Scale:
     _check_file(entry, unit, unit_in_file, field)
     if unit.quantity == ELECTRICAL and entry.sensitivity is not None:
         unit = _sensed(unit, entry.sensitivity, field)
-    wanted = entry.quantity.strip().lower().replace(" ", "_")
+    wanted = _wanted(entry)
     if wanted in CHECKED and unit.quantity not in _FREE and unit.quantity != wanted:
         message = f"{entry.unit} is a unit of {unit.quantity.replace('_', ' ')}, not of the quantity stated"
         raise SpecError(Problem(field=f"{field}.quantity", message=message, given=entry.quantity))
@@ -64,6 +64,29 @@ def scale_of(entry: ChannelEntry, unit_in_file: str, field: str) -> Scale:
         axis=entry.axis,
     )
     return Scale(channel=channel, factor=unit.factor, offset=unit.offset)
+
+
+def unsensed(entries: Sequence[ChannelEntry]) -> tuple[str, ...]:
+    """What is to be said of channels that stay in volts though another quantity was measured: its levels are not known.
+
+    Shapes and lines are those of the quantity all the same, so such channels are read.
+    """
+    return tuple(
+        f"channels.{i}: {entry.name} is in {unit.si}: no sensitivity is stated, so levels are not {_levels(wanted)}"
+        for i, entry in enumerate(entries)
+        if (wanted := _wanted(entry)) in CHECKED
+        and entry.sensitivity is None
+        and (unit := unit_of(entry.unit, f"channels.{i}.unit")).quantity == ELECTRICAL
+    )
+
+
+def _levels(quantity: str) -> str:
+    return f"{quantity.removesuffix('y')}ies" if quantity.endswith("y") else f"{quantity}s"
+
+
+def _wanted(entry: ChannelEntry) -> str:
+    """The quantity that is stated, in one spelling."""
+    return entry.quantity.strip().lower().replace(" ", "_")
 
 
 def _check_file(entry: ChannelEntry, unit: Unit, unit_in_file: str, field: str) -> None:

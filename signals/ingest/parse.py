@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from signals.ingest.calibrate import Scale, scales_of
+from signals.ingest.calibrate import Scale, scales_of, unsensed
 from signals.ingest.description import Description, remarks
 from signals.ingest.pulses import tacho_of, tacho_wants
-from signals.ingest.stamps import RATE_TOLERANCE, TIME_NAMES, agree, check_regular, in_seconds, is_time, resolution
+from signals.ingest.stamps import RATE_TOLERANCE, TIME_NAMES, agree, check_regular, check_unasked, in_seconds, is_time
 from signals.readers.guard import load_carefully
 from signals.readers.limits import Bounds
 from signals.readers.load import Loaded, Loader, Stored, Want
@@ -103,11 +103,12 @@ def _recording(
         notes=description.notes,
         start_s=clock.start_s,
     )
+    said = (*remarks(description), *unsensed(description.channels))
     if description.tacho is None:
-        return Ingested(recording=plain, remarks=remarks(description))
+        return Ingested(recording=plain, remarks=said)
     by_name = dict(zip(plain.names, (s.samples for s in stored), strict=True))
     tacho = tacho_of(description.tacho, by_name, further, clock.sampling_rate_hz, clock.start_s)
-    return Ingested(recording=Recording(**{**vars(plain), "tacho": tacho}), remarks=remarks(description))
+    return Ingested(recording=Recording(**{**vars(plain), "tacho": tacho}), remarks=said)
 
 
 def _check_lengths(description: Description, stored: Sequence[Stored]) -> None:
@@ -133,7 +134,7 @@ def _clock(description: Description, loaded: Loaded, further: Mapping[str, Store
         raise SpecError(Problem(field="channels", message=message, given=rates[:20], unit="Hz"))
     if stated is not None and rates:
         agree(stated, rates[0], "sampling_rate_hz", "the rate that the file itself states")
-    stamps = _stamps(description, loaded, further)
+    stamps = _stamps(description, loaded, further, stated or (rates[0] if rates else None))
     if stamps is not None:
         times_s, rounded_s = stamps
         base = check_regular(times_s, rounded_s)
@@ -152,7 +153,9 @@ def _clock(description: Description, loaded: Loaded, further: Mapping[str, Store
     return _Clock(sampling_rate_hz=rate, start_s=start_s)
 
 
-def _stamps(description: Description, loaded: Loaded, further: Mapping[str, Stored]) -> tuple[FloatArray, float] | None:
+def _stamps(
+    description: Description, loaded: Loaded, further: Mapping[str, Stored], rate_hz: float | None
+) -> tuple[FloatArray, float] | None:
     """Time stamps in s and what they were rounded to; those of an unmentioned time column are only looked at."""
     samples = loaded.wanted[0].samples.size
     if description.time is not None:
@@ -163,5 +166,5 @@ def _stamps(description: Description, loaded: Loaded, further: Mapping[str, Stor
         if raw.size == samples and is_time(unit):
             return in_seconds(raw, unit, samples, name)
         if raw.size == samples:
-            check_regular(raw, resolution(raw))
+            check_unasked(raw, name, rate_hz)
     return None

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from signals.series import FloatArray
 from signals.timebase import TimeBase, irregular, read_time_base
-from signals.units import find_unit, unit_of
+from signals.units import UNITS, find_unit, unit_of
 from sim.core.errors import Problem, SpecError
 
 TIME_NAMES = frozenset({"time", "time_s", "t", "t_s", "timestamp", "timestamps", "timestamp_s"})
@@ -16,6 +18,10 @@ LEAST_WHOLE_HZ = 8.0
 MOST_DIGITS = 12
 COARSE_STEPS = 50
 """Stamps rounded to more than this many steps say nothing about their regularity."""
+TIMES = {text: unit.factor for text, unit in UNITS.items() if unit.quantity == "time"}
+"""Units of time and what they are in s."""
+UNASKED_TOLERANCE = 0.01
+"""Of the rate, by which stamps in no stated unit may miss it: clocks drift less, and rates mistaken differ by more."""
 
 
 def is_time(unit: str) -> bool:
@@ -27,7 +33,7 @@ def is_time(unit: str) -> bool:
 def seconds(stamps: FloatArray, unit: str, field: str) -> FloatArray:
     """Stamps in s."""
     if not is_time(unit):
-        raise SpecError(Problem(field=field, message="is no unit of time", given=unit, allowed="s, ms, us, ns"))
+        raise SpecError(Problem(field=field, message="is no unit of time", given=unit, allowed=", ".join(TIMES)))
     return stamps * unit_of(unit, field).factor
 
 
@@ -56,6 +62,30 @@ def resolution(stamps: FloatArray) -> float:
         if np.allclose(np.round(stamps, digits), stamps, rtol=0, atol=4 * np.finfo(np.float64).eps * scale):
             return float(10.0**-digits)
     return 0.0
+
+
+def check_unasked(stamps: FloatArray, name: str, rate_hz: float | None) -> None:
+    """Stamps (n,) of a column whose unit nobody states, held against the rate, Hz, if one is known.
+
+    SpecError where they are irregular, or where their steps are those of the rate in no unit of time. A column that
+    steps by 1 may count samples.
+    """
+    rounded = resolution(stamps)
+    per_unit = check_regular(stamps, rounded).sampling_rate_hz
+    tolerance = max(UNASKED_TOLERANCE, 2 * rounded / float(stamps[-1] - stamps[0]))
+    if rate_hz is None or abs(per_unit - 1.0) <= tolerance:
+        return
+    found = {unit: per_unit / factor for unit, factor in TIMES.items()}
+    if any(abs(rate_hz / hz - 1.0) <= tolerance for hz in found.values()):
+        return
+    unit, nearest = min(found.items(), key=lambda one: abs(math.log(one[1] / rate_hz)))
+    message = (
+        f"does not agree with the column {name!r}, whose steps of {1 / per_unit:.6g} are those of this rate in none of "
+        f"{', '.join(TIMES)}: correct the rate, or state `time` with its column and unit instead; a column that is not "
+        "the time needs another name in the file"
+    )
+    allowed = f"{nearest:.6g} Hz if {name!r} is in {unit}"
+    raise SpecError(Problem(field="sampling_rate_hz", message=message, given=f"{rate_hz:.9g} Hz", allowed=allowed))
 
 
 def agree(stated_hz: float, found_hz: float, field: str, source: str, tolerance: float = RATE_TOLERANCE) -> None:

@@ -185,7 +185,7 @@ def test_a_speed_that_nobody_stated_is_told() -> None:
 
 
 def test_sixty_times_the_drawing_and_far_too_fast_is_rpm_whatever_its_lines(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("reconcile.stated._confirmed", lambda *_: True)
+    monkeypatch.setattr("reconcile.stated.confirmed", lambda *_: True)
     machine = {"shaft": 24.3}
     with pytest.raises(SpecError, match="looks like rpm"):
         check_speeds(machine, "f", given([quiet(1458.0)], []))

@@ -51,6 +51,25 @@ def test_mains_hum_is_told_and_is_no_defect(call: Call, described) -> None:
     assert code == 0 and "mains hum at 50" in out
 
 
+def test_a_speed_in_rpm_and_noise_alone_are_remarked_on_and_no_defect(call: Call, described) -> None:
+    rpm = {**ABOUT, "operating": {"shaft": "input", "speed_hz": 1480}, "data": "R.npz"}
+    (described / "rpm.json").write_text(json.dumps(rpm))
+    code, out, _ = call("recording", described / "rpm.json", "--check")
+    assert code == 0 and "no defects found" in out
+    assert "note: operating.speed_hz" in out and "24.67 Hz" in out
+    assert "note: casing: nothing stands out of noise" in out
+    document = json.loads(call("recording", described / "rpm.json", "--check", "--json")[1])
+    assert any("24.67 Hz" in remark for remark in document["remarks"]) and document["findings"] == []
+    assert "note:" not in call("recording", described / "rpm.json")[1]
+
+
+def test_volts_of_no_stated_sensitivity_are_told(call: Call, described) -> None:
+    channel = {**ABOUT["channels"][0], "quantity": "acceleration", "unit": "V"}
+    (described / "volts.json").write_text(json.dumps({**ABOUT, "channels": [channel], "data": "R.npz"}))
+    code, out, _ = call("recording", described / "volts.json", "--check")
+    assert code == 0 and "in V: no sensitivity is stated, so levels are not accelerations" in out
+
+
 def test_json_holds_the_same(call: Call, described) -> None:
     code, out, _ = call("recording", described / "bad.json", "--check", "--json")
     document = json.loads(out)

@@ -111,6 +111,29 @@ def test_volts_become_what_the_sensor_senses(read, archive, samples) -> None:
     np.testing.assert_array_equal(read(archive, channels=[entry]).recording.samples[0], samples[0] * 9.80665)
 
 
+@pytest.mark.parametrize(
+    ("quantity", "levels"), [("acceleration", "accelerations"), (" Velocity", "velocities"), ("force", "forces")]
+)
+@pytest.mark.parametrize("unit", ["V", "mV"])
+def test_volts_of_no_stated_sensitivity_stay_volts_and_are_told(
+    read, archive, samples, quantity: str, levels: str, unit: str
+) -> None:
+    entry = {"name": "a", "quantity": quantity, "unit": unit}
+    found = read(archive, channels=[{"name": "b", "unit": "g"}, entry])
+    assert found.recording.channels[1].unit == "V"
+    np.testing.assert_allclose(found.recording.samples[1], samples[0] * UNITS[unit].factor, rtol=1e-14)
+    (said,) = found.remarks
+    assert said == f"channels.1: a is in V: no sensitivity is stated, so levels are not {levels}"
+
+
+@pytest.mark.parametrize(
+    "changes", [{"unit": "g"}, {"sensitivity": {"value": 100, "unit": "mV/g"}}, {"quantity": ""}, {"quantity": "probe"}]
+)
+def test_no_remark_where_the_level_is_known_or_volts_are_meant(read, archive, changes: dict[str, Any]) -> None:
+    entry = {"name": "a", "quantity": "acceleration", "unit": "V", **changes}
+    assert read(archive, channels=[entry]).remarks == ()
+
+
 def test_uncalibrated_is_said_and_stays(read, archive, samples) -> None:
     found = read(archive, channels=[{"name": "a", "quantity": "acceleration", "unit": "uncalibrated"}]).recording
     assert found.channels[0].unit == "uncalibrated"
@@ -150,6 +173,52 @@ def test_irregular_time_stamps_are_refused_with_where(read, tmp_path, mentioned:
 def test_stamps_rounded_when_printed_are_regular(read, tmp_path) -> None:
     times = np.round(100 + np.arange(N) / RATE, 2)
     assert read(stamped(tmp_path, times), time={"column": "clock"}).recording.samples.shape == (2, N)
+
+
+def with_time(folder: Path, name: str, times: np.ndarray) -> Path:
+    np.savez(folder / "u.npz", a=np.sin(times), b=np.cos(times), **{name: times})
+    return folder / "u.npz"
+
+
+@pytest.mark.parametrize("name", ["time", "t", "timestamp"])
+@pytest.mark.parametrize("per_s", [1.0, 1e3, 1e6, 1e9])
+def test_stamps_in_no_stated_unit_that_contradict_the_rate_are_refused(read, tmp_path, name: str, per_s: float) -> None:
+    path = with_time(tmp_path, name, 5 + np.arange(N) / 25600.0 * per_s)
+    text = refusal(read, path, sampling_rate_hz=12800.0)
+    assert (
+        "sampling_rate_hz" in text and "12800" in text and "25600" in text and repr(name) in text and "`time`" in text
+    )
+    assert read(path, sampling_rate_hz=25600.0).recording.sampling_rate_hz == 25600.0
+
+
+def test_a_rate_of_the_file_is_held_against_its_stamps(read, tmp_path) -> None:
+    times = np.arange(N) / 25600.0
+    np.savez(tmp_path / "u.npz", a=np.sin(times), b=np.cos(times), t=times, sampling_rate_hz=12800.0)
+    assert "25600" in refusal(read, tmp_path / "u.npz", sampling_rate_hz=...)
+
+
+def test_stamps_that_contradict_a_rate_can_be_stated_with_their_unit(read, tmp_path) -> None:
+    path = with_time(tmp_path, "time", np.arange(N) / 25600.0 * 60)
+    assert "'time'" in refusal(read, path, sampling_rate_hz=25600.0)
+    stated = {"column": "time", "unit": "s"}
+    assert read(path, sampling_rate_hz=..., time=stated).recording.sampling_rate_hz == pytest.approx(25600.0 / 60)
+
+
+@pytest.mark.parametrize(
+    "times",
+    [
+        np.arange(N),
+        7 + np.arange(N),
+        np.round(np.arange(N) / 25600.0, 6),
+        np.round(np.arange(N) / 25600.0, 4),
+        np.round(np.arange(N) / 25600.0 * 1e6),
+        1.7e9 + np.arange(N) / 25600.0,
+        np.arange(N) / 25600.0 * 1.005,
+    ],
+    ids=["count", "count from 7", "us", "100 us", "whole us", "since 1970", "drift"],
+)
+def test_counters_and_rounded_stamps_agree_with_a_rate(read, tmp_path, times: np.ndarray) -> None:
+    assert read(with_time(tmp_path, "t", times), sampling_rate_hz=25600.0).recording.sampling_rate_hz == 25600.0
 
 
 def test_tacho_from_a_channel_a_column_times_or_an_array(read, tmp_path) -> None:

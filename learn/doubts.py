@@ -1,0 +1,46 @@
+"""What looks doubtful in a recording before anything is asked of it: a speed in rpm, sensors that hear noise alone."""
+
+from __future__ import annotations
+
+from learn.measured import measured
+from learn.remarks import PER_MINUTE
+from learn.speed import LOWEST_HZ
+from reconcile.stated import check_speeds, confirmed, given
+from signals.recording import Recording
+from sim.core.errors import SpecError
+
+LEAST_SAMPLES = 2048
+"""In fewer too few bins are left to tell lines from noise."""
+
+
+def doubts(recording: Recording) -> list[str]:
+    """Sentences for whoever recorded it; none of them is a defect, and an empty list is no praise."""
+    return [*_of_speed(recording), *_of_noise(recording)]
+
+
+def _of_speed(recording: Recording) -> list[str]:
+    """Whether the stated speed looks like revolutions per minute: by pulses, the sampling rate, lines, or its size."""
+    try:
+        check_speeds({}, "", given([recording], []))
+    except SpecError as error:
+        return [f"operating.speed_hz {problem.message}" for problem in error.problems]
+    stated = recording.operating.speed_hz if recording.operating is not None else 0.0
+    slow = stated / PER_MINUTE
+    # pulses have been held against it above
+    if slow < LOWEST_HZ or recording.tacho is not None or confirmed(recording, stated):
+        return []
+    asked = f"is it in revolutions per minute? Then state {slow:.4g} Hz"
+    return [f"operating.speed_hz: few machines turn at {stated:.6g} Hz, and no lines confirm it: {asked}"]
+
+
+def _of_noise(recording: Recording) -> list[str]:
+    """Whether no channel of vibration holds a line; where nothing was measured for other reasons it is not asked."""
+    if recording.samples.shape[1] < LEAST_SAMPLES:
+        return []
+    try:
+        found = measured(recording).findings
+    except SpecError:
+        return []
+    names = [finding.channel for finding in found if finding.kind == "noise"]
+    told = "nothing stands out of noise: whether the sensor heard the machine cannot be told"
+    return [f"{', '.join(names)}: {told}"] if names else []
