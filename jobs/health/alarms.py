@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from jobs.health.baselines import Baselines, Like
+from jobs.health.baselines import OF_ANY_LENGTH, Baselines, Like
 from jobs.health.points import Point
 from jobs.health.rules import FAMILY_RULE, LEAST_BASELINES, LEVEL_RULE, Judged, judge
 from jobs.health.standard import SOURCE, zones_for
@@ -57,7 +57,7 @@ class Assessment:
 
 def assess(point: Point, baselines: Baselines) -> Assessment:
     """Judge a recording. Baselines themselves are held against fixed limits and defects only."""
-    like = Like(()) if point.baseline else baselines.like(point)
+    like, any_length = (Like(()),) * 2 if point.baseline else (baselines.like(point), baselines.of_any_length(point))
     limits: dict[tuple[str, str], Judged] = {}
     medians: dict[tuple[str, str], float] = {}
     alarms = list(_measurement(point))
@@ -66,7 +66,7 @@ def assess(point: Point, baselines: Baselines) -> Assessment:
         for feature, value in entry.features.items():
             if value is None or (defects and not (defects == {CLIPPING} and feature in JUDGED_CLIPPED)):
                 continue
-            found = like.of(channel, entry.place, feature)
+            found = (any_length if feature in OF_ANY_LENGTH else like).of(channel, entry.place, feature)
             if found is None:
                 continue
             judged = judge(value, found, family=is_family(feature))
@@ -76,14 +76,25 @@ def assess(point: Point, baselines: Baselines) -> Assessment:
                 alarms.append(_risen(point, channel, feature, value, judged, found.recordings))
         if defects <= {CLIPPING}:
             alarms += _fixed(point, channel)
-    compared = bool(limits) or point.baseline  # a velocity within its class says nothing of a bearing: no "ok" by it
+    # A velocity within its class says nothing of a bearing, nor does the RMS of a short recording: no "ok" by them.
+    too_short = len(like) < LEAST_BASELINES <= len(any_length)
+    compared = point.baseline or (bool(limits) and not too_short)
     return Assessment(
         state=worst([a.severity for a in alarms], "ok" if compared else "unknown"),
         alarms=tuple(sorted(alarms, key=lambda a: (-STATES.index(a.severity), -(a.rise_db or 0.0)))),
         limits=limits,
         medians=medians,
         baselines=len(like),
-        reasons=() if compared else (_not_compared(len(like)),),
+        reasons=() if compared else (_too_short(point, any_length) if too_short else _not_compared(len(like)),),
+    )
+
+
+def _too_short(point: Point, any_length: Like) -> str:
+    """Both lengths, and what is held against them all the same."""
+    return (
+        f"{UNHELD}it lasts {point.duration_s:.3g} s, and of the {len(any_length)} baselines otherwise like it, which "
+        f"last up to {any_length.longest_s:.3g} s, fewer than {LEAST_BASELINES} are at most twice as long: lines that "
+        "are not there read higher in a short recording, so its RMS alone is judged"
     )
 
 

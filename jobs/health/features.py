@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jobs.health.words import CONDITION_VERSION
+from jobs.health.words import CONDITION_VERSION, MOST_SAMPLES
 from reconcile.kinematics import KinematicSpec
 from reconcile.kinematics.trend import FamilyLevel, Levels, family_levels
 from signals.features import features
@@ -16,8 +16,6 @@ from signals.series import MIN_SAMPLES, Series
 from sim.core.errors import SpecError
 
 Json = dict[str, object]
-MOST_SAMPLES = 2**21
-"""Of each channel: the beginning of a longer recording stands for it."""
 MOST_LABELLED = 16
 """Channels whose lines are looked for: some seconds each at most."""
 LABELLED = ("acceleration", "velocity", "displacement")
