@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from jobs.health.baselines import OF_ANY_LENGTH, Baselines, Like
-from jobs.health.points import Point
+from jobs.health.points import ChannelPoint, Point
 from jobs.health.rules import FAMILY_RULE, LEAST_BASELINES, LEVEL_RULE, Judged, judge
 from jobs.health.standard import SOURCE, zones_for
 from jobs.health.titles import is_family, title_of, unit_of
@@ -74,6 +74,7 @@ def assess(point: Point, baselines: Baselines) -> Assessment:
             medians[channel, feature] = 10 ** (found.median_db / 20)
             if judged.severity is not None:
                 alarms.append(_risen(point, channel, feature, value, judged, found.recordings))
+        alarms = [_beside_clearer(a, entry, limits) if a.channel == channel else a for a in alarms]
         if defects <= {CLIPPING}:
             alarms += _fixed(point, channel)
     # A velocity within its class says nothing of a bearing, nor does the RMS of a short recording: no "ok" by them.
@@ -134,6 +135,19 @@ def _risen(point: Point, channel: str, feature: str, value: float, judged: Judge
         message=message,
         rule=FAMILY_RULE if family else LEVEL_RULE,
     )
+
+
+def _beside_clearer(alarm: Alarm, entry: ChannelPoint, limits: Mapping[tuple[str, str], Judged]) -> Alarm:
+    """A line that may be the sideband of a family that has risen more gives a warning at most, and says so."""
+    other = entry.sideband_of.get(alarm.feature)
+    judged = None if other is None else limits.get((alarm.channel, other))
+    if other is None or judged is None or alarm.rise_db is None or judged.rise_db < alarm.rise_db:
+        return alarm
+    own = limits[alarm.channel, alarm.feature]
+    message = (
+        f"{alarm.message}; it may be a sideband of {title_of(other)}, which is {judged.rise_db:.1f} dB above its own"
+    )
+    return replace(alarm, severity="warning", limit=own.warning, message=message)
 
 
 def _zoned(point: Point, channel: str) -> float | None:

@@ -23,8 +23,9 @@ NO_KINEMATICS = "the description gives no kinematics, so no line has a name"
 
 
 def condition_document(recording: Recording, spec: KinematicSpec | None) -> Json:
-    """`channels` with their features by key, `lines` with their names, the speed, and `reasons` for what is missing."""
-    rows = {
+    """`channels` with their features by key (and whose sideband a line may be), `lines` with their names, the speed, and
+    `reasons` for what is missing."""
+    rows: dict[str, Json] = {
         channel.name: {
             "quantity": channel.quantity,
             "unit": channel.unit,
@@ -40,6 +41,10 @@ def condition_document(recording: Recording, spec: KinematicSpec | None) -> Json
         kept = rows[family.channel]["features"]
         assert isinstance(kept, dict)
         kept[family.key] = family.value
+        if family.sideband_of is not None:
+            beside = rows[family.channel].setdefault("sideband_of", {})
+            assert isinstance(beside, dict)
+            beside[family.key] = family.sideband_of
         lines += _lines(family, str(rows[family.channel]["unit"]))
     return {
         "version": CONDITION_VERSION,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from jobs.health.words import CONDITION, MOST_SAMPLES
@@ -41,6 +41,8 @@ class ChannelPoint:
     location: str
     axis: str
     features: Mapping[str, float | None]
+    sideband_of: Mapping[str, str] = field(default_factory=dict)
+    """Families whose line lies where a clearer family of the same bearing has its first sideband: that family's key."""
 
     @property
     def place(self) -> tuple[str, str, str, str]:

@@ -45,6 +45,25 @@ def test_a_family_needs_six_decibels_and_says_its_part() -> None:
     assert told(assess(point("t", {"bearing1.outer": 0.9}), baselines)) == [("family", "bearing1.outer", "alarm")]
 
 
+@pytest.mark.parametrize(
+    ("inner", "severities"),
+    [(0.9, [("inner", "alarm"), ("outer", "warning")]), (0.15, [("outer", "alarm")])],
+    ids=["risen more", "risen less"],
+)
+def test_a_sideband_of_a_clearer_family_is_no_alarm_of_its_own(inner: float, severities: list[tuple[str, str]]) -> None:
+    sound = [
+        replace(p, channels={"de": replace(c, features={**c.features, "bearing1.inner": 0.1})})
+        for p in sound_points()
+        for c in p.channels.values()
+    ]
+    seen = point("t", {"bearing1.outer": 0.5, "bearing1.inner": inner})
+    marked = replace(seen.channels["de"], sideband_of={"bearing1.outer": "bearing1.inner"})
+    found = assess(replace(seen, channels={"de": marked}), Baselines(sound))
+    assert [(a.feature.removeprefix("bearing1."), a.severity) for a in found.alarms] == severities
+    assert ("sideband of bearing1: inner race" in found.alarms[-1].message) is (inner == 0.9)
+    assert ("family", "bearing1.outer", "alarm") in told(assess(seen, Baselines(sound)))
+
+
 def test_too_few_baselines_give_no_alarm_and_no_all_clear() -> None:
     found = assess(point("t", {"rms": 100.0}), Baselines(sound_points(7)))
     assert found.alarms == () and found.limits == {} and found.state == "unknown" and found.baselines == 7
