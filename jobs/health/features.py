@@ -23,8 +23,8 @@ NO_KINEMATICS = "the description gives no kinematics, so no line has a name"
 
 
 def condition_document(recording: Recording, spec: KinematicSpec | None) -> Json:
-    """`channels` with their features by key (and whose sideband a line may be), `lines` with their names, the speed, and
-    `reasons` for what is missing."""
+    """`channels` with their features by key (and whose sideband a line may be), `lines` with their names, the speed,
+    and `reasons` for what is missing."""
     rows: dict[str, Json] = {
         channel.name: {
             "quantity": channel.quantity,
