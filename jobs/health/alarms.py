@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from jobs.health.baselines import Baselines, Like
-from jobs.health.points import Point
+from jobs.health.baselines import OF_ANY_LENGTH, Baselines, Like
+from jobs.health.points import ChannelPoint, Point
 from jobs.health.rules import FAMILY_RULE, LEAST_BASELINES, LEVEL_RULE, Judged, judge
 from jobs.health.standard import SOURCE, zones_for
 from jobs.health.titles import is_family, title_of, unit_of
@@ -57,7 +57,7 @@ class Assessment:
 
 def assess(point: Point, baselines: Baselines) -> Assessment:
     """Judge a recording. Baselines themselves are held against fixed limits and defects only."""
-    like = Like(()) if point.baseline else baselines.like(point)
+    like, any_length = (Like(()),) * 2 if point.baseline else (baselines.like(point), baselines.of_any_length(point))
     limits: dict[tuple[str, str], Judged] = {}
     medians: dict[tuple[str, str], float] = {}
     alarms = list(_measurement(point))
@@ -66,7 +66,7 @@ def assess(point: Point, baselines: Baselines) -> Assessment:
         for feature, value in entry.features.items():
             if value is None or (defects and not (defects == {CLIPPING} and feature in JUDGED_CLIPPED)):
                 continue
-            found = like.of(channel, entry.place, feature)
+            found = (any_length if feature in OF_ANY_LENGTH else like).of(channel, entry.place, feature)
             if found is None:
                 continue
             judged = judge(value, found, family=is_family(feature))
@@ -74,16 +74,28 @@ def assess(point: Point, baselines: Baselines) -> Assessment:
             medians[channel, feature] = 10 ** (found.median_db / 20)
             if judged.severity is not None:
                 alarms.append(_risen(point, channel, feature, value, judged, found.recordings))
+        alarms = [_beside_clearer(a, entry, limits) if a.channel == channel else a for a in alarms]
         if defects <= {CLIPPING}:
             alarms += _fixed(point, channel)
-    compared = bool(limits) or point.baseline  # a velocity within its class says nothing of a bearing: no "ok" by it
+    # A velocity within its class says nothing of a bearing, nor does the RMS of a short recording: no "ok" by them.
+    too_short = len(like) < LEAST_BASELINES <= len(any_length)
+    compared = point.baseline or (bool(limits) and not too_short)
     return Assessment(
         state=worst([a.severity for a in alarms], "ok" if compared else "unknown"),
         alarms=tuple(sorted(alarms, key=lambda a: (-STATES.index(a.severity), -(a.rise_db or 0.0)))),
         limits=limits,
         medians=medians,
         baselines=len(like),
-        reasons=() if compared else (_not_compared(len(like)),),
+        reasons=() if compared else (_too_short(point, any_length) if too_short else _not_compared(len(like)),),
+    )
+
+
+def _too_short(point: Point, any_length: Like) -> str:
+    """Both lengths, and what is held against them all the same."""
+    return (
+        f"{UNHELD}it lasts {point.duration_s:.3g} s, and of the {len(any_length)} baselines otherwise like it, which "
+        f"last up to {any_length.longest_s:.3g} s, fewer than {LEAST_BASELINES} are at most twice as long: lines that "
+        "are not there read higher in a short recording, so its RMS alone is judged"
     )
 
 
@@ -123,6 +135,19 @@ def _risen(point: Point, channel: str, feature: str, value: float, judged: Judge
         message=message,
         rule=FAMILY_RULE if family else LEVEL_RULE,
     )
+
+
+def _beside_clearer(alarm: Alarm, entry: ChannelPoint, limits: Mapping[tuple[str, str], Judged]) -> Alarm:
+    """A line that may be the sideband of a family that has risen more gives a warning at most, and says so."""
+    other = entry.sideband_of.get(alarm.feature)
+    judged = None if other is None else limits.get((alarm.channel, other))
+    if other is None or judged is None or alarm.rise_db is None or judged.rise_db < alarm.rise_db:
+        return alarm
+    own = limits[alarm.channel, alarm.feature]
+    message = (
+        f"{alarm.message}; it may be a sideband of {title_of(other)}, which is {judged.rise_db:.1f} dB above its own"
+    )
+    return replace(alarm, severity="warning", limit=own.warning, message=message)
 
 
 def _zoned(point: Point, channel: str) -> float | None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jobs.health.words import CONDITION_VERSION
+from jobs.health.words import CONDITION_VERSION, MOST_SAMPLES
 from reconcile.kinematics import KinematicSpec
 from reconcile.kinematics.trend import FamilyLevel, Levels, family_levels
 from signals.features import features
@@ -16,8 +16,6 @@ from signals.series import MIN_SAMPLES, Series
 from sim.core.errors import SpecError
 
 Json = dict[str, object]
-MOST_SAMPLES = 2**21
-"""Of each channel: the beginning of a longer recording stands for it."""
 MOST_LABELLED = 16
 """Channels whose lines are looked for: some seconds each at most."""
 LABELLED = ("acceleration", "velocity", "displacement")
@@ -25,8 +23,9 @@ NO_KINEMATICS = "the description gives no kinematics, so no line has a name"
 
 
 def condition_document(recording: Recording, spec: KinematicSpec | None) -> Json:
-    """`channels` with their features by key, `lines` with their names, the speed, and `reasons` for what is missing."""
-    rows = {
+    """`channels` with their features by key (and whose sideband a line may be), `lines` with their names, the speed,
+    and `reasons` for what is missing."""
+    rows: dict[str, Json] = {
         channel.name: {
             "quantity": channel.quantity,
             "unit": channel.unit,
@@ -42,6 +41,10 @@ def condition_document(recording: Recording, spec: KinematicSpec | None) -> Json
         kept = rows[family.channel]["features"]
         assert isinstance(kept, dict)
         kept[family.key] = family.value
+        if family.sideband_of is not None:
+            beside = rows[family.channel].setdefault("sideband_of", {})
+            assert isinstance(beside, dict)
+            beside[family.key] = family.sideband_of
         lines += _lines(family, str(rows[family.channel]["unit"]))
     return {
         "version": CONDITION_VERSION,

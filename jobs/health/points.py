@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
-from jobs.health.words import CONDITION
+from jobs.health.words import CONDITION, MOST_SAMPLES
 from jobs.identity import canonical_json
 from jobs.kept import Kept
 from jobs.ports import ArtefactStore, JobCatalogue, JobQuery
@@ -41,6 +41,8 @@ class ChannelPoint:
     location: str
     axis: str
     features: Mapping[str, float | None]
+    sideband_of: Mapping[str, str] = field(default_factory=dict)
+    """Families whose line lies where a clearer family of the same bearing has its first sideband: that family's key."""
 
     @property
     def place(self) -> tuple[str, str, str, str]:
@@ -63,6 +65,8 @@ class Point:
     version: str
     """Of its features; empty for a recording that was read before there were any: its RMS alone is known then."""
     sampling_rate_hz: float
+    duration_s: float
+    """Of what its features were computed from."""
     operating: Operating | None
     channels: Mapping[str, ChannelPoint]
     findings: tuple[Mapping[str, Any], ...]
@@ -110,6 +114,7 @@ def _point(record: JobRecord, artefacts: ArtefactStore, kept: Kept) -> Point:
         vibration_class=about.get("vibration_class"),
         version=document["version"],
         sampling_rate_hz=document["sampling_rate_hz"],
+        duration_s=document["duration_s"],
         operating=None if operating is None else Operating(**operating),
         channels={name: ChannelPoint(**entry) for name, entry in document["channels"].items()},
         findings=tuple(document["findings"]),
@@ -125,7 +130,8 @@ def _read(reader: ResultReader) -> bytes:
     findings = [
         {key: finding[key] for key in ("channel", "kind", "message", "count")} for finding in summary["findings"]
     ]
-    return canonical_json({**document, "findings": findings}).encode()
+    looked_at_s = min(summary["duration_s"], MOST_SAMPLES / summary["sampling_rate_hz"])
+    return canonical_json({**document, "findings": findings, "duration_s": looked_at_s}).encode()
 
 
 def _without_features(summary: Mapping[str, Any]) -> dict[str, object]:

@@ -8,6 +8,8 @@ CONDITION = "condition"
 """Name of the document with a recording's features, kept beside its samples."""
 CONDITION_VERSION = "condition-1"
 """Features of different versions are not compared."""
+MOST_SAMPLES = 2**21
+"""Of each channel: the beginning of a longer recording stands for it."""
 
 Severity = Literal["measurement", "warning", "alarm"]
 """From mild to grave; `measurement` speaks of the sensor, not of the machine."""

@@ -9,7 +9,8 @@ would raise all. A line that is not there reads what noise puts in its place.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -28,6 +29,8 @@ HALF_WIDTH = 0.01
 HANN_BANDWIDTH = 1.5
 """Noise bandwidth of the window in bins: power summed over bins, over this, is the line's."""
 SLIPS = 81
+SIDEBAND_STEPS = 2.0
+"""Bins that a line may lie from the place of a sideband: half a bin each for the two lines, and one for the window."""
 LETTERS = {"outer": "o", "inner": "i", "ball": "b", "cage": "c"}
 
 
@@ -52,6 +55,8 @@ class FamilyLevel:
     relative: bool
     value: float
     lines: tuple[LineLevel, ...]
+    sideband_of: str | None = None
+    """Key of a family of the same bearing, of a greater value, whose first sideband lies where this line was found."""
 
     @property
     def key(self) -> str:
@@ -78,7 +83,9 @@ def family_levels(spec: KinematicSpec, recording: Recording, *, seed: int = 0) -
     found: list[FamilyLevel] = []
     for envelope in seen.channels:
         found += _raw(seen, envelope.channel, tie)
-        found += [_bearing(family, envelope, seen, spec) for family in tie.families if family.kind in LETTERS]
+        bearings = [family for family in tie.families if family.kind in LETTERS]
+        levels = [_bearing(family, envelope, seen, spec) for family in bearings]
+        found += _with_sidebands(bearings, levels, seen, SIDEBAND_STEPS * envelope.order_step)
     return Levels(speed=seen.speed, families=tuple(found))
 
 
@@ -122,6 +129,24 @@ def _bearing(family: Family, envelope: Envelopes, seen: Observation, spec: Kinem
         for k, order, amplitude in zip(multiples, orders[slip], depth[band, slip], strict=True)
     ]
     return _family(envelope.channel, family.site, family.kind, lines, relative=True)
+
+
+def _with_sidebands(
+    families: Sequence[Family], levels: Sequence[FamilyLevel], seen: Observation, width: float
+) -> list[FamilyLevel]:
+    """The levels of one channel, each with the clearest family that its line may be a first sideband of."""
+    orders = [level.lines[0].frequency_hz / seen.speed.speed_hz for level in levels]
+    found = []
+    for level, order in zip(levels, orders, strict=True):
+        clearer = [
+            other
+            for family, other, at in zip(families, levels, orders, strict=True)
+            if other.site == level.site and other.value > level.value and family.sidebands > 0
+            if abs(abs(order - at) - family.spacing) <= width
+        ]
+        best = max(clearer, key=lambda other: other.value, default=None)
+        found.append(level if best is None else replace(level, sideband_of=best.key))
+    return found
 
 
 def _family(channel: str, site: str, kind: str, lines: list[LineLevel], *, relative: bool) -> FamilyLevel:

@@ -58,6 +58,20 @@ def test_a_defect_raises_its_own_race_and_no_other(kind: str, order: float, load
 
 
 @pytest.mark.slow
+def test_a_line_beside_a_clearer_one_is_told_as_its_sideband() -> None:
+    """Of a 6306, f_i less one shaft order lies within the slip of f_b; a sound bearing has none such."""
+    bearing = {"name": "de", "shaft": "shaft", "catalogue": "6306"}
+    spec = read_kinematic_spec({"kinematics": {"shafts": [{"name": "shaft"}], "bearings": [bearing]}})
+    fault = train(np.random.default_rng(5), 4.426, 1.0, load=0.8, jitter=0.005)
+    found = {f.key: f for f in family_levels(spec, recorded(sound(5) + fault)).families}
+    assert found["de.ball"].sideband_of == "de.inner" and found["de.inner"].sideband_of is None
+    balls = train(np.random.default_rng(5), 3.515, 1.0, jitter=0.005)
+    assert {f.sideband_of for f in family_levels(spec, recorded(sound(5) + balls)).families if f.kind == "ball"} == {
+        None
+    }
+
+
+@pytest.mark.slow
 def test_a_gain_does_not_move_a_bearing_and_moves_a_shaft() -> None:
     one, other = (values(family_levels(SPEC, recorded(gain * sound(2)))) for gain in (1.0, 10.0))
     assert other["bearing1.outer"] == pytest.approx(one["bearing1.outer"], rel=1e-6)

@@ -33,6 +33,7 @@ def point(
         "vibration_class": None,
         "version": CONDITION_VERSION,
         "sampling_rate_hz": 20_000.0,
+        "duration_s": 10.0,
         "operating": None
         if speed_hz is None
         else Operating(shaft="shaft", speed_hz=speed_hz, torque_nm=torque_nm, speed_from="stated"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -44,12 +45,53 @@ def test_a_family_needs_six_decibels_and_says_its_part() -> None:
     assert told(assess(point("t", {"bearing1.outer": 0.9}), baselines)) == [("family", "bearing1.outer", "alarm")]
 
 
+@pytest.mark.parametrize(
+    ("inner", "severities"),
+    [(0.9, [("inner", "alarm"), ("outer", "warning")]), (0.15, [("outer", "alarm")])],
+    ids=["risen more", "risen less"],
+)
+def test_a_sideband_of_a_clearer_family_is_no_alarm_of_its_own(inner: float, severities: list[tuple[str, str]]) -> None:
+    sound = [
+        replace(p, channels={"de": replace(c, features={**c.features, "bearing1.inner": 0.1})})
+        for p in sound_points()
+        for c in p.channels.values()
+    ]
+    seen = point("t", {"bearing1.outer": 0.5, "bearing1.inner": inner})
+    marked = replace(seen.channels["de"], sideband_of={"bearing1.outer": "bearing1.inner"})
+    found = assess(replace(seen, channels={"de": marked}), Baselines(sound))
+    assert [(a.feature.removeprefix("bearing1."), a.severity) for a in found.alarms] == severities
+    assert ("sideband of bearing1: inner race" in found.alarms[-1].message) is (inner == 0.9)
+    assert ("family", "bearing1.outer", "alarm") in told(assess(seen, Baselines(sound)))
+
+
 def test_too_few_baselines_give_no_alarm_and_no_all_clear() -> None:
     found = assess(point("t", {"rms": 100.0}), Baselines(sound_points(7)))
     assert found.alarms == () and found.limits == {} and found.state == "unknown" and found.baselines == 7
     assert "there are 7 baselines like it" in found.reasons[0] and "8 are needed" in found.reasons[0]
     assert "there is 1 baseline like" in assess(point("t", {"rms": 1.0}), Baselines(sound_points(1))).reasons[0]
     assert "there are no baselines like" in assess(point("t", {"rms": 1.0}), Baselines([])).reasons[0]
+
+
+def test_a_recording_less_than_half_as_long_as_its_baselines_is_judged_by_its_rms_alone() -> None:
+    baselines = Baselines(sound_points())
+    sound = assess(point("t", {"rms": 1.0, "bearing1.outer": 0.9}, duration_s=4.9), baselines)
+    assert sound.alarms == () and sound.state == "unknown" and sound.baselines == 0
+    assert "lasts 4.9 s" in sound.reasons[0] and "up to 10 s" in sound.reasons[0]
+    loud = assess(point("t", {"rms": 2.0, "bearing1.outer": 0.9}, duration_s=1.0), baselines)
+    assert told(loud) == [("level", "rms", "alarm")] and loud.state == "alarm"
+
+
+@pytest.mark.parametrize("duration_s", [5.0, 10.0, 60.0])
+def test_a_recording_long_enough_is_judged_whole(duration_s: float) -> None:
+    baselines = Baselines(sound_points())
+    found = assess(point("t", {"rms": 1.0, "bearing1.outer": 0.9}, duration_s=duration_s), baselines)
+    assert told(found) == [("family", "bearing1.outer", "alarm")] and found.reasons == ()
+
+
+def test_of_baselines_of_several_lengths_those_not_too_long_count() -> None:
+    longer = [replace(p, recording=f"long {p.recording}", duration_s=100.0) for p in sound_points(20)]
+    found = assess(point("t", {"bearing1.outer": 0.9}), Baselines([*sound_points(8), *longer]))
+    assert found.baselines == 8 and found.state == "alarm"
 
 
 def test_baselines_that_have_nothing_in_common_are_no_comparison() -> None:

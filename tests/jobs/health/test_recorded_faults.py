@@ -37,6 +37,7 @@ def point_of(recording: Recording, name: str, *, baseline: bool = False) -> Poin
         name,
         {},
         baseline=baseline,
+        duration_s=recording.duration_s,
         operating=Operating(**operating),
         channels={key: ChannelPoint(**entry) for key, entry in channels.items()},
     )
@@ -51,6 +52,18 @@ def test_sound_days_are_left_in_peace_and_a_failing_race_is_named() -> None:
         found = assess(point_of(made(seed, 0.7), f"f{seed}"), baselines)
         assert ("family", "bearing1.outer", "alarm") in [(a.kind, a.feature, a.severity) for a in found.alarms]
         assert not [a for a in found.alarms if a.kind == "family" and a.feature != "bearing1.outer"]
+
+
+@pytest.mark.slow
+def test_sound_recordings_shorter_than_their_baselines_raise_nothing() -> None:
+    """Where no line is, 0.5 s read 10 dB more than 5 s: held against each other they would be alarms of balls."""
+    baselines = Baselines([point_of(made(i), f"b{i}", baseline=True) for i in range(9)])
+    for seed, samples in ((100, 10_000), (101, 20_000), (102, 40_000)):
+        found = assess(point_of(recorded(sound(seed)[:samples]), f"t{seed}"), baselines)
+        assert found.alarms == () and found.state == "unknown"
+        assert set(found.limits) == {("a0", "rms")}
+    half = assess(point_of(recorded(sound(103)[:50_000]), "half"), baselines)
+    assert half.alarms == () and half.state == "ok" and ("a0", "bearing1.outer") in half.limits
 
 
 def test_without_kinematics_the_plain_features_are_there_and_the_reason_is_told() -> None:
