@@ -7,8 +7,12 @@ import json
 from collections.abc import Callable
 from typing import Protocol
 
+import numpy as np
+
 from reconcile.atlas.bank import Bank, Mapper, make_bank
 from reconcile.atlas.plan import AtlasPlan, Point
+from reconcile.observe.statistics import third_octaves
+from reconcile.observe.watch import bases_at, watch_list
 from sim.core.errors import Problem, SpecError
 from sim.version import PHYSICS_VERSION
 
@@ -38,7 +42,7 @@ class Forgetful:
 
 def atlas_key(plan: AtlasPlan, point: Point, channels: tuple[str, ...]) -> str:
     """Hash of everything the simulated statistics depend on: not of what the machine is called."""
-    document = {
+    document: dict[str, object] = {
         "machine": plan.machine.model_dump(mode="json", exclude={"name", "notes"}),
         "draws": [
             [d.pair, d.twin, d.candidate.label if d.candidate else "", d.term.model_dump() if d.term else None]
@@ -49,6 +53,9 @@ def atlas_key(plan: AtlasPlan, point: Point, channels: tuple[str, ...]) -> str:
         "channels": list(channels),
         "versions": [PHYSICS_VERSION, ATLAS_VERSION],
     }
+    edges = watch_list(plan.machine).edges_hz(bases_at(plan.machine, point.speed_hz))
+    if not np.array_equal(edges, third_octaves()):
+        document["edges_hz"] = edges.tolist()
     text = json.dumps(document, sort_keys=True, separators=(",", ":"))
     return "atlas-" + hashlib.sha256(text.encode()).hexdigest()[:32]
 

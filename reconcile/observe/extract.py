@@ -49,8 +49,7 @@ def _line_powers(
     return found
 
 
-def _bands(power: FloatArray, bin_hz: float, top_hz: float) -> tuple[FloatArray, FloatArray]:
-    edges = third_octaves()
+def _bands(power: FloatArray, bin_hz: float, edges: FloatArray, top_hz: float) -> tuple[FloatArray, FloatArray]:
     floor = np.full((power.shape[0], edges.size - 1), np.nan)
     total = floor.copy()
     index = np.round(edges / bin_hz).astype(int)
@@ -113,15 +112,16 @@ def extract(
     modulation_slack: FloatArray,
     turning: Sequence[Turning] = (),
     phased: Sequence[int] = (),
+    edges_hz: FloatArray | None = None,
 ) -> Statistics:
     """`samples` (C, n) at constant speed; slack: share of its frequency by which a line may be off, per line.
 
-    `phased`: numbers of the lines whose phases are compared.
+    `phased`: numbers of the lines whose phases are compared; `edges_hz` (bands + 1,): of the bands, third octaves else.
     """
     top = USABLE * rate_hz
     spectrum, power, bin_hz = hann_spectrum(samples, rate_hz)
     kept = list(phased)
-    floor, total = _bands(power, bin_hz, top)
+    floor, total = _bands(power, bin_hz, third_octaves() if edges_hz is None else edges_hz, top)
     band, depth, kurtosis, skewness = _shapes(samples, rate_hz, modulations_hz, modulation_slack, top)
     return Statistics(
         line=_line_powers(power, bin_hz, lines_hz, line_slack, top),

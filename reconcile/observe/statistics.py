@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,8 @@ SHAPE_BANDS_HZ = ((60.0, 600.0), (600.0, 2000.0), (2000.0, 4500.0), (4500.0, 800
 """Bands of the envelopes and of the moments: fixed in Hz, since structural resonances are."""
 LOWEST_BAND_HZ = 25.0
 HIGHEST_HZ = 8200.0
+CLEAR_OF_LINES = 0.015
+"""Share of its frequency by which a line of the teeth is clear of the bands' edges: three bins at 200 Hz."""
 LOBE = 10.0 / 3.0
 """Noise that a line's lobe of five bins gathers, over that in the noise bandwidth of the Hann window (1.5 bins)."""
 LOBE_SCATTER = 2.1
@@ -23,6 +26,15 @@ def third_octaves() -> FloatArray:
     """Edges of the bands, shape (bands + 1,), Hz: sixths of a decade-like grid, three an octave."""
     count = int(np.floor(3 * np.log2(HIGHEST_HZ / LOWEST_BAND_HZ)))
     return np.asarray(LOWEST_BAND_HZ * 2.0 ** (np.arange(count + 1) / 3.0))
+
+
+def band_edges(lines_hz: Sequence[float]) -> FloatArray:
+    """`third_octaves`, but an edge that would cut one of these lines (Hz) stands above it: which band holds the power
+    of a strong line must not hang on a hundredth of its frequency."""
+    edges = third_octaves()
+    for line in sorted(lines_hz):
+        edges[np.abs(edges / line - 1.0) < CLEAR_OF_LINES] = (1.0 + CLEAR_OF_LINES) * line
+    return edges
 
 
 @dataclass(frozen=True, kw_only=True)
