@@ -7,11 +7,8 @@ import json
 from collections.abc import Callable
 from typing import Protocol
 
-import numpy as np
-
 from reconcile.atlas.bank import Bank, Mapper, make_bank
 from reconcile.atlas.plan import AtlasPlan, Point
-from reconcile.observe.statistics import third_octaves
 from reconcile.observe.watch import bases_at, watch_list
 from sim.core.errors import Problem, SpecError
 from sim.version import PHYSICS_VERSION
@@ -53,9 +50,9 @@ def atlas_key(plan: AtlasPlan, point: Point, channels: tuple[str, ...]) -> str:
         "channels": list(channels),
         "versions": [PHYSICS_VERSION, ATLAS_VERSION],
     }
-    edges = watch_list(plan.machine).edges_hz(bases_at(plan.machine, point.speed_hz))
-    if not np.array_equal(edges, third_octaves()):
-        document["edges_hz"] = edges.tolist()
+    bands = watch_list(plan.machine).bands(bases_at(plan.machine, point.speed_hz))
+    if not bands.usual:
+        document["bands"] = [bands.edges_hz.tolist(), bands.shapes_hz]
     text = json.dumps(document, sort_keys=True, separators=(",", ":"))
     return "atlas-" + hashlib.sha256(text.encode()).hexdigest()[:32]
 

@@ -73,7 +73,7 @@ def _measured(
 ) -> Statistics:
     """The bands' edges go with the speed: a line of the teeth is then in one band in all recordings of a point."""
     bases = bases_at(machine, one.speed_hz)
-    edges = watched.edges_hz(bases_at(machine, stated_hz)) * (one.speed_hz / stated_hz)
+    bands = watched.bands(bases_at(machine, stated_hz)).at(one.speed_hz / stated_hz)
     lines, modulations = watched.line_hz(bases), watched.modulation_hz(bases)
     return extract(
         one.samples[:, part],
@@ -84,7 +84,7 @@ def _measured(
         modulation_slack=slack(watched.modulations, modulations),
         turning=watched.turning(bases),
         phased=watched.phased,
-        edges_hz=edges,
+        bands=bands,
     )
 
 
