@@ -14,8 +14,9 @@ from tqdm import tqdm
 from proof.case import make
 from proof.kinematic import told_table
 from proof.method import SECTIONS
+from proof.others import SPLITS, cases_of
 from proof.page import write_page
-from proof.plan import COUNTS, Case, plan
+from proof.plan import Case
 from proof.run import Engine, run_case
 from proof.score.one import Score, score
 from proof.score.rates import summary
@@ -43,7 +44,7 @@ def parser() -> argparse.ArgumentParser:
     ):
         command = commands.add_parser(name, help=sentence, description=sentence)
         if name != "page":
-            command.add_argument("--split", choices=tuple(COUNTS), required=name != "score", default="dev")
+            command.add_argument("--split", choices=SPLITS, required=name != "score", default="dev")
             command.add_argument("--cases", default="", help="names, comma-separated; or a number: the first so many")
         if name in {"run", "score", "kinematics"}:
             command.add_argument("--data", type=Path, help="folder of the cases (default .cache/proof/SPLIT)")
@@ -72,7 +73,7 @@ def parser() -> argparse.ArgumentParser:
 
 def chosen(given: argparse.Namespace) -> list[Case]:
     """The cases asked for."""
-    cases = list(plan(given.split))
+    cases = list(cases_of(given.split))
     if given.cases.isdigit():
         return cases[: int(given.cases)]
     wanted = [name for name in given.cases.split(",") if name]
@@ -102,7 +103,7 @@ def generate(given: argparse.Namespace) -> None:
 
 def seal(given: argparse.Namespace) -> None:
     """Write the seals."""
-    sys.stdout.write(f"{write_manifest(given.split, plan(given.split))}\n")
+    sys.stdout.write(f"{write_manifest(given.split, cases_of(given.split))}\n")
 
 
 def run(given: argparse.Namespace) -> None:

@@ -12,8 +12,9 @@ import numpy as np
 from proof.chain import Noise, random_noise, random_path, sampled, through
 from proof.chain import Path as Way
 from proof.effects import Choice
-from proof.machine import NOMINAL, Arrays, FloatArray, arrays_of, document, hidden_machine
+from proof.machine import Arrays, FloatArray, Hidden, arrays_of, document, hidden_machine
 from proof.model.layout import B
+from proof.nominals import PAPER
 from proof.plan import Case, Hiding
 from proof.run_up import OVERSAMPLING, RATE_HZ, X_DOFS, Y_DOFS, Speed, accelerations, wandering
 from proof.sensor_faults import Place, spoil
@@ -35,7 +36,7 @@ def make(case: Case, folder: Path, truth_folder: Path) -> None:
     for name, (speed_hz, samples) in recordings(case).items():
         write_recording(target / name, case, speed_hz, samples)
     truth.write_text(canonical(truth_of(case)), encoding="utf-8")
-    (target / "machine.json").write_text(canonical(document(told(case))), encoding="utf-8")
+    (target / "machine.json").write_text(canonical(document(told(case), case.nominal.rolling)), encoding="utf-8")
 
 
 def canonical(found: Mapping[str, object]) -> str:
@@ -52,6 +53,8 @@ def truth_of(case: Case) -> dict[str, object]:
         severity = {"name": law.severity, "value": hiding.value, "unit": law.unit, "sized": law.sized}
         rows.append({**asdict(hiding), "terms": law.terms, "sites": sites, "severity": severity})
     about = asdict(case)
+    if case.machine == PAPER:  # as it was sealed before there were others
+        del about["machine"]
     return {**about, "effects": rows, "fault_channel": fault_place(case)[0] if case.fault else None}
 
 
@@ -64,7 +67,7 @@ def fault_place(case: Case) -> tuple[int, int]:
 
 def told(case: Case) -> dict[str, float]:
     """Parameters as the engine is told them: nominal, and wrong where the case is about that."""
-    parameters = dict(NOMINAL) | {"T": case.torque_nm}
+    parameters = dict(case.nominal.parameters) | {"T": case.torque_nm}
     if case.group == "misset":
         for name, factor in MISSET[case.index % len(MISSET)].items():
             parameters[name] *= factor
@@ -80,9 +83,7 @@ def recordings(case: Case) -> dict[str, tuple[float, FloatArray]]:
         for kind, hidden in (("baseline", base), ("test", later)):
             if kind == "baseline" and not case.baseline:
                 continue
-            machine = changed(
-                arrays_of(hidden, dict(NOMINAL) | {"T": case.torque_nm}), case.effects if kind == "test" else (), case
-            )
+            machine = changed(_sound(hidden, case), case.effects if kind == "test" else (), case)
             speed, start = _operation(case, machine, k, kind)
             samples = _motion(case, machine, speed, start)
             found[f"{kind}_{k}"] = (speed_hz, samples, speed, start)
@@ -114,13 +115,12 @@ def _quiet(case: Case, chosen: Sequence[Sequence[int]]) -> Iterator[tuple[Sequen
     """For every test the samples without noise with the `chosen` effects of the case, and last without drift."""
     base = hidden_machine(case.rng(MACHINE))
     later = base.drifted(case.rng(DRIFT))
-    parameters = dict(NOMINAL) | {"T": case.torque_nm}
     machines = [(later, numbers) for numbers in chosen] + [(base, ())]
     rows = []
     for k in range(1, len(case.speeds_hz) + 1):
         motions = []
         for hidden, numbers in machines:
-            machine = changed(arrays_of(hidden, parameters), case.effects, case, numbers)
+            machine = changed(_sound(hidden, case), case.effects, case, numbers)
             speed, start = _operation(case, machine, k, "test")
             motions.append(_motion(case, machine, speed, start))
         rows.append(motions)
@@ -129,6 +129,11 @@ def _quiet(case: Case, chosen: Sequence[Sequence[int]]) -> Iterator[tuple[Sequen
     level = np.std(heard[len(heard) // 2][-1], axis=1) * 10.0 ** (-case.snr_db / 20.0)
     for each in heard:
         yield each, level
+
+
+def _sound(hidden: Hidden, case: Case) -> Arrays:
+    """The hidden machine of the case without its effects."""
+    return arrays_of(hidden, dict(case.nominal.parameters) | {"T": case.torque_nm}, case.nominal.rolling)
 
 
 def changed(machine: Arrays, effects: tuple[Hiding, ...], case: Case, numbers: Sequence[int] | None = None) -> Arrays:

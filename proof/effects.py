@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from proof.machine import Arrays, FloatArray
-from proof.model.layout import B, M, Tooth, X
+from proof.model.layout import B, G, M, Tooth, X
 
 BEARINGS = ("bearing1", "bearing2", "bearing3", "bearing4")
 GEARS = ("pinion", "gear")
@@ -137,7 +137,7 @@ def tooth(change: Callable[[FloatArray, Choice], None]) -> Apply:
     """A change of one tooth, whichever."""
 
     def apply(a: Arrays, c: Choice) -> None:
-        change(a.teeth[c.site, int(c.rng.integers(0, (23, 81)[c.site]))], c)
+        change(a.teeth[c.site, int(c.rng.integers(0, int(a.g[G.Z1 + c.site])))], c)
 
     return apply
 
@@ -162,7 +162,7 @@ def missing(tooth: FloatArray, c: Choice) -> None:
 
 def pitch(a: Arrays, c: Choice) -> None:
     """Teeth that stand unevenly; variant 1: neighbours alike."""
-    n = (23, 81)[c.site]
+    n = int(a.g[G.Z1 + c.site])
     steps = c.rng.standard_normal(n)
     if c.variant == 1:  # neighbours alike, as a worn hob leaves them
         steps = np.convolve(np.concatenate([steps, steps]), [0.25, 0.5, 0.25], "same")[n // 2 : n // 2 + n]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -20,9 +20,6 @@ NOMINAL: Mapping[str, float] = {
     "fr1": 30.0, "T": 25.0, "z1": 23.0, "z2": 81.0, "m": 0.002, "W": 0.024, "al": 20.0,
 }  # fmt: skip
 """The reference solutions' lightly damped machine; SI, `al` in degrees."""
-BALLS_A_BEARING = 7
-PITCH_DIAMETER_M = 0.04
-BALL_DIAMETER_M = 0.010588
 SPREAD = 0.1
 """Half width of the uniform distribution of the hidden parameters, as a share of the nominal value."""
 DRIFT = 0.15
@@ -35,6 +32,15 @@ OWN_BEARING = 0.02
 """Half width of each bearing's own deviation in stiffness."""
 SETTLE_S = 0.25
 RAMP_S = 0.05
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rolling:
+    """The drawing of all four bearings."""
+
+    balls: int = 7
+    pitch_diameter_m: float = 0.04
+    ball_diameter_m: float = 0.010588
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,7 +100,14 @@ def contact_ratio(p: Mapping[str, float]) -> float:
     return (reach - sum(radii) * math.sin(al)) / (math.pi * p["m"] * math.cos(al))
 
 
-def arrays_of(hidden: Hidden, nominal: Mapping[str, float] = NOMINAL, *, ramp_s: float = RAMP_S) -> Arrays:
+def pair_stiffness(p: Mapping[str, float]) -> float:
+    """Of one pair of steel teeth, up to a factor: ISO 6336-1's q' without profile shift, times the face width."""
+    return p["W"] / (0.04723 + 0.15551 / p["z1"] + 0.25791 / p["z2"])
+
+
+def arrays_of(
+    hidden: Hidden, nominal: Mapping[str, float] = NOMINAL, rolling: Rolling = Rolling(), *, ramp_s: float = RAMP_S
+) -> Arrays:
     """The hidden machine without any effect."""
     p = {name: value * hidden.factors.get(name, 1.0) for name, value in nominal.items()}
     g = np.zeros(G.SIZE)
@@ -109,22 +122,22 @@ def arrays_of(hidden: Hidden, nominal: Mapping[str, float] = NOMINAL, *, ramp_s:
     g[G.RB1], g[G.RB2] = rb1, rb2
     g[G.TOUT] = p["T"] * rb2 / rb1
     g[G.PHI] = p["phi"] + hidden.mesh_phase
-    g[G.KM] = hidden.factors.get("km", 1.0)
+    g[G.KM] = hidden.factors.get("km", 1.0) * (pair_stiffness(p) / pair_stiffness(NOMINAL))
     g[G.EPS] = contact_ratio(p)
     g[G.A0] = 0.5 * p["m"] * (p["z1"] + p["z2"])
     g[G.GOVERNOR] = 0.02 if ramp_s > 0.0 else 0.0
     g[G.RAMP] = ramp_s
     return Arrays(
         g=g,
-        bearings=np.stack([_bearing(p, hidden.own[j]) for j in range(4)]),
+        bearings=np.stack([_bearing(p, rolling, hidden.own[j]) for j in range(4)]),
         mesh=np.zeros(M.SIZE),
         x=np.zeros(X.SIZE),
         teeth=np.zeros((2, TEETH, Tooth.SIZE)),
-        spread=_spread(hidden),
+        spread=_spread(hidden, rolling.balls),
     )
 
 
-def _bearing(p: Mapping[str, float], own: FloatArray) -> FloatArray:
+def _bearing(p: Mapping[str, float], rolling: Rolling, own: FloatArray) -> FloatArray:
     b = np.zeros(B.SIZE)
     named = {
         B.CS: "cs", B.CP: "cp", B.CR: "cr", B.MS: "ms", B.MO: "mo", B.MR: "mr", B.C0: "c0",
@@ -135,19 +148,18 @@ def _bearing(p: Mapping[str, float], own: FloatArray) -> FloatArray:
     b[B.KPX] = b[B.KPY] = p["kp"] * own[1]
     b[B.KR] = p["kr"] * own[2]
     b[B.KRE] = p["kre"] * own[3]
-    b[B.COUNT] = BALLS_A_BEARING
-    b[B.PITCH] = PITCH_DIAMETER_M
-    b[B.RATIO] = BALL_DIAMETER_M / PITCH_DIAMETER_M
+    b[B.COUNT] = rolling.balls
+    b[B.PITCH] = rolling.pitch_diameter_m
+    b[B.RATIO] = rolling.ball_diameter_m / rolling.pitch_diameter_m
     b[B.SPALL_ENTRY], b[B.SPALL_EXIT], b[B.SPALL_PEAK] = 0.45, 0.25, 0.8
     return b
 
 
-def _spread(hidden: Hidden) -> FloatArray:
-    angles = 2.0 * math.pi * np.arange(BALLS) / BALLS_A_BEARING + hidden.ball_errors
+def _spread(hidden: Hidden, balls: int) -> FloatArray:
+    angles = 2.0 * math.pi * np.arange(BALLS) / balls + hidden.ball_errors
     return np.stack([angles, np.cos(angles), np.sin(angles)], axis=-1)
 
 
-def document(p: Mapping[str, float]) -> dict[str, object]:
+def document(p: Mapping[str, float], rolling: Rolling = Rolling()) -> dict[str, object]:
     """`machine.json`: what the engine is told, in the form that `sideband machine --from-reference` reads."""
-    bearing = {"balls": BALLS_A_BEARING, "ball_diameter_m": BALL_DIAMETER_M, "pitch_diameter_m": PITCH_DIAMETER_M}
-    return {"parameters": dict(p), "bearings": [bearing], "tolerance": SPREAD}
+    return {"parameters": dict(p), "bearings": [asdict(rolling)], "tolerance": SPREAD}

@@ -16,9 +16,10 @@ import numpy as np
 
 from proof.effects import Law
 from proof.library import CLOSED
+from proof.nominals import NOMINALS, PAPER, Nominal
 from proof.unknown import OPEN
 
-Split = Literal["dev", "sealed", "later", "third", "fourth", "quiet"]
+Split = Literal["dev", "sealed", "later", "third", "fourth", "quiet", "others"]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
     "dev": 20_240_611,
@@ -27,6 +28,7 @@ SEEDS = {
     "third": 6_902_417_355,
     "fourth": 8_219_604_731,
     "quiet": 3_471_980_629,
+    "others": 9_036_127_745,
 }
 COUNTS = {
     "dev": {
@@ -114,11 +116,19 @@ class Case:
     baseline: bool
     fault: str | None = None
     causes: tuple[tuple[str, str], ...] = ()
+    machine: str = PAPER
+    """Which of `NOMINALS` is told."""
+
+    @property
+    def nominal(self) -> Nominal:
+        """The machine as it is drawn."""
+        return NOMINALS[self.machine]
 
     @property
     def torque_nm(self) -> float:
-        """Stated torque on the input shaft."""
-        return min((hiding.about().torque_nm for hiding in self.effects), default=25.0)
+        """Stated torque on the input shaft; laws say theirs for the paper's machine."""
+        share = self.nominal.parameters["T"] / NOMINALS[PAPER].parameters["T"]
+        return share * min((hiding.about().torque_nm for hiding in self.effects), default=25.0)
 
     def rng(self, *purpose: int) -> np.random.Generator:
         """Random numbers of this case for one purpose."""
@@ -145,7 +155,7 @@ LOOKALIKES = (
 
 
 def plan(split: Split) -> tuple[Case, ...]:
-    """All cases of a split in the order of their names, which say nothing."""
+    """All cases of a split of `COUNTS` in the order of their names, which say nothing."""
     groups: list[tuple[Group, int]] = [(g, i) for g, n in COUNTS[split].items() for i in range(n)]  # type: ignore[misc]
     order = np.random.default_rng(SEEDS[split]).permutation(len(groups))
     cases = []
@@ -166,7 +176,7 @@ def _case(split: Split, name: str, index: int, group: Group, number: int) -> Cas
     least = {"single": 0, "ambiguous": 2}.get(group, 1)
     level = max(least, (2, 1, 3, 0, 2, 1, 3)[number % 7])
     effects = _effects(group, number, level, rng, SHOWN_PAIRS if split == "fourth" else PAIRS)
-    chosen = _sensors(sensors, number)
+    chosen = sensors_of(sensors, number)
     causes: tuple[tuple[str, str], ...] = ()
     if group == "ambiguous":
         alike = LOOKALIKES[number % len(LOOKALIKES)]
@@ -194,22 +204,23 @@ def _effects(
     if group in {"null", "misset", "sensor"}:
         return ()
     if group == "open":
-        return (_hiding(tuple(OPEN)[number % len(OPEN)], number, level, rng),)
+        return (hiding_of(tuple(OPEN)[number % len(OPEN)], number, level, rng),)
     if group == "double":
-        return tuple(_hiding(law, number + i, level, rng) for i, law in enumerate(pairs[number % len(pairs)]))
+        return tuple(hiding_of(law, number + i, level, rng) for i, law in enumerate(pairs[number % len(pairs)]))
     if group == "ambiguous":
         alike = LOOKALIKES[number % len(LOOKALIKES)]
         site = alike.causes[0][1]
         law = CLOSED[alike.law]
         return (Hiding(law=alike.law, site=site, value=law.levels[level], variant=number % law.variants),)
     if group == "no_baseline":
-        return (_hiding(FIRST[number % len(FIRST)], number, level, rng),)
+        return (hiding_of(FIRST[number % len(FIRST)], number, level, rng),)
     turn, place = divmod(number, 8)
     name = FIRST[place] if place < 6 else OTHERS[(2 * turn + place - 6) % len(OTHERS)]
-    return (_hiding(name, turn + place, level, rng),)
+    return (hiding_of(name, turn + place, level, rng),)
 
 
-def _hiding(name: str, number: int, level: int, rng: np.random.Generator) -> Hiding:
+def hiding_of(name: str, number: int, level: int, rng: np.random.Generator) -> Hiding:
+    """One effect of a law: drawn site, drawn size about a level, variant by number."""
     law = CLOSED[name] if name in CLOSED else OPEN[name]
     site = law.sites[int(rng.integers(0, len(law.sites)))]
     if name == "loose_fit" and rng.random() < 0.5:
@@ -220,7 +231,8 @@ def _hiding(name: str, number: int, level: int, rng: np.random.Generator) -> Hid
     return Hiding(law=name, site=site, value=float(f"{value:.4g}"), variant=number % law.variants)
 
 
-def _sensors(count: int, number: int) -> tuple[str, ...]:
+def sensors_of(count: int, number: int) -> tuple[str, ...]:
+    """Names of so many sensors, one of two choices of places by number."""
     if count == 8:
         return tuple(f"bearing{j}.{axis}" for j in range(1, 5) for axis in "yx")
     if count == 1:

@@ -112,6 +112,7 @@ def measure(response: Response, watched: WatchList, bases_hz: dict[str, float]) 
         modulation_slack=slack(watched.modulations, modulations),
         turning=watched.turning(bases_hz),
         phased=watched.phased,
+        bands=watched.bands(bases_hz),
     )
 
 

@@ -9,6 +9,7 @@ from typing import Protocol
 
 from reconcile.atlas.bank import Bank, Mapper, make_bank
 from reconcile.atlas.plan import AtlasPlan, Point
+from reconcile.observe.watch import bases_at, watch_list
 from sim.core.errors import Problem, SpecError
 from sim.version import PHYSICS_VERSION
 
@@ -38,7 +39,7 @@ class Forgetful:
 
 def atlas_key(plan: AtlasPlan, point: Point, channels: tuple[str, ...]) -> str:
     """Hash of everything the simulated statistics depend on: not of what the machine is called."""
-    document = {
+    document: dict[str, object] = {
         "machine": plan.machine.model_dump(mode="json", exclude={"name", "notes"}),
         "draws": [
             [d.pair, d.twin, d.candidate.label if d.candidate else "", d.term.model_dump() if d.term else None]
@@ -49,6 +50,9 @@ def atlas_key(plan: AtlasPlan, point: Point, channels: tuple[str, ...]) -> str:
         "channels": list(channels),
         "versions": [PHYSICS_VERSION, ATLAS_VERSION],
     }
+    bands = watch_list(plan.machine).bands(bases_at(plan.machine, point.speed_hz))
+    if not bands.usual:
+        document["bands"] = [bands.edges_hz.tolist(), bands.shapes_hz]
     text = json.dumps(document, sort_keys=True, separators=(",", ":"))
     return "atlas-" + hashlib.sha256(text.encode()).hexdigest()[:32]
 

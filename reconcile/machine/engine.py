@@ -25,6 +25,7 @@ from reconcile.machine.direct import direct_evidence
 from reconcile.machine.drive import on_drive
 from reconcile.machine.exchanged import with_exchanged
 from reconcile.machine.faintest import faintest_seen
+from reconcile.machine.gate_orders import gate_orders
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
 from reconcile.machine.octave import doubted_speed, rival_speed
@@ -212,9 +213,10 @@ def _force(setting: Setting, found: Found, pairs: Pairs | None, budget: Budget, 
 
 
 def _gate(machine: MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording], seed: int) -> Gate:
-    shaft = machine.operating.shaft if machine.operating else ""
-    teeth = [float(g.teeth) for g in machine.gears if g.shaft == shaft]
-    return inspect_measurement(baselines, tests, mesh_orders=teeth, lowest_order=0.3, seed=seed)
+    own = gate_orders(machine)
+    return inspect_measurement(
+        baselines, tests, orders=own.other_meshes, mesh_orders=own.teeth, lowest_order=own.lowest, seed=seed
+    )
 
 
 def _place(test: Recording) -> tuple[float, float]:

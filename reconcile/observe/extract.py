@@ -9,7 +9,7 @@ from scipy import fft
 
 from reconcile.observe.mean_turn import Turning, turn_powers
 from reconcile.observe.phases import line_phases
-from reconcile.observe.statistics import SHAPE_BANDS_HZ, Statistics, third_octaves
+from reconcile.observe.statistics import SHAPE_BANDS_HZ, Bands, Statistics, bands_beside
 from signals.series import FloatArray
 
 HANN_NOISE_BINS = 1.5
@@ -49,8 +49,8 @@ def _line_powers(
     return found
 
 
-def _bands(power: FloatArray, bin_hz: float, top_hz: float) -> tuple[FloatArray, FloatArray]:
-    edges = third_octaves()
+def _bands(power: FloatArray, bin_hz: float, edges: FloatArray, top_hz: float) -> tuple[FloatArray, FloatArray]:
+    """Floor and total, (C, B)."""
     floor = np.full((power.shape[0], edges.size - 1), np.nan)
     total = floor.copy()
     index = np.round(edges / bin_hz).astype(int)
@@ -64,7 +64,7 @@ def _bands(power: FloatArray, bin_hz: float, top_hz: float) -> tuple[FloatArray,
 
 
 def _shapes(
-    samples: FloatArray, rate_hz: float, modulations_hz: FloatArray, slack: FloatArray, top_hz: float
+    samples: FloatArray, rate_hz: float, modulations_hz: FloatArray, slack: FloatArray, bands: Bands, top_hz: float
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Mean square, modulation depths, excess kurtosis and skewness in each shape band."""
     channels, n = samples.shape
@@ -74,8 +74,8 @@ def _shapes(
     mean_square = np.full((channels, count), np.nan)
     kurtosis, skewness = mean_square.copy(), mean_square.copy()
     depth = np.full((channels, count, modulations_hz.size), np.nan)
-    for e, (low, high) in enumerate(SHAPE_BANDS_HZ):
-        if high > top_hz:
+    for e, (low, high) in enumerate(bands.shapes_hz):
+        if high > top_hz * bands.factor:
             continue
         first, last = round(low / bin_hz), round(high / bin_hz)
         points = fft.next_fast_len(int(OVERSAMPLING * last))
@@ -95,11 +95,11 @@ def _shapes(
     return mean_square, depth, kurtosis, skewness
 
 
-def _turns(samples: FloatArray, rate_hz: float, turning: Sequence[Turning], top_hz: float) -> FloatArray:
+def _turns(samples: FloatArray, rate_hz: float, turning: Sequence[Turning], bands: Bands, top_hz: float) -> FloatArray:
     """(C, E, S)."""
     found = np.full((samples.shape[0], len(SHAPE_BANDS_HZ), len(turning)), np.nan)
     for s, one in enumerate(turning):
-        found[:, :, s] = turn_powers(samples, rate_hz, one, SHAPE_BANDS_HZ, top_hz)
+        found[:, :, s] = turn_powers(samples, rate_hz, one, bands.shapes_hz, top_hz * bands.factor)
     return found
 
 
@@ -113,23 +113,25 @@ def extract(
     modulation_slack: FloatArray,
     turning: Sequence[Turning] = (),
     phased: Sequence[int] = (),
+    bands: Bands | None = None,
 ) -> Statistics:
     """`samples` (C, n) at constant speed; slack: share of its frequency by which a line may be off, per line.
 
-    `phased`: numbers of the lines whose phases are compared.
+    `phased`: numbers of the lines whose phases are compared; `bands`: where the usual ones are not right.
     """
     top = USABLE * rate_hz
     spectrum, power, bin_hz = hann_spectrum(samples, rate_hz)
     kept = list(phased)
-    floor, total = _bands(power, bin_hz, top)
-    band, depth, kurtosis, skewness = _shapes(samples, rate_hz, modulations_hz, modulation_slack, top)
+    cut = bands or bands_beside(())
+    floor, total = _bands(power, bin_hz, cut.edges_hz, top * cut.factor)
+    band, depth, kurtosis, skewness = _shapes(samples, rate_hz, modulations_hz, modulation_slack, cut, top)
     return Statistics(
         line=_line_powers(power, bin_hz, lines_hz, line_slack, top),
         floor=floor,
         total=total,
         band=band,
         depth=depth,
-        turn=_turns(samples, rate_hz, turning, top),
+        turn=_turns(samples, rate_hz, turning, cut, top),
         kurtosis=kurtosis,
         skewness=skewness,
         phase=line_phases(spectrum, bin_hz, lines_hz[kept], line_slack[kept], top, LOBE_BINS),

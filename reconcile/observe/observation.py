@@ -68,8 +68,12 @@ def _alike(a: Point, b: Point) -> bool:
     return close and abs(a.torque_ratio - b.torque_ratio) <= SAME_TORQUE * max(abs(b.torque_ratio), 0.1)
 
 
-def _measured(one: Steady, machine: MachineSpec, watched: WatchList, part: slice = slice(None)) -> Statistics:
+def _measured(
+    one: Steady, machine: MachineSpec, watched: WatchList, stated_hz: float, part: slice = slice(None)
+) -> Statistics:
+    """The bands' edges go with the speed: a line of the teeth is then in one band in all recordings of a point."""
     bases = bases_at(machine, one.speed_hz)
+    bands = watched.bands(bases_at(machine, stated_hz)).at(one.speed_hz / stated_hz)
     lines, modulations = watched.line_hz(bases), watched.modulation_hz(bases)
     return extract(
         one.samples[:, part],
@@ -80,6 +84,7 @@ def _measured(one: Steady, machine: MachineSpec, watched: WatchList, part: slice
         modulation_slack=slack(watched.modulations, modulations),
         turning=watched.turning(bases),
         phased=watched.phased,
+        bands=bands,
     )
 
 
@@ -115,19 +120,20 @@ def observe(
         if known and resting is None:
             continue
         now, before = ([_steady(r, orders, slowest, seed) for r in several] for several in (members, resting or ()))
-        bases = bases_at(machine, point.speed_hz)
+        stated = point.speed_hz
+        bases = bases_at(machine, stated)
         middle = now[0].samples.shape[1] // 2
         found.append(
             PointData(
                 point=point,
                 lines_hz=watched.line_hz(bases),
                 modulations_hz=watched.modulation_hz(bases),
-                test=averaged([_measured(s, machine, watched) for s in now]),
+                test=averaged([_measured(s, machine, watched, stated) for s in now]),
                 halves=(
-                    averaged([_measured(s, machine, watched, slice(0, middle)) for s in now]),
-                    averaged([_measured(s, machine, watched, slice(middle, None)) for s in now]),
+                    averaged([_measured(s, machine, watched, stated, slice(0, middle)) for s in now]),
+                    averaged([_measured(s, machine, watched, stated, slice(middle, None)) for s in now]),
                 ),
-                baseline=averaged([_measured(s, machine, watched) for s in before]) if before else None,
+                baseline=averaged([_measured(s, machine, watched, stated) for s in before]) if before else None,
                 spectra=(now[0], before[0] if before else None),
                 turned=tuple(s.estimate for s in now),
                 turned_before=tuple(s.estimate for s in before),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,10 @@ SHAPE_BANDS_HZ = ((60.0, 600.0), (600.0, 2000.0), (2000.0, 4500.0), (4500.0, 800
 """Bands of the envelopes and of the moments: fixed in Hz, since structural resonances are."""
 LOWEST_BAND_HZ = 25.0
 HIGHEST_HZ = 8200.0
+CLEAR_OF_LINES = 0.015
+"""Share of its frequency by which a line of the teeth is clear of the bands' edges: three bins at 200 Hz."""
+CLEAR_OF_SHARP = 0.003
+"""The same for shape bands, which are cut out without a window: two bins at 600 Hz."""
 LOBE = 10.0 / 3.0
 """Noise that a line's lobe of five bins gathers, over that in the noise bandwidth of the Hann window (1.5 bins)."""
 LOBE_SCATTER = 2.1
@@ -23,6 +28,40 @@ def third_octaves() -> FloatArray:
     """Edges of the bands, shape (bands + 1,), Hz: sixths of a decade-like grid, three an octave."""
     count = int(np.floor(3 * np.log2(HIGHEST_HZ / LOWEST_BAND_HZ)))
     return np.asarray(LOWEST_BAND_HZ * 2.0 ** (np.arange(count + 1) / 3.0))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bands:
+    """Edges of the third octaves, shape (bands + 1,), Hz, and of the shape bands, Hz; `factor`: by which all of them
+    are off where they are usually."""
+
+    edges_hz: FloatArray
+    shapes_hz: tuple[tuple[float, float], ...]
+    factor: float = 1.0
+
+    @property
+    def usual(self) -> bool:
+        """Whether they are those of any machine."""
+        return self.shapes_hz == SHAPE_BANDS_HZ and bool(np.array_equal(self.edges_hz, third_octaves()))
+
+    def at(self, factor: float) -> Bands:
+        """The same at another speed."""
+        shapes = tuple((low * factor, high * factor) for low, high in self.shapes_hz)
+        return Bands(edges_hz=self.edges_hz * factor, shapes_hz=shapes, factor=self.factor * factor)
+
+
+def bands_beside(lines_hz: Sequence[float]) -> Bands:
+    """The usual bands, but an edge that would cut one of these lines (Hz) stands above it: which band holds the power
+    of a strong line must not hang on a hundredth of its frequency."""
+    edges = _beside(third_octaves(), lines_hz, CLEAR_OF_LINES)
+    low, high = (_beside(np.array(side), lines_hz, CLEAR_OF_SHARP) for side in zip(*SHAPE_BANDS_HZ, strict=True))
+    return Bands(edges_hz=edges, shapes_hz=tuple((float(a), float(b)) for a, b in zip(low, high, strict=True)))
+
+
+def _beside(edges: FloatArray, lines_hz: Sequence[float], near: float) -> FloatArray:
+    for line in sorted(lines_hz):
+        edges[np.abs(edges / line - 1.0) < near] = (1.0 + CLEAR_OF_LINES) * line
+    return edges
 
 
 @dataclass(frozen=True, kw_only=True)

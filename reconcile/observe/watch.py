@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from reconcile.observe.mean_turn import Turning
+from reconcile.observe.statistics import Bands, bands_beside
 from signals.series import FloatArray
 from sim.assembly.assemble import predicted_lines
 from sim.core.spec import MachineSpec, OperatingSpec
@@ -70,6 +71,10 @@ class WatchList:
     def modulation_hz(self, bases_hz: Mapping[str, float]) -> FloatArray:
         """Frequencies of the modulations, shape (modulations,), Hz."""
         return np.array([w.frequency_hz(bases_hz) for w in self.modulations])
+
+    def bands(self, bases_hz: Mapping[str, float]) -> Bands:
+        """The bands, clear of the teeth's lines."""
+        return bands_beside([w.frequency_hz(bases_hz) for w in self.lines if w.family == "mesh"])
 
     def turning(self, bases_hz: Mapping[str, float]) -> tuple[Turning, ...]:
         """The shafts whose mean turns are watched."""

@@ -1,0 +1,52 @@
+"""Cases of other nominal machines than the paper's, all at the target condition: does a verdict rest on its numbers?
+
+Six a machine: two sound ones, a loose fit, a pit of an outer race, a damaged tooth, a loose seat, of middle severity.
+"""
+
+from __future__ import annotations
+
+from typing import get_args
+
+import numpy as np
+
+from proof.nominals import NOMINALS, PAPER
+from proof.plan import SEEDS, SENSOR_COUNTS, SNRS_DB, TARGET, Case, Split, hiding_of, plan, sensors_of
+
+LEVEL = 2
+SPLITS: tuple[Split, ...] = get_args(Split)
+TOOTH = ("broken_tooth", "root_crack")
+"""The damaged tooth, in turn by machine."""
+
+
+def others() -> tuple[Case, ...]:
+    """All cases, machine by machine, in an order within a machine that says nothing."""
+    found: list[Case] = []
+    for turn, machine in enumerate(name for name in NOMINALS if name != PAPER):
+        laws = (None, None, "loose_fit", "outer_pit", TOOTH[turn % len(TOOTH)], "loose_seat")
+        for number in np.random.default_rng([SEEDS["others"], turn]).permutation(len(laws)):
+            found.append(_case(machine, len(found), laws[int(number)]))
+    return tuple(found)
+
+
+def cases_of(split: Split) -> tuple[Case, ...]:
+    """All cases of any split."""
+    return others() if split == "others" else plan(split)
+
+
+def _case(machine: str, index: int, name: str | None) -> Case:
+    seed = SEEDS["others"]
+    rng = np.random.default_rng([seed, index, 0])
+    effects = () if name is None else (hiding_of(name, index + index // 6, LEVEL, rng),)
+    return Case(
+        name=f"o{index + 1:03d}",
+        index=index,
+        seed=seed,
+        group="single" if effects else "null",
+        effects=effects,
+        level=LEVEL if effects else -1,
+        sensors=sensors_of(SENSOR_COUNTS[TARGET[0]], 2 * index),
+        snr_db=SNRS_DB[TARGET[1]],
+        speeds_hz=NOMINALS[machine].speeds_hz,
+        baseline=True,
+        machine=machine,
+    )
