@@ -18,11 +18,9 @@ from learn.speed import HIGHEST_HZ, SEARCH, Speed, candidates
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
 
-CLASSES = ("healthy", "outer", "inner", "ball")
-"""That heads of bearings answer with, in this order."""
+HEALTHY = "healthy"
 KNOWN, UNKNOWN = "known", "unknown"
 """Heads of stretches, by whether the geometry is known."""
-_NEEDED = f"`{KNOWN}` and `{UNKNOWN}` at least"
 WHOLE = "whole"
 """Head of the features of `learn.whole`: it answers for recordings longer than a stretch, their geometry known."""
 ANYWHERE = "anywhere"
@@ -93,20 +91,26 @@ def answered(seen: Looked, model: Model, likely: Sequence[float] = ()) -> Assess
     )
 
 
-def check_heads(model: Model) -> None:
-    """SpecError for a model that cannot answer: a head is missing, or names other classes than the first."""
-    heads = {name: model.heads[name] for name in (KNOWN, UNKNOWN, WHOLE, ANYWHERE) if name in model.heads}
-    for name in (KNOWN, UNKNOWN):
-        if name not in heads:
-            told = ", ".join(sorted(model.heads))
-            raise SpecError(Problem(field="model.heads", message=f"lack `{name}`", given=told, allowed=_NEEDED))
-    for name, head in heads.items():
-        if head.classes != CLASSES:
-            given = ", ".join(head.classes)
-            message = "names other classes, or in another order"
-            raise SpecError(
-                Problem(field=f"model.heads.{name}.classes", message=message, given=given, allowed=", ".join(CLASSES))
-            )
+def check_heads(model: Model, known: bool) -> None:
+    """SpecError for a model that cannot answer, the geometry `known` or not: the head is missing, none of its classes
+    is the sound one, or those of long recordings name other classes."""
+    name, more = (KNOWN, (WHOLE,)) if known else (UNKNOWN, (WHOLE, ANYWHERE))
+    if name not in model.heads:
+        told = ", ".join(sorted(model.heads))
+        raise SpecError(
+            Problem(field="model.heads", message=f"lack `{name}`", given=told, allowed=f"`{name}` at least")
+        )
+    classes = model.heads[name].classes
+    if HEALTHY not in classes:
+        given = ", ".join(classes)
+        message = "has no class of sound machines"
+        raise SpecError(Problem(field=f"model.heads.{name}.classes", message=message, given=given, allowed=HEALTHY))
+    for other in more:
+        if other in model.heads and model.heads[other].classes != classes:
+            given = ", ".join(model.heads[other].classes)
+            message = f"differs from that of `{name}`"
+            problem = Problem(field=f"model.heads.{other}.classes", message=message, given=given, allowed=str(classes))
+            raise SpecError(problem)
 
 
 def of_whole(seen: Looked, model: Model) -> FloatArray:

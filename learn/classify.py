@@ -75,7 +75,6 @@ def classify(
     whose mesh or turns the recording does not hold is refused only if nothing else is there to answer for.
     """
     check_speeds({}, "", given([recording], []))
-    check_heads(model)
     remarks: list[str] = []
     if stages and not knows_gears(model):
         stages, remarks = (), ["gears: are not looked at, the model was not trained on any"]
@@ -86,6 +85,7 @@ def classify(
         speed = speed_of(chosen, sites, pulses, trust=trust_speed)
     parts = []
     if sites or not stages:
+        check_heads(model, known=bool(sites))
         remarks += check_rate(chosen.sampling_rate_hz, speed.speed_hz, sites)
         with _said_by(pulses):
             parts = _bearings(chosen, model, sites, stages, speed)

@@ -52,22 +52,24 @@ def test_whose_bearing_the_catalogue_has_is_said() -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "field"),
+    ("change", "known", "field"),
     [
-        (lambda heads: {k: h for k, h in heads.items() if k != "known"}, "model.heads"),
-        (lambda heads: {k: h for k, h in heads.items() if k != "unknown"}, "model.heads"),
-        (lambda heads: heads | {"whole": replace(heads["whole"], classes=("a", "b", "c", "d"))}, "whole.classes"),
+        (lambda heads: {k: h for k, h in heads.items() if k != "known"}, True, "model.heads"),
+        (lambda heads: {k: h for k, h in heads.items() if k != "unknown"}, False, "model.heads"),
+        (lambda heads: heads | {"whole": replace(heads["whole"], classes=("a", "b", "c", "d"))}, True, "whole.classes"),
+        (lambda heads: heads | {"known": replace(heads["known"], classes=("a", "b", "c", "d"))}, True, "known.classes"),
         (
-            lambda heads: heads | {"known": replace(heads["known"], classes=heads["known"].classes[::-1])},
-            "known.classes",
+            lambda heads: heads | {"unknown": replace(heads["unknown"], classes=heads["unknown"].classes[::-1])},
+            False,
+            "whole.classes",
         ),
     ],
 )
-def test_a_model_that_cannot_answer_is_refused(change: Callable, field: str) -> None:  # type: ignore[type-arg]
+def test_a_model_that_cannot_answer_is_refused(change: Callable, known: bool, field: str) -> None:  # type: ignore[type-arg]
     model = default_model()
-    check_heads(model)
+    check_heads(model, known)
     with pytest.raises(SpecError) as refused:
-        check_heads(Model(heads=change(dict(model.heads)), made_by={}))
+        check_heads(Model(heads=change(dict(model.heads)), made_by={}), known)
     assert refused.value.problems[0].field.endswith(field)
 
 
