@@ -109,8 +109,8 @@ def check_heads(model: Model, known: bool) -> None:
         if other in model.heads and model.heads[other].classes != classes:
             given = ", ".join(model.heads[other].classes)
             message = f"differs from that of `{name}`"
-            problem = Problem(field=f"model.heads.{other}.classes", message=message, given=given, allowed=str(classes))
-            raise SpecError(problem)
+            field, allowed = f"model.heads.{other}.classes", ", ".join(classes)
+            raise SpecError(Problem(field=field, message=message, given=given, allowed=allowed))
 
 
 def of_whole(seen: Looked, model: Model) -> FloatArray:

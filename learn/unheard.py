@@ -18,8 +18,6 @@ BAND = (0.01, 0.485)
 """Of the sampling rate: the envelope's."""
 ENVELOPE_SHARE = 0.05
 """Of the sampling rate: up to where lines of the envelope are looked for."""
-
-
 LOWEST_BIN, HIGHEST_BINS = 10, 50
 """Left out: there the floor is that of few neighbours."""
 

@@ -11,7 +11,7 @@ from signals.recording import Recording
 from signals.series import BoolArray, FloatArray, IntArray
 
 FindingKind = Literal["not_finite", "constant", "stuck", "dropout", "clipping", "silent", "noise"]
-"""`silent` is told where channels are held against each other, not by `inspect`."""
+"""`silent` and `noise` are told where channels are held against each other, not by `inspect`."""
 _Found = tuple[FindingKind, str, IntArray]
 STUCK_SAMPLES = 32
 """A converter repeats a value a few times near an extreme; 32 equal values in a moving signal is a fault."""

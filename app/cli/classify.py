@@ -105,6 +105,6 @@ def _line(line: Mapping[str, Any]) -> str:
         return f"{where}: {line['z']:.1f} deviations over other orders"
     low, high = line["band_hz"]
     return (
-        f"{where} ({line['slip']:+.0%}): {line['z']:.1f} deviations over other orders, depth {line['depth']:.2g} "
+        f"{where} ({line['slip']:+.1%}): {line['z']:.1f} deviations over other orders, depth {line['depth']:.2g} "
         f"of the envelope in {low:.0f}-{high:.0f} Hz of {line['channel']}"
     )

@@ -9,7 +9,6 @@ import argparse
 import sys
 import time
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from learn.dataset import machines_of
@@ -70,11 +69,9 @@ def main(argv: list[str] | None = None) -> int:
 
 def _trained(given: argparse.Namespace, found: Table, began: float) -> tuple[Model, str]:
     _tell(began, f"{len(set(found.machines))} machines, {len(found.labels)} pieces of recordings")
-    with ThreadPoolExecutor(1) as beside:
-        simulated = beside.submit(gear_table, given.pairs, given.seed, given.processes)
-        model = train(found, seed=given.seed, made_by={})
-        _tell(began, "trained")
-        pairs = simulated.result()
+    model = train(found, seed=given.seed, made_by={})
+    _tell(began, "trained")
+    pairs = gear_table(given.pairs, given.seed, given.processes)
     _tell(began, f"{len({p.machine for p in pairs})} gear pairs simulated, {len(pairs)} recordings")
     heads = {**model.heads, **gear_heads(pairs, given.seed)}
     held = f"{len(set(found.machines))} machines, {len(found.labels)} pieces"

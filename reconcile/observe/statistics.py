@@ -11,7 +11,8 @@ from reconcile.observe.phases import mean_phases
 from signals.series import FloatArray
 
 SHAPE_BANDS_HZ = ((60.0, 600.0), (600.0, 2000.0), (2000.0, 4500.0), (4500.0, 8000.0))
-"""Bands of the envelopes and of the moments: fixed in Hz, since structural resonances are."""
+"""Bands of the envelopes and of the moments, Hz: the same for all points, as structural resonances are, but for what
+`bands_beside` moves."""
 LOWEST_BAND_HZ = 25.0
 HIGHEST_HZ = 8200.0
 CLEAR_OF_LINES = 0.015
