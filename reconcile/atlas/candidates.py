@@ -77,6 +77,11 @@ def size_range(param: Param) -> tuple[float, float]:
     return low, high
 
 
+def _at(param: Param, share: float) -> float:
+    low, high = size_range(param)
+    return float(np.clip(np.exp(np.log(low) + share * np.log(high / low)), low, high))
+
+
 def _other(param: Param, rng: np.random.Generator) -> float:
     """A parameter that is not the size: angles anywhere, the rest around its default."""
     if param.choices:
@@ -96,14 +101,18 @@ def draw_term(
     rng: np.random.Generator,
     machine: MachineSpec,
     registry: Registry = REGISTRY,
+    *,
+    sought: float = 0.5,
 ) -> TermSpec:
-    """The candidate at `share` 0..1 of its range (logarithmic); others drawn, but for what the machine itself gives."""
+    """The candidate at `share` 0..1 of its range (logarithmic), other parameters with a range to be searched at the
+    share `sought` of that, whatever the machine gives; the rest drawn, but for what the machine gives."""
     term = registry.get(candidate.term)
     if term is None:
         raise ValueError(f"no term {candidate.term}")
     size = size_parameter(term)
-    low, high = size_range(size)
     given = term.machine_values(machine, candidate.site)
-    values = {p.name: _other(p, rng) for p in term.params if p.name != size.name and p.name not in given}
-    values[size.name] = float(np.clip(np.exp(np.log(low) + share * np.log(high / low)), low, high))
+    rest = [p for p in term.params if p is not size]
+    values = {p.name: _other(p, rng) for p in rest if p.sought is None and p.name not in given}
+    values |= {p.name: _at(p, sought) for p in rest if p.sought is not None}
+    values[size.name] = _at(size, share)
     return TermSpec(term=candidate.term, site=candidate.site, parameters=values)

@@ -121,8 +121,9 @@ def atlas_plan(
     for candidate in chosen:
         own = np.random.default_rng([seed, 2, *candidate.label.encode()])
         shares = (own.permutation(draws) + own.uniform(0.1, 0.9, draws)) / draws
+        others = (np.random.default_rng([seed, 5, *candidate.label.encode()]).permutation(draws) + 0.5) / draws
         for j in range(draws):
-            term = draw_term(candidate, float(shares[j]), own, machine)
+            term = draw_term(candidate, float(shares[j]), own, machine, sought=float(others[j]))
             planned.append(Draw(pair=j % pairs, candidate=candidate, term=term))
     return AtlasPlan(machine=machine, numbers=numbers, offsets=offsets, twins=twins, draws=tuple(planned), seed=seed)
 

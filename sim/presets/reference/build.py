@@ -172,6 +172,7 @@ def _compose(
             shaft_damping=v["cs"],
             support_stiffness=v["kp"],
             support_damping=v["cp"],
+            bore_damping=v["cN"],
             resonator_stiffness=v["kr"],
             resonator_damping=v["cr"],
             inner_mass=v["ms"],

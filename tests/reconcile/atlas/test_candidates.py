@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from reconcile.atlas.candidates import FREE, Candidate, candidates, draw_term, size_parameter, size_range
-from reconcile.atlas.plan import with_tooth_pairs
+from reconcile.atlas.plan import atlas_plan, with_tooth_pairs
+from reconcile.calibrate.uncertain import uncertain_numbers
 from sim.assembly.assemble import BUILT_IN, assemble
 from sim.core.spec import TermSpec
+from sim.parts.wall import SOUGHT_DAMPING
 from sim.presets import preset
 from sim.terms import REGISTRY
 
@@ -49,13 +51,15 @@ def test_draws_are_within_bounds_reproducible_and_leave_out_what_the_machine_giv
     size = size_parameter(term)
     low, high = size_range(size)
     assert 0 < low < high <= size.high
-    given = set(term.machine_values(MACHINE, candidate.site)) - {size.name}
+    searched = {p.name: p for p in term.params if p.sought is not None and p is not size}
+    given = set(term.machine_values(MACHINE, candidate.site)) - {size.name} - set(searched)
     for k in range(30):
         share = k / 29
         one, two = (draw_term(candidate, share, np.random.default_rng(k), MACHINE) for _ in range(2))
         assert one == two
         assert low * (1 - 1e-9) <= one.parameters[size.name] <= high * (1 + 1e-9)
         assert not given & set(one.parameters)
+        assert set(searched) <= set(one.parameters)
         values = term.values(one.parameters, candidate.label)
         for param in term.params:
             if param.choices:
@@ -71,6 +75,20 @@ def test_larger_shares_are_larger_sizes() -> None:
     ]
     assert sizes[1] == pytest.approx(np.sqrt(sizes[0] * sizes[2]))
     assert sizes[0] < sizes[1] < sizes[2]
+
+
+def test_collision_damping_is_searched_though_the_machine_states_one() -> None:
+    assert MACHINE.bearings[0].bore_damping_ns_per_m is not None
+    fit = Candidate(term="fit_clearance", site="bearing1")
+    low, high = (
+        draw_term(fit, 0.5, np.random.default_rng(0), MACHINE, sought=share).parameters["damping"]
+        for share in (0.0, 1.0)
+    )
+    assert (low, high) == pytest.approx(SOUGHT_DAMPING)
+    plan = atlas_plan(MACHINE, uncertain_numbers(MACHINE), [fit], seed=0)
+    drawn = [d.term.parameters["damping"] for d in plan.draws if d.term is not None]
+    places = np.sort(np.log(np.array(drawn) / low) / np.log(high / low))
+    assert places == pytest.approx((np.arange(len(drawn)) + 0.5) / len(drawn))
 
 
 def test_unknown_terms_and_terms_without_size_are_refused() -> None:
