@@ -8,7 +8,7 @@ spectra lively (load, gears, other machines) makes the controls lively too.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -48,6 +48,8 @@ class Evidence:
     depth: float
     """Root of the summed squares of its lines in the squared envelope, over the mean of it."""
     channel_z: dict[str, float]
+    others: tuple[Evidence, ...] = ()
+    """The same of each other channel, the firmest first."""
 
 
 def logs(envelopes: Envelopes, ties: Ties, *, shaft_lines: bool) -> FloatArray:
@@ -143,9 +145,8 @@ def family_evidence(
     turn = family.kind == "turn"
     reach = family.slip + speed_doubt if not turn else speed_doubt
     controls = control_orders(ties, family, rng)
-    best_z, best_control = -np.inf, np.full(controls.size, -np.inf)
-    found: tuple[Envelopes, int, float] | None = None
-    by_channel: dict[str, float] = {}
+    best_control = np.full(controls.size, -np.inf)
+    firmest: list[tuple[float, Envelopes, int, float]] = []
     for e in channels:
         values = logs(e, ties, shaft_lines=turn)
         for other, order in explained:
@@ -164,23 +165,25 @@ def family_evidence(
             control, centre, spread = _controls(absent, e, family, controls, reach)
             z = (table - centre) / spread
         band, trial = (int(i) for i in np.unravel_index(int(np.argmax(z)), z.shape))
-        by_channel[e.channel] = float(z[band, trial])
         best_control = np.maximum(best_control, np.max((control - centre) / spread, axis=0))
-        if z[band, trial] > best_z:
-            best_z, found = float(z[band, trial]), (e, band, float(base[trial]))
-    assert found is not None
-    e, place, order = found
-    return Evidence(
-        family=family,
-        z=best_z,
-        chance=tail_chance(best_control, best_z),
-        slip=order / family.order - 1,
-        order=order,
-        channel=e.channel,
-        band_hz=(float(e.bands_hz[place, 0]), float(e.bands_hz[place, 1])),
-        depth=comb_depth(e, place, family, order),
-        channel_z=by_channel,
+        firmest.append((float(z[band, trial]), e, band, float(base[trial])))
+    by_channel = {e.channel: z for z, e, _, _ in firmest}
+    firmest.sort(key=lambda one: -one[0])
+    best, *others = (
+        Evidence(
+            family=family,
+            z=z,
+            chance=tail_chance(best_control, z),
+            slip=order / family.order - 1,
+            order=order,
+            channel=e.channel,
+            band_hz=(float(e.bands_hz[place, 0]), float(e.bands_hz[place, 1])),
+            depth=comb_depth(e, place, family, order),
+            channel_z=by_channel,
+        )
+        for z, e, place, order in firmest
     )
+    return replace(best, others=tuple(others))
 
 
 def _controls(

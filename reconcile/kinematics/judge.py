@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -113,16 +113,36 @@ def candidates(
             found.append(family_evidence(t.channels, ties, f, t.doubt, rng, taken, lean))
         rows.append((f, tuple(found)))
     chances = holm([fisher([e.chance for e in found]) for _, found in rows])
-    result = [
-        Candidate(
+
+    def heard(f: Family, found: tuple[Evidence, ...], chance: float) -> Candidate:
+        pairs = zip(found, tests, strict=True)
+        return Candidate(
             family=f,
             evidence=found,
-            contrasts=tuple(contrast(e, t, baselines, ties) for e, t in zip(found, tests, strict=True)),
+            contrasts=tuple(contrast(e, t, baselines, ties) for e, t in pairs),
             chance=chance,
         )
-        for (f, found), chance in zip(rows, chances, strict=True)
-    ]
+
+    result = []
+    for (f, evidence), chance in zip(rows, chances, strict=True):
+        first = heard(f, evidence, chance)
+        elsewhere = (heard(f, e, len(rows) * fisher([one.chance for one in e])) for e in in_other_channels(first))
+        result.append(next((c for c in elsewhere if c.present and c.risen), first))
     return tuple(sorted(result, key=lambda c: (not (c.present and c.risen), -c.z)))
+
+
+def in_other_channels(first: Candidate) -> Iterator[tuple[Evidence, ...]]:
+    """The evidence of each other channel in turn, the firmest first, where lines are present and the baseline has them
+    as deep: one sensor may hear the balls of the sound bearing pass, and another, which does not, the defect."""
+    if not first.present or first.risen or first.growth_db is None:
+        return
+    every = [{e.channel: e for e in (one, *one.others)} for one in first.evidence]
+    shared = set(every[0]).intersection(*every[1:])
+    mean = {c: float(np.mean([e[c].z for e in every])) for c in shared}
+    for channel in sorted(shared, key=lambda c: (-mean[c], c)):
+        found = tuple(e[channel] for e in every)
+        if found != first.evidence:
+            yield found
 
 
 def named(

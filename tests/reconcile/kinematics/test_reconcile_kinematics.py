@@ -163,6 +163,18 @@ def test_a_defect_of_the_baseline_that_grew() -> None:
 
 
 @pytest.mark.slow
+def test_a_sensor_that_hears_the_sound_bearing_pass_does_not_hide_what_another_hears() -> None:
+    passing = [defect("outer_spall", seed) for seed in (3, 4)]
+    before = recorded([sound(5), passing[0]])
+    there = defect("outer_spall", 6)
+    same = reconcile_kinematics(SPEC, [recorded([sound(7), passing[1]])], [before], seed=0)
+    assert same.verdict == "nothing_missing"
+    grown = reconcile_kinematics(SPEC, [recorded([there, passing[1]])], [before], seed=0)
+    assert grown.verdict == "explained"
+    assert [(c.term, c.named) for c in grown.causes] == [("outer_spall", True)]
+
+
+@pytest.mark.slow
 def test_bearings_alike_make_a_set_unless_a_sensor_tells() -> None:
     two = [BEARING, {**BEARING, "name": "bearing2"}]
     spec = read_kinematic_spec({"kinematics": {"shafts": [SHAFT], "bearings": two}})
