@@ -20,7 +20,7 @@ from learn.sim2real.rigs import RIGS
 from learn.sim2real.trained import Trained, trained
 from sideband_datasets.recipe.bearings import MACHINES
 
-SEED, ABLATED, PAIRS = 1, FEWER, 100
+SEED, ABLATED, PAIRS = 1, FEWER, 50
 
 
 def main(argv: list[str] | None = None) -> int:
