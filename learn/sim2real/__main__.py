@@ -8,24 +8,19 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
-from learn.dataset import machines_of
-from learn.model import Model, load, save
+from learn.model import load, save
 from learn.real.load import RECORDINGS, Case, available, case, index
 from learn.sim2real.ablations import MACHINES as FEWER
-from learn.sim2real.ablations import USUAL, smaller
-from learn.sim2real.gear_table import GearExample, gear_heads, gear_table
+from learn.sim2real.pools import workers
 from learn.sim2real.report import Results, report
 from learn.sim2real.rigs import RIGS
-from learn.sim2real.table import Table, pool_of, some, table, train
-from learn.sim2real.training_data import made, recipes
-from sideband_datasets.recipe.bearings import MACHINES, UNUSUAL_NAME
-from sideband_datasets.recipe.read import identity
-from sim.version import PHYSICS_VERSION
+from learn.sim2real.trained import Trained, trained
+from sideband_datasets.recipe.bearings import MACHINES
 
-SEED, ABLATED, PAIRS = 1, FEWER, 100
+SEED, ABLATED, PAIRS = 1, FEWER, 50
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -48,74 +43,21 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--docs", type=Path, default=None, help="also write the tables to this page")
     given = parser.parse_args(argv)
-    began = time.monotonic()
-    found, usual = (None, ()) if given.from_model else _bearings(given, began)
-    model, held = (load(given.from_model), "") if found is None else _trained(given, found, began)
-    if given.model is not None:
-        save(model, given.model)
-    if not available():
-        print(f"skipped: there are no recordings at {RECORDINGS}")
-        return 0
-    ablated = _ablated(given, found, usual, began) if given.ablated and found is not None else {}
-    cases = [case(e) for e in index() if e["dataset"] in RIGS]
-    _tell(began, f"{len(cases)} measured recordings read")
-    with pool_of(given.processes) as pool:
-        results = report(model, ablated, cases, seed=given.seed, pool=pool)
-    _write(results, held, cases, given.docs)
-    _tell(began, "done")
+    tell = partial(_tell, time.monotonic())
+    with workers(given.processes) as pool:
+        done = Trained(model=load(given.from_model)) if given.from_model else trained(given, pool, tell)
+        if given.model is not None and given.from_model:
+            save(done.model, given.model)
+        if not available():
+            print(f"skipped: there are no recordings at {RECORDINGS}")
+            return 0
+        cases = [case(e) for e in index() if e["dataset"] in RIGS]
+        tell(f"{len(cases)} measured recordings read")
+        results = report(done.model, done.ablated, cases, seed=given.seed, pool=pool)
+    _write(results, done.held, cases, given.docs)
+    tell("done")
     print(results.line)
     return 0
-
-
-def _trained(given: argparse.Namespace, found: Table, began: float) -> tuple[Model, str]:
-    _tell(began, f"{len(set(found.machines))} machines, {len(found.labels)} pieces of recordings")
-    model = train(found, seed=given.seed, made_by={})
-    _tell(began, "trained")
-    pairs = gear_table(given.pairs, given.seed, given.processes)
-    _tell(began, f"{len({p.machine for p in pairs})} gear pairs simulated, {len(pairs)} recordings")
-    heads = {**model.heads, **gear_heads(pairs, given.seed)}
-    held = f"{len(set(found.machines))} machines, {len(found.labels)} pieces"
-    held += f"; {len({p.machine for p in pairs})} gear pairs, {len(pairs)} recordings"
-    return Model(heads=heads, made_by=_made_by(given, found, pairs)), held
-
-
-def _bearings(given: argparse.Namespace, began: float) -> tuple[Table, Sequence[int]]:
-    """Features of the datasets that are given, or of those that are made; machines with bearings of the catalogue."""
-    if given.dataset:
-        return table(given.dataset, given.processes), _usual(given.dataset)
-    with made(recipes(given.machines, given.seed), given.keep, given.processes) as folders:
-        _tell(began, f"datasets made: {', '.join(folder.name for folder in folders)}")
-        return table(folders, given.processes), _usual(folders)
-
-
-def _usual(folders: Sequence[Path]) -> list[int]:
-    return [k for k, name in enumerate(machines_of(folders)) if not name.startswith(UNUSUAL_NAME)]
-
-
-def _made_by(given: argparse.Namespace, found: Table, pairs: list[GearExample]) -> dict[str, object]:
-    return {
-        "command": f"python -m learn.sim2real --machines {given.machines} --pairs {given.pairs} --seed {given.seed}",
-        "recipes": {} if given.dataset else {r.name: identity(r) for r in recipes(given.machines, given.seed)},
-        "physics_version": PHYSICS_VERSION,
-        "machines": len(set(found.machines)),
-        "rows": len(found.labels),
-        "gear_pairs": len({p.machine for p in pairs}),
-        "gear_rows": len(pairs),
-        "real_samples": 0,
-    }
-
-
-def _ablated(given: argparse.Namespace, found: Table, among: Sequence[int], began: float) -> dict[str, Model]:
-    """Models of smaller data sets of the catalogue's bearings, the first a part of the large one;
-    `learn.sim2real.ablations` has more of them."""
-    usual, *others = USUAL
-    part = some(found, given.ablated, among)
-    models = {usual: train(part, seed=given.seed, made_by={})}
-    _tell(began, f"{usual}: {len(part.labels)} pieces of {len(set(part.machines))} machines")
-    for name in others:
-        models[name], pieces = smaller(name, given.ablated, given.seed, given.processes)
-        _tell(began, f"{name}: {pieces} pieces")
-    return models
 
 
 def _tell(began: float, what: str) -> None:

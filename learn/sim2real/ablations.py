@@ -14,7 +14,8 @@ from learn.model import Model
 from learn.real.load import BEARINGS, RECORDINGS, Case, available, case, index
 from learn.sim2real.answers import ByModel, ask
 from learn.sim2real.figures import KINDS, figure, share
-from learn.sim2real.table import pool_of, table, train
+from learn.sim2real.pools import pool_of
+from learn.sim2real.table import table, train
 from learn.sim2real.training_data import made, recipes
 from sideband_datasets.recipe.bearings import Variant
 

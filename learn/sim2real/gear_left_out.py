@@ -14,11 +14,11 @@ from itertools import pairwise
 import numpy as np
 
 from learn.gears.assess import CLASSES, LONG, SHORT
-from learn.sim2real.__main__ import PAIRS, SEED
+from learn.sim2real.__main__ import SEED
 from learn.sim2real.gear_table import GearExample, gear_heads, gear_table
 from learn.sim2real.scores import score
 
-FOLDS = 4
+FOLDS, PAIRS = 4, 100
 CLEAR_DB = (6.0, 10.0, 15.0, 20.0, np.inf)
 
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from concurrent.futures import Executor, Future
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
 from learn.gears import features
 from learn.gears.assess import CLASSES, LONG, SHORT, look
 from learn.model import Head
-from learn.sim2real.table import PARTS, WINDOW_TURNS, pool_of
+from learn.sim2real.pools import AtOnce, pool_of
+from learn.sim2real.table import PARTS, WINDOW_TURNS
 from learn.simulate.gear_rows import GearRow, gear_rows
 from learn.train import fit_head
 from signals.series import FloatArray
@@ -64,10 +66,18 @@ def gear_examples(part: int, count: int, seed: int) -> list[GearExample]:
 
 def gear_table(count: int, seed: int, processes: int = 2) -> list[GearExample]:
     """Features of about `count` machines; the same whatever the number of processes."""
-    work = partial(gear_examples, count=count, seed=seed)
     with pool_of(processes) as pool:
-        spread = pool.map if pool is not None else map
-        return [one for share in spread(work, range(PARTS)) for one in share]
+        return gears_of(begun(count, seed, pool or AtOnce()))
+
+
+def begun(count: int, seed: int, pool: Executor) -> list[Future[list[GearExample]]]:
+    """The shares of a gears' table, each a piece of work of a pool."""
+    return [pool.submit(gear_examples, part, count, seed) for part in range(PARTS)]
+
+
+def gears_of(shares: Sequence[Future[list[GearExample]]]) -> list[GearExample]:
+    """A gears' table from all its shares, waited for."""
+    return [one for share in shares for one in share.result()]
 
 
 def gear_heads(found: list[GearExample], seed: int) -> dict[str, Head]:

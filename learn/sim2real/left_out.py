@@ -20,8 +20,9 @@ from learn.assess import ANYWHERE, WHOLE, pooled
 from learn.dataset import rows_of
 from learn.model import Model
 from learn.sim2real.__main__ import SEED
+from learn.sim2real.pools import pool_of
 from learn.sim2real.scores import score
-from learn.sim2real.table import PARTS, WINDOWS, Example, joined, part_table, pool_of, train
+from learn.sim2real.table import PARTS, WINDOWS, Example, joined, part_table, train
 from learn.sim2real.training_data import made, recipes
 from learn.speed import SEARCH, USUAL_ERROR, candidates
 from sideband_datasets.recipe.bearings import CLASSES, MACHINES

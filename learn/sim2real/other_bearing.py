@@ -21,7 +21,7 @@ from learn.orders import FaultOrders, of_ratio
 from learn.real.load import BEARINGS, RECORDINGS, Case, available, case, index
 from learn.remarks import UNSURE
 from learn.sim2real.answers import units
-from learn.sim2real.table import pool_of
+from learn.sim2real.pools import pool_of
 from sideband_datasets.recipe.bearings import CLASSES
 
 OTHERS = ((7, 0.24), (8, 0.2), (8, 0.25), (9, 0.18), (10, 0.17), (12, 0.14))

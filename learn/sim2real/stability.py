@@ -18,8 +18,8 @@ from learn.model import default_model, load
 from learn.real.load import RECORDINGS, Case, available, case, index
 from learn.sim2real.answers import Answer, ByModel, Way, ask, by_detector
 from learn.sim2real.figures import right
+from learn.sim2real.pools import pool_of
 from learn.sim2real.rigs import RIGS
-from learn.sim2real.table import pool_of
 from sideband_datasets.recipe.bearings import CLASSES
 
 Change = Callable[[Case], Case]

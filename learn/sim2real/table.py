@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Container, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor
-from contextlib import AbstractContextManager, nullcontext
+from concurrent.futures import Executor, Future
 from dataclasses import dataclass
-from functools import partial
 from itertools import compress
-from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +16,7 @@ from learn.bank import bank
 from learn.dataset import Row, rows_of
 from learn.looked import stretches
 from learn.model import Head, Model
+from learn.sim2real.pools import AtOnce, pool_of
 from learn.train import fit_head
 from sideband_datasets.recipe.bearings import CLASSES
 from signals.series import FloatArray
@@ -93,21 +90,20 @@ def part_table(part: int, folders: Sequence[Path]) -> list[Example]:
     return found
 
 
-def pool_of(processes: int) -> AbstractContextManager[Executor | None]:
-    """Processes of one thread each, as another thread costs more than it brings; none for one."""
-    if processes == 1:
-        return nullcontext()
-    for library in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
-        os.environ.setdefault(library, "1")
-    return ProcessPoolExecutor(processes, mp_context=get_context("spawn"))
-
-
 def table(folders: Sequence[Path], processes: int = 2) -> Table:
     """Features of datasets read together; the same whatever the number of processes."""
-    work = partial(part_table, folders=folders)
     with pool_of(processes) as pool:
-        shares = list(pool.map(work, range(PARTS)) if pool is not None else map(work, range(PARTS)))
-    return joined([one for share in shares for one in share])
+        return tabled(begun(folders, pool or AtOnce()))
+
+
+def begun(folders: Sequence[Path], pool: Executor) -> list[Future[list[Example]]]:
+    """The shares of a table, each a piece of work of a pool."""
+    return [pool.submit(part_table, part, folders) for part in range(PARTS)]
+
+
+def tabled(shares: Sequence[Future[list[Example]]]) -> Table:
+    """A table from all its shares, waited for."""
+    return joined([one for share in shares for one in share.result()])
 
 
 def joined(found: Sequence[Example]) -> Table:

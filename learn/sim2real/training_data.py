@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
 from contextlib import contextmanager
-from multiprocessing import get_context
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from learn.sim2real.pools import AtOnce, pool_of
 from sideband_datasets.folder import Progress, Settings, make, resume
 from sideband_datasets.folder.layout import MANIFEST, SETTINGS, STATE, unfinished
 from sideband_datasets.recipe import Recipe
@@ -28,17 +28,36 @@ def recipes(machines: int = MACHINES, seed: int = 1, variant: Variant = FULL) ->
 
 
 @contextmanager
-def made(wanted: tuple[Recipe, ...], folder: Path | None, processes: int) -> Iterator[list[Path]]:
-    """Their folders, side by side: each made below `folder` unless it is there; of a temporary one, gone afterwards."""
+def begun(
+    wanted: tuple[Recipe, ...], folder: Path | None, processes: int, pool: Executor
+) -> Iterator[Callable[[], list[Path]]]:
+    """As `made`, by a pool that may have other work too: what is given waits for the folders."""
     with TemporaryDirectory() as temporary:
         outs = [(folder or Path(temporary)) / recipe.name for recipe in wanted]
-        if processes > 1 and len(wanted) > 1:
-            with ProcessPoolExecutor(len(wanted), mp_context=get_context("spawn")) as pool:
-                list(pool.map(_made, wanted, outs, _shared(processes, len(wanted))))
-        else:
-            for recipe, out in zip(wanted, outs, strict=True):
-                _made(recipe, out, processes)
-        yield outs
+        shares = _shared(processes, len(wanted))
+        jobs = [pool.submit(_made, *one) for one in zip(wanted, outs, shares, strict=True)]
+
+        def folders() -> list[Path]:
+            for job in jobs:
+                job.result()
+            return outs
+
+        try:
+            yield folders
+        finally:
+            for job in jobs:
+                job.cancel()
+
+
+@contextmanager
+def made(wanted: tuple[Recipe, ...], folder: Path | None, processes: int) -> Iterator[list[Path]]:
+    """Their folders, side by side: each made below `folder` unless it is there; of a temporary one, gone afterwards."""
+    side_by_side = processes > 1 and len(wanted) > 1
+    with (
+        pool_of(min(processes, len(wanted)) if side_by_side else 1) as pool,
+        begun(wanted, folder, processes if side_by_side else processes * len(wanted), pool or AtOnce()) as folders,
+    ):
+        yield folders()
 
 
 def _shared(processes: int, among: int) -> list[int]:

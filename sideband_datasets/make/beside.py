@@ -28,11 +28,13 @@ class NotShown(SidebandError):
     """A fault that the recording hardly shows, where the recipe leaves such recordings out."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(kw_only=True, eq=False)
 class _Sound:
-    """A machine without a fault at one operating point, and the recordings that are made beside it."""
+    """A machine without a fault at one operating point, and the recordings that are made beside it; `response` once it
+    is simulated."""
 
     ready: Ready
+    response: Response | SidebandError | None = None
     members: list[Ready] = field(default_factory=list)
     recordings: dict[int, Recording] = field(default_factory=dict)
     """Its own recordings by the seed of their noise."""
@@ -41,7 +43,7 @@ class _Sound:
 def recorded_beside(plan: Plan, numbers: Sequence[int], cancelled: Callable[[], bool] | None = None) -> Iterator[Found]:
     """The recordings `numbers`, each once. A machine is simulated once without its fault for all that share it.
 
-    Each is the same bytes alone or beside any others. Eight machines and one class of them are held at once.
+    Each is the same bytes alone or beside any others. Eight machines and eight faulty ones are held at once.
     """
     found: dict[Hashable, _Sound] = {}
     for number in dict.fromkeys(numbers):
@@ -69,29 +71,34 @@ def _alike(items: Iterable[T], structure: Callable[[T], Hashable]) -> Iterator[l
 
 
 def _of_machines(plan: Plan, sounds: Sequence[_Sound], cancelled: Callable[[], bool] | None) -> Iterator[Found]:
-    responses = side_by_side(plan, [sound.ready for sound in sounds], cancelled)
-    faulty: list[tuple[Ready, _Sound, Response]] = []
-    for sound, response in zip(sounds, responses, strict=True):
-        for member in sound.members:
-            number = member.drawing.number
-            if isinstance(response, SidebandError):
-                yield number, failure_of(plan, number, response)
-            elif not member.drawing.effects:
-                yield number, _made(plan, member, sound, response, response)
-            else:
-                faulty.append((member, sound, response))
-    for group in _alike(faulty, lambda one: one[0].alike):
-        found = side_by_side(plan, [member for member, _, _ in group], cancelled)
-        for (member, sound, without), response in zip(group, found, strict=True):
-            number = member.drawing.number
-            if isinstance(response, SidebandError):
-                yield number, failure_of(plan, number, response)
-            else:
-                yield number, _made(plan, member, sound, response, without)
+    faulty = [(member, sound) for sound in sounds for member in sound.members if member.drawing.effects]
+    like = sounds[0].ready.alike
+    # Fewer than eight machines leave lanes empty, where faulty ones of their structure have room.
+    first = [one for one in faulty if one[0].alike == like][: WIDTH - len(sounds)]
+    found = side_by_side(plan, [*(sound.ready for sound in sounds), *(member for member, _ in first)], cancelled)
+    for sound, response in zip(sounds, found[: len(sounds)], strict=True):
+        sound.response = response
+        yield from (_made(plan, member, sound, response) for member in sound.members if not member.drawing.effects)
+    for (member, sound), response in zip(first, found[len(sounds) :], strict=True):
+        yield _made(plan, member, sound, response)
+    taken = {id(member) for member, _ in first}
+    left = [one for one in faulty if id(one[0]) not in taken]
+    yield from (_made(plan, *one, one[1].response) for one in left if isinstance(one[1].response, SidebandError))
+    simulated = [one for one in left if not isinstance(one[1].response, SidebandError)]
+    for group in _alike(simulated, lambda one: one[0].alike):
+        responses = side_by_side(plan, [member for member, _ in group], cancelled)
+        yield from (_made(plan, *one, response) for one, response in zip(group, responses, strict=True))
+    for sound in sounds:
+        sound.response = None  # nothing more is made beside it: its outputs are not kept for the whole batch
 
 
-def _made(plan: Plan, one: Ready, sound: _Sound, response: Response, without: Response) -> Made | Failure:
-    drawn = one.drawing
+def _made(plan: Plan, one: Ready, sound: _Sound, response: Response | SidebandError) -> Found:
+    """A recording by its simulation; without its machine's own there is none either."""
+    drawn, without = one.drawing, sound.response
+    for simulated in (without, response):
+        if isinstance(simulated, SidebandError):
+            return drawn.number, failure_of(plan, drawn.number, simulated)
+    assert isinstance(without, Response) and isinstance(response, Response)
     try:
         recording = _recording(plan, drawn, response, without)
         if drawn.effects:
@@ -99,8 +106,8 @@ def _made(plan: Plan, one: Ready, sound: _Sound, response: Response, without: Re
         else:
             sound.recordings[drawn.noise_seed] = recording
     except SidebandError as error:
-        return failure_of(plan, drawn.number, error)
-    return made_of(drawn, one.system, response, recording)
+        return drawn.number, failure_of(plan, drawn.number, error)
+    return drawn.number, made_of(drawn, one.system, response, recording)
 
 
 def _recording(plan: Plan, drawn: Drawing, response: Response, without: Response) -> Recording:

@@ -96,7 +96,7 @@ def runs(plan: Plan, samples: Samples, members: Sequence[int]) -> Iterator[tuple
 
 
 def _beside(plan: Plan, batch: Sequence[tuple[int, Sample]]) -> Iterator[tuple[Sample, int]]:
-    """Eight machines without a fault, then all recordings made beside them."""
+    """Eight machines without a fault, faulty ones of their structure in the lanes they leave, then the others."""
     sounds: dict[int, list[Sample]] = {}
     for number, sample in batch:
         sounds.setdefault(int(plan.machine[number]) if plan.recipe.siblings else number, []).append(sample)
@@ -106,9 +106,12 @@ def _beside(plan: Plan, batch: Sequence[tuple[int, Sample]]) -> Iterator[tuple[S
     for group in groups.values():
         for first in range(0, len(group), WIDTH):
             lanes = group[first : first + WIDTH]
-            yield lanes[0][0], len(lanes)
             faulty = [sample for members in lanes for sample in members if sample.drawing.effects]
-            yield from _grouped([(sample.structure, sample) for sample in faulty])
+            # A sample stands for many recordings, so places tell them apart.
+            same = [k for k, sample in enumerate(faulty) if sample.structure == lanes[0][0].sound]
+            taken = same[: WIDTH - len(lanes)]
+            yield lanes[0][0], len(lanes) + len(taken)
+            yield from _grouped([(sample.structure, sample) for k, sample in enumerate(faulty) if k not in taken])
 
 
 def _grouped(found: Sequence[tuple[int, Sample]]) -> Iterator[tuple[Sample, int]]:

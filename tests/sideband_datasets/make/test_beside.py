@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from sideband_datasets import Failure, make_plan, rows
+from sideband_datasets.make.batch import side_by_side
 from sideband_datasets.plan import drawing
+from sideband_datasets.plan.filled import runs, sampled
 from signals.background import shown_db
-from tests.sideband_datasets.beside import EVERY, siblings
+from tests.sideband_datasets.beside import EVERY, SPEED, siblings
 from tests.sideband_datasets.small import document, tiny
 
 
@@ -28,6 +30,28 @@ def test_a_row_is_the_same_bytes_alone_and_beside_others(every, indices, monkeyp
     found = list(rows(siblings(), indices))
     assert [row.row for row in found] == indices
     assert all(row.signal.tobytes() == every[row.row].signal.tobytes() for row in found)
+
+
+@pytest.mark.slow
+def test_faulty_ones_fill_the_lanes_that_few_machines_leave(monkeypatch):
+    """With waves on a race a sound bearing has the structure of one with a race's spall, not of one with a ball's."""
+    vary = {"operating.speed_hz": SPEED, "outer_waviness@bearing1.amplitude": {"low": 1e-8, "high": 1e-7}}
+    machines = [{"name": "rotor", "preset": "rotor", "instances": 2, "vary": vary}]
+    faults = [{"name": n, "terms": [{"term": f"{n}_spall", "sites": ["bearing1"]}]} for n in ("outer", "ball")]
+    recipe = _long(count=6, machines=machines, faults=faults)
+    filled: list[int] = []
+
+    def counted(plan, group, cancelled):
+        filled.append(len(group))
+        return side_by_side(plan, group, cancelled)
+
+    monkeypatch.setattr("sideband_datasets.make.beside.side_by_side", counted)
+    found = {row.row: row.signal.tobytes() for row in rows(recipe)}
+    assert filled == [4, 2]
+    plan = make_plan(recipe)
+    assert [lanes for _, lanes in runs(plan, sampled(plan), range(6))] == [4, 2]
+    for number in range(6):
+        assert all(row.signal.tobytes() == found[row.row] for row in rows(recipe, [2 * number, 2 * number + 1]))
 
 
 @pytest.mark.slow
