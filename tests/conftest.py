@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import gc
 import os
+import sys
 from collections import defaultdict
 
 # What collecting makes stays to the end: looking through it for garbage would take a fifth of the time.
 gc.disable()
 
 # Before anything loads a linear algebra library: its threads would only wait for those of the other test workers.
+TOO_LATE = "numpy" in sys.modules
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
 
