@@ -1,4 +1,4 @@
-"""Six concealed cases from file to verdict: hidden by the proof's own physics, answered by the engine.
+"""Four concealed cases from file to verdict: hidden by the proof's own physics, answered by the engine.
 
 A small atlas stands beside the tests (`tests/proof/atlas`), so that only what belongs to the case is simulated.
 """
@@ -24,9 +24,9 @@ from tests.proof.small import CASES, NOMINATED, nominal_machine, read_case
 from tests.reconcile.remembered import Simulated
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("proof-small")]
-FACTOR = {"outer_pit": 3.0, "inner_pit": 3.0, "broken_tooth": 1.5, "imbalance": 1.5}
+FACTOR = {"inner_pit": 3.0, "broken_tooth": 1.5}
 """Within which a size must be. A pit's width and its hidden depth trade against each other, and the engine's own
-intervals reach a factor of three; a tooth's and an unbalance's do not."""
+intervals reach a factor of three; a tooth's does not."""
 EXPLAINED = {name: case for name, case in CASES.items() if case.effects}
 SAME_DB = 0.1
 Answered = Callable[[str], tuple[Report, Score]]
