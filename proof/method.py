@@ -202,5 +202,5 @@ new, nearly nothing is there.
 **In the test command.** Four further cases, of neither split, run from the generator to the verdict in `make test`
 (`tests/proof/test_small_cases.py`): nothing, two strong effects and a sensor fault at 30 Hz, three sensors, 20 dB,
 with 12 effects to choose from: the easy end. Their atlas stands beside them (`tests/proof/atlas`); where physics or
-atlas changed they fail and name the command that makes it again, `make proof-atlas`.
+atlas changed they fail and name the command that makes it again, `make tests-atlas`.
 """
