@@ -11,7 +11,7 @@ FETCHED = { n=0; while read -r word rest; do case "$$word $$rest" in \
 PIP = PYTHONUNBUFFERED=1 $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 
 .DELETE_ON_ERROR:
-.PHONY: run setup env dev browser lint fast test bench cost paper proof proof-atlas proof-real sim2real openapi lock clean help
+.PHONY: run setup env dev browser lint fast test bench cost paper proof tests-atlas proof-real sim2real openapi lock clean help
 
 run: setup  ## start the service, simulate the demo through the queue, open its page (PORT=8001, OPEN= for no browser)
 	@echo "[4/4] starting broker, workers and HTTP server on port $(PORT)"
@@ -56,7 +56,7 @@ fast: dev  ## the loop while working: without the slow tests (half a minute on t
 	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 2 -m "not slow"
 
 test: dev browser setup lint  ## lint and every test; what CI runs
-	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 3 --dist loadgroup  # on two cores: many tests wait for servers and workers
+	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 3 --dist loadgroup --no-loadscope-reorder  # on two cores: many tests wait for servers and workers
 
 bench: dev setup  ## speed and accuracy; ends with one line of JSON
 	$(BIN)/python -m bench
@@ -75,7 +75,8 @@ proof: dev setup  ## concealed cases: make them, run the engine, score, write do
 	$(BIN)/python -m proof score --split $(SPLIT) --cases "$(CASES)" $(if $(CASES),,--keep) > /dev/null
 	$(if $(CASES),,$(BIN)/python -m proof page)
 
-proof-atlas: dev setup  ## simulate again the small atlas of the cases that run in `make test`
+tests-atlas: dev setup  ## simulate again the small atlases that stand beside tests
+	$(BIN)/python -m tests.reconcile.machine.make_atlas
 	$(BIN)/python -m tests.proof.make_atlas
 
 proof-real: dev setup  ## the engine on real recordings beside the project, labels withheld; writes docs/proof-real.md

@@ -199,8 +199,8 @@ test's spectrum and the drift since the baseline alone moves it, and the share o
 over signal and noise. Where drift is the larger, only the effect's pattern can tell it; where a bin in a thousand is
 new, nearly nothing is there.
 
-**In the test command.** Six further cases, of neither split, run from the generator to the verdict in `make test`
-(`tests/proof/test_small_cases.py`): nothing, four strong effects and a sensor fault at 30 Hz, three sensors, 20 dB,
+**In the test command.** Four further cases, of neither split, run from the generator to the verdict in `make test`
+(`tests/proof/test_small_cases.py`): nothing, two strong effects and a sensor fault at 30 Hz, three sensors, 20 dB,
 with 12 effects to choose from: the easy end. Their atlas stands beside them (`tests/proof/atlas`); where physics or
-atlas changed they fail and name the command that makes it again, `make proof-atlas`.
+atlas changed they fail and name the command that makes it again, `make tests-atlas`.
 """

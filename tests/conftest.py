@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import gc
 import os
+import sys
+from collections import defaultdict
 
 # What collecting makes stays to the end: looking through it for garbage would take a fifth of the time.
 gc.disable()
 
 # Before anything loads a linear algebra library: its threads would only wait for those of the other test workers.
+TOO_LATE = "numpy" in sys.modules
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
 
@@ -31,6 +34,27 @@ def pytest_configure(config: pytest.Config) -> None:
     """The fast loop tries fewer examples where a test does not say how many; `make test` tries all."""
     if config.option.markexpr == "not slow" and "HYPOTHESIS_PROFILE" not in os.environ:
         settings.load_profile("fast")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """`make test` hands a file to one process, as what its tests share (brokers, workers, kernels) is dear to make, and
+    begins with what takes longest, so that no process is left alone with it at the end."""
+    if not getattr(config.option, "loadgroup", False):
+        return
+    groups: dict[str, list[pytest.Item]] = defaultdict(list)
+    for item in items:
+        mark = item.get_closest_marker("xdist_group")
+        if mark is None:
+            item.add_marker(pytest.mark.xdist_group(str(item.path.relative_to(config.rootpath))))
+        groups[str(mark.args[0]) if mark else str(item.path)].append(item)
+    items[:] = [item for group in sorted(groups.values(), key=_weight, reverse=True) for item in group]
+
+
+def _weight(group: list[pytest.Item]) -> tuple[bool, int, int]:
+    """Long tests, then how many are slow, then how many there are."""
+    long, slow = (sum(item.get_closest_marker(name) is not None for item in group) for name in ("long", "slow"))
+    return long > 0, slow, len(group)
 
 
 def pytest_collection_finish(session: pytest.Session) -> None:

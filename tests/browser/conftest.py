@@ -36,6 +36,7 @@ DEMO: dict[str, Any] = {
 }
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """A browser and a service take seconds to start."""
     for item in items:

@@ -28,7 +28,7 @@ from tests.app.test_reconciliations import send
 from tests.service import few
 from tests.service.parts import LiveServer, Parts, eventually, open_parts
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.long]
 
 RATE_HZ = 20_480.0
 

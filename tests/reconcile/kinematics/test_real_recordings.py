@@ -17,6 +17,7 @@ from sim.core.response import Channel
 DATA = Path(__file__).parents[3].parent / "shared" / "recordings"
 pytestmark = [
     pytest.mark.slow,
+    pytest.mark.long,
     pytest.mark.skipif(not DATA.exists(), reason="the real recordings are not beside this project"),
 ]
 

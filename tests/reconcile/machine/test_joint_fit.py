@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -14,6 +16,7 @@ from sim.core.spec import MachineSpec, TermSpec
 from sim.presets import preset
 from sim.solve.api import simulate
 from sim.solve.settings import Settings
+from tests.reconcile import prebuilt
 from tests.reconcile.machine.test_reconcile_machine import RATE_HZ, SETTLE_S
 from tests.reconcile.remembered import Simulated
 
@@ -30,6 +33,13 @@ NOMINATED = tuple(
         ("tooth_friction", "mesh1"),
     )
 )
+
+
+def wanted() -> list[prebuilt.Wanted]:
+    """The atlases of both speeds, which stand beside this test."""
+    nominal, folder = preset("paper-lightly-damped"), Path(__file__).parent / "atlas"
+    places = tuple(f"bearing{s[9]}.y" for s in SENSORS)
+    return [prebuilt.wanted(nominal, NOMINATED, places, hz, folder / f"loose-{hz:g}hz.npz") for hz in SPEEDS_HZ]
 
 
 def measured(machine: MachineSpec, speed_hz: float, seed: int) -> Recording:
@@ -55,8 +65,11 @@ def measured(machine: MachineSpec, speed_hz: float, seed: int) -> Recording:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.xdist_group("reconcile-machine")
-def test_a_loose_seat_is_named_and_the_revised_machine_is_the_one_that_fits_with_it(simulated: Simulated) -> None:
+def test_a_loose_seat_is_named_and_the_revised_machine_is_the_one_that_fits_with_it(
+    simulated: Simulated, tmp_path: Path
+) -> None:
     nominal = preset("paper-lightly-damped")
     numbers = uncertain_numbers(nominal)
     base = draw_offsets(numbers, np.random.default_rng(91))
@@ -67,6 +80,7 @@ def test_a_loose_seat_is_named_and_the_revised_machine_is_the_one_that_fits_with
         nominal,
         [measured(loose, hz, 610 + k) for k, hz in enumerate(SPEEDS_HZ)],
         [measured(real, hz, 600 + k) for k, hz in enumerate(SPEEDS_HZ)],
+        keeper=prebuilt.kept(wanted(), tmp_path),
         mapper=simulated,
         nominated=NOMINATED,
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,11 +22,12 @@ from sim.core.spec import MachineSpec, TermSpec
 from sim.presets import preset
 from sim.solve.api import simulate
 from sim.solve.settings import Settings
-from store.atlas import AtlasFolder
+from tests.reconcile import prebuilt
 from tests.reconcile.remembered import Simulated
 
 RATE_HZ = 20480.0
 SETTLE_S = 0.3
+SPEED_HZ = 30.0
 PLACES = ("bearing1", "bearing3")
 SPALL = TermSpec(term="outer_spall", site="bearing1", parameters={"width": 1.5e-3, "angle": 1.4})
 """In the load zone: elsewhere on the fixed ring no ball is pressed into it."""
@@ -39,6 +41,13 @@ NOMINATED = tuple(
         ("unbalance", "pinion"),
     )
 )
+
+
+def wanted() -> prebuilt.Wanted:
+    """The atlas, which stands beside this test."""
+    sensors = tuple(f"{place}.y" for place in PLACES)
+    bank = Path(__file__).parent / "atlas" / f"spall-{SPEED_HZ:g}hz.npz"
+    return prebuilt.wanted(preset("paper-lightly-damped"), NOMINATED, sensors, SPEED_HZ, bank)
 
 
 def measured(machine: MachineSpec, seed: int, duration_s: float = 3.0) -> Recording:
@@ -58,13 +67,13 @@ def measured(machine: MachineSpec, seed: int, duration_s: float = 3.0) -> Record
         sampling_rate_hz=RATE_HZ,
         channels=channels,
         samples=rows + noise,
-        operating=Operating(shaft="input", speed_hz=30.0, torque_nm=25.0),
+        operating=Operating(shaft="input", speed_hz=SPEED_HZ, torque_nm=25.0),
     )
 
 
 @pytest.fixture(scope="module")
-def atlas(tmp_path_factory: pytest.TempPathFactory) -> AtlasFolder:
-    return AtlasFolder(tmp_path_factory.mktemp("atlas"))
+def atlas(tmp_path_factory: pytest.TempPathFactory) -> prebuilt.Kept:
+    return prebuilt.kept([wanted()], tmp_path_factory.mktemp("atlas"))
 
 
 @pytest.fixture(scope="module")
@@ -81,9 +90,10 @@ def baseline(real: MachineSpec) -> Recording:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.xdist_group("reconcile-machine")
 def test_a_hidden_spall_is_found(
-    real: MachineSpec, baseline: Recording, atlas: AtlasFolder, simulated: Simulated
+    real: MachineSpec, baseline: Recording, atlas: prebuilt.Kept, simulated: Simulated
 ) -> None:
     known = uncertain_numbers(real)
     later = draw_offsets(known, np.random.default_rng(78))
@@ -152,7 +162,7 @@ def simulated_as_drawn(machine: MachineSpec, report: Report) -> None:
 
 @pytest.mark.slow
 @pytest.mark.xdist_group("reconcile-machine")
-def test_the_same_machine_again_misses_nothing(baseline: Recording, atlas: AtlasFolder, simulated: Simulated) -> None:
+def test_the_same_machine_again_misses_nothing(baseline: Recording, atlas: prebuilt.Kept, simulated: Simulated) -> None:
     nominal = preset("paper-lightly-damped")
     report = reconcile_recordings(nominal, [baseline], [baseline], keeper=atlas, mapper=simulated, nominated=NOMINATED)
     assert report.verdict == "nothing_missing", report.sentence
