@@ -105,7 +105,7 @@ def answer(
     decision, other = named_pair(decision, second_effect(setting, found, decision), pairs)
     causes = with_forms(ranked_causes(found, decision, weights, observed, other), found.screen) if missing else ()
     both = other.together if other is not None else None
-    beside = other.names[0] if other is not None and both is not None else None
+    beside = other.names[0] if other is not None else None
     held = _held(setting, found, decision, layout, unknown, beside) if decision.chosen else None
     revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter, both)
     fitted = _fitted(setting, found, decision, revision, unknown)
@@ -186,7 +186,7 @@ def _told(
 ) -> tuple[Word, str, SensorFault | None]:
     """Verdict, sentence and sensor fault."""
     severity: Severity | None = causes[0].severity if causes else None
-    both = other is not None and other.together is not None
+    both = held is not None and len(held.effects) > 1
     word, text = decision.word, sentence(decision, severity, None if both else held)
     if unknown is not None:
         text = f"{text} {law_sentence(unknown.force, tried=unknown.tried)}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -54,12 +55,13 @@ HELD = HeldOut(
 def test_the_gain_is_said_of_what_it_was_held_out_with(together: bool) -> None:
     decision = Decision(word="explained", chosen=("unbalance@pinion",), p=1e-4, reasons=())
     causes = tuple(Cause(term=t, site=s, score=9.0) for t, s in (("unbalance", "pinion"), ("rub", "gear")))
-    both = SimpleNamespace() if together else None
+    effects = ("unbalance@pinion", "rub@gear") if together else ("unbalance@pinion",)
+    held = replace(HELD, effects=effects)
     other = Beside(
-        view=None, left=None, names=("rub@gear",), evidence=np.array([9.0]), p=1e-4, misfit=0.1, together=both,  # type: ignore[arg-type]
+        view=None, left=None, names=("rub@gear",), evidence=np.array([9.0]), p=1e-4, misfit=0.1,  # type: ignore[arg-type]
     )  # fmt: skip
     gate = SimpleNamespace(fault=None)
-    _, text, _ = _told(SimpleNamespace(), decision, gate, causes, HELD, other, None)  # type: ignore[arg-type]
+    _, text, _ = _told(SimpleNamespace(), decision, gate, causes, held, other, None)  # type: ignore[arg-type]
     first, second = text.split(" Beside it: ")
     assert first.startswith("Unbalance at pinion") and second.startswith("Rub at gear")
     assert ("25%" in second) == together and ("25%" in first) == (not together)
