@@ -103,7 +103,9 @@ def answer(
     weights = of_one_part(merged_weights(found.screen), found.screen.struck)
     missing = decision.word != "nothing_missing"
     decision, other = named_pair(decision, second_effect(setting, found, decision), pairs)
-    causes = with_forms(ranked_causes(found, decision, weights, observed, other), found.screen) if missing else ()
+    struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names]
+    ranked = ranked_causes(found, decision, weights, observed, other, struck) if missing else ()
+    causes = with_forms(ranked, found.screen)
     both = other.together if other is not None else None
     beside = other.names[0] if other is not None else None
     held = _held(setting, found, decision, layout, unknown, beside) if decision.chosen else None

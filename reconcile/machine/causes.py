@@ -26,10 +26,12 @@ def ranked_causes(
     weights: Mapping[str, float],
     observed: np.ndarray,
     other: Beside | None,
+    struck: Sequence[str] = (),
 ) -> tuple[Cause, ...]:
-    """The effects the verdict stands on, a second one with what it explains, and the rest by weight."""
+    """The effects the verdict stands on, a second one with what it explains, those that share the impacts of another
+    part (`struck`), and the rest by weight."""
     apart = {*decision.chosen, *(other.names[:1] if other else ())}
-    listed = list(decision.chosen) + [n for n in weights if n not in apart]
+    listed = list(decision.chosen) + [n for n in dict.fromkeys((*struck, *weights)) if n not in apart]
     causes = []
     for name in listed[:MOST_CAUSES]:
         term, site = name.split("@")
@@ -41,7 +43,7 @@ def ranked_causes(
                 score=float(found.screen.evidence[found.screen.names.index(name)]),
                 severity=estimated_severity(found.view(name), found.known, name, observed),
                 named=decision.word == "explained" and name == decision.chosen[0],
-                reasons=decision.reasons,
+                reasons=(ITS_IMPACTS,) if name in struck else decision.reasons,
                 values=dict(drawn[0].parameters) if drawn else {},
             )
         )

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from reconcile.judge.adequacy import Rest
 from reconcile.machine import pairs, pictures
-from reconcile.machine.causes import TOGETHER, ranked_causes
+from reconcile.machine.causes import ITS_IMPACTS, TOGETHER, ranked_causes
 from reconcile.machine.decide import Decision
 from reconcile.machine.direct import HEARD
 from reconcile.machine.heldout import held_out, with_sums
@@ -207,6 +207,9 @@ def test_the_second_cause_has_its_own_size_and_the_forecast_both(simulated: list
     first, second = ranked_causes(found, EXPLAINED, weights, observed, pair.beside)[:2]
     assert (first.site, second.site) == ("gear", "pinion") and first.named and second.named
     assert second.reasons == (TOGETHER,) and second.severity == pair.beside.together.severity
+    alone = ranked_causes(found, EXPLAINED, weights, observed, None, [WRONG])
+    assert [f"{c.term}@{c.site}" for c in alone[:2]] == [EXPLAINED.chosen[0], WRONG]
+    assert alone[1].reasons == (ITS_IMPACTS,) and not alone[1].named
     spectral, frequency = np.ones(FEATURES, dtype=bool), np.linspace(10.0, 1000.0, FEATURES)
     library = found.known.library
     flat = np.concatenate([library.changes, np.zeros((8, FEATURES))])
