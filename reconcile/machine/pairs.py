@@ -25,7 +25,7 @@ from reconcile.machine.direct import HEARD
 from reconcile.machine.second import Beside, Together, strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.severity import weighted_severity
-from reconcile.machine.weigh import LEAST_EVIDENCE, variants
+from reconcile.machine.weigh import LEAST_EVIDENCE, exclusive, variants
 from signals.series import FloatArray
 from sim.core.terms import Term
 from sim.terms import REGISTRY
@@ -112,7 +112,7 @@ def _forms(views: Sequence[Fitted], found: Found, name: str, observed: FloatArra
 
 
 def sums(setting: Setting, found: Found, first: str, members: int) -> list[Sum]:
-    """What every other effect that is no form of the first adds to it, the most first; empty without views of lines.
+    """What every other effect that can act beside the first adds to it, the most first; empty without views of lines.
     What would strike and is not heard is none: a ball's pit added 10 to an inner race's beside which an outer race was
     pitted, and a pit of both races of one bearing looks like a larger one of the inner race."""
     observed, library = setting.changes.observed, found.known.library
@@ -120,7 +120,7 @@ def sums(setting: Setting, found: Found, first: str, members: int) -> list[Sum]:
     others = {
         n: rows
         for n, rows in library.groups.items()
-        if n != first and not variants(n, first) and (n in heard or not strikes(n))
+        if n != first and not exclusive(n, first) and (n in heard or not strikes(n))
     }
     rows = [k for own in others.values() for k in own]
     views = heard_in(found, first)

@@ -50,13 +50,23 @@ def of_the_place(screen: Screen) -> tuple[str, ...]:
     return chosen if len(chosen) > 1 else ()
 
 
-def variants(first: str, second: str) -> bool:
-    """Whether two labels are forms of one effect at one site: their terms exclude each other there."""
+def exclusive(first: str, second: str) -> bool:
+    """Whether two labels cannot act together: one's term excludes the other's at that site."""
     (a, here), (b, there) = first.split("@"), second.split("@")
     one, other = REGISTRY.get(a), REGISTRY.get(b)
     if here != there or one is None or other is None or a == b:
         return False
     return b in one.excludes or a in other.excludes
+
+
+def variants(first: str, second: str) -> bool:
+    """Whether two labels are forms of one effect at one site: their terms exclude each other there. Where one alone
+    excludes the other (a loose pedestal the loose fit, which has no support) they are two effects."""
+    (a, _), (b, _) = first.split("@"), second.split("@")
+    one, other = REGISTRY.get(a), REGISTRY.get(b)
+    if one is None or other is None or not exclusive(first, second):
+        return False
+    return b in one.excludes and a in other.excludes
 
 
 def merged_weights(screen: Screen) -> dict[str, float]:

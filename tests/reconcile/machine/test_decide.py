@@ -11,7 +11,7 @@ from reconcile.atlas.places import sensor_sites
 from reconcile.judge.adequacy import Rest
 from reconcile.judge.screen import Screen
 from reconcile.machine.decide import GLARING, STRANGE, chance, decide, remarkable, tempered, unmeasured
-from reconcile.machine.weigh import MOST_NAMED, credible_set, merged_weights, plausible, variants
+from reconcile.machine.weigh import MOST_NAMED, credible_set, exclusive, merged_weights, plausible, variants
 from reconcile.machine.words import next_experiment, sentence, title
 from reconcile.verdict import HeldOut, Severity
 from sim import presets
@@ -166,6 +166,10 @@ def test_forms_of_one_effect_count_together() -> None:
     assert variants("fit_clearance@bearing1", "fit_clearance_series@bearing1")
     assert not variants("fit_clearance@bearing1", "fit_clearance_series@bearing2")
     assert not variants("outer_spall@bearing1", "outer_spall@bearing1")
+    # a support that stiffens cannot act where a fit has no support, and is another effect all the same
+    assert exclusive("bearing_stiffness@bearing1", "fit_clearance@bearing1")
+    assert not variants("bearing_stiffness@bearing1", "fit_clearance@bearing1")
+    assert not exclusive("bearing_stiffness@bearing1", "fit_clearance@bearing2")
     names = ("fit_clearance@bearing1", "fit_clearance_series@bearing1", "unbalance@pinion")
     made = screen([10.0, 10.0, 5.0], names)
     weights = merged_weights(made)

@@ -84,7 +84,7 @@ def test_the_turn_is_drawn_on_the_shaft_of_the_place_with_its_angle_and_every_se
 def test_forms_stand_beside_the_effect_they_count_with() -> None:
     evidence = {
         "fit_clearance@bearing1": 44.0,
-        "bearing_stiffness@bearing1": 42.0,
+        "fit_clearance_series@bearing1": 42.0,
         "squeeze_film@bearing1": 34.0,
         "bearing_stiffness@bearing2": 10.0,
     }
@@ -100,7 +100,7 @@ def test_forms_stand_beside_the_effect_they_count_with() -> None:
     loose = Cause(term="fit_clearance", site="bearing1", score=44.0)
     soft = Cause(term="bearing_stiffness", site="bearing2", score=10.0)
     first, second = with_forms([loose, soft], screen)
-    assert first.forms == {"bearing_stiffness": 42.0, "squeeze_film": 34.0}
+    assert first.forms == {"fit_clearance_series": 42.0}
     assert second.forms == {}
 
 
