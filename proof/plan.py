@@ -2,8 +2,8 @@
 
 Every second case stands at the target condition (3 sensors, 20 dB, 3 speeds, baseline); the others run through the nine
 rows of an orthogonal array of sensors x noise x speeds, so each pair of levels occurs equally often. All cases of
-the splits `third`, `fourth`, `quiet` and `unmet` stand at the target condition. Laws, sites, severities and variants go round in
-cycles of different length.
+the splits `third`, `fourth`, `quiet` and `unmet` stand at the target condition. Laws, sites, severities and variants
+go round in cycles of different length.
 """
 
 from __future__ import annotations
@@ -74,8 +74,8 @@ SHOWN_PAIRS = (
     ("outer_pit", "wider_clearance"), ("loose_fit", "outer_pit"), ("inner_pit", "loose_seat"),
     ("wider_clearance", "imbalance"), ("loose_fit", "loose_seat"), ("outer_pit", "imbalance"),
 )  # fmt: skip
-"""Of the splits `fourth` and `unmet`: effects that mostly move the spectrum more than drift does, so that there are two to be told.
-Of 25 pairs of `PAIRS` at the target condition 12 have one that does not: cracks of teeth and gears that run out."""
+"""Of the splits `fourth` and `unmet`: effects that mostly move the spectrum more than drift does, so that there are two
+to be told. Of 25 pairs of `PAIRS` at the target condition 12 have one that does not: cracks of teeth and gears that run out."""
 SHOWN = ("fourth", "unmet")
 FAULTS = ("clipping", "dropouts", "mains_hum", "loose_sensor", "stuck", "swapped", "gain_change", "aliasing")
 
