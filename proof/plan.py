@@ -75,7 +75,8 @@ SHOWN_PAIRS = (
     ("wider_clearance", "imbalance"), ("loose_fit", "loose_seat"), ("outer_pit", "imbalance"),
 )  # fmt: skip
 """Of the splits `fourth` and `unmet`: effects that mostly move the spectrum more than drift does, so that there are two
-to be told. Of 25 pairs of `PAIRS` at the target condition 12 have one that does not: cracks of teeth and gears that run out."""
+to be told. Of 25 pairs of `PAIRS` at the target condition 12 have one that does not: cracks of teeth and gears that
+run out."""
 SHOWN = ("fourth", "unmet")
 FAULTS = ("clipping", "dropouts", "mains_hum", "loose_sensor", "stuck", "swapped", "gain_change", "aliasing")
 
