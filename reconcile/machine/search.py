@@ -11,7 +11,7 @@ from reconcile.atlas.bank import Mapper
 from reconcile.atlas.plan import AtlasPlan, Draw
 from reconcile.judge.nulls import squared_distances
 from reconcile.judge.pooled import OneByOne
-from reconcile.judge.screen import Screen, judge
+from reconcile.judge.screen import judge
 from reconcile.judge.space import fit_space
 from reconcile.machine.assimilate import Task
 from reconcile.machine.budget import Budget
@@ -21,7 +21,7 @@ from reconcile.machine.local import LANES, first_heat, more_draws, ordered_draws
 from reconcile.machine.refine import best_draws, refined_plan
 from reconcile.machine.second import beside, looks_for_second, struck_too
 from reconcile.machine.setting import Found, Setting
-from reconcile.machine.weigh import LEAST_EVIDENCE, credible_set, merged_weights, plausible, variants
+from reconcile.machine.weigh import LEAST_EVIDENCE, credible_set, merged_weights, plausible
 from signals.series import FloatArray
 from sim.core.errors import SpecError
 
@@ -38,8 +38,6 @@ nearest draw of the right effect explains 0.2 to 0.6 in five, with a size within
 NEAREST = 2
 SECONDS = 3
 """Candidates for a second effect that are simulated with all their draws."""
-FORMS_OF = 3
-"""Of so many leading effects the other forms are simulated too."""
 FITTED_SECONDS = 2
 """Of these so many are fitted together with the machine."""
 
@@ -96,7 +94,6 @@ def located(
     if looks_for_second(found):
         others = beside(setting, found, best[0])
         best += [n for n in (others.names[:SECONDS] if others else ()) if n not in best]
-    best += other_forms(found.screen, best)
     second = second_heat(setting.plan, best, draws, first)
     if not second.draws:
         return found  # effects with one place only: the first heat had all of their draws
@@ -192,13 +189,6 @@ def simulated(setting: Setting, plan: AtlasPlan, mapper: Mapper, known: Catalogu
     return more if known is None else joined(known, more)
 
 
-def other_forms(screen: Screen, leading: Sequence[str]) -> list[str]:
-    """Forms of the first of the `leading` effects, at the same place, that are not among them: they count together, so
-    a form of which few draws are known would never be met. The elastic seat of t035 of the proof had two draws and
-    went under a clearance of the balls; with sixteen it leads by 4.5."""
-    return [n for n in screen.names if n not in leading and any(variants(n, first) for first in leading[:FORMS_OF])]
-
-
 def leaders(found: Found, budget: Budget, near: Sequence[str] = ()) -> list[str]:
     """The effects that are simulated again, the best first; those `near` the observation in the atlas among them."""
     weights = merged_weights(found.screen)
@@ -227,7 +217,6 @@ def refined(
 ) -> Found:
     """Simulate the leading candidates again near their best draws, and judge with both libraries."""
     leading = leaders(found, budget, near)
-    leading += other_forms(found.screen, leading)
     around = [(name, best_draws(found.view(name), found.known, name, setting.changes.observed)) for name in leading]
     others = beside(setting, found, leading[0]) if looks_for_second(found) else None
     if others is not None:

@@ -42,15 +42,6 @@ def test_what_may_stand_beside_the_best_is_simulated_too() -> None:
     assert ranked == list(NAMES), "each once"
 
 
-def test_other_forms_of_the_leading_effects_get_draws_too() -> None:
-    fits = ("fit_clearance@bearing1", "fit_clearance_series@bearing1", "fit_clearance_series@bearing2")
-    screen = SimpleNamespace(names=(*fits, *NAMES))
-    assert search.other_forms(screen, ["rub@gear", fits[0]]) == [fits[1]]  # type: ignore[arg-type]
-    assert search.other_forms(screen, fits[:2]) == []  # type: ignore[arg-type]
-    behind = [*NAMES[: search.FORMS_OF], fits[0]]
-    assert search.other_forms(screen, behind) == []  # type: ignore[arg-type]
-
-
 def test_single_lines_nominate_as_well_as_machines_of_the_kind() -> None:
     seen = screened(0.3, 0.0, 0.1 * EVIDENCE[::-1])
     ranked = search.with_others(screened(0.3, 0.0, 0.1 * EVIDENCE), seen)  # type: ignore[arg-type]
