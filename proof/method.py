@@ -108,6 +108,20 @@ RULES = (
         "a set carries 95 % of the weight, not 90",
         'f007 ("Fourth"): a wrong name 2.8 ahead of the right one',
     ),
+    (
+        (
+            "the collision damping of a loose fit is searched "
+            "([decision](decisions/reconcile-damping.md)); of two named effects the forecast is of both"
+        ),
+        "t034, f007 (held-out gains of 0.11 and 0.20, since 0.68 and 0.63), t026 (0.24 of one, 0.57 of both)",
+    ),
+    (
+        (
+            "lines that one sensor always heard do not hide that they have risen at another; only forms of one "
+            "effect count together, not what cannot act beside it"
+        ),
+        "o002, an outer race 40 dB out of one envelope and unknown physics; o006, f007, named as supports that stiffen",
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""
 METHOD = """# Proof: concealed cases
