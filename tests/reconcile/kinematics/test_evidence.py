@@ -9,8 +9,8 @@ import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.combs import Stretch, Train, comb_power, fitted, predicted
-from reconcile.kinematics.envelopes import envelopes
-from reconcile.kinematics.evidence import family_evidence
+from reconcile.kinematics.envelopes import Envelopes, envelopes
+from reconcile.kinematics.evidence import family_evidence, logs
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.gears import gear_evidence
 from reconcile.kinematics.judge import fisher, holm
@@ -55,6 +55,48 @@ def test_evidence_grows_with_the_defect_and_finds_the_slip() -> None:
     assert z[0] < z[1] < z[2]
     assert found.slip == pytest.approx(-0.015, abs=0.002)
     assert found.band_hz[0] < 4200 < found.band_hz[1] or found.band_hz[1] > 3000
+
+
+GEARED = read_kinematic_spec(
+    {
+        "kinematics": {
+            "shafts": [{"name": "shaft"}, {"name": "slow"}],
+            "bearings": [{"name": "b", "shaft": "shaft", "balls": 7, "diameter_ratio": 0.2647}],
+            "gears": [{"name": "p", "shaft": "shaft", "teeth": 23}, {"name": "g", "shaft": "slow", "teeth": 81}],
+            "meshes": [{"name": "m", "gears": ["p", "g"]}],
+        }
+    }
+)
+"""Nine turns of the slow shaft are the outer race of seven balls to 0.7 %."""
+
+
+def heights(lines: dict[float, float], turns: float):  # type: ignore[no-untyped-def]
+    """Envelopes of a recording of so many turns that are noise but for lines (order: power over the floor)."""
+    step = 1.0 / turns
+    excess = np.random.default_rng(0).exponential(size=(1, round(26.0 / step)))
+    for order, power in lines.items():
+        excess[0, round(order / step)] = power
+    return Envelopes(
+        channel="a0", bands_hz=np.array([[0.0, 1.0]]), order_step=step, excess=excess, depth=excess,
+        angle_rad=excess[0], kurtosis=np.zeros(1), turns=turns,
+    )  # fmt: skip
+
+
+def test_lines_at_multiples_of_a_slow_shaft_are_not_its_where_these_are_usually_empty() -> None:
+    tie = ties(GEARED)
+    slow = tie.shafts["slow"]
+    race = {k * 9 * slow: 1e3 for k in range(1, 5)}
+    first = {slow: 1e3, 3 * slow: 1e3, 23.0 + slow: 1e3, 2.0: 1e3}
+    short = heights({**race, **first}, turns=27.0)
+    values = logs(short, tie, shaft_lines=False)[0]
+    assert all(values[short.place(np.array([order]))[0]] > 5.0 for order in race)
+    assert all(values[short.place(np.array([order]))[0]] == 0.0 for order in first)
+    broken = heights({**race, **{k * slow: 1e3 for k in range(1, 91, 2)}}, turns=27.0)
+    values = logs(broken, tie, shaft_lines=False)[0]
+    assert all(values[broken.place(np.array([order]))[0]] == 0.0 for order in race), "a tooth's"
+    long = heights({**race, **first}, turns=270.0)
+    values = logs(long, tie, shaft_lines=False)[0]
+    assert all(values[long.place(np.array([order]))[0]] == 0.0 for order in race), "turns enough to tell them apart"
 
 
 def test_fisher_and_holm() -> None:
