@@ -122,6 +122,13 @@ RULES = (
         ),
         "o002, an outer race 40 dB out of one envelope and unknown physics; o006, f007, named as supports that stiffen",
     ),
+    (
+        (
+            "lines at multiples of a slow shaft are not its where these are usually empty: in 27 turns they cover half "
+            "of all orders, and the ninth of this gear is the outer race"
+        ),
+        "u003, named as a ball's pit; u011, unknown physics (5.6 and 3.6 deviations of control lines, since 19 and 10)",
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""
 METHOD = """# Proof: concealed cases
@@ -158,10 +165,11 @@ engine of that day, and is development from then on. First runs at the target co
 | l052 to l094 ("Fresh") | and nulls that the metric has not seen | 6 of 12 | 0 of 2 alarms | 3 of 3 flagged |
 | t001 to t036 (split `third`) | and phases, silence, nomination by lines | 8 of 16 | 0 of 6 alarms | 3 of 6 flagged |
 | f001 to f018 (split `fourth`) | and two effects fitted together | 2 of 6 | 0 of 2 alarms | - |
+| u001 to u018 (split `unmet`) | and the damping of a fit searched | 5 of 10 | 0 of 2 alarms | 0 of 2 flagged |
 
 Of the first six rows no summary is stored: their counts were taken down when they were run, and cannot be checked here.
-Together they name and place 32 of 89 effects (36 %, 28 to 45), most of them with engines that could less; the last
-three 16 of 34. What is stored of first runs, each case once, with the engine of its day:
+Together they name and place 37 of 99 effects (37 %, 30 to 46), most of them with engines that could less; the last
+four 21 of 44. What is stored of first runs, each case once, with the engine of its day:
 
 {together}
 
@@ -178,7 +186,8 @@ of a pair with their places. Of 25 pairs of the other splits at the target condi
 spectrum less than drift does beside the other, as cracks of teeth and gears that run out mostly do (read off once). The
 split `fourth` was planned of laws that mostly show: of its ten pairs three are named with both places, in a fourth one
 of the places is wrong, and none has a name beside the pair's. Of the three one is named by being fitted together
-(f011), two by older rules (f008, f010), which such pairs let speak. All ten are detected.
+(f011), two by older rules (f008, f010), which such pairs let speak. All ten are detected. Of the four pairs of `unmet`,
+planned likewise, two are named with both places, and all four detected.
 
 **What limits it.** Of the 16 single effects of `third` three move the spectrum less than what drifts between two
 recordings of a sound machine (two cracked teeth of 81, an imbalance of the slow gear): none of these is detected, and
@@ -187,16 +196,16 @@ place. So some 80 % of the plan's effects are there to be seen by this measure, 
 plan, not of the engine alone; what lies between 8 and 13 is the engine's. Faint severities are in the plan on purpose:
 where nothing is to be seen, nothing may be named.
 
-**Sections.** "Fourth" is the last first run, "Third" the one before, "Repeat" the same cases with the rules that came
-of it. The others need no
+**Sections.** "Unmet" is the last first run, "Fourth" and "Third" those before, "Repeat" the cases of the latter with
+the rules that came of it. The others need no
 atlas but those of the nominal machine at up to three speeds (one has an atlas of its own): of the split `later` those
 at the target condition with whose names in view nothing of the engine was chosen, and those that had been looked at;
 of `sealed` those without a baseline and one whose nominal machine is mis-set; twelve at five speeds ("Crossing"); and
 twelve at other conditions with the engine that compares phases between sensors
 ([decision](decisions/reconcile-phases.md), "Phases"). How often cases that nobody has
-met are right is what "Fourth", "Third", "Lone", "Fresh", "Further", "Crossing" and "Phases" say; "Seen", "Rerun",
-"Alone", "Again" and "Sound" are runs again. Without a baseline further eight healthy cases were run on their tests
-alone while the rule for that was made: four alarmed, and with the rule none of these four does.
+met are right is what "Unmet", "Fourth", "Third", "Lone", "Fresh", "Further", "Crossing" and "Phases" say; "Seen",
+"Rerun", "Alone", "Again" and "Sound" are runs again. Without a baseline further eight healthy cases were run on their
+tests alone while the rule for that was made: four alarmed, and with the rule none of these four does.
 
 **What the first runs taught**, in their order. Each rule was made for cases and therefore proves nothing on them:
 
