@@ -27,8 +27,8 @@ class Param:
     scale: Scale = "linear"
     choices: tuple[float, ...] = ()
     sought: tuple[float, float] | None = None
-    """Values a search for the effect covers, where what is met spans more than the default's surroundings; also where the
-    machine states one, which nobody has measured (collision damping)."""
+    """Values a search for the effect covers, where what is met spans more than the default's surroundings; also where
+    the machine states one, which nobody has measured (collision damping)."""
 
     def problem(self, value: object, field: str) -> Problem | None:
         """Return what is wrong with `value`, or None when it is allowed."""
