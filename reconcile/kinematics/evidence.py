@@ -28,7 +28,8 @@ AWAY = 0.035
 SHAFT_BINS = 2.0
 DENSE = 0.2
 """Share of the orders that a shaft's multiples cover, from which not all of them are the shaft's."""
-FIRST_MULTIPLES = 6
+FIRST_MULTIPLES, MANY_MULTIPLES = 6, 20
+"""Multiples that are the shaft's whatever stands there, and how many there must be to know what is usual at the rest."""
 USUAL, LEAST_LOG = 0.85, 1.0
 """Quantile of the heights at a shaft's multiples, and how high (log power) it may be, and a line must stand above it,
 for the line to be another part's. A broken tooth raises nearly all multiples."""
@@ -80,11 +81,11 @@ def _of_shaft(values: FloatArray, step: float, ratio: float, meshes: Sequence[fl
     """
     number = np.rint(np.arange(values.shape[1]) * step / ratio)
     near = np.abs(np.arange(values.shape[1]) * step - number * ratio) < SHAFT_BINS * step
-    if 2.0 * SHAFT_BINS * step <= DENSE * ratio:
+    count = int(number[-1]) + 1
+    if 2.0 * SHAFT_BINS * step <= DENSE * ratio or count < MANY_MULTIPLES:
         return np.asarray(np.broadcast_to(near, values.shape))
     apart = [np.abs(number - np.rint(number * ratio / mesh) * mesh / ratio) for mesh in meshes]
     known = np.minimum.reduce([number, *apart]) <= FIRST_MULTIPLES
-    count = int(number[-1]) + 1
     level = np.zeros((values.shape[0], count))
     for band, row in zip(level, values, strict=True):
         np.maximum.at(band, number[near].astype(np.int64), row[near])

@@ -97,6 +97,8 @@ def test_lines_at_multiples_of_a_slow_shaft_are_not_its_where_these_are_usually_
     long = heights({**race, **first}, turns=270.0)
     values = logs(long, tie, shaft_lines=False)[0]
     assert all(values[long.place(np.array([order]))[0]] == 0.0 for order in race), "turns enough to tell them apart"
+    few = replace(tie, shafts={"shaft": 1.0, "fast": 5.0})
+    assert np.isfinite(logs(heights(race, turns=3.0), few, shaft_lines=False)).all(), "too few multiples to tell"
 
 
 def test_fisher_and_holm() -> None:
