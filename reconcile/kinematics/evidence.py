@@ -29,7 +29,7 @@ SHAFT_BINS = 2.0
 DENSE = 0.2
 """Share of the orders that a shaft's multiples cover, from which not all of them are the shaft's."""
 FIRST_MULTIPLES, MANY_MULTIPLES = 6, 20
-"""Multiples that are the shaft's whatever stands there, and how many there must be to know what is usual at the rest."""
+"""Multiples that are the shaft's whatever stands there, and how many it takes to know what is usual at the rest."""
 USUAL, LEAST_LOG = 0.85, 1.0
 """Quantile of the heights at a shaft's multiples, and how high (log power) it may be, and a line must stand above it,
 for the line to be another part's. A broken tooth raises nearly all multiples."""
