@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor
+from concurrent.futures import Executor, wait
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -45,8 +45,7 @@ def begun(
         try:
             yield folders
         finally:
-            for job in jobs:
-                job.cancel()
+            wait([job for job in jobs if not job.cancel()])  # what runs would make its folder anew after that is gone
 
 
 @contextmanager

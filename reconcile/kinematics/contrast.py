@@ -38,10 +38,16 @@ class Contrast:
 def contrast(evidence: Evidence, test: Observation, baselines: Sequence[Observation], ties: Ties) -> Contrast:
     """Depth of the family in the test against the same channel and band of the baselines."""
     depth, own_error = _depth(test, evidence.channel, evidence.band_hz, evidence.family, ties, evidence.order)
-    rows = [
-        _depth(b, evidence.channel, evidence.band_hz, evidence.family, ties, None)
+    heard = [
+        b
         for b in baselines
         if evidence.channel in b.recording.names and evidence.band_hz[1] < b.recording.sampling_rate_hz / 2
+    ]
+    # where the baseline's own search may not look (multiples of a shaft) the test's order is asked of it too
+    rows = [
+        _depth(b, evidence.channel, evidence.band_hz, evidence.family, ties, order)
+        for b in heard
+        for order in (None, evidence.order)
     ]
     if not rows:
         return Contrast(depth=depth, before=None, growth_db=None, error_db=own_error)

@@ -29,10 +29,11 @@ SHAFT_BINS = 2.0
 DENSE = 0.2
 """Share of the orders that a shaft's multiples cover, from which not all of them are the shaft's."""
 FIRST_MULTIPLES, MANY_MULTIPLES = 6, 20
-"""Multiples that are the shaft's whatever stands there, and how many it takes to know what is usual at the rest."""
-USUAL, LEAST_LOG = 0.85, 1.0
-"""Quantile of the heights at a shaft's multiples, and how high (log power) it may be, and a line must stand above it,
-for the line to be another part's. A broken tooth raises nearly all multiples."""
+"""Multiples that are the shaft's whatever stands there, and how many further ones it takes to know what is usual."""
+USUAL, LEAST_LOG, COMB = 0.85, 1.0, 0.5
+"""Quantile of the heights at a shaft's further multiples, how high (log power) it may be, and a line must stand above
+it, for the line to be another part's. A broken tooth raises nearly all multiples; what dies out sooner, a rub, more than
+this share of the first. A race with sidebands of the shaft raises many, but not those."""
 LEAST_SPREAD = 0.7
 WIDE_BINS, LEAN_BINS = 3, 2
 """To either side of a line that is taken out: as slip smears it, and the main lobe alone."""
@@ -63,9 +64,8 @@ def logs(envelopes: Envelopes, ties: Ties, *, shaft_lines: bool) -> FloatArray:
     """Log power over noise (bands, bins), clipped; lines of the shafts taken out unless `shaft_lines`."""
     values = np.clip(np.log(np.maximum(envelopes.excess, 1e-12)) - NOISE_LOG, 0.0, LARGEST_LOG)
     if not shaft_lines:
-        every = values.copy()
-        for ratio in ties.shafts.values():
-            values[_of_shaft(every, envelopes.order_step, ratio, ties.mesh_orders)] = 0.0
+        for ratio in sorted(ties.shafts.values(), reverse=True):
+            values[_of_shaft(values, envelopes.order_step, ratio, ties.mesh_orders)] = 0.0
     values[:, : int(np.ceil(SHAFT_BINS)) + 1] = 0.0
     wide = values.copy()
     wide[:, 1:-1] = np.maximum(np.maximum(values[:, :-2], values[:, 1:-1]), values[:, 2:])
@@ -77,20 +77,24 @@ def _of_shaft(values: FloatArray, step: float, ratio: float, meshes: Sequence[fl
 
     The multiples of a slow shaft in a short recording cover half of all orders: nine turns of a gear of 81 teeth on 23
     are the outer race of seven balls to 0.7 %. There only the first multiples and those about the teeth's harmonics are
-    the shaft's whatever stands at them. A line at another is not where the shaft's multiples are usually empty.
+    the shaft's whatever stands at them. A line at another is not where the shaft's multiples are usually empty, and no
+    comb begins at the first.
     """
     number = np.rint(np.arange(values.shape[1]) * step / ratio)
     near = np.abs(np.arange(values.shape[1]) * step - number * ratio) < SHAFT_BINS * step
-    count = int(number[-1]) + 1
-    if 2.0 * SHAFT_BINS * step <= DENSE * ratio or count < MANY_MULTIPLES:
+    there, place = np.unique(number[near], return_inverse=True)
+    later = there > FIRST_MULTIPLES
+    if 2.0 * SHAFT_BINS * step <= DENSE * ratio or later.sum() < MANY_MULTIPLES:
         return np.asarray(np.broadcast_to(near, values.shape))
     apart = [np.abs(number - np.rint(number * ratio / mesh) * mesh / ratio) for mesh in meshes]
     known = np.minimum.reduce([number, *apart]) <= FIRST_MULTIPLES
-    level = np.zeros((values.shape[0], count))
+    level = np.zeros((values.shape[0], there.size))
     for band, row in zip(level, values, strict=True):
-        np.maximum.at(band, number[near].astype(np.int64), row[near])
-    usual = np.quantile(level[:, np.arange(count) > FIRST_MULTIPLES], USUAL, axis=1)[:, np.newaxis]
-    spared = (values > usual + LEAST_LOG) & (usual <= LEAST_LOG)
+        np.maximum.at(band, place, row[near])
+    usual = np.quantile(level[:, later], USUAL, axis=1)[:, np.newaxis]
+    first = level[:, ~later & (there > 0)] > LEAST_LOG
+    comb = np.sum(first, axis=1, keepdims=True) > COMB * max(first.shape[1], 1)
+    spared = (values > usual + LEAST_LOG) & (usual <= LEAST_LOG) & ~comb
     return np.asarray(near & (known | ~spared))
 
 

@@ -68,6 +68,11 @@ class Candidate:
         return float(np.median(values)) if values else None
 
     @property
+    def based(self) -> bool:
+        """Whether a baseline heard it in the same channels and bands."""
+        return all(c.growth_db is not None for c in self.contrasts)
+
+    @property
     def present(self) -> bool:
         """Whether its lines are there at all, in a sound machine or not."""
         return self.chance < LEVEL and self.z > LEAST_Z
@@ -127,14 +132,14 @@ def candidates(
     for (f, evidence), chance in zip(rows, chances, strict=True):
         first = heard(f, evidence, chance)
         elsewhere = (heard(f, e, len(rows) * fisher([one.chance for one in e])) for e in in_other_channels(first))
-        result.append(next((c for c in elsewhere if c.present and c.risen), first))
+        result.append(next((c for c in elsewhere if c.based and c.present and c.risen), first))
     return tuple(sorted(result, key=lambda c: (not (c.present and c.risen), -c.z)))
 
 
 def in_other_channels(first: Candidate) -> Iterator[tuple[Evidence, ...]]:
     """The evidence of each other channel in turn, the firmest first, where lines are present and the baseline has them
     as deep: one sensor may hear the balls of the sound bearing pass, and another, which does not, the defect."""
-    if not first.present or first.risen or first.growth_db is None:
+    if first.family.kind not in DEFECTS or not first.present or first.risen or not first.based:
         return
     every = [{e.channel: e for e in (one, *one.others)} for one in first.evidence]
     shared = set(every[0]).intersection(*every[1:])

@@ -91,9 +91,14 @@ def test_lines_at_multiples_of_a_slow_shaft_are_not_its_where_these_are_usually_
     values = logs(short, tie, shaft_lines=False)[0]
     assert all(values[short.place(np.array([order]))[0]] > 5.0 for order in race)
     assert all(values[short.place(np.array([order]))[0]] == 0.0 for order in first)
-    broken = heights({**race, **{k * slow: 1e3 for k in range(1, 91, 2)}}, turns=27.0)
-    values = logs(broken, tie, shaft_lines=False)[0]
-    assert all(values[broken.place(np.array([order]))[0]] == 0.0 for order in race), "a tooth's"
+    for last in (10, 14, 18, 24, 91):
+        broken = heights({k * slow: 1e3 for k in range(1, last + 1)}, turns=27.0)
+        values = logs(broken, tie, shaft_lines=False)[0]
+        lines = broken.place(slow * np.arange(1, last + 1))
+        assert values[lines].max() == 0.0, "a tooth's, or a rub's that dies out"
+    slowest = replace(tie, shafts={"shaft": 1.0, "slow": short.order_step / 10})
+    flat = replace(short, excess=np.full_like(short.excess, 1e3))
+    assert logs(flat, slowest, shaft_lines=False).max() == 0.0, "everything lies on a multiple, and all are high"
     long = heights({**race, **first}, turns=270.0)
     values = logs(long, tie, shaft_lines=False)[0]
     assert all(values[long.place(np.array([order]))[0]] == 0.0 for order in race), "turns enough to tell them apart"
