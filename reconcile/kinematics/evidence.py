@@ -32,8 +32,8 @@ FIRST_MULTIPLES, MANY_MULTIPLES = 6, 20
 """Multiples that are the shaft's whatever stands there, and how many further ones it takes to know what is usual."""
 USUAL, LEAST_LOG, COMB = 0.85, 1.0, 0.5
 """Quantile of the heights at a shaft's further multiples, how high (log power) it may be, and a line must stand above
-it, for the line to be another part's. A broken tooth raises nearly all multiples; what dies out sooner, a rub, more than
-this share of the first. A race with sidebands of the shaft raises many, but not those."""
+it, for the line to be another part's. A broken tooth raises nearly all multiples; what dies out sooner, a rub, more
+than this share of the first. A race with sidebands of the shaft raises many, but not those."""
 LEAST_SPREAD = 0.7
 WIDE_BINS, LEAN_BINS = 3, 2
 """To either side of a line that is taken out: as slip smears it, and the main lobe alone."""

@@ -46,6 +46,8 @@ from reconcile.verdict import (
 )
 from signals.series import FloatArray
 
+MOST_STRUCK = 2
+"""Effects that share another part's impacts and are ranked next to the name; more would push out its rivals."""
 SETS = ("explained", "ambiguous", "not_decidable")
 """Verdicts on one name or a set of them, whose places are those of the set."""
 
@@ -103,7 +105,7 @@ def answer(
     weights = of_one_part(merged_weights(found.screen), found.screen.struck)
     missing = decision.word != "nothing_missing"
     decision, other = named_pair(decision, second_effect(setting, found, decision), pairs)
-    struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names]
+    struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
     ranked = ranked_causes(found, decision, weights, observed, other, struck) if missing else ()
     causes = with_forms(ranked, found.screen)
     both = other.together if other is not None else None
