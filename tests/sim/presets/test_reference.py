@@ -123,8 +123,11 @@ def test_faults_become_terms_and_zero_changes_nothing() -> None:
         ("pitch_error", "pinion"): {"rms": 3e-6},
         **{("cage_slip", f"bearing{i}"): {"share": 0.01} for i in range(1, 5)},
     }
-    zero = machine_from_reference(NEEDED | dict.fromkeys(faults, 0.0) | {"L2": 12.0}, ROWS, GRID)
-    assert zero == machine_from_reference(NEEDED, ROWS, GRID)
+    assert {b.bore_damping_ns_per_m for b in machine.bearings} == {300.0}
+    sound = machine_from_reference(NEEDED, ROWS, GRID)
+    assert {b.bore_damping_ns_per_m for b in sound.bearings} == {2e3}, "what the page of the commands says of no cN"
+    zero = machine_from_reference(NEEDED | dict.fromkeys(faults, 0.0) | {"L2": 12.0, "cN": 2e3}, ROWS, GRID)
+    assert zero == sound
 
 
 def test_another_centre_distance_is_kept() -> None:
