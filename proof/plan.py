@@ -2,8 +2,8 @@
 
 Every second case stands at the target condition (3 sensors, 20 dB, 3 speeds, baseline); the others run through the nine
 rows of an orthogonal array of sensors x noise x speeds, so each pair of levels occurs equally often. All cases of
-the splits `third`, `fourth`, `quiet` and `unmet` stand at the target condition. Laws, sites, severities and variants
-go round in cycles of different length.
+the splits `third`, `fourth`, `quiet`, `unmet` and `next` stand at the target condition. Laws, sites, severities and
+variants go round in cycles of different length.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from proof.library import CLOSED
 from proof.nominals import NOMINALS, PAPER, Nominal
 from proof.unknown import OPEN
 
-Split = Literal["dev", "sealed", "later", "third", "fourth", "quiet", "unmet", "others"]
+Split = Literal["dev", "sealed", "later", "third", "fourth", "quiet", "unmet", "next", "others"]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
     "dev": 20_240_611,
@@ -29,6 +29,7 @@ SEEDS = {
     "fourth": 8_219_604_731,
     "quiet": 3_471_980_629,
     "unmet": 2_685_330_917,
+    "next": 4_417_902_663,
     "others": 9_036_127_745,
 }
 COUNTS = {
@@ -44,16 +45,17 @@ COUNTS = {
     "fourth": {"null": 2, "single": 6, "double": 10},
     "quiet": {"null": 40},
     "unmet": {"null": 2, "single": 10, "double": 4, "open": 2},
+    "next": {"null": 3, "single": 9, "double": 4, "open": 4},
 }  # fmt: skip
 """`later` was sealed when the cases of `sealed` that share the nominal machine's atlases had been looked at, `third`
 when those of `later` at the target condition had been; `fourth` when two effects were first fitted together;
 `quiet`, of sound machines alone, to count false alarms at the target condition; `unmet` when the collision damping of a
-fit was first searched."""
-TURNED = {"third": 40, "fourth": 60, "quiet": 80, "unmet": 100}
+fit was first searched; `next` when lines at multiples of a slow shaft and orders of no part had been."""
+TURNED = {"third": 40, "fourth": 60, "quiet": 80, "unmet": 100, "next": 124}
 """From which number on the cycles of laws, severities and variants go in a split that others have gone before."""
 EXTRA: dict[str, tuple[tuple[Group, int], ...]] = {
     "dev": (("sensor", 5), ("sensor", 6), ("sensor", 7)), "sealed": (), "later": (), "third": (), "fourth": (),
-    "quiet": (), "unmet": (),
+    "quiet": (), "unmet": (), "next": (),
 }  # fmt: skip
 """Cases behind the shuffled ones: the faults that the first five leave out."""
 SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS = (3, 1, 8), (20.0, 30.0, 10.0), (3, 1, 5)
@@ -74,10 +76,10 @@ SHOWN_PAIRS = (
     ("outer_pit", "wider_clearance"), ("loose_fit", "outer_pit"), ("inner_pit", "loose_seat"),
     ("wider_clearance", "imbalance"), ("loose_fit", "loose_seat"), ("outer_pit", "imbalance"),
 )  # fmt: skip
-"""Of the splits `fourth` and `unmet`: effects that mostly move the spectrum more than drift does, so that there are two
-to be told. Of 25 pairs of `PAIRS` at the target condition 12 have one that does not: cracks of teeth and gears that
-run out."""
-SHOWN = ("fourth", "unmet")
+"""Of the splits `fourth`, `unmet` and `next`: effects that mostly move the spectrum more than drift does, so that there
+are two to be told. Of 25 pairs of `PAIRS` at the target condition 12 have one that does not: cracks of teeth and gears
+that run out."""
+SHOWN = ("fourth", "unmet", "next")
 FAULTS = ("clipping", "dropouts", "mains_hum", "loose_sensor", "stuck", "swapped", "gain_change", "aliasing")
 
 

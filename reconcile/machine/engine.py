@@ -29,7 +29,6 @@ from reconcile.machine.gate_orders import gate_orders
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
 from reconcile.machine.octave import doubted_speed, rival_speed
-from reconcile.machine.own_time import explained_by, own_time, with_own_time
 from reconcile.machine.pairs import Pairs, best_pair, named_pair
 from reconcile.machine.search import (
     broader,
@@ -43,6 +42,7 @@ from reconcile.machine.search import (
 )
 from reconcile.machine.second import second_effect
 from reconcile.machine.setting import Found, Setting
+from reconcile.machine.strange import explained_by, strange, with_strange
 from reconcile.machine.suspected import of_the_sensor, without_suspected
 from reconcile.machine.turned import told_apart, turned_alike, with_limits
 from reconcile.machine.unknown import Unknown, unknown_force
@@ -133,7 +133,7 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = with_exchanged(report, setting, channels)
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
-    report = with_own_time(report, own_time(machine, alike, [c.name for c in channels]), machine)
+    report = with_strange(report, strange(machine, alike, [c.name for c in channels]), machine)
     return with_limits(report, apart)
 
 

@@ -15,7 +15,16 @@ from proof.unknown import OPEN
 
 @pytest.mark.parametrize(
     ("split", "least"),
-    [("dev", 60), ("sealed", 200), ("later", 90), ("third", 36), ("fourth", 18), ("quiet", 40), ("unmet", 18)],
+    [
+        ("dev", 60),
+        ("sealed", 200),
+        ("later", 90),
+        ("third", 36),
+        ("fourth", 18),
+        ("quiet", 40),
+        ("unmet", 18),
+        ("next", 20),
+    ],
 )
 def test_the_plan_is_the_same_every_time_and_as_large_as_stated(split, least):
     cases = plan(split)
@@ -94,7 +103,7 @@ def test_tables_agree():
     assert all(law in CLOSED for pair in PAIRS for law in pair)
 
 
-@pytest.mark.parametrize("split", ["dev", "sealed", "later", "third", "fourth", "quiet", "unmet"])
+@pytest.mark.parametrize("split", ["dev", "sealed", "later", "third", "fourth", "quiet", "unmet", "next"])
 def test_every_effect_fits_its_law(split):
     for case in plan(split):
         for hiding in case.effects:

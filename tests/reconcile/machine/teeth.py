@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from reconcile.observe.observation import PointData, observe
 from reconcile.observe.watch import bases_at, watch_list
 from signals.recording import Operating, Recording
+from signals.series import FloatArray
 from sim.core.response import Channel
 from sim.core.spec import MachineSpec
 
@@ -32,3 +35,39 @@ def turning(
 def seen(machine: MachineSpec, *tests: Recording, baseline: Recording | None = None) -> tuple[PointData, ...]:
     """The points of an observation."""
     return observe(machine, watch_list(machine), tests, [] if baseline is None else [baseline], seed=0)
+
+
+Modulation = Callable[[float], FloatArray]
+"""Of the teeth's lines by the speed of the drive shaft, Hz."""
+
+
+def steady(_hz: float) -> FloatArray:
+    """None."""
+    return np.zeros(TIME.size)
+
+
+def at_hz(frequency_hz: float, depth: float = 0.05) -> Modulation:
+    """At one frequency whatever the speed."""
+    return lambda _hz: depth * np.cos(2 * np.pi * frequency_hz * TIME)
+
+
+def at_order(order: float, depth: float = 0.2) -> Modulation:
+    """So many times a turn of the drive shaft."""
+    return lambda hz: depth * np.cos(2 * np.pi * order * hz * TIME)
+
+
+def at_many(hz: float) -> FloatArray:
+    """A forest: many frequencies, others at every speed."""
+    rng = np.random.default_rng(round(hz))
+    return sum((0.05 * np.cos(2 * np.pi * f * TIME) for f in rng.uniform(10, 250, 60)), np.zeros(TIME.size))
+
+
+def modulated(machine: MachineSpec, hz: float, seed: int, modulation: Modulation, hum: float = 0.0) -> Recording:
+    """Teeth whose lines are modulated, and hum of 100 Hz that is added."""
+    rng = np.random.default_rng(seed)
+    mesh = bases_at(machine, hz)["f_m"]
+    teeth = sum(np.sin(2 * np.pi * mesh * k * TIME + k) / k for k in range(1, 7))
+    samples = np.array([[1.0], [0.4]]) * teeth * (1 + modulation(hz)) + 0.05 * rng.normal(size=(2, TIME.size))
+    samples += hum * np.cos(2 * np.pi * 100 * TIME)
+    operating = Operating(shaft="input", speed_hz=hz, torque_nm=25.0)
+    return Recording(sampling_rate_hz=RATE_HZ, channels=CHANNELS, samples=samples, operating=operating)

@@ -1,0 +1,118 @@
+"""Sidebands of the teeth's lines at any distance: how far they have risen above the floor since the baseline.
+
+What modulates the meshing, whatever it is, stands at the same distance on both sides of every harmonic of the teeth and
+on every sensor; the mean over all of these shows what no single line does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.observe.extract import USABLE, hann_spectrum
+from reconcile.observe.observation import PointData
+from reconcile.observe.steady import Steady
+from reconcile.observe.watch import watch_list
+from reconcile.speed.excess import power_over_floor
+from reconcile.verdict import LineChange
+from signals.series import FloatArray
+from sim.core.spec import MachineSpec
+
+APART = 1.03
+"""Ratio of two speeds from which on an order has moved."""
+HARMONICS = 3
+"""Of the teeth."""
+HIGHEST_SHARE = 0.45
+"""Of the teeth's frequency: beyond, it is nearer to the next harmonic."""
+LEAST_LEVEL_DB, MOST_LEVEL_DB = 5.0, 35.0
+"""Above the local floor: what chance reaches, and more proves no more."""
+TOLD_DB = 3.0
+"""Of a line that is listed."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Teeth:
+    """Lines of the watch list: first harmonics of the teeth, and of the shafts."""
+
+    meshes: tuple[int, ...]
+    shafts: tuple[int, ...]
+
+
+def teeth_of(machine: MachineSpec) -> Teeth:
+    """Numbers of the first harmonics in the machine's watch list."""
+    watched = watch_list(machine).lines
+    first = [(k, line.family) for k, line in enumerate(watched) if set(line.orders.values()) == {1.0}]
+    return Teeth(
+        meshes=tuple(k for k, family in first if family == "mesh"),
+        shafts=tuple(k for k, family in first if family == "shaft"),
+    )
+
+
+def in_reach(data: Sequence[PointData], first: Sequence[int], widest_hz: Sequence[float]) -> list[tuple[int, int]]:
+    """Harmonics of the teeth (line, order) whose sidebands, up to `widest_hz` of each operating point, are below the
+    band's end in all its recordings."""
+
+    def reached(mesh: int, order: int) -> bool:
+        return all(
+            one is not None
+            and order * one.speed_hz / d.point.speed_hz * float(d.lines_hz[mesh]) + widest <= USABLE * one.rate_hz
+            for d, widest in zip(data, widest_hz, strict=True)
+            for one in d.spectra
+        )
+
+    return [(mesh, order) for mesh in first for order in range(1, HARMONICS + 1) if reached(mesh, order)]
+
+
+def rise(one: PointData, reached: Sequence[tuple[int, int]], distances_hz: FloatArray) -> FloatArray:
+    """(sidebands, C, distances): level of each sideband above the floor in the test less that in the baseline, dB."""
+    test, baseline = one.spectra
+    assert baseline is not None
+    return _levels(test, one, reached, distances_hz) - _levels(baseline, one, reached, distances_hz)
+
+
+def rise_by_order(one: PointData, reached: Sequence[tuple[int, int]], orders: FloatArray) -> FloatArray:
+    """The same at distances that are multiples of the drive shaft's speed, in each recording its own."""
+    test, baseline = one.spectra
+    assert baseline is not None
+    return _levels(test, one, reached, orders * test.speed_hz) - _levels(
+        baseline, one, reached, orders * baseline.speed_hz
+    )
+
+
+def _levels(one: Steady, point: PointData, reached: Sequence[tuple[int, int]], distances_hz: FloatArray) -> FloatArray:
+    _, power, bin_hz = hann_spectrum(one.samples, one.rate_hz)
+    above = 10.0 * np.log10(np.maximum(np.stack([power_over_floor(row) for row in power]), 1e-3))
+    above = np.clip(above, LEAST_LEVEL_DB, MOST_LEVEL_DB)
+    above = np.max(np.stack([np.roll(above, k, axis=1) for k in (-1, 0, 1)]), axis=0)
+    scale = one.speed_hz / point.point.speed_hz
+    found = []
+    for mesh, order in reached:
+        middle = order * scale * float(point.lines_hz[mesh])
+        found += [above[:, np.rint((middle + side * distances_hz) / bin_hz).astype(int)] for side in (-1.0, 1.0)]
+    return np.stack(found)
+
+
+def risen_lines(
+    one: PointData, mesh: int, rises: FloatArray, hz: float, told: str, locked: str, channels: Sequence[str]
+) -> list[LineChange]:
+    """The sidebands of the teeth's first harmonic at one operating point (`rises` (sidebands, C)) that rose, each on
+    the channel where it did most; `told` is the distance in words."""
+    found = []
+    for row, sign in ((0, -1.0), (1, 1.0)):
+        channel = int(np.argmax(rises[row]))
+        if rises[row, channel] < TOLD_DB:
+            continue
+        found.append(
+            LineChange(
+                label=f"teeth {'+' if sign > 0 else '-'} {told}",
+                frequency_hz=float(one.lines_hz[mesh] + sign * hz),
+                change_db=float(rises[row, channel]),
+                channel=channels[channel],
+                locked_to=locked,
+                speed_hz=one.point.speed_hz,
+                torque_ratio=one.point.torque_ratio,
+            )
+        )
+    return found

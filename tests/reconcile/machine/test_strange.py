@@ -1,0 +1,93 @@
+"""What modulates the teeth and is of no known part is the answer where nothing sure speaks for another one."""
+
+from __future__ import annotations
+
+import pytest
+
+from reconcile.machine.own_order import OwnOrder
+from reconcile.machine.own_time import OwnTime
+from reconcile.machine.strange import explained_by, with_strange
+from reconcile.report.action import to_do
+from reconcile.verdict import Cause, HeldOut, Report, SensorFault, Where, Word
+from sim.core.spec import MachineSpec
+from sim.presets import preset
+
+
+@pytest.fixture(scope="module")
+def machine() -> MachineSpec:
+    return preset("paper-lightly-damped")
+
+
+SEEN = OwnTime(hz=100.1, rise_db=5.0, elsewhere_db=0.3)
+
+
+def said(verdict: Word, score: float = 5.0, fault: SensorFault | None = None) -> Report:
+    causes = (Cause(term="outer_spall", site="bearing1", score=score, named=verdict == "explained"),)
+    held = HeldOut(
+        metric="m",
+        unit="dB",
+        before=2.0,
+        after=1.0,
+        gain=0.5,
+        gain_low=0.4,
+        gain_high=0.6,
+        retuned=None,
+        black_box=None,
+        placebo=None,
+    )
+    return Report(
+        verdict=verdict, sentence="so.", level="machine", causes=causes, fault=fault, where=Where(), held_out=held
+    )
+
+
+HUM, LOOSE = SensorFault(kind="mains_hum", channel="a"), SensorFault(kind="loose_sensor", channel="a")
+
+
+@pytest.mark.parametrize(
+    ("report", "answers"),
+    [
+        (said("nothing_missing"), True),
+        (said("not_decidable"), True),
+        (said("unknown_physics"), True),
+        (said("ambiguous"), True),
+        (said("ambiguous", score=30.0), False),
+        (said("explained"), False),
+        (said("measurement_fault", fault=HUM), True),
+        (said("measurement_fault", fault=LOOSE), False),
+    ],
+)
+def test_it_is_the_answer_where_nothing_sure_speaks_for_another(
+    machine: MachineSpec, report: Report, answers: bool
+) -> None:
+    found = with_strange(report, SEEN, machine)
+    assert found.stages[-1]["name"] == "own time"
+    if answers:
+        assert found.verdict == "unknown_physics"
+        assert "100.1 Hz at every speed" in found.sentence
+        assert "supply of 50 Hz" in found.sentence
+        assert found.where.sites[0].site == "input"
+        assert sum(site.weight for site in found.where.sites) == pytest.approx(1.0)
+        assert not any(cause.named for cause in found.causes)
+        assert found.fault is None
+        assert found.held_out is None, "no gain of an effect that is not the answer"
+        assert "drive off" in to_do(found)
+        assert to_do(found).startswith("look at input first")
+    else:
+        assert (found.verdict, found.sentence, found.fault) == (report.verdict, report.sentence, report.fault)
+        assert "100.1 Hz" in found.where.limits[-1]
+    assert with_strange(report, None, machine) is report
+
+
+TURNS = OwnOrder(order=0.788, shaft="input", rise_db=5.0, elsewhere_db=0.2, speeds=(2, 3))
+
+
+def test_an_order_of_no_part_is_said_with_its_shaft(machine: MachineSpec) -> None:
+    found = with_strange(said("nothing_missing"), TURNS, machine)
+    assert found.verdict == "unknown_physics"
+    assert "0.788 times a turn of input at 2 of 3 speeds" in found.sentence
+    assert "no part of its specification turns so" in found.sentence
+    assert "belt" in to_do(found)
+    assert found.stages[-1]["order"] == 0.788
+    assert explained_by(found) == (), "no drive's hum"
+    hum = with_strange(said("measurement_fault", fault=HUM), TURNS, machine)
+    assert (hum.verdict, hum.fault) == ("measurement_fault", HUM)
