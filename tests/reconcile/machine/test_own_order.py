@@ -102,4 +102,4 @@ def test_most_low_orders_are_some_parts(machine: MachineSpec) -> None:
     assert 0.2 < free.mean() < 0.7
     for order in (0.5, 1.0, 2.07, 1.02 * OUTER, 0.98 * OUTER * SLOW, OUTER - 1.0):
         assert not free[int(np.argmin(np.abs(grid - order)))], order
-    assert free[int(np.argmin(np.abs(grid - 1.37)))]
+    assert free[int(np.argmin(np.abs(grid - 1.9)))]
