@@ -39,7 +39,18 @@ class Problem:
 
 
 class SidebandError(Exception):
-    """Base of every error a caller of Sideband can act on."""
+    """Base of every error a caller of Sideband can act on; the same after it came from another process."""
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _again, (type(self), self.args, self.__dict__)
+
+
+def _again(kind: type[SidebandError], args: tuple[object, ...], state: dict[str, object]) -> SidebandError:
+    """An error as it was, without asking its constructor: that takes what the message was made of."""
+    error = kind.__new__(kind)
+    error.args = args
+    error.__dict__.update(state)
+    return error
 
 
 class SpecError(SidebandError, ValueError):
