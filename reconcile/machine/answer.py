@@ -27,7 +27,7 @@ from reconcile.machine.stages import all_stages, gate_stage, of_pairs, revisions
 from reconcile.machine.unknown import Unknown, at_supports
 from reconcile.machine.weigh import merged_weights, of_one_part, of_the_set
 from reconcile.machine.window import angle_window
-from reconcile.machine.words import law_sentence, next_experiment, sentence, size, title, with_points
+from reconcile.machine.words import law_sentence, more, next_experiment, sentence, size, title, with_points
 from reconcile.observe.features import Layout
 from reconcile.observe.watch import WatchList, watch_list
 from reconcile.origin import origin
@@ -116,7 +116,10 @@ def answer(
     before = decision
     decision, causes = proved(decision, causes, found, revision)
     other, held = (other, held) if decision is before else (None, None)
+    unsettled = _unsettled(setting, found, decision, other, pairs)
     word, text, fault = _told(setting, decision, gate, causes, held, other, unknown)
+    if word == "explained":
+        text += more(*unsettled)
     lead = _lead(found, decision)
     named = [f"{c.term}@{c.site}" for c in causes if c.named]
     shown = of_the_set(weights, decision.chosen) if decision.word in SETS else weights
@@ -134,7 +137,7 @@ def answer(
         causes=causes,
         fault=fault,
         held_out=held,
-        undecidable=_undecidable(setting, found, decision, other, pairs),
+        undecidable=_undecidable(decision, *unsettled),
         next_experiment=_next(setting, decision, lead),
         force=unknown.force if unknown is not None else None,
         machine=_machine(revision, unknown, decision),
@@ -167,16 +170,22 @@ def _fitted(
     return fitted_change(found, decision.chosen[0], setting.changes.observed) if decision.chosen else None
 
 
-def _undecidable(
+def _unsettled(
     setting: Setting, found: Found, decision: Decision, other: Beside | None, pairs: Pairs | None
-) -> tuple[str, ...]:
+) -> tuple[str, tuple[str, ...]]:
+    """What stands beside a named effect without a name of its own: how it shows, and the effects it may be."""
+    if decision.word != "explained":
+        return "", ()
+    pair = pairs.best if pairs is not None else None
+    if other is None and pair is not None and pair.others:
+        return "a second effect stands beside it", pair.others
+    return "impacts come from another part too", struck_somewhere(setting, found, decision)
+
+
+def _undecidable(decision: Decision, shows: str, others: tuple[str, ...]) -> tuple[str, ...]:
     if decision.word in ("ambiguous", "not_decidable"):
         return tuple(decision.reasons)
-    pair = pairs.best if pairs is not None else None
-    if decision.word == "explained" and other is None and pair is not None and pair.others:
-        return (f"a second effect stands beside it, one of these: {', '.join(pair.others)}",)
-    others = struck_somewhere(setting, found, decision)
-    return (f"impacts come from another part too, which these share: {', '.join(others)}",) if others else ()
+    return (f"{shows}, one of these: {', '.join(others)}",) if others else ()
 
 
 def _told(

@@ -12,6 +12,9 @@ from reconcile.report.markup import figure_text
 from reconcile.verdict import EstimatedForce, HeldOut, NextExperiment, Severity, operating_point
 from sim.terms import REGISTRY
 
+LISTED = 4
+"""Effects that a sentence lists."""
+
 
 def title(label: str) -> str:
     """`Outer-race spall at bearing1`."""
@@ -42,6 +45,16 @@ def law_sentence(force: EstimatedForce, *, tried: bool) -> str:
     return f"A force at {force.site} brings it about: {force.law}."
 
 
+def more(shows: str, others: Sequence[str]) -> str:
+    """` Impacts come from another part too: outer-race spall at bearing3, or outer-race spall at bearing4.`, or
+    nothing where there are none."""
+    if not others:
+        return ""
+    listed = ", or ".join(title(one).lower() for one in others[:LISTED])
+    rest = "" if len(others) <= LISTED else f", or one of {len(others) - LISTED} more"
+    return f" {shows[0].upper()}{shows[1:]}: {listed}{rest}."
+
+
 def _chance(p: float) -> str:
     return "< 0.001" if p < 0.001 else f"= {p:.2g}"
 
@@ -62,9 +75,9 @@ def sentence(decision: Decision, severity: Severity | None, held: HeldOut | None
     if decision.reasons[0] == NO_NEARER:
         best = title(decision.chosen[0]).lower()
         return f"The change is unusual (p {_chance(decision.p)}), but {NO_NEARER} ({best}): nothing is named."
-    listed = ", or ".join(title(c).lower() for c in decision.chosen[:4])
-    more = "" if len(decision.chosen) <= 4 else f" and {len(decision.chosen) - 4} more"
-    return f"Something is missing (p {_chance(decision.p)}), but {decision.reasons[0]}: {listed}{more}."
+    listed = ", or ".join(title(c).lower() for c in decision.chosen[:LISTED])
+    rest = "" if len(decision.chosen) <= LISTED else f" and {len(decision.chosen) - LISTED} more"
+    return f"Something is missing (p {_chance(decision.p)}), but {decision.reasons[0]}: {listed}{rest}."
 
 
 def next_experiment(chosen: Sequence[str], lead: float, points: int, sensors: Sequence[str]) -> NextExperiment | None:
