@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ mpl.use("Agg")
 import matplotlib.pyplot as plt
 
 from proof.method import FIRST_RUNS, METHOD, RULES, SECTIONS
+from proof.others import cases_of
 from proof.plan import COUNTS, FIRST, OTHERS
 from proof.score.one import Score
 from proof.score.rates import MEASURES, Rate, at_target, rate
@@ -91,12 +93,13 @@ def _split(section: str, summary: Mapping[str, Any], results: Path) -> str:
     rows = ["| target (at the target condition) | reached |", "|---|---|"]
     rows += [f"| {sentence} | {_rate(summary, 'target', group, measure)} |" for group, measure, sentence in TARGETS]
     rows += [*cut_rows(scores), *wrong_rows([s for s in scores if at_target(s)])]
+    planned = Counter(case.group for case in cases_of(split))
     wide = ["| group | cases run | verdict right | mechanism | place |", "|---|---|---|---|---|"]
     for group, title in TITLES.items():
-        row, planned = summary["groups"]["all"].get(group), COUNTS[split].get(group, 0)
-        if row is not None or planned:
+        row = summary["groups"]["all"].get(group)
+        if row is not None or planned[group]:
             cells = [_rate(summary, "all", group, m) for m in ("verdict_right", "mechanism", "place")]
-            wide.append(f"| {title} | {row['alarm']['n'] if row else 0} of {planned} | {' | '.join(cells)} |")
+            wide.append(f"| {title} | {row['alarm']['n'] if row else 0} of {planned[group]} | {' | '.join(cells)} |")
     error, gain = summary["severity_error"], summary["gain"]
     seen = stored(results / f"visible-{split}.json")
     listed = [f"* {line}{told(seen.get(line.split()[0]))}" for line in failures(scores)] or ["* none"]

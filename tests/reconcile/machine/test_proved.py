@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.machine.decide import Decision
-from reconcile.machine.proved import NO_NEARER, proved
+from reconcile.machine.proved import BEYOND_DOUBT, FORM_UNMET, NO_NEARER, proved
 from reconcile.machine.words import sentence
 from reconcile.verdict import Cause, Word
 
@@ -22,8 +22,8 @@ def decided(word: Word = "explained") -> Decision:
     return Decision(word=word, chosen=NAMES[:1], p=6.6e-5, reasons=())
 
 
-def found(struck: float, evidence: float = 10.0) -> SimpleNamespace:
-    screen = SimpleNamespace(names=NAMES, direct=np.array([struck, 0.0]), evidence=np.array([evidence, 0.0]))
+def found(struck: float, evidence: float = 10.0, second: float = 0.0) -> SimpleNamespace:
+    screen = SimpleNamespace(names=NAMES, direct=np.array([struck, 0.0]), evidence=np.array([evidence, second]))
     return SimpleNamespace(screen=screen)
 
 
@@ -45,6 +45,16 @@ def test_so_is_a_set_whose_best_hardly_stands_out() -> None:
     assert decision.word == "not_decidable" and decision.reasons == (NO_NEARER,)
     struck = found(12.0, 3.7)
     assert proved(decided("ambiguous"), CAUSES, struck, machine)[0].word == "ambiguous"  # type: ignore[arg-type]
+
+
+def test_a_name_beyond_doubt_stays_and_says_that_its_form_is_not_met() -> None:
+    machine = revised(2.85, 3.45)
+    decision, causes = proved(decided(), CAUSES, found(0.0, BEYOND_DOUBT + 1), machine)  # type: ignore[arg-type]
+    assert decision == decided()
+    assert causes[0].named and causes[0].reasons == (FORM_UNMET,)
+    assert causes[1:] == CAUSES[1:]
+    near = found(0.0, BEYOND_DOUBT + 1, second=BEYOND_DOUBT - 2)
+    assert proved(decided(), CAUSES, near, machine)[0].word == "not_decidable"  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
