@@ -179,7 +179,9 @@ def _unsettled(
     pair = pairs.best if pairs is not None else None
     if other is None and pair is not None and pair.others:
         return "a second effect stands beside it", pair.others
-    return "impacts come from another part too", struck_somewhere(setting, found, decision)
+    struck = struck_somewhere(setting, found, decision)
+    told = other is not None and other.names[0] in struck
+    return "impacts come from another part too", () if told else struck
 
 
 def _undecidable(decision: Decision, shows: str, others: tuple[str, ...]) -> tuple[str, ...]:

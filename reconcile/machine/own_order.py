@@ -12,12 +12,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reconcile.kinematics.families import Family, Kind, Ties, ties
+from reconcile.kinematics.families import Ties, ties
 from reconcile.kinematics.spec import of_machine
-from reconcile.machine.sidebands import APART, HIGHEST_SHARE, in_reach, rise_by_order, risen_lines, teeth_of
+from reconcile.machine.part_orders import Lines, of_a_part, of_no_part
+from reconcile.machine.sidebands import (
+    APART,
+    HIGHEST_SHARE,
+    LEAST_LEVEL_DB,
+    in_reach,
+    levels_by_order,
+    risen_lines,
+    teeth_of,
+)
 from reconcile.observe.observation import PointData
-from reconcile.verdict import LineChange, NextExperiment
-from signals.series import BoolArray, FloatArray
+from reconcile.verdict import LineChange, NextExperiment, PlaceWeight
+from signals.series import FloatArray
 from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
 
@@ -25,21 +34,18 @@ HIGHEST_ORDER, STEP = 3.0, 0.01
 LOWEST, LOWEST_BINS = 0.4, 10
 """Nearer to the teeth's lines, in turns and bins of the spectrum, there is what is left of the speed's wander: up to 8
 dB in sound machines of the proof, from here on 0.8."""
-NEAR, NEAR_BINS, NEAR_SHAFT = 0.04, 1.0, 2.0
-"""Distance from a part's order up to which a line may be that order's, in turns and bins at least, so many times as
-much from a shaft's, whose lines may stand far out (an unbalance's second left 3.8 dB beside it),"""
-MORE_SLIP = 1.5
-"""and times the slip of balls."""
-WATCHED: Mapping[Kind, int] = {"outer": 2, "inner": 1, "ball": 1, "cage": 1}
-"""Harmonics of a bearing's parts whose neighbourhood is theirs, with sidebands of its shaft: in sound machines of the
-proof the outer race's two move by up to 7.7 dB between baseline and test."""
-SHAFT_MULTIPLES = 3
-"""Of a shaft slower than the drive's: what is there of higher ones in sound machines moves by up to 2.9 dB, but at one
-speed of three only."""
+NEAR, NEAR_BINS = 0.04, 1.0
+"""Distance from a part's order up to which a line may be that order's, in turns and bins at least;"""
+CENTRED, CENTRED_BINS = 0.02, 0.5
+"""and the distance up to which its centre is, once it has been found."""
 LEAST_DB, AHEAD = 3.0, 2.0
-"""Mean rise at the speed where it is largest but one, and over that at orders that have nothing to do with it. Of 24
+"""Mean rise at the speed where it is largest but one, and over that at orders that have nothing to do with it. Of 43
 sound machines of the proof the largest is 1.4 dB; of two pits 3.1 and 7.5 dB, with as much at many other orders."""
-SEPARATE = 0.1
+MOST_BEFORE_DB = 2.0
+"""Mean level in the baselines, above what chance reaches, up to which a line is new: what turned before and is not in
+the specification either may turn harder now without being what is missing."""
+SEPARATE, LEAK_BINS = 0.1, 3.0
+"""Distance of two lines, in turns and bins at least: a strong one is as wide at its foot."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +65,7 @@ class OwnOrder:
     beside = "the order of no part of this machine's specification"
     would_tell = NextExperiment(
         sentence="Look for what turns or strikes at this order and is not in the specification - a belt, a coupling, a "
-        "pump, another bearing - or take it off and record again."
+        "pump, another bearing, a converter's supply - or take it off and record again."
     )
     electric = False
 
@@ -79,90 +85,135 @@ class OwnOrder:
             "elsewhere_db": self.elsewhere_db,
         }  # fmt: skip
 
+    def sites(self, machine: MachineSpec) -> tuple[PlaceWeight, ...]:
+        """All shafts alike, the driven one first: the teeth say that it turns with them, not beside which."""
+        shafts = sorted((s.name for s in machine.shafts), key=lambda name: name != self.shaft)
+        return tuple(PlaceWeight(site=name, weight=1.0 / len(shafts)) for name in shafts)
+
 
 def own_order(machine: MachineSpec, data: Sequence[PointData], channels: Sequence[str]) -> OwnOrder | None:
-    """None where nothing of the kind stands out, at one speed, and without baselines."""
-    speeds = [d.point.speed_hz for d in data]
-    if max(speeds) < APART * min(speeds) or any(d.spectra[1] is None for d in data) or machine.operating is None:
-        return None
-    try:
-        tie = ties(of_machine(machine), machine.operating.shaft)
-    except SpecError:  # shafts whose speeds nothing ties together
-        return None
-    if len(tie.races) < len(machine.bearings):  # the balls of a bearing that nobody measured turn at any order
+    """None where nothing of the kind stands out, at one speed, without baselines or teeth, and where the sizes of a
+    bearing are missing."""
+    speeds = [d.spectra[0].speed_hz for d in data]
+    groups = _apart(speeds)
+    tie = _known(machine)
+    if tie is None or len(groups) < 2 or any(d.spectra[1] is None for d in data):
         return None
     bin_order = max(1.0 / (one.samples.shape[1] / one.rate_hz * one.speed_hz) for d in data for one in d.spectra if one)
     highest = min(HIGHEST_ORDER, HIGHEST_SHARE * min(tie.mesh_orders, default=0.0))
     grid = np.arange(max(LOWEST, LOWEST_BINS * bin_order), highest, STEP)
     meshes = teeth_of(machine).meshes
     reached = in_reach(data, meshes, [highest * speed for speed in speeds]) if grid.size > 1 else []
-    free = of_no_part(grid, tie, max(NEAR, NEAR_BINS * bin_order))
-    if not reached or not free.any():
+    if not reached:
         return None
-    rises = np.stack([rise_by_order(d, reached, grid) for d in data])
+    both = [levels_by_order(d, reached, grid) for d in data]
+    rises = np.stack([test - baseline for test, baseline in both])
     mean = rises.mean(axis=(1, 2))
-    every = _second(mean, speeds)
-    second = np.where(free, every, 0.0)
-    best = int(np.argmax(second))
-    order = _middle(grid, every, best)
-    elsewhere = float(second[_unrelated(grid, order)].max(initial=0.0))
-    if second[best] < max(LEAST_DB, AHEAD * elsewhere):
+    seen = _Seen(grid=grid, every=_second(mean, groups), bin_order=bin_order, tie=tie)
+    order = seen.stranger()
+    if order is None:
         return None
-    risen = [k for k in range(len(data)) if mean[k, best] >= 0.5 * second[best]]
+    best = int(np.argmin(np.abs(grid - order)))
+    before = np.mean([baseline[..., best].mean() for _, baseline in both]) - LEAST_LEVEL_DB
+    if before > MOST_BEFORE_DB:
+        return None
+    rise_db = float(seen.every[best])
+    risen = [k for k in range(len(data)) if mean[k, best] >= 0.5 * rise_db]
     lines = [
         line
         for k in risen
         for line in risen_lines(
-            data[k], reached[0][0], rises[k, ..., best], order * speeds[k], f"{order:.3g}*{tie.reference}", "", channels
+            data[k],
+            reached[0][0],
+            rises[k, ..., best],
+            order * data[k].point.speed_hz,
+            f"{order:.3g}*{tie.reference}",
+            "",
+            channels,
         )
     ]
     return OwnOrder(
-        order=order, shaft=tie.reference, rise_db=float(second[best]), elsewhere_db=elsewhere,
-        speeds=(len({speeds[k] for k in risen}), len(set(speeds))), lines=tuple(lines),
+        order=order, shaft=tie.reference, rise_db=rise_db, elsewhere_db=seen.elsewhere(order),
+        speeds=(sum(any(k in risen for k in group) for group in groups), len(groups)), lines=tuple(lines),
     )  # fmt: skip
 
 
-def _second(mean: FloatArray, speeds: Sequence[float]) -> FloatArray:
-    """(orders,): the largest rise but one of distinct speeds, dB."""
-    each = np.stack([np.max(mean[[k for k, s in enumerate(speeds) if s == speed]], axis=0) for speed in set(speeds)])
+def _known(machine: MachineSpec) -> Ties | None:
+    """Orders of all parts; None where shafts are not tied, and where the balls of a bearing may turn at any order."""
+    if machine.operating is None:
+        return None
+    try:
+        tie = ties(of_machine(machine), machine.operating.shaft)
+    except SpecError:
+        return None
+    return tie if len(tie.races) == len(machine.bearings) else None
+
+
+def _apart(speeds: Sequence[float]) -> list[list[int]]:
+    """Numbers of the operating points, those of about one speed together: at one an order cannot be told from Hz."""
+    groups: list[list[int]] = []
+    for k in sorted(range(len(speeds)), key=lambda k: speeds[k]):
+        if groups and speeds[k] < APART * speeds[groups[-1][0]]:
+            groups[-1].append(k)
+        else:
+            groups.append([k])
+    return groups
+
+
+def _second(mean: FloatArray, groups: Sequence[Sequence[int]]) -> FloatArray:
+    """(orders,): the largest rise but one of speeds apart, dB."""
+    each = np.stack([mean[list(group)].max(axis=0) for group in groups])
     return np.asarray(np.sort(each, axis=0)[-2])
 
 
-def _middle(grid: FloatArray, second: FloatArray, best: int) -> float:
-    """Centre of what stands out around the best: its flank may be all that lies clear of a part's order."""
-    near = (np.abs(grid - grid[best]) <= 0.5 * SEPARATE) & (second > 0.5 * second[best])
-    return float(np.average(grid[near], weights=second[near]))
+@dataclass(frozen=True, kw_only=True)
+class _Seen:
+    """`every` (orders,): what has risen at two speeds, dB, at the orders `grid`."""
 
+    grid: FloatArray
+    every: FloatArray
+    bin_order: float
+    tie: Ties
 
-def of_no_part(grid: FloatArray, tie: Ties, near: float) -> BoolArray:
-    """Mask of the orders that lie `near` none of a part's, with the slip of balls."""
-    free = np.ones(grid.size, dtype=bool)
+    def stranger(self) -> float | None:
+        """The order of no part at which most has risen, None where there is none."""
+        free = of_no_part(self.grid, self.tie, max(NEAR, NEAR_BINS * self.bin_order))
+        left = np.where(free, self.every, 0.0)
+        while left.max(initial=0.0) >= LEAST_DB:
+            best = int(np.argmax(left))
+            order = self._middle(best)
+            if not self._of_a_part(order):
+                return order if self.every[best] >= AHEAD * self.elsewhere(order) else None
+            left[np.abs(self.grid - self.grid[best]) <= self._width] = 0.0  # a part's line, with what it leaks
+        return None
 
-    def taken(order: float, reach: float) -> None:
-        free[np.abs(grid - abs(order)) <= reach] = False
+    def elsewhere(self, order: float) -> float:
+        """The largest rise at an order of no part that is no low multiple and no fraction of this one, dB."""
+        away = of_no_part(self.grid, self.tie, max(NEAR, NEAR_BINS * self.bin_order))
+        for multiple in (1 / 3, 0.5, 1.0, 2.0, 3.0):
+            away &= np.abs(self.grid - multiple * order) > self._width
+        return float(self.every[away].max(initial=0.0))
 
-    for ratio in tie.shafts.values():
-        multiples = SHAFT_MULTIPLES if ratio < 1.0 else int(grid[-1] / ratio) + 1
-        for k in range(1, multiples + 1):
-            taken(k * ratio, NEAR_SHAFT * near)
-        taken(0.5 * ratio, near)
-    for family in (f for f in tie.families if f.kind in WATCHED):
-        turn = _turn(family, tie)
-        for k in range(1, WATCHED[family.kind] + 1):
-            for j in (-1, 0, 1) if family.kind == "outer" else (0,):
-                taken(k * family.order + j * turn, near + MORE_SLIP * family.slip * k * family.order)
-    return free
+    @property
+    def _width(self) -> float:
+        return max(SEPARATE, LEAK_BINS * self.bin_order)
 
+    def _middle(self, best: int) -> float:
+        """Centre of the line that stands out around `best`: its flank may be all that lies clear of a part's order."""
+        near = np.abs(self.grid - self.grid[best]) <= self._width
+        top = int(np.argmax(np.where(near, self.every, -np.inf)))
+        line = (np.abs(self.grid - self.grid[top]) <= 0.5 * self._width) & (self.every > 0.5 * self.every[top])
+        return float(np.average(self.grid[line], weights=self.every[line]))
 
-def _turn(family: Family, tie: Ties) -> float:
-    """Speed of a bearing's shaft over the reference's: the spacing of its inner race's sidebands."""
-    inner = next((f for f in tie.families if f.site == family.site and f.kind == "inner"), None)
-    return inner.spacing if inner is not None else 1.0
+    def _of_a_part(self, order: float) -> bool:
+        near = max(CENTRED, CENTRED_BINS * self.bin_order)
+        beyond = np.abs(self.grid - order) > self._width
 
+        def risen(lines: Lines) -> bool:
+            """Whether at one of these orders, each with its slip, as much has risen as a stranger must."""
+            there = np.zeros(self.grid.size, dtype=bool)
+            for at, slip in lines:
+                there |= np.abs(self.grid - at) <= CENTRED + slip
+            return bool(self.every[there & beyond].max(initial=0.0) >= LEAST_DB)
 
-def _unrelated(grid: FloatArray, order: float) -> BoolArray:
-    """Mask of the orders that are neither low multiples nor parts of this one."""
-    away = np.ones(grid.size, dtype=bool)
-    for multiple in (1 / 3, 0.5, 1.0, 2.0, 3.0):
-        away &= np.abs(grid - multiple * order) > SEPARATE
-    return away
+        return of_a_part(order, near, self.tie, float(self.grid[-1]), risen)

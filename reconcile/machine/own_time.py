@@ -16,7 +16,7 @@ from reconcile.kinematics.families import Family, ties
 from reconcile.kinematics.spec import of_machine
 from reconcile.machine.sidebands import APART, HIGHEST_SHARE, in_reach, rise, risen_lines, teeth_of
 from reconcile.observe.observation import PointData
-from reconcile.verdict import LineChange, NextExperiment
+from reconcile.verdict import LineChange, NextExperiment, PlaceWeight
 from signals.series import FloatArray
 from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
@@ -71,6 +71,15 @@ class OwnTime:
     def stage(self) -> Mapping[str, object]:
         """For the report."""
         return {"name": "own time", "hz": self.hz, "rise_db": self.rise_db, "elsewhere_db": self.elsewhere_db}
+
+    def sites(self, machine: MachineSpec) -> tuple[PlaceWeight, ...]:
+        """The driven shaft, by which a drive acts, before the gears, at which something may pull."""
+        shaft = machine.operating.shaft if machine.operating is not None else machine.shafts[0].name
+        share = 0.5 / max(1, len(machine.gears))
+        return (
+            PlaceWeight(site=shaft, weight=0.5),
+            *(PlaceWeight(site=gear.name, weight=share) for gear in machine.gears),
+        )
 
 
 def own_time(machine: MachineSpec, data: Sequence[PointData], channels: Sequence[str]) -> OwnTime | None:

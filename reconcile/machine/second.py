@@ -176,7 +176,7 @@ def struck_somewhere(setting: Setting, found: Found, decision: Decision) -> tupl
     parts = struck_parts(setting, found, decision.chosen[0])
     further = [p for p in parts if not set(p) & set(struck.names)]
     if _outweighs(struck):
-        return tuple(name for part in further for name in part)
+        return tuple(further[0]) if further else ()
     return tuple(n for n, e in zip(struck.names, struck.evidence, strict=True) if e > struck.evidence[0] - STRUCK)
 
 

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.ndimage import maximum_filter1d
 
 from reconcile.observe.extract import USABLE, hann_spectrum
 from reconcile.observe.observation import PointData
@@ -72,12 +73,16 @@ def rise(one: PointData, reached: Sequence[tuple[int, int]], distances_hz: Float
     return _levels(test, one, reached, distances_hz) - _levels(baseline, one, reached, distances_hz)
 
 
-def rise_by_order(one: PointData, reached: Sequence[tuple[int, int]], orders: FloatArray) -> FloatArray:
-    """The same at distances that are multiples of the drive shaft's speed, in each recording its own."""
+def levels_by_order(
+    one: PointData, reached: Sequence[tuple[int, int]], orders: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """(sidebands, C, orders) of the test and of the baseline: level above the floor, dB, at distances that are
+    multiples of the drive shaft's speed, in each recording its own."""
     test, baseline = one.spectra
     assert baseline is not None
-    return _levels(test, one, reached, orders * test.speed_hz) - _levels(
-        baseline, one, reached, orders * baseline.speed_hz
+    return (
+        _levels(test, one, reached, orders * test.speed_hz),
+        _levels(baseline, one, reached, orders * baseline.speed_hz),
     )
 
 
@@ -85,7 +90,11 @@ def _levels(one: Steady, point: PointData, reached: Sequence[tuple[int, int]], d
     _, power, bin_hz = hann_spectrum(one.samples, one.rate_hz)
     above = 10.0 * np.log10(np.maximum(np.stack([power_over_floor(row) for row in power]), 1e-3))
     above = np.clip(above, LEAST_LEVEL_DB, MOST_LEVEL_DB)
-    above = np.max(np.stack([np.roll(above, k, axis=1) for k in (-1, 0, 1)]), axis=0)
+    steps = np.diff(distances_hz)
+    reach = (
+        max(1, int(np.ceil(0.5 * float(steps.min()) / bin_hz))) if steps.size else 1
+    )  # no line between two distances
+    above = maximum_filter1d(above, 2 * reach + 1, axis=1, mode="wrap")
     scale = one.speed_hz / point.point.speed_hz
     found = []
     for mesh, order in reached:

@@ -14,7 +14,7 @@ from reconcile.verdict import LineChange, NextExperiment, PlaceWeight, Report
 from sim.core.spec import MachineSpec
 
 TELLS_LITTLE = 10.0
-"""Evidence of the best effect below which a set of effects says less than this does."""
+"""Evidence of the best effect below which a set of effects, or one that is not decided, says less than this does."""
 ELECTRIC: tuple[Kind, ...] = ("mains_hum", "fixed_tones")
 
 
@@ -45,6 +45,9 @@ class Strange(Protocol):
     def would_tell(self) -> NextExperiment:
         """What would decide."""
 
+    def sites(self, machine: MachineSpec) -> tuple[PlaceWeight, ...]:
+        """Where to look first."""
+
     @property
     def electric(self) -> bool:
         """Whether a drive may do it, so that hum in the recording is the machine's own."""
@@ -66,14 +69,13 @@ def with_strange(report: Report, seen: Strange | None, machine: MachineSpec) -> 
     if seen is None:
         return report
     electric = seen.electric and report.fault is not None and report.fault.kind in ELECTRIC
-    weak = report.verdict == "ambiguous" and max((c.score for c in report.causes), default=0.0) < TELLS_LITTLE
     lines = (*seen.lines, *report.where.lines)
     report = replace(report, stages=(*report.stages, seen.stage))
-    if not (report.verdict in ("nothing_missing", "not_decidable", "unknown_physics") or electric or weak):
+    if not (_open(report) or electric):
         limits = (*report.where.limits, f"beside this, {seen.text}: {seen.beside}")
         return replace(report, where=replace(report.where, lines=lines, limits=limits))
     sentence = f"Something is missing that no known effect explains: {seen.text}. {seen.follows}"
-    where = replace(report.where, lines=lines, sites=_sites(machine))
+    where = replace(report.where, lines=lines, sites=seen.sites(machine))
     causes = tuple(replace(cause, named=False) for cause in report.causes)
     return replace(
         report, verdict="unknown_physics", sentence=sentence, where=where, causes=causes, fault=None, undecidable=(),
@@ -81,11 +83,9 @@ def with_strange(report: Report, seen: Strange | None, machine: MachineSpec) -> 
     )  # fmt: skip
 
 
-def _sites(machine: MachineSpec) -> tuple[PlaceWeight, ...]:
-    """The driven shaft, by which a drive acts, before the gears, at which something may pull."""
-    shaft = machine.operating.shaft if machine.operating is not None else machine.shafts[0].name
-    share = 0.5 / max(1, len(machine.gears))
-    return (
-        PlaceWeight(site=shaft, weight=0.5),
-        *(PlaceWeight(site=gear.name, weight=share) for gear in machine.gears),
-    )
+def _open(report: Report) -> bool:
+    """Whether nothing sure is said: no effect that stands out, and no law that brings the change about."""
+    if report.verdict == "unknown_physics":
+        return report.force is None or report.force.law is None
+    weak = max((c.score for c in report.causes), default=0.0) < TELLS_LITTLE
+    return report.verdict == "nothing_missing" or (report.verdict in ("ambiguous", "not_decidable") and weak)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from types import SimpleNamespace
 
 import numpy as np
 
+from reconcile.atlas.plan import Point
 from reconcile.observe.observation import PointData, observe
 from reconcile.observe.watch import bases_at, watch_list
 from signals.recording import Operating, Recording
@@ -71,3 +73,30 @@ def modulated(machine: MachineSpec, hz: float, seed: int, modulation: Modulation
     samples += hum * np.cos(2 * np.pi * 100 * TIME)
     operating = Operating(shaft="input", speed_hz=hz, torque_nm=25.0)
     return Recording(sampling_rate_hz=RATE_HZ, channels=CHANNELS, samples=samples, operating=operating)
+
+
+def points_of(
+    machine: MachineSpec,
+    now: Modulation,
+    before: Modulation | None = steady,
+    speeds_hz: Sequence[float] = (22.5, 30.0, 39.0),
+    *,
+    seconds: float = SECONDS,
+    torque_ratios: Sequence[float] = (),
+) -> tuple[PointData, ...]:
+    """Operating points with the two recordings of each alone, at speeds that are known: what is told of sidebands
+    needs no features."""
+    shown = round(seconds * RATE_HZ)
+    rows = []
+    for k, hz in enumerate(speeds_hz):
+        pair = [None if m is None else modulated(machine, hz, seed + k, m) for seed, m in ((10, now), (0, before))]
+        spectra = [
+            None if r is None else SimpleNamespace(samples=r.samples[:, :shown], rate_hz=RATE_HZ, speed_hz=hz)
+            for r in pair
+        ]
+        ratio = torque_ratios[k] if torque_ratios else 1.0
+        lines = watch_list(machine).line_hz(bases_at(machine, hz))
+        rows.append(
+            SimpleNamespace(point=Point(speed_hz=hz, torque_ratio=ratio), lines_hz=lines, spectra=tuple(spectra))
+        )
+    return tuple(rows)  # type: ignore[arg-type]

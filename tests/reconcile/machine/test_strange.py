@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from reconcile.machine.own_order import OwnOrder
 from reconcile.machine.own_time import OwnTime
 from reconcile.machine.strange import explained_by, with_strange
 from reconcile.report.action import to_do
-from reconcile.verdict import Cause, HeldOut, Report, SensorFault, Where, Word
+from reconcile.verdict import Cause, EstimatedForce, HeldOut, Report, SensorFault, Where, Word
 from sim.core.spec import MachineSpec
 from sim.presets import preset
 
@@ -40,6 +42,7 @@ def said(verdict: Word, score: float = 5.0, fault: SensorFault | None = None) ->
     )
 
 
+LAW = EstimatedForce(site="bearing3", samples={}, law="1e9 N/m^3 * z^3 on both axes")
 HUM, LOOSE = SensorFault(kind="mains_hum", channel="a"), SensorFault(kind="loose_sensor", channel="a")
 
 
@@ -48,6 +51,8 @@ HUM, LOOSE = SensorFault(kind="mains_hum", channel="a"), SensorFault(kind="loose
     [
         (said("nothing_missing"), True),
         (said("not_decidable"), True),
+        (said("not_decidable", score=30.0), False),
+        (replace(said("unknown_physics"), force=LAW), False),
         (said("unknown_physics"), True),
         (said("ambiguous"), True),
         (said("ambiguous", score=30.0), False),
