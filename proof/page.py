@@ -93,7 +93,7 @@ def _split(section: str, summary: Mapping[str, Any], results: Path) -> str:
     rows = ["| target (at the target condition) | reached |", "|---|---|"]
     rows += [f"| {sentence} | {_rate(summary, 'target', group, measure)} |" for group, measure, sentence in TARGETS]
     rows += [*cut_rows(scores), *wrong_rows([s for s in scores if at_target(s)])]
-    planned = Counter(case.group for case in cases_of(split))
+    planned: Counter[str] = Counter(case.group for case in cases_of(split))
     wide = ["| group | cases run | verdict right | mechanism | place |", "|---|---|---|---|---|"]
     for group, title in TITLES.items():
         row = summary["groups"]["all"].get(group)
