@@ -223,8 +223,8 @@ of `sealed` those without a baseline and one whose nominal machine is mis-set; t
 twelve at other conditions with the engine that compares phases between sensors
 ([decision](decisions/reconcile-phases.md), "Phases"). How often cases that nobody has
 met are right is what "Next", "Others", "Unmet", "Fourth", "Third", "Lone", "Fresh", "Further", "Crossing" and "Phases"
-say; "Seen", "Rerun", "Alone", "Again" and "Sound" are runs again. Without a baseline further eight healthy cases were run on their
-tests alone while the rule for that was made: four alarmed, and with the rule none of these four does.
+say; "Seen", "Rerun", "Alone", "Again" and "Sound" are runs again. Without a baseline further eight healthy cases were
+run on their tests alone while the rule for that was made: four alarmed, and with the rule none of these four does.
 
 **What the first runs taught**, in their order. Each rule was made for cases and therefore proves nothing on them:
 
