@@ -83,13 +83,15 @@ def points_of(
     *,
     seconds: float = SECONDS,
     torque_ratios: Sequence[float] = (),
+    hum: float = 0.0,
 ) -> tuple[PointData, ...]:
     """Operating points with the two recordings of each alone, at speeds that are known: what is told of sidebands
     needs no features."""
     shown = round(seconds * RATE_HZ)
     rows = []
     for k, hz in enumerate(speeds_hz):
-        pair = [None if m is None else modulated(machine, hz, seed + k, m) for seed, m in ((10, now), (0, before))]
+        test = modulated(machine, hz, 10 + k, now, hum)
+        pair = [test, None if before is None else modulated(machine, hz, k, before)]
         spectra = [
             None if r is None else SimpleNamespace(samples=r.samples[:, :shown], rate_hz=RATE_HZ, speed_hz=hz)
             for r in pair

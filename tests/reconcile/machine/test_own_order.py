@@ -24,6 +24,7 @@ from tests.reconcile.machine.teeth import (
     steady,
 )
 
+pytestmark = pytest.mark.slow
 NAMES = [c.name for c in CHANNELS]
 SPEEDS_HZ = (22.5, 30.0, 39.0)
 OUTER, SLOW = 2.57355, 23 / 81
@@ -66,7 +67,6 @@ def test_an_order_of_its_own_is_found(machine: MachineSpec, order: float) -> Non
     assert [(s.site, s.weight) for s in seen.sites(machine)] == [("input", 0.5), ("output", 0.5)]
 
 
-@pytest.mark.slow
 def test_it_is_found_in_recordings_that_were_observed(machine: MachineSpec) -> None:
     now = at_order(1.9, 0.1)
     tests = [modulated(machine, hz, 10 + k, now) for k, hz in enumerate(SPEEDS_HZ)]
@@ -90,7 +90,6 @@ def test_two_points_of_about_one_speed_are_one(machine: MachineSpec) -> None:
     assert told(machine, at_order(1.9, 0.1), speeds_hz=(22.5, 30.0, 30.2)).speeds == (2, 2)  # type: ignore[union-attr]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("seconds", [1.2, 2.0])
 @pytest.mark.parametrize("slip", [0.98, 1.0, 1.02])
 def test_what_a_part_modulates_with_is_none_nor_is_what_its_line_leaks(

@@ -12,8 +12,19 @@ from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
 from sim.core.spec import MachineSpec
 from sim.presets import preset
-from tests.reconcile.machine.teeth import CHANNELS, RATE_HZ, Modulation, at_hz, at_many, at_order, modulated, steady
+from tests.reconcile.machine.teeth import (
+    CHANNELS,
+    RATE_HZ,
+    Modulation,
+    at_hz,
+    at_many,
+    at_order,
+    modulated,
+    points_of,
+    steady,
+)
 
+pytestmark = pytest.mark.slow
 NAMES = [c.name for c in CHANNELS]
 SPEEDS_HZ = (22.5, 30.0)
 
@@ -30,12 +41,16 @@ def told(
     speeds_hz: Sequence[float] = SPEEDS_HZ,
     hum: float = 0.0,
 ) -> OwnTime | None:
-    tests = [modulated(machine, hz, 10 + k, now, hum) for k, hz in enumerate(speeds_hz)]
-    baselines = [] if before is None else [modulated(machine, hz, k, before) for k, hz in enumerate(speeds_hz)]
-    return own_time(machine, observe(machine, watch_list(machine), tests, baselines, seed=0), NAMES)
+    return own_time(machine, points_of(machine, now, before, speeds_hz, hum=hum), NAMES)
 
 
-@pytest.mark.slow
+def test_it_is_found_in_recordings_that_were_observed(machine: MachineSpec) -> None:
+    tests = [modulated(machine, hz, 10 + k, at_hz(100.0)) for k, hz in enumerate(SPEEDS_HZ)]
+    baselines = [modulated(machine, hz, k, steady) for k, hz in enumerate(SPEEDS_HZ)]
+    seen = own_time(machine, observe(machine, watch_list(machine), tests, baselines, seed=0), NAMES)
+    assert seen is not None and seen.hz == pytest.approx(100.0, abs=0.7)
+
+
 @pytest.mark.parametrize(("hz", "supply_hz"), [(100.0, 50.0), (60.0, 60.0), (37.0, None)])
 def test_a_frequency_of_its_own_is_found(machine: MachineSpec, hz: float, supply_hz: float | None) -> None:
     speeds_hz = (22.5, 31.0)
@@ -53,7 +68,6 @@ def test_a_frequency_of_its_own_is_found(machine: MachineSpec, hz: float, supply
         assert below.change_db > 6
 
 
-@pytest.mark.slow
 def test_what_turns_with_a_shaft_is_none(machine: MachineSpec) -> None:
     assert told(machine, steady) is None
     # 90 Hz is the fourth order at one speed and the third at the other
@@ -64,7 +78,6 @@ def test_what_turns_with_a_shaft_is_none(machine: MachineSpec) -> None:
     assert told(machine, at_hz(60.0)) is None, "the second order of one of two speeds"
 
 
-@pytest.mark.slow
 def test_what_a_bearing_modulates_with_is_none(machine: MachineSpec) -> None:
     """At 20 Hz its third line is where the second is at 30 Hz."""
     outer, slipped = 2.57355, 0.983
@@ -73,20 +86,17 @@ def test_what_a_bearing_modulates_with_is_none(machine: MachineSpec) -> None:
     assert told(machine, at_hz(150.0), speeds_hz=(21.7, 31.7)) is not None
 
 
-@pytest.mark.slow
 def test_harmonics_that_not_all_speeds_reach_are_left_out(machine: MachineSpec) -> None:
     fast = RATE_HZ * USABLE / (2.5 * 23)
     seen = told(machine, at_hz(100.0), speeds_hz=(22.5, fast))
     assert seen is not None and seen.hz == pytest.approx(100.0, abs=0.7)
 
 
-@pytest.mark.slow
 def test_hum_that_was_added_and_what_the_baseline_has_are_none(machine: MachineSpec) -> None:
     assert told(machine, steady, hum=0.5) is None
     assert told(machine, at_hz(100.0), at_hz(100.0)) is None
 
 
-@pytest.mark.slow
 def test_one_speed_or_no_baseline_say_nothing(machine: MachineSpec) -> None:
     assert told(machine, at_hz(100.0), speeds_hz=(30.0,)) is None
     assert told(machine, at_hz(100.0), None) is None
