@@ -22,6 +22,8 @@ TITLES = {
     "revised machine": "the revised machine, simulated",
     "validate": "tested on what was not fitted",
     "adequacy": "is anything left",
+    "own time": "what keeps its own time",
+    "own order": "what turns at an order of no part",
 }
 WORDS = {
     "findings": "",
@@ -55,6 +57,8 @@ WORDS = {
     "simulated_forms": "forms simulated",
     "level_change_db": "levels changed by, dB",
     "left_of_it_db": "left of it, dB",
+    "rise_db": "sidebands of the teeth risen over the baseline by, dB",
+    "elsewhere_db": "most at any other distance, dB",
     "heard": "deviations by channel",
     "z": "deviations of control orders",
     "band_hz": "band, Hz",
