@@ -81,7 +81,7 @@ class OwnOrder:
     def stage(self) -> Mapping[str, object]:
         """For the report."""
         return {
-            "name": "own order", "order": self.order, "shaft": self.shaft, "rise_db": self.rise_db,
+            "name": "own order", "turns": self.order, "shaft": self.shaft, "rise_db": self.rise_db,
             "elsewhere_db": self.elsewhere_db,
         }  # fmt: skip
 

@@ -64,7 +64,7 @@ WORDS = {
     "present": "is there",
     "risen": "has risen",
     "hz": "distance from the teeth's lines at every speed, Hz",
-    "order": "distance from the teeth's lines, turns",
+    "turns": "distance from the teeth's lines, turns",
     "shaft": "of shaft",
     "rise_db": "risen by, dB",
     "elsewhere_db": "most at any other distance, dB",

@@ -92,7 +92,7 @@ def test_an_order_of_no_part_is_said_with_its_shaft(machine: MachineSpec) -> Non
     assert "0.788 times a turn of input at 2 of 3 speeds" in found.sentence
     assert "no part of its specification turns so" in found.sentence
     assert "belt" in to_do(found)
-    assert found.stages[-1]["order"] == 0.788
+    assert found.stages[-1]["turns"] == 0.788
     assert explained_by(found) == (), "no drive's hum"
     hum = with_strange(said("measurement_fault", fault=HUM), TURNS, machine)
     assert (hum.verdict, hum.fault) == ("measurement_fault", HUM)
