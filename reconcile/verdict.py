@@ -60,6 +60,12 @@ class Where:
     angle_window: AngleWindow | None = None
     limits: tuple[str, ...] = ()
 
+    @property
+    def likeliest(self) -> tuple[str, ...]:
+        """The site of the largest weight, or all that share it; empty where no place is told."""
+        most = max((s.weight for s in self.sites), default=0.0)
+        return tuple(s.site for s in self.sites if s.weight >= most * (1.0 - 1e-9))
+
 
 @dataclass(frozen=True, kw_only=True)
 class Severity:

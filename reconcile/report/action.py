@@ -38,7 +38,7 @@ def undecided(report: Report) -> tuple[list[str], list[str]]:
 
 
 def _place(report: Report) -> str:
-    return max(report.where.sites, key=lambda s: s.weight).site if report.where.sites else ""
+    return " or ".join(report.where.likeliest)
 
 
 def _nothing(report: Report) -> str:

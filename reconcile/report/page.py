@@ -58,7 +58,8 @@ def _spectra(report: Report) -> Markup:
     if not drawn:
         return Markup("")
     reference = "the baseline, or the model where there is none"
-    if report.verdict == "nothing_missing":  # nothing is added to the reference
+    if report.verdict == "nothing_missing" or all(p.get("after_db") == p.get("before_db") for p in drawn):
+        # nothing is added to the reference
         bare = [{k: v for k, v in p.items() if k != "after_db"} for p in drawn]
         return section("Spectra", _key(reference, None), spectra(bare, report.where.lines))
     return section("Spectra", _key(f"without it: {reference}"), spectra(drawn, report.where.lines))

@@ -78,6 +78,8 @@ def _place(report: Report, best: PlaceWeight) -> Markup:
     if report.verdict == "not_decidable":
         return _tile(best.site, f"leads with {percent(best.weight)} of the evidence; the place is not decided")
     kinds, sites = undecided(report)
+    if report.verdict == "unknown_physics" and len(report.where.likeliest) > 1:
+        return _tile(" or ".join(report.where.likeliest[:MOST_PLACES]), "places that nothing tells apart")
     if report.verdict != "ambiguous" or not sites:
         return _tile(best.site, f"most likely place, {percent(best.weight)} of the evidence")
     if len(sites) > 1:

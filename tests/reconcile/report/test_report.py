@@ -153,6 +153,21 @@ def test_where_nothing_is_missing_no_curve_is_drawn_with_it() -> None:
     assert "curve after" in named and "without it: the baseline" in named
 
 
+def test_nor_is_one_where_the_answer_brings_nothing_to_the_spectra() -> None:
+    full = full_report()
+    bare = [{**p, "after_db": p["before_db"]} for p in full.pictures["spectra"]]  # type: ignore[attr-defined]
+    drawn = page(replace(full, verdict="unknown_physics", pictures={**full.pictures, "spectra": bare}))
+    spectra = drawn[drawn.index("<h2>Spectra</h2>") :].split("</section>")[0]
+    assert "curve before" in spectra and "curve after" not in spectra and "with it" not in spectra
+
+
+def test_places_that_nothing_tells_apart_are_all_said() -> None:
+    sites = tuple(PlaceWeight(site=name, weight=0.5) for name in ("input", "output"))
+    drawn = page(replace(full_report(), verdict="unknown_physics", where=Where(sites=sites)))
+    assert "<b>input or output</b>" in drawn and "most likely place" not in drawn
+    assert "look at input or output first" in drawn
+
+
 def test_a_report_without_anything_still_makes_a_page() -> None:
     parser = Balanced()
     parser.feed(page(Report(verdict="not_decidable", sentence="Too short.", level="kinematics")))
