@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from reconcile.machine.answer import _doubtful, _machine, _told
+from reconcile.machine.answer import _doubtful, _machine, _told, _undecidable, _unsettled
 from reconcile.machine.decide import Decision
 from reconcile.machine.pairs import Pairs
 from reconcile.machine.second import Beside
@@ -73,3 +73,24 @@ def test_what_was_tried_beside_the_first_is_told() -> None:
     (stage,) = of_pairs(Pairs(first="unbalance@pinion", tried=tried))
     assert stage["adds"] == ["rub@gear: 9.0 by sums, 12.5 simulated", "backlash@mesh1: 4.2 by sums"]
     assert of_pairs(Pairs(first="unbalance@pinion", tried=())) == of_pairs(None) == ()
+
+
+PLACES = ("outer_spall@bearing3", "outer_spall@bearing4")
+
+
+def test_what_stands_beside_a_name_is_told_unless_it_has_a_name_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("reconcile.machine.answer.struck_somewhere", lambda *_: PLACES)
+    named = Decision(word="explained", chosen=("unbalance@pinion",), p=1e-6, reasons=())
+
+    def beside(decision: Decision = named, other: str | None = None, pair: tuple[str, ...] = ()) -> tuple[str, ...]:
+        second = None if other is None else SimpleNamespace(names=(other,))
+        pairs = SimpleNamespace(best=SimpleNamespace(others=pair)) if pair else None
+        return _unsettled(None, None, decision, second, pairs)[1]  # type: ignore[arg-type]
+
+    assert beside() == PLACES
+    assert beside(other=PLACES[1]) == ()
+    assert beside(pair=("unbalance@gear", "eccentricity@gear")) == ("unbalance@gear", "eccentricity@gear")
+    assert beside(replace(named, word="ambiguous")) == ()
+    said = _undecidable(named, "impacts come from another part too", PLACES)
+    assert said == (f"impacts come from another part too, one of these: {', '.join(PLACES)}",)
+    assert _undecidable(replace(named, reasons=()), "", ()) == ()
