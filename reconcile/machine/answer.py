@@ -27,7 +27,7 @@ from reconcile.machine.stages import all_stages, gate_stage, of_pairs, revisions
 from reconcile.machine.unknown import Unknown, at_supports
 from reconcile.machine.weigh import merged_weights, of_one_part, of_the_set
 from reconcile.machine.window import angle_window
-from reconcile.machine.words import law_sentence, more, next_experiment, sentence, size, title, with_points
+from reconcile.machine.words import law_sentence, more, next_experiment, sentence, size, title, together, with_points
 from reconcile.observe.features import Layout
 from reconcile.observe.watch import WatchList, watch_list
 from reconcile.origin import origin
@@ -208,7 +208,7 @@ def _told(
     if other is not None:
         text = f"{text} Beside it: {title(other.names[0])}{size(causes[1].severity)}."
     if both and held is not None:
-        text = f"{text} Together they take {held.gain:.0%} off the distance of spectra on data not fitted."
+        text = f"{text} {together(held)}"
     if gate.fault is None or word not in ("nothing_missing", "not_decidable") or _doubtful(gate, setting, word):
         return word, text, None
     # a fault that is sure goes before a rest of which nothing can be told

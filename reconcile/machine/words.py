@@ -55,6 +55,19 @@ def more(shows: str, others: Sequence[str]) -> str:
     return f" {shows[0].upper()}{shows[1:]}: {listed}{rest}."
 
 
+def together(held: HeldOut) -> str:
+    """What two effects do."""
+    if held.gain <= 0.0:
+        return "Together they bring the spectra no nearer on data not fitted."
+    return f"Together they take {held.gain:.0%} off the distance of spectra on data not fitted."
+
+
+def _gain(held: HeldOut) -> str:
+    if held.gain <= 0.0:
+        return "; on data it was not fitted to it brings the spectra no nearer"
+    return f"; it takes {held.gain:.0%} off the distance of spectra on data it was not fitted to"
+
+
 def _chance(p: float) -> str:
     return "< 0.001" if p < 0.001 else f"= {p:.2g}"
 
@@ -64,11 +77,7 @@ def sentence(decision: Decision, severity: Severity | None, held: HeldOut | None
     if decision.word == "nothing_missing":
         return f"Nothing is missing: {decision.reasons[0]}."
     if decision.word == "explained":
-        gain = (
-            ""
-            if held is None
-            else f"; it takes {held.gain:.0%} off the distance of spectra on data it was not fitted to"
-        )
+        gain = "" if held is None else _gain(held)
         return f"{title(decision.chosen[0])}{size(severity)}{gain}."
     if decision.word == "unknown_physics":
         return f"Something is missing that no known effect explains: {decision.reasons[0]}."

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from reconcile.machine.words import LISTED, more
+import pytest
+
+from reconcile.machine.decide import Decision
+from reconcile.machine.words import LISTED, more, sentence, together
+from reconcile.verdict import HeldOut
 
 
 def test_places_that_share_impacts_are_listed() -> None:
@@ -19,3 +23,20 @@ def test_a_long_list_ends_with_how_many_there_are_more() -> None:
 
 def test_nothing_is_said_of_nothing() -> None:
     assert more("impacts come from another part too", ()) == ""
+
+
+@pytest.mark.parametrize(
+    ("gain", "one", "two"),
+    [
+        (0.42, "it takes 42% off the distance", "Together they take 42% off"),
+        (-0.14, "it brings the spectra no nearer", "Together they bring the spectra no nearer"),
+    ],
+)
+def test_a_loss_is_not_told_as_a_negative_gain(gain: float, one: str, two: str) -> None:
+    held = HeldOut(
+        metric="m", unit="dB", before=2.0, after=2.0 * (1 - gain), gain=gain, gain_low=gain, gain_high=gain,
+        retuned=None, black_box=None, placebo=None,
+    )  # fmt: skip
+    named = Decision(word="explained", chosen=("unbalance@pinion",), p=1e-6, reasons=())
+    assert one in sentence(named, None, held)
+    assert two in together(held)
