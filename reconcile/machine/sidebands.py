@@ -90,10 +90,8 @@ def _levels(one: Steady, point: PointData, reached: Sequence[tuple[int, int]], d
     _, power, bin_hz = hann_spectrum(one.samples, one.rate_hz)
     above = 10.0 * np.log10(np.maximum(np.stack([power_over_floor(row) for row in power]), 1e-3))
     above = np.clip(above, LEAST_LEVEL_DB, MOST_LEVEL_DB)
-    steps = np.diff(distances_hz)
-    reach = (
-        max(1, int(np.ceil(0.5 * float(steps.min()) / bin_hz))) if steps.size else 1
-    )  # no line between two distances
+    half_step_hz = 0.5 * float(np.diff(distances_hz).min(initial=np.inf))
+    reach = max(1, int(np.ceil(half_step_hz / bin_hz))) if np.isfinite(half_step_hz) else 1  # no line is between two
     above = maximum_filter1d(above, 2 * reach + 1, axis=1, mode="wrap")
     scale = one.speed_hz / point.point.speed_hz
     found = []
