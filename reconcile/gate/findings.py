@@ -26,6 +26,7 @@ Kind = Literal[
     "loose_sensor",
     "too_short",
     "speed_mismatch",
+    "noiseless",
 ]
 FAULTS: tuple[Kind, ...] = (
     "not_finite",

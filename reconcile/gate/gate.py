@@ -13,6 +13,7 @@ from reconcile.gate.filtered import below_the_corner, filter_findings
 from reconcile.gate.findings import Finding, Gate, worst
 from reconcile.gate.levels import pairs
 from reconcile.gate.mains import hum_findings, without_hum
+from reconcile.gate.noiseless import with_floor
 from reconcile.gate.samples import repaired, sample_findings
 from reconcile.gate.timing import length_findings, speed_findings, tacho_findings
 from reconcile.gate.tones import tone_findings
@@ -67,7 +68,8 @@ def inspect_measurement(
         return Gate(
             findings=shown, baselines=tuple(clean[:cut]), tests=tuple(clean[cut:]), fault=worst(shown), usable=False
         )
-    return _analysed(clean, labels, len(baselines), found, orders, mesh_orders, lowest_order, seed)
+    clean, bare = with_floor(clean, labels, seed)
+    return _analysed(clean, labels, len(baselines), [*found, *bare], orders, mesh_orders, lowest_order, seed)
 
 
 def _analysed(

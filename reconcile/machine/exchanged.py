@@ -19,6 +19,13 @@ SURE = 6.0
 QUIET = ("nothing_missing", "measurement_fault")
 
 
+def _changed(report: Report) -> set[str]:
+    """Places where the answer stands: a ring that lost its hold no longer passes on what each ball that rolls by does
+    to a sound bearing, and those lines are gone without an exchange."""
+    named = {c.site for c in report.causes if c.named}
+    return named if report.verdict == "explained" else named | set(report.where.likeliest)
+
+
 def with_exchanged(report: Report, setting: Setting, channels: Sequence[Channel]) -> Report:
     """The report, which says so after its sentence; where nothing is missing no one looks."""
     pairs = [d for d in setting.data if d.spectra[1] is not None]
@@ -39,7 +46,7 @@ def with_exchanged(report: Report, setting: Setting, channels: Sequence[Channel]
     ]
     seen = candidates(rested, now, tie, setting.seed)
     deep = next((c for c in seen if c.family.kind in DEFECTS and c.present and c.risen and c.z > SURE), None)
-    if deep is None:
+    if deep is None or deep.family.site in _changed(report):
         return report
     text = f"the baseline has lines of {deep.family.key} that the tests have not; exchanged, or a part replaced"
     where = replace(report.where, limits=(*report.where.limits, text))

@@ -12,16 +12,22 @@ from reconcile.machine.exchanged import with_exchanged
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
 from reconcile.report.action import to_do
-from reconcile.verdict import Report, Word
+from reconcile.verdict import Cause, Report, Word
 from sim.core.spec import MachineSpec
 from sim.presets import preset
 from tests.reconcile.machine.test_direct import CHANNELS, SPEED_HZ, recording, sound, struck
 
 
-def told(machine: MachineSpec, now: np.ndarray, before: np.ndarray, verdict: Word = "unknown_physics") -> Report:
+def told(
+    machine: MachineSpec,
+    now: np.ndarray,
+    before: np.ndarray,
+    verdict: Word = "unknown_physics",
+    causes: tuple[Cause, ...] = (),
+) -> Report:
     data = observe(machine, watch_list(machine), [recording(now)], [recording(before)])
     setting = SimpleNamespace(machine=machine, data=data, direct=NOTHING, seed=0)
-    report = Report(verdict=verdict, sentence="Something is missing.", level="machine")
+    report = Report(verdict=verdict, sentence="Something is missing.", level="machine", causes=causes)
     return with_exchanged(report, setting, CHANNELS)  # type: ignore[arg-type]
 
 
@@ -35,3 +41,13 @@ def test_an_exchange_is_told_with_what_to_do() -> None:
     assert "exchanged" not in told(machine, hit, sound(1)).sentence
     assert "exchanged" not in told(machine, sound(1), sound(3)).sentence
     assert "exchanged" not in told(machine, sound(1), hit, "nothing_missing").sentence
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("site", "said"), [("bearing1", False), ("bearing2", True)])
+def test_a_named_place_explains_that_its_own_lines_are_gone(site: str, said: bool) -> None:
+    machine = preset("paper-lightly-damped")
+    hit = sound(2) + struck(bases_at(machine, SPEED_HZ)["f_o1"])
+    loose = Cause(term="fit_clearance", site=site, severity=None, score=20.0, named=True)
+    report = told(machine, sound(1), hit, "explained", (loose,))
+    assert ("exchanged" in report.sentence) is said
