@@ -32,7 +32,11 @@ class Whitening:
 
     def __call__(self, changes: FloatArray) -> FloatArray:
         """(..., F) in dB -> (..., F), zero where nothing is known."""
-        return np.asarray(np.nan_to_num(changes) / self.sigma)
+        return np.asarray(np.where(np.isfinite(changes), changes, 0.0) / self.sigma)
+
+    def only(self, columns: np.ndarray) -> Whitening:
+        """Of some features, (k,) places."""
+        return Whitening(sigma=self.sigma[columns])
 
 
 def whitening(observed: FloatArray, measured: FloatArray, null: FloatArray, drawn: FloatArray) -> Whitening:

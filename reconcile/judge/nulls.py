@@ -16,6 +16,7 @@ import numpy as np
 from reconcile.judge.changes import Changes
 from reconcile.judge.metric import Metric, Whitening, drift_sigma, fit_metric, neighbour_scatter
 from reconcile.judge.paths import build_paths
+from reconcile.judge.pooled import seen
 from signals.series import FloatArray
 
 NULL_COPIES = 16
@@ -65,9 +66,27 @@ def resting(changes: Changes, drifts: FloatArray, rng: np.random.Generator) -> F
     return np.asarray(drift + noise + rng.normal(size=(copies, changes.wander.shape[0])) @ changes.wander)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Noisy:
+    """Two banks of healthy pairs and the draws, each with noise of its own: the same in every view."""
+
+    learned: FloatArray
+    fresh: FloatArray
+    drawn: FloatArray
+
+
+def noisy(changes: Changes, drawn: FloatArray, seed: int) -> Noisy:
+    """With noise and wander; `drawn` (m, F) without."""
+    rng = np.random.default_rng([seed, 3])
+    drifts = np.concatenate([changes.null, changes.kind])
+    learned, fresh = resting(changes, drifts, rng), resting(changes, changes.null, rng)
+    noise = rng.normal(size=drawn.shape) * np.nan_to_num(changes.measured)
+    return Noisy(learned=learned, fresh=fresh, drawn=drawn + noise)
+
+
 def learnt(whiten: Whitening, view: View, drawn: Drawn, learned: FloatArray) -> tuple[Metric, FloatArray]:
     """The metric of draws and of healthy machines `learned` (n, F), and the draws' places (m, D)."""
-    pooled, rest = view(whiten(drawn.changes)), view(whiten(learned))
+    pooled, rest = seen(view, whiten, drawn.changes), seen(view, whiten, learned)
     centre = rest.mean(axis=0)
     metric = fit_metric(centre, [*drawn.scatter(pooled), rest - centre])
     return metric, metric(pooled)
@@ -88,7 +107,7 @@ def folds(
         here = replace(whiten, sigma=sigma)
         metric, points = learnt(here, view, drawn, others)
         rows = np.flatnonzero(number == k)
-        yield Fold(whiten=here, metric=metric, rows=rows, null=metric(view(here(fresh[rows]))), points=points)
+        yield Fold(whiten=here, metric=metric, rows=rows, null=metric(seen(view, here, fresh[rows])), points=points)
 
 
 def lengths_of(apart: Sequence[Fold]) -> FloatArray:

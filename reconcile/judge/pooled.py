@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reconcile.judge.metric import Whitening
 from reconcile.observe.features import Layout
 from reconcile.observe.watch import Watched, WatchList
 from signals.series import FloatArray
@@ -74,7 +75,7 @@ class Pooling:
 
         The common rise is the mean times the root of the number of members, so that noise keeps unit variance.
         """
-        cube = np.nan_to_num(z).reshape(z.shape[0], self.points, self.channels, self.family.size)
+        cube = z.reshape(z.shape[0], self.points, self.channels, self.family.size)
         found = []
         for k in range(len(self.names)):
             members = cube[..., self.family == k]
@@ -83,6 +84,14 @@ class Pooling:
             found += [rise.mean(axis=1), size.mean(axis=1), size.max(axis=1)]
         pooled = np.concatenate(found, axis=1)
         return np.asarray(np.sign(pooled) * np.log1p(np.abs(pooled)))
+
+
+def seen(view: Callable[[FloatArray], FloatArray], whiten: Whitening, changes: FloatArray) -> FloatArray:
+    """`view(whiten(changes))`, changes (n, P * C * F) in dB; of single features only these are whitened."""
+    if isinstance(view, OneByOne):
+        columns = view.columns
+        return view.compressed(whiten.only(columns)(changes[:, columns]))
+    return view(whiten(changes))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,8 +108,15 @@ class OneByOne:
 
     def __call__(self, z: FloatArray) -> FloatArray:
         """(n, P * C * F) -> (n, P * C * chosen)."""
-        cube = np.nan_to_num(z).reshape(z.shape[0], self.points, self.channels, self.chosen.size)
-        kept = cube[..., self.chosen].reshape(z.shape[0], -1)
+        return self.compressed(z[:, self.columns])
+
+    @property
+    def columns(self) -> np.ndarray:
+        """Places of the chosen features among P * C * F."""
+        return np.flatnonzero(np.tile(self.chosen, self.points * self.channels))
+
+    def compressed(self, kept: FloatArray) -> FloatArray:
+        """The chosen features (n, D), whitened, to the same."""
         return np.asarray(np.sign(kept) * LARGE * np.log1p(np.abs(kept) / LARGE))
 
 

@@ -12,16 +12,18 @@ from reconcile.judge.metric import Metric, Whitening, whitening
 from reconcile.judge.nulls import (
     Drawn,
     Fold,
+    Noisy,
     View,
     folds,
     group_lengths_of,
     learnt,
     lengths_of,
     nearest_of,
-    resting,
+    noisy,
     squared_distances,
 )
 from reconcile.judge.paths import Paths, build_paths
+from reconcile.judge.pooled import seen
 from signals.series import FloatArray
 
 FULL_PATH = 6
@@ -74,7 +76,7 @@ class Fitted:
 
     def place(self, changes: FloatArray) -> FloatArray:
         """(F,) -> (D,)."""
-        return np.asarray(self.metric(self.view(self.whiten(changes)[None]))[0])
+        return np.asarray(self.metric(seen(self.view, self.whiten, changes[None]))[0])
 
 
 def with_draws(fitted: Fitted, library: Library) -> Fitted:
@@ -82,7 +84,7 @@ def with_draws(fitted: Fitted, library: Library) -> Fitted:
 
     For draws that were led to what was observed: they must not teach how far draws usually lie apart.
     """
-    points = fitted.metric(fitted.view(fitted.whiten(library.changes)))
+    points = fitted.metric(seen(fitted.view, fitted.whiten, library.changes))
     first, count = fitted.points.shape[0], points.shape[0]
     owner = np.zeros(count, dtype=int)
     for name, members in library.groups.items():
@@ -99,7 +101,7 @@ def with_draws(fitted: Fitted, library: Library) -> Fitted:
     large = float(np.quantile(fitted.null, STANDS_OUT))
     near = fitted.near.copy()
     for fold in fitted.folds:
-        led = fold.metric(fitted.view(fold.whiten(library.changes)))
+        led = fold.metric(seen(fitted.view, fold.whiten, library.changes))
         near[fold.rows] = np.minimum(near[fold.rows], fold.nearest(led, owner, len(fitted.paths.names)))
     return replace(
         fitted,
@@ -162,21 +164,20 @@ def fit_space(
     seed: int,
     view: View | None = None,
     least: float = LEAST_OVERDISPERSION,
+    banks: Noisy | None = None,
 ) -> Fitted:
-    """Whiten, learn what scatters, lay out the paths and the bank of nulls. `view`: the families if not given.
+    """Whiten, learn what scatters, lay out the paths and the bank of nulls. `view`: the families if not given;
+    `banks`: what `noisy` made of these changes, library and seed, for several views.
 
     Rows of the nulls are the same machines in every view. `least` overdispersion: few effects simulated on few machines
     look farther apart than they are.
     """
     whiten = whitening(changes.observed, changes.measured, changes.null, library.changes)
     view = view or changes.pooling
-    rng = np.random.default_rng([seed, 3])
-    drifts = np.concatenate([changes.null, changes.kind])
-    learned, fresh = resting(changes, drifts, rng), resting(changes, changes.null, rng)
-    noise = rng.normal(size=library.changes.shape) * np.nan_to_num(changes.measured)
-    drawn = Drawn(changes=library.changes + noise, groups=tuple(library.groups.values()), shares=library.shares)
-    metric, points = learnt(whiten, view, drawn, learned)
-    apart = tuple(folds(changes, whiten, view, drawn, learned, fresh))
+    banks = banks or noisy(changes, library.changes, seed)
+    drawn = Drawn(changes=banks.drawn, groups=tuple(library.groups.values()), shares=library.shares)
+    metric, points = learnt(whiten, view, drawn, banks.learned)
+    apart = tuple(folds(changes, whiten, view, drawn, banks.learned, banks.fresh))
     null = lengths_of(apart)
     size = np.sum(points**2, axis=1)
     visible = size > np.quantile(null, STANDS_OUT)
@@ -186,7 +187,7 @@ def fit_space(
     truth = np.zeros(points.shape[0], dtype=int)
     for c, members in enumerate(library.groups.values()):
         truth[list(members)] = c
-    seen = _well_known(visible, library)
+    known = _well_known(visible, library)
     groups = np.where(np.isfinite(whiten.sigma), changes.groups, -1)
     return Fitted(
         whiten=whiten,
@@ -196,11 +197,11 @@ def fit_space(
         folds=apart,
         null=null,
         near=nearest_of(apart, paths.names, telling, library.shares),
-        resting=group_lengths_of(apart, fresh, groups),
+        resting=group_lengths_of(apart, banks.fresh, groups),
         groups=groups,
-        overdispersion=max(least, _softness(distances[seen], truth[seen])) if seen.size else 10.0,
-        own=distances[seen, truth[seen]] if seen.size else distances[np.arange(truth.size), truth],
-        size=size[seen] if seen.size else size,
+        overdispersion=max(least, _softness(distances[known], truth[known])) if known.size else 10.0,
+        own=distances[known, truth[known]] if known.size else distances[np.arange(truth.size), truth],
+        size=size[known] if known.size else size,
         visible=visible,
         points=points,
         truth=truth,

@@ -9,7 +9,7 @@ import numpy as np
 
 from reconcile.atlas.bank import Mapper
 from reconcile.atlas.plan import AtlasPlan, Draw
-from reconcile.judge.nulls import squared_distances
+from reconcile.judge.nulls import noisy, squared_distances
 from reconcile.judge.pooled import OneByOne
 from reconcile.judge.screen import judge
 from reconcile.judge.space import fit_space
@@ -45,13 +45,17 @@ FITTED_SECONDS = 2
 def fit_views(setting: Setting, known: Catalogued) -> Found:
     """Families of features; on machines that agree with the baseline single lines beside them."""
     changes, direct = setting.changes, setting.direct
-    fitted = fit_space(changes, known.library, seed=setting.seed, least=setting.overdispersion)
+    banks = noisy(changes, known.library.changes, setting.seed)
+    fitted = fit_space(changes, known.library, seed=setting.seed, least=setting.overdispersion, banks=banks)
     enough = CHANNELS_OF_PHASES if changes.phased else CHANNELS_OF_LINES
     told = len(setting.data) >= POINTS_OF_LINES or len(setting.channels) >= enough
     views: tuple[OneByOne, ...] = ()
     if setting.fitted_machine is not None and told:
         views = (changes.single, changes.sides, *changes.phased)
-    lines = [fit_space(changes, known.library, seed=setting.seed, view=view, least=LEAST_OF_LINES) for view in views]
+    lines = [
+        fit_space(changes, known.library, seed=setting.seed, view=view, least=LEAST_OF_LINES, banks=banks)
+        for view in views
+    ]
     screen = judge((fitted, *lines), changes.observed, direct.evidence, direct.p)
     if not lines:
         return Found(known=known, fitted=fitted, screen=screen)

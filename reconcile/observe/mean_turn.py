@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy import fft
@@ -38,6 +39,12 @@ def _kept(orders: np.ndarray, teeth: Sequence[int]) -> np.ndarray:
     return kept
 
 
+@lru_cache(maxsize=8)
+def _harmonics(length: int, count: int, turns_per_sample: float) -> CZT:
+    """The transform at multiples of the turn: its tables cost as much as its use, and eight draws share them."""
+    return CZT(length, count, np.exp(-2j * np.pi * turns_per_sample))
+
+
 def turn_powers(
     samples: FloatArray, rate_hz: float, turning: Turning, bands_hz: Sequence[tuple[float, float]], top_hz: float
 ) -> FloatArray:
@@ -52,7 +59,7 @@ def turn_powers(
     count = int(min(top_hz, max(high for _, high in bands_hz)) / turning.hz)
     if count < 2:
         return found
-    transform = CZT(length, count + 1, np.exp(-2j * np.pi * turning.hz / rate_hz))
+    transform = _harmonics(length, count + 1, turning.hz / rate_hz)
     orders = np.arange(count + 1)
     early = transform(samples[:, :length], axis=1) * (2.0 / length)
     late = transform(samples[:, second : second + length], axis=1) * (2.0 / length)
