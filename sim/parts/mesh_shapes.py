@@ -33,8 +33,12 @@ def needs_pairs(law: MeshLaw, machine: MachineSpec, key: str) -> None:
     """SpecError where a mesh is one curve, in which no single tooth can be told, or where contact lines are oblique."""
     if law.pair_rows is None:
         message = f"{key} acts on single tooth pairs, and this mesh is given by one total stiffness curve"
-        allowed = "tooth_pairs: true and no table"
-        raise SpecError(Problem(field=f"meshes.{law.name}.tooth_pairs", message=message, given=False, allowed=allowed))
+        mesh = next(m for m in machine.meshes if m.name == law.name)
+        if mesh.table is not None:
+            field, allowed = f"meshes.{law.name}.table", "null, with tooth_pairs true"
+            raise SpecError(Problem(field=field, message=message, given="a table", allowed=allowed))
+        field, allowed = f"meshes.{law.name}.tooth_pairs", "true"
+        raise SpecError(Problem(field=field, message=message, given=mesh.tooth_pairs, allowed=allowed))
     helix = next(g.helix_angle_deg for g in machine.gears if g.name == law.pinion)
     if helix != 0.0:
         message = f"{key} knows the contact of spur gears only: on helical ones it runs obliquely over the flank"

@@ -10,7 +10,7 @@ import pytest
 from sim.assembly.assemble import assemble
 from sim.core.errors import SpecError
 from sim.core.laws import TOOTH_POINTS
-from sim.core.spec import TermSpec
+from sim.core.spec import MeshTable, TermSpec
 from sim.parts.pair_kernels import SHAPE_POINTS
 from sim.presets import preset
 from sim.solve.api import simulate
@@ -118,9 +118,18 @@ def test_a_mesh_of_one_curve_is_refused(key):
     with pytest.raises(SpecError) as caught:
         assemble(with_terms(machine, spec(key, site=site)))
     problem = caught.value.problems[0]
-    assert problem.field == "meshes.mesh1.tooth_pairs"
+    assert (problem.field, problem.given) == ("meshes.mesh1.tooth_pairs", False)
     assert key in problem.message
     assert problem.allowed
+
+
+def test_a_given_curve_beside_tooth_pairs_is_named():
+    table = MeshTable(centre_distance_error_m=[0.0], stiffness_n_per_m=[[3e8] * 8])
+    mesh = MACHINE.meshes[0].model_copy(update={"tooth_pairs": True, "table": table})
+    with pytest.raises(SpecError) as caught:
+        assemble(with_terms(MACHINE.model_copy(update={"meshes": [mesh]}), spec("tooth_crack")))
+    (problem,) = caught.value.problems
+    assert (problem.field, problem.given) == ("meshes.mesh1.table", "a table")
 
 
 @pytest.mark.parametrize("key", ["tooth_crack", "tip_relief", "tooth_friction", "lead_misalignment"])
