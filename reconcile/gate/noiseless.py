@@ -36,7 +36,7 @@ def with_floor(
         for name, samples in zip(recording.names, recording.samples, strict=True):
             floor = floor_db(samples)
             if floor < NONE_DB:
-                detail = f"{floor:.0f} dB between its lines: simulated? White noise {ADDED_DB:.0f} dB below was added"
+                detail = f"{floor:.0f} dB between its lines, as in a simulation: white noise {ADDED_DB:.0f} dB added"
                 found.append(Finding(kind="noiseless", channel=name, recording=label, detail=detail, severity=0.0))
     bare = {f.channel for f in found}
     level = {name: max(_deviation(r, name) for r in recordings if name in r.names) for name in bare}

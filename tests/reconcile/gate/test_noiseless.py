@@ -69,7 +69,7 @@ def test_a_channel_without_noise_gets_the_same_floor_in_every_recording() -> Non
         ("noiseless", "a0", "baseline 1"),
         ("noiseless", "a0", "test 1"),
     }
-    assert not any(f.fault for f in found) and "simulated" in found[0].detail
+    assert not any(f.fault for f in found) and "simulation" in found[0].detail
     added = [np.std(b.samples - a.samples, axis=1) for a, b in zip(several, noisy, strict=True)]
     expected = 10 ** (ADDED_DB / 20) * np.std(lines())
     assert [a[0] for a in added] == pytest.approx([expected] * 2, rel=0.05)
