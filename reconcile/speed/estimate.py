@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 from scipy.ndimage import maximum_filter1d
 
-from reconcile.speed.excess import line_excess, mains_bins
+from reconcile.speed.excess import line_excess, mains_bins, skirts
 from reconcile.speed.octave import octave_rival
 from reconcile.speed.refine import refined
 from signals.recording import Recording
@@ -29,6 +29,11 @@ LARGEST_LOG = 11.0
 """A line counts up to this log power over what noise reaches: one strong foreign line must not outweigh a comb."""
 NOISE_LOG = 3.0
 """Log power over the floor that one bin in 5e8 of noise exceeds (exp(-e^3)); below it nothing counts."""
+LOBE_BINS = 3
+"""Half width of a steady line in the spectrum, with a bin to spare."""
+STEADY_LOG = 5.5
+"""Log power by which a steady line has fallen two bins from its middle: by the Hann window 14 dB at least, 24 on the
+mean."""
 CONTROLS = 60
 USUAL_ERROR = 0.03
 """Standard deviation of what a stated speed is wrong by: labels up to 7 % off have been met."""
@@ -218,11 +223,15 @@ def _by_pulses(recording: Recording, shaft: str, stated: float | None) -> SpeedE
 
 
 def line_logs(recording: Recording) -> tuple[tuple[FloatArray, float], ...]:
-    """Log power over noise of each channel (0 in noise, mains lines left out) with the resolution, Hz."""
+    """Log power over noise of each channel (0 in noise; mains lines and the skirts of strong lines left out) with the
+    resolution, Hz."""
     found = []
     for name in recording.names:
         ratio, resolution = line_excess(recording.series(name))
-        log = np.clip(np.log(np.maximum(ratio, 1.0)) - NOISE_LOG, 0.0, LARGEST_LOG)
+        ratio[skirts(ratio)] = 1.0
+        raw = np.log(np.maximum(ratio, 1.0)) - NOISE_LOG
+        beyond = np.maximum(maximum_filter1d(raw, 2 * LOBE_BINS + 1) - LARGEST_LOG, 0.0)  # keeps the shape of the line
+        log = np.clip(raw - beyond, 0.0, LARGEST_LOG)
         log[mains_bins(log.size, resolution)] = 0.0
         found.append((log, resolution))
     return tuple(found)
@@ -237,9 +246,24 @@ def _best_speed(
     speeds = stated * (1 - search) + step * np.arange(int(2 * search * stated / step) + 1, dtype=np.float64)
     total = np.zeros(speeds.size)
     for log, width in combs:
-        wide = maximum_filter1d(log, 3)
+        wide = maximum_filter1d(narrowed(log), 3)
         total += comb_score(wide, width, speeds, orders)
     return speeds, total / len(combs) + _log_prior(speeds, stated)
+
+
+def narrowed(log: FloatArray) -> FloatArray:
+    """Log power of lines, of a steady one its middle alone: its flanks are in reach of speeds that it denies."""
+    padded = np.pad(log, 2)
+    near = np.stack([padded[1:-3], padded[3:-1]])
+    far = np.stack([padded[:-4], padded[4:]])
+    steady = (log > 0.0) & np.all(log >= near, axis=0) & np.all(far <= np.maximum(log - STEADY_LOG, 0.0), axis=0)
+    found = log.copy()
+    places = np.flatnonzero(steady)
+    for step in (-1, 1):
+        flank = places + step
+        flank = flank[(flank >= 0) & (flank < log.size)]
+        found[flank[~steady[flank]]] = 0.0
+    return found
 
 
 def _log_prior(speeds: FloatArray, stated: float) -> FloatArray:

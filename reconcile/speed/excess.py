@@ -13,6 +13,9 @@ EXPONENTIAL_MEDIAN = float(np.log(2.0))
 FLOOR_BINS = 101
 COARSE_BINS = 20_000
 """Longer spectra get their running median from block medians: the floor is smooth anyway."""
+SKIRT_BINS = 24
+SKIRT_MARGIN = 4.0
+"""By which a bin must exceed the skirt of a line beside it to be one of its own."""
 MAINS_HZ = (50.0, 60.0)
 MAINS_HARMONICS = 10
 MAINS_SHARE = 0.002
@@ -44,6 +47,34 @@ def line_excess(series: Series, *, width: int = FLOOR_BINS) -> tuple[FloatArray,
     ratio = power_over_floor(spectrum.values**2, width)
     ratio[: min(3, ratio.size)] = 1.0
     return ratio, spectrum.resolution_hz
+
+
+def _leakage(bins: int, fractions: int = 21) -> FloatArray:
+    """Most that a line leaves so many bins away by the Hann window, over the bin nearest to it, power, shape (bins,).
+
+    |W(x)| = |sinc x / (1 - x^2)| (Harris, Proc. IEEE 66 (1978) 51-83, eq. 27), worst over where in a bin it lies.
+    """
+    off = np.linspace(-0.499, 0.499, fractions)[:, np.newaxis]
+    away = np.arange(bins)[np.newaxis] - off
+
+    def window(x: FloatArray) -> FloatArray:
+        one = np.isclose(np.abs(x), 1.0)
+        return np.asarray(np.where(one, 0.5, np.abs(np.sinc(x) / np.where(one, 1.0, 1.0 - x**2))))
+
+    return np.asarray(np.max((window(away) / window(off)) ** 2, axis=0))
+
+
+def skirts(ratio: FloatArray) -> BoolArray:
+    """Bins, shape (bins,), that hold no more than the window leaves there of a stronger line within `SKIRT_BINS`.
+
+    `ratio`: power over the floor. A line 70 dB out has a skirt of 20 dB eight bins away, which is no line.
+    """
+    found = np.zeros(ratio.size, dtype=np.bool_)
+    leakage = SKIRT_MARGIN * _leakage(SKIRT_BINS + 1)
+    for away in range(2, min(SKIRT_BINS + 1, ratio.size)):
+        found[away:] |= ratio[away:] < leakage[away] * ratio[:-away]
+        found[:-away] |= ratio[:-away] < leakage[away] * ratio[away:]
+    return found
 
 
 def mains_bins(size: int, resolution_hz: float) -> BoolArray:
