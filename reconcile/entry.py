@@ -29,6 +29,7 @@ from reconcile.told import about, sent_as
 from reconcile.unsteady import unsteady
 from reconcile.verdict import Level, Report
 from signals.recording import Recording
+from sim.assembly.assemble import BUILT_IN
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec
 
@@ -177,7 +178,13 @@ def reconcile_recordings(
         progress=progress,
         nominated=nominated,
     )
-    return _with_labels(_with_limits(report, silent), sent, machine.name)
+    return _with_labels(_with_limits(report, (*silent, *already_there(machine))), sent, machine.name)
+
+
+def already_there(machine: MachineSpec) -> tuple[str, ...]:
+    """Effects that the machine has: candidates are those that it has not."""
+    has = [f"{t.term.replace('_', ' ')} at {t.site}" for t in machine.terms if t.term not in BUILT_IN]
+    return (f"not looked for is whether what the machine has already grew: {', '.join(has)}",) if has else ()
 
 
 def _with_limits(report: Report, remarks: Sequence[str]) -> Report:

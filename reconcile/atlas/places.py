@@ -51,9 +51,9 @@ def simulated_channels(machine: MachineSpec, channels: Sequence[Channel]) -> tup
     problems = [
         Problem(
             field=f"channels.{c.name}.location",
-            message="is not a place of this machine",
+            message=_not_heard(machine, c),
             given=c.location or "",
-            allowed=", ".join(known),
+            allowed=", ".join(known) or "none: no part of this machine moves along x or y",
         )
         for c, name in zip(channels, found, strict=True)
         if name is None
@@ -61,6 +61,13 @@ def simulated_channels(machine: MachineSpec, channels: Sequence[Channel]) -> tup
     if problems:
         raise SpecError(problems)
     return tuple(name for name in found if name is not None)
+
+
+def _not_heard(machine: MachineSpec, channel: Channel) -> str:
+    """Why no simulated acceleration stands for the channel."""
+    if (channel.location or "").split(".")[0] in {g.name for g in machine.gears}:
+        return "only turns in this machine: a sensor needs a part that moves along x or y"
+    return "is not a place of this machine"
 
 
 def standard_channels(machine: MachineSpec, wanted: Sequence[str]) -> tuple[str, ...]:

@@ -31,6 +31,21 @@ class Point:
     torque_ratio: float = 1.0
 
 
+NEAR_SPEED, NEAR_TORQUE = 0.005, 0.025
+"""Shares by which a speed or torque may be off the machine's own and is simulated there: stated speeds are wrong by as
+much, and one atlas then serves all recordings at about that speed."""
+
+
+def simulated_at(machine: MachineSpec, point: Point) -> Point:
+    """The operating point at which is simulated what was recorded at `point`: the machine's own where that is near,
+    else the speed to three digits (0.5 % off at most)."""
+    own = machine.operating.speed_hz if machine.operating is not None else 0.0
+    near = own > 0.0 and abs(point.speed_hz / own - 1.0) <= NEAR_SPEED
+    speed = own if near else float(f"{point.speed_hz:.3g}")
+    torque = 1.0 if abs(point.torque_ratio - 1.0) <= NEAR_TORQUE else point.torque_ratio
+    return Point(speed_hz=speed, torque_ratio=torque)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Draw:
     """One simulated machine: healthy number `pair` (twin or not), or a candidate on healthy machine `pair`."""

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from reconcile.kinematics.answer import lines_of
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.foreign import Foreign
 from reconcile.kinematics.gears import GearEvidence
 from reconcile.kinematics.judge import DEFECTS, Candidate
+from reconcile.kinematics.lines import matched
 from reconcile.kinematics.measured import measured_lines
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.shafts import ShaftChange
@@ -158,6 +161,9 @@ def foreign_report(found: Foreign, tests: Sequence[Observation], baselines: Sequ
     )
 
 
+LOUDER_DB = 15.0
+"""Growth of a channel's level from which a machine is not called sound: of the real controls (docs/proof-real.md) a
+gear under full load against none is 3 dB louder."""
 FULLER = (
     "Describe the whole machine (masses, stiffnesses, loads): looseness, clearances and shapes show in levels only."
 )
@@ -180,6 +186,9 @@ def nothing_report(
         if shallow or knocking:
             return _without_baseline(shallow, knocking, tests, lines)
     against = "than in the baseline" if baselines else "than sound bearings show"
+    louder = loudest(tests, baselines)
+    if louder is not None:
+        return _louder(louder, lines, old)
     return Report(
         verdict="nothing_missing",
         sentence=f"No family of lines is firmer {against}; changes of level may be load, speed or mounting, or an "
@@ -188,6 +197,36 @@ def nothing_report(
         where=Where(lines=lines),
         undecidable=("changes of level",) if baselines else ("changes of level: there is no baseline",),
         next_experiment=NextExperiment(sentence=FULLER),
+    )
+
+
+def loudest(tests: Sequence[Observation], baselines: Sequence[Observation]) -> tuple[str, float] | None:
+    """Channel and growth, dB, of the one whose level has grown most, where that is more than load and mounting do."""
+    found = []
+    for test in tests:
+        base = matched(test, baselines)
+        for name in test.recording.names if base is not None else ():
+            if base is None or name not in base.recording.names:
+                continue
+            now, before = (float(np.std(x.recording.series(name).samples)) for x in (test, base))
+            if now > 0.0 and before > 0.0:
+                found.append((name, 20.0 * float(np.log10(now / before))))
+    most = max(found, key=lambda one: one[1], default=None)
+    return most if most is not None and most[1] > LOUDER_DB else None
+
+
+def _louder(most: tuple[str, float], lines: tuple[LineChange, ...], old: Sequence[Candidate]) -> Report:
+    """What grew so far is no sound machine under another load, and no part of the drawing: which may be wrong."""
+    channel, growth = most
+    return Report(
+        verdict="not_decidable",
+        sentence=f"{channel} is {growth:.0f} dB louder than in the baseline, and no family of lines of the "
+        "specification is firmer: load, speed or mounting seldom do so much; a bearing or gear of other numbers "
+        "strikes at other orders, and some effects only a machine that can be simulated tells." + _in_both(old),
+        level="kinematics",
+        where=Where(lines=lines),
+        undecidable=(f"what made {channel} {growth:.0f} dB louder",),
+        next_experiment=NextExperiment(sentence=f"Check the bearing sizes and teeth of the specification. {FULLER}"),
     )
 
 

@@ -29,9 +29,11 @@ def ranked_causes(
     struck: Sequence[str] = (),
 ) -> tuple[Cause, ...]:
     """The effects the verdict stands on, a second one with what it explains, those that share the impacts of another
-    part (`struck`), and the rest by weight."""
+    part (`struck`), and the rest by score."""
     apart = {*decision.chosen, *(other.names[:1] if other else ())}
-    listed = list(decision.chosen) + [n for n in dict.fromkeys((*struck, *weights)) if n not in apart]
+    told = dict(zip(found.screen.names, map(float, found.screen.evidence), strict=True))
+    rest = sorted((n for n in weights if n not in struck), key=lambda n: -told[n])
+    listed = list(decision.chosen) + [n for n in dict.fromkeys((*struck, *rest)) if n not in apart]
     causes = []
     for name in listed[:MOST_CAUSES]:
         term, site = name.split("@")
@@ -40,7 +42,7 @@ def ranked_causes(
             Cause(
                 term=term,
                 site=site,
-                score=float(found.screen.evidence[found.screen.names.index(name)]),
+                score=told[name],
                 severity=estimated_severity(found.view(name), found.known, name, observed),
                 named=decision.word == "explained" and name == decision.chosen[0],
                 reasons=(ITS_IMPACTS,) if name in struck else decision.reasons,

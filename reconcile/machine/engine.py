@@ -9,7 +9,7 @@ from reconcile.atlas.bank import Mapper
 from reconcile.atlas.candidates import Candidate, candidates
 from reconcile.atlas.keep import Forgetful, Keeper, kept_bank
 from reconcile.atlas.places import simulated_channels, standard_channels
-from reconcile.atlas.plan import AtlasPlan, atlas_plan, with_tooth_pairs
+from reconcile.atlas.plan import AtlasPlan, atlas_plan, simulated_at, with_tooth_pairs
 from reconcile.calibrate.uncertain import uncertain_numbers
 from reconcile.faults import measurement_faults, with_faults
 from reconcile.gate import inspect_measurement
@@ -240,7 +240,7 @@ def _setting(
     banks = []
     for k, one in enumerate(data):
         progress(0.1 + 0.5 * k / len(data), f"atlas at {one.point.speed_hz:g} Hz")
-        bank = kept_bank(plan, one.point, distinct, keeper=keeper, mapper=mapper)
+        bank = kept_bank(plan, simulated_at(machine, one.point), distinct, keeper=keeper, mapper=mapper)
         banks.append(bank.at(range(len(plan.draws)), [distinct.index(s) for s in simulated]))
     seen = lenses(data, banks, plan)
     changes = observed_changes(data, seen, banks, plan)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reconcile.atlas.bank import ARRAYS, Bank, Mapper, make_bank
-from reconcile.atlas.plan import AtlasPlan, Draw, side_by_side
+from reconcile.atlas.plan import AtlasPlan, Draw, side_by_side, simulated_at
 from reconcile.calibrate.posterior import Posterior, calibrated, mesh_evidence
 from reconcile.calibrate.uncertain import DRIFT, Offsets, draw_offsets, moved
 from reconcile.judge.changes import lenses, observed_changes
@@ -47,7 +47,8 @@ def simulated_banks(setting: Setting, plan: AtlasPlan, mapper: Mapper) -> tuple[
     distinct = tuple(sorted(set(setting.simulated)))
     places = [distinct.index(s) for s in setting.simulated]
     rows = range(len(plan.draws))
-    return tuple(make_bank(plan, one.point, distinct, mapper).at(rows, places) for one in setting.data)
+    points = [simulated_at(setting.machine, one.point) for one in setting.data]
+    return tuple(make_bank(plan, point, distinct, mapper).at(rows, places) for point in points)
 
 
 def around_baseline(setting: Setting, mapper: Mapper) -> Local | None:

@@ -9,7 +9,7 @@ import pytest
 
 from reconcile import entry
 from reconcile.atlas.places import simulated_channel, simulated_channels
-from reconcile.entry import check_channels, check_size, reconcile_recordings
+from reconcile.entry import already_there, check_channels, check_size, reconcile_recordings
 from signals.recording import Operating, Recording
 from sim.core.errors import SpecError
 from sim.core.response import Channel
@@ -115,6 +115,18 @@ def test_sensors_stand_where_they_were_mounted(location: str, axis: str, name: s
 def test_a_place_the_machine_does_not_have_is_refused() -> None:
     with pytest.raises(SpecError, match="is not a place of this machine"):
         simulated_channels(MACHINE, [channel(), channel("casing")])
+
+
+def test_a_gear_that_only_turns_is_said_to() -> None:
+    with pytest.raises(SpecError, match="only turns in this machine") as refused:
+        simulated_channels(preset("gear-pair"), [channel("pinion")])
+    assert "no part of this machine moves" in refused.value.problems[0].allowed
+
+
+def test_what_the_machine_has_already_is_said_not_to_be_looked_for() -> None:
+    assert already_there(preset("rotor")) == ()
+    (text,) = already_there(preset("overhung"))
+    assert "eccentricity at pinion" in text
 
 
 @pytest.mark.parametrize("kind", ["recording", "baseline"])

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from reconcile.atlas import keep
 from reconcile.atlas.bank import ARRAYS, Bank, Task, tasks
 from reconcile.atlas.candidates import Candidate, candidates
 from reconcile.atlas.keep import Forgetful, atlas_key, kept_bank
-from reconcile.atlas.plan import SLIP, AtlasPlan, Point, at_point, atlas_plan, slips
+from reconcile.atlas.plan import SLIP, AtlasPlan, Point, at_point, atlas_plan, simulated_at, slips
 from reconcile.calibrate.uncertain import uncertain_numbers
 from reconcile.observe.statistics import Statistics
 from sim.core.errors import SpecError
@@ -173,3 +175,27 @@ def test_cages_of_a_sound_machine_lag_by_another_share_in_every_recording() -> N
     assert min(shares) >= 0.0 and max(shares) <= SLIP
     lagging = machine.model_copy(update={"terms": list(first[1].machine.terms[:1])})
     assert {t.site for t in slips(lagging, 3, 5)} == {"bearing2", "bearing3", "bearing4"}
+
+
+@pytest.mark.parametrize(
+    ("speed_hz", "torque", "at"),
+    [
+        (30.02, 1.0, (30.0, 1.0)),
+        (29.86, 0.98, (30.0, 1.0)),
+        (30.2, 1.0, (30.2, 1.0)),
+        (22.5, 0.96, (22.5, 0.96)),
+        (17.337, 1.02, (17.3, 1.0)),
+    ],
+)
+def test_one_atlas_serves_recordings_at_about_one_speed(
+    speed_hz: float, torque: float, at: tuple[float, float]
+) -> None:
+    found = simulated_at(preset("paper-lightly-damped"), Point(speed_hz=speed_hz, torque_ratio=torque))
+    assert (found.speed_hz, found.torque_ratio) == at
+
+
+@given(speed_hz=st.floats(0.5, 500.0))
+def test_what_is_simulated_is_never_far_from_what_was_recorded(speed_hz: float) -> None:
+    found = simulated_at(preset("paper-lightly-damped"), Point(speed_hz=speed_hz))
+    assert found.speed_hz == pytest.approx(speed_hz, rel=0.005001)
+    assert simulated_at(preset("paper-lightly-damped"), found) == found

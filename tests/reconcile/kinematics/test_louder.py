@@ -1,0 +1,45 @@
+"""A machine that became much louder is not called sound because no part of its drawing has the lines."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from reconcile.kinematics.vague import LOUDER_DB
+from tests.strategies.impulses import recorded, sound, train
+
+DRAWING = {
+    "shafts": [{"name": "shaft", "speed_hz": 24.3}],
+    "bearings": [
+        {"name": "bearing1", "shaft": "shaft", "balls": 8, "ball_diameter_m": 7.938e-3, "pitch_diameter_m": 33.5e-3}
+    ],
+}
+
+
+def answered(extra: np.ndarray):  # type: ignore[no-untyped-def]
+    spec = read_kinematic_spec({"kinematics": DRAWING})
+    return reconcile_kinematics(spec, [recorded(sound(2) + extra)], [recorded(sound(1))], seed=0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("times", "word"), [(0.0, "nothing_missing"), (20.0, "not_decidable")])
+def test_what_grew_far_is_told_and_left_open(times: float, word: str) -> None:
+    """Noise of one band, as of a flow or a joint that the drawing has not."""
+    rng = np.random.default_rng(5)
+    spectrum = np.fft.rfft(rng.standard_normal(sound(1).size))
+    hz = np.fft.rfftfreq(sound(1).size, 1 / 20_000.0)
+    band = np.fft.irfft(np.where((hz > 2_000) & (hz < 3_000), spectrum, 0.0), sound(1).size)
+    report = answered(times * band)
+    assert report.verdict == word, report.sentence
+    assert ("louder" in report.sentence) is (word == "not_decidable")
+    if times:
+        grown = 20 * np.log10(np.std(sound(2) + times * band) / np.std(sound(1)))
+        assert grown > LOUDER_DB
+        assert f"{grown:.0f} dB louder" in report.sentence
+
+
+@pytest.mark.slow
+def test_a_defect_is_still_named() -> None:
+    report = answered(train(np.random.default_rng(3), 3.052, 60.0))
+    assert report.verdict == "explained" and report.causes[0].site == "bearing1"
