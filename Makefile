@@ -56,7 +56,7 @@ fast: dev  ## the loop while working: without the slow tests (half a minute on t
 	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 2 -m "not slow"
 
 test: dev browser  ## lint and every test; what CI runs
-	@$(MAKE) --no-print-directory -j 2 setup lint  # one core compiles the kernels while the other checks types
+	@$(MAKE) --no-print-directory -j 2 -O setup lint  # one core compiles the kernels while the other checks types
 	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 3 --dist loadgroup --no-loadscope-reorder  # on two cores: many tests wait for servers and workers
 
 bench: dev setup  ## speed and accuracy; ends with one line of JSON

@@ -13,7 +13,7 @@ from reconcile.gate.filtered import below_the_corner, filter_findings
 from reconcile.gate.findings import Finding, Gate, worst
 from reconcile.gate.levels import pairs
 from reconcile.gate.mains import hum_findings, without_hum
-from reconcile.gate.noiseless import with_floor
+from reconcile.gate.noiseless import noiseless, told, with_floor
 from reconcile.gate.samples import repaired, sample_findings
 from reconcile.gate.timing import length_findings, speed_findings, tacho_findings
 from reconcile.gate.tones import tone_findings
@@ -68,8 +68,7 @@ def inspect_measurement(
         return Gate(
             findings=shown, baselines=tuple(clean[:cut]), tests=tuple(clean[cut:]), fault=worst(shown), usable=False
         )
-    clean, bare = with_floor(clean, labels, seed)
-    return _analysed(clean, labels, len(baselines), [*found, *bare], orders, mesh_orders, lowest_order, seed)
+    return _analysed(clean, labels, len(baselines), found, orders, mesh_orders, lowest_order, seed)
 
 
 def _analysed(
@@ -83,6 +82,9 @@ def _analysed(
     seed: int,
 ) -> Gate:
     """Checks that need a spectrum."""
+    without_noise = noiseless(clean, labels)
+    bare = {f.channel for f in without_noise}
+    found += without_noise
     speeds = [_speed(r, mesh_orders, seed) for r in clean]
     hertz = [1.0 if s is None else s.speed_hz for s in speeds]
     for recording, label, speed in zip(clean, labels, speeds, strict=True):
@@ -103,21 +105,22 @@ def _analysed(
         found += tones
         clean = [*bases, *tests]
         both = list(zip(clean, hertz, strict=True))
-        found += alias_findings(both[cut:], labels[cut:], mesh_orders, both[:cut], seed=seed)
+        found += told(alias_findings(both[cut:], labels[cut:], mesh_orders, both[:cut], seed=seed), bare)
     matched = pairs(tests, bases, hertz[cut:], hertz[:cut])
     filtered = filter_findings(matched)
     found += filtered
     for one in filtered:
         bases, tests = below_the_corner(bases, one, undone=False), below_the_corner(tests, one, undone=True)
         matched = pairs(tests, bases, hertz[cut:], hertz[:cut])
-    differences = compared(matched, tests)
+    differences = told(compared(matched, tests), bare)
     found += differences
     if any(f.kind == "swapped_channels" for f in differences):
         order = swap_order(matched, tests)
         tests = [_unswapped(t, matched[0].names, order) for t in tests]
     tests = [_regained(t, differences) for t in tests]
     shown = _only_new(found)
-    return Gate(findings=shown, baselines=tuple(bases), tests=tuple(tests), fault=worst(shown), usable=True)
+    floored = with_floor([*bases, *tests], hertz, bare)
+    return Gate(findings=shown, baselines=floored[:cut], tests=floored[cut:], fault=worst(shown), usable=True)
 
 
 def _speed(recording: Recording, mesh_orders: Sequence[float], seed: int) -> SpeedEstimate | None:

@@ -16,14 +16,14 @@ from sim.core.response import Channel
 
 SURE = 6.0
 """Deviations of control lines from which a remark is worth it; it changes no verdict."""
+HOLDS_OTHERWISE = ("fit_clearance", "fit_clearance_series", "radial_clearance")
 QUIET = ("nothing_missing", "measurement_fault")
 
 
-def _changed(report: Report) -> set[str]:
-    """Places where the answer stands: a ring that lost its hold no longer passes on what each ball that rolls by does
-    to a sound bearing, and those lines are gone without an exchange."""
-    named = {c.site for c in report.causes if c.named}
-    return named if report.verdict == "explained" else named | set(report.where.likeliest)
+def _held_otherwise(report: Report) -> set[str]:
+    """Places at which an effect is named that changes how a bearing is held or loaded: such a ring no longer passes on
+    what each ball that rolls by does to a sound bearing, and those lines are gone without an exchange."""
+    return {c.site for c in report.causes if c.named and c.term in HOLDS_OTHERWISE}
 
 
 def with_exchanged(report: Report, setting: Setting, channels: Sequence[Channel]) -> Report:
@@ -46,7 +46,7 @@ def with_exchanged(report: Report, setting: Setting, channels: Sequence[Channel]
     ]
     seen = candidates(rested, now, tie, setting.seed)
     deep = next((c for c in seen if c.family.kind in DEFECTS and c.present and c.risen and c.z > SURE), None)
-    if deep is None or deep.family.site in _changed(report):
+    if deep is None or deep.family.site in _held_otherwise(report):
         return report
     text = f"the baseline has lines of {deep.family.key} that the tests have not; exchanged, or a part replaced"
     where = replace(report.where, limits=(*report.where.limits, text))

@@ -12,7 +12,7 @@ from reconcile.machine.pictures import place_of
 from reconcile.observe.features import Layout
 from reconcile.observe.observation import PointData
 from reconcile.observe.slack import slack
-from reconcile.observe.watch import WatchList
+from reconcile.observe.watch import WatchList, bases_at
 from reconcile.verdict import LineChange
 from sim.core.spec import MachineSpec
 
@@ -104,8 +104,9 @@ def locked_to(orders: object) -> str:
 
 
 def by_name(lines: Sequence[LineChange], machine: MachineSpec) -> tuple[LineChange, ...]:
-    """The lines with parts called as the machine's file calls them: `inner ring of drive_end`."""
-    bearings = {f"bearing {i}": b.name for i, b in enumerate(machine.bearings, 1)}
+    """The lines with parts called as the machine's file calls them: `inner ring of drive_end`, or of each of the
+    bearings that have this line."""
+    bearings = {f"bearing {i}": OR.join(alike) for i, alike in enumerate(_alike_bearings(machine), 1)}
     shafts = {f"shaft {i}": s.name for i, s in enumerate(machine.shafts, 1)}
     names = bearings | shafts | {f"mesh {i}": m.name for i, m in enumerate(machine.meshes, 1)}
 
@@ -113,4 +114,18 @@ def by_name(lines: Sequence[LineChange], machine: MachineSpec) -> tuple[LineChan
         kind = next((k for k in names if text.endswith(k)), None)
         return text if kind is None else text.removesuffix(kind) + names[kind]
 
-    return tuple(replace(x, locked_to=OR.join(told(t) for t in x.locked_to.split(OR))) for x in lines)
+    def each(text: str) -> str:
+        return OR.join(dict.fromkeys(told(t) for t in text.split(OR)))
+
+    return tuple(replace(x, locked_to=each(x.locked_to)) for x in lines)
+
+
+def _alike_bearings(machine: MachineSpec) -> list[list[str]]:
+    """Of every bearing the names of those that roll at its frequencies: only one of them is watched."""
+    bases = bases_at(machine, machine.operating.speed_hz) if machine.operating is not None else {}
+    count = range(1, len(machine.bearings) + 1)
+    own = [[bases.get(f"{kind}{i}", np.nan) for kind in ("f_o", "f_i", "f_b")] for i in count]
+    return [
+        [b.name for k, b in enumerate(machine.bearings) if k == i or np.allclose(own[k], own[i], rtol=1e-9)]
+        for i in range(len(own))
+    ]

@@ -19,6 +19,8 @@ from signals.series import FloatArray
 LEAST_TURNS = 3
 """Turns a half record must hold."""
 OVERSAMPLING = 2.2
+SHARED_SAMPLES = 30_000
+"""Half of a simulated record has some 10 000; of a recording's each is used once."""
 WINDOW_TEETH = 2
 """Width of the window: a tooth is in mesh for one and a half to two pitches."""
 
@@ -39,10 +41,13 @@ def _kept(orders: np.ndarray, teeth: Sequence[int]) -> np.ndarray:
     return kept
 
 
-@lru_cache(maxsize=8)
 def _harmonics(length: int, count: int, turns_per_sample: float) -> CZT:
-    """The transform at multiples of the turn: its tables cost as much as its use, and eight draws share them."""
+    """The transform at multiples of the turn."""
     return CZT(length, count, np.exp(-2j * np.pi * turns_per_sample))
+
+
+_shared = lru_cache(maxsize=8)(_harmonics)
+"""Its tables cost as much as its use, and the draws of a point share them: 1 MB each at most."""
 
 
 def turn_powers(
@@ -59,7 +64,8 @@ def turn_powers(
     count = int(min(top_hz, max(high for _, high in bands_hz)) / turning.hz)
     if count < 2:
         return found
-    transform = _harmonics(length, count + 1, turning.hz / rate_hz)
+    make = _shared if length <= SHARED_SAMPLES else _harmonics
+    transform = make(length, count + 1, turning.hz / rate_hz)
     orders = np.arange(count + 1)
     early = transform(samples[:, :length], axis=1) * (2.0 / length)
     late = transform(samples[:, second : second + length], axis=1) * (2.0 / length)

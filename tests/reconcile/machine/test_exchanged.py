@@ -44,10 +44,21 @@ def test_an_exchange_is_told_with_what_to_do() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("site", "said"), [("bearing1", False), ("bearing2", True)])
-def test_a_named_place_explains_that_its_own_lines_are_gone(site: str, said: bool) -> None:
+@pytest.mark.parametrize(
+    ("verdict", "term", "site", "named", "said"),
+    [
+        ("explained", "fit_clearance", "bearing1", True, False),
+        ("explained", "fit_clearance", "bearing2", True, True),
+        ("explained", "bearing_stiffness", "bearing1", True, True),
+        ("ambiguous", "fit_clearance", "bearing1", False, True),
+        ("unknown_physics", "fit_clearance", "bearing1", False, True),
+    ],
+)
+def test_a_named_change_of_how_the_ring_is_held_explains_that_its_lines_are_gone(
+    verdict: Word, term: str, site: str, named: bool, said: bool
+) -> None:
     machine = preset("paper-lightly-damped")
     hit = sound(2) + struck(bases_at(machine, SPEED_HZ)["f_o1"])
-    loose = Cause(term="fit_clearance", site=site, severity=None, score=20.0, named=True)
-    report = told(machine, sound(1), hit, "explained", (loose,))
+    cause = Cause(term=term, site=site, severity=None, score=20.0, named=named)
+    report = told(machine, sound(1), hit, verdict, (cause,))
     assert ("exchanged" in report.sentence) is said

@@ -57,11 +57,15 @@ def test_parts_are_called_as_in_the_machine_file() -> None:
     told = ("outer ring of bearing 2", "shaft 1", "mesh", "outer ring of bearing 7", "")
     lines = [LineChange(label="x", frequency_hz=1.0, change_db=3.0, channel="a", locked_to=text) for text in told]
     found = [x.locked_to for x in by_name(lines, machine)]
-    assert found == ["outer ring of fan_end", "motor", "mesh", "outer ring of bearing 7", ""]
+    both = "outer ring of drive_end or fan_end"  # of one size on one shaft: one line
+    assert found == [both, "motor", "mesh", "outer ring of bearing 7", ""]
+    other = machine.bearings[1].model_copy(update={"catalogue": "6310"})
+    unlike = machine.model_copy(update={"bearings": [machine.bearings[0], other]})
+    assert by_name(lines[:1], unlike)[0].locked_to == "outer ring of fan_end"
 
 
 def test_a_peak_that_two_lines_may_be_is_told_once_with_both_names() -> None:
-    both = "inner ring of drive_end or outer ring of drive_end"
+    both = "inner ring of drive_end or fan_end or outer ring of drive_end or fan_end"
     assert two((300.0, 303.0), (20.3, 20.0), slips=True) == [f"2*f_i1 or 3*f_o1: {both}"]
 
 
