@@ -54,8 +54,10 @@ def _told_of(machine: MachineSpec, point: PointData, channels: Sequence[Channel]
             if abs(one.speed_hz / other.speed_hz - 1.0) > SAME_SPEED:
                 turned = f"the test turned at {one.speed_hz:.4g} Hz, the baseline at {other.speed_hz:.4g} Hz"
                 return True, f"stated are {stated}, but {turned}"
-    if not _has_teeth(machine) or (len(now) == len(point.turned) and len(before) == len(point.turned_before)):
+    if len(now) == len(point.turned) and len(before) == len(point.turned_before):
         return False, ""
+    if not _has_teeth(machine):  # a sound rotor may show no line at all
+        return False, "" if now else f"no line of the test confirms the stated {stated}, on which all its orders hang"
     if before and not now:
         return True, f"no line of the test confirms the stated {stated}, {_elsewhere(machine, point, channels)}"
     return False, f"no line confirms the stated {stated} of every recording there"

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
+from reconcile.atlas.plan import Point
 from reconcile.gate.findings import Gate
 from reconcile.machine.engine import reconcile_machine
 from reconcile.machine.turned import told_apart, turned_alike, with_limits
@@ -45,6 +47,19 @@ def test_where_no_line_confirms_either_it_is_a_limit_and_no_more(machine: Machin
     alike, told = turned_alike(machine, data, CHANNELS)
     assert alike == data
     assert told == ("no line confirms the stated 30 Hz of every recording there",)
+
+
+@pytest.mark.parametrize(("methods", "said"), [(("stated",), True), (("harmonics",), False), (("tacho",), False)])
+def test_without_teeth_a_speed_that_no_line_of_the_test_confirms_is_a_limit(
+    methods: tuple[str, ...], said: bool
+) -> None:
+    """A speed three times too high in both recordings of a rotor left no trace but in the folded steps."""
+    turned = tuple(SimpleNamespace(method=m, speed_hz=90.0) for m in methods)
+    baseline = (SimpleNamespace(method="stated", speed_hz=90.0),)
+    point = SimpleNamespace(point=Point(speed_hz=90.0), turned=turned, turned_before=baseline)
+    alike, told = turned_alike(preset("rotor"), [point], CHANNELS)  # type: ignore[list-item]
+    assert alike == (point,)
+    assert bool(told) is said and all("no line of the test confirms the stated 90 Hz" in one for one in told)
 
 
 @pytest.mark.slow
