@@ -52,7 +52,8 @@ class Posterior:
 
     `misfit`: median over machines of the mean squared standardised residual, before and after (1: within errors).
     `determined` (numbers,): share of each number's prior variance that the baseline removed. `strayed`: numbers whose
-    mean left the declared spread.
+    mean left the declared spread. `left_db` (n,): by what the baseline's lines, `evidence`, stand above these
+    machines', in the middle and without what all lines of a channel have in common.
     """
 
     offsets: tuple[Offsets, ...]
@@ -60,6 +61,8 @@ class Posterior:
     misfit: tuple[float, float]
     determined: FloatArray
     strayed: np.ndarray
+    evidence: Evidence
+    left_db: FloatArray
 
 
 def mesh_evidence(
@@ -136,7 +139,16 @@ def calibrated(
         misfit=(before, _misfit(evidence.levels_db - shown[good], errors)),
         determined=np.asarray(1.0 - theta.var(axis=0) / np.maximum(prior, 1e-12)),
         strayed=np.abs(theta.mean(axis=0)) > SPREAD,
+        evidence=evidence,
+        left_db=_left(evidence.levels_db - shown[good], evidence.channel),
     )
+
+
+def _left(residual: FloatArray, channel: np.ndarray) -> FloatArray:
+    """Median over machines of residuals (N, n), without the median of each channel, (n,)."""
+    middle = np.median(residual, axis=0)
+    common = {c: np.median(middle[channel == c]) for c in np.unique(channel)}
+    return np.asarray(middle - np.array([common[c] for c in channel]))
 
 
 def _moved(

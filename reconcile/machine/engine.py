@@ -28,6 +28,7 @@ from reconcile.machine.faintest import faintest_seen
 from reconcile.machine.gate_orders import gate_orders
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
+from reconcile.machine.misfit import with_misfit
 from reconcile.machine.octave import doubted_speed, rival_speed
 from reconcile.machine.pairs import Pairs, best_pair, named_pair
 from reconcile.machine.search import (
@@ -44,6 +45,7 @@ from reconcile.machine.second import second_effect
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.strange import explained_by, strange, with_strange
 from reconcile.machine.suspected import of_the_sensor, without_suspected
+from reconcile.machine.teeth_elsewhere import misfit_report, teeth_elsewhere, told_of
 from reconcile.machine.turned import told_apart, turned_alike, with_limits
 from reconcile.machine.unknown import Unknown, unknown_force
 from reconcile.observe.observation import PointData, observe
@@ -117,7 +119,11 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     factor = rival_speed(machine, data, channels)
     if factor is not None:
         return doubted_speed(factor, data, gate, _told_by(meter, seed, budget))
-    alike, apart = turned_alike(machine, data, channels)
+    fitting, elsewhere = teeth_elsewhere(machine, data, channels)
+    if not fitting:
+        return misfit_report(elsewhere, machine, data, gate, _told_by(meter, seed, budget))
+    alike, apart = turned_alike(machine, fitting, channels)
+    apart = (*(told_of(one, machine) for one in elsewhere), *apart)
     if not alike:
         return told_apart(apart, data, gate, _told_by(meter, seed, budget))
     setting = _setting(machine, gate, alike, asked.plan, asked.keeper, meter, progress)
@@ -133,6 +139,7 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = with_exchanged(report, setting, channels)
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
+    report = with_misfit(report, looks.fit)
     report = with_strange(report, strange(machine, alike, [c.name for c in channels]), machine)
     return with_limits(report, apart)
 

@@ -29,7 +29,7 @@ FIRST_SIZES = (4, 6, 2, 5, 7, 3, 1, 0)
 LANES = 8
 """Machines that cost no more than one: vector lanes hold one effect."""
 LEAST_DRAWS = 2
-TOLD = 12
+TOLD, WORST = 12, 3
 DECIDED = 0.3
 """Share of its variance that the baseline must take from a number to count as decided."""
 
@@ -179,7 +179,24 @@ def told(local: Local) -> dict[str, object]:
         ],
         "undecided": int(np.sum(posterior.determined <= DECIDED)),
         "strayed": [labels[k] for k in np.flatnonzero(posterior.strayed)],
+        "farthest": _farthest(local),
     }
+
+
+def _farthest(local: Local) -> list[dict[str, object]]:
+    """The baseline's lines that the fitted machines are farthest from, dB above them, gains apart."""
+    setting, seen = local.setting, local.posterior.evidence
+    lines = watch_list(setting.machine).lines
+    off = local.posterior.left_db
+    return [
+        {
+            "line": lines[seen.line[k]].label,
+            "speed_hz": setting.data[seen.point[k]].point.speed_hz,
+            "channel": setting.channels[seen.channel[k]],
+            "off_db": float(off[k]),
+        }
+        for k in np.argsort(-np.abs(off))[:WORST]
+    ]
 
 
 def _middle(posterior: Posterior) -> Offsets:

@@ -116,12 +116,13 @@ def told_apart(told: Sequence[str], data: Sequence[PointData], gate: Gate, prove
         next_experiment=NextExperiment(
             sentence="Correct the speed that the description states, or record a baseline at the speed of the test."
         ),
-        stages=(gate_stage(gate), {"name": "observe", "speeds": [_speeds(d) for d in data]}),
+        stages=(gate_stage(gate), {"name": "observe", "speeds": [points_text(d) for d in data]}),
         provenance=provenance,
     )
 
 
-def _speeds(point: PointData) -> str:
+def points_text(point: PointData) -> str:
+    """The speeds found in the recordings of a point beside the stated one."""
     found = ", ".join(f"{s.speed_hz:.3f} Hz ({s.method})" for s in (*point.turned, *point.turned_before))
     return f"{point.point.speed_hz:g} Hz stated, found {found}"
 

@@ -38,6 +38,8 @@ WORDS = {
     "decided": "numbers the baseline decides",
     "undecided": "numbers it leaves open",
     "strayed": "numbers beyond their stated spread",
+    "farthest": "lines of the baseline that they are farthest from",
+    "off_db": "above them by, dB",
     "length": "length of the change",
     "null_median": "of sound machines (median)",
     "p": "chance that a sound machine shows as much",

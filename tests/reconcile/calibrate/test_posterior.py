@@ -65,6 +65,17 @@ def test_numbers_outside_their_spread_are_told() -> None:
     assert found is not None and found.strayed.tolist() == [True, False, False]
 
 
+@pytest.mark.parametrize("gain_db", [(0.0, 0.0), (12.0, -7.0)])
+def test_a_line_that_no_machine_of_the_kind_has_is_the_farthest(gain_db: tuple[float, float]) -> None:
+    seen = evidence(np.array([0.03, 0.0, -0.02]), gain_db)
+    seen.levels_db[LINES + 4] += 25.0
+    found = calibrated(start(), simulate(start()), seen, simulate, seed=2)
+    assert found is not None and found.evidence is seen and found.misfit[1] > 1.6
+    worst = int(np.argmax(np.abs(found.left_db)))
+    assert worst == LINES + 4 and (seen.channel[worst], seen.line[worst]) == (1, 4)
+    assert 5.0 < found.left_db[worst] < 26.0
+
+
 def test_two_lines_say_nothing() -> None:
     few = evidence(np.zeros(3), (0.0, 0.0))
     cut = Evidence(

@@ -1,0 +1,48 @@
+"""A machine file that cannot be moved to its baseline is told, and unknown physics is not read from it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from reconcile.machine.misfit import FOREIGN, with_misfit
+from reconcile.verdict import PlaceWeight, Report, Where
+
+FARTHEST = {"line": "4*f_m", "speed_hz": 30.0, "channel": "a1", "off_db": -17.6}
+FIT = {"misfit_after": 9.4, "strayed": ["gears.0.mass_kg", "gears.1.mass_kg"], "farthest": [FARTHEST]}
+UNKNOWN = Report(
+    verdict="unknown_physics",
+    sentence="Something is missing.",
+    level="machine",
+    where=Where(sites=(PlaceWeight(site="bearing4", weight=1.0),), limits=("known",)),
+    machine={"name": "revised"},
+)
+
+
+def test_unknown_physics_is_not_told_of_another_machine() -> None:
+    report = with_misfit(UNKNOWN, FIT)
+    assert report.verdict == "not_decidable" and report.where.sites == () and report.machine is None
+    assert "3.1 times their error" in report.sentence and "2 numbers at the edge" in report.sentence
+    assert "4*f_m at 30 Hz in a1, 18 dB below them" in report.sentence
+    assert report.undecidable[0].endswith("numbers are wrong")
+    assert report.next_experiment is not None and "Check the machine file" in report.next_experiment.sentence
+    assert report.where.limits[0] == "known" and "does not fit the baseline" in report.where.limits[1]
+
+
+@pytest.mark.parametrize("verdict", ["nothing_missing", "explained", "ambiguous", "not_decidable"])
+def test_other_answers_stand_and_say_it(verdict: str) -> None:
+    before = replace(UNKNOWN, verdict=verdict)  # type: ignore[arg-type]
+    report = with_misfit(before, FIT)
+    assert report.verdict == verdict and report.where.sites == before.where.sites
+    assert report.sentence.startswith("Something is missing. But the machine file does not fit the baseline")
+
+
+def test_a_fault_of_the_measurement_has_it_among_its_limits_alone() -> None:
+    report = with_misfit(replace(UNKNOWN, verdict="measurement_fault"), FIT)
+    assert report.sentence == UNKNOWN.sentence and len(report.where.limits) == 2
+
+
+@pytest.mark.parametrize("fit", [{}, {**FIT, "misfit_after": FOREIGN - 0.1}])
+def test_machines_that_agree_change_nothing(fit: dict[str, object]) -> None:
+    assert with_misfit(UNKNOWN, fit) is UNKNOWN

@@ -1,0 +1,129 @@
+"""A machine file or a label that cannot be of the recordings is told by where lines of teeth stand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reconcile.gate.findings import Gate
+from reconcile.machine.engine import reconcile_machine
+from reconcile.machine.teeth_elsewhere import Elsewhere, misfit_report, teeth_elsewhere, teeth_of, told_of, told_of_all
+from signals.recording import Recording, Tacho
+from sim.core.spec import MachineSpec
+from sim.presets import preset
+from tests.reconcile.machine.teeth import CHANNELS, RATE_HZ, SECONDS, TIME, seen, turning
+
+
+@pytest.fixture(scope="module")
+def machine() -> MachineSpec:
+    """A pinion of 23 teeth."""
+    return preset("paper-lightly-damped")
+
+
+def with_teeth(machine: MachineSpec, count: int) -> MachineSpec:
+    gears = [g.model_copy(update={"teeth": count}) if g.shaft == "input" else g for g in machine.gears]
+    return machine.model_copy(update={"gears": gears})
+
+
+def elsewhere(order: float, own: float = 23.0, stated_hz: float = 30.0, by_pulses: bool = False) -> Elsewhere:
+    return Elsewhere(stated_hz=stated_hz, order=order, own=own, mesh="f_m", by_pulses=by_pulses)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("true_hz", "teeth"), [(30.0, 23), (31.2, 23), (28.0, 23)], ids=["right", "4 %", "7 %"])
+def test_the_right_machine_is_never_doubted(machine: MachineSpec, true_hz: float, teeth: int) -> None:
+    """Nor where its label is a little off and the speed is found: 7 % is 21.5 teeth, which no gear has."""
+    both = [turning(machine, seed, true_hz=true_hz) for seed in (1, 2)]
+    data = seen(with_teeth(machine, teeth), both[0], baseline=both[1])
+    assert teeth_elsewhere(with_teeth(machine, teeth), data, CHANNELS) == (data, ())
+
+
+@pytest.mark.slow
+def test_a_label_in_both_recordings_that_is_far_off_is_told_with_the_speed(machine: MachineSpec) -> None:
+    both = [turning(machine, seed, stated_hz=39.0) for seed in (1, 2)]
+    report = reconcile_machine(machine, [both[0]], [both[1]])
+    assert report.verdict == "measurement_fault" and report.fault is not None
+    assert report.fault.kind == "speed_mismatch"
+    assert "the shaft turned at 30 Hz, not at 39 Hz" in report.sentence
+    assert " 689.8, 1380" in report.sentence and report.causes == () and report.machine is None
+    assert "speed" in report.next_experiment.sentence  # type: ignore[union-attr]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("count", [25, 31])
+def test_other_teeth_than_the_files_are_told_with_their_number(machine: MachineSpec, count: int) -> None:
+    """Two teeth are 8 % of the speed: the search for the speed would have followed them."""
+    wrong = with_teeth(machine, count)
+    data = seen(wrong, turning(machine, 1), baseline=turning(machine, 2))
+    kept, found = teeth_elsewhere(wrong, data, CHANNELS)
+    assert kept == () and len(found) == 1
+    assert teeth_of(found[0], wrong) == ("pinion", count, 23)
+    said = told_of(found[0], wrong)
+    assert f"pinion has 23 teeth, not {count}" in said and "or the shaft turned at" in said and "1380" in said
+
+
+@pytest.mark.slow
+def test_with_pulses_the_speed_is_no_question(machine: MachineSpec) -> None:
+    wrong = with_teeth(machine, 25)
+    tacho = Tacho(shaft="input", pulse_times_s=np.arange(0.0, SECONDS, 1 / 30.0), pulses_per_revolution=1)
+    both = [replace(turning(machine, seed), tacho=tacho) for seed in (1, 2)]
+    _, found = teeth_elsewhere(wrong, seen(wrong, both[0], baseline=both[1]), CHANNELS)
+    assert told_of(found[0], wrong).endswith("; pinion has 23 teeth, not 25")
+
+
+@pytest.mark.slow
+def test_a_point_of_its_own_is_left_out_and_told(machine: MachineSpec) -> None:
+    wrong = turning(machine, 3, true_hz=30.0, stated_hz=45.0)
+    data = seen(machine, turning(machine, 1), wrong)
+    kept, found = teeth_elsewhere(machine, data, CHANNELS)
+    assert [p.point.speed_hz for p in kept] == [30.0]
+    assert [one.stated_hz for one in found] == [45.0] and abs(found[0].factor * 45.0 - 30.0) < 0.1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("only", ["test", "baseline"])
+def test_what_only_one_of_both_shows_is_no_other_machine(machine: MachineSpec, only: str) -> None:
+    """That test and baseline did not turn alike is told elsewhere."""
+    off, right = turning(machine, 1, stated_hz=39.0, true_hz=39.0), turning(machine, 2, stated_hz=39.0)
+    test, baseline = (right, off) if only == "test" else (off, right)
+    data = seen(machine, test, baseline=baseline)
+    assert teeth_elsewhere(machine, data, CHANNELS) == (data, ())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("orders", [(1, 2, 3, 4, 5, 6), (3.57, 7.14, 10.71, 14.28)], ids=["shaft", "race"])
+def test_lines_of_shaft_and_races_are_no_teeth(machine: MachineSpec, orders: tuple[float, ...]) -> None:
+    """A machine whose teeth are not heard at all."""
+
+    def heard(seed: int) -> Recording:
+        lines = sum(np.sin(2 * np.pi * 30.0 * k * TIME + k) for k in orders)
+        noise = 0.2 * np.random.default_rng(seed).normal(size=(2, round(RATE_HZ * SECONDS)))
+        return replace(turning(machine, seed, level=0.0), samples=lines + noise)
+
+    data = seen(machine, heard(1), baseline=heard(2))
+    assert teeth_elsewhere(machine, data, CHANNELS) == (data, ())
+
+
+def test_points_that_say_the_same_are_told_once(machine: MachineSpec) -> None:
+    alike = [elsewhere(17.7, stated_hz=hz) for hz in (22.5, 30.0, 39.0)]
+    said = told_of_all(alike, machine)
+    assert said.count("lines as of teeth") == 1 and said.endswith("likewise at 30 and 39 Hz")
+    assert told_of_all([*alike, elsewhere(30.7, stated_hz=50.0)], machine).count("lines as of teeth") == 2
+
+
+@pytest.mark.parametrize(
+    ("found", "verdict", "asked"),
+    [
+        (elsewhere(17.69), "measurement_fault", "Correct the speed"),
+        (elsewhere(25.02), "not_decidable", "numbers of teeth in the machine file and the stated speeds"),
+        (elsewhere(25.02, by_pulses=True), "not_decidable", "pulses a revolution"),
+    ],
+)
+def test_the_verdict_says_what_is_known(machine: MachineSpec, found: Elsewhere, verdict: str, asked: str) -> None:
+    gate = Gate(findings=(), baselines=(), tests=(), fault=None, usable=True)
+    report = misfit_report([found], machine, [], gate, {})
+    assert report.verdict == verdict and (report.fault is not None) == (verdict == "measurement_fault")
+    assert report.next_experiment is not None and asked in report.next_experiment.sentence
+    assert report.undecidable
