@@ -15,7 +15,7 @@ from scipy.optimize import linear_sum_assignment
 
 from reconcile.gate.findings import Finding
 from reconcile.gate.levels import Pair
-from reconcile.gate.lines import denied
+from reconcile.gate.lines import common_unit_gains, denied
 from reconcile.gate.robust import robust_swap_order, robust_unit_gain
 from reconcile.gate.units import even_unit_gain, possible, unit_finding, unit_of
 from signals.recording import Recording
@@ -55,17 +55,22 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
     change = [p.test - p.baseline for p in pairs]
     found: list[Finding] = []
     quantities = [channel.quantity for channel in pairs[0].channels]
+    lines = [np.concatenate([p.lines_db[c] for p in pairs]) for c in range(len(names))]
+    common = common_unit_gains(lines, quantities)
     for c, name in enumerate(names):
         gain, roughly = _gain(change, c), even_unit_gain(change, c, quantities)
         unit_gain = roughly if roughly is not None else robust_unit_gain(pairs, c)
+        by_lines = unit_gain is None and common[c] is not None
+        unit_gain = common[c] if by_lines else unit_gain
         likely = gain if gain is not None else unit_gain
-        if likely is not None and denied(likely, np.concatenate([p.lines_db[c] for p in pairs])):
+        if likely is not None and denied(likely, lines[c]):
             continue
         if gain is not None:
             found.append(_gain_finding(gain, change, c, name, quantities))
         elif unit_gain is not None:
             unit = unit_of(unit_gain, np.inf, possible(quantities[c]))
-            found.append(unit_finding(unit_gain, str(unit), name, _all_bands(change, c)))
+            seen, what = (lines[c], "strong lines") if by_lines and lines[c].size else (_all_bands(change, c), "bands")
+            found.append(unit_finding(unit_gain, str(unit), name, seen, what))
         elif len(names) > 1:
             found += _loose(pairs, change, c, name)
     # all channels by one gain is a change of load or level unless it is a unit

@@ -81,11 +81,11 @@ def _even(change: Sequence[FloatArray], c: int, middle: float) -> bool:
     return quarter < EVEN_DB and edge < EVEN_DB
 
 
-def unit_finding(gain_db: float, unit: str, name: str, change_db: FloatArray) -> Finding:
-    """`unit_mismatch`; undoing it takes back the exact ratio. `change_db`: of all bands, as measured."""
+def unit_finding(gain_db: float, unit: str, name: str, change_db: FloatArray, what: str = "bands") -> Finding:
+    """`unit_mismatch`; undoing it takes back the exact ratio. `change_db`: of all bands, or lines, as measured."""
     exact = float(np.sign(gain_db) * 20 * np.log10(UNIT_RATIOS[unit]))
     low, high = np.percentile(change_db, [10, 90])
-    detail = f"eight tenths of its bands changed by {low:+.1f} to {high:+.1f} dB, "
+    detail = f"eight tenths of its {what} changed by {low:+.1f} to {high:+.1f} dB, "
     detail += f"and {exact:+.1f} dB is the ratio of {unit}"
     if unit == GRAVITY:
         numbers, said = ("g", "m/s^2") if gain_db < 0 else ("m/s^2", "g")

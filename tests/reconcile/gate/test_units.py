@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.gate import Gate, inspect_measurement
+from reconcile.gate.lines import common_unit_gains
 from reconcile.gate.units import even_unit_gain, unit_of
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from signals.recording import Recording
@@ -98,3 +99,40 @@ def test_a_defect_behind_a_wrong_unit_is_still_named() -> None:
     assert quiet.verdict == "measurement_fault"
     assert quiet.fault is not None and quiet.fault.kind == "unit_mismatch"
     assert "described as m/s^2" in quiet.sentence
+
+
+def lines(middle_db: float, scatter_db: float = 1.0, count: int = 9) -> np.ndarray:
+    return middle_db + scatter_db * np.linspace(-2.0, 2.0, count)
+
+
+ACCELERATIONS = ["acceleration"] * 3
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_lines_of_nearly_all_channels_that_moved_by_a_ratio_are_a_unit(sign: float) -> None:
+    """Beside a fault that raises or drowns the lines of one channel."""
+    moved = sign * 19.83
+    expected = pytest.approx(sign * 20 * np.log10(GRAVITY))
+    all_moved = [lines(moved - 2.5), lines(moved + 1.0), lines(moved)]
+    assert common_unit_gains(all_moved, ACCELERATIONS) == (expected,) * 3
+    loud = [lines(moved), lines(8.0, 5.0), lines(moved + 2.0)]
+    assert common_unit_gains(loud, ACCELERATIONS) == (expected,) * 3
+    other = [lines(moved), lines(0.5), lines(moved + 2.0)]
+    assert common_unit_gains(other, ACCELERATIONS) == (expected, None, expected)
+
+
+@pytest.mark.parametrize(
+    ("channels", "quantities"),
+    [
+        ([lines(-19.8)], ["acceleration"]),
+        ([lines(-19.8), lines(0.0), lines(0.5)], ACCELERATIONS),
+        ([lines(-19.8), lines(19.8), lines(0.5)], ACCELERATIONS),
+        ([lines(-12.0), lines(-12.5), lines(-12.0)], ACCELERATIONS),
+        ([lines(-19.8, 6.0), lines(-19.8, 6.0), lines(0.0)], ACCELERATIONS),
+        ([lines(-19.8, count=4), lines(-19.8, count=4), lines(-19.8, count=4)], ACCELERATIONS),
+        ([lines(-19.8), lines(-19.8)], ["force", "torque"]),
+    ],
+    ids=["alone", "one of three", "both ways", "no ratio", "scattered", "few", "other quantities"],
+)
+def test_other_moves_of_lines_are_no_unit(channels: list[np.ndarray], quantities: list[str]) -> None:
+    assert common_unit_gains(channels, quantities) == (None,) * len(channels)
