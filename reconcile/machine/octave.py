@@ -19,7 +19,6 @@ from reconcile.observe.watch import bases_at
 from reconcile.speed import line_logs
 from reconcile.speed.octave import octave_rival
 from reconcile.verdict import NextExperiment, Report, Where
-from signals.recording import Operating, Recording
 from sim.core.response import Channel
 from sim.core.spec import MachineSpec
 
@@ -50,13 +49,7 @@ def _of_point(machine: MachineSpec, point: PointData, channels: Sequence[Channel
 def _factor(machine: MachineSpec, one: Steady, channels: Sequence[Channel]) -> float | None:
     meshes = [hz for name, hz in bases_at(machine, one.speed_hz).items() if name.startswith("f_m")]
     alone = [m for m in meshes if not any(o != m and _octaves(o, m) for o in meshes)]
-    recording = Recording(
-        sampling_rate_hz=one.rate_hz,
-        channels=tuple(channels),
-        samples=one.samples,
-        operating=Operating(shaft=one.estimate.shaft, speed_hz=one.speed_hz),
-    )
-    combs = line_logs(recording)
+    combs = line_logs(one.recording(channels))
     rivals = []
     for mesh_hz in alone:
         heard = [k for k in MESH_HARMONICS if k * mesh_hz < TRUSTED * one.rate_hz]

@@ -21,9 +21,9 @@ from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
 from reconcile.observe.watch import bases_at
 from reconcile.speed import line_logs
+from reconcile.speed.elsewhere import lines_elsewhere
 from reconcile.speed.estimate import comb_score
 from reconcile.verdict import NextExperiment, Report, SensorFault, Where
-from signals.recording import Operating, Recording
 from signals.series import FloatArray
 from sim.core.response import Channel
 from sim.core.spec import MachineSpec
@@ -55,7 +55,8 @@ DOUBTFUL = 0.05
 
 @dataclass(frozen=True, kw_only=True)
 class Elsewhere:
-    """Lines of teeth at `order` times the stated speed at one operating point, where the file has them at `own`."""
+    """Lines of teeth (of the shaft: no `mesh`) at `order` times the stated speed at one operating point, where the
+    file has them at `own`."""
 
     stated_hz: float
     order: float
@@ -72,14 +73,13 @@ class Elsewhere:
 def teeth_elsewhere(
     machine: MachineSpec, data: Sequence[PointData], channels: Sequence[Channel]
 ) -> tuple[tuple[PointData, ...], tuple[Elsewhere, ...]]:
-    """The points whose lines of teeth stand where file and label say, or are not clear; and where those of the others
-    stand. A speed that is within `FOLLOWED` of its label stays, unless another number of teeth is as likely."""
+    """The points whose lines of teeth (without any, of the shaft) stand where file and label say, or are not clear;
+    and where those of the others stand. A speed that is within `FOLLOWED` of its label stays, unless another number of
+    teeth is as likely."""
     orders = _orders(machine)
-    if not orders:
-        return tuple(data), ()
     kept, elsewhere = [], []
     for point in data:
-        found = _of_point(point, orders, channels)
+        found = _of_point(point, orders, channels) if orders else _of_shaft(point, channels)
         if found is None or _follows(found, machine):
             kept.append(point)
         else:
@@ -129,6 +129,18 @@ def _of_point(point: PointData, orders: Mapping[str, float], channels: Sequence[
     return Elsewhere(stated_hz=point.point.speed_hz, order=order, own=orders[mesh], mesh=mesh, by_pulses=pulses)
 
 
+def _of_shaft(point: PointData, channels: Sequence[Channel]) -> Elsewhere | None:
+    """Without teeth the shaft's own harmonics, three of them at least, where nothing near the label confirms it."""
+    heard = [s for s in point.spectra if s is not None]
+    if any(s.estimate.method != "stated" for s in heard):
+        return None
+    far = [lines_elsewhere(s.recording(channels), _label_hz(s, point)) for s in heard]
+    speeds = [one.speed_hz / _label_hz(s, point) for one, s in zip(far, heard, strict=True) if one and not one.own]
+    if len(speeds) < len(heard) or max(speeds) > (1.0 + ALIKE) * min(speeds):
+        return None
+    return Elsewhere(stated_hz=point.point.speed_hz, order=float(np.mean(speeds)), own=1.0, mesh="", by_pulses=False)
+
+
 def _label_hz(one: Steady, point: PointData) -> float:
     return one.speed_hz if one.estimate.method == "tacho" else (one.estimate.stated_hz or point.point.speed_hz)
 
@@ -148,13 +160,7 @@ def _scores(one: Steady, label_hz: float, channels: Sequence[Channel], grid: Flo
 
 def _line_logs(one: Steady, channels: Sequence[Channel]) -> list[tuple[FloatArray, float]]:
     """Log power of lines, of three bins the largest, and the width of a bin, of each channel."""
-    recording = Recording(
-        sampling_rate_hz=one.rate_hz,
-        channels=tuple(channels),
-        samples=one.samples,
-        operating=Operating(shaft=one.estimate.shaft, speed_hz=one.speed_hz),
-    )
-    logs = line_logs(recording)
+    logs = line_logs(one.recording(channels))
     return [(maximum_filter1d(log[: int(TRUSTED * one.rate_hz / width)], 3), width) for log, width in logs]
 
 
@@ -174,8 +180,10 @@ def _of_slower(one: Steady, comb_hz: float, channels: Sequence[Channel]) -> bool
 def told_of(found: Elsewhere, machine: MachineSpec) -> str:
     """Which line shows it, and what would explain it."""
     at = found.order * found.stated_hz
-    lines = f"lines as of teeth stand at {at:.4g}, {2 * at:.4g} and {3 * at:.4g} Hz ({found.order:.3g} times the speed)"
-    own = f"where the file's teeth would be at {found.own * found.stated_hz:.4g} Hz"
+    part = "teeth" if found.mesh else "a shaft"
+    places = f"{at:.4g}, {2 * at:.4g} and {3 * at:.4g} Hz ({found.order:.3g} times the speed)"
+    lines = f"lines as of {part} stand at {places}"
+    own = f"where the file's teeth would be at {found.own * found.stated_hz:.4g} Hz" if found.mesh else "none near it"
     return f"at {found.stated_hz:g} Hz {lines}, {own}; {_why(found, machine)}"
 
 
@@ -211,7 +219,7 @@ def misfit_report(
         level="machine",
         where=Where(limits=doubts(gate)),
         fault=SensorFault(kind="speed_mismatch", channel="", detail=detail) if by_label else None,
-        undecidable=("whether anything is missing: no line of the machine file's teeth is there",),
+        undecidable=("whether anything is missing: the machine file's lines are not there",),
         next_experiment=NextExperiment(sentence=_advice(found, machine)),
         stages=(gate_stage(gate), {"name": "observe", "speeds": [points_text(d) for d in data]}),
         provenance=told,

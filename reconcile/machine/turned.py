@@ -20,7 +20,6 @@ from reconcile.observe.steady import Steady
 from reconcile.speed import SpeedEstimate, line_logs
 from reconcile.speed.estimate import comb_score
 from reconcile.verdict import NextExperiment, Report, SensorFault, Where
-from signals.recording import Operating, Recording
 from signals.series import FloatArray
 from sim.core.response import Channel
 from sim.core.spec import MachineSpec
@@ -28,6 +27,8 @@ from sim.core.spec import MachineSpec
 WIDELY, STEPS = 0.3, 6001
 """Share of the stated speed within which the teeth are looked for where no line near it was found, and how finely."""
 HARMONICS = 6
+CLEAR = 3.0
+"""Log power over what noise reaches, from which a line is told."""
 ENOUGH = 0.6
 """Of the baseline's score at its speed, from which the same teeth have been found in the test."""
 
@@ -57,7 +58,8 @@ def _told_of(machine: MachineSpec, point: PointData, channels: Sequence[Channel]
     if len(now) == len(point.turned) and len(before) == len(point.turned_before):
         return False, ""
     if not _has_teeth(machine):  # a sound rotor may show no line at all
-        return False, "" if now else f"no line of the test confirms the stated {stated}, on which all its orders hang"
+        unsure = f"no line of the test confirms the stated {stated}, on which all its orders hang"
+        return False, "" if now else f"{unsure}{_clearest(point, channels)}"
     if before and not now:
         return True, f"no line of the test confirms the stated {stated}, {_elsewhere(machine, point, channels)}"
     return False, f"no line confirms the stated {stated} of every recording there"
@@ -90,13 +92,18 @@ def _elsewhere(machine: MachineSpec, point: PointData, channels: Sequence[Channe
     return f"at which the baseline's teeth are found: in the test they are at about {speeds[best]:.3g} Hz"
 
 
+def _clearest(point: PointData, channels: Sequence[Channel]) -> str:
+    """Where the test's clearest line stands, if any does."""
+    logs = line_logs(point.spectra[0].recording(channels))
+    tops = [(float(np.max(log)), int(np.argmax(log)) * width) for log, width in logs]
+    most, hz = max(tops, default=(0.0, 0.0))
+    share = hz / point.point.speed_hz
+    return f"; its clearest line is at {hz:.4g} Hz, {share:.3g} times that" if most >= CLEAR else ""
+
+
 def _score(machine: MachineSpec, one: Steady, channels: Sequence[Channel], speeds_hz: FloatArray) -> FloatArray:
     """Mean log power over the floor at the teeth's lines of each speed, (speeds,)."""
-    operating = Operating(shaft=one.estimate.shaft, speed_hz=one.speed_hz)
-    recording = Recording(
-        sampling_rate_hz=one.rate_hz, channels=tuple(channels), samples=one.samples, operating=operating
-    )
-    combs = line_logs(recording)
+    combs = line_logs(one.recording(channels))
     orders = [float(n * z) for z in _teeth(machine) for n in range(1, HARMONICS + 1)]
     scores = [comb_score(maximum_filter1d(log, 3), width, speeds_hz, orders) for log, width in combs]
     return np.asarray(np.mean(scores, axis=0))

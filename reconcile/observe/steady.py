@@ -9,8 +9,9 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from reconcile.speed import SpeedEstimate, estimate_speed, followed_angle, shaft_angle
-from signals.recording import Recording
+from signals.recording import Operating, Recording
 from signals.series import FloatArray
+from sim.core.response import Channel
 
 EVEN_SHARE = 2e-4
 """An angle closer to even than this share of a revolution a revolution needs no resampling."""
@@ -28,6 +29,15 @@ class Steady:
     speed_hz: float
     estimate: SpeedEstimate
     start_turns: float = 0.0
+
+    def recording(self, channels: Sequence[Channel]) -> Recording:
+        """The samples as a recording at the speed they stand for."""
+        return Recording(
+            sampling_rate_hz=self.rate_hz,
+            channels=tuple(channels),
+            samples=self.samples,
+            operating=Operating(shaft=self.estimate.shaft, speed_hz=self.speed_hz),
+        )
 
 
 def steady(recording: Recording, *, orders: Sequence[float], slowest: float = 1.0, seed: int = 0) -> Steady:

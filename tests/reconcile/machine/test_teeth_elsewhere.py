@@ -10,7 +10,7 @@ import pytest
 from reconcile.gate.findings import Gate
 from reconcile.machine.engine import reconcile_machine
 from reconcile.machine.teeth_elsewhere import Elsewhere, misfit_report, teeth_elsewhere, teeth_of, told_of, told_of_all
-from signals.recording import Recording, Tacho
+from signals.recording import Operating, Recording, Tacho
 from sim.core.spec import MachineSpec
 from sim.presets import preset
 from tests.reconcile.machine.teeth import CHANNELS, RATE_HZ, SECONDS, TIME, seen, turning
@@ -104,6 +104,26 @@ def test_lines_of_shaft_and_races_are_no_teeth(machine: MachineSpec, orders: tup
 
     data = seen(machine, heard(1), baseline=heard(2))
     assert teeth_elsewhere(machine, data, CHANNELS) == (data, ())
+
+
+@pytest.mark.parametrize(("harmonics", "told"), [((1, 2, 3, 4), True), ((1,), False)])
+def test_without_teeth_three_harmonics_of_the_shaft_tell_its_speed(harmonics: tuple[int, ...], told: bool) -> None:
+    rotor = preset("rotor")
+
+    def heard(seed: int) -> Recording:
+        lines = sum(np.sin(2 * np.pi * 30.0 * k * TIME + k) / k for k in harmonics)
+        return Recording(
+            sampling_rate_hz=RATE_HZ,
+            channels=(CHANNELS[0],),
+            samples=(lines + 0.05 * np.random.default_rng(seed).normal(size=TIME.size))[None],
+            operating=Operating(shaft="input", speed_hz=39.0),
+        )
+
+    kept, found = teeth_elsewhere(rotor, seen(rotor, heard(1), baseline=heard(2)), CHANNELS[:1])
+    assert len(found) == int(told) and len(kept) == int(not told)
+    for one in found:
+        said = told_of(one, rotor)
+        assert "lines as of a shaft stand at 30, 60 and 90 Hz" in said and "turned at 30 Hz, not at 39 Hz" in said
 
 
 def test_points_that_say_the_same_are_told_once(machine: MachineSpec) -> None:

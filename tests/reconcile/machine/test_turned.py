@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from reconcile.atlas.plan import Point
@@ -12,9 +13,10 @@ from reconcile.gate.findings import Gate
 from reconcile.machine.engine import reconcile_machine
 from reconcile.machine.turned import told_apart, turned_alike, with_limits
 from reconcile.verdict import Report, Where
+from signals.recording import Operating, Recording
 from sim.core.spec import MachineSpec
 from sim.presets import preset
-from tests.reconcile.machine.teeth import CHANNELS, seen, turning
+from tests.reconcile.machine.teeth import CHANNELS, RATE_HZ, TIME, seen, turning
 
 
 @pytest.fixture(scope="module")
@@ -56,10 +58,31 @@ def test_without_teeth_a_speed_that_no_line_of_the_test_confirms_is_a_limit(
     """A speed three times too high in both recordings of a rotor left no trace but in the folded steps."""
     turned = tuple(SimpleNamespace(method=m, speed_hz=90.0) for m in methods)
     baseline = (SimpleNamespace(method="stated", speed_hz=90.0),)
-    point = SimpleNamespace(point=Point(speed_hz=90.0), turned=turned, turned_before=baseline)
+    silent = SimpleNamespace(recording=lambda channels: turning(preset("paper-lightly-damped"), 1, level=0.0))
+    point = SimpleNamespace(point=Point(speed_hz=90.0), turned=turned, turned_before=baseline, spectra=(silent, None))
     alike, told = turned_alike(preset("rotor"), [point], CHANNELS)  # type: ignore[list-item]
     assert alike == (point,)
     assert bool(told) is said and all("no line of the test confirms the stated 90 Hz" in one for one in told)
+
+
+@pytest.mark.parametrize(("level", "said"), [(1.0, "30 Hz, 0.333 times that"), (0.0, "")])
+def test_the_clearest_line_is_told_beside_a_speed_that_no_line_confirms(level: float, said: str) -> None:
+    """An unbalanced rotor whose label is three times its speed, in both recordings."""
+    rotor = preset("rotor")
+    both = [
+        Recording(
+            sampling_rate_hz=RATE_HZ,
+            channels=(CHANNELS[0],),
+            samples=level * np.sin(2 * np.pi * 30.0 * TIME)[None]
+            + 0.1 * np.random.default_rng(seed).normal(size=(1, TIME.size)),
+            operating=Operating(shaft="input", speed_hz=90.0),
+        )
+        for seed in (1, 2)
+    ]
+    data = seen(rotor, both[0], baseline=both[1])
+    alike, told = turned_alike(rotor, data, CHANNELS[:1])
+    assert alike == data and len(told) == 1 and told[0].endswith(said)
+    assert ("its clearest line" in told[0]) is bool(said)
 
 
 @pytest.mark.slow
