@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from reconcile.atlas.bank import Mapper
-from reconcile.atlas.candidates import Candidate
+from reconcile.atlas.candidates import Candidate, candidates
 from reconcile.atlas.keep import Keeper
 from reconcile.atlas.places import simulated_channels
 from reconcile.driven import reconcile_driven
@@ -182,9 +182,12 @@ def reconcile_recordings(
 
 
 def already_there(machine: MachineSpec) -> tuple[str, ...]:
-    """Effects that the machine has: candidates are those that it has not."""
-    has = [f"{t.term.replace('_', ' ')} at {t.site}" for t in machine.terms if t.term not in BUILT_IN]
-    return (f"not looked for is whether what the machine has already grew: {', '.join(has)}",) if has else ()
+    """Effects that the machine has: those with a size are candidates that may have grown, the others are not looked
+    for."""
+    own = [t for t in machine.terms if t.term not in BUILT_IN]
+    looked = {(c.term, c.site) for c in candidates(machine)}
+    has = [f"{t.term.replace('_', ' ')} at {t.site}" for t in own if (t.term, t.site) not in looked]
+    return (f"not looked for is whether what the machine has already changed: {', '.join(has)}",) if has else ()
 
 
 def _with_limits(report: Report, remarks: Sequence[str]) -> Report:

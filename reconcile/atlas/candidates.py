@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,15 +49,43 @@ def _sites(machine: MachineSpec, term: Term) -> Iterator[str]:
 
 
 def candidates(machine: MachineSpec, registry: Registry = REGISTRY) -> tuple[Candidate, ...]:
-    """Every effect this machine does not have already, wherever it may act."""
-    present = {(t.term, t.site) for t in machine.terms}
+    """Every effect wherever it may act: what this machine has already may have grown there, and what excludes that
+    cannot be there."""
     return tuple(
         Candidate(term=term.key, site=site)
         for term in registry
         if term.key not in BUILT_IN and term.key not in FREE and term.severity is not None
         for site in _sites(machine, term)
-        if (term.key, site) not in present
+        if not _ruled_out(machine, term, site, registry)
     )
+
+
+def _ruled_out(machine: MachineSpec, term: Term, site: str, registry: Registry) -> bool:
+    """Whether the machine has what excludes a term at a site, or has this term in a form that has no size to grow."""
+    for own in (t for t in machine.terms if t.site == site):
+        there = registry.get(own.term)
+        if own.term == term.key:
+            return size_now(own, size_parameter(term)) <= 0.0
+        if there is not None and (own.term in term.excludes or term.key in there.excludes):
+            return True
+    return False
+
+
+def already(machine: MachineSpec, term: str, site: str) -> TermSpec | None:
+    """The same effect where the machine has it."""
+    return next((t for t in machine.terms if (t.term, t.site) == (term, site)), None)
+
+
+def size_now(own: TermSpec, size: Param) -> float:
+    """Of an effect that a machine has; its default where the file gives none."""
+    return float(own.parameters.get(size.name, size.default))
+
+
+def with_effects(machine: MachineSpec, terms: Sequence[TermSpec]) -> MachineSpec:
+    """The machine with these effects, each in place of what it has of it already."""
+    new = {(t.term, t.site) for t in terms}
+    kept = [t for t in machine.terms if (t.term, t.site) not in new]
+    return machine.model_copy(update={"terms": [*kept, *terms]})
 
 
 def size_parameter(term: Term) -> Param:
@@ -77,8 +105,8 @@ def size_range(param: Param) -> tuple[float, float]:
     return low, high
 
 
-def _at(param: Param, share: float) -> float:
-    low, high = size_range(param)
+def _at(param: Param, share: float, bounds: tuple[float, float] | None = None) -> float:
+    low, high = bounds or size_range(param)
     return float(np.clip(np.exp(np.log(low) + share * np.log(high / low)), low, high))
 
 
@@ -105,11 +133,17 @@ def draw_term(
     sought: float = 0.5,
 ) -> TermSpec:
     """The candidate at `share` 0..1 of its range (logarithmic), other parameters with a range to be searched at the
-    share `sought` of that, whatever the machine gives; the rest drawn, but for what the machine gives."""
+    share `sought` of that, whatever the machine gives; the rest drawn, but for what the machine gives. What the machine
+    has already grows up to `ABOVE` times, all else of it as it is."""
     term = registry.get(candidate.term)
     if term is None:
         raise ValueError(f"no term {candidate.term}")
     size = size_parameter(term)
+    own = already(machine, candidate.term, candidate.site)
+    if own is not None:
+        now = size_now(own, size)
+        grown = _at(size, share, (now, min(ABOVE * now, size.high)))
+        return own.model_copy(update={"parameters": {**own.parameters, size.name: grown}})
     given = term.machine_values(machine, candidate.site)
     rest = [p for p in term.params if p is not size]
     values = {p.name: _other(p, rng) for p in rest if p.sought is None and p.name not in given}

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reconcile.atlas.candidates import Candidate, draw_term
+from reconcile.atlas.candidates import Candidate, already, draw_term, with_effects
 from reconcile.calibrate.uncertain import DRIFT, Offsets, Uncertain, draw_offsets, moved
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec, TermSpec, TorqueLoad
@@ -79,7 +79,7 @@ class AtlasPlan:
         if draw.term is not None:
             terms = (*terms, *sorted((draw.term, *draw.also, *draw.beside), key=lambda t: t.site))
         if terms:
-            machine = machine.model_copy(update={"terms": [*machine.terms, *terms]})
+            machine = with_effects(machine, terms)
         return Member(machine=machine, seed=self.seed + 1000 * draw.pair + (1 if draw.twin else 0))
 
 
@@ -154,8 +154,9 @@ def side_by_side(plan: AtlasPlan) -> AtlasPlan:
     def beside(draw: Draw) -> Draw:
         if draw.term is None:
             return draw
-        others = faint[draw.term.term]
-        return replace(draw, beside=tuple(t for site, t in others.items() if site != draw.term.site))
+        key, own = draw.term.term, draw.term.site
+        others = [t for site, t in faint[key].items() if site != own and already(plan.machine, key, site) is None]
+        return replace(draw, beside=tuple(others))
 
     return replace(plan, draws=tuple(beside(d) for d in plan.draws))
 

@@ -26,6 +26,7 @@ from reconcile.machine.drive import on_drive
 from reconcile.machine.exchanged import with_exchanged
 from reconcile.machine.faintest import faintest_seen
 from reconcile.machine.gate_orders import gate_orders
+from reconcile.machine.grown import with_grown
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter
 from reconcile.machine.misfit import with_misfit
@@ -139,7 +140,7 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = with_exchanged(report, setting, channels)
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
-    report = with_misfit(report, looks.fit)
+    report = with_misfit(with_grown(report, machine), looks.fit)
     report = with_strange(report, strange(machine, alike, [c.name for c in channels]), machine)
     return with_limits(report, apart)
 

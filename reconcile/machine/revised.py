@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from reconcile.atlas.bank import Mapper
-from reconcile.atlas.candidates import Candidate
+from reconcile.atlas.candidates import Candidate, with_effects
 from reconcile.atlas.plan import AtlasPlan, Draw
 from reconcile.calibrate.chain import band_centres_hz
 from reconcile.calibrate.uncertain import Offsets, moved
@@ -87,7 +87,7 @@ def revised_machine(
     left = {k: _size((seen - changes[k])[compared]) for k in runs}
     best = min(left, key=lambda k: left[k])
     return Revised(
-        machine=machine.model_copy(update={"terms": [*machine.terms, *forms[best]]}),
+        machine=with_effects(machine, forms[best]),
         change=changes[best],
         before_db=_size(seen[compared]),
         after_db=left[best],

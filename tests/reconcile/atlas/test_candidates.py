@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reconcile.atlas.candidates import FREE, Candidate, candidates, draw_term, size_parameter, size_range
-from reconcile.atlas.plan import atlas_plan, with_tooth_pairs
+from reconcile.atlas.candidates import FREE, Candidate, candidates, draw_term, size_parameter, size_range, with_effects
+from reconcile.atlas.plan import Point, atlas_plan, side_by_side, with_tooth_pairs
 from reconcile.calibrate.uncertain import uncertain_numbers
 from sim.assembly.assemble import BUILT_IN, assemble
-from sim.core.spec import TermSpec
+from sim.core.spec import MachineSpec, TermSpec
 from sim.parts.wall import SOUGHT_DAMPING
 from sim.presets import preset
 from sim.terms import REGISTRY
@@ -32,12 +32,49 @@ def test_every_effect_with_a_size_stands_at_each_legal_site(term) -> None:  # ty
     assert sites == {name for kind in term.sites for name in PARTS[kind]}
 
 
-def test_nothing_stands_twice_and_what_is_there_is_no_candidate() -> None:
+def having(term: str, site: str, **parameters: float) -> MachineSpec:
+    return MACHINE.model_copy(update={"terms": [TermSpec(term=term, site=site, parameters=parameters)]})
+
+
+def test_nothing_stands_twice_and_what_is_ruled_out_is_no_candidate() -> None:
     assert len({c.label for c in ALL}) == len(ALL)
-    there = TermSpec(term="outer_spall", site="bearing1", parameters={"width": 1e-3})
-    left = {c.label for c in candidates(MACHINE.model_copy(update={"terms": [there]}))}
-    assert {c.label for c in ALL} - left == {"outer_spall@bearing1"}
     assert not {c.term for c in ALL} & set(FREE)
+    left = {c.label for c in candidates(having("fit_clearance", "bearing1", gap=2e-5))}
+    assert "fit_clearance@bearing1" in left
+    gone = {c.label for c in ALL} - left
+    assert gone and all(REGISTRY.get(g.split("@")[0]) is not None and g.endswith("@bearing1") for g in gone)
+    assert "fit_clearance_series@bearing1" in gone
+    none = {c.label for c in candidates(having("fit_clearance", "bearing1", gap=0.0))}
+    assert "fit_clearance@bearing1" not in none
+
+
+@pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
+def test_what_the_machine_has_grows_from_what_it_is(share: float) -> None:
+    machine = having("fit_clearance", "bearing1", gap=2e-5, friction=0.07)
+    grown = draw_term(Candidate(term="fit_clearance", site="bearing1"), share, np.random.default_rng(1), machine)
+    assert grown.parameters == {"gap": pytest.approx(2e-5 * 6.0**share), "friction": 0.07}
+    other = draw_term(Candidate(term="fit_clearance", site="bearing2"), share, np.random.default_rng(1), machine)
+    assert other.site == "bearing2" and other.parameters["friction"] != 0.07
+
+
+def test_a_grown_effect_stands_in_place_of_the_old_one() -> None:
+    machine = having("fit_clearance", "bearing1", gap=2e-5)
+    grown = TermSpec(term="fit_clearance", site="bearing1", parameters={"gap": 5e-5})
+    pit = TermSpec(term="outer_spall", site="bearing1", parameters={"width": 1e-3})
+    assert with_effects(machine, [grown]).terms == [grown]
+    assert with_effects(machine, [pit]).terms == [*machine.terms, pit]
+    assemble(with_effects(machine, [grown, pit]))
+
+
+def test_faint_forms_stand_only_where_the_machine_has_no_such_effect() -> None:
+    """Else the old one would be taken away beside an effect elsewhere."""
+    machine = having("outer_spall", "bearing1", width=1e-3)
+    chosen = [c for c in candidates(machine) if c.term == "outer_spall"]
+    plan = side_by_side(atlas_plan(machine, uncertain_numbers(machine), chosen, seed=0, draws=2, pairs=2))
+    effects = [d for d in plan.draws if d.term is not None]
+    assert {t.site for d in effects for t in d.beside} == {"bearing2", "bearing3", "bearing4"}
+    there = [plan.member(d, Point(speed_hz=30.0)).machine.terms for d in effects]
+    assert all(len([t for t in terms if t.site == "bearing1"]) == 1 for terms in there)
 
 
 @pytest.mark.parametrize(
