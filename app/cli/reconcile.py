@@ -14,7 +14,7 @@ import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager, nullcontext
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from multiprocessing import get_context
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -126,9 +126,18 @@ def _machine_named(path: Path) -> Iterator[None]:
         ) from error
 
 
-def _progress(share: float, stage: str) -> None:
-    if sys.stderr.isatty():
-        print(f"\r{share:4.0%} {stage:<40}", end="\n" if share >= 1.0 else "", file=sys.stderr, flush=True)
+@dataclass
+class _Shown:
+    """Progress on stderr: one line that is written over on a terminal, else a line a stage."""
+
+    last: str = ""
+
+    def __call__(self, share: float, stage: str) -> None:
+        if sys.stderr.isatty():
+            print(f"\r{share:4.0%} {stage:<40}", end="\n" if share >= 1.0 else "", file=sys.stderr, flush=True)
+        elif stage != self.last:
+            print(f"{share:4.0%} {stage}", file=sys.stderr, flush=True)
+        self.last = stage
 
 
 def _writable(folder: Path) -> None:
@@ -163,7 +172,7 @@ def run(arguments: argparse.Namespace) -> int:
             keeper=keeper,
             mapper=workers.map if workers is not None else map,
             seed=arguments.seed,
-            progress=_progress,
+            progress=_Shown(),
         )
     earlier = (arguments.out / "report.json").exists()
     written = write_report(report, arguments.out)

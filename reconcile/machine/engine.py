@@ -28,7 +28,7 @@ from reconcile.machine.faintest import faintest_seen
 from reconcile.machine.gate_orders import gate_orders
 from reconcile.machine.grown import with_grown
 from reconcile.machine.local import around_baseline, told
-from reconcile.machine.meter import Meter
+from reconcile.machine.meter import Meter, Telling
 from reconcile.machine.misfit import with_misfit
 from reconcile.machine.octave import doubted_speed, rival_speed
 from reconcile.machine.pairs import Pairs, best_pair, named_pair
@@ -247,8 +247,10 @@ def _setting(
     distinct = standard_channels(machine, simulated)
     banks = []
     for k, one in enumerate(data):
-        progress(0.1 + 0.5 * k / len(data), f"atlas at {one.point.speed_hz:g} Hz")
-        bank = kept_bank(plan, simulated_at(machine, one.point), distinct, keeper=keeper, mapper=mapper)
+        begun, stage = 0.1 + 0.5 * k / len(data), f"atlas at {one.point.speed_hz:g} Hz"
+        progress(begun, stage)
+        telling = Telling(mapper, lambda share, a=begun, s=stage: progress(a + 0.5 * share / len(data), s))  # type: ignore[misc]
+        bank = kept_bank(plan, simulated_at(machine, one.point), distinct, keeper=keeper, mapper=telling)
         banks.append(bank.at(range(len(plan.draws)), [distinct.index(s) for s in simulated]))
     seen = lenses(data, banks, plan)
     changes = observed_changes(data, seen, banks, plan)

@@ -50,3 +50,25 @@ class Meter:
     def spent_s(self) -> float:
         """Since this meter was made."""
         return time.process_time() - self.own + self.elsewhere_s
+
+
+STEP = 0.02
+"""Share of a stage's tasks between two words of progress."""
+
+
+@dataclass(frozen=True)
+class Telling:
+    """A mapper that says how far its tasks are, 0..1, at every fiftieth of them at most."""
+
+    mapper: Mapper
+    tell: Callable[[float], None]
+
+    def __call__(self, work: Work, tasks: Iterable[Task]) -> Iterator[list[Statistics | None]]:
+        """The results in order."""
+        todo, told = list(tasks), 0.0
+        for k, found in enumerate(self.mapper(work, todo), start=1):
+            share = k / len(todo)
+            if share >= told + STEP:
+                told = share
+                self.tell(share)
+            yield found

@@ -10,6 +10,7 @@ import pytest
 
 from app.cli import reconcile as command
 from app.cli.main import main
+from app.cli.reconcile import _Shown
 from reconcile.kinematics import KinematicSpec
 from sim.core.spec import MachineSpec
 from sim.presets import preset
@@ -256,3 +257,16 @@ def test_descriptions_and_machines_may_begin_with_a_byte_order_mark(tmp_path: Pa
     for path in (machine, given):
         path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
     assert main(asked(machine, given, tmp_path / "out", "--jobs", "1", "--atlas", str(tmp_path / "atlas"))) == 0
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_progress_is_one_line_on_a_terminal_and_a_line_a_stage_elsewhere(
+    terminal: bool, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sys.stderr.isatty", lambda: terminal, raising=False)
+    shown = _Shown()
+    for share, stage in [(0.1, "atlas at 30 Hz"), (0.2, "atlas at 30 Hz"), (0.6, "candidates"), (1.0, "done")]:
+        shown(share, stage)
+    told = capsys.readouterr().err
+    assert told.count("atlas at 30 Hz") == (2 if terminal else 1)
+    assert told.count("\n") == (1 if terminal else 3) and ("\r" in told) is terminal
