@@ -56,13 +56,24 @@ def _told_of(machine: MachineSpec, point: PointData, channels: Sequence[Channel]
                 turned = f"the test turned at {one.speed_hz:.4g} Hz, the baseline at {other.speed_hz:.4g} Hz"
                 return True, f"stated are {stated}, but {turned}"
     if len(now) == len(point.turned) and len(before) == len(point.turned_before):
-        return False, ""
+        return False, _off_label(point, [*now, *before])
     if not _has_teeth(machine):  # a sound rotor may show no line at all
         unsure = f"no line of the test confirms the stated {stated}, on which all its orders hang"
         return False, "" if now else f"{unsure}{_clearest(point, channels)}"
     if before and not now:
         return True, f"no line of the test confirms the stated {stated}, {_elsewhere(machine, point, channels)}"
     return False, f"no line confirms the stated {stated} of every recording there"
+
+
+def _off_label(point: PointData, found: Sequence[SpeedEstimate]) -> str:
+    """What is said where pulses or lines show another speed than is stated, alike in all recordings."""
+    speed_hz = float(np.mean([one.speed_hz for one in found]))
+    stated_hz = point.point.speed_hz
+    if abs(speed_hz / stated_hz - 1.0) <= SAME_SPEED:
+        return ""
+    alike = " in test and baseline alike" if point.turned_before else ""
+    shown = "pulses show" if all(one.method == "tacho" for one in found) else "lines show"
+    return f"stated are {stated_hz:g} Hz, but {shown} {speed_hz:.4g} Hz{alike}: that was taken"
 
 
 def _confirmed(speeds: Sequence[SpeedEstimate]) -> list[SpeedEstimate]:

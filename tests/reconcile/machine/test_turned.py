@@ -43,6 +43,18 @@ def test_a_test_that_turned_otherwise_than_its_baseline_is_left_out(
     assert told == () if not word else word in told[0], told
 
 
+@pytest.mark.parametrize(
+    ("method", "speed_hz", "said"),
+    [("harmonics", 28.6, "lines show 28.6 Hz"), ("tacho", 28.6, "pulses show 28.6 Hz"), ("harmonics", 30.3, "")],
+)
+def test_a_label_that_is_off_in_both_is_a_remark(method: str, speed_hz: float, said: str) -> None:
+    both = (SimpleNamespace(method=method, speed_hz=speed_hz),)
+    point = SimpleNamespace(point=Point(speed_hz=30.0), turned=both, turned_before=both)
+    alike, told = turned_alike(preset("paper-lightly-damped"), [point], CHANNELS)  # type: ignore[list-item]
+    assert alike == (point,) and len(told) == bool(said)
+    assert all(said in one and "stated are 30 Hz" in one and "baseline alike: that was taken" in one for one in told)
+
+
 @pytest.mark.slow
 def test_where_no_line_confirms_either_it_is_a_limit_and_no_more(machine: MachineSpec) -> None:
     data = seen(machine, turning(machine, 1, level=0.0), baseline=turning(machine, 2, level=0.0))
