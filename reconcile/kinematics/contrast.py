@@ -60,6 +60,10 @@ def contrast(evidence: Evidence, test: Observation, baselines: Sequence[Observat
 
 def band_turns(observation: Observation, channel: str, band_hz: tuple[float, float]) -> tuple[FloatArray, int]:
     """(squared envelope of a band at equal angles of the reference shaft, over its mean; steps a turn)."""
+    return observation.kept.of((channel, band_hz), lambda: _band_turns(observation, channel, band_hz))
+
+
+def _band_turns(observation: Observation, channel: str, band_hz: tuple[float, float]) -> tuple[FloatArray, int]:
     e = observation.channel(channel)
     assert e is not None
     rate = observation.recording.sampling_rate_hz

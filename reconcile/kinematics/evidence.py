@@ -124,9 +124,9 @@ def trials(family: Family, order: float, reach: float, order_step: float) -> Flo
 def scores(values: FloatArray, envelopes: Envelopes, family: Family, base: FloatArray) -> FloatArray:
     """Comb scores, shape (bands, trials)."""
     lines, weights = comb(family, base)
-    place = envelopes.place(np.abs(lines))
     inside = (lines / envelopes.order_step < values.shape[1] - 1) & (lines > 0)
-    return np.asarray(np.einsum("btl,l->bt", values[:, place] * inside, weights), dtype=np.float64)
+    place = np.where(inside, envelopes.place(np.abs(lines)), 0)  # at 0 there is nothing, `logs` sees to that
+    return np.asarray(np.take(values, place, axis=1) @ weights, dtype=np.float64)
 
 
 def without(

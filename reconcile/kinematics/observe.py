@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -23,6 +23,25 @@ ANGLE_HARMONICS = 5
 """Of the teeth, by which its wander is followed."""
 
 
+@dataclass(frozen=True)
+class KeptBands:
+    """Bands at equal angles, which one family asks for after the other: the latest, of `limit` bytes at most."""
+
+    limit: int
+    rows: dict[tuple[str, tuple[float, float]], tuple[FloatArray, int]] = field(default_factory=dict)
+
+    def of(
+        self, key: tuple[str, tuple[float, float]], make: Callable[[], tuple[FloatArray, int]]
+    ) -> tuple[FloatArray, int]:
+        """As made before, or made now."""
+        row = self.rows.pop(key, None) or make()
+        row[0].flags.writeable = False
+        self.rows[key] = row
+        while len(self.rows) > 1 and sum(values.nbytes for values, _ in self.rows.values()) > self.limit:
+            del self.rows[next(iter(self.rows))]
+        return row
+
+
 @dataclass(frozen=True, kw_only=True)
 class Observation:
     """`doubt`: relative uncertainty of the reference shaft's speed, which widens every search."""
@@ -32,6 +51,11 @@ class Observation:
     speed: SpeedEstimate
     doubt: float
     channels: tuple[Envelopes, ...]
+    kept: KeptBands = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        """Nothing kept yet; as much may be as the recording takes."""
+        object.__setattr__(self, "kept", KeptBands(self.recording.samples.nbytes))
 
     def channel(self, name: str) -> Envelopes | None:
         """Envelopes of a channel."""
