@@ -9,9 +9,15 @@ FETCHED = { n=0; while read -r word rest; do case "$$word $$rest" in \
   Collecting*|Processing*) n=$$((n + 1)); [ $$((n % 10)) != 0 ] || echo "      $$n of $$(grep -c == $(1)) packages fetched";; \
   "Installing collected"*) echo "      unpacking them";; "pip failed") exit 1;; esac; done; }
 PIP = PYTHONUNBUFFERED=1 $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
+# What a lock file names, which is whole: to look for what its packages need takes longer than to fetch them.
+LOCKED = { $(PIP) --no-deps --no-compile -r $(1) || echo "pip failed"; } | $(call FETCHED,$(1))
+# Another Python or machine may need a package more; then pip looks.
+WHOLE = $(BIN)/python -m pip check >/dev/null 2>&1 || $(PIP) --quiet --no-compile -r $(1)
+# On all cores, and without the packages' own tests.
+COMPILED = $(BIN)/python -m compileall -q -j 0 -x '/tests?/' $(VENV)/lib >/dev/null || true
 
 .DELETE_ON_ERROR:
-.PHONY: run setup env dev browser lint fast test bench cost paper proof tests-atlas proof-real sim2real openapi lock clean help
+.PHONY: run setup env dev browser lint kernels collected fast test bench cost paper proof tests-atlas proof-real sim2real openapi lock clean help
 
 run: setup  ## start the service, simulate the demo through the queue, open its page (PORT=8001, OPEN= for no browser)
 	@echo "[4/4] starting broker, workers and HTTP server on port $(PORT)"
@@ -30,14 +36,17 @@ $(VENV)/.installed: requirements.lock pyproject.toml
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV) || { rm -rf $(VENV); \
 	  echo "python's venv module is missing (on Debian and Ubuntu: apt-get install python3-venv)"; exit 1; }
 	@echo "[2/4] installing the locked packages (once; about a minute, depending on the network)"
-	@{ $(PIP) -r requirements.lock || echo "pip failed"; } | $(call FETCHED,requirements.lock)
+	@$(call LOCKED,requirements.lock)
 	@$(PIP) --quiet --no-deps -e .
+	@$(call WHOLE,requirements.lock)
+	@$(COMPILED)
 	@touch $@
 
 dev: $(VENV)/.developed
 $(VENV)/.developed: requirements-dev.lock $(VENV)/.installed
 	@echo "installing the developers' tools (once; about a minute)"
-	@{ $(PIP) -r requirements-dev.lock || echo "pip failed"; } | $(call FETCHED,requirements-dev.lock)
+	@$(call LOCKED,requirements-dev.lock)
+	@$(call WHOLE,requirements-dev.lock)
 	@touch $@
 
 browser:  ## what the browser tests need (Debian; needs root)
@@ -52,11 +61,18 @@ lint: dev  ## style, types, import rules
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
 
+kernels: env  # as `setup`, and those of machines side by side, with which two groups of tests begin
+	@echo "[3/4] numerical kernels: loading, or compiling them once (about a minute)"
+	@$(BIN)/python -m workers.warm --lanes
+
+collected: lint  # compiles the tests once, not in every process; what is wrong with them, the run itself says
+	@PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q --collect-only >/dev/null || true
+
 fast: dev  ## the loop while working: without the slow tests (half a minute on two cores)
 	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 2 -m "not slow"
 
-test: dev browser  ## lint and every test; what CI runs
-	@$(MAKE) --no-print-directory -j 2 -O setup lint  # one core compiles the kernels while the other checks types
+test: env  ## lint and every test; what CI runs
+	@$(MAKE) --no-print-directory -j 3 -O kernels collected browser  # kernels on one core, tools and types on the other
 	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 3 --dist loadgroup --no-loadscope-reorder  # on two cores: many tests wait for servers and workers
 
 bench: dev setup  ## speed and accuracy; ends with one line of JSON

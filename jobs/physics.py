@@ -22,6 +22,7 @@ from sim.core.spec import MachineSpec
 from sim.core.system import System
 from sim.parts.bearing.catalogue import catalogue, missing
 from sim.solve.api import default_channels, resolve_channels, simulate
+from sim.solve.ensemble import Member, simulate_many
 from sim.solve.settings import Settings
 from sim.terms import REGISTRY
 from sim.version import PHYSICS_VERSION
@@ -44,9 +45,12 @@ class PhysicsEngine:
         """Part of every job's identity."""
         return PHYSICS_VERSION
 
-    def warm(self) -> None:
-        """Load the compiled kernels by a very short run."""
-        simulate(presets.preset(WARM_PRESET), duration_s=WARM_S, output_rate_hz=20_000.0)
+    def warm(self, *, lanes: bool = False) -> None:
+        """Load the compiled kernels by a very short run; `lanes`: those of machines side by side too."""
+        machine = presets.preset(WARM_PRESET)
+        simulate(machine, duration_s=WARM_S, output_rate_hz=20_000.0)
+        if lanes:
+            simulate_many([Member(machine=machine)], duration_s=WARM_S, output_rate_hz=20_000.0)
 
     def preset_names(self) -> tuple[str, ...]:
         """Names of the preset machines."""
