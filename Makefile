@@ -73,7 +73,7 @@ fast: dev  ## the loop while working: without the slow tests (half a minute on t
 
 test: env  ## lint and every test; what CI runs
 	@$(MAKE) --no-print-directory -j 3 -O kernels collected browser  # kernels on one core, tools and types on the other
-	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 3 --dist loadgroup --no-loadscope-reorder  # on two cores: many tests wait for servers and workers
+	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 4 --dist loadgroup --no-loadscope-reorder  # on two cores: many tests wait for servers and workers
 
 bench: dev setup  ## speed and accuracy; ends with one line of JSON
 	$(BIN)/python -m bench
