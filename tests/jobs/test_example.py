@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -27,6 +29,14 @@ NO_LINES = {
 """Effects that predict no lines, and why."""
 
 
+@cache
+def shown(key: str) -> dict[str, Any]:
+    """An example is half a second of a core, and several tests look at the same one."""
+    term = REGISTRY.get(key)
+    assert term is not None
+    return example(term)
+
+
 def level(curve: dict[str, list[float]], hz: float) -> float:
     return float(np.max(np.array(curve["y"])[np.abs(np.array(curve["x"]) - hz) <= 1.1]))
 
@@ -39,7 +49,7 @@ def test_the_effects_without_lines_are_those_that_declare_none():
 @pytest.mark.slow
 @pytest.mark.parametrize(("key", "kind"), [("unbalance", "amplitude"), ("outer_spall", "envelope")])
 def test_the_leading_line_rises_with_the_effect(key, kind):
-    found = example(REGISTRY.get(key))
+    found = shown(key)
     spectrum, hz = found["spectrum"], found["lines"][0]["frequency_hz"]
     assert spectrum["kind"] == kind
     assert level(spectrum["with"], hz) > 2 * level(spectrum["without"], hz)
@@ -49,7 +59,7 @@ def test_the_leading_line_rises_with_the_effect(key, kind):
 @pytest.mark.parametrize("key", REGISTRY.keys())
 def test_every_example_is_of_bounded_size_and_shows_what_its_effect_predicts(key):
     term = REGISTRY.get(key)
-    found = json.loads(json.dumps(example(term), allow_nan=False))
+    found = json.loads(json.dumps(shown(key), allow_nan=False))
     for curve in (*found["signal"].values(), *found["spectrum"].values()):
         if isinstance(curve, dict):
             assert 2 < len(curve["x"]) == len(curve["y"]) <= MAX_POINTS
@@ -80,19 +90,19 @@ def test_every_example_is_of_bounded_size_and_shows_what_its_effect_predicts(key
     ],
 )
 def test_the_lines_that_its_page_speaks_of_are_marked(key, expected):
-    assert expected <= {line["label"] for line in example(REGISTRY.get(key))["lines"]}
+    assert expected <= {line["label"] for line in shown(key)["lines"]}
 
 
 @pytest.mark.slow
 def test_tip_relief_of_the_default_size_calms_the_mesh():
-    found = example(REGISTRY.get("tip_relief"))["signal"]
+    found = shown("tip_relief")["signal"]
     assert np.std(found["with"]["y"]) < 0.25 * np.std(found["without"]["y"])
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("key", ["outer_spall", "inner_spall", "ball_spall"])
 def test_the_envelope_of_a_spall_shows_its_rate_before_anything_else(key):
-    document = example(REGISTRY.get(key))
+    document = shown(key)
     curve, lines = document["spectrum"]["with"], document["lines"]
     x, y = np.array(curve["x"]), np.array(curve["y"])
     inner = np.flatnonzero((y[1:-1] > y[:-2]) & (y[1:-1] >= y[2:]) & (x[1:-1] > 4.0)) + 1
