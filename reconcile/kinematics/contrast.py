@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reconcile.kinematics.envelopes import Envelopes, at_equal_angles, order_depth, squared_envelope, whitened
+from reconcile.kinematics.envelopes import Envelopes, at_equal_angles, order_depth, squared_envelope
 from reconcile.kinematics.evidence import Evidence, comb_depth, logs, scores, trials
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.observe import Observation
@@ -67,9 +67,7 @@ def _band_turns(observation: Observation, channel: str, band_hz: tuple[float, fl
     e = observation.channel(channel)
     assert e is not None
     rate = observation.recording.sampling_rate_hz
-    square, envelope_rate, _ = squared_envelope(
-        whitened(observation.recording.series(channel).samples), band_hz[0], band_hz[1], rate
-    )
+    square, envelope_rate, _ = squared_envelope(observation.white(channel), band_hz[0], band_hz[1], rate)
     per_turn = int(np.ceil(2.2 * e.order_step * e.excess.shape[1] / 1.1))
     return at_equal_angles(square, envelope_rate, e.angle_rad, rate, per_turn), per_turn
 

@@ -33,6 +33,9 @@ LOWEST_SHARE = 0.01
 """Of the sampling rate: below it the lines of shafts and meshes themselves lie."""
 
 
+ComplexArray = np.ndarray[tuple[int], np.dtype[np.complex128]]
+
+
 @dataclass(frozen=True, kw_only=True)
 class Envelopes:
     """Squared envelopes of one channel, order-resampled: `excess` (bands, bins) is power over the local floor,
@@ -98,7 +101,7 @@ def envelopes(
     )
 
 
-def whitened(samples: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.complex128]]:
+def whitened(samples: FloatArray) -> ComplexArray:
     """Transform (n // 2 + 1,) of the samples with a flat floor of mean power 1 a bin and limited lines."""
     transform = np.asarray(fft.rfft(samples - np.mean(samples)), dtype=np.complex128)
     power = transform.real**2 + transform.imag**2
@@ -110,7 +113,7 @@ def whitened(samples: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.complex1
 
 
 def squared_envelope(
-    white: np.ndarray[tuple[int], np.dtype[np.complex128]],
+    white: ComplexArray,
     low_hz: float,
     high_hz: float,
     sampling_rate_hz: float,

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from reconcile.kinematics.envelopes import Envelopes, envelopes
+from reconcile.kinematics.envelopes import ComplexArray, Envelopes, envelopes, whitened
 from reconcile.kinematics.families import Family, Ties
 from reconcile.speed import SpeedEstimate, estimate_speed, followed_angle, shaft_angle
 from signals.recording import Recording
@@ -29,6 +29,8 @@ class KeptBands:
 
     limit: int
     rows: dict[tuple[str, tuple[float, float]], tuple[FloatArray, int]] = field(default_factory=dict)
+    white: dict[str, ComplexArray] = field(default_factory=dict)
+    """Of the latest channel."""
 
     def of(
         self, key: tuple[str, tuple[float, float]], make: Callable[[], tuple[FloatArray, int]]
@@ -60,6 +62,16 @@ class Observation:
     def channel(self, name: str) -> Envelopes | None:
         """Envelopes of a channel."""
         return next((e for e in self.channels if e.channel == name), None)
+
+    def white(self, name: str) -> ComplexArray:
+        """As `whitened`, of a channel's samples."""
+        found = self.kept.white.get(name)
+        if found is None:
+            found = whitened(self.recording.series(name).samples)
+            found.flags.writeable = False
+            self.kept.white.clear()
+            self.kept.white[name] = found
+        return found
 
 
 def observe(recording: Recording, ties: Ties, label: str, *, stated_hz: float | None, seed: int) -> Observation:
