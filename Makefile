@@ -12,7 +12,7 @@ PIP = PYTHONUNBUFFERED=1 $(BIN)/python -m pip install --disable-pip-version-chec
 # What a lock file names, which is whole: to look for what its packages need takes longer than to fetch them.
 LOCKED = { $(PIP) --no-deps --no-compile -r $(1) || echo "pip failed"; } | $(call FETCHED,$(1))
 # Another Python or machine may need a package more; then pip looks.
-WHOLE = $(BIN)/python -m pip check >/dev/null 2>&1 || $(PIP) --quiet --no-compile -r $(1)
+WHOLE = $(BIN)/python -m pip check >/dev/null 2>&1 || $(PIP) --quiet --no-compile -c constraints.txt -r $(1)
 # On all cores, and without the packages' own tests.
 COMPILED = $(BIN)/python -m compileall -q -j 0 -x '/tests?/' $(VENV)/lib >/dev/null || true
 
