@@ -89,6 +89,14 @@ def sentence(decision: Decision, severity: Severity | None, held: HeldOut | None
     return f"Something is missing (p {_chance(decision.p)}), but {decision.reasons[0]}: {listed}{rest}."
 
 
+APART = {
+    frozenset(("bent_shaft", "unbalance")): "A proximity probe on the shaft, at a slow roll and again at speed, would "
+    "tell these effects apart best: a bow shows at a slow roll, an unbalance does not, and below the critical speed "
+    "accelerometers at the bearings hear both alike.",
+}
+"""What tells effects apart that more of the same recordings do not."""
+
+
 def next_experiment(chosen: Sequence[str], lead: float, points: int, sensors: Sequence[str]) -> NextExperiment | None:
     """What would tell the leading candidates apart, and by how much if evidence grows as it did so far, in proportion
     to sensors or operating points. `sensors`: the parts they are at."""
@@ -96,6 +104,10 @@ def next_experiment(chosen: Sequence[str], lead: float, points: int, sensors: Se
         return None
     sites = list(dict.fromkeys(c.split("@")[1] for c in chosen))
     missing = [s for s in sites if s not in sensors]
+    terms = {c.split("@")[0] for c in chosen}
+    alike = next((text for both, text in APART.items() if both <= terms), None)
+    if alike is not None:
+        return NextExperiment(sentence=alike, separation_now=lead)
     if len(sites) > 1 and missing:
         grown = lead * (len(sensors) + 1) / max(len(sensors), 1)
         places = " or ".join(missing[:2])
