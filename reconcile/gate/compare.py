@@ -15,7 +15,7 @@ from scipy.optimize import linear_sum_assignment
 
 from reconcile.gate.findings import Finding
 from reconcile.gate.levels import Pair
-from reconcile.gate.lines import common_unit_gains, denied
+from reconcile.gate.lines import FLOOR_SHARE, LEAST_LINES, common_unit_gains, denied
 from reconcile.gate.robust import robust_swap_order, robust_unit_gain
 from reconcile.gate.units import even_unit_gain, possible, unit_finding, unit_of
 from signals.recording import Recording
@@ -56,7 +56,8 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
     found: list[Finding] = []
     quantities = [channel.quantity for channel in pairs[0].channels]
     lines = [np.concatenate([p.lines_db[c] for p in pairs]) for c in range(len(names))]
-    common = common_unit_gains(lines, quantities)
+    floors = [float(np.percentile(_all_bands(change, c), FLOOR_SHARE)) for c in range(len(names))]
+    common = common_unit_gains(lines, floors, quantities)
     for c, name in enumerate(names):
         gain, roughly = _gain(change, c), even_unit_gain(change, c, quantities)
         unit_gain = roughly if roughly is not None else robust_unit_gain(pairs, c)
@@ -69,7 +70,8 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
             found.append(_gain_finding(gain, change, c, name, quantities))
         elif unit_gain is not None:
             unit = unit_of(unit_gain, np.inf, possible(quantities[c]))
-            seen, what = (lines[c], "strong lines") if by_lines and lines[c].size else (_all_bands(change, c), "bands")
+            told = by_lines and lines[c].size >= LEAST_LINES
+            seen, what = (lines[c], "strong lines") if told else (_all_bands(change, c), "bands")
             found.append(unit_finding(unit_gain, str(unit), name, seen, what))
         elif len(names) > 1:
             found += _loose(pairs, change, c, name)

@@ -13,7 +13,7 @@ from reconcile.gate.units import even_unit_gain, unit_of
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from signals.recording import Recording
 from tests.reconcile.gate.test_gate import BASELINES, SPEEDS_HZ, machine, trials
-from tests.strategies.impulses import recorded, sound, train
+from tests.strategies.impulses import RATE_HZ, recorded, sound, train
 
 GRAVITY = 9.80665
 SPEC = read_kinematic_spec(
@@ -109,30 +109,52 @@ ACCELERATIONS = ["acceleration"] * 3
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_lines_of_nearly_all_channels_that_moved_by_a_ratio_are_a_unit(sign: float) -> None:
+def test_lines_and_floor_of_nearly_all_channels_that_moved_by_a_ratio_are_a_unit(sign: float) -> None:
     """Beside a fault that raises or drowns the lines of one channel."""
     moved = sign * 19.83
+    floors = [moved + 1.5, moved - 1.0, moved]
     expected = pytest.approx(sign * 20 * np.log10(GRAVITY))
     all_moved = [lines(moved - 2.5), lines(moved + 1.0), lines(moved)]
-    assert common_unit_gains(all_moved, ACCELERATIONS) == (expected,) * 3
+    assert common_unit_gains(all_moved, floors, ACCELERATIONS) == (expected,) * 3
     loud = [lines(moved), lines(8.0, 5.0), lines(moved + 2.0)]
-    assert common_unit_gains(loud, ACCELERATIONS) == (expected,) * 3
+    assert common_unit_gains(loud, floors, ACCELERATIONS) == (expected,) * 3
     other = [lines(moved), lines(0.5), lines(moved + 2.0)]
-    assert common_unit_gains(other, ACCELERATIONS) == (expected, None, expected)
+    assert common_unit_gains(other, floors, ACCELERATIONS) == (expected, None, expected)
+    good = [lines(moved), lines(8.0, 5.0), lines(moved + 2.0)]  # a channel whose floor stayed is not scaled
+    assert common_unit_gains(good, [moved, 0.3, moved], ACCELERATIONS) == (expected, None, expected)
 
 
 @pytest.mark.parametrize(
-    ("channels", "quantities"),
+    ("channels", "floors", "quantities"),
     [
-        ([lines(-19.8)], ["acceleration"]),
-        ([lines(-19.8), lines(0.0), lines(0.5)], ACCELERATIONS),
-        ([lines(-19.8), lines(19.8), lines(0.5)], ACCELERATIONS),
-        ([lines(-12.0), lines(-12.5), lines(-12.0)], ACCELERATIONS),
-        ([lines(-19.8, 6.0), lines(-19.8, 6.0), lines(0.0)], ACCELERATIONS),
-        ([lines(-19.8, count=4), lines(-19.8, count=4), lines(-19.8, count=4)], ACCELERATIONS),
-        ([lines(-19.8), lines(-19.8)], ["force", "torque"]),
+        ([lines(-19.8)], [-19.8], ["acceleration"]),
+        ([lines(-19.8), lines(0.0), lines(0.5)], [-19.8, 0.0, 0.5], ACCELERATIONS),
+        ([lines(-19.8), lines(19.8), lines(0.5)], [-19.8, 19.8, 0.0], ACCELERATIONS),
+        ([lines(-12.0), lines(-12.5), lines(-12.0)], [-12.0] * 3, ACCELERATIONS),
+        ([lines(-19.8, 6.0), lines(-19.8, 6.0), lines(0.0)], [-19.8, -19.8, 0.0], ACCELERATIONS),
+        ([lines(-19.8, count=4)] * 3, [-19.8] * 3, ACCELERATIONS),
+        ([lines(-19.8), lines(-19.8)], [-19.8] * 2, ["force", "torque"]),
+        ([lines(19.8), lines(19.8)], [-0.5, 0.2], ACCELERATIONS[:2]),
     ],
-    ids=["alone", "one of three", "both ways", "no ratio", "scattered", "few", "other quantities"],
+    ids=["alone", "one of three", "both ways", "no ratio", "scattered", "few", "other quantities", "floor stayed"],
 )
-def test_other_moves_of_lines_are_no_unit(channels: list[np.ndarray], quantities: list[str]) -> None:
-    assert common_unit_gains(channels, quantities) == (None,) * len(channels)
+def test_other_moves_of_lines_are_no_unit(
+    channels: list[np.ndarray], floors: list[float], quantities: list[str]
+) -> None:
+    assert common_unit_gains(channels, floors, quantities) == (None,) * len(channels)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("factor", [10.0, 0.1])
+def test_an_unbalance_that_grew_tenfold_is_no_unit(factor: float) -> None:
+    """Its lines move by 20 dB at all sensors, the noise does not."""
+    time_s = np.arange(2 * int(RATE_HZ)) / RATE_HZ
+
+    def rotor(seed: int, level: float) -> Recording:
+        rng = np.random.default_rng(seed)
+        turning = sum(np.sin(2 * np.pi * 30.0 * k * time_s + k) / k for k in (1, 2, 3))
+        samples = level * np.array([[1.0], [0.6]]) * turning + 0.02 * rng.normal(size=(2, time_s.size))
+        return recorded(samples, speed_hz=30.0)
+
+    gate = inspect_measurement([rotor(k, 1.0) for k in (1, 2, 3)], [rotor(k, factor) for k in (4, 5, 6)])
+    assert not [f for f in gate.findings if f.kind == "unit_mismatch"] and gate.fault is None
