@@ -46,8 +46,9 @@ from reconcile.machine.second import second_effect
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.strange import explained_by, strange, with_strange
 from reconcile.machine.suspected import of_the_sensor, without_suspected
-from reconcile.machine.teeth_elsewhere import misfit_report, teeth_elsewhere, told_of
+from reconcile.machine.teeth_elsewhere import teeth_elsewhere
 from reconcile.machine.turned import told_apart, turned_alike, with_limits
+from reconcile.machine.unfitting import misfit_report, told_of
 from reconcile.machine.unknown import Unknown, unknown_force
 from reconcile.observe.observation import PointData, observe
 from reconcile.observe.watch import watch_list

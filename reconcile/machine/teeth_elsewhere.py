@@ -1,8 +1,9 @@
 """Can the recordings be of this machine at the stated speed? Lines of teeth stand where file and label say, or not.
 
 The orders of all meshes follow from the machine file. Where a comb of lines stands at another order in test and
-baseline alike, and none at the file's, either the numbers of teeth are not this machine's or the speed was not the
-stated one: no effect is looked for in what the model predicts at the wrong places.
+baseline alike, and none at the file's, either the numbers of teeth are not this machine's, or the speed was not the
+stated one, or another machine is all that is heard: no effect is looked for in what the model predicts at places where
+nothing stands.
 """
 
 from __future__ import annotations
@@ -13,18 +14,14 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.ndimage import maximum_filter1d
 
-from reconcile.gate.findings import Gate
-from reconcile.gate.spoiled import doubts
-from reconcile.machine.stages import gate_stage
-from reconcile.machine.turned import points_text
 from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
 from reconcile.observe.watch import bases_at
-from reconcile.speed import line_logs
+from reconcile.speed import estimate_speed, line_logs
 from reconcile.speed.elsewhere import lines_elsewhere
-from reconcile.speed.estimate import comb_score
-from reconcile.verdict import NextExperiment, Report, SensorFault, Where
+from reconcile.speed.estimate import ENOUGH, comb_score
 from signals.series import FloatArray
+from sim.core.errors import SpecError
 from sim.core.response import Channel
 from sim.core.spec import MachineSpec
 
@@ -40,6 +37,12 @@ NEAR = 0.03
 """Share of their order within which the file's teeth are looked for."""
 CLEAR = 7.0
 """Score from which a comb stands, in every recording: teeth of the proof's sound and faulty machines have 8 to 26."""
+LINE = 1.0
+"""Log power over what noise reaches from which a line is one."""
+LEAST = 3
+"""Harmonics of a comb that must be lines in one recording at least, the first and the second in all."""
+WANDER = 0.002
+"""Share of its frequency by which a line may be away from its place."""
 SILENT = 0.5
 """Share of that of the best comb that the file's teeth must not reach: where both file and label are right they are the
 best comb (1.0), where one is wrong they had 0.1 at most, 0.5 where the wrong order is a multiple of the right one."""
@@ -47,6 +50,8 @@ SLOWER = tuple(range(2, 13))
 BETWEEN = 0.4
 """Parts of an order, and the share of a comb's mean that lines at the multiples of a part must not have: these are a
 race's or a shaft's, whose multiples the comb picks."""
+KNOWN = 2
+"""Multiple of a line of the file up to which a comb may be that line's, were its others not heard."""
 FOLLOWED = 0.1
 """Share by which a speed may be off its label and is found and followed."""
 DOUBTFUL = 0.05
@@ -55,19 +60,26 @@ DOUBTFUL = 0.05
 
 @dataclass(frozen=True, kw_only=True)
 class Elsewhere:
-    """Lines of teeth (of the shaft: no `mesh`) at `order` times the stated speed at one operating point, where the
-    file has them at `own`."""
+    """Lines of teeth (of the shaft: no `mesh`) at `order` times the stated speed at one operating point, its multiples
+    `harmonics` in all recordings, where the file has them at `own`. `sure`: pulses or the shaft's own lines confirm the
+    stated speed."""
 
     stated_hz: float
     order: float
     own: float
     mesh: str
-    by_pulses: bool
+    sure: bool
+    harmonics: tuple[int, ...] = (1, 2, 3)
 
     @property
     def factor(self) -> float:
         """The speed at which the file's teeth would be there, over the stated one."""
         return self.order / self.own
+
+    @property
+    def hz(self) -> float:
+        """The first line's frequency."""
+        return self.order * self.stated_hz
 
 
 def teeth_elsewhere(
@@ -75,27 +87,22 @@ def teeth_elsewhere(
 ) -> tuple[tuple[PointData, ...], tuple[Elsewhere, ...]]:
     """The points whose lines of teeth (without any, of the shaft) stand where file and label say, or are not clear;
     and where those of the others stand. A speed that is within `FOLLOWED` of its label stays, unless another number of
-    teeth is as likely."""
-    orders = _orders(machine)
-    kept, elsewhere = [], []
+    teeth is as likely; lines that stay at one frequency whatever the label are another machine's."""
+    bases = bases_at(machine, 1.0)
+    meshes = {name: order for name, order in bases.items() if name.startswith("f_m") and order > 0.0}
+    found: list[Elsewhere | None] = []
     for point in data:
-        found = _of_point(point, orders, channels) if orders else _of_shaft(point, channels)
-        if found is None or _follows(found, machine):
-            kept.append(point)
-        else:
-            elsewhere.append(found)
-    return tuple(kept), tuple(elsewhere)
+        one = _of_point(point, meshes, bases, channels) if meshes else _of_shaft(point, channels)
+        found.append(None if one is None or _follows(one, machine, point, channels) else one)
+    found = [None if one is None or _fixed(one, found) else one for one in found]
+    kept = tuple(point for point, one in zip(data, found, strict=True) if one is None)
+    return kept, tuple(one for one in found if one is not None)
 
 
-def _orders(machine: MachineSpec) -> dict[str, float]:
-    """Of all meshes, cycles a turn of the operating shaft."""
-    at_one = bases_at(machine, 1.0)
-    return {name: order for name, order in at_one.items() if name.startswith("f_m") and order > 0.0}
-
-
-def _follows(found: Elsewhere, machine: MachineSpec) -> bool:
-    off = abs(found.factor - 1.0)
-    return off <= (FOLLOWED if teeth_of(found, machine) is None else DOUBTFUL)
+def _fixed(one: Elsewhere, found: Sequence[Elsewhere | None]) -> bool:
+    """Whether another point with another label shows the same frequency."""
+    others = [o for o in found if o is not None and abs(o.stated_hz / one.stated_hz - 1.0) > 2 * ALIKE]
+    return any(abs(o.hz / one.hz - 1.0) <= ALIKE for o in others)
 
 
 def teeth_of(found: Elsewhere, machine: MachineSpec) -> tuple[str, int, int] | None:
@@ -108,25 +115,81 @@ def teeth_of(found: Elsewhere, machine: MachineSpec) -> tuple[str, int, int] | N
     return None
 
 
-def _of_point(point: PointData, orders: Mapping[str, float], channels: Sequence[Channel]) -> Elsewhere | None:
+def _follows(found: Elsewhere, machine: MachineSpec, point: PointData, channels: Sequence[Channel]) -> bool:
+    """Whether the speed at which the file's teeth would be there is near the label, and as likely as other teeth."""
+    off = abs(found.factor - 1.0)
+    if off > FOLLOWED or found.sure:
+        return False
+    if off <= DOUBTFUL or teeth_of(found, machine) is None:
+        return True
+    return _by_shaft_alone(point.spectra[0], found.factor * found.stated_hz, channels)
+
+
+def _by_shaft_alone(one: Steady, speed_hz: float, channels: Sequence[Channel]) -> bool:
+    """Whether the shaft's own harmonics, teeth left out, are sure of a speed."""
+    try:
+        alone = estimate_speed(one.recording(channels), stated_hz=speed_hz)
+    except SpecError:
+        return False
+    return alone.confidence >= ENOUGH and abs(alone.speed_hz / speed_hz - 1.0) <= ALIKE
+
+
+def _of_point(
+    point: PointData, meshes: Mapping[str, float], bases: Mapping[str, float], channels: Sequence[Channel]
+) -> Elsewhere | None:
     heard = [s for s in point.spectra if s is not None]
+    labels = [_label_hz(s, point) for s in heard]
+    top_order = min(TRUSTED * s.rate_hz / hz for s, hz in zip(heard, labels, strict=True))
+    audible = [order for order in meshes.values() if order < top_order]
+    if not audible:
+        return None
+    logs = [_line_logs(s, channels) for s in heard]
+    comb = _best_comb(logs, labels, meshes)
+    if comb is None or _known(float(np.mean(comb)), bases):
+        return None
+    order = float(np.mean(comb))
+    each = list(zip(logs, labels, comb, strict=True))
+    lines = [_lines_of(one, hz * fine) for one, hz, fine in each]
+    harmonics = tuple(k for k in lines[0] if all(k in other for other in lines))
+    if max(len(one) for one in lines) < LEAST or not {1, 2} <= set(harmonics):
+        return None
+    if any(_of_slower(one, hz * fine) or _stands(one, hz, audible, order) for one, hz, fine in each):
+        return None
+    mesh = min(meshes, key=lambda name: abs(np.log(order / meshes[name])))
     pulses = all(s.estimate.method == "tacho" for s in heard)
-    grid = np.exp(np.arange(np.log(LOWEST), np.log(HIGHEST), STEP))
-    raw = np.array([_scores(s, _label_hz(s, point), channels, grid) for s in heard])
-    wide = maximum_filter1d(raw, 2 * round(ALIKE / STEP) + 1, axis=1)
-    together = np.min(wide, axis=0)
-    top = float(np.max(together))
-    near = {name: np.abs(np.log(grid / order)) <= NEAR for name, order in orders.items()}
-    heard_at = {name: float(np.max(together[at])) for name, at in near.items() if at.any()}
-    if top < CLEAR or not heard_at or max(heard_at.values()) > SILENT * top:
+    sure = pulses or _by_shaft_alone(heard[0], labels[0], channels)
+    return Elsewhere(
+        stated_hz=point.point.speed_hz, order=order, own=meshes[mesh], mesh=mesh, sure=sure, harmonics=harmonics
+    )
+
+
+Logs = Sequence[tuple[FloatArray, float]]
+"""Of each channel the log power of lines and the width of a bin, Hz."""
+
+
+def _best_comb(logs: Sequence[Logs], labels: Sequence[float], meshes: Mapping[str, float]) -> tuple[float, ...] | None:
+    """The order of the best comb in each recording; None where none stands in all, or the file's teeth do."""
+    grid = np.exp(np.arange(np.log(min(LOWEST, 0.9 * min(meshes.values()))), np.log(HIGHEST), STEP))
+    raw = np.array([_scores(one, hz, grid) for one, hz in zip(logs, labels, strict=True)])
+    together = np.min(maximum_filter1d(raw, 2 * round(ALIKE / STEP) + 1, axis=1), axis=0)
+    looked = np.where(grid >= LOWEST, together, 0.0)
+    top = float(np.max(looked))
+    own = max(float(np.max(together[np.abs(np.log(grid / o)) <= NEAR], initial=0.0)) for o in meshes.values())
+    if top < CLEAR or own > SILENT * top:
         return None
-    middle = float(np.mean(grid[together >= top - 1e-9]))
-    finest = [_finest(grid, one, middle) for one in raw]
-    if any(_of_slower(s, _label_hz(s, point) * order, channels) for s, order in zip(heard, finest, strict=True)):
-        return None
-    order = float(np.mean(finest))
-    mesh = min(heard_at, key=lambda name: abs(np.log(order / orders[name])))
-    return Elsewhere(stated_hz=point.point.speed_hz, order=order, own=orders[mesh], mesh=mesh, by_pulses=pulses)
+    middle = float(np.mean(grid[looked >= top - 1e-9]))
+    return tuple(_finest(grid, one, middle) for one in raw)
+
+
+def _known(order: float, bases: Mapping[str, float]) -> bool:
+    """Whether an order is a low multiple of a line that the file has."""
+    return any(abs(order / (k * o) - 1.0) <= ALIKE for o in bases.values() if o > 0.0 for k in range(1, KNOWN + 1))
+
+
+def _stands(logs: Logs, label_hz: float, meshes: Sequence[float], order: float) -> bool:
+    """Whether the file's first line of some teeth is there by itself: not as a multiple of the comb's."""
+    own = [mesh for mesh in meshes if abs(mesh / (max(round(mesh / order), 1) * order) - 1.0) > NEAR]
+    return any(_level(logs, mesh * label_hz, ALIKE) >= LINE for mesh in own)
 
 
 def _of_shaft(point: PointData, channels: Sequence[Channel]) -> Elsewhere | None:
@@ -135,10 +198,18 @@ def _of_shaft(point: PointData, channels: Sequence[Channel]) -> Elsewhere | None
     if any(s.estimate.method != "stated" for s in heard):
         return None
     far = [lines_elsewhere(s.recording(channels), _label_hz(s, point)) for s in heard]
-    speeds = [one.speed_hz / _label_hz(s, point) for one, s in zip(far, heard, strict=True) if one and not one.own]
-    if len(speeds) < len(heard) or max(speeds) > (1.0 + ALIKE) * min(speeds):
+    found = [one for one in far if one is not None and not one.own]
+    speeds = [one.speed_hz / _label_hz(s, point) for one, s in zip(found, heard, strict=False)]
+    if len(found) < len(heard) or max(speeds) > (1.0 + ALIKE) * min(speeds):
         return None
-    return Elsewhere(stated_hz=point.point.speed_hz, order=float(np.mean(speeds)), own=1.0, mesh="", by_pulses=False)
+    return Elsewhere(
+        stated_hz=point.point.speed_hz,
+        order=float(np.mean(speeds)),
+        own=1.0,
+        mesh="",
+        sure=False,
+        harmonics=tuple(k for k in found[0].harmonics if all(k in one.harmonics for one in found)),
+    )
 
 
 def _label_hz(one: Steady, point: PointData) -> float:
@@ -152,9 +223,8 @@ def _finest(grid: FloatArray, score: FloatArray, near: float) -> float:
     return float(np.mean(grid[at[best >= np.max(best) - 1e-9]]))
 
 
-def _scores(one: Steady, label_hz: float, channels: Sequence[Channel], grid: FloatArray) -> FloatArray:
+def _scores(logs: Logs, label_hz: float, grid: FloatArray) -> FloatArray:
     """Of a comb at each order of the label's speed, shape (orders,), mean over channels."""
-    logs = _line_logs(one, channels)
     return np.asarray(np.mean([comb_score(log, width, grid * label_hz, HARMONICS) for log, width in logs], axis=0))
 
 
@@ -164,9 +234,22 @@ def _line_logs(one: Steady, channels: Sequence[Channel]) -> list[tuple[FloatArra
     return [(maximum_filter1d(log[: int(TRUSTED * one.rate_hz / width)], 3), width) for log, width in logs]
 
 
-def _of_slower(one: Steady, comb_hz: float, channels: Sequence[Channel]) -> bool:
+def _level(logs: Logs, hz: float, reach: float) -> float:
+    """Log power of the clearest line of any channel within a share of a frequency; 0 beyond what is heard."""
+    tops = []
+    for log, width in logs:
+        first, last = int((1.0 - reach) * hz / width), int(np.ceil((1.0 + reach) * hz / width)) + 1
+        tops.append(float(np.max(log[first:last], initial=0.0)))
+    return max(tops)
+
+
+def _lines_of(logs: Logs, comb_hz: float) -> list[int]:
+    """The multiples of a frequency that are lines."""
+    return [int(k) for k in HARMONICS if _level(logs, k * comb_hz, WANDER) >= LINE]
+
+
+def _of_slower(logs: Logs, comb_hz: float) -> bool:
     """Whether lines stand between those of the comb as well, at the multiples of a part of it."""
-    logs = _line_logs(one, channels)
 
     def mean(multiples: Sequence[float]) -> float:
         places = [[round(m * comb_hz / width) for m in multiples] for _, width in logs]
@@ -175,60 +258,3 @@ def _of_slower(one: Steady, comb_hz: float, channels: Sequence[Channel]) -> bool
 
     own = mean(HARMONICS[:3])
     return any(mean([j / k for j in range(1, 2 * k) if j % k]) >= BETWEEN * own for k in SLOWER)
-
-
-def told_of(found: Elsewhere, machine: MachineSpec) -> str:
-    """Which line shows it, and what would explain it."""
-    at = found.order * found.stated_hz
-    part = "teeth" if found.mesh else "a shaft"
-    places = f"{at:.4g}, {2 * at:.4g} and {3 * at:.4g} Hz ({found.order:.3g} times the speed)"
-    lines = f"lines as of {part} stand at {places}"
-    own = f"where the file's teeth would be at {found.own * found.stated_hz:.4g} Hz" if found.mesh else "none near it"
-    return f"at {found.stated_hz:g} Hz {lines}, {own}; {_why(found, machine)}"
-
-
-def _why(found: Elsewhere, machine: MachineSpec) -> str:
-    speed = f"the shaft turned at {found.factor * found.stated_hz:.3g} Hz, not at {found.stated_hz:g} Hz"
-    teeth = teeth_of(found, machine)
-    if teeth is None:
-        return "the file's teeth are not this machine's" if found.by_pulses else speed
-    gear, file, count = teeth
-    other = f"{gear} has {count} teeth, not {file}"
-    return other if found.by_pulses else f"either {other}, or {speed}"
-
-
-def told_of_all(found: Sequence[Elsewhere], machine: MachineSpec) -> str:
-    """That of the first operating point, and of the others where they say another thing."""
-    first, *others = found
-    alike = [one for one in others if abs(one.factor / first.factor - 1.0) <= ALIKE]
-    likewise = f"; likewise at {' and '.join(f'{one.stated_hz:g}' for one in alike)} Hz" if alike else ""
-    apart = "".join(f"; {told_of(one, machine)}" for one in others if one not in alike)
-    return f"{told_of(first, machine)}{likewise}{apart}"
-
-
-def misfit_report(
-    found: Sequence[Elsewhere], machine: MachineSpec, data: Sequence[PointData], gate: Gate, told: Mapping[str, object]
-) -> Report:
-    """The report where no point's lines stand where file and label say; `told` is its provenance."""
-    detail = told_of_all(found, machine)
-    by_label = all(teeth_of(one, machine) is None and not one.by_pulses for one in found)
-    return Report(
-        verdict="measurement_fault" if by_label else "not_decidable",
-        sentence=f"Recordings, machine file and stated speed do not belong together: {detail}. Nothing else is "
-        "looked for: all that the model predicts hangs on these lines.",
-        level="machine",
-        where=Where(limits=doubts(gate)),
-        fault=SensorFault(kind="speed_mismatch", channel="", detail=detail) if by_label else None,
-        undecidable=("whether anything is missing: the machine file's lines are not there",),
-        next_experiment=NextExperiment(sentence=_advice(found, machine)),
-        stages=(gate_stage(gate), {"name": "observe", "speeds": [points_text(d) for d in data]}),
-        provenance=told,
-    )
-
-
-def _advice(found: Sequence[Elsewhere], machine: MachineSpec) -> str:
-    if any(one.by_pulses for one in found):
-        return "Check the numbers of teeth in the machine file, and the pulses a revolution of the tacho."
-    if any(teeth_of(one, machine) is not None for one in found):
-        return "Check the numbers of teeth in the machine file and the stated speeds, or record with a tacho."
-    return "Correct the speed that the descriptions state, or record with a tacho."
