@@ -60,20 +60,31 @@ def candidates(machine: MachineSpec, registry: Registry = REGISTRY) -> tuple[Can
     )
 
 
+LEAST_GROWTH = 1.5
+"""Times its size that an effect in the file must be able to reach to be looked for."""
+
+
 def _ruled_out(machine: MachineSpec, term: Term, site: str, registry: Registry) -> bool:
-    """Whether the machine has what excludes a term at a site, or has this term in a form that has no size to grow."""
+    """Whether the machine has what excludes a term at a site, or has this term in a form that cannot grow."""
     for own in (t for t in machine.terms if t.site == site):
         there = registry.get(own.term)
-        if own.term == term.key:
-            return size_now(own, size_parameter(term)) <= 0.0
-        if there is not None and (own.term in term.excludes or term.key in there.excludes):
+        if own.term != term.key and there is not None and (own.term in term.excludes or term.key in there.excludes):
             return True
-    return False
+    largest = already(machine, term.key, site)
+    if largest is None:
+        return False
+    low, high = _grown(size_parameter(term), largest)
+    return low <= 0.0 or high < LEAST_GROWTH * low
 
 
 def already(machine: MachineSpec, term: str, site: str) -> TermSpec | None:
-    """The same effect where the machine has it."""
-    return next((t for t in machine.terms if (t.term, t.site) == (term, site)), None)
+    """The same effect where the machine has it; the largest of several that act side by side."""
+    known = REGISTRY.get(term)
+    there = [t for t in machine.terms if (t.term, t.site) == (term, site)]
+    if known is None or known.severity is None:
+        return there[0] if there else None
+    size = size_parameter(known)
+    return max(there, key=lambda t: abs(size_now(t, size)), default=None)
 
 
 def size_now(own: TermSpec, size: Param) -> float:
@@ -81,11 +92,25 @@ def size_now(own: TermSpec, size: Param) -> float:
     return float(own.parameters.get(size.name, size.default))
 
 
+def _grown(size: Param, own: TermSpec) -> tuple[float, float]:
+    """Sizes between which one that a machine has already is sought: up to `ABOVE` times, or as far as any other."""
+    now = size_now(own, size)
+    return now, min(max(ABOVE * now, size_range(size)[1]), size.high)
+
+
 def with_effects(machine: MachineSpec, terms: Sequence[TermSpec]) -> MachineSpec:
     """The machine with these effects, each in place of what it has of it already."""
-    new = {(t.term, t.site) for t in terms}
-    kept = [t for t in machine.terms if (t.term, t.site) not in new]
-    return machine.model_copy(update={"terms": [*kept, *terms]})
+    new = {_one(t) for t in terms}
+    return machine.model_copy(update={"terms": [*(t for t in machine.terms if _one(t) not in new), *terms]})
+
+
+def _one(spec: TermSpec) -> tuple[str, str, float]:
+    """What tells an effect from others at its site: some act several times there, once an axis, joint or spring."""
+    term = REGISTRY.get(spec.term)
+    if term is None or term.repeats is None:
+        return spec.term, spec.site, 0.0
+    default = next(p.default for p in term.params if p.name == term.repeats)
+    return spec.term, spec.site, float(spec.parameters.get(term.repeats, default))
 
 
 def size_parameter(term: Term) -> Param:
@@ -134,15 +159,14 @@ def draw_term(
 ) -> TermSpec:
     """The candidate at `share` 0..1 of its range (logarithmic), other parameters with a range to be searched at the
     share `sought` of that, whatever the machine gives; the rest drawn, but for what the machine gives. What the machine
-    has already grows up to `ABOVE` times, all else of it as it is."""
+    has already grows, up to `ABOVE` times at least, all else of it as it is."""
     term = registry.get(candidate.term)
     if term is None:
         raise ValueError(f"no term {candidate.term}")
     size = size_parameter(term)
     own = already(machine, candidate.term, candidate.site)
     if own is not None:
-        now = size_now(own, size)
-        grown = _at(size, share, (now, min(ABOVE * now, size.high)))
+        grown = _at(size, share, _grown(size, own))
         return own.model_copy(update={"parameters": {**own.parameters, size.name: grown}})
     given = term.machine_values(machine, candidate.site)
     rest = [p for p in term.params if p is not size]

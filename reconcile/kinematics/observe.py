@@ -25,7 +25,8 @@ ANGLE_HARMONICS = 5
 
 @dataclass(frozen=True)
 class KeptBands:
-    """Bands at equal angles, which one family asks for after the other: the latest, of `limit` bytes at most."""
+    """Bands at equal angles, which one family asks for after the other: the latest, of `limit` bytes at most or one
+    alone; beside them the transform of the latest channel."""
 
     limit: int
     rows: dict[tuple[str, tuple[float, float]], tuple[FloatArray, int]] = field(default_factory=dict)

@@ -19,6 +19,7 @@ from reconcile.observe.observation import SAME_SPEED, PointData
 from reconcile.observe.steady import Steady
 from reconcile.speed import SpeedEstimate, line_logs
 from reconcile.speed.estimate import comb_score
+from reconcile.speed.excess import line_excess
 from reconcile.verdict import NextExperiment, Report, SensorFault, Where
 from signals.series import FloatArray
 from sim.core.response import Channel
@@ -104,12 +105,16 @@ def _elsewhere(machine: MachineSpec, point: PointData, channels: Sequence[Channe
 
 
 def _clearest(point: PointData, channels: Sequence[Channel]) -> str:
-    """Where the test's clearest line stands, if any does."""
-    logs = line_logs(point.spectra[0].recording(channels))
-    tops = [(float(np.max(log)), int(np.argmax(log)) * width) for log, width in logs]
-    most, hz = max(tops, default=(0.0, 0.0))
+    """Where the test's clearest line stands, if any does: the one that is farthest above the noise around it."""
+    recording = point.spectra[0].recording(channels)
+    tops = []
+    for (log, width), name in zip(line_logs(recording), recording.names, strict=True):
+        excess = np.where(log >= CLEAR, line_excess(recording.series(name))[0], 0.0)
+        top = int(np.argmax(excess))
+        tops.append((float(excess[top]), top * width))
+    most, hz = max(tops)
     share = hz / point.point.speed_hz
-    return f"; its clearest line is at {hz:.4g} Hz, {share:.3g} times that" if most >= CLEAR else ""
+    return f"; its clearest line is at {hz:.4g} Hz, {share:.3g} times that" if most > 0.0 else ""
 
 
 def _score(machine: MachineSpec, one: Steady, channels: Sequence[Channel], speeds_hz: FloatArray) -> FloatArray:

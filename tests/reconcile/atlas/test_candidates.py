@@ -57,6 +57,34 @@ def test_what_the_machine_has_grows_from_what_it_is(share: float) -> None:
     assert other.site == "bearing2" and other.parameters["friction"] != 0.07
 
 
+def test_a_small_effect_of_the_file_does_not_hide_a_large_one() -> None:
+    """A residual unbalance is in every file that knows of it."""
+    machine = having("unbalance", "pinion", moment=1e-5)
+    candidate = Candidate(term="unbalance", site="pinion")
+    most = draw_term(candidate, 1.0, np.random.default_rng(1), machine).parameters["moment"]
+    assert most == pytest.approx(draw_term(candidate, 1.0, np.random.default_rng(1), MACHINE).parameters["moment"])
+    least = draw_term(candidate, 0.0, np.random.default_rng(1), machine).parameters["moment"]
+    assert least == pytest.approx(1e-5)
+
+
+def test_what_cannot_grow_is_no_candidate() -> None:
+    full = having("pedestal_looseness", "bearing1", loss=0.99)
+    assert "pedestal_looseness@bearing1" not in {c.label for c in candidates(full)}
+
+
+def test_of_effects_side_by_side_the_largest_grows_and_the_others_stay() -> None:
+    modes = [
+        TermSpec(term="support_mode", site="bearing1", parameters={"axis": axis, "mass": mass})
+        for axis, mass in ((0.0, 0.2), (1.0, 0.4))
+    ]
+    machine = MACHINE.model_copy(update={"terms": modes})
+    candidate = Candidate(term="support_mode", site="bearing1")
+    assert candidate in candidates(machine)
+    drawn = draw_term(candidate, 0.5, np.random.default_rng(1), machine)
+    grown = with_effects(machine, [drawn]).terms
+    assert drawn.parameters["axis"] == 1.0 and len(grown) == 2 and modes[0] in grown
+
+
 def test_a_grown_effect_stands_in_place_of_the_old_one() -> None:
     machine = having("fit_clearance", "bearing1", gap=2e-5)
     grown = TermSpec(term="fit_clearance", site="bearing1", parameters={"gap": 5e-5})

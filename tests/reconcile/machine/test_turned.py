@@ -85,8 +85,8 @@ def test_the_clearest_line_is_told_beside_a_speed_that_no_line_confirms(level: f
         Recording(
             sampling_rate_hz=RATE_HZ,
             channels=(CHANNELS[0],),
-            samples=level * np.sin(2 * np.pi * 30.0 * TIME)[None]
-            + 0.1 * np.random.default_rng(seed).normal(size=(1, TIME.size)),
+            samples=level * (np.sin(2 * np.pi * 30.0 * TIME) + 0.05 * np.sin(2 * np.pi * 11.0 * TIME))[None]
+            + 0.02 * np.random.default_rng(seed).normal(size=(1, TIME.size)),
             operating=Operating(shaft="input", speed_hz=90.0),
         )
         for seed in (1, 2)
