@@ -22,13 +22,14 @@ from reconcile.stated import (
     check_turning,
     exchanged,
     given,
+    pulses_hz,
     unplaced,
     unstated,
 )
 from reconcile.told import about, sent_as
 from reconcile.unsteady import unsteady
 from reconcile.verdict import Level, Report
-from signals.recording import Recording
+from signals.recording import Operating, Recording
 from sim.assembly.assemble import BUILT_IN
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec
@@ -159,10 +160,12 @@ def reconcile_recordings(
     check_descriptions(machine, tests, baselines)
     check_channels(tests, baselines)
     level: Level = "kinematics" if isinstance(machine, KinematicSpec) else "machine"
+    silent = (*unstated(given(tests, baselines)), *exchanged(given(tests, baselines)))
+    if isinstance(machine, MachineSpec):
+        tests, baselines = ([_turning(machine, one) for one in several] for several in (tests, baselines))
     smeared = unsteady(tests, baselines, level, seed)
     if smeared is not None:
         return _with_labels(smeared, sent, machine.name)
-    silent = (*unstated(given(tests, baselines)), *exchanged(given(tests, baselines)))
     if isinstance(machine, KinematicSpec):
         report = reconcile_kinematics(machine, tests, baselines, seed=seed)
         remarks = unplaced(machine.parts, given(tests, baselines)) if _has_places(machine) else ()
@@ -179,6 +182,15 @@ def reconcile_recordings(
         nominated=nominated,
     )
     return _with_labels(_with_limits(report, (*silent, *already_there(machine))), sent, machine.name)
+
+
+def _turning(machine: MachineSpec, recording: Recording) -> Recording:
+    """A recording that states no speed, at the mean of its pulses, else at the machine's own speed."""
+    own = machine.operating
+    if own is None or recording.operating is not None:
+        return recording
+    speed_hz = pulses_hz(recording, own.shaft) or own.speed_hz
+    return replace(recording, operating=Operating(shaft=own.shaft, speed_hz=speed_hz))
 
 
 def already_there(machine: MachineSpec) -> tuple[str, ...]:

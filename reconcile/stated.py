@@ -192,7 +192,7 @@ def _contradicted(
 ) -> str | None:
     """What says that the stated speed is in rpm, or None."""
     shaft, speed = stated
-    pulses = _pulses_hz(one.recording, shaft)
+    pulses = pulses_hz(one.recording, shaft)
     if pulses is not None:
         return f"its tacho says {pulses:.4g} Hz" if sixty_times(speed, pulses) else None
     if _is_usual(shaft, speed, nominal):
@@ -226,7 +226,8 @@ def _sixtieth(shaft: str, speed: float, nominal: Mapping[str, float | None], sev
     return None
 
 
-def _pulses_hz(recording: Recording, shaft: str) -> float | None:
+def pulses_hz(recording: Recording, shaft: str) -> float | None:
+    """Mean speed of a shaft by its pulses, if there are enough."""
     tacho = recording.tacho
     if tacho is None or tacho.shaft != shaft or tacho.pulse_times_s.size < 3:
         return None
@@ -283,7 +284,7 @@ def _nominal_in_rpm(nominal: Mapping[str, float | None], field: str, several: Se
 
 def _turned(one: Given, shaft: str) -> tuple[float, str] | None:
     """Speed of a shaft in a recording, Hz, by pulses or else as stated, and what says so; None where nothing does."""
-    pulses = _pulses_hz(one.recording, shaft)
+    pulses = pulses_hz(one.recording, shaft)
     if pulses is not None:
         return pulses, f"{PULSES} of {one.field('tacho')} say {pulses:.4g} Hz"
     stated = _stated(one)

@@ -126,17 +126,23 @@ def _machine_named(path: Path) -> Iterator[None]:
         ) from error
 
 
+STEP = 0.05
+"""Share of the whole after which a stage that lasts is told again."""
+
+
 @dataclass
 class _Shown:
-    """Progress on stderr: one line that is written over on a terminal, else a line a stage."""
+    """Progress on stderr: one line that is written over on a terminal, else a line a stage, or every twentieth."""
 
     last: str = ""
+    share: float = 0.0
 
     def __call__(self, share: float, stage: str) -> None:
         if sys.stderr.isatty():
             print(f"\r{share:4.0%} {stage:<40}", end="\n" if share >= 1.0 else "", file=sys.stderr, flush=True)
-        elif stage != self.last:
+        elif stage != self.last or share >= self.share + STEP:
             print(f"{share:4.0%} {stage}", file=sys.stderr, flush=True)
+            self.share = share
         self.last = stage
 
 

@@ -191,7 +191,8 @@ def _misfit(screen: Screen, alone: bool) -> str:
     if leaves_lines(screen.rest):
         left = max(screen.rest.unmet, screen.rest.elsewhere)
         return f"the best known effect leaves {left:.1f} times as much of the single lines' change as it should"
-    return f"the best known effect fits worse than {screen.misfit:.0%} of simulated ones do"
+    share = "all" if screen.misfit >= 0.995 else f"{screen.misfit:.0%} of"
+    return f"the best known effect fits worse than {share} simulated ones do"
 
 
 def _not_excluded(screen: Screen, weights: dict[str, float], chosen: tuple[str, ...]) -> tuple[str, ...]:

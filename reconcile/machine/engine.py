@@ -47,7 +47,7 @@ from reconcile.machine.setting import Found, Setting
 from reconcile.machine.strange import explained_by, strange, with_strange
 from reconcile.machine.suspected import of_the_sensor, without_suspected
 from reconcile.machine.teeth_elsewhere import teeth_elsewhere
-from reconcile.machine.turned import told_apart, turned_alike, with_limits
+from reconcile.machine.turned import told_apart, turned_alike, with_limits, with_unconfirmed
 from reconcile.machine.unfitting import misfit_report, told_of
 from reconcile.machine.unknown import Unknown, unknown_force
 from reconcile.observe.observation import PointData, observe
@@ -143,7 +143,7 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
     report = with_misfit(with_grown(report, machine), looks.fit)
     report = with_strange(report, strange(machine, alike, [c.name for c in channels]), machine)
-    return with_limits(report, apart)
+    return with_limits(with_unconfirmed(report, machine, alike), apart)
 
 
 def _told_by(meter: Meter, seed: int, budget: Budget) -> Mapping[str, object]:

@@ -24,7 +24,9 @@ def all_stages(
 ) -> tuple[Mapping[str, object], ...]:
     """From the gate to the judge; `fit`: how well machines agree with the baseline."""
     speeds: Sequence[str] = [
-        f"{d.point.speed_hz:g} Hz stated, {d.spectra[0].speed_hz:.3f} Hz found ({d.spectra[0].estimate.method})"
+        f"{d.point.speed_hz:g} Hz stated, no line confirms it"
+        if d.spectra[0].estimate.method == "stated"
+        else f"{d.point.speed_hz:g} Hz stated, {d.spectra[0].speed_hz:.3f} Hz found ({d.spectra[0].estimate.method})"
         for d in setting.data
     ]
     gains = [float(np.median(lens.chain.gain_db)) for lens in setting.seen_through[:1]]

@@ -146,8 +146,40 @@ def told_apart(told: Sequence[str], data: Sequence[PointData], gate: Gate, prove
 
 def points_text(point: PointData) -> str:
     """The speeds found in the recordings of a point beside the stated one."""
-    found = ", ".join(f"{s.speed_hz:.3f} Hz ({s.method})" for s in (*point.turned, *point.turned_before))
+    found = ", ".join(_found_text(s) for s in (*point.turned, *point.turned_before))
     return f"{point.point.speed_hz:g} Hz stated, found {found}"
+
+
+def _found_text(found: SpeedEstimate) -> str:
+    return "none that confirms it" if found.method == "stated" else f"{found.speed_hz:.3f} Hz ({found.method})"
+
+
+def with_unconfirmed(report: Report, machine: MachineSpec, data: Sequence[PointData]) -> Report:
+    """The report of a machine without teeth, of which no line confirms the speed of some point: that is said with what
+    differs, and where no known effect explains it, it may be all there is."""
+    unsure = [d.point.speed_hz for d in data if not _confirmed(d.turned)]
+    if _has_teeth(machine) or not unsure or report.verdict in ("nothing_missing", "measurement_fault"):
+        return report
+    own = machine.operating.speed_hz if machine.operating is not None else 0.0
+    stated = " and ".join(f"{hz:g}" for hz in unsure)
+    off = any(abs(hz / own - 1.0) > SAME_SPEED for hz in unsure) if own > 0.0 else False
+    file = f" (the machine file's speed is {own:g} Hz)" if off else ""
+    sentence = f"{report.sentence} No line confirms the stated speed of {stated} Hz{file}, on which all orders hang."
+    if report.verdict != "unknown_physics":
+        return replace(report, sentence=sentence)
+    return replace(
+        report,
+        verdict="not_decidable",
+        sentence=sentence,
+        where=replace(report.where, sites=()),
+        force=None,
+        machine=None,
+        undecidable=("whether physics is missing or the stated speed is wrong", *report.undecidable),
+        next_experiment=NextExperiment(
+            sentence=f"Check the stated speed of {stated} Hz{file}, or record with a tacho; then the numbers of the "
+            "bearings in the machine file."
+        ),
+    )
 
 
 def with_limits(report: Report, told: Sequence[str]) -> Report:

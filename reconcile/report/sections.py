@@ -20,7 +20,10 @@ from reconcile.report.words import (
     gain,
     leaves_a_part,
     percent,
+    reached,
+    readable,
     severity,
+    strongest_placebo,
 )
 from reconcile.verdict import Cause, HeldOut, Level, LineChange, PlaceWeight, Report, Where, operating_point
 
@@ -28,9 +31,10 @@ MOST_LINES = 20
 MOST_PLACES = 3
 BARS = (
     "Line through a bar's end: 90 % interval. Retuned: the model's own numbers moved instead. Black box: a correction "
-    "with as many free numbers and no physics. Placebo: something else in the effect's stead. An effect that is "
-    "there should beat all three. Expected of a perfect model: what drift between the recordings and noise usually "
-    "leave even to it; where this machine drifted less than others of its kind, more than that is reached."
+    "with as many free numbers and no physics. Placebos: other effects and places in the effect's stead, the middle "
+    "and the strongest of them. An effect that is there should beat all. Expected of a perfect model: what drift "
+    "between the recordings and noise usually leave even to it; where this machine drifted less than others of its "
+    "kind, more than that is reached."
 )
 TOLD = '<div class="told">'
 SCORE = (
@@ -223,10 +227,14 @@ def held_out_table(found: HeldOut | None) -> Markup:
         ("with it", figure_text(found.after, found.unit), gain(found)),
         ("retuned parameters only", "", percent(found.retuned)),
         ("black box with as many parameters", "", percent(found.black_box)),
-        ("placebo", "", percent(found.placebo)),
+        ("placebo: the middle of all", "", percent(found.placebo)),
     ]
-    if found.ceiling is not None:
-        rows.append(("expected of a perfect model: drift and noise stay", "", percent(found.ceiling)))
+    best = strongest_placebo(found)
+    if best is not None:
+        rows.append((f"strongest placebo: {readable(f'{best.term}@{best.site}')}", "", percent(best.gain)))
+    expected = reached(found)
+    if expected is not None:
+        rows.append(("expected of a perfect model: drift and noise stay", "", percent(expected)))
     metric = found.metric.replace("_", " ")
     marked = [False, True, *[False] * (len(rows) - 2)]
     return Markup(tag("p", f"Measure: {metric}.") + table(("model", metric, "gain over without it"), rows, marked))
@@ -248,7 +256,12 @@ def held_out_words(found: HeldOut | None) -> Markup:
 
 def _unbeaten(found: HeldOut) -> Markup:
     """Which rivals the effect does not beat by more than its interval."""
-    rivals = {"retuned parameters": found.retuned, "the black box": found.black_box, "the placebo": found.placebo}
+    rivals = {"retuned parameters": found.retuned, "the black box": found.black_box}
+    best = strongest_placebo(found)
+    if best is not None:
+        rivals[f"the strongest placebo, {readable(f'{best.term}@{best.site}')}"] = best.gain
+    elif found.placebo is not None:
+        rivals["the placebo"] = found.placebo
     near = {n: g for n, g in rivals.items() if g is not None and math.isfinite(g) and g >= found.gain_low}
     if not near or not math.isfinite(found.gain_low):
         return Markup("")

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from reconcile.report.markup import figure_text
-from reconcile.verdict import Cause, HeldOut, Level, Report, Severity, Word
+from reconcile.verdict import Cause, HeldOut, Level, Placebo, Report, Severity, Word
 
 VERDICT: dict[Word, tuple[str, str]] = {
     "nothing_missing": ("Nothing missing", "ok"),
@@ -88,3 +88,13 @@ def compared(report: Report) -> str:
     what = ", ".join(tests) or ("Recordings" if len(tests) > 1 else "Recording")
     against = f", against {', '.join(rested)} as the baseline," if rested else ""
     return f"{machine}: {what}{against}" if machine else f"{what}{against}"
+
+
+def strongest_placebo(found: HeldOut) -> Placebo | None:
+    """Of those forecast the one that gains most."""
+    return max(found.placebos, key=lambda one: one.gain, default=None)
+
+
+def reached(found: HeldOut) -> float | None:
+    """The gain expected of a perfect model; None where drift and noise leave it none to speak of."""
+    return found.ceiling if found.ceiling is not None and found.ceiling > 0.0 else None

@@ -9,8 +9,8 @@ import pytest
 
 from reconcile import entry
 from reconcile.atlas.places import simulated_channel, simulated_channels
-from reconcile.entry import already_there, check_channels, check_size, reconcile_recordings
-from signals.recording import Operating, Recording
+from reconcile.entry import _turning, already_there, check_channels, check_size, reconcile_recordings
+from signals.recording import Operating, Recording, Tacho
 from sim.core.errors import SpecError
 from sim.core.response import Channel
 from sim.core.spec import TermSpec
@@ -145,3 +145,12 @@ def test_a_place_that_is_none_is_blamed_where_it_stands() -> None:
     with pytest.raises(SpecError, match="bearing9") as refused:
         reconcile_recordings(MACHINE, [recording(channel("bearing9"))], [recording()])
     assert "baseline" not in str(refused.value) and "bearing1" in refused.value.problems[0].allowed
+
+
+@pytest.mark.parametrize("tacho", [True, False])
+def test_a_recording_that_states_no_speed_turns_as_its_pulses_say_or_as_the_machine_does(tacho: bool) -> None:
+    pulses = Tacho(shaft="input", pulse_times_s=np.arange(0.0, 2.0, 1 / 28.0), pulses_per_revolution=1)
+    bare = replace(recording(), operating=None, tacho=pulses if tacho else None)
+    filled = _turning(MACHINE, bare).operating
+    assert filled is not None and filled.shaft == "input"
+    assert filled.speed_hz == pytest.approx(28.0 if tacho else 30.0)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from reconcile.report.figures.bars import NAME_WIDTH, row_name
 from reconcile.report.markup import Markup, figure_text, tag
 from reconcile.report.plot import BOTTOM, TOP, Frame
-from reconcile.report.words import gain, percent
+from reconcile.report.words import gain, percent, reached, strongest_placebo
 from reconcile.verdict import HeldOut
 
 ROW = 26.0
@@ -67,8 +67,9 @@ def distances(found: HeldOut, subject: str) -> Markup:
     if not bars:
         return Markup("")
     limit = None
-    if found.ceiling is not None:
-        left = found.before * (1.0 - found.ceiling)
+    expected = reached(found)
+    if expected is not None:
+        left = found.before * (1.0 - expected)
         limit = _Bar(name=REACHED, value=left, said=figure_text(left, found.unit))
     unit = "" if found.unit in ("", "1") else f", {found.unit}"
     label = f"how far the model is off on data never fitted{unit} (less is better)"
@@ -81,18 +82,19 @@ def gains(found: HeldOut, subject: str) -> Markup:
     if not math.isfinite(found.gain):
         return Markup("")
     bars = [_Bar(name=f"with {subject}", value=100 * found.gain, said=gain(found), css="on", ends=_ends(found))]
+    best = strongest_placebo(found)
     rivals = (
         ("parameters retuned, no effect", found.retuned),
         ("black box with as many numbers", found.black_box),
-        ("placebo: a wrong effect or place", found.placebo),
+        ("placebo: the middle of wrong ones", found.placebo),
+        ("placebo: the strongest", None if best is None else best.gain),
     )
     for name, share in rivals:
         if share is not None and math.isfinite(share):
             said = percent(share) + (", beyond the scale" if share < LOWEST else "")
             bars.append(_Bar(name=name, value=100 * max(share, LOWEST), said=said))
-    limit = (
-        None if found.ceiling is None else _Bar(name=REACHED, value=100 * found.ceiling, said=percent(found.ceiling))
-    )
+    expected = reached(found)
+    limit = None if expected is None else _Bar(name=REACHED, value=100 * expected, said=percent(expected))
     told = [v for b in bars for v in (b.value, *(b.ends or ()))] + ([limit.value] if limit else [])
     finite = [v for v in told if math.isfinite(v)]
     x = max(min(0.0, *finite), 100 * LOWEST), 1.6 * max(10.0, *finite)

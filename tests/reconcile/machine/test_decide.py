@@ -317,11 +317,3 @@ def test_fitted_machines_make_no_change_more_glaring_than_it_was() -> None:
     assert decide(tempered(local, first), views=9).word == "nothing_missing"
     assert tempered(first, local).strongest == 9.0
     assert tempered(local, replace(first, p_best=0.02)).p_first == 0.02
-
-
-@pytest.mark.parametrize("sites", [("pinion", "pinion"), ("pinion", "gear")])
-def test_a_bow_and_an_unbalance_are_told_apart_at_a_slow_roll(sites: tuple[str, str]) -> None:
-    """Below the critical speed both load the bearings with the square of the speed."""
-    chosen = (f"unbalance@{sites[0]}", f"bent_shaft@{sites[1]}")
-    asked = next_experiment((*chosen, "shaft_crack@bearing1"), 0.5, 3, ["bearing1"])
-    assert asked is not None and "slow roll" in asked.sentence and asked.separation_expected is None

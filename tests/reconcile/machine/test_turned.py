@@ -11,7 +11,7 @@ import pytest
 from reconcile.atlas.plan import Point
 from reconcile.gate.findings import Gate
 from reconcile.machine.engine import reconcile_machine
-from reconcile.machine.turned import told_apart, turned_alike, with_limits
+from reconcile.machine.turned import told_apart, turned_alike, with_limits, with_unconfirmed
 from reconcile.verdict import Report, Where
 from signals.recording import Operating, Recording
 from sim.core.spec import MachineSpec
@@ -95,6 +95,31 @@ def test_the_clearest_line_is_told_beside_a_speed_that_no_line_confirms(level: f
     alike, told = turned_alike(rotor, data, CHANNELS[:1])
     assert alike == data and len(told) == 1 and told[0].endswith(said)
     assert ("its clearest line" in told[0]) is bool(said)
+
+
+def unsure(method: str = "stated", speed_hz: float = 39.13) -> SimpleNamespace:
+    found = SimpleNamespace(method=method, speed_hz=speed_hz)
+    return SimpleNamespace(point=Point(speed_hz=speed_hz), turned=(found,), turned_before=())
+
+
+@pytest.mark.parametrize("verdict", ["unknown_physics", "explained", "nothing_missing"])
+def test_without_teeth_what_differs_may_be_a_wrong_label(verdict: str) -> None:
+    before = Report(verdict=verdict, sentence="So.", level="machine", where=Where())  # type: ignore[arg-type]
+    report = with_unconfirmed(before, preset("rotor"), [unsure()])  # type: ignore[list-item]
+    if verdict == "nothing_missing":
+        assert report is before
+        return
+    assert "No line confirms the stated speed of 39.13 Hz (the machine file's speed is" in report.sentence
+    assert report.verdict == ("not_decidable" if verdict == "unknown_physics" else verdict)
+    if verdict == "unknown_physics":
+        assert report.undecidable[0].endswith("the stated speed is wrong")
+        assert report.next_experiment is not None and "tacho" in report.next_experiment.sentence
+
+
+def test_a_confirmed_speed_and_teeth_leave_the_report_alone() -> None:
+    before = Report(verdict="unknown_physics", sentence="So.", level="machine", where=Where())
+    assert with_unconfirmed(before, preset("rotor"), [unsure("tacho")]) is before  # type: ignore[list-item]
+    assert with_unconfirmed(before, preset("paper-lightly-damped"), [unsure()]) is before  # type: ignore[list-item]
 
 
 @pytest.mark.slow

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from reconcile.machine.decide import Decision
-from reconcile.machine.words import LISTED, more, sentence, together
+from reconcile.machine.words import LISTED, more, next_experiment, sentence, together
 from reconcile.verdict import HeldOut
 
 
@@ -40,3 +40,11 @@ def test_a_loss_is_not_told_as_a_negative_gain(gain: float, one: str, two: str) 
     named = Decision(word="explained", chosen=("unbalance@pinion",), p=1e-6, reasons=())
     assert one in sentence(named, None, held)
     assert two in together(held)
+
+
+@pytest.mark.parametrize("sites", [("pinion", "pinion"), ("pinion", "gear")])
+def test_a_bow_and_an_unbalance_are_told_apart_at_a_slow_roll(sites: tuple[str, str]) -> None:
+    """Below the critical speed both load the bearings with the square of the speed."""
+    chosen = (f"unbalance@{sites[0]}", f"bent_shaft@{sites[1]}")
+    asked = next_experiment((*chosen, "shaft_crack@bearing1"), 0.5, 3, ["bearing1"])
+    assert asked is not None and "slow roll" in asked.sentence and asked.separation_expected is None

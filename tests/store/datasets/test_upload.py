@@ -119,7 +119,8 @@ def test_memory_does_not_grow_with_the_file(tmp_path: Path, at: str, monkeypatch
             _send(folder, at)
     finally:
         tracemalloc.stop()
-    assert len(held) > 8 and held[-1] - held[0] < PART
+    # the first are sent while others are still read, as many as are in flight together
+    assert len(held) > 8 and held[-1] - held[4] < PART
 
 
 @pytest.mark.parametrize("ends", [KeyboardInterrupt(), ClientError({"Error": {"Code": "SlowDown"}}, "UploadPart")])
