@@ -158,6 +158,8 @@ def _of_point(
     mesh = min(meshes, key=lambda name: abs(np.log(order / meshes[name])))
     pulses = all(s.estimate.method == "tacho" for s in heard)
     sure = pulses or _by_shaft_alone(heard[0], labels[0], channels)
+    if sure and len(_others(meshes, order)) < len(meshes):
+        return None  # the file's teeth are where they belong, whatever else stands between them
     return Elsewhere(
         stated_hz=point.point.speed_hz, order=order, own=meshes[mesh], mesh=mesh, sure=sure, harmonics=harmonics
     )
@@ -174,16 +176,21 @@ def _best_comb(logs: Sequence[Logs], labels: Sequence[float], meshes: Mapping[st
     together = np.min(maximum_filter1d(raw, 2 * round(ALIKE / STEP) + 1, axis=1), axis=0)
     looked = np.where(grid >= LOWEST, together, 0.0)
     top = float(np.max(looked))
-    own = max(float(np.max(together[np.abs(np.log(grid / o)) <= NEAR], initial=0.0)) for o in meshes.values())
-    if top < CLEAR or own > SILENT * top:
-        return None
     middle = float(np.mean(grid[looked >= top - 1e-9]))
+    scores = [float(np.max(together[np.abs(np.log(grid / o)) <= NEAR], initial=0.0)) for o in _others(meshes, middle)]
+    if top < CLEAR or max(scores, default=0.0) > SILENT * top:
+        return None
     return tuple(_finest(grid, one, middle) for one in raw)
 
 
 def _known(order: float, bases: Mapping[str, float]) -> bool:
     """Whether an order is a low multiple of a line that the file has."""
     return any(abs(order / (k * o) - 1.0) <= ALIKE for o in bases.values() if o > 0.0 for k in range(1, KNOWN + 1))
+
+
+def _others(meshes: Mapping[str, float], order: float) -> list[float]:
+    """The meshes whose lines are not all lines of a comb anyway: no multiples of its order from the second on."""
+    return [o for o in meshes.values() if round(o / order) < 2 or abs(o / (round(o / order) * order) - 1.0) > ALIKE]
 
 
 def _stands(logs: Logs, label_hz: float, meshes: Sequence[float], order: float) -> bool:

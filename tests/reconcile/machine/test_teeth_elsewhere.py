@@ -66,6 +66,26 @@ def test_at_one_speed_another_machine_may_be_all_that_is_heard(machine: MachineS
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("noise", [0.0005, 0.2])
+def test_a_label_three_times_too_high_is_told_though_the_files_teeth_stand_on_a_line(
+    machine: MachineSpec, noise: float
+) -> None:
+    """Every third line is where the file's teeth would be; without noise each counts as much as it can."""
+
+    def heard(seed: int) -> Recording:
+        one = turning(machine, seed, stated_hz=90.0)
+        return replace(one, samples=_teeth() + noise * np.random.default_rng(seed).normal(size=one.samples.shape))
+
+    _, found = teeth_elsewhere(machine, seen(machine, heard(1), baseline=heard(2)), CHANNELS)
+    assert len(found) == 1 and found[0].factor * 90.0 == pytest.approx(30.0, rel=0.01)
+
+
+def _teeth() -> np.ndarray:
+    lines = sum((np.sin(2 * np.pi * 690.0 * k * TIME + k) / k for k in range(1, 7)), np.zeros(TIME.size))
+    return np.array([[1.0], [0.4]]) * lines
+
+
+@pytest.mark.slow
 def test_lines_that_stay_where_they_are_at_every_speed_are_another_machines(machine: MachineSpec) -> None:
     """Their order differs from speed to speed, and the label of one of them would have to be right."""
     fixed = [turning(machine, k, true_hz=41.0, stated_hz=hz) for k, hz in enumerate((24.0, 30.0), 1)]
