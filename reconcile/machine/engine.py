@@ -19,6 +19,7 @@ from reconcile.judge.changes import lenses, observed_changes
 from reconcile.machine.alone import rise_over_sound
 from reconcile.machine.answer import answer, fault_answer, provenance
 from reconcile.machine.assimilate import assimilated
+from reconcile.machine.beaten import with_beaten
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.decide import Decision, decide, leaves_lines, remarkable, tempered, unmeasured
 from reconcile.machine.direct import direct_evidence
@@ -141,7 +142,7 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = with_exchanged(report, setting, channels)
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
-    report = with_misfit(with_grown(report, machine), looks.fit)
+    report = with_misfit(with_beaten(with_grown(report, machine)), looks.fit)
     report = with_strange(report, strange(machine, alike, [c.name for c in channels]), machine)
     return with_limits(with_unconfirmed(report, machine, alike), apart)
 

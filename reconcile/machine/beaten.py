@@ -1,0 +1,25 @@
+"""A name that held-out data do not speak for: a correction without physics and a wrong effect both forecast as well."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from reconcile.report.words import percent, readable, strongest_placebo
+from reconcile.verdict import Report
+
+
+def with_beaten(report: Report) -> Report:
+    """The report, which says that its name is beaten by both, if it is: of 23 named cases of the proof (splits `next`,
+    `others`, `unmet`) one, a pair of which one was named; and a pit whose two sensors had been exchanged."""
+    held = report.held_out
+    best = None if held is None else strongest_placebo(held)
+    if report.verdict != "explained" or held is None or best is None or held.black_box is None:
+        return report
+    if min(best.gain, held.black_box) < held.gain:
+        return report
+    other = f"{readable(f'{best.term}@{best.site}')} ({percent(best.gain)})"
+    text = (
+        f"on data it was not fitted to the name ({percent(held.gain)}) does no better than {other}, nor than a black "
+        f"box ({percent(held.black_box)}): it may be another effect or place, or sensors may have been exchanged"
+    )
+    return replace(report, sentence=f"{report.sentence} But {text}.", undecidable=(*report.undecidable, text))
