@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from reconcile.report.action import BEATEN
 from reconcile.report.words import percent, readable, strongest_placebo
 from reconcile.verdict import Report
 
@@ -19,7 +20,7 @@ def with_beaten(report: Report) -> Report:
         return report
     other = f"{readable(f'{best.term}@{best.site}')} ({percent(best.gain)})"
     text = (
-        f"on data it was not fitted to the name ({percent(held.gain)}) does no better than {other}, nor than a black "
+        f"on data it was not fitted to the name ({percent(held.gain)}) {BEATEN} {other}, nor than a black "
         f"box ({percent(held.black_box)}): it may be another effect or place, or sensors may have been exchanged"
     )
     return replace(report, sentence=f"{report.sentence} But {text}.", undecidable=(*report.undecidable, text))

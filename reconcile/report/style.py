@@ -73,7 +73,7 @@ svg .ceiling-name { fill:var(--ok); font-weight:650 } details.point { border-top
  padding:8px 0; }
 #pictures:target ~ main .told { display:none }
 summary { cursor:pointer; font-weight:600 }
-h1, p, li, td { overflow-wrap:anywhere }
+h1, p, li { overflow-wrap:anywhere } td { overflow-wrap:break-word }
 @media (max-width:720px) { main { padding:10px 8px 40px } section, header { padding:12px }
  section { overflow-x:auto } svg.plot { min-width:600px } }
 @media print { body { background:#fff } section, header { break-inside:avoid; border-color:#bbb } pre {

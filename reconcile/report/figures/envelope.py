@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from reconcile.report.markup import Markup, tag
@@ -14,6 +15,8 @@ LETTER = 6.6
 ROWS = {"own": (TOP + 17.0,), "other": (TOP + 32.0, TOP + 46.0)}
 """Where names may stand: those of the family above, those of other parts below."""
 HEADROOM = 1.3
+SLOW = 0.2
+"""Order below which no part of a bearing has a line: what wanders there may be cut off, it would flatten the rest."""
 GAP = 6.0
 
 
@@ -23,10 +26,10 @@ def envelope(picture: Mapping[str, Plain]) -> Markup:
     drawn = [(css, x, y) for _, css, (x, y) in curves if y]
     if not any(css == "observed" for css, _, _ in drawn):
         return Markup("")
-    highest = span(*(y for _, _, y in drawn), pad=0.0)[1]
+    highest = max(_highest(x, y) for _, x, y in drawn)
     frame = Frame(
         x=span(*(x for _, x, _ in drawn), pad=0.0),
-        y=(0.0, HEADROOM * (highest or 1.0)),
+        y=(0.0, HEADROOM * highest),
         x_label=f"order, cycles per turn of {text(picture.get('shaft'), 'the shaft')}",
         y_label="depth of modulation, share of mean",
         height=290.0,
@@ -34,7 +37,8 @@ def envelope(picture: Mapping[str, Plain]) -> Markup:
     low, high = (numbers(picture.get("band_hz")) or [0.0, 0.0])[:2]
     title = f"Envelope of {text(picture.get('channel'))} between {low:.0f} and {high:.0f} Hz"
     marks = _marks(frame, picture.get("lines"))
-    return frame.svg(frame.axes(), *(frame.curve(x, y, css) for css, x, y in drawn), marks, title=title)
+    curves_drawn = (frame.curve(x, [min(v, frame.y[1]) for v in y], css) for css, x, y in drawn)
+    return frame.svg(frame.axes(), *curves_drawn, marks, title=title)
 
 
 def caption(picture: Mapping[str, Plain]) -> str:
@@ -45,6 +49,12 @@ def caption(picture: Mapping[str, Plain]) -> str:
     speed = f" at {number(picture.get('speed_hz')):.4g} Hz" if picture.get("speed_hz") is not None else ""
     where = f"{text(picture.get('channel'))}, {low:.0f} to {high:.0f} Hz, {text(picture.get('shaft'))}{speed}"
     return f"{where}: the band in which the {what} stands out most."
+
+
+def _highest(orders: list[float], depth: list[float]) -> float:
+    """Of what is not slow, and at least something."""
+    known = [(o, d) for o, d in zip(orders, depth, strict=True) if math.isfinite(d)]
+    return max((d for o, d in known if o >= SLOW), default=0.0) or max((d for _, d in known), default=0.0) or 1.0
 
 
 def _curve(found: Plain) -> tuple[list[float], list[float]]:

@@ -7,7 +7,8 @@ from dataclasses import replace
 import pytest
 
 from reconcile.machine.beaten import with_beaten
-from reconcile.verdict import HeldOut, Placebo, Report
+from reconcile.report.action import to_do
+from reconcile.verdict import Cause, HeldOut, Placebo, Report
 
 HELD = HeldOut(
     metric="m", unit="dB", before=2.0, after=1.1, gain=0.44, gain_low=0.3, gain_high=0.5, retuned=0.0, black_box=0.62,
@@ -36,3 +37,11 @@ def test_a_name_that_both_beat_is_doubted() -> None:
 )
 def test_a_name_that_beats_one_of_them_stands(report: Report) -> None:
     assert with_beaten(report) is report
+
+
+def test_what_to_do_repeats_the_doubt() -> None:
+    cause = Cause(term="outer_spall", site="drive_end", score=20.0, named=True)
+    told = to_do(with_beaten(replace(REPORT, causes=(cause,))))
+    assert "every sensor stands where its description says" in told and "drive_end and fan_end" in told
+    sure = to_do(replace(REPORT, causes=(cause,)))
+    assert sure.startswith("inspect drive_end at the next stop") and "sensor" not in sure

@@ -64,6 +64,16 @@ def test_both_curves_axes_with_units_and_the_lines_are_drawn() -> None:
     assert "beyond" not in text
 
 
+def test_what_wanders_slowly_does_not_flatten_the_lines() -> None:
+    lined = [0.5, *DEPTH[1:]]
+    lined[270] = 0.1
+    text = reported({**PICTURE, "test": {**PICTURE["test"], "depth": lined}})  # type: ignore[dict-item]
+    drawn = re.findall(r'<(?:path|polyline)[^>]*class="curve observed"[^>]*>', text)[0]
+    heights = sorted(float(y) for _, y in re.findall(r"([\d.]+)[, ]([\d.]+)", drawn))
+    floor, cut, line = heights[-1], heights[0], heights[1]
+    assert (floor - line) / (floor - cut) == pytest.approx((0.1 - 0.02) / (1.3 * 0.1 - 0.02), abs=0.02)
+
+
 def test_names_do_not_collide() -> None:
     crowd = [{"label": f"part{i}", "order": 0.3 * i, "kind": "other"} for i in range(1, 40)]
     shown = names(reported({**PICTURE, "lines": [*PICTURE["lines"], *crowd]}))  # type: ignore[misc]
