@@ -30,8 +30,14 @@ class Foreign:
     growth_db: float
 
 
-def foreign_comb(test: Observation, baselines: Sequence[Observation], ties: Ties, seed: int) -> Foreign | None:
-    """The strongest comb that no part explains and the baseline does not have; None without a baseline."""
+def foreign_comb(
+    test: Observation, baselines: Sequence[Observation], ties: Ties, seed: int, *, sums: bool = True
+) -> Foreign | None:
+    """The strongest comb that no part explains and the baseline does not have; None without a baseline.
+
+    `sums`: whether a part's lines with a sideband count as its own. With several shafts such sums cover nearly all
+    orders; a comb at one of them is the part's only if the part itself is heard.
+    """
     if not baselines:
         return None
     highest = max(f.order for f in ties.families)
@@ -45,7 +51,7 @@ def foreign_comb(test: Observation, baselines: Sequence[Observation], ties: Ties
         spread = np.maximum(1.4826 * np.median(np.abs(table - centre), axis=1, keepdims=True), 0.7)
         top = np.max((table - centre) / spread, axis=0)
         for place in np.argsort(-top)[: 40 * MOST]:
-            if explained(float(base[place]), ties, test.doubt):
+            if explained(float(base[place]), ties, test.doubt, sums=sums):
                 continue
             if best is None or top[place] > best[0]:
                 best = (float(top[place]), float(base[place]))
@@ -62,15 +68,19 @@ def foreign_comb(test: Observation, baselines: Sequence[Observation], ties: Ties
     return Foreign(order=found.order, evidence=found, growth_db=growth.growth_db)
 
 
-def explained(order: float, ties: Ties, doubt: float) -> bool:
-    """Whether an order is a multiple or a half of a part's, or such with a sideband of the family or of a shaft."""
+def explained(order: float, ties: Ties, doubt: float, *, sums: bool = True) -> bool:
+    """Whether an order is a multiple or a half of a part's, or such with a sideband of the family or of a shaft
+    (`sums`), or else a multiple of a shaft's."""
     rows = [(f.order, f.spacing, f.slip) for f in ties.families]
     rows += [(order_of_mesh, 0.0, 0.0) for order_of_mesh in ties.mesh_orders]
+    if not sums:
+        turns = [max(1.0, float(np.round(order / shaft))) * shaft for shaft in ties.shafts.values()]
+        rows = [(o, 0.0, slip) for o, _, slip in rows] + [(turn, 0.0, 0.0) for turn in turns]
     for base, spacing, slip in rows:
         for multiple in MULTIPLES:
             target = base * multiple
             width = (slip + doubt + 0.003) * target
-            for shift in (0.0, spacing, *ties.shafts.values()):
+            for shift in (0.0, spacing, *(ties.shafts.values() if sums else ())):
                 if min(abs(order - target - shift), abs(order - target + shift)) < width:
                     return True
     return False

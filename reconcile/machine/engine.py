@@ -26,6 +26,7 @@ from reconcile.machine.direct import direct_evidence
 from reconcile.machine.drive import on_drive
 from reconcile.machine.exchanged import with_exchanged
 from reconcile.machine.faintest import faintest_seen
+from reconcile.machine.foreign import with_foreign
 from reconcile.machine.gate_orders import gate_orders
 from reconcile.machine.grown import with_grown
 from reconcile.machine.local import around_baseline, told
@@ -139,7 +140,7 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     progress(0.95, "held-out data")
     cost = {"until_atlas_core_s": atlas_s, "budget": budget.name}
     report = answer(setting, found, gate, meter, cost, looks.fit, unknown, looks.pairs)
-    report = with_exchanged(report, setting, channels)
+    report = with_foreign(with_exchanged(report, setting, channels), setting, channels)
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
     report = with_misfit(with_beaten(with_grown(report, machine)), looks.fit)
