@@ -46,8 +46,8 @@ def _told(report: Report, order: float, growth_db: float, tie: Ties, rolling: Se
     near = min(rolling, key=lambda f: abs(f.order / order - 1.0))
     text = (
         f"impacts come {order:.4g} times a turn of {tie.reference}, {growth_db:.0f} dB deeper than in the baseline, "
-        f"where no part of the machine file has a line (nearest: {KINDS[near.kind]} of {near.site}, {near.order:.4g}): its "
-        "numbers may be those of another bearing, or a part may be missing"
+        f"where no part of the machine file has a line (nearest: {KINDS[near.kind]} of {near.site}, {near.order:.4g}): "
+        "its numbers may be those of another bearing, or a part may be missing"
     )
     advice = report.next_experiment or ADVICE
     if report.next_experiment is not None:
