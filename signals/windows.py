@@ -7,6 +7,7 @@ transform", Proc. IEEE 66 (1978), section IV (coherent gain; equivalent noise ba
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.signal import get_window
@@ -27,9 +28,13 @@ COSINES = {
 """Coefficients a_k of the windows, sums of a_k cos(2 pi k t / T) t from -T/2 to T/2, as in scipy.signal.windows."""
 
 
+KEPT, KEPT_SAMPLES = 8, 500_000
+"""Windows that a process keeps, and the longest of them: the spectra of a task's channels are of one length."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Window:
-    """A periodic window: `values` shape (n,), dimensionless."""
+    """A periodic window: `values` shape (n,), dimensionless, read-only."""
 
     name: str
     values: FloatArray
@@ -48,7 +53,12 @@ def window(name: str, n: int) -> Window:
     """The named window over `n` samples; UnknownName lists the names."""
     if name not in MAIN_LOBE_BINS:
         raise UnknownName("window", name, tuple(MAIN_LOBE_BINS))
+    return _kept(name, n) if n <= KEPT_SAMPLES else _made(name, n)
+
+
+def _made(name: str, n: int) -> Window:
     values = np.asarray(get_window(name, n, fftbins=True), dtype=np.float64)
+    values.flags.writeable = False
     gain = float(np.mean(values))
     return Window(
         name=name,
@@ -56,6 +66,9 @@ def window(name: str, n: int) -> Window:
         coherent_gain=gain,
         noise_bandwidth_bins=float(np.mean(values**2)) / gain**2,
     )
+
+
+_kept = lru_cache(maxsize=KEPT)(_made)
 
 
 def transform(name: str, distance_bins: FloatArray) -> FloatArray:

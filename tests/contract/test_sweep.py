@@ -1,8 +1,6 @@
-"""Every effect at every legal site, at the corners of its parameters: finite signals or a refusal that says why."""
+"""Every effect at every legal site, and at the corners of its parameters: finite signals or a refusal that says why."""
 
 from __future__ import annotations
-
-import itertools
 
 import numpy as np
 import pytest
@@ -41,6 +39,11 @@ def sites(machine: MachineSpec) -> dict[SiteKind, tuple[str, ...]]:
     return found | {"body": tuple(b.name for b in machine.bodies)}  # type: ignore[dict-item]
 
 
+def ends(term: Term) -> list[dict[str, float]]:
+    """Defaults, and the severity at either bound."""
+    return [{}, *({p.name: end} for p in term.params if p.name == term.severity for end in (p.low, p.high))]
+
+
 def corners(term: Term) -> list[dict[str, float]]:
     """Defaults; every parameter at either bound, the severity at its default and at its highest."""
     cases: list[dict[str, float]] = [{}]
@@ -54,15 +57,16 @@ def corners(term: Term) -> list[dict[str, float]]:
 
 
 def cases(term: Term) -> list[MachineSpec]:
-    """One machine a legal site and corner."""
+    """One machine a legal site and end of the severity; all corners at the first site of each kind."""
     found = []
     for name in (*MACHINES, *FLEXIBLE):
         machine = preset(name)
-        legal = [s for kind in term.sites for s in sites(machine).get(kind, ()) if s in FLEXIBLE.get(name, {s})]
         others = tuple(t for t in machine.terms if t.term != term.key)
-        for site, values in itertools.product(legal, corners(term)):
-            spec = TermSpec(term=term.key, site=site, parameters=values)
-            found.append(machine.model_copy(update={"terms": (*others, spec)}))
+        for kind in term.sites:
+            legal = [s for s in sites(machine).get(kind, ()) if s in FLEXIBLE.get(name, {s})]
+            for site, values in ((s, v) for s in legal for v in (corners(term) if s == legal[0] else ends(term))):
+                spec = TermSpec(term=term.key, site=site, parameters=values)
+                found.append(machine.model_copy(update={"terms": (*others, spec)}))
     return found
 
 

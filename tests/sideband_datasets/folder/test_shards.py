@@ -13,8 +13,8 @@ from sideband_datasets.formats import FORMATS
 from sideband_datasets.plan import make_plan, size
 from tests.sideband_datasets.small import tiny
 
-WINDOWS = {"per_recording": 20, "length_s": 0.25, "overlap": 0.95}
-RECIPE = tiny(count=24, duration_s=0.5, windows=WINDOWS, peaks={"spectra": []}, splits={"train": 1.0})
+WINDOWS = {"per_recording": 12, "length_s": 0.25, "overlap": 0.95}
+RECIPE = tiny(count=24, duration_s=0.4, windows=WINDOWS, peaks={"spectra": []}, splits={"train": 1.0})
 ROW_BYTES = 4 * 2000
 
 
