@@ -8,6 +8,7 @@ from reconcile.kinematics.answer import TERMS, lines_of
 from reconcile.kinematics.judge import Candidate
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.shafts import Impulsiveness
+from reconcile.kinematics.vague import loudest
 from reconcile.verdict import Cause, NextExperiment, PlaceWeight, Report, Where
 
 NO_SIZE = "a size can't be given without a model"
@@ -68,11 +69,16 @@ def shallow_report(
             )
     causes.sort(key=lambda c: -c.score)
     keys = ", ".join(f"{c.family.key} ({c.growth_db or 0:+.0f} dB)" for c in risen)
+    louder = loudest(tests, baselines)
+    which = "a young race defect or a damaged ball"
+    if louder is not None:
+        grown = f"{louder[0]} is {louder[1]:.0f} dB louder"
+        which = f"{grown}, which a young defect is not: one whose impacts overlap, or a damaged ball"
     total = sum(c.score for c in causes)
     return Report(
         verdict="ambiguous",
         sentence=f"Bearing lines rose over the baseline, {keys}, but stay shallow (depth "
-        f"{max(c.best.depth for c in risen):.2f}): a young race defect or a damaged ball; most likely "
+        f"{max(c.best.depth for c in risen):.2f}): {which}; most likely "
         f"{causes[0].term.replace('_', ' ')} of {causes[0].site}.",
         level="kinematics",
         where=Where(

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
-from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from reconcile.kinematics import faint, read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.vague import LOUDER_DB
 from tests.strategies.impulses import recorded, sound, train
 
@@ -43,3 +45,20 @@ def test_what_grew_far_is_told_and_left_open(times: float, word: str) -> None:
 def test_a_defect_is_still_named() -> None:
     report = answered(train(np.random.default_rng(3), 3.052, 60.0))
     assert report.verdict == "explained" and report.causes[0].site == "bearing1"
+
+
+@pytest.mark.parametrize("times", [1.0, 40.0])
+def test_shallow_lines_of_a_much_louder_machine_are_no_young_defect(
+    times: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where impacts overlap the modulation is shallow, however large the defect."""
+    monkeypatch.setattr(faint, "lines_of", lambda *_: ())
+    best = SimpleNamespace(depth=0.19, slip=0.0)
+    family = SimpleNamespace(key="bearing1.outer", kind="outer", site="bearing1")
+    risen = SimpleNamespace(family=family, best=best, z=9.0, growth_db=12.0)
+    speed = SimpleNamespace(speed_hz=24.3)
+    test, base = (SimpleNamespace(recording=recorded(x), speed=speed) for x in (times * sound(2), sound(1)))
+    report = faint.shallow_report([risen], [], [test], [base])  # type: ignore[list-item]
+    assert report.verdict == "ambiguous" and "(depth 0.19): " in report.sentence
+    assert ("a0 is 32 dB louder, which a young defect is not" in report.sentence) is (times > 1.0)
+    assert ("a young race defect or a damaged ball" in report.sentence) is (times == 1.0)
