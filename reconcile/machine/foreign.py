@@ -8,7 +8,7 @@ from dataclasses import replace
 from reconcile.kinematics.families import Family, Ties, ties
 from reconcile.kinematics.foreign import foreign_comb
 from reconcile.kinematics.spec import of_machine
-from reconcile.machine.direct import impulsive, observed_as, reachable
+from reconcile.machine.direct import HEARD, impulsive, observed_as, reachable
 from reconcile.machine.setting import Setting
 from reconcile.verdict import NextExperiment, Report
 from sim.core.errors import SpecError
@@ -23,7 +23,9 @@ def with_foreign(report: Report, setting: Setting, channels: Sequence[Channel]) 
     """The report, which tells impacts at an order of no part, if a test has them and its baseline has not; where
     something strikes at a part's own lines, or nothing is missing, no one looks."""
     pairs = [d for d in setting.data if d.spectra[1] is not None]
-    if report.verdict in QUIET or not pairs or setting.direct.struck or setting.direct.evidence:
+    direct = setting.direct
+    heard = direct.struck or max(direct.evidence.values(), default=0.0) >= HEARD
+    if report.verdict in QUIET or not pairs or heard:
         return report
     machine = setting.machine
     try:

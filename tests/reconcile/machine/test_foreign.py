@@ -47,6 +47,8 @@ def test_an_order_of_no_part_is_told_with_the_nearest() -> None:
     assert "Check the numbers" in to_do(told(hit))
     assert told(hit, verdict="nothing_missing").sentence == "None fits."
     assert told(hit, direct=Direct(evidence={"outer_spall@bearing1": 9.0}, p=1e-4, told=())).sentence == "None fits."
+    faint = Direct(evidence={"outer_spall@bearing1": 1.0}, p=0.3, told=())
+    assert "impacts come 3.6" in told(hit, direct=faint).sentence
     assert told(hit, based=False).sentence == "None fits."
 
 
