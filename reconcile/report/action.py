@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from reconcile.report.mending import to_mend
 from reconcile.report.words import strongest_placebo
 from reconcile.verdict import Report, Word
 
@@ -30,7 +31,8 @@ def _sensor_too(report: Report) -> str:
     """What is to be mended where a fault of the measurement stands beside the answer."""
     if report.fault is None or report.verdict == "measurement_fault":
         return ""
-    return f" Mend the measurement at {report.fault.channel or 'all channels'} too."
+    said = to_mend(report.fault, beside=True)
+    return f" {said[0].upper()}{said[1:]}"
 
 
 def undecided(report: Report) -> tuple[list[str], list[str]]:
@@ -51,16 +53,7 @@ def _nothing(report: Report) -> str:
 
 
 def _measurement(report: Report) -> str:
-    channel = report.fault.channel if report.fault is not None else "the channels"
-    if report.fault is not None and report.fault.kind == "loose_sensor":
-        return f"check how the sensor of {channel} is fastened; if it is tight, inspect the parts beside it."
-    if report.fault is not None and report.fault.kind == "fixed_tones":
-        return (
-            "find what runs at these frequencies beside the machine, or record with it off, before judging the machine."
-        )
-    if report.fault is not None and report.fault.kind == "speed_mismatch":
-        return "correct the speed that the description states, or give a tacho, before judging the machine."
-    return f"mend the measurement at {channel} and record again before judging the machine."
+    return to_mend(report.fault) if report.fault is not None else "check the sensors and record again."
 
 
 def _explained(report: Report) -> str:

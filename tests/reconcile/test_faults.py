@@ -73,7 +73,7 @@ def test_the_files_tell_all_of_them() -> None:
     told = json.loads(strict_json(report))
     assert {"kind", "channel"} <= set(told["fault"])
     assert [f["kind"] for f in told["measurement_faults"]] == ["clipped", "loose_sensor"]
-    assert told["to_do"].endswith("Mend the measurement at de too.")
+    assert told["to_do"].endswith(" Set a larger range at de.")
     html = page(report)
     for words in ("The measurement", "<td>clipped</td>", "<td>nde</td>", "left out", "machine&#x27;s own"):
         assert words in html

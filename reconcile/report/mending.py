@@ -1,0 +1,32 @@
+"""What to do about a fault of the measurement, by its kind."""
+
+from __future__ import annotations
+
+from reconcile.verdict import SensorFault
+
+AGAIN = "and record again before judging the machine"
+ASKED = "and ask again; nothing needs to be recorded anew"
+BEFORE = "before judging the machine"
+MENDED = {
+    "unit_mismatch": ("correct the unit, or the sensitivity, that is stated for {at}", ASKED),
+    "swapped_channels": ("put the channels of the tests in their right order (here {at})", ASKED),
+    "speed_mismatch": ("correct the speed that the description states, or give a tacho,", BEFORE),
+    "gain_change": ("check range and sensitivity of {at}", AGAIN),
+    "filter_change": ("set the filter of {at} as it was", AGAIN),
+    "clipped": ("set a larger range at {at}", AGAIN),
+    "mains_hum": ("check earth and shield of {at}", AGAIN),
+    "alias": ("filter {at} below half the sampling rate", AGAIN),
+    "tacho_jitter": ("check the tacho", AGAIN),
+    "irregular_time": ("check the recorder's clock", AGAIN),
+    "fixed_tones": ("find what runs at these frequencies beside the machine, or record with it off,", BEFORE),
+    "loose_sensor": ("check how the sensor of {at} is fastened; if it is tight, inspect the parts beside it", ""),
+}
+"""What to do, and what then where the fault is the whole answer."""
+USUAL = ("check sensor and cable of {at}", AGAIN)
+
+
+def to_mend(fault: SensorFault, *, beside: bool = False) -> str:
+    """A clause with its full stop, which begins small; `beside` another answer what follows is not said."""
+    what, then = MENDED.get(fault.kind, USUAL)
+    what = what.format(at=fault.channel or "all channels")
+    return f"{what.rstrip(',')}." if beside or not then else f"{what} {then}."

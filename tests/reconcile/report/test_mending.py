@@ -1,0 +1,32 @@
+"""What to do about a fault of the measurement fits its kind."""
+
+from __future__ import annotations
+
+import pytest
+
+from reconcile.gate.findings import FAULTS
+from reconcile.report.action import to_do
+from reconcile.report.mending import MENDED, to_mend
+from reconcile.verdict import Report, SensorFault
+
+
+@pytest.mark.parametrize("kind", [*FAULTS, "speed_mismatch", "fixed_tones", "of a later version"])
+def test_every_kind_has_a_clause_with_and_without_what_follows(kind: str) -> None:
+    fault = SensorFault(kind=kind, channel="drive")
+    for said in (to_mend(fault), to_mend(fault, beside=True)):
+        assert said.endswith(".") and said[0].islower() and "{" not in said and ",." not in said
+    assert "all channels" in to_mend(SensorFault(kind="stuck", channel=""))
+
+
+def test_a_description_is_corrected_and_nothing_is_recorded_anew() -> None:
+    for kind in ("unit_mismatch", "swapped_channels"):
+        fault = SensorFault(kind=kind, channel="drive")
+        told = to_do(Report(verdict="measurement_fault", sentence="", level="machine", fault=fault))
+        assert "drive" in told and "record again" not in told and "nothing needs to be recorded anew" in told
+        beside = to_do(Report(verdict="nothing_missing", sentence="", level="machine", fault=fault))
+        assert "recorded anew" not in beside and "drive." in beside.replace(")", "")
+    assert "record again before judging" in to_mend(SensorFault(kind="clipped", channel="a"))
+
+
+def test_no_kind_is_told_that_the_gate_has_not() -> None:
+    assert set(MENDED) <= {*FAULTS, "speed_mismatch", "fixed_tones"}
