@@ -12,16 +12,15 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from multiprocessing import get_context
 from pathlib import Path
 from tempfile import TemporaryFile
 
 from app.cli.choice import read_machine
 from app.cli.files import check_folder, local_path, read_json
 from app.cli.parameters import read_parameters
+from app.cli.processes import processes
 from reconcile.entry import reconcile_recordings
 from reconcile.kinematics import KinematicSpec, read_kinematic_spec
 from reconcile.machine.budget import BUDGETS
@@ -167,9 +166,7 @@ def run(arguments: argparse.Namespace) -> int:
     baselines = [_recording(path) for path in arguments.baseline]
     _writable(arguments.out)
     keeper = AtlasFolder(arguments.atlas or default_atlas_folder())
-    several = arguments.jobs > 1
-    pool = ProcessPoolExecutor(arguments.jobs, mp_context=get_context("spawn")) if several else nullcontext()
-    with pool as workers, _machine_named(arguments.machine):
+    with processes(arguments.jobs) as workers, _machine_named(arguments.machine):
         report = reconcile_recordings(
             machine,
             tests,
