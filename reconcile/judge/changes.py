@@ -149,6 +149,16 @@ def _of(seen: Statistics, lens: Lens) -> FloatArray:
     )
 
 
+def observed_only(data: Sequence[PointData], seen_through: Sequence[Lens], plan: AtlasPlan) -> FloatArray:
+    """`Changes.observed` alone, (F,)."""
+    return np.concatenate([_changed(one, lens, plan) for one, lens in zip(data, seen_through, strict=True)])
+
+
+def _changed(one: PointData, lens: Lens, plan: AtlasPlan) -> FloatArray:
+    reference = _of(one.baseline, lens) if one.baseline is not None else lens.nominal
+    return changed(_of(one.test, lens), reference, len(watch_list(plan.machine).phased)).ravel()
+
+
 def observed_changes(
     data: Sequence[PointData], seen_through: Sequence[Lens], banks: Sequence[Bank], plan: AtlasPlan
 ) -> Changes:
@@ -163,7 +173,7 @@ def observed_changes(
     for one, lens, bank in zip(data, seen_through, banks, strict=True):
         reference = _of(one.baseline, lens) if one.baseline is not None else lens.nominal
         phases = len(watched.phased)
-        observed.append(changed(_of(one.test, lens), reference, phases).ravel())
+        observed.append(_changed(one, lens, plan))
         halves.append(np.stack([changed(_of(h, lens), reference, phases).ravel() for h in one.halves]))
         fallen = gained_between(one, watched)
         spread = measured_db(one.test, lens.chain, lens.lines_hz, lens.scale, watched.phased, fallen) ** 2

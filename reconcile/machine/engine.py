@@ -16,6 +16,7 @@ from reconcile.gate import inspect_measurement
 from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import without_spoiled
 from reconcile.judge.changes import lenses, observed_changes
+from reconcile.judge.space import Fitted
 from reconcile.machine.alone import rise_over_sound
 from reconcile.machine.answer import answer, fault_answer, provenance
 from reconcile.machine.assimilate import assimilated
@@ -32,6 +33,7 @@ from reconcile.machine.grown import with_grown
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter, Telling
 from reconcile.machine.misfit import with_misfit
+from reconcile.machine.mistaken import with_mistaken
 from reconcile.machine.octave import doubted_speed, rival_speed
 from reconcile.machine.pairs import Pairs, best_pair, named_pair
 from reconcile.machine.search import (
@@ -143,7 +145,8 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = with_foreign(with_exchanged(report, setting, channels), setting, channels)
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
-    report = with_misfit(with_beaten(with_grown(report, machine)), looks.fit)
+    report = with_mistaken(with_beaten(with_grown(report, machine)), looks.setting, looks.by_families, channels)
+    report = with_misfit(report, looks.fit)
     report = with_strange(report, strange(machine, alike, [c.name for c in channels]), machine)
     return with_limits(with_unconfirmed(report, machine, alike), apart)
 
@@ -165,6 +168,11 @@ class _Looks:
     atlas: Found
     lines: Found | None
     pairs: Pairs | None = None
+
+    @property
+    def by_families(self) -> Fitted:
+        """All candidates, in the setting."""
+        return (self.lines or self.atlas).fitted
 
 
 def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, progress: Progress) -> _Looks:

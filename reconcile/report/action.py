@@ -29,10 +29,15 @@ def to_do(report: Report) -> str:
 
 def _sensor_too(report: Report) -> str:
     """What is to be mended where a fault of the measurement stands beside the answer."""
-    if report.fault is None or report.verdict == "measurement_fault":
+    if report.fault is None or report.verdict == "measurement_fault" or _perhaps_all(report):
         return ""
     said = to_mend(report.fault, beside=True)
     return f" {said[0].upper()}{said[1:]}"
+
+
+def _perhaps_all(report: Report) -> bool:
+    """Whether a fault of the measurement may be all that speaks for the names."""
+    return report.verdict == "ambiguous" and report.fault is not None and report.fault.doubtful
 
 
 def undecided(report: Report) -> tuple[list[str], list[str]]:
@@ -86,6 +91,8 @@ def _unknown(report: Report) -> str:
 
 
 def _several(report: Report) -> str:
+    if report.fault is not None and _perhaps_all(report):
+        return to_mend(report.fault)
     kinds, sites = undecided(report)
     if len(kinds) == 1 and len(sites) > 1:
         return f"plan to inspect {' and '.join(sites)}: one of them has it."
