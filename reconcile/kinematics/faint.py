@@ -12,6 +12,7 @@ from reconcile.kinematics.vague import loudest
 from reconcile.verdict import Cause, NextExperiment, PlaceWeight, Report, Where
 
 NO_SIZE = "a size can't be given without a model"
+LONGER = "Record ten times as long, or under more load: lines of a race deepen."
 NO_ORDER = "impulsiveness grew, but no order stands out"
 
 
@@ -70,10 +71,11 @@ def shallow_report(
     causes.sort(key=lambda c: -c.score)
     keys = ", ".join(f"{c.family.key} ({c.growth_db or 0:+.0f} dB)" for c in risen)
     louder = loudest(tests, baselines)
-    which = "a young race defect or a damaged ball"
+    which, advice = "a young race defect or a damaged ball", LONGER
     if louder is not None:
         grown = f"{louder[0]} is {louder[1]:.0f} dB louder"
-        which = f"{grown}, which a young defect is not: one whose impacts overlap, or a damaged ball"
+        which = f"{grown}, too much for a young defect: a large one whose impacts overlap, or a damaged ball"
+        advice = "Inspect the bearing at the next stop; what is left open is the part, not that it is damaged."
     total = sum(c.score for c in causes)
     return Report(
         verdict="ambiguous",
@@ -87,7 +89,5 @@ def shallow_report(
         ),
         causes=tuple(causes),
         undecidable=("which part of the bearing: shallow lines of several are alike", "how large: " + NO_SIZE),
-        next_experiment=NextExperiment(
-            sentence="Record ten times as long, or under more load: lines of a race deepen."
-        ),
+        next_experiment=NextExperiment(sentence=advice),
     )

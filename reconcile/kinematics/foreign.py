@@ -51,7 +51,7 @@ def foreign_comb(
         spread = np.maximum(1.4826 * np.median(np.abs(table - centre), axis=1, keepdims=True), 0.7)
         top = np.max((table - centre) / spread, axis=0)
         for place in np.argsort(-top)[: 40 * MOST]:
-            if explained(float(base[place]), ties, test.doubt, sums=sums):
+            if explained(float(base[place]), ties, test.doubt, sums=sums, step=0.0 if sums else e.order_step):
                 continue
             if best is None or top[place] > best[0]:
                 best = (float(top[place]), float(base[place]))
@@ -68,9 +68,9 @@ def foreign_comb(
     return Foreign(order=found.order, evidence=found, growth_db=growth.growth_db)
 
 
-def explained(order: float, ties: Ties, doubt: float, *, sums: bool = True) -> bool:
+def explained(order: float, ties: Ties, doubt: float, *, sums: bool = True, step: float = 0.0) -> bool:
     """Whether an order is a multiple or a half of a part's, or such with a sideband of the family or of a shaft
-    (`sums`), or else a multiple of a shaft's."""
+    (`sums`), or else a multiple of a shaft's; `step`: what orders are resolved by."""
     rows = [(f.order, f.spacing, f.slip) for f in ties.families]
     rows += [(order_of_mesh, 0.0, 0.0) for order_of_mesh in ties.mesh_orders]
     if not sums:
@@ -79,7 +79,7 @@ def explained(order: float, ties: Ties, doubt: float, *, sums: bool = True) -> b
     for base, spacing, slip in rows:
         for multiple in MULTIPLES:
             target = base * multiple
-            width = (slip + doubt + 0.003) * target
+            width = (slip + doubt + 0.003) * target + step
             for shift in (0.0, spacing, *(ties.shafts.values() if sums else ())):
                 if min(abs(order - target - shift), abs(order - target + shift)) < width:
                     return True

@@ -13,6 +13,8 @@ EXCHANGED = "exchanged, or a part replaced"
 `reconcile.machine.exchanged`)."""
 BEATEN = "does no better than"
 """How the sentence says that held-out data do not speak for the name (`reconcile.machine.beaten`)."""
+NO_PART = "no part of the machine file has a line"
+"""How the sentence says that something strikes which the file has not (`reconcile.machine.foreign`)."""
 SET_SHARE = 0.5
 """Score over the best one's from which a cause is taken for one of an ambiguous set."""
 
@@ -67,6 +69,8 @@ def _explained(report: Report) -> str:
     if BEATEN in report.sentence:
         return _doubted(report, sites)
     at = " and ".join(dict.fromkeys(sites)) or _place(report)
+    if NO_PART in report.sentence:
+        return f"check the numbers of the bearings in the machine file and ask again, before {at or 'it'} is inspected."
     follow = "the size, an estimate" if any(c.severity is not None for c in named) else "its lines"
     return f"inspect {at or 'the machine'} at the next stop; until then record again and follow {follow}."
 

@@ -57,14 +57,16 @@ def corners(term: Term) -> list[dict[str, float]]:
 
 
 def cases(term: Term) -> list[MachineSpec]:
-    """One machine a legal site and end of the severity; all corners at the first site of each kind."""
+    """One machine a legal site and end of the severity; all corners at the first site of each kind, and at the last of
+    the gearbox, whose gears, shafts and speeds differ."""
     found = []
     for name in (*MACHINES, *FLEXIBLE):
         machine = preset(name)
         others = tuple(t for t in machine.terms if t.term != term.key)
         for kind in term.sites:
             legal = [s for s in sites(machine).get(kind, ()) if s in FLEXIBLE.get(name, {s})]
-            for site, values in ((s, v) for s in legal for v in (corners(term) if s == legal[0] else ends(term))):
+            whole = {*legal[:1], *(legal[-1:] if name == MACHINES[0] else ())}
+            for site, values in ((s, v) for s in legal for v in (corners(term) if s in whole else ends(term))):
                 spec = TermSpec(term=term.key, site=site, parameters=values)
                 found.append(machine.model_copy(update={"terms": (*others, spec)}))
     return found

@@ -60,5 +60,7 @@ def test_shallow_lines_of_a_much_louder_machine_are_no_young_defect(
     test, base = (SimpleNamespace(recording=recorded(x), speed=speed) for x in (times * sound(2), sound(1)))
     report = faint.shallow_report([risen], [], [test], [base])  # type: ignore[list-item]
     assert report.verdict == "ambiguous" and "(depth 0.19): " in report.sentence
-    assert ("a0 is 32 dB louder, which a young defect is not" in report.sentence) is (times > 1.0)
+    assert ("a0 is 32 dB louder, too much for a young defect" in report.sentence) is (times > 1.0)
     assert ("a young race defect or a damaged ball" in report.sentence) is (times == 1.0)
+    assert report.next_experiment is not None
+    assert ("Inspect the bearing" in report.next_experiment.sentence) is (times > 1.0)
