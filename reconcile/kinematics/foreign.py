@@ -17,6 +17,8 @@ LEAST_Z = 12.0
 GROWTH_DB = 10.0
 LEAST_DEPTH = 0.3
 MULTIPLES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
+SLOW = 1.0
+"""Order below which a short record resolves a comb by less than a part's own slip."""
 MOST = 12
 """Strongest orders that are looked at before giving up."""
 
@@ -70,7 +72,7 @@ def foreign_comb(
 
 def explained(order: float, ties: Ties, doubt: float, *, sums: bool = True, step: float = 0.0) -> bool:
     """Whether an order is a multiple or a half of a part's, or such with a sideband of the family or of a shaft
-    (`sums`), or else a multiple of a shaft's; `step`: what orders are resolved by."""
+    (`sums`), or else a multiple of a shaft's; `step`: what orders are resolved by, which counts below `SLOW`."""
     rows = [(f.order, f.spacing, f.slip) for f in ties.families]
     rows += [(order_of_mesh, 0.0, 0.0) for order_of_mesh in ties.mesh_orders]
     if not sums:
@@ -79,7 +81,7 @@ def explained(order: float, ties: Ties, doubt: float, *, sums: bool = True, step
     for base, spacing, slip in rows:
         for multiple in MULTIPLES:
             target = base * multiple
-            width = (slip + doubt + 0.003) * target + step
+            width = (slip + doubt + 0.003) * target + (step if target < SLOW else 0.0)
             for shift in (0.0, spacing, *(ties.shafts.values() if sums else ())):
                 if min(abs(order - target - shift), abs(order - target + shift)) < width:
                     return True
