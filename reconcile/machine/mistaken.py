@@ -16,9 +16,9 @@ from reconcile.gate.units import GRAVITY, possible
 from reconcile.judge.changes import observed_only
 from reconcile.judge.screen import quantile_of_misfit
 from reconcile.judge.space import Fitted
+from reconcile.machine.beaten import beaten
 from reconcile.machine.setting import Setting
 from reconcile.observe.statistics import Statistics
-from reconcile.report.action import BEATEN
 from reconcile.report.words import readable
 from reconcile.verdict import NextExperiment, Report, SensorFault, Where
 from sim.core.response import Channel
@@ -62,7 +62,7 @@ class Fit:
 def with_mistaken(report: Report, setting: Setting, view: Fitted, channels: Sequence[Channel]) -> Report:
     """The report; a fault of the measurement where nothing known explains the tests as they are and something does
     once they are put right, and no name where a doubted one fits better so. `view`: all candidates by families."""
-    doubted = BEATEN in report.sentence
+    doubted = beaten(report)
     based = all(one.baseline is not None for one in setting.data)
     if not based or not (doubted or report.verdict == "unknown_physics"):
         return report

@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from reconcile.report.mending import to_mend
-from reconcile.report.words import strongest_placebo
 from reconcile.verdict import Report, Word
 
 EXCHANGED = "exchanged, or a part replaced"
 """How the sentence says that the baseline has what the tests have not (`reconcile.kinematics.remarks`,
 `reconcile.machine.exchanged`)."""
-BEATEN = "does no better than"
-"""How the sentence says that held-out data do not speak for the name (`reconcile.machine.beaten`)."""
 NO_PART = "no part of the machine file has a line"
 """How the sentence says that something strikes which the file has not (`reconcile.machine.foreign`)."""
 SET_SHARE = 0.5
@@ -66,23 +63,11 @@ def _measurement(report: Report) -> str:
 def _explained(report: Report) -> str:
     named = [c for c in report.causes if c.named]
     sites = [c.site for c in named if c.site]
-    if BEATEN in report.sentence:
-        return _doubted(report, sites)
     at = " and ".join(dict.fromkeys(sites)) or _place(report)
     if NO_PART in report.sentence:
         return f"check the numbers of the bearings in the machine file and ask again, before {at or 'it'} is inspected."
     follow = "the size, an estimate" if any(c.severity is not None for c in named) else "its lines"
     return f"inspect {at or 'the machine'} at the next stop; until then record again and follow {follow}."
-
-
-def _doubted(report: Report, sites: list[str]) -> str:
-    """For a name that something else reaches on held-out data: what either may come from is looked at first."""
-    best = strongest_placebo(report.held_out) if report.held_out is not None else None
-    both = " and ".join(dict.fromkeys([*sites, *([best.site] if best is not None and best.site else [])]))
-    return (
-        f"check that every sensor stands where its description says and record again; "
-        f"if the answer stays, inspect {both or 'the machine'} at the next stop."
-    )
 
 
 def _unknown(report: Report) -> str:

@@ -41,6 +41,8 @@ def test_an_exchange_is_told_with_what_to_do() -> None:
     assert "exchanged" not in told(machine, hit, sound(1)).sentence
     assert "exchanged" not in told(machine, sound(1), sound(3)).sentence
     assert "exchanged" not in told(machine, sound(1), hit, "nothing_missing").sentence
+    louder = 20.0 * np.random.default_rng(7).normal(size=hit.shape)
+    assert "exchanged" not in told(machine, sound(1) + louder, hit).sentence, "the test has more than the baseline"
 
 
 @pytest.mark.slow

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from reconcile.machine import mistaken
+from reconcile.machine.beaten import BEATEN
 from reconcile.machine.mistaken import Correction, corrections, with_mistaken
 from reconcile.observe.statistics import Statistics
-from reconcile.report.action import BEATEN, to_do
+from reconcile.report.action import to_do
 from reconcile.verdict import Cause, Report
 from sim.core.response import Channel
 
@@ -26,8 +27,8 @@ def channel(name: str, unit: str = "m/s^2", quantity: str = "acceleration") -> C
 CHANNELS = (channel("drive"), channel("free"))
 CAUSE = Cause(term="outer_spall", site="fan_end", score=9.0, named=True)
 UNKNOWN = Report(verdict="unknown_physics", sentence="Nothing known.", level="machine")
-DOUBTED = Report(
-    verdict="explained", sentence=f"A pit. But the name {BEATEN} others.", level="machine", causes=(CAUSE,)
+DOUBTED = replace(
+    UNKNOWN, verdict="explained", sentence="A pit.", undecidable=(f"the name {BEATEN} others",), causes=(CAUSE,)
 )
 
 
