@@ -29,6 +29,10 @@ NARROW_DB = 12.0
 """By which a tone stands above the bins three to eight beside it: a sine does by 40, a mode of the structure not."""
 MOST_LINES = 40
 STAY_BINS, BESIDE_BINS, OWN_BINS = 1.5, 3.0, 2.5
+ELSEWHERE = (-61, -43, -29, -17, 17, 29, 43, 61)
+"""Bins away from a line, where the other tests' lines meet it by chance only."""
+RARE = 0.3
+"""Lines that meet so; more, and those that stay must be more than their scatter."""
 FARTHEST = 12.0
 """Orders of the shaft between a tone and a line that goes with it."""
 BESIDE_BLOCK_S = 0.25
@@ -107,11 +111,20 @@ def tone_findings(
 
 
 def fixed_tones(heard: Sequence[Heard]) -> list[float]:
-    """Frequencies, Hz, of narrow lines that all tests have at one place and at least two speeds' own lines have not."""
+    """Frequencies, Hz, of narrow lines that all tests have at one place and at least two speeds' own lines have not;
+    none where lines meet as often at places that the tests do not share, as in the forest that a pit brings."""
+    found = _staying(heard, 0)
+    chance = float(np.mean([len(_staying(heard, shift)) for shift in ELSEWHERE]))
+    return found if chance < RARE or len(found) > chance + 3.0 * chance**0.5 else []
+
+
+def _staying(heard: Sequence[Heard], shift: int) -> list[float]:
+    """The lines of the first test, Hz, that the others have so many bins away."""
     found = []
     for hz in heard[0].peaks(PRESENT_DB, narrow=True):
-        places = [h.peak(hz, STAY_BINS, PRESENT_DB, narrow=True) for h in heard]
-        free = [h.speed_hz for h in heard if not h.own(hz)]
+        at = [hz + (shift * h.step_hz if k else 0.0) for k, h in enumerate(heard)]
+        places = [h.peak(place, STAY_BINS, PRESENT_DB, narrow=True) for h, place in zip(heard, at, strict=True)]
+        free = [h.speed_hz for h, place in zip(heard, at, strict=True) if not h.own(place)]
         if None not in places and free and max(free) > APART * min(free):
             found.append(hz)
     return sorted(found)

@@ -10,7 +10,7 @@ import pytest
 from scipy.signal import lfilter
 
 from reconcile.gate import Gate, inspect_measurement
-from reconcile.gate.tones import tone_findings
+from reconcile.gate.tones import Heard, _staying, fixed_tones, tone_findings
 from signals.recording import Operating, Recording
 from signals.series import FloatArray
 from sim.core.response import Channel
@@ -109,3 +109,24 @@ def test_a_channel_that_only_one_test_has_is_not_asked() -> None:
     second = replace(second, channels=second.channels[1:], samples=second.samples[1:])
     found, _ = tone_findings([first, second], ["test 1", "test 2"], [22.5, 39.0], [np.zeros(0)] * 2, [])
     assert [f.channel for f in found] == ["a1"]
+
+
+def forest(speed_hz: float) -> Heard:
+    """Lines of an inner race with four sidebands to each side, to 4 kHz, 40 dB over the floor."""
+    step = 1.0
+    excess = np.ones(5_000)
+    lines = [k * 5.415 * speed_hz + m * speed_hz for k in range(1, 40) for m in range(-4, 5)]
+    for hz in lines:
+        if 100.0 < hz < 4000.0:
+            excess[round(hz / step)] = 1e4
+    return Heard(excess, step, speed_hz, np.zeros(0))
+
+
+def test_lines_of_a_pit_that_meet_by_chance_are_no_tones() -> None:
+    pit = [forest(24.06), forest(39.9)]
+    assert len(_staying(pit, 0)) >= 2, "they meet"
+    assert fixed_tones(pit) == []
+    alone = [Heard(np.ones(5_000), 1.0, h.speed_hz, np.zeros(0)) for h in pit]
+    for h in alone:
+        h.excess[1234] = 1e4
+    assert fixed_tones(alone) == pytest.approx([1234.0])
