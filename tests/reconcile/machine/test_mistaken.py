@@ -99,6 +99,8 @@ def test_what_fits_as_it_is_stays(told) -> None:  # type: ignore[no-untyped-def]
     for report in (UNKNOWN, DOUBTED):
         assert told(report, TRUE) is report
         assert told(report, TRUE[::-1] * 1.8) is report
+    assert told(DOUBTED, TRUE / 9.80665**2) is DOUBTED, "a pit beyond all that were simulated fits another unit too"
+    for report in (UNKNOWN, DOUBTED):
         assert told(report, TRUE / 9.80665**2, based=False) is report
         assert told(report, TRUE / 9.80665**2, view=View(misfit=0.95)) is report
     for word in ("nothing_missing", "ambiguous", "explained"):
