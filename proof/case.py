@@ -12,7 +12,7 @@ import numpy as np
 from proof.chain import Noise, random_noise, random_path, sampled, through
 from proof.chain import Path as Way
 from proof.effects import Choice
-from proof.machine import Arrays, FloatArray, Hidden, arrays_of, document, hidden_machine
+from proof.machine import Arrays, FloatArray, Hidden, hidden_machine
 from proof.model.layout import B
 from proof.nominals import PAPER
 from proof.plan import Case, Hiding
@@ -36,7 +36,7 @@ def make(case: Case, folder: Path, truth_folder: Path) -> None:
     for name, (speed_hz, samples) in recordings(case).items():
         write_recording(target / name, case, speed_hz, samples)
     truth.write_text(canonical(truth_of(case)), encoding="utf-8")
-    (target / "machine.json").write_text(canonical(document(told(case), case.nominal.rolling)), encoding="utf-8")
+    (target / "machine.json").write_text(canonical(case.nominal.document(told(case))), encoding="utf-8")
 
 
 def canonical(found: Mapping[str, object]) -> str:
@@ -49,7 +49,7 @@ def truth_of(case: Case) -> dict[str, object]:
     rows = []
     for hiding in case.effects:
         law = hiding.about()
-        sites = (hiding.site, *(law.also_at or {}).get(hiding.site, ()))
+        sites = tuple(case.nominal.named(s) for s in (hiding.site, *(law.also_at or {}).get(hiding.site, ())))
         severity = {"name": law.severity, "value": hiding.value, "unit": law.unit, "sized": law.sized}
         rows.append({**asdict(hiding), "terms": law.terms, "sites": sites, "severity": severity})
     about = asdict(case)
@@ -133,7 +133,7 @@ def _quiet(case: Case, chosen: Sequence[Sequence[int]]) -> Iterator[tuple[Sequen
 
 def _sound(hidden: Hidden, case: Case) -> Arrays:
     """The hidden machine of the case without its effects."""
-    return arrays_of(hidden, dict(case.nominal.parameters) | {"T": case.torque_nm}, case.nominal.rolling)
+    return case.nominal.sound(hidden, case.torque_nm)
 
 
 def changed(machine: Arrays, effects: tuple[Hiding, ...], case: Case, numbers: Sequence[int] | None = None) -> Arrays:

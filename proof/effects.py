@@ -85,8 +85,9 @@ def race(width: B, depth: B, angle: B) -> Apply:
         b = a.bearings[c.site]
         b[width] = c.value
         b[depth] = c.rng.uniform(6e-5, 1.5e-4)
-        # the tooth force presses bearings 1, 2 towards +y and 3, 4 towards -y: a pit of the outer race in that zone
-        loaded = 0.5 * math.pi if c.site < 2 else -0.5 * math.pi
+        # the tooth force presses bearings 1, 2 towards +y and 3, 4 towards -y, weight presses towards -y: a pit of the
+        # outer race in that zone
+        loaded = 0.5 * math.pi if c.site < 2 and a.g[G.GRAVITY] == 0.0 else -0.5 * math.pi
         b[angle] = loaded + c.rng.uniform(-0.5, 0.5) if width is B.OUTER_WIDTH else _turn(c.rng)
         if c.variant == 1:
             b[B.SPALL_ENTRY], b[B.SPALL_EXIT], b[B.SPALL_PEAK] = 0.35, 0.15, 0.65

@@ -133,7 +133,7 @@ def arrays_of(
         mesh=np.zeros(M.SIZE),
         x=np.zeros(X.SIZE),
         teeth=np.zeros((2, TEETH, Tooth.SIZE)),
-        spread=_spread(hidden, rolling.balls),
+        spread=spread_of(hidden, rolling.balls),
     )
 
 
@@ -155,7 +155,8 @@ def _bearing(p: Mapping[str, float], rolling: Rolling, own: FloatArray) -> Float
     return b
 
 
-def _spread(hidden: Hidden, balls: int) -> FloatArray:
+def spread_of(hidden: Hidden, balls: int) -> FloatArray:
+    """Angle, cosine and sine of every ball of every bearing, shape (4, BALLS, 3)."""
     angles = 2.0 * math.pi * np.arange(BALLS) / balls + hidden.ball_errors
     return np.stack([angles, np.cos(angles), np.sin(angles)], axis=-1)
 

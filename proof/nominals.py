@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from proof.machine import NOMINAL, Rolling
+from proof.machine import NOMINAL, Arrays, Hidden, Rolling, arrays_of, document
 
 PAPER = "paper"
 
@@ -17,6 +17,18 @@ class Nominal:
     parameters: Mapping[str, float]
     rolling: Rolling
     speeds_hz: tuple[float, ...]
+
+    def sound(self, hidden: Hidden, torque_nm: float) -> Arrays:
+        """A hidden copy without any effect."""
+        return arrays_of(hidden, dict(self.parameters) | {"T": torque_nm}, self.rolling)
+
+    def document(self, told: Mapping[str, float]) -> dict[str, object]:
+        """`machine.json` with these parameters."""
+        return document(told, self.rolling)
+
+    def named(self, site: str) -> str:
+        """A site's name in `machine.json`."""
+        return site
 
 
 NOMINALS: Mapping[str, Nominal] = {

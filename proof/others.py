@@ -11,6 +11,7 @@ import numpy as np
 
 from proof.nominals import NOMINALS, PAPER
 from proof.plan import SEEDS, SENSOR_COUNTS, SNRS_DB, TARGET, Case, Split, hiding_of, plan, sensors_of
+from proof.rotors.plan import rotors
 
 LEVEL = 2
 SPLITS: tuple[Split, ...] = get_args(Split)
@@ -30,6 +31,8 @@ def others() -> tuple[Case, ...]:
 
 def cases_of(split: Split) -> tuple[Case, ...]:
     """All cases of any split."""
+    if split in {"rotors", "rotors-later"}:
+        return rotors(split)
     return others() if split == "others" else plan(split)
 
 

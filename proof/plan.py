@@ -8,7 +8,7 @@ variants go round in cycles of different length.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -17,9 +17,12 @@ import numpy as np
 from proof.effects import Law
 from proof.library import CLOSED
 from proof.nominals import NOMINALS, PAPER, Nominal
+from proof.rotors.machine import ROTORS
 from proof.unknown import OPEN
 
-Split = Literal["dev", "sealed", "later", "third", "fourth", "quiet", "unmet", "next", "others"]
+Split = Literal[
+    "dev", "sealed", "later", "third", "fourth", "quiet", "unmet", "next", "others", "rotors", "rotors-later"
+]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
     "dev": 20_240_611,
@@ -31,6 +34,8 @@ SEEDS = {
     "unmet": 2_685_330_917,
     "next": 4_417_902_663,
     "others": 9_036_127_745,
+    "rotors": 1_873_264_509,
+    "rotors-later": 6_340_917_285,
 }
 COUNTS = {
     "dev": {
@@ -80,6 +85,7 @@ SHOWN_PAIRS = (
 are two to be told. Of 25 pairs of `PAIRS` at the target condition 12 have one that does not: cracks of teeth and gears
 that run out."""
 SHOWN = ("fourth", "unmet", "next")
+MACHINES: Mapping[str, Nominal] = {**NOMINALS, **ROTORS}
 FAULTS = ("clipping", "dropouts", "mains_hum", "loose_sensor", "stuck", "swapped", "gain_change", "aliasing")
 
 
@@ -124,12 +130,12 @@ class Case:
     fault: str | None = None
     causes: tuple[tuple[str, str], ...] = ()
     machine: str = PAPER
-    """Which of `NOMINALS` is told."""
+    """Which of `MACHINES` is told."""
 
     @property
     def nominal(self) -> Nominal:
         """The machine as it is drawn."""
-        return NOMINALS[self.machine]
+        return MACHINES[self.machine]
 
     @property
     def torque_nm(self) -> float:

@@ -78,8 +78,9 @@ def _reconciled(engine: Engine, case: Path, folder: Path) -> dict[str, Any]:
     if engine.by_kinematics:
         write_kinematics(case, machine)
     else:
-        made = [*engine.command, "machine", "--from-reference", str(case / "machine.json"), "--out", str(machine)]
-        commands.insert(0, made)
+        given = case / "machine.json"
+        form = "--from-reference" if "parameters" in json.loads(given.read_text(encoding="utf-8")) else "--machine"
+        commands.insert(0, [*engine.command, "machine", form, str(given), "--out", str(machine)])
     for command in commands:
         error = _failure(command, engine.timeout_s)
         if error is not None:

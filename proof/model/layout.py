@@ -52,7 +52,9 @@ class G(IntEnum):
     """Slope of the motor's torque over speed, N m s/rad."""
     RAMP = 23
     """The torque is put on within this time, s; 0: a step."""
-    SIZE = 24
+    GRAVITY = 24
+    """m/s^2 towards -y."""
+    SIZE = 25
 
 
 class B(IntEnum):

@@ -148,6 +148,21 @@ def divide_by_mass(g, bearings, acc):  # type: ignore[no-untyped-def]  # noqa: A
             acc[s + 2 + i] /= b[B.MO] * (1.0 - share)
             acc[SEAT + 2 * j + i] /= b[B.MO] * max(share, 0.01)
         acc[s + 4] /= b[B.MR]
+    if g[G.GRAVITY] != 0.0:
+        weigh(g[G.GRAVITY], acc)
+
+
+@njit(error_model="numpy")
+def weigh(gravity, acc):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Weight of everything that moves along y."""
+    acc[PINION + 2] -= gravity
+    acc[GEAR + 2] -= gravity
+    for j in range(4):
+        s = BEARING_BASE[j]
+        acc[s + 1] -= gravity
+        acc[s + 3] -= gravity
+        acc[s + 4] -= gravity
+        acc[SEAT + 2 * j + 1] -= gravity
 
 
 @njit(error_model="numpy")

@@ -8,7 +8,7 @@ bands more than their lines, and its neighbours hear it too.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import reduce
+from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -16,6 +16,7 @@ from scipy.optimize import linear_sum_assignment
 from reconcile.gate.findings import Finding
 from reconcile.gate.levels import Pair
 from reconcile.gate.lines import FLOOR_SHARE, LEAST_LINES, common_unit_gains, denied
+from reconcile.gate.loose import LEVEL_DB, QUIET_DB, loose_findings
 from reconcile.gate.robust import robust_swap_order, robust_unit_gain
 from reconcile.gate.units import even_unit_gain, possible, unit_finding, unit_of
 from signals.recording import Recording
@@ -24,20 +25,9 @@ from signals.series import FloatArray
 GAIN_DB = 2.0
 GAIN_SPREAD_DB = 1.0
 """Half of all bands within this of the median change: what repetition, load and a drift of a few per cent leave."""
-QUIET_DB = 1.0
-LOOSE_DB = 6.0
-LOOSE_BAND_DB = 3.0
-LOOSE_ROUGH_DB = 2.0
-ROUGH_SHARE = 0.2
-"""By which lines, floor and speeds may differ in their change, at least or as a share of the change."""
-LOOSE_IMPACTS = 0.5
-"""Growth of the kurtosis of the bands that changed: a filter makes no impacts."""
-CREST_DB = 4.0
-"""Growth of the mean over the quiet moments, a quarter of the wide bands above, that weighs as a kurtosis of one does
-(impacts too dense for narrow bands to part them)."""
-QUIET_SHARE = 0.2
-OTHERS_SHARE = 0.3
-"""By which, of its change, other channels may have changed for it to be remarked; a fault needs them quiet."""
+LEAST_BESIDE, ALIKE_DB, LINES_DB = 2, 1.5, 4.0
+"""Other channels, by how much their changes may differ (half of all bands), and strong lines may miss a gain that is
+told beside them: 6 dB on a rotor are told within 0.1, by its lines within 1.2."""
 SWAP_SHARE = 0.5
 SWAP_DB = 3.0
 
@@ -60,6 +50,8 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
     common = common_unit_gains(lines, floors, quantities)
     for c, name in enumerate(names):
         gain, roughly = _gain(change, c), even_unit_gain(change, c, quantities)
+        beside = _gain_beside(change, lines, c) if gain is None else None
+        gain = gain if gain is not None else beside
         unit_gain = roughly if roughly is not None else robust_unit_gain(pairs, c)
         by_lines = unit_gain is None and common[c] is not None
         unit_gain = common[c] if by_lines else unit_gain
@@ -67,14 +59,15 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
         if likely is not None and denied(likely, lines[c]):
             continue
         if gain is not None:
-            found.append(_gain_finding(gain, change, c, name, quantities))
+            one = _gain_finding(gain, change, c, name, quantities)
+            found.append(replace(one, fault=True) if beside is not None else one)
         elif unit_gain is not None:
             unit = unit_of(unit_gain, np.inf, possible(quantities[c]))
             told = by_lines and lines[c].size >= LEAST_LINES
             seen, what = (lines[c], "strong lines") if told else (_all_bands(change, c), "bands")
             found.append(unit_finding(unit_gain, str(unit), name, seen, what))
         elif len(names) > 1:
-            found += _loose(pairs, change, c, name)
+            found += loose_findings(pairs, change, c, name)
     # all channels by one gain is a change of load or level unless it is a unit
     everywhere = len(found) == len(names) and len(names) > 1 and all(f.kind == "gain_change" for f in found)
     return () if everywhere else tuple(found)
@@ -89,6 +82,23 @@ def _gain(change: Sequence[FloatArray], c: int) -> float | None:
     tail = float(np.percentile(np.abs(values - middle), 95))
     loud = abs(middle) > GAIN_DB and quarter < GAIN_SPREAD_DB and edge < GAIN_SPREAD_DB
     return middle if loud and tail < max(3.0, 0.25 * abs(middle)) else None
+
+
+def _gain_beside(change: Sequence[FloatArray], lines: Sequence[FloatArray], c: int) -> float | None:
+    """That gain beside a level that all other channels share, dB, or None: a rattling bearing is louder in one record
+    than in another by 2 dB throughout. Two other channels at least must say what it is; strong lines must agree."""
+    if len(lines) < LEAST_BESIDE + 1:
+        return None
+    rest = [np.delete(d, c, axis=0) for d in change]
+    if max(float(np.median(np.ptp(d, axis=0))) for d in rest) > ALIKE_DB:
+        return None
+    if max(abs(float(np.median(d))) for d in rest) > LEVEL_DB:
+        return None
+    gain = _gain([d - np.median(np.delete(d, c, axis=0), axis=0) for d in change], c)
+    others = np.concatenate([one for k, one in enumerate(lines) if k != c])
+    if gain is None or not lines[c].size or not others.size:
+        return gain
+    return gain if abs(float(np.median(lines[c]) - np.median(others)) - gain) <= LINES_DB else None
 
 
 def _all_bands(change: Sequence[FloatArray], c: int) -> FloatArray:
@@ -112,47 +122,6 @@ def _gain_finding(gain: float, change: Sequence[FloatArray], c: int, name: str, 
         fault=quiet,
         gain_db=gain,
     )
-
-
-def _loose(pairs: Sequence[Pair], change: Sequence[FloatArray], c: int, name: str) -> list[Finding]:
-    """A filter on one channel: bands changed, lines as the floor, alike at all speeds, no impacts, others quiet."""
-    shared = reduce(np.intersect1d, [p.band for p in pairs])
-    if not shared.size:
-        return []
-    places = [np.searchsorted(p.band, shared) for p in pairs]
-    own = np.stack([d[c][:, at] for d, at in zip(change, places, strict=True)])
-    curve = np.mean(own, axis=(0, 1))
-    changed = np.abs(curve) > LOOSE_BAND_DB
-    size = float(np.max(np.abs(curve)))
-    if size < LOOSE_DB or not np.any(changed):
-        return []
-    rough = float(np.median(np.max(np.abs(own - curve)[:, :, changed], axis=(0, 1))))
-    impacts = max(float(np.median(p.impacts[c, at][changed])) for p, at in zip(pairs, places, strict=True))
-    crests = [float(np.percentile(p.crest_change[c], 75)) / CREST_DB for p in pairs if p.crest_change.size]
-    impacts = max([impacts, *crests])  # records of a fraction of a second have none
-    rest = [k for k in range(len(pairs[0].names)) if k != c]
-    others = [d[k, 0, at][changed] for d, at in zip(change, places, strict=True) for k in rest]
-    loudest = max(float(np.median(np.abs(o))) for o in others)
-    if rough > max(LOOSE_ROUGH_DB, ROUGH_SHARE * size) or impacts > LOOSE_IMPACTS or loudest > OTHERS_SHARE * size:
-        return []
-    top = int(np.argmax(np.abs(curve)))
-    centre_hz = pairs[0].centre_hz[places[0]]
-    hz = float(centre_hz[top])
-    detail = f"its transfer changed by up to {curve[top]:+.0f} dB around {hz:.4g} Hz, lines and noise alike; "
-    quiet = loudest <= max(2 * QUIET_DB, QUIET_SHARE * size)
-    detail += f"the other channels changed by {loudest:.1f} dB there"
-    return [
-        Finding(
-            kind="loose_sensor",
-            channel=name,
-            recording="all tests",
-            detail=detail,
-            severity=float(min(1.0, size / 20)),
-            where=f"{hz:.4g} Hz",
-            fault=quiet,
-            transfer_db=tuple(zip(map(float, centre_hz), map(float, curve), strict=True)),
-        )
-    ]
 
 
 def swapped(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding, ...]:

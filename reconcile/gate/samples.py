@@ -25,6 +25,10 @@ REPAIRABLE_SHARE = 0.02
 QUIET_WINDOW_S = 2e-3
 QUIET_RATIO = 0.02
 """A window whose RMS is below 2 % of the median window's: the signal was away, not weak."""
+QUIET_TAIL = 2.5
+"""Times that size: what is away leaves few windows between; a bearing that rattles is silent by degrees."""
+FREE_FALL_M_PER_S2, FREE_FALL_SHARE = 9.80665, 0.05
+"""A ring in free flight is accelerated by its weight alone: a plateau there is no end of a range."""
 PILE = 4.0
 """Clipping behind which noise or a filter follows: the outermost hundredth of the range holds this many times more
 samples than the hundredth beside it; the tails of a moving signal thin out towards the ends."""
@@ -45,7 +49,7 @@ def sample_findings(recording: Recording, label: str) -> tuple[Finding, ...]:
         if (name, "dropouts") not in known and (name, "stuck") not in known:
             found += _absences(samples, recording, name, label)
         if (name, "clipped") not in known:
-            found += _piles(samples, name, label)
+            found += _piles(samples, name, label, recording.channels[recording.names.index(name)].unit)
     return tuple(found)
 
 
@@ -105,7 +109,10 @@ def _quiet_blocks(samples: FloatArray, sampling_rate_hz: float) -> tuple[BoolArr
         return np.zeros(0, dtype=np.bool_), length
     blocks = samples[: count * length].reshape(count, length)
     size = np.std(blocks, axis=1)
-    quiet: BoolArray = np.asarray(size < QUIET_RATIO * float(np.median(size)), dtype=np.bool_)
+    least = QUIET_RATIO * float(np.median(size))
+    quiet: BoolArray = np.asarray(size < least, dtype=np.bool_)
+    if np.sum((size >= least) & (size < QUIET_TAIL * least)) >= np.sum(quiet):
+        quiet = np.zeros_like(quiet)
     # a slow strong line has quiet windows around its extremes: the level must be away from the extremes as well
     quiet &= np.abs(np.mean(blocks, axis=1) - np.mean(samples)) < 0.5 * np.std(samples)
     return (quiet if np.mean(quiet) <= 0.5 else np.zeros_like(quiet)), length
@@ -133,16 +140,18 @@ def _absences(samples: FloatArray, recording: Recording, name: str, label: str) 
     ]
 
 
-def _piles(samples: FloatArray, name: str, label: str) -> list[Finding]:
+def _piles(samples: FloatArray, name: str, label: str, unit: str) -> list[Finding]:
     """Samples piled up at an end of the range."""
     low, high = float(np.min(samples)), float(np.max(samples))
     step = (high - low) / 100
-    for end, sign in (("upper", 1.0), ("lower", -1.0)):
-        depth = (high - samples) if sign > 0 else (samples - low)
+    for end, end_at in (("upper", high), ("lower", low)):
+        depth = np.abs(samples - end_at)
         outer = int(np.sum(depth < step))
         beside = int(np.sum((depth >= step) & (depth < 3 * step))) / 2
         # a sine has a pile too, but of a known height: 1/(pi sqrt(x(1-x))) gives 2.6 for these widths
-        if outer >= max(PILE_SAMPLES, MATERIAL_SHARE * samples.size) and outer > PILE * max(beside, 1.0):
+        falls = unit == "m/s^2" and abs(abs(end_at) / FREE_FALL_M_PER_S2 - 1.0) < FREE_FALL_SHARE
+        many = outer >= max(PILE_SAMPLES, MATERIAL_SHARE * samples.size)
+        if many and outer > PILE * max(beside, 1.0) and not falls:
             share = outer / samples.size
             return [
                 Finding(

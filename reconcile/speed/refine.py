@@ -11,8 +11,11 @@ from signals.series import BoolArray, FloatArray
 
 REACH_BINS = 1.5
 """Bins between a line and a speed's multiple at which it counts for the speed: half a bin and the neighbour."""
-LINE_BINS = 0.75
-"""Half the interval of a single line's frequency, bins, if it is spread over fewer."""
+LINE_BINS = 0.3
+"""Half the interval of a steady line's frequency, bins: centres of lines 30 dB out, by which rotors of the proof turn,
+are within 0.1."""
+LOBE_BINS = 0.57
+"""Spread of a steady line's power, bins, by the Hann window alone: what is beyond is wander."""
 VALLEY_LOG = 1.5
 """Log power by which a line must rise again to be another one."""
 
@@ -37,7 +40,7 @@ def refined(combs: Sequence[tuple[FloatArray, float]], coarse: float, orders: Se
         places, widths, weights = np.array(lines).T
         bins = combs[0][1] / order
         found = float(np.average(places, weights=weights)) * bins
-        spread = float(np.average(widths, weights=weights))
+        spread = float(np.sqrt(max(np.average(widths, weights=weights) ** 2 - LOBE_BINS**2, 0.0)))
         if abs(found - speed) <= half:
             speed, half = found, min(half, max(LINE_BINS, spread) * bins)
         elif not found_any:

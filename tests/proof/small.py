@@ -12,6 +12,7 @@ from pathlib import Path
 from app.cli.parameters import read_parameters
 from app.cli.recordings import Given, read_recording
 from proof import case as made
+from proof.machine import document
 from proof.plan import Case, Group, Hiding
 from reconcile.atlas.candidates import Candidate
 from signals.recording import Recording
@@ -72,7 +73,7 @@ CASES = {
 def nominal_machine(folder: Path) -> MachineSpec:
     """The machine as the engine is told it, read as a user's file is."""
     path = folder / "machine.json"
-    path.write_text(made.canonical(made.document(made.told(CASES["nothing"]))), encoding="utf-8")
+    path.write_text(made.canonical(document(made.told(CASES["nothing"]))), encoding="utf-8")
     return read_parameters(path).machine
 
 

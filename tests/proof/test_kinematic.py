@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from proof.case import document, told
+from proof.case import told
 from proof.kinematic import answer, kinematics, told_table
+from proof.machine import document
 from proof.plan import plan
 from reconcile.kinematics import read_kinematic_spec
 from reconcile.kinematics.families import ties

@@ -1,0 +1,101 @@
+"""A loose sensor: its transfer changed by a smooth function of frequency, lines and noise alike, at every speed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import reduce
+
+import numpy as np
+
+from reconcile.gate.findings import Finding
+from reconcile.gate.levels import Pair
+from signals.series import BoolArray, FloatArray
+
+QUIET_DB = 1.0
+LOOSE_DB = 6.0
+LOOSE_BAND_DB = 3.0
+LOOSE_ROUGH_DB = 2.0
+ROUGH_SHARE = 0.2
+"""By which lines, floor and speeds may differ in their change, at least or as a share of the change."""
+LOOSE_IMPACTS = 0.5
+"""Growth of the kurtosis of the bands that changed: a filter makes no impacts."""
+CREST_DB = 4.0
+"""Growth of the mean over the quiet moments, a quarter of the wide bands above, that weighs as a kurtosis of one does
+(impacts too dense for narrow bands to part them)."""
+QUIET_SHARE = 0.2
+MOST_DB = 4.5
+"""The most by which speeds may differ, and other channels have changed, however far the sensor's band did: a bearing
+that no longer rattles falls silent by 40 dB, and its neighbour changes by 6."""
+FLOOR_KEEPS = 0.4
+"""Of the change of a band's power the least that its noise shows: a narrow peak fills a band partly."""
+LEVEL_DB, LEAST_SPEEDS = 3.0, 3
+"""By how much a whole record may be louder than its baseline, and at how many speeds a narrow peak must be alike."""
+OTHERS_SHARE = 0.3
+"""By which, of its change, other channels may have changed for it to be remarked; a fault needs them quiet."""
+
+
+def loose_findings(pairs: Sequence[Pair], change: Sequence[FloatArray], c: int, name: str) -> list[Finding]:
+    """A filter on one channel: bands changed, lines as the floor, alike at all speeds, no impacts, others quiet."""
+    shared = reduce(np.intersect1d, [p.band for p in pairs])
+    if not shared.size:
+        return []
+    places = [np.searchsorted(p.band, shared) for p in pairs]
+    levels = [_level(d, c) for d in change]
+    own = np.stack([d[c][:, at] - level for d, at, level in zip(change, places, levels, strict=True)])
+    curve = np.mean(own, axis=(0, 1))
+    changed = np.abs(curve) > LOOSE_BAND_DB
+    size = float(np.max(np.abs(curve)))
+    if size < LOOSE_DB or not np.any(changed):
+        return []
+    rough = _rough(own, curve, changed)
+    grown = [float(np.median(p.impacts[c, at][changed])) for p, at in zip(pairs, places, strict=True)]
+    impacts = float(np.median(grown)) if len(grown) >= LEAST_SPEEDS else max(grown)  # those of a defect come at all
+    crests = [float(np.percentile(p.crest_change[c], 75)) / CREST_DB for p in pairs if p.crest_change.size]
+    impacts = max([impacts, *crests])  # records of a fraction of a second have none
+    rest = [k for k in range(len(pairs[0].names)) if k != c]
+    others = [d[k, 0, at][changed] - level for d, at, level in zip(change, places, levels, strict=True) for k in rest]
+    loudest = max(float(np.median(np.abs(o))) for o in others)
+    if rough > _allowed(LOOSE_ROUGH_DB, ROUGH_SHARE, size) or impacts > LOOSE_IMPACTS or loudest > OTHERS_SHARE * size:
+        return []
+    top = int(np.argmax(np.abs(curve)))
+    centre_hz = pairs[0].centre_hz[places[0]]
+    hz = float(centre_hz[top])
+    detail = f"its transfer changed by up to {curve[top]:+.0f} dB around {hz:.4g} Hz, lines and noise alike; "
+    quiet = loudest <= _allowed(2 * QUIET_DB, QUIET_SHARE, size)
+    detail += f"the other channels changed by {loudest:.1f} dB there"
+    return [
+        Finding(
+            kind="loose_sensor",
+            channel=name,
+            recording="all tests",
+            detail=detail,
+            severity=float(min(1.0, size / 20)),
+            where=f"{hz:.4g} Hz",
+            fault=quiet,
+            transfer_db=tuple(zip(map(float, centre_hz), map(float, curve), strict=True)),
+        )
+    ]
+
+
+def _allowed(least_db: float, share: float, size_db: float) -> float:
+    return max(least_db, min(share * size_db, MOST_DB))
+
+
+def _level(change: FloatArray, c: int) -> float:
+    """By how much the other channels' bands changed on the whole, dB: a rattling bearing is louder in one record than
+    in another throughout. 0 where that is more than a record differs from the next."""
+    rest = np.delete(change, c, axis=0)
+    level = float(np.median(rest)) if rest.size else 0.0
+    return level if abs(level) <= LEVEL_DB else 0.0
+
+
+def _rough(own: FloatArray, curve: FloatArray, changed: BoolArray) -> float:
+    """How unlike the changes (speeds, 2, bands) of lines and noise are, dB, in the bands that changed: all alike, or
+    each kind alike at several speeds where the noise shows enough of it."""
+    part = own[:, :, changed]
+    alike = float(np.median(np.max(np.abs(part - curve[changed]), axis=(0, 1))))
+    kinds = part.mean(axis=0)
+    keeps = np.median(kinds[1] / np.where(np.abs(kinds[0]) > 0.0, kinds[0], 1.0))
+    if len(own) < LEAST_SPEEDS or keeps < FLOOR_KEEPS:
+        return alike
+    return min(alike, float(np.median(np.max(np.abs(part - kinds), axis=(0, 1)))))
