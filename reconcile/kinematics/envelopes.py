@@ -9,6 +9,7 @@ of the binary/ternary tree of `signals.spectra.band`.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy import fft
@@ -71,6 +72,7 @@ def envelopes(
     nyquist = series.sampling_rate_hz / 2
     per_turn = int(np.ceil(STEPS * highest_order))
     narrowest = MIN_WIDTHS * highest_base * speed
+    times = equal_angles(angle_rad, series.sampling_rate_hz, per_turn)
     bands, rows, depths, kurtosis = [], [], [], []
     for parts in PARTS:
         width = nyquist / parts
@@ -82,9 +84,7 @@ def envelopes(
             if high - low < 0.5 * width:
                 continue
             square, rate, kurt = squared_envelope(white, low, high, series.sampling_rate_hz)
-            depth, step = order_depth(
-                at_equal_angles(square, rate, angle_rad, series.sampling_rate_hz, per_turn), per_turn
-            )
+            depth, step = order_depth(means_between(square, rate, times), per_turn)
             bands.append((low, high))
             rows.append(power_over_floor(depth**2))
             depths.append(depth)
@@ -137,23 +137,39 @@ def squared_envelope(
 def at_equal_angles(
     square: FloatArray, rate_hz: float, angle_rad: FloatArray, sampling_rate_hz: float, per_turn: int
 ) -> FloatArray:
-    """Means of the squared envelope between `per_turn` equal angles a turn, over its mean, shape (steps,).
+    """Means of the squared envelope between `per_turn` equal angles a turn, over its mean, shape (steps,)."""
+    return means_between(square, rate_hz, equal_angles(angle_rad, sampling_rate_hz, per_turn))
 
-    Means, not samples: what is faster than a step is averaged, not folded.
-    """
+
+def equal_angles(angle_rad: FloatArray, sampling_rate_hz: float, per_turn: int) -> FloatArray:
+    """Times in s, (steps + 1,), of equal steps of an angle (n,) that is NaN at the ends where it is unknown."""
     known = np.flatnonzero(np.isfinite(angle_rad))
     first, last = int(known[0]), int(known[-1])
     count = max(16, int((angle_rad[last] - angle_rad[first]) / (2 * np.pi) * per_turn))
     edges = angle_rad[first] + 2 * np.pi * np.arange(count + 1) / per_turn
-    time = np.interp(edges, angle_rad[first : last + 1], np.arange(first, last + 1) / sampling_rate_hz)
+    return np.asarray(np.interp(edges, angle_rad[first : last + 1], np.arange(first, last + 1) / sampling_rate_hz))
+
+
+def means_between(square: FloatArray, rate_hz: float, time: FloatArray) -> FloatArray:
+    """Means of the squared envelope between times in s (steps + 1,), over its mean, shape (steps,).
+
+    Means, not samples: what is faster than a step is averaged, not folded.
+    """
     total = np.concatenate(([0.0], np.cumsum(square)))
     sums = np.interp(time * rate_hz, np.arange(total.size), total)
     values = np.diff(sums) / np.maximum(np.diff(time) * rate_hz, 1e-9)
     return np.asarray(values / max(float(np.mean(values)), 1e-300), dtype=np.float64)
 
 
+@lru_cache(maxsize=8)
+def _hann(size: int) -> FloatArray:
+    window = np.hanning(size)
+    window.flags.writeable = False
+    return window
+
+
 def order_depth(values: FloatArray, per_turn: int) -> tuple[FloatArray, float]:
     """(amplitude of the lines of `values` (steps,), Hann; order step)."""
-    window = np.hanning(values.size)
+    window = _hann(values.size)
     transform = np.abs(fft.rfft((values - np.mean(values)) * window))
     return np.asarray(2 * transform / np.sum(window), dtype=np.float64), per_turn / values.size

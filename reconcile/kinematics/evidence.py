@@ -126,7 +126,7 @@ def scores(values: FloatArray, envelopes: Envelopes, family: Family, base: Float
     lines, weights = comb(family, base)
     inside = (lines / envelopes.order_step < values.shape[1] - 1) & (lines > 0)
     place = np.where(inside, envelopes.place(np.abs(lines)), 0)  # at 0 there is nothing, `logs` sees to that
-    return np.asarray(np.take(values, place, axis=1) @ weights, dtype=np.float64)
+    return np.asarray(np.take(values, place, axis=1, mode="clip") @ weights, dtype=np.float64)
 
 
 def without(
@@ -146,18 +146,17 @@ def without(
 
 def control_orders(ties: Ties, family: Family, rng: np.random.Generator, count: int = CONTROLS) -> FloatArray:
     """Orders no part has, between half and twice the family's, shape (count,)."""
-    known = [f.order * m for f in ties.families if f.kind != "turn" for m in (0.5, 1.0, 1.5, 2.0, 3.0)]
-    chosen: list[float] = []
-    away = AWAY
+    known = np.array([f.order * m for f in ties.families if f.kind != "turn" for m in (0.5, 1.0, 1.5, 2.0, 3.0)])
+    chosen = np.zeros(0)
     tries = 0
-    while len(chosen) < count:
-        order = family.order * float(2 ** rng.uniform(-1, 1))
-        tries += 1
-        if tries % (20 * count) == 0:
-            away /= 2  # many parts leave no gaps this wide
-        if all(abs(order / k - 1) > away for k in known):
-            chosen.append(order)
-    return np.asarray(chosen)
+    while chosen.size < count:
+        orders = np.array([family.order * 2**power for power in rng.uniform(-1, 1, count).tolist()])
+        # many parts leave no gaps this wide
+        away = AWAY / 2.0 ** ((tries + 1 + np.arange(count)) // (20 * count))
+        clear = np.all(np.abs(orders[:, np.newaxis] / known - 1) > away[:, np.newaxis], axis=1)
+        chosen = np.concatenate([chosen, orders[clear]])
+        tries += count
+    return chosen[:count]
 
 
 def family_evidence(

@@ -70,7 +70,7 @@ def gear_evidence(
 ) -> tuple[GearEvidence, ...]:
     """One entry a mesh and shaft, the strongest growth first; empty without a baseline at the same speed."""
     found: dict[tuple[str, str], list[tuple[float, GearEvidence]]] = {}
-    for test in tests:
+    for test in tests if ties.meshes else ():
         best: dict[tuple[str, str], GearEvidence] = {}
         base = matched(test, baselines)
         if base is None:

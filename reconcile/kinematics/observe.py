@@ -17,6 +17,8 @@ from sim.core.errors import Problem, SpecError
 MOST_DOUBT = 0.012
 """Share by which the search widens where the speed could not be read: wider, every comb meets every line."""
 MIN_TURNS = 12.0
+WHITE = 2
+"""Channels whose transforms are kept: families are heard in this one or that one, by turns."""
 SPEED_HARMONICS = (1, 2, 3)
 """Of the teeth, by which the mean speed is read."""
 ANGLE_HARMONICS = 5
@@ -26,12 +28,12 @@ ANGLE_HARMONICS = 5
 @dataclass(frozen=True)
 class KeptBands:
     """Bands at equal angles, which one family asks for after the other: the latest, of `limit` bytes at most or one
-    alone; beside them the transform of the latest channel."""
+    alone; beside them the transforms of the latest channels."""
 
     limit: int
     rows: dict[tuple[str, tuple[float, float]], tuple[FloatArray, int]] = field(default_factory=dict)
     white: dict[str, ComplexArray] = field(default_factory=dict)
-    """Of the latest channel."""
+    """Of the latest `WHITE` channels."""
 
     def of(
         self, key: tuple[str, tuple[float, float]], make: Callable[[], tuple[FloatArray, int]]
@@ -70,7 +72,8 @@ class Observation:
         if found is None:
             found = whitened(self.recording.series(name).samples)
             found.flags.writeable = False
-            self.kept.white.clear()
+            while len(self.kept.white) >= WHITE:
+                del self.kept.white[next(iter(self.kept.white))]
             self.kept.white[name] = found
         return found
 

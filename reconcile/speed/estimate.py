@@ -133,9 +133,10 @@ def _found(
     combs: Sequence[tuple[FloatArray, float]], orders: Sequence[float], stated: float, search: float, seed: int
 ) -> tuple[float, float]:
     """Best speed of a comb and the confidence in it."""
-    speeds, score = _best_speed(combs, orders, stated, search)
+    lines = [(maximum_filter1d(narrowed(log), 3), width) for log, width in combs]
+    speeds, score = _best_speed(lines, orders, stated, search)
     best = int(np.argmax(score))
-    confidence = _confidence(combs, orders, float(score[best]), stated, search, seed)
+    confidence = _confidence(lines, orders, float(score[best]), stated, search, seed)
     return _middle(speeds, score - _log_prior(speeds, stated), best), confidence
 
 
@@ -238,17 +239,16 @@ def line_logs(recording: Recording) -> tuple[tuple[FloatArray, float], ...]:
 
 
 def _best_speed(
-    combs: Sequence[tuple[FloatArray, float]], orders: Sequence[float], stated: float, search: float
+    lines: Sequence[tuple[FloatArray, float]], orders: Sequence[float], stated: float, search: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Speeds of the grid and their scores, both of shape (speeds,)."""
-    resolution = combs[0][1]
+    """Speeds of the grid and their scores by lines that are `narrowed`, both of shape (speeds,)."""
+    resolution = lines[0][1]
     step = resolution / (2 * max(orders))
     speeds = stated * (1 - search) + step * np.arange(int(2 * search * stated / step) + 1, dtype=np.float64)
     total = np.zeros(speeds.size)
-    for log, width in combs:
-        wide = maximum_filter1d(narrowed(log), 3)
+    for wide, width in lines:
         total += comb_score(wide, width, speeds, orders)
-    return speeds, total / len(combs) + _log_prior(speeds, stated)
+    return speeds, total / len(lines) + _log_prior(speeds, stated)
 
 
 def narrowed(log: FloatArray) -> FloatArray:
@@ -285,7 +285,7 @@ def comb_score(log: FloatArray, resolution_hz: float, speeds_hz: FloatArray, ord
 
 
 def _confidence(
-    combs: Sequence[tuple[FloatArray, float]],
+    lines: Sequence[tuple[FloatArray, float]],
     orders: Sequence[float],
     best: float,
     stated: float,
@@ -300,7 +300,7 @@ def _confidence(
         factor = float(rng.uniform(1.1, 2.4))
         if abs(factor - round(2 * factor) / 2) < 2 * search / 3:
             continue
-        tops.append(float(np.max(_best_speed(combs, orders, stated * factor, search)[1])))
+        tops.append(float(np.max(_best_speed(lines, orders, stated * factor, search)[1])))
     scale = max(float(np.std(tops)) * np.sqrt(6) / np.pi, 1.0)  # one unit of log power: no line, no confidence
     place = float(np.mean(tops)) - 0.5772 * scale
     return float(np.exp(-np.exp(-np.clip((best - place) / scale, -50.0, 50.0))))

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy import fft
@@ -41,6 +42,17 @@ class Lines:
     values: ComplexArray
     orders: FloatArray
     functions: FloatArray
+
+    @cached_property
+    def energies(self) -> FloatArray:
+        """Mean square of each, (lines,)."""
+        return np.asarray(np.mean(np.abs(self.values) ** 2, axis=1))
+
+    @cached_property
+    def distinct(self) -> tuple[FloatArray, np.ndarray]:
+        """The orders without repetition, and which of them each line has: channels share the turning of an order."""
+        found, place = np.unique(self.orders, return_inverse=True)
+        return found, place
 
     def part(self, rows: np.ndarray) -> Lines:
         """Some of the lines."""
@@ -104,8 +116,9 @@ def _bands(samples: FloatArray, rate_hz: float, speed_hz: float, orders: Sequenc
 def _captured(lines: Lines, coefficients: FloatArray) -> tuple[ComplexArray, FloatArray, ComplexArray]:
     """Lines along the angle (K, n), their energies (K,) and amplitudes (K,)."""
     phase = coefficients @ lines.functions
-    turned = lines.values * np.exp(-1j * lines.orders[:, None] * phase)
-    return turned, np.mean(np.abs(lines.values) ** 2, axis=1), turned.mean(axis=1)
+    orders, place = lines.distinct
+    turned = lines.values * np.exp(-1j * orders[:, None] * phase)[place]
+    return turned, lines.energies, turned.mean(axis=1)
 
 
 def _likelihoods(lines: Lines, coefficients: FloatArray) -> FloatArray:

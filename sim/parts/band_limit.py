@@ -7,6 +7,8 @@ the same jump (Stilson & Smith 1996, Proc. ICMC, 332-335: band-limited steps).
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from sim.core.choose import floor, pick, select, size, smaller
@@ -24,13 +26,16 @@ BETA = 0.1102 * (STOP_BAND_DB - 8.7)
 POINTS = REACH * CELLS + 1
 
 
+@cache
 def step_response() -> FloatArray:
     """Response of the filter to a unit step, 0 to `REACH` intervals behind it, (POINTS,); before it, 1 minus that."""
     fine = 16
     at = np.linspace(0.0, REACH, (POINTS - 1) * fine + 1)
     shape = np.sinc(at) * np.i0(BETA * np.sqrt(1.0 - (at / REACH) ** 2)) / np.i0(BETA)
     area = np.concatenate([[0.0], np.cumsum(0.5 * (shape[1:] + shape[:-1]))])
-    return np.asarray(0.5 + 0.5 * area[::fine] / area[-1])
+    response = np.asarray(0.5 + 0.5 * area[::fine] / area[-1])
+    response.flags.writeable = False
+    return response
 
 
 @inline

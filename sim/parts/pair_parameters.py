@@ -24,6 +24,8 @@ def mean_stiffness_n_per_m(law: MeshLaw) -> float:
 def tooth_kinds(law: MeshLaw) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Kind of every tooth of the pinion and of the gear, and the shapes (kinds, 2, TOOTH_POINTS); kind 0 is sound."""
     sound = np.zeros((1, 2 * TOOTH_POINTS))
+    if law.pinion_shape is None and law.gear_shape is None:
+        return np.zeros(law.teeth[0]), np.zeros(law.teeth[1]), sound.reshape(-1, 2, TOOTH_POINTS)
     given = [
         np.zeros((teeth, 2 * TOOTH_POINTS)) if shape is None else shape.reshape(teeth, -1)
         for teeth, shape in zip(law.teeth, (law.pinion_shape, law.gear_shape), strict=True)

@@ -9,7 +9,7 @@ rings), so stiff dampers cost nothing and the whole step stays sparse.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
@@ -72,10 +72,20 @@ class StepOperators:
     end_load: FloatArray
 
 
-def _blocks(system: System) -> list[NDArray[np.intp]]:
+@dataclass(frozen=True, kw_only=True)
+class _Linear:
+    """The linear part of a system, as there."""
+
+    mass: FloatArray
+    damping: FloatArray
+    stiffness: FloatArray
+    load: FloatArray
+
+
+def _blocks(system: _Linear) -> list[NDArray[np.intp]]:
     """Groups of DOFs that stiffness or damping couples."""
     coupled = (system.stiffness != 0) | (system.damping != 0)
-    label = np.arange(len(system.dofs))
+    label = np.arange(system.mass.size)
     for i in range(label.size):
         for j in np.flatnonzero(coupled[i]):
             label[label == label[j]] = label[i]
@@ -136,11 +146,43 @@ def _responses(
     return found[::-1]
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Wanted:
+    """What operators follow from, told apart by `key`: machines that differ elsewhere, as in a contact, share them."""
+
+    key: tuple[bytes, ...]
+    places: tuple[tuple[int, ...], tuple[int, ...]]
+    h: float
+    levels: int
+    linear: _Linear = field(compare=False)
+    coords: Coordinates = field(compare=False)
+    rule: Collocation = field(compare=False)
+
+
 def step_operators(
     system: System, coords: Coordinates, rule: Collocation, h: float, levels: int = 1
 ) -> tuple[StepOperators, ...]:
-    """Build the operators of a step of length `h` in s, and of its halvings: `levels` in all, longest first."""
-    n, s = len(system.dofs), rule.stages
+    """Operators of a step of length `h` in s, and of its halvings: `levels` in all, longest first; to be read only."""
+    linear = _Linear(mass=system.mass, damping=system.damping, stiffness=system.stiffness, load=system.load)
+    arrays = (linear.mass, linear.damping, linear.stiffness, linear.load, coords.rows, rule.c)
+    return _step_operators(
+        _Wanted(
+            key=tuple(a.tobytes() for a in arrays),
+            places=(coords.force_rows, coords.rate_rows),
+            h=h,
+            levels=levels,
+            linear=linear,
+            coords=coords,
+            rule=rule,
+        )
+    )
+
+
+@lru_cache(maxsize=16)
+def _step_operators(wanted: _Wanted) -> tuple[StepOperators, ...]:
+    """Kept for the lanes of two calls: 2 MB each for a machine of 100 states."""
+    system, coords, rule, h, levels = wanted.linear, wanted.coords, wanted.rule, wanted.h, wanted.levels
+    n, s = system.mass.size, rule.stages
     force = coords.rows[list(coords.force_rows)]
     columns = np.column_stack([-(force / system.mass).T, system.load / system.mass])
     f = force.shape[0]

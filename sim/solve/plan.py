@@ -181,7 +181,7 @@ def _starts(counts: Sequence[int]) -> IntArray:
 
 
 def _chunks(packs: Sequence[Sequence[Chunked]]) -> tuple[IntArray, IntArray, FloatArray, IntArray]:
-    pointer, column, value = [np.zeros(1, dtype=np.int64)], [], []
+    pointer, column, value = [np.zeros(1, dtype=np.int64)], [np.zeros(0, dtype=np.int64)], [np.zeros(0)]
     span = np.zeros((len(packs), KINDS, 2), dtype=np.int64)
     chunks, entries = 0, 0
     for ell, pack in enumerate(packs):
@@ -202,17 +202,16 @@ def _angle_dofs(system: System) -> IntArray:
     return np.array(found, dtype=np.int64).reshape(-1, 2)
 
 
-def build_plan(system: System, base_step_s: float, levels: int = LEVELS, drawn_s: float = 0.0) -> Built:
-    """Flatten a system for a base step and its halvings; `drawn_s`: see `sim.core.elements`, the calling convention."""
-    rule = collocation(STAGES)
-    coords = coordinates(system)
-    elements = system.elements
+def build_plan(
+    system: System, base_step_s: float, levels: int = LEVELS, drawn_s: float = 0.0, pack: bool = True
+) -> Built:
+    """A system flattened for a base step and halvings (`drawn_s`: see `sim.core.elements`); not `pack`: no products."""
+    rule, coords, elements = collocation(STAGES), coordinates(system), system.elements
     ops = step_operators(system, coords, rule, base_step_s, levels)
-    n, s = len(system.dofs), rule.stages
-    f, u = len(coords.force_rows), coords.rows.shape[0]
+    n, s, f, u = len(system.dofs), rule.stages, len(coords.force_rows), coords.rows.shape[0]
     order = row_order(ops[0])
     r, z = order.size, -(-2 * n // 8) * 8
-    pointer, column, value, span = _chunks([_pack(level, order, z) for level in ops])
+    pointer, column, value, span = _chunks([_pack(level, order, z) for level in ops if pack])
     u_at, f_at = _starts([e.size for e in elements]), _starts([e.forces for e in elements])
     par_at = _starts([e.parameters.size for e in elements])
     ctx_at = _starts([(s + 1) * e.context for e in elements])

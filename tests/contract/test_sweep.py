@@ -41,7 +41,8 @@ def sites(machine: MachineSpec) -> dict[SiteKind, tuple[str, ...]]:
 
 def ends(term: Term) -> list[dict[str, float]]:
     """Defaults, and the severity at either bound."""
-    return [{}, *({p.name: end} for p in term.params if p.name == term.severity for end in (p.low, p.high))]
+    found = [{}, *({p.name: end} for p in term.params if p.name == term.severity for end in (p.low, p.high))]
+    return distinct(term, found)
 
 
 def corners(term: Term) -> list[dict[str, float]]:
@@ -53,7 +54,13 @@ def corners(term: Term) -> list[dict[str, float]]:
     if top is not None:
         others = [p for p in term.params if p.name != term.severity]
         cases += [{top.name: top.high, p.name: value} for p in others for value in (p.low, p.high)]
-    return cases
+    return distinct(term, cases)
+
+
+def distinct(term: Term, cases: list[dict[str, float]]) -> list[dict[str, float]]:
+    """Without those that come to the same values: a bound may be the default."""
+    defaults = {p.name: p.default for p in term.params}
+    return list({tuple((defaults | case).values()): case for case in cases}.values())
 
 
 def cases(term: Term) -> list[MachineSpec]:

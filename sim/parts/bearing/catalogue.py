@@ -119,9 +119,14 @@ def _folded(designation: str) -> str:
     return re.sub(r"[^A-Z0-9]", "", designation.upper())
 
 
+@cache
+def _by_folded() -> Mapping[str, CatalogueRow]:
+    return MappingProxyType({_folded(name): row for name, row in catalogue().items()})
+
+
 def lookup(designation: str) -> CatalogueRow:
     """Row of a designation; seal, shield, clearance and cage suffixes are ignored. UnknownName with near matches."""
-    by_folded = {_folded(name): row for name, row in catalogue().items()}
+    by_folded = _by_folded()
     base = _SUFFIXES.match(designation.strip().upper())
     for name in (designation, base.group(1) if base else ""):
         if _folded(name) in by_folded:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -17,6 +18,7 @@ _STEP = 1e-4
 _NODES = 48
 
 
+@lru_cache(maxsize=256)
 def mean_stiffness_n_per_m(pair: GearPair, centre_distance_error_m: float = 0.0) -> float:
     """Mean total stiffness over a mesh cycle: the integral of one pair's stiffness over its engagement, N/m."""
     helix, ratio = pair.helix, pair.contact(centre_distance_error_m).contact_ratio

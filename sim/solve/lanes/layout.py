@@ -68,19 +68,21 @@ class LanePlan(NamedTuple):
     stiff_rows: IntArray
 
 
+def _product(ops: StepOperators, kind: int) -> FloatArray:
+    s, rows = ops.node_load.shape
+    forces = ops.end_force.shape[2]
+    if kind == 0:
+        return ops.node_state.reshape(s * rows, ops.end_state.shape[1])
+    if kind == 1:
+        return ops.node_force.reshape(s * rows, s * forces)
+    return np.hstack([ops.end_state, ops.end_force.reshape(ops.end_state.shape[0], s * forces)])
+
+
 def _products(built: Sequence[Stepped], level: int, kind: int) -> list[FloatArray]:
-    found = []
-    for b in built:
-        ops = b.levels[level]
-        s, rows = ops.node_load.shape
-        forces = ops.end_force.shape[2]
-        if kind == 0:
-            found.append(ops.node_state.reshape(s * rows, ops.end_state.shape[1]))
-        elif kind == 1:
-            found.append(ops.node_force.reshape(s * rows, s * forces))
-        else:
-            found.append(np.hstack([ops.end_state, ops.end_force.reshape(ops.end_state.shape[0], s * forces)]))
-    return found
+    """One matrix a lane; lanes with the same operators have the same one."""
+    operators = [b.levels[level] for b in built]
+    made = {key: _product(ops, kind) for key, ops in {id(ops): ops for ops in operators}.items()}
+    return [made[id(ops)] for ops in operators]
 
 
 def _tables(built: Sequence[Stepped]) -> Blocks:

@@ -25,12 +25,15 @@ HEAD = 8
 
 
 def compressed(matrices: Sequence[FloatArray]) -> tuple[IntArray, IntArray, FloatArray]:
-    """Rows of equally shaped matrices, one a lane, over the union of their entries: pointer, column, value."""
-    stack = np.stack(matrices, axis=-1)
-    used = np.any(stack != 0, axis=-1)
+    """Rows of equally shaped matrices, one a lane, over the union of their entries: pointer, column, value.
+
+    Lanes that share a matrix are told by its identity.
+    """
+    used = np.logical_or.reduce([matrix != 0 for matrix in {id(m): m for m in matrices}.values()])
     row, column = np.nonzero(used)
+    value = np.stack([matrix[row, column] for matrix in matrices], axis=-1)
     pointer = np.concatenate([[0], np.cumsum(np.bincount(row, minlength=used.shape[0]))])
-    return pointer.astype(np.int64), column.astype(np.int64), stack[row, column]
+    return pointer.astype(np.int64), column.astype(np.int64), value
 
 
 @dataclass(frozen=True, kw_only=True)

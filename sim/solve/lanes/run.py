@@ -76,7 +76,7 @@ class Lanes:
 def start_lanes(systems: Sequence[System], steps: Steps, names: tuple[str, ...], listen: int = 0) -> Lanes:
     """Eight machines of one structure at rest; `names` are observed, and in the first `listen` steps the pilot's."""
     operators = {id(system): stepped(system, steps.step_s) for system in systems}
-    first = build_plan(systems[0], steps.step_s, drawn_s=steps.drawn_s)
+    first = build_plan(systems[0], steps.step_s, drawn_s=steps.drawn_s, pack=False)
     plan = lane_plan(systems, [operators[id(system)] for system in systems], first.plan)
     lanes = Lanes(
         systems=systems,

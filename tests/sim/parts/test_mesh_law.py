@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from sim.assembly.assemble import assemble
 from sim.core.errors import SpecError
+from sim.core.laws import TOOTH_POINTS
 from sim.core.spec import MeshTable, TermSpec
 from sim.parts.gear.from_spec import pair_from_spec
 from sim.parts.gear.pair import MEAN_DEFLECTION_M
@@ -14,6 +17,7 @@ from sim.parts.gear.summary import mean_stiffness_n_per_m
 from sim.parts.mesh_element import zero_row
 from sim.parts.mesh_kernels import H_ROW0, H_ROW_STEP, H_ROWS, H_TILT0
 from sim.parts.mesh_law import MeshSetting, base_radius_m, mesh_law
+from sim.parts.pair_parameters import tooth_kinds
 from sim.presets import preset
 from sim.solve.api import simulate
 from sim.solve.settings import Settings
@@ -146,3 +150,13 @@ def test_a_run_beyond_its_table_shows_it():
     outside = response.signal("mesh1.outside_table")
     assert 0.1 < outside.mean() < 0.9
     assert np.array_equal(outside > 0.5, np.abs(error) > 2e-5)
+
+
+def test_teeth_without_a_shape_are_all_of_the_sound_kind() -> None:
+    machine = preset("gear-pair")
+    mesh = machine.meshes[0]
+    law = mesh_law(machine, mesh, {}, [])
+    shapes = [np.zeros((teeth, 2, TOOTH_POINTS)) for teeth in law.teeth]
+    flat = replace(law, pinion_shape=shapes[0], gear_shape=shapes[1])
+    for none, given in zip(tooth_kinds(law), tooth_kinds(flat), strict=True):
+        np.testing.assert_array_equal(none, given)
