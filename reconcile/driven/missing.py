@@ -9,6 +9,7 @@ and random phases, put through the same steps.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy import signal
@@ -66,10 +67,13 @@ def _smooth(power: FloatArray) -> FloatArray:
     return np.convolve(np.pad(power, SMOOTHING // 2, mode="edge"), np.ones(SMOOTHING) / SMOOTHING, mode="valid")
 
 
+@lru_cache(maxsize=4)
 def _taper(n: int) -> FloatArray:
     """Weights (n,) that fade in and out: an end cut off sharply leaks from strong lines into weak ones, of error and
     signals alike, and what both have in common then looks like a cause."""
-    return np.asarray(signal.windows.tukey(n, TAPERED), dtype=np.float64)
+    weights = np.asarray(signal.windows.tukey(n, TAPERED), dtype=np.float64)
+    weights.flags.writeable = False
+    return weights
 
 
 def _lines(error: FloatArray) -> FloatArray:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.signal import firwin, upfirdn
@@ -93,6 +94,11 @@ class Run:
     kept: FloatArray | None = None
     """(n - skip,): 0 where a channel was spoiled and errors do not count, else 1; None: all of them count."""
 
+    @cached_property
+    def spread(self) -> float:
+        """Standard deviation of the output; 1 where it stands still."""
+        return float(self.data.answer.std()) or 1.0
+
     @property
     def compared(self) -> FloatArray:
         """Output that counts, (n - skip,)."""
@@ -168,7 +174,9 @@ def answer_to(model: Model, values: FloatArray, step_s: float, order: int) -> Fl
 
 def bounded(values: FloatArray, run: Run) -> FloatArray:
     """Values with those that flew off held at `RUNAWAY`."""
-    limit = RUNAWAY * (float(run.data.answer.std()) or 1.0)
+    limit = RUNAWAY * run.spread
+    if np.all(np.abs(values) <= limit):
+        return values
     return np.asarray(np.clip(np.nan_to_num(values, nan=limit), -limit, limit))
 
 

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from scipy.integrate import solve_ivp
-from scipy.signal import lsim
+from scipy.integrate import ode
+from scipy.signal import cont2discrete, lfilter
 
 from reconcile.driven.model import FINE, refined
 from signals.recording import Recording
@@ -41,20 +41,24 @@ def recording(
     fine = refined(u)
     step = 1 / RATE / FINE
 
+    forces, end = fine.tolist(), fine.size - 1.001
+
     def slope(t: float, s: np.ndarray) -> list[float]:
-        at = min(t / step, fine.size - 1.001)
+        at = min(t / step, end)
         k = int(at)
-        force = fine[k] + (at - k) * (fine[k + 1] - fine[k])
-        x, v = s
+        force = forces[k] + (at - k) * (forces[k + 1] - forces[k])
+        x, v = s.tolist()
         assert extra is not None
         return [v, force / MASS - 2 * DAMPING * w * v - w * w * x - extra(x, v) / MASS]
 
     t = np.arange(n) / RATE
     if extra is None:
-        linear = ([1 / MASS], [1.0, 2 * DAMPING * w, w * w])
-        x = lsim(linear, fine, np.arange(fine.size) * step)[1][::FINE]
+        rows, poles, _ = cont2discrete(([1 / MASS], [1.0, 2 * DAMPING * w, w * w]), step, method="foh")
+        x = lfilter(rows[0], poles, fine)[::FINE]
     else:
-        x = solve_ivp(slope, (0, t[-1]), [0, 0], t_eval=t, rtol=1e-6, atol=1e-10, max_step=2 * step).y[0]
+        run = ode(slope).set_integrator("dopri5", rtol=1e-7, atol=1e-11, first_step=2 * step, max_step=2 * step)
+        run.set_initial_value([0.0, 0.0], 0.0)
+        x = np.array([0.0, *(run.integrate(at)[0] for at in t[1:])])
     dirt = np.convolve(rng.normal(size=n + 4), [0.4, 0.3, 0.2, 0.1, 0.1], mode="valid")
     x = x + noise * x.std() * dirt / dirt.std()
     channels = (
@@ -69,13 +73,14 @@ def hysteretic(*, seed: int, share: float = 0.4, n: int = 9000, noise: float = 0
     exponent 1), yielding at 0.3 mm: no law of displacement and rate. White noise on the displacement."""
     linear = recording(None, seed=seed, n=n, noise=0.0)
     u = linear.samples[0]
+    forces = u.tolist()
     w, inner, yields = 2 * math.pi * FREQUENCY, 8, 3e-4
     stiffness, h = MASS * w * w, 1 / RATE / inner
     x = v = z = 0.0
     out = np.empty(n)
     for i in range(n):
         out[i] = x
-        last, following = u[i], u[min(i + 1, n - 1)]
+        last, following = forces[i], forces[min(i + 1, n - 1)]
         for j in range(inner):
             force = last + (following - last) * j / inner
             carried = stiffness * ((1 - share) * x + share * z)
