@@ -44,6 +44,9 @@ class Evidence:
     channel: np.ndarray
     line: np.ndarray
     frequency_hz: FloatArray
+    repeat_db: FloatArray | float = 0.0
+    """By what two recordings of one machine differ there, standard deviation (n,): a bearing that rattles under its
+    load repeats its lines within several decibels, teeth within the model's error."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,14 +68,14 @@ class Posterior:
     left_db: FloatArray
 
 
-def mesh_evidence(
-    recorded: Sequence[Statistics], scales: Sequence[Scale], lines_hz: Sequence[FloatArray], mesh: np.ndarray
+def line_evidence(
+    recorded: Sequence[Statistics], scales: Sequence[Scale], lines_hz: Sequence[FloatArray], own: np.ndarray
 ) -> Evidence:
-    """Lines (`mesh`: mask (L,)) that stand out of the noise of the baselines."""
+    """The machine's own lines (`own`: mask (L,)) that stand out of the noise of the baselines."""
     levels, points, channels, lines, frequencies = [], [], [], [], []
     for p, (seen, scale, hz) in enumerate(zip(recorded, scales, lines_hz, strict=True)):
         power = np.nan_to_num(seen.line - scale.line_noise)
-        out = mesh[None, :] & (power > SOFT * 10.0 ** (STANDS_OUT_DB / 10.0) * scale.line_noise)
+        out = own[None, :] & (power > SOFT * 10.0 ** (STANDS_OUT_DB / 10.0) * scale.line_noise)
         c, i = np.nonzero(out)
         levels.append(DB * np.log(power[out]))
         points.append(np.full(c.size, p))
@@ -102,7 +105,8 @@ def _errors(evidence: Evidence) -> FloatArray:
     octaves = np.log2(evidence.frequency_hz)
     same = evidence.channel[:, None] == evidence.channel[None, :]
     path = PATH_DB**2 * np.exp(-0.5 * ((octaves[:, None] - octaves[None, :]) / PATH_OCTAVES) ** 2)
-    return np.asarray(np.where(same, path + GAIN_DB**2, 0.0) + MODEL_DB**2 * np.eye(octaves.size))
+    own = np.broadcast_to(MODEL_DB**2 + np.square(evidence.repeat_db), octaves.shape)
+    return np.asarray(np.where(same, path + GAIN_DB**2, 0.0) + np.diag(own))
 
 
 def _misfit(residual: FloatArray, errors: FloatArray) -> float:

@@ -67,6 +67,8 @@ class Finding:
     """Of gain and unit: the one change of level that undoing it takes back."""
     transfer_db: tuple[tuple[float, float], ...] = ()
     """Of a loose sensor: (frequency in Hz, change of level in dB) that undoing it takes back."""
+    tones_hz: tuple[float, ...] = ()
+    """Of fixed tones: where they are."""
 
 
 @dataclass(frozen=True, kw_only=True)

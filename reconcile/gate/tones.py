@@ -177,4 +177,5 @@ def _told(
         severity=float(min(1.0, share)),
         where=", ".join(f"{hz:.5g} Hz" for hz in tones[:6]),
         fault=True,
+        tones_hz=tuple(tones),
     )

@@ -13,7 +13,7 @@ from reconcile.atlas.plan import AtlasPlan
 from reconcile.calibrate.chain import Chain, Healthy, calibrate_chain
 from reconcile.judge.in_step import Delay, clock_delays, compared
 from reconcile.judge.measured import measured_db, unsteady_db, wander_patterns
-from reconcile.judge.pooled import OneByOne, Pooling, first_sidebands, mesh_lines, pooling
+from reconcile.judge.pooled import OneByOne, Pooling, lines_beside, own_lines, pooling
 from reconcile.observe.background import gained_between
 from reconcile.observe.features import Layout, Scale, changed, scale_of, soft_features, through
 from reconcile.observe.observation import PointData
@@ -40,9 +40,9 @@ class Changes:
     """(F,): number of the group a feature belongs to: one point, one channel, one part."""
     pooling: Pooling
     single: OneByOne
-    """Mesh harmonics, one by one."""
+    """The machine's own lines (mesh harmonics), one by one."""
     sides: OneByOne
-    """The first sidebands of the shafts around them, one by one."""
+    """What modulates them (the shafts' first sidebands), one by one."""
     wander: FloatArray
     """(k, F): changes that speed wander brings about, one deviation each; signs and sizes are free."""
     kind: FloatArray
@@ -197,9 +197,9 @@ def observed_changes(
         with_baseline=based,
         groups=np.concatenate(groups),
         pooling=pooling(watched, layout, phased=phased, **size),
-        single=mesh_lines(watched, layout, **size),
-        sides=first_sidebands(watched, layout, **size),
-        phased=tuple(view(watched, layout, phased=True, **size) for view in (mesh_lines, first_sidebands) if phased),
+        single=own_lines(watched, layout, **size),
+        sides=lines_beside(watched, layout, **size),
+        phased=tuple(view(watched, layout, phased=True, **size) for view in (own_lines, lines_beside) if phased),
         wander=block_diag(*wander),
         kind=np.zeros((0, starts[-1])),
         phases=layout.phases,

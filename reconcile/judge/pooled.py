@@ -15,7 +15,7 @@ import numpy as np
 from reconcile.judge.metric import Whitening
 from reconcile.observe.features import Layout
 from reconcile.observe.watch import Watched, WatchList
-from signals.series import FloatArray
+from signals.series import BoolArray, FloatArray
 
 BANDS_TOGETHER = 4
 UNUSED = ""
@@ -121,29 +121,24 @@ class OneByOne:
 
 
 def _one_by_one(
-    watched: WatchList, layout: Layout, which: Callable[[Watched], bool], *, points: int, channels: int, phased: bool
+    watched: WatchList, layout: Layout, which: BoolArray, *, points: int, channels: int, phased: bool
 ) -> OneByOne:
     chosen = np.zeros(layout.size, dtype=bool)
-    chosen[: layout.lines] = [which(line) for line in watched.lines]
+    chosen[: layout.lines] = which
     if phased:
-        chosen[layout.slices()["phase"]] = [which(watched.lines[i]) for i in watched.phased]
+        chosen[layout.slices()["phase"]] = which[list(watched.phased)]
     return OneByOne(chosen=chosen, points=points, channels=channels)
 
 
-def mesh_lines(watched: WatchList, layout: Layout, *, points: int, channels: int, phased: bool = False) -> OneByOne:
-    """The mesh harmonics, one by one; with their phases between sensors."""
-    return _one_by_one(
-        watched, layout, lambda line: line.family == "mesh", points=points, channels=channels, phased=phased
-    )
+def own_lines(watched: WatchList, layout: Layout, *, points: int, channels: int, phased: bool = False) -> OneByOne:
+    """The machine's own lines (mesh harmonics where it has teeth), one by one; with their phases between sensors."""
+    return _one_by_one(watched, layout, watched.own, points=points, channels=channels, phased=phased)
 
 
-def first_sidebands(
-    watched: WatchList, layout: Layout, *, points: int, channels: int, phased: bool = False
-) -> OneByOne:
-    """The first pair of every shaft's sidebands around the mesh harmonics, one by one; with their phases."""
-    return _one_by_one(
-        watched, layout, lambda line: line.first_sideband, points=points, channels=channels, phased=phased
-    )
+def lines_beside(watched: WatchList, layout: Layout, *, points: int, channels: int, phased: bool = False) -> OneByOne:
+    """What modulates them (the first pair of every shaft's sidebands around mesh harmonics), one by one; with their
+    phases."""
+    return _one_by_one(watched, layout, watched.beside, points=points, channels=channels, phased=phased)
 
 
 def pooling(watched: WatchList, layout: Layout, *, points: int, channels: int, phased: bool = False) -> Pooling:

@@ -147,7 +147,7 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
     report = with_mistaken(with_beaten(with_grown(report, machine)), looks.setting, looks.by_families, channels)
     report = with_misfit(report, looks.fit)
-    report = with_strange(report, strange(machine, alike, [c.name for c in channels]), machine)
+    report = with_strange(report, strange(machine, alike, channels, gate.findings), machine, setting.direct.evidence)
     return with_limits(with_unconfirmed(report, machine, alike), apart)
 
 

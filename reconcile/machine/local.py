@@ -13,7 +13,7 @@ import numpy as np
 
 from reconcile.atlas.bank import ARRAYS, Bank, Mapper, make_bank
 from reconcile.atlas.plan import AtlasPlan, Draw, side_by_side, simulated_at
-from reconcile.calibrate.posterior import Posterior, calibrated, mesh_evidence
+from reconcile.calibrate.posterior import Posterior, calibrated, line_evidence
 from reconcile.calibrate.uncertain import DRIFT, Offsets, draw_offsets, moved
 from reconcile.judge.changes import lenses, observed_changes
 from reconcile.machine.library import share_of
@@ -57,10 +57,13 @@ def around_baseline(setting: Setting, mapper: Mapper) -> Local | None:
     if len(recorded) < len(setting.data):
         return None
     plan = setting.plan
-    mesh = np.array([w.family == "mesh" for w in watch_list(setting.machine).lines], dtype=bool)
-    evidence = mesh_evidence(
-        recorded, [x.scale for x in setting.seen_through], [d.lines_hz for d in setting.data], mesh
-    )
+    scales, lines_hz = [x.scale for x in setting.seen_through], [d.lines_hz for d in setting.data]
+    watched = watch_list(setting.machine)
+    evidence = line_evidence(recorded, scales, lines_hz, watched.own)
+    if not watched.gears:
+        repeat = [repeat_db(bank, plan) for bank in setting.banks]
+        at = zip(evidence.point, evidence.channel, evidence.line, strict=True)
+        evidence = replace(evidence, repeat_db=np.array([repeat[p][c, i] for p, c, i in at]))
     alive = np.all([b.alive for b in setting.banks], axis=0)
     first = [k for k, d in enumerate(plan.draws) if d.candidate is None and not d.twin and alive[k]][:MACHINES]
 
@@ -73,6 +76,17 @@ def around_baseline(setting: Setting, mapper: Mapper) -> Local | None:
     banks = [b.at(first, range(b.band.shape[1])) for b in setting.banks]
     posterior = calibrated(start, banks, evidence, simulate, seed=setting.seed)
     return None if posterior is None else _with_twins(setting, posterior, mapper)
+
+
+def repeat_db(bank: Bank, plan: AtlasPlan) -> FloatArray:
+    """Standard deviation over healthy machines of what drift and slip change at each line, (C, L)."""
+    first, twin = (
+        {d.pair: k for k, d in enumerate(plan.draws) if d.candidate is None and d.twin == late and bank.alive[k]}
+        for late in (False, True)
+    )
+    pairs = sorted(first.keys() & twin.keys())
+    ratio = bank.line[[twin[p] for p in pairs]] / (bank.line[[first[p] for p in pairs]] + 1e-300)
+    return np.asarray(np.nanstd(10.0 * np.log10(ratio + 1e-300), axis=0))
 
 
 def _with_twins(setting: Setting, posterior: Posterior, mapper: Mapper) -> Local:

@@ -68,6 +68,7 @@ class OwnOrder:
         "pump, another bearing, a converter's supply - or take it off and record again."
     )
     electric = False
+    strikes = False
 
     @property
     def text(self) -> str:

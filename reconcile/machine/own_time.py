@@ -53,6 +53,7 @@ class OwnTime:
     beside = "no order of this machine"
     would_tell = OFF
     electric = True
+    strikes = False
 
     @property
     def supply_hz(self) -> float | None:

@@ -6,11 +6,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Protocol
 
-from reconcile.gate.findings import Kind
+from reconcile.gate.findings import Finding, Kind
+from reconcile.machine.direct import HEARD
+from reconcile.machine.own_knocks import own_knocks
 from reconcile.machine.own_order import own_order
 from reconcile.machine.own_time import own_time
+from reconcile.machine.second import strikes
+from reconcile.machine.self_excited import self_excited
 from reconcile.observe.observation import PointData
 from reconcile.verdict import LineChange, NextExperiment, PlaceWeight, Report
+from sim.core.response import Channel
 from sim.core.spec import MachineSpec
 
 TELLS_LITTLE = 10.0
@@ -52,26 +57,43 @@ class Strange(Protocol):
     def electric(self) -> bool:
         """Whether a drive may do it, so that hum in the recording is the machine's own."""
 
+    @property
+    def strikes(self) -> bool:
+        """Whether it strikes, so that a part named as pitted must be heard at its own lines."""
 
-def strange(machine: MachineSpec, data: Sequence[PointData], channels: Sequence[str]) -> Strange | None:
-    """What keeps its own time, or else turns at an order of no part; None where nothing does."""
-    return own_time(machine, data, channels) or own_order(machine, data, channels)
+
+def strange(
+    machine: MachineSpec, data: Sequence[PointData], channels: Sequence[Channel], findings: Sequence[Finding]
+) -> Strange | None:
+    """What the machine does by itself, what keeps its own time, knocks or else turns at an order of no part; None where
+    nothing does. `findings`: of the gate."""
+    names = [c.name for c in channels]
+    return (
+        self_excited(machine, findings, channels)
+        or own_time(machine, data, names)
+        or own_knocks(data, channels)
+        or own_order(machine, data, names)
+    )
 
 
 def explained_by(report: Report) -> tuple[Kind, ...]:
     """Kinds of faults that are the machine's own where what keeps its own time is the answer."""
-    told = any(stage.get("name") == "own time" for stage in report.stages)
+    told = any(stage.get("name") in ("own time", "self-excited") for stage in report.stages)
     return ELECTRIC if told and report.verdict == "unknown_physics" else ()
 
 
-def with_strange(report: Report, seen: Strange | None, machine: MachineSpec) -> Report:
-    """The report, which says so: as the answer where nothing sure speaks for another one, else beside it."""
+def with_strange(report: Report, seen: Strange | None, machine: MachineSpec, heard: Mapping[str, float]) -> Report:
+    """The report, which says so: as the answer where nothing sure speaks for another one, else beside it.
+
+    `heard`: log evidence of impacts at the own lines of effects that strike.
+    """
     if seen is None:
         return report
     electric = seen.electric and report.fault is not None and report.fault.kind in ELECTRIC
     lines = (*seen.lines, *report.where.lines)
     report = replace(report, stages=(*report.stages, seen.stage))
-    if not (_open(report) or electric):
+    unheard = seen.strikes and _struck_unheard(report, heard)
+    if not (_open(report) or electric or unheard):
         limits = (*report.where.limits, f"beside this, {seen.text}: {seen.beside}")
         return replace(report, where=replace(report.where, lines=lines, limits=limits))
     sentence = f"Something is missing that no known effect explains: {seen.text}. {seen.follows}"
@@ -81,6 +103,13 @@ def with_strange(report: Report, seen: Strange | None, machine: MachineSpec) -> 
         report, verdict="unknown_physics", sentence=sentence, where=where, causes=causes, fault=None, undecidable=(),
         next_experiment=seen.would_tell, held_out=None, machine=None, force=None, faintest=(),
     )  # fmt: skip
+
+
+def _struck_unheard(report: Report, heard: Mapping[str, float]) -> bool:
+    """Whether all that is named, or may be, are parts that would strike and are not heard at lines of their own."""
+    best = max((c.score for c in report.causes), default=0.0)
+    told = [c for c in report.causes if c.named or (report.verdict == "ambiguous" and c.score > best - TELLS_LITTLE)]
+    return bool(told) and all(strikes(c.term) and heard.get(f"{c.term}@{c.site}", 0.0) < HEARD for c in told)
 
 
 def _open(report: Report) -> bool:

@@ -30,6 +30,9 @@ WIDELY, STEPS = 0.3, 6001
 HARMONICS = 6
 CLEAR = 3.0
 """Log power over what noise reaches, from which a line is told."""
+FITS = 0.3
+"""Least share of the distance that a named effect takes off data it was not fitted to, from which its own lines, all of
+which hang on the speed, confirm it."""
 ENOUGH = 0.6
 """Of the baseline's score at its speed, from which the same teeth have been found in the test."""
 
@@ -158,7 +161,9 @@ def with_unconfirmed(report: Report, machine: MachineSpec, data: Sequence[PointD
     """The report of a machine without teeth, of which no line confirms the speed of some point: that is said with what
     differs, and where no known effect explains it, it may be all there is."""
     unsure = [d.point.speed_hz for d in data if not _confirmed(d.turned)]
-    if _has_teeth(machine) or not unsure or report.verdict in ("nothing_missing", "measurement_fault"):
+    if _has_teeth(machine) or len(unsure) < len(data) or report.verdict in ("nothing_missing", "measurement_fault"):
+        return report
+    if report.verdict == "explained" and report.held_out is not None and (report.held_out.gain_low or 0.0) >= FITS:
         return report
     own = machine.operating.speed_hz if machine.operating is not None else 0.0
     stated = " and ".join(f"{hz:g}" for hz in unsure)

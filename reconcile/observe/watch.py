@@ -60,6 +60,22 @@ class WatchList:
         return np.array([w.slips for w in self.lines], dtype=bool)
 
     @cached_property
+    def own(self) -> np.ndarray:
+        """Mask over `lines`, shape (lines,): what a sound machine makes and each of which counts for itself; the mesh's
+        harmonics, or where there are no teeth the shafts' and those of balls that pass."""
+        if self.gears:
+            return np.array([w.family == "mesh" for w in self.lines], dtype=bool)
+        return np.array([w.family in ("shaft", "outer") for w in self.lines], dtype=bool)
+
+    @cached_property
+    def beside(self) -> np.ndarray:
+        """Mask over `lines`, shape (lines,): what modulates these; the first sidebands of the mesh, or the lines of
+        inner rings and balls."""
+        if self.gears:
+            return np.array([w.first_sideband for w in self.lines], dtype=bool)
+        return np.array([w.family in ("inner", "ball") for w in self.lines], dtype=bool)
+
+    @cached_property
     def phased(self) -> tuple[int, ...]:
         """Numbers of the lines whose phases are compared between sensors: the mesh's and their first sidebands."""
         return tuple(i for i, line in enumerate(self.lines) if line.family == "mesh" or line.first_sideband)

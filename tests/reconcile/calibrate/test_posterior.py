@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from reconcile.atlas.bank import Bank
-from reconcile.calibrate.posterior import Evidence, calibrated, mesh_evidence, smoothed
+from reconcile.calibrate.posterior import Evidence, calibrated, line_evidence, smoothed
 from reconcile.calibrate.uncertain import SPREAD, Offsets
 from reconcile.observe.features import Scale
 from reconcile.observe.statistics import Statistics
@@ -76,6 +77,17 @@ def test_a_line_that_no_machine_of_the_kind_has_is_the_farthest(gain_db: tuple[f
     assert 5.0 < found.left_db[worst] < 26.0
 
 
+def test_lines_that_repeat_badly_decide_less_and_are_no_misfit() -> None:
+    seen = evidence(np.array([0.05, 0.0, -0.05]), (0.0, 0.0))
+    seen.levels_db[LINES + 4] += 9.0
+    sharp = calibrated(start(), simulate(start()), seen, simulate, seed=2)
+    loose = replace(seen, repeat_db=np.full(seen.levels_db.size, 6.0))
+    blunt = calibrated(start(), simulate(start()), loose, simulate, seed=2)
+    assert sharp is not None and blunt is not None
+    assert blunt.misfit[1] < 0.5 * sharp.misfit[1]
+    assert blunt.determined.sum() < sharp.determined.sum()
+
+
 def test_two_lines_say_nothing() -> None:
     few = evidence(np.zeros(3), (0.0, 0.0))
     cut = Evidence(
@@ -95,7 +107,7 @@ def test_only_lines_that_stand_out_are_evidence() -> None:
         resolution_hz=1.0, duration_s=1.0,
     )  # fmt: skip
     scale = Scale(line_noise=np.ones((CHANNELS, LINES)), depth_noise=np.ones(1), turn_noise=np.ones((CHANNELS, 1, 1)))
-    found = mesh_evidence([seen], [scale], [np.arange(1.0, LINES + 1)], np.ones(LINES, dtype=bool))
+    found = line_evidence([seen], [scale], [np.arange(1.0, LINES + 1)], np.ones(LINES, dtype=bool))
     assert found.channel.tolist() == [0] and found.line.tolist() == [3]
     assert found.levels_db[0] == pytest.approx(10 * np.log10(999.0))
 

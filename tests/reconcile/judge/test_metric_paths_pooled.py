@@ -7,7 +7,7 @@ import pytest
 
 from reconcile.judge.metric import LEAST_DB, fit_metric, neighbour_scatter, whitening
 from reconcile.judge.paths import build_paths
-from reconcile.judge.pooled import DEAD, Pooling, first_sidebands, mesh_lines, pooling
+from reconcile.judge.pooled import DEAD, Pooling, lines_beside, own_lines, pooling
 from reconcile.observe.features import Layout
 from reconcile.observe.watch import WatchList, watch_list
 from sim.presets import preset
@@ -101,7 +101,7 @@ def test_phases_of_one_sensor_or_without_a_baseline_have_no_family() -> None:
 def test_single_lines_are_levels_and_phases_of_the_same_lines() -> None:
     watched = watch_list(preset("paper-lightly-damped"))
     layout, sizes = layout_of(watched), {"points": 1, "channels": 2}
-    for view in (mesh_lines, first_sidebands):
+    for view in (own_lines, lines_beside):
         levels, both = (view(watched, layout, phased=phased, **sizes).chosen for phased in (False, True))
         named = [watched.lines[i].label for i in watched.phased]
         phases = {label for label, one in zip(named, both[layout.slices()["phase"]], strict=True) if one}
@@ -112,7 +112,7 @@ def test_single_lines_are_levels_and_phases_of_the_same_lines() -> None:
 def test_first_sidebands_are_the_pairs_next_to_the_mesh_harmonics() -> None:
     watched = watch_list(preset("paper-lightly-damped"))
     layout = layout_of(watched)
-    chosen = first_sidebands(watched, layout, points=1, channels=1).chosen
+    chosen = lines_beside(watched, layout, points=1, channels=1).chosen
     labels = {line.label for line, one in zip(watched.lines, chosen, strict=False) if one}
     assert labels == {f"{k}*f_m{sign}1*f_r{shaft}" for k in range(1, 7) for sign in "+-" for shaft in (1, 2)}
     assert not chosen[layout.lines :].any()

@@ -7,7 +7,7 @@ import pytest
 
 from reconcile.kinematics.families import Family, Ties
 from reconcile.machine import direct
-from reconcile.machine.direct import MODELLED, MOST, MOST_TURNS, Direct, direct_evidence, shared_lines
+from reconcile.machine.direct import MODELLED, MODELLED_BARE, MOST, MOST_TURNS, Direct, direct_evidence, shared_lines
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
 from signals.recording import Operating, Recording
@@ -98,6 +98,19 @@ def test_at_one_operating_point_impacts_must_exceed_what_sound_machines_show(mac
     usual = told(MODELLED - 1.0, 1)
     assert usual.p == 1.0 and not usual.evidence and any("sound machines" in line for line in usual.told)
     assert told(MODELLED - 1.0, 2).p < 0.01, "what comes back at another speed needs no model"
+
+
+@pytest.mark.slow
+def test_without_teeth_impacts_must_exceed_what_sound_machines_show_at_several_points_too() -> None:
+    rotor = preset("rotor")
+    hit = struck(bases_at(rotor, SPEED_HZ)["f_o1"], slip=0.006)
+    data = observe(rotor, watch_list(rotor), [recording(sound(1) + hit)], [recording(sound(2))])
+
+    def told(rise: float) -> Direct:
+        return direct_evidence(rotor, data * 2, CHANNELS, seed=0, rise=lambda _: rise)
+
+    assert told(MODELLED_BARE + 0.5).p < 0.01
+    assert told(MODELLED_BARE - 0.5).p == 1.0, "rattling bearings say so at the lines of others"
 
 
 @pytest.mark.slow

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from reconcile.atlas.candidates import candidates
 from reconcile.atlas.plan import AtlasPlan, Point, atlas_plan
 from reconcile.calibrate.uncertain import uncertain_numbers
 from reconcile.machine.library import share_of
-from reconcile.machine.local import LANES, first_heat, more_draws, ordered_draws, second_heat
+from reconcile.machine.local import LANES, first_heat, more_draws, ordered_draws, repeat_db, second_heat
 from reconcile.machine.meter import Meter
 from reconcile.observe.statistics import Statistics
 from sim import presets
@@ -92,3 +93,21 @@ def test_seconds_of_other_processes_count(atlas: AtlasPlan) -> None:
     own = Meter(map)
     list(own(busy, [task]))
     assert own.spent_s() < 1.0
+
+
+def test_lines_repeat_by_what_twins_of_sound_machines_differ(atlas: AtlasPlan) -> None:
+    rng = np.random.default_rng(7)
+    line = np.ones((len(atlas.draws), 2, 3))
+    change = rng.normal(0.0, 4.0, line.shape)
+    for k, draw in enumerate(atlas.draws):
+        if draw.candidate is None and draw.twin:
+            line[k, :, 1] = 10.0 ** (change[k, :, 1] / 10.0)
+        elif draw.candidate is not None:
+            line[k] = 1e6
+    alive = np.ones(len(atlas.draws), dtype=bool)
+    dead = next(k for k, d in enumerate(atlas.draws) if d.candidate is None and d.twin)
+    alive[dead], line[dead] = False, np.nan
+    found = repeat_db(SimpleNamespace(line=line, alive=alive), atlas)  # type: ignore[arg-type]
+    assert found.shape == (2, 3)
+    np.testing.assert_allclose(found[:, [0, 2]], 0.0, atol=1e-9)
+    np.testing.assert_allclose(found[:, 1], 4.0, rtol=0.4)

@@ -64,7 +64,7 @@ HUM, LOOSE = SensorFault(kind="mains_hum", channel="a"), SensorFault(kind="loose
 def test_it_is_the_answer_where_nothing_sure_speaks_for_another(
     machine: MachineSpec, report: Report, answers: bool
 ) -> None:
-    found = with_strange(report, SEEN, machine)
+    found = with_strange(report, SEEN, machine, {})
     assert found.stages[-1]["name"] == "own time"
     if answers:
         assert found.verdict == "unknown_physics"
@@ -80,19 +80,19 @@ def test_it_is_the_answer_where_nothing_sure_speaks_for_another(
     else:
         assert (found.verdict, found.sentence, found.fault) == (report.verdict, report.sentence, report.fault)
         assert "100.1 Hz" in found.where.limits[-1]
-    assert with_strange(report, None, machine) is report
+    assert with_strange(report, None, machine, {}) is report
 
 
 TURNS = OwnOrder(order=0.788, shaft="input", rise_db=5.0, elsewhere_db=0.2, speeds=(2, 3))
 
 
 def test_an_order_of_no_part_is_said_with_its_shaft(machine: MachineSpec) -> None:
-    found = with_strange(said("nothing_missing"), TURNS, machine)
+    found = with_strange(said("nothing_missing"), TURNS, machine, {})
     assert found.verdict == "unknown_physics"
     assert "0.788 times a turn of input at 2 of 3 speeds" in found.sentence
     assert "no part of its specification turns so" in found.sentence
     assert "belt" in to_do(found)
     assert found.stages[-1]["turns"] == 0.788
     assert explained_by(found) == (), "no drive's hum"
-    hum = with_strange(said("measurement_fault", fault=HUM), TURNS, machine)
+    hum = with_strange(said("measurement_fault", fault=HUM), TURNS, machine, {})
     assert (hum.verdict, hum.fault) == ("measurement_fault", HUM)

@@ -12,7 +12,7 @@ from reconcile.atlas.plan import Point
 from reconcile.gate.findings import Gate
 from reconcile.machine.engine import reconcile_machine
 from reconcile.machine.turned import told_apart, turned_alike, with_limits, with_unconfirmed
-from reconcile.verdict import Report, Where
+from reconcile.verdict import HeldOut, Report, Where
 from signals.recording import Operating, Recording
 from sim.core.spec import MachineSpec
 from sim.presets import preset
@@ -114,6 +114,25 @@ def test_without_teeth_what_differs_may_be_a_wrong_label(verdict: str) -> None:
     if verdict == "unknown_physics":
         assert report.undecidable[0].endswith("the stated speed is wrong")
         assert report.next_experiment is not None and "tacho" in report.next_experiment.sentence
+
+
+@pytest.mark.parametrize(("gain_low", "doubted"), [(0.45, False), (0.1, True)])
+def test_a_named_effect_that_forecasts_well_confirms_the_speed_its_lines_hang_on(
+    gain_low: float, doubted: bool
+) -> None:
+    held = HeldOut(
+        metric="m", unit="dB", before=2.0, after=1.0, gain=0.5, gain_low=gain_low, gain_high=0.6, retuned=None,
+        black_box=None, placebo=None,
+    )  # fmt: skip
+    before = Report(verdict="explained", sentence="So.", level="machine", where=Where(), held_out=held)
+    report = with_unconfirmed(before, preset("rotor"), [unsure()])  # type: ignore[list-item]
+    assert ("No line confirms" in report.sentence) == doubted
+
+
+def test_one_confirmed_speed_speaks_for_the_labels() -> None:
+    before = Report(verdict="unknown_physics", sentence="So.", level="machine", where=Where())
+    some = [unsure(), unsure("harmonics", 30.0)]
+    assert with_unconfirmed(before, preset("rotor"), some) is before  # type: ignore[arg-type]
 
 
 def test_a_confirmed_speed_and_teeth_leave_the_report_alone() -> None:

@@ -98,3 +98,18 @@ def test_only_rolling_lines_get_a_window(machine: MachineSpec) -> None:
 
 def test_a_machine_at_rest_has_nothing_to_watch(machine: MachineSpec) -> None:
     assert watch_list(machine.model_copy(update={"operating": None})).lines == ()
+
+
+def test_lines_that_count_each_for_itself_are_the_teeths_or_else_the_shafts_and_the_passing_balls(
+    machine: MachineSpec,
+) -> None:
+    geared, bare = watch_list(machine), watch_list(preset("rotor"))
+    for watched, own, beside in (
+        (geared, {"mesh"}, {"sideband"}),
+        (bare, {"shaft", "outer"}, {"inner", "ball"}),
+    ):
+        assert {w.family for w, one in zip(watched.lines, watched.own, strict=True) if one} == own
+        assert {w.family for w, one in zip(watched.lines, watched.beside, strict=True) if one} == beside
+    assert not geared.beside[[i for i, w in enumerate(geared.lines) if not w.first_sideband]].any()
+    every = {w.label for w, one in zip(bare.lines, bare.own, strict=True) if one}
+    assert {"1*f_r1", "6*f_r1", "1*f_o1", "8*f_o1"} <= every and "0.5*f_r1" not in every
