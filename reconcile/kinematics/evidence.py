@@ -15,7 +15,7 @@ import numpy as np
 from reconcile.kinematics.envelopes import Envelopes
 from reconcile.kinematics.families import Family, Ties
 from reconcile.tail import tail_chance
-from signals.series import FloatArray
+from signals.series import FloatArray, IntArray
 
 NOISE_LOG = 1.5
 """Log power over the floor below which a bin counts nothing: noise passes it in 1 % of the bins."""
@@ -123,9 +123,17 @@ def trials(family: Family, order: float, reach: float, order_step: float) -> Flo
 
 def scores(values: FloatArray, envelopes: Envelopes, family: Family, base: FloatArray) -> FloatArray:
     """Comb scores, shape (bands, trials)."""
+    return _summed(values, *_placed(envelopes, family, base))
+
+
+def _placed(envelopes: Envelopes, family: Family, base: FloatArray) -> tuple[IntArray, FloatArray]:
+    """(bins (trials, lines), weights (lines,)) of the family's lines at base orders (trials,)."""
     lines, weights = comb(family, base)
-    inside = (lines / envelopes.order_step < values.shape[1] - 1) & (lines > 0)
-    place = np.where(inside, envelopes.place(np.abs(lines)), 0)  # at 0 there is nothing, `logs` sees to that
+    inside = (lines / envelopes.order_step < envelopes.excess.shape[1] - 1) & (lines > 0)
+    return np.where(inside, envelopes.place(np.abs(lines)), 0), weights  # at 0 is nothing, `logs` sees to that
+
+
+def _summed(values: FloatArray, place: IntArray, weights: FloatArray) -> FloatArray:
     return np.asarray(np.take(values, place, axis=1, mode="clip") @ weights, dtype=np.float64)
 
 
@@ -178,6 +186,7 @@ def family_evidence(
     controls = control_orders(ties, family, rng)
     best_control = np.full(controls.size, -np.inf)
     firmest: list[tuple[float, Envelopes, int, float]] = []
+    foreign: dict[tuple[float, int], list[_Controls]] = {}
     for e in channels:
         values = logs(e, ties, shaft_lines=turn)
         for other, order in explained:
@@ -188,12 +197,15 @@ def family_evidence(
             values = without(values, e, around, order, LEAN_BINS if lean else WIDE_BINS)
         base = trials(family, family.order, reach, e.order_step)
         table = scores(values, e, family, base)
-        control, centre, spread = _controls(values, e, family, controls, reach)
+        size = e.order_step, e.excess.shape[1]
+        if size not in foreign:
+            foreign[size] = _foreign(e, family, controls, reach)
+        control, centre, spread = _controls(values, foreign[size])
         z = (table - centre) / spread
         if float(np.max(z)) > CERTAIN_Z:
             # lines that are surely there must not be caught by the controls: were the family absent, so would they be
             absent = without(values, e, [family.spacing], float(base[int(np.argmax(np.max(z, axis=0)))]))
-            control, centre, spread = _controls(absent, e, family, controls, reach)
+            control, centre, spread = _controls(absent, foreign[size])
             z = (table - centre) / spread
         band, trial = (int(i) for i in np.unravel_index(int(np.argmax(z)), z.shape))
         best_control = np.maximum(best_control, np.max((control - centre) / spread, axis=0))
@@ -217,16 +229,29 @@ def family_evidence(
     return replace(best, others=tuple(others))
 
 
-def _controls(
-    values: FloatArray, envelopes: Envelopes, family: Family, orders: FloatArray, reach: float
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """(best scores at the control orders (bands, controls), their medians and robust deviations (bands, 1))."""
+@dataclass(frozen=True, kw_only=True)
+class _Controls:
+    """Some control orders: bins of the lines of all their trials (trials, lines), the lines' weights (lines,), and the
+    first trial of each order (controls,)."""
+
+    place: IntArray
+    weights: FloatArray
+    first: IntArray
+
+
+def _foreign(envelopes: Envelopes, family: Family, orders: FloatArray, reach: float) -> list[_Controls]:
+    """The control orders, a few at a time; spectra of one length share them."""
     found = []
     for few in np.array_split(orders, -(-orders.size // TOGETHER)):
         bases = [trials(family, float(o), reach, envelopes.order_step) for o in few]
-        first = np.cumsum([0, *(b.size for b in bases[:-1])])
-        table = scores(values, envelopes, family, np.concatenate(bases))
-        found.append(np.maximum.reduceat(table, first, axis=1))
+        place, weights = _placed(envelopes, family, np.concatenate(bases))
+        found.append(_Controls(place=place, weights=weights, first=np.cumsum([0, *(b.size for b in bases[:-1])])))
+    return found
+
+
+def _controls(values: FloatArray, foreign: Sequence[_Controls]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """(best scores at the control orders (bands, controls), their medians and robust deviations (bands, 1))."""
+    found = [np.maximum.reduceat(_summed(values, few.place, few.weights), few.first, axis=1) for few in foreign]
     control = np.concatenate(found, axis=1)
     centre = np.median(control, axis=1, keepdims=True)
     spread = np.maximum(1.4826 * np.median(np.abs(control - centre), axis=1, keepdims=True), LEAST_SPREAD)

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from reconcile.machine.direct import NOTHING, Direct
 from reconcile.machine.foreign import with_foreign
+from reconcile.observe import steady
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
 from reconcile.report.action import NO_PART, to_do
+from reconcile.speed.follow import followed_angle
 from reconcile.verdict import NextExperiment, Report
 from signals.recording import Operating
 from sim.presets import preset
@@ -29,6 +32,22 @@ def strikes_at(order: float, seed: int = 2) -> np.ndarray:
 
 
 FOREIGN = strikes_at(ORDER)
+ANGLES: dict[tuple[bytes, float], np.ndarray | None] = {}
+
+
+@pytest.fixture(autouse=True)
+def angles_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each signal's angle is followed once, in however many tests and at whatever load it comes."""
+
+    def followed(samples: np.ndarray, rate_hz: float, speed_hz: float, **about: Any) -> np.ndarray | None:
+        key = samples.tobytes(), speed_hz
+        if key not in ANGLES:
+            ANGLES[key] = followed_angle(samples, rate_hz, speed_hz, **about)
+        return ANGLES[key]
+
+    monkeypatch.setattr(steady, "followed_angle", followed)
+
+
 REPORT = Report(verdict="unknown_physics", sentence="None fits.", level="machine")
 
 

@@ -259,7 +259,10 @@ def test_every_format_that_needs_a_package_of_its_own_says_so() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [*WRITERS, "r.flac", "plain.mat", "packed.mat"])
 def test_damaged_files_are_read_or_refused_and_nothing_else(tmp_path, name: str) -> None:
-    """Apart, as strangers' files are: a parser may break down, the process that asks may not."""
+    """Apart, as strangers' files are: a parser may break down, the process that asks may not.
+
+    What is empty, half or no such file at all is tried in `test_guard`.
+    """
     {**WRITERS, "r.flac": write_flac, "plain.mat": write_mat5, "packed.mat": write_mat5}[name](tmp_path / name)
     whole = (tmp_path / name).read_bytes()
     about = read_description(
@@ -267,8 +270,7 @@ def test_damaged_files_are_read_or_refused_and_nothing_else(tmp_path, name: str)
     )
     bounds = Bounds(values=1_000_000, unpacked_bytes=20_000_000, seconds=20)
     rng = np.random.default_rng(8)
-    cut = [whole[:0], whole[:7], whole[: len(whole) // 2], b"\0" * 2000]
-    for content in [*cut, *(_damaged(whole, rng) for _ in range(4))]:
+    for content in [whole[:7], *(_damaged(whole, rng) for _ in range(4))]:
         (tmp_path / name).write_bytes(content)
         try:
             parse(about, tmp_path / name, bounds, load_apart)
