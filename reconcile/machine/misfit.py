@@ -1,7 +1,7 @@
 """Does the machine file describe the machine of the baseline at all? Else nothing that its machines show is a measure.
 
-Machines of the kind are moved until their mesh lines agree with the baseline, each number within what the file allows.
-Where they cannot, the sound machines that changes are measured by are other machines.
+Machines of the kind are moved until their own lines (of teeth, if there are any) agree with the baseline, each number
+within what the file allows. Where they cannot, the sound machines that changes are measured by are other machines.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def _told(off: float, fit: Mapping[str, object]) -> str:
     edge = f", {len(strayed)} numbers at the edge of their spread" if strayed else ""
     worst = f" (farthest: {lines})" if lines else ""
     return (
-        "the machine file does not fit the baseline: with all of its numbers moved within their spread the mesh lines "
+        "the machine file does not fit the baseline: with all of its numbers moved within their spread its own lines "
         f"are still off by {off**0.5:.1f} times their error{worst}{edge}"
     )
 

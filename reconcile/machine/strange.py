@@ -21,6 +21,10 @@ from sim.core.spec import MachineSpec
 TELLS_LITTLE = 10.0
 """Evidence of the best effect below which a set of effects, or one that is not decided, says less than this does."""
 ELECTRIC: tuple[Kind, ...] = ("mains_hum", "fixed_tones")
+OWN: Mapping[str, tuple[Kind, ...]] = {
+    "own time": ELECTRIC, "self-excited": ELECTRIC, "own knocks": ("fixed_tones",)
+}  # fmt: skip
+"""By the name of the stage: knocks at a steady rate are lines at fixed frequencies too."""
 
 
 class Strange(Protocol):
@@ -78,8 +82,9 @@ def strange(
 
 def explained_by(report: Report) -> tuple[Kind, ...]:
     """Kinds of faults that are the machine's own where what keeps its own time is the answer."""
-    told = any(stage.get("name") in ("own time", "self-excited") for stage in report.stages)
-    return ELECTRIC if told and report.verdict == "unknown_physics" else ()
+    if report.verdict != "unknown_physics":
+        return ()
+    return next((OWN[name] for stage in report.stages if (name := str(stage.get("name"))) in OWN), ())
 
 
 def with_strange(report: Report, seen: Strange | None, machine: MachineSpec, heard: Mapping[str, float]) -> Report:

@@ -15,6 +15,7 @@ from scipy.ndimage import maximum_filter1d
 from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import doubts
 from reconcile.machine.stages import gate_stage
+from reconcile.machine.strange import OWN
 from reconcile.observe.observation import SAME_SPEED, PointData
 from reconcile.observe.steady import Steady
 from reconcile.speed import SpeedEstimate, line_logs
@@ -162,6 +163,8 @@ def with_unconfirmed(report: Report, machine: MachineSpec, data: Sequence[PointD
     differs, and where no known effect explains it, it may be all there is."""
     unsure = [d.point.speed_hz for d in data if not _confirmed(d.turned)]
     if _has_teeth(machine) or len(unsure) < len(data) or report.verdict in ("nothing_missing", "measurement_fault"):
+        return report
+    if any(stage.get("name") in OWN for stage in report.stages):  # what keeps its own time hangs on no order
         return report
     if report.verdict == "explained" and report.held_out is not None and (report.held_out.gain_low or 0.0) >= FITS:
         return report

@@ -33,7 +33,7 @@ WORDS = {
     "mode": "compared with",
     "median_gain_db": "median gain of the sensors, dB",
     "machines": "machines of the kind moved until they agree",
-    "misfit_before": "mesh lines off before that, in units of their scatter",
+    "misfit_before": "own lines off before that, in units of their scatter",
     "misfit_after": "after it",
     "decided": "numbers the baseline decides",
     "undecided": "numbers it leaves open",

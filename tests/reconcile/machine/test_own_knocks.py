@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.machine.own_knocks import OwnKnocks, knocks_of, own_knocks
-from reconcile.machine.strange import with_strange
+from reconcile.machine.strange import explained_by, with_strange
 from reconcile.observe.steady import Steady
 from reconcile.speed import SpeedEstimate
 from reconcile.verdict import Cause, Report, Where
@@ -105,4 +105,5 @@ def test_a_name_that_strikes_and_is_not_heard_at_its_own_lines_gives_way(
     found = with_strange(report, KNOCKS, preset("rotor"), heard)
     assert (found.verdict == "unknown_physics") == answers
     assert ("15 times a second" in found.sentence) == answers
+    assert explained_by(found) == (("fixed_tones",) if answers else ())
     assert [s.site for s in found.where.sites] == (["bearing2"] if answers else [])

@@ -129,6 +129,12 @@ def test_a_named_effect_that_forecasts_well_confirms_the_speed_its_lines_hang_on
     assert ("No line confirms" in report.sentence) == doubted
 
 
+def test_what_keeps_its_own_time_hangs_on_no_speed() -> None:
+    stages = ({"name": "self-excited"},)
+    before = Report(verdict="unknown_physics", sentence="So.", level="machine", where=Where(), stages=stages)
+    assert with_unconfirmed(before, preset("rotor"), [unsure()]) is before  # type: ignore[list-item]
+
+
 def test_one_confirmed_speed_speaks_for_the_labels() -> None:
     before = Report(verdict="unknown_physics", sentence="So.", level="machine", where=Where())
     some = [unsure(), unsure("harmonics", 30.0)]
