@@ -7,6 +7,7 @@ them; where entry and exit of a spall were told apart every impulse is a pair, a
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -20,6 +21,8 @@ PARAMETERS = 6
 """Of the comb: log level, fall with harmonic, log sideband ratio, log smear, slip, share of the second impulse."""
 MAIN_LOBE = 1.1
 """Standard deviation of an averaged Hann main lobe, bins."""
+KEPT = 2 * (PARAMETERS + SMOOTH)
+"""Powers a fit keeps: those of a step and of its slopes."""
 LOW = (-30.0, -1.0, -6.0, -4.0, -0.004, 0.0)
 START = (0.0, 1.0, -1.0, -1.5, 0.0, 0.1)
 HIGH = (10.0, 6.0, 0.5, 1.0, 0.004, 0.9)
@@ -36,6 +39,12 @@ class Stretch:
     def step(self) -> float:
         """Distance of the bins."""
         return float(self.orders[1] - self.orders[0])
+
+    @cached_property
+    def basis(self) -> FloatArray:
+        """Chebyshev polynomials over the orders, (bins, SMOOTH)."""
+        place = 2 * self.orders / self.orders[-1] - 1
+        return np.asarray(np.polynomial.chebyshev.chebvander(place, SMOOTH - 1), dtype=np.float64)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,8 +75,14 @@ def comb_power(train: Train, on: Stretch, parameters: FloatArray) -> FloatArray:
 
 def predicted(train: Train, on: Stretch, before: FloatArray, p: FloatArray) -> FloatArray:
     """Log power (bins,) of the expected spectrum `before`, re-scaled, with the comb added."""
-    base = np.exp(np.clip(before + basis(on.orders) @ p[PARAMETERS:], -60.0, 60.0))
-    return np.asarray(np.log(base + comb_power(train, on, p[:PARAMETERS])), dtype=np.float64)
+    return np.asarray(
+        np.log(_base(on, before, p[PARAMETERS:]) + comb_power(train, on, p[:PARAMETERS])), dtype=np.float64
+    )
+
+
+def _base(on: Stretch, before: FloatArray, smooth: FloatArray) -> FloatArray:
+    """Power (bins,) of `before` re-scaled by coefficients (SMOOTH,)."""
+    return np.asarray(np.exp(np.clip(before + on.basis @ smooth, -60.0, 60.0)), dtype=np.float64)
 
 
 def fitted(train: Train, fit: Stretch, before: FloatArray) -> FloatArray:
@@ -79,8 +94,13 @@ def fitted(train: Train, fit: Stretch, before: FloatArray) -> FloatArray:
     low = np.concatenate((LOW, np.full(SMOOTH, -20.0)))
     high = np.concatenate((HIGH, np.full(SMOOTH, 20.0)))
 
+    # a slope moves one parameter at a time, of the comb or of the re-scaling: the other is as it was
+    comb = lru_cache(maxsize=KEPT)(lambda p: comb_power(train, fit, np.frombuffer(p)))
+    base = lru_cache(maxsize=KEPT)(lambda p: _base(fit, before, np.frombuffer(p)))
+
     def residual(p: FloatArray) -> FloatArray:
-        return np.asarray(predicted(train, fit, before, p) - fit.log_power, dtype=np.float64)
+        power = base(p[PARAMETERS:].tobytes()) + comb(p[:PARAMETERS].tobytes())
+        return np.asarray(np.log(power) - fit.log_power, dtype=np.float64)
 
     found = least_squares(residual, np.clip(start, low + 1e-9, high - 1e-9), bounds=(low, high), max_nfev=200)
     return np.asarray(found.x, dtype=np.float64)
@@ -88,15 +108,9 @@ def fitted(train: Train, fit: Stretch, before: FloatArray) -> FloatArray:
 
 def rescaled(fit: Stretch, before: FloatArray) -> tuple[FloatArray, FloatArray]:
     """(`before` smoothly re-scaled to the stretch (bins,), its coefficients (SMOOTH,))."""
-    columns = basis(fit.orders)
+    columns = fit.basis
     smooth = np.asarray(np.linalg.lstsq(columns, fit.log_power - before, rcond=None)[0], dtype=np.float64)
     return np.asarray(before + columns @ smooth, dtype=np.float64), smooth
-
-
-def basis(orders: FloatArray) -> FloatArray:
-    """Chebyshev polynomials over the orders, (bins, SMOOTH)."""
-    place = 2 * orders / orders[-1] - 1
-    return np.asarray(np.polynomial.chebyshev.chebvander(place, SMOOTH - 1), dtype=np.float64)
 
 
 def black_box(fit: Stretch, retuned: FloatArray) -> FloatArray:

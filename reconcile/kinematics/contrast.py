@@ -37,18 +37,14 @@ class Contrast:
 
 def contrast(evidence: Evidence, test: Observation, baselines: Sequence[Observation], ties: Ties) -> Contrast:
     """Depth of the family in the test against the same channel and band of the baselines."""
-    depth, own_error = _depth(test, evidence.channel, evidence.band_hz, evidence.family, ties, evidence.order)
+    ((depth, own_error),) = _depths(test, evidence, ties, [evidence.order])
     heard = [
         b
         for b in baselines
         if evidence.channel in b.recording.names and evidence.band_hz[1] < b.recording.sampling_rate_hz / 2
     ]
     # where the baseline's own search may not look (multiples of a shaft) the test's order is asked of it too
-    rows = [
-        _depth(b, evidence.channel, evidence.band_hz, evidence.family, ties, order)
-        for b in heard
-        for order in (None, evidence.order)
-    ]
+    rows = [row for b in heard for row in _depths(b, evidence, ties, [None, evidence.order])]
     if not rows:
         return Contrast(depth=depth, before=None, growth_db=None, error_db=own_error)
     before, error = max(rows, key=lambda row: row[0])
@@ -86,27 +82,35 @@ def single_band(values: FloatArray, per_turn: int, like: Envelopes) -> Envelopes
     )
 
 
+def _depths(
+    observation: Observation, evidence: Evidence, ties: Ties, orders: Sequence[float | None]
+) -> list[tuple[float, float]]:
+    """(depth over the whole record, standard error in dB from blocks) at each of `orders`, in the channel and band of
+    the evidence; None: where it is deepest."""
+    like = observation.channel(evidence.channel)
+    assert like is not None
+    values, per_turn = band_turns(observation, evidence.channel, evidence.band_hz)
+    whole = single_band(values, per_turn, like)
+    count = min(BLOCKS, int(whole.turns / MIN_BLOCK_TURNS))
+    blocks = np.array_split(values, count) if count >= 2 else []
+    parts = [single_band(block, per_turn, like) for block in blocks]
+    return [_depth(observation, whole, parts, evidence.family, ties, order) for order in orders]
+
+
 def _depth(
     observation: Observation,
-    channel: str,
-    band_hz: tuple[float, float],
+    whole: Envelopes,
+    parts: Sequence[Envelopes],
     family: Family,
     ties: Ties,
     order: float | None,
 ) -> tuple[float, float]:
-    """(depth over the whole record, standard error in dB from blocks); `order` None: where it is deepest."""
-    like = observation.channel(channel)
-    assert like is not None
-    values, per_turn = band_turns(observation, channel, band_hz)
-    whole = single_band(values, per_turn, like)
     if order is None:
         base = trials(family, family.order, family.slip + observation.doubt, whole.order_step)
         table = scores(logs(whole, ties, shaft_lines=family.kind == "turn"), whole, family, base)
         order = float(base[int(np.argmax(table[0]))])
     depth = comb_depth(whole, 0, family, order)
-    count = min(BLOCKS, int(whole.turns / MIN_BLOCK_TURNS))
-    if count < 2:
+    if not parts:
         return depth, 3.0
-    parts = [single_band(block, per_turn, like) for block in np.array_split(values, count)]
     depths = [max(comb_depth(p, 0, family, order), LEAST_DEPTH) for p in parts]
-    return depth, float(20 * np.std(np.log10(depths), ddof=1) / np.sqrt(count))
+    return depth, float(20 * np.std(np.log10(depths), ddof=1) / np.sqrt(len(parts)))
