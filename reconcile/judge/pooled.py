@@ -105,6 +105,9 @@ class OneByOne:
     chosen: np.ndarray
     points: int
     channels: int
+    repeats: bool = True
+    """Whether sound machines repeat these lines as simulated ones do: bearings that rattle under a weight do not, and a
+    change of their lines that has no effect's pattern says nothing."""
 
     def __call__(self, z: FloatArray) -> FloatArray:
         """(n, P * C * F) -> (n, P * C * chosen)."""
@@ -127,7 +130,7 @@ def _one_by_one(
     chosen[: layout.lines] = which
     if phased:
         chosen[layout.slices()["phase"]] = which[list(watched.phased)]
-    return OneByOne(chosen=chosen, points=points, channels=channels)
+    return OneByOne(chosen=chosen, points=points, channels=channels, repeats=bool(watched.gears))
 
 
 def own_lines(watched: WatchList, layout: Layout, *, points: int, channels: int, phased: bool = False) -> OneByOne:

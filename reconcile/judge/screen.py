@@ -134,8 +134,10 @@ def _rest(views: Sequence[Fitted], observed: FloatArray, best: str, speaks: int)
 
 
 def _of_lines(views: Sequence[Fitted], looks: Sequence[Look]) -> float:
-    """Chance of such a change of single lines, the smallest of the views' for as many looks."""
-    chances = [tail_chance(v.null, look.length) for v, look in zip(views, looks, strict=True)]
+    """Chance of such a change of single lines, the smallest of the views' for as many looks; of lines that sound
+    machines repeat (`OneByOne.repeats`)."""
+    seen = [(v, look) for v, look in zip(views, looks, strict=True) if getattr(v.view, "repeats", True)]
+    chances = [tail_chance(v.null, look.length) for v, look in seen]
     return min([1.0, *(len(chances) * c for c in chances)])
 
 

@@ -156,3 +156,18 @@ def test_views_with_phases_speak_and_levels_say_what_is_left() -> None:
     spoken = judge((space(), blind, blind, *lines), observed)
     assert int(spoken.by[int(np.argmax(spoken.evidence))]) in {0, 3, 4}
     assert spoken.rest.kept == judge((space(), blind, blind), observed).rest.kept
+
+
+@pytest.mark.slow
+def test_lines_that_sound_machines_do_not_repeat_give_no_alarm_without_a_pattern_and_the_same_names() -> None:
+    observed = MADE.effect(2, 0.6, np.random.default_rng(3)) + MADE.noise(np.random.default_rng(4))
+    here = changes(MADE, observed)
+
+    def judged(*, repeats: bool) -> Screen:
+        views = [replace(view, repeats=repeats) for view in (here.single, here.sides)]
+        return judge((space(), *(fit_space(here, library(MADE), seed=1, view=v, least=4.0) for v in views)), observed)
+
+    steady, rattling = judged(repeats=True), judged(repeats=False)
+    assert steady.p_lines < 1.0 == rattling.p_lines
+    np.testing.assert_array_equal(steady.evidence, rattling.evidence)
+    assert steady.p_best == rattling.p_best
