@@ -21,8 +21,8 @@ SECTIONS = {
     "six of a third machine had been run before, by an engine of the day: two of four named with place, one sound "
     "machine quiet, one not decidable; two of them have set rules.",
     "rotors-later": "No version of the engine had met these before their run: two machines without teeth, a disc of 5 "
-    "and of 9 kg on a shaft in two bearings, alike and unlike (`proof/rotors`), loaded by weight and shaken by a residual "
-    "unbalance; all at the target condition. Not counted among the gearboxes above.",
+    "and of 9 kg on a shaft in two bearings, alike and unlike (`proof/rotors`), loaded by weight and shaken by a "
+    "residual unbalance; all at the target condition. Not counted among the gearboxes above.",
     "rotors": "The 22 rotors with which single lines of such machines, their speeds and their gate were developed "
     "([decision](decisions/reconcile-rotors.md)): none is met for the first time.",
     "quiet": "No version of the engine had met these before their run: forty sound machines at the target condition, "
