@@ -17,6 +17,7 @@ from reconcile.calibrate.posterior import Posterior, calibrated, line_evidence
 from reconcile.calibrate.uncertain import DRIFT, Offsets, draw_offsets, moved
 from reconcile.judge.changes import lenses, observed_changes
 from reconcile.machine.library import share_of
+from reconcile.machine.misfit import FOREIGN, FOREIGN_BARE
 from reconcile.machine.setting import Setting
 from reconcile.observe.watch import watch_list
 from signals.series import FloatArray
@@ -186,6 +187,7 @@ def told(local: Local) -> dict[str, object]:
         "machines": len(posterior.offsets),
         "misfit_before": posterior.misfit[0],
         "misfit_after": posterior.misfit[1],
+        "misfit_allowed": FOREIGN if local.setting.machine.gears else FOREIGN_BARE,
         "decided": [
             {"number": labels[k], "share": float(posterior.determined[k]), "offset": float(middle[k])}
             for k in order[:TOLD]

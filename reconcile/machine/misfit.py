@@ -16,6 +16,9 @@ FOREIGN = 7.0
 """Mean squared residual of the fitted machines' mesh lines over their errors' variance (1 where both agree) from which
 the file is not this machine's: 0.9 to 5.0 on the proof's 50 cases of `next`, `others` and `unmet`, whose generator has
 laws of its own and hidden numbers within a tenth of the file's; 9.4 with the rotors' masses three times too large."""
+FOREIGN_BARE = 2.0
+"""The same without teeth, where the errors hold what lines do not repeat: 0.35 to 1.23 on 28 concealed rotors; 2.7 with
+supports a third as stiff, 7.1 with three times the mass."""
 UNKNOWABLE = "whether an effect is missing or the machine file's numbers are wrong"
 ADVICE = NextExperiment(
     sentence="Check the machine file against the machine (masses, stiffnesses, teeth, supports), and that the baseline "
@@ -29,7 +32,7 @@ def with_misfit(report: Report, fit: Mapping[str, object]) -> Report:
     `fit`: how well machines agree with the baseline, empty where there is none.
     """
     off = cast(float, fit.get("misfit_after", 0.0))
-    if off < FOREIGN:
+    if off < cast(float, fit.get("misfit_allowed", FOREIGN)):
         return report
     told = _told(off, fit)
     limited = replace(report, where=replace(report.where, limits=(*report.where.limits, told)))

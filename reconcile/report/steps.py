@@ -33,6 +33,7 @@ WORDS = {
     "mode": "compared with",
     "median_gain_db": "median gain of the sensors, dB",
     "machines": "machines of the kind moved until they agree",
+    "misfit_allowed": "from where on they are another machine's",
     "misfit_before": "own lines off before that, in units of their scatter",
     "misfit_after": "after it",
     "decided": "numbers the baseline decides",

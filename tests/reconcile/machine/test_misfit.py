@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from reconcile.machine.misfit import FOREIGN, with_misfit
+from reconcile.machine.misfit import FOREIGN, FOREIGN_BARE, with_misfit
 from reconcile.verdict import PlaceWeight, Report, Where
 
 FARTHEST = {"line": "4*f_m", "speed_hz": 30.0, "channel": "a1", "off_db": -17.6}
@@ -43,6 +43,16 @@ def test_a_fault_of_the_measurement_has_it_among_its_limits_alone() -> None:
     assert report.sentence == UNKNOWN.sentence and len(report.where.limits) == 2
 
 
-@pytest.mark.parametrize("fit", [{}, {**FIT, "misfit_after": FOREIGN - 0.1}])
+BARE = {**FIT, "misfit_allowed": FOREIGN_BARE}
+
+
+def test_without_teeth_what_does_not_repeat_is_among_the_errors_and_less_is_foreign() -> None:
+    found = with_misfit(UNKNOWN, {**BARE, "misfit_after": FOREIGN_BARE + 0.1})
+    assert found.verdict == "not_decidable" and "1.4 times their error" in found.sentence
+
+
+@pytest.mark.parametrize(
+    "fit", [{}, {**FIT, "misfit_after": FOREIGN - 0.1}, {**BARE, "misfit_after": FOREIGN_BARE - 0.1}]
+)
 def test_machines_that_agree_change_nothing(fit: dict[str, object]) -> None:
     assert with_misfit(UNKNOWN, fit) is UNKNOWN
