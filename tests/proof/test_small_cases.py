@@ -1,4 +1,4 @@
-"""Four concealed cases from file to verdict: hidden by the proof's own physics, answered by the engine.
+"""Three concealed cases from file to verdict: hidden by the proof's own physics, answered by the engine.
 
 A small atlas stands beside the tests (`tests/proof/atlas`), so that only what belongs to the case is simulated.
 """
@@ -25,9 +25,8 @@ from tests.reconcile import prebuilt
 from tests.reconcile.remembered import Simulated
 
 pytestmark = [pytest.mark.slow, pytest.mark.long, pytest.mark.xdist_group("proof-small")]
-FACTOR = {"inner_pit": 3.0, "broken_tooth": 1.5}
-"""Within which a size must be. A pit's width and its hidden depth trade against each other, and the engine's own
-intervals reach a factor of three; a tooth's does not."""
+FACTOR = {"broken_tooth": 1.5}
+"""Within which a size must be."""
 EXPLAINED = {name: case for name, case in CASES.items() if case.effects}
 Answered = Callable[[str], tuple[Report, Score]]
 TASKS = (3, -1)

@@ -1,0 +1,65 @@
+"""A concealed rotor from file to verdict: a pit hidden by the proof's own physics on a machine without teeth."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import pytest
+
+from app.cli.recordings import Given, read_recording
+from proof import case as made
+from proof.plan import Case, Hiding
+from proof.rotors.machine import ROTORS
+from proof.score.one import score
+from reconcile.atlas.candidates import Candidate
+from reconcile.entry import reconcile_recordings
+from sim.core.spec import MachineSpec
+
+pytestmark = [pytest.mark.slow, pytest.mark.long, pytest.mark.xdist_group("proof-rotor")]
+HIDDEN = Hiding(law="inner_pit", site="bearing1", value=1.6e-3, variant=0)
+CASE = Case(
+    name="t101",
+    index=0,
+    seed=58_230_917,
+    group="single",
+    effects=(HIDDEN,),
+    level=2,
+    sensors=("bearing1.y", "bearing2.y", "bearing1.x"),
+    snr_db=20.0,
+    speeds_hz=ROTORS["alike"].speeds_hz[::2],
+    baseline=True,
+    machine="alike",
+)
+NOMINATED = tuple(
+    Candidate(term=term, site=site)
+    for term, site in (
+        ("inner_spall", "bearing1"),
+        ("inner_spall", "bearing2"),
+        ("outer_spall", "bearing1"),
+        ("unbalance", "disc"),
+    )
+)
+
+
+def test_a_pit_is_named_with_its_place_and_size_by_machines_fitted_to_lines_that_are_no_teeths(tmp_path: Path) -> None:
+    made.make(CASE, tmp_path, tmp_path / "truth")
+    folder = tmp_path / CASE.name
+    machine = MachineSpec.model_validate(json.loads((folder / "machine.json").read_text(encoding="utf-8")))
+    tests, baselines = (
+        [read_recording(path, Given()) for path in sorted(folder.glob(f"{kind}_*.npz"))]
+        for kind in ("test", "baseline")
+    )
+    report = reconcile_recordings(machine, tests, baselines, nominated=NOMINATED)
+    truth = json.loads((tmp_path / "truth" / f"{CASE.name}.json").read_text(encoding="utf-8"))
+    found = score(truth, json.loads(json.dumps(report.document())))
+    said = (report.sentence, asdict(found))
+    assert report.verdict == "explained" and found.mechanism and found.place, said
+    assert "No line confirms" not in report.sentence
+    severity = report.causes[0].severity
+    assert severity is not None and HIDDEN.value / 3.0 < severity.value < 3.0 * HIDDEN.value
+    stages = {str(stage["name"]): stage for stage in report.stages}
+    fit = stages["calibrate"]
+    assert fit["machines"] == 24 and fit["misfit_after"] < fit["misfit_allowed"]  # type: ignore[operator]
+    assert "inner_spall@bearing1" in stages["judge"]["fitted_with_the_machine"]  # type: ignore[operator]
