@@ -22,7 +22,8 @@ SECTIONS = {
     "machine quiet, one not decidable; two of them have set rules.",
     "rotors-later": "No version of the engine had met these before their run: two machines without teeth, a disc of 5 "
     "and of 9 kg on a shaft in two bearings, alike and unlike (`proof/rotors`), loaded by weight and shaken by a "
-    "residual unbalance; all at the target condition. Not counted among the gearboxes above.",
+    "residual unbalance; all at the target condition. Not counted among the gearboxes above. An unbalance and a bow of "
+    "the disc load its bearings alike at every speed, so the set of both, said of r110, is all that can be told.",
     "rotors": "The 22 rotors with which single lines of such machines, their speeds and their gate were developed "
     "([decision](decisions/reconcile-rotors.md)): none is met for the first time.",
     "quiet": "No version of the engine had met these before their run: forty sound machines at the target condition, "
