@@ -26,8 +26,10 @@ QUIET_SHARE = 0.2
 MOST_DB = 4.5
 """The most by which speeds may differ, and other channels have changed, however far the sensor's band did: a bearing
 that no longer rattles falls silent by 40 dB, and its neighbour changes by 6."""
-FLOOR_KEEPS = 0.4
-"""Of the change of a band's power the least that its noise shows: a narrow peak fills a band partly."""
+NARROW_BANDS = 3
+FLOOR_KEEPS, FLOOR_MOST = 0.4, 1.1
+"""Of the change of a band's power the least that its noise shows where few bands changed: a narrow peak fills a band
+partly; and the most: what raises the noise more than the lines is none of the sensor's."""
 LEVEL_DB, LEAST_SPEEDS = 3.0, 3
 """By how much a whole record may be louder than its baseline, and at how many speeds a narrow peak must be alike."""
 OTHERS_SHARE = 0.3
@@ -96,6 +98,7 @@ def _rough(own: FloatArray, curve: FloatArray, changed: BoolArray) -> float:
     alike = float(np.median(np.max(np.abs(part - curve[changed]), axis=(0, 1))))
     kinds = part.mean(axis=0)
     keeps = np.median(kinds[1] / np.where(np.abs(kinds[0]) > 0.0, kinds[0], 1.0))
-    if len(own) < LEAST_SPEEDS or keeps < FLOOR_KEEPS:
+    narrow = np.sum(changed) <= NARROW_BANDS
+    if len(own) < LEAST_SPEEDS or not narrow or not FLOOR_KEEPS <= keeps <= FLOOR_MOST:
         return alike
     return min(alike, float(np.median(np.max(np.abs(part - kinds), axis=(0, 1)))))

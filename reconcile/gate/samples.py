@@ -27,6 +27,7 @@ QUIET_RATIO = 0.02
 """A window whose RMS is below 2 % of the median window's: the signal was away, not weak."""
 QUIET_TAIL = 2.5
 """Times that size: what is away leaves few windows between; a bearing that rattles is silent by degrees."""
+SHARP_RUN, SHARP_RATIO = 3, 0.3
 FREE_FALL_M_PER_S2, FREE_FALL_SHARE = 9.80665, 0.05
 """A ring in free flight is accelerated by its weight alone: a plateau there is no end of a range."""
 PILE = 4.0
@@ -109,13 +110,26 @@ def _quiet_blocks(samples: FloatArray, sampling_rate_hz: float) -> tuple[BoolArr
         return np.zeros(0, dtype=np.bool_), length
     blocks = samples[: count * length].reshape(count, length)
     size = np.std(blocks, axis=1)
-    least = QUIET_RATIO * float(np.median(size))
+    usual = float(np.median(size))
+    least = QUIET_RATIO * usual
     quiet: BoolArray = np.asarray(size < least, dtype=np.bool_)
     if np.sum((size >= least) & (size < QUIET_TAIL * least)) >= np.sum(quiet):
-        quiet = np.zeros_like(quiet)
+        quiet = _sharp(size < QUIET_TAIL * least, size > SHARP_RATIO * usual)
     # a slow strong line has quiet windows around its extremes: the level must be away from the extremes as well
     quiet &= np.abs(np.mean(blocks, axis=1) - np.mean(samples)) < 0.5 * np.std(samples)
     return (quiet if np.mean(quiet) <= 0.5 else np.zeros_like(quiet)), length
+
+
+def _sharp(low: BoolArray, loud: BoolArray) -> BoolArray:
+    """Of runs of `low` windows (n,) those of `SHARP_RUN` or more between `loud` ones, one window of their edges apart:
+    a dropout begins and ends within a window, a rattle fades into its silence."""
+    found = np.zeros_like(low)
+    steps = np.flatnonzero(np.diff(np.concatenate([[False], low, [False]]).astype(np.int8)))
+    for first, last in zip(steps[::2], steps[1::2], strict=True):
+        before, after = loud[max(0, first - 2) : first], loud[last : last + 2]
+        if last - first >= SHARP_RUN and before.any() and after.any():
+            found[first:last] = True
+    return found
 
 
 def _absences(samples: FloatArray, recording: Recording, name: str, label: str) -> list[Finding]:
@@ -142,25 +156,30 @@ def _absences(samples: FloatArray, recording: Recording, name: str, label: str) 
 
 def _piles(samples: FloatArray, name: str, label: str, unit: str) -> list[Finding]:
     """Samples piled up at an end of the range."""
-    low, high = float(np.min(samples)), float(np.max(samples))
-    step = (high - low) / 100
-    for end, end_at in (("upper", high), ("lower", low)):
-        depth = np.abs(samples - end_at)
-        outer = int(np.sum(depth < step))
-        beside = int(np.sum((depth >= step) & (depth < 3 * step))) / 2
-        # a sine has a pile too, but of a known height: 1/(pi sqrt(x(1-x))) gives 2.6 for these widths
-        falls = unit == "m/s^2" and abs(abs(end_at) / FREE_FALL_M_PER_S2 - 1.0) < FREE_FALL_SHARE
-        many = outer >= max(PILE_SAMPLES, MATERIAL_SHARE * samples.size)
-        if many and outer > PILE * max(beside, 1.0) and not falls:
-            share = outer / samples.size
-            return [
-                Finding(
-                    kind="clipped",
-                    channel=name,
-                    recording=label,
-                    detail=f"{share:.3%} of the samples are piled up at the {end} end of the range",
-                    severity=min(1.0, 20 * share),
-                    fault=True,
-                )
-            ]
+    ends = {"upper": float(np.max(samples)), "lower": float(np.min(samples))}
+    step = (ends["upper"] - ends["lower"]) / 100
+    piled = {end: share for end, at in ends.items() if (share := _piled(np.abs(samples - at), step)) > 0.0}
+    if len(piled) == 1 and unit == "m/s^2":  # a plateau at one end may be a flight
+        fall = abs(abs(ends[next(iter(piled))]) / FREE_FALL_M_PER_S2 - 1.0)
+        piled = {} if fall < FREE_FALL_SHARE else piled
+    for end, share in piled.items():
+        return [
+            Finding(
+                kind="clipped",
+                channel=name,
+                recording=label,
+                detail=f"{share:.3%} of the samples are piled up at the {end} end of the range",
+                severity=min(1.0, 20 * share),
+                fault=True,
+            )
+        ]
     return []
+
+
+def _piled(depth: FloatArray, step: float) -> float:
+    """Share of the samples piled up at an end of the range, from which they are `depth` (n,) away; 0 for no pile."""
+    outer = int(np.sum(depth < step))
+    beside = int(np.sum((depth >= step) & (depth < 3 * step))) / 2
+    # a sine has a pile too, but of a known height: 1/(pi sqrt(x(1-x))) gives 2.6 for these widths
+    many = outer >= max(PILE_SAMPLES, MATERIAL_SHARE * depth.size)
+    return outer / depth.size if many and outer > PILE * max(beside, 1.0) else 0.0

@@ -31,6 +31,8 @@ LANES = 8
 """Machines that cost no more than one: vector lanes hold one effect."""
 LEAST_DRAWS = 2
 TOLD, WORST = 12, 3
+UNKNOWN_DB, MOST_DB, FEWEST_PAIRS = 5.0, 20.0, 6
+"""Of a line's change from one recording of a sound machine to the next: taken where it is not known, and at most."""
 DECIDED = 0.3
 """Share of its variance that the baseline must take from a number to count as decided."""
 
@@ -80,14 +82,19 @@ def around_baseline(setting: Setting, mapper: Mapper) -> Local | None:
 
 
 def repeat_db(bank: Bank, plan: AtlasPlan) -> FloatArray:
-    """Standard deviation over healthy machines of what drift and slip change at each line, (C, L)."""
+    """Root mean square over healthy machines of what drift and slip change at each line, (C, L), dB; `UNKNOWN_DB` where
+    too few machines say it."""
     first, twin = (
         {d.pair: k for k, d in enumerate(plan.draws) if d.candidate is None and d.twin == late and bank.alive[k]}
         for late in (False, True)
     )
     pairs = sorted(first.keys() & twin.keys())
-    ratio = bank.line[[twin[p] for p in pairs]] / (bank.line[[first[p] for p in pairs]] + 1e-300)
-    return np.asarray(np.nanstd(10.0 * np.log10(ratio + 1e-300), axis=0))
+    if len(pairs) < FEWEST_PAIRS:
+        return np.full(bank.line.shape[1:], UNKNOWN_DB)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        change = 10.0 * np.log10(bank.line[[twin[p] for p in pairs]] / bank.line[[first[p] for p in pairs]])
+    change = np.clip(np.nan_to_num(change, nan=UNKNOWN_DB, posinf=MOST_DB, neginf=-MOST_DB), -MOST_DB, MOST_DB)
+    return np.asarray(np.sqrt(np.mean(change**2, axis=0)))
 
 
 def _with_twins(setting: Setting, posterior: Posterior, mapper: Mapper) -> Local:

@@ -69,6 +69,7 @@ class OwnOrder:
     )
     electric = False
     strikes = False
+    undecided = ()
 
     @property
     def text(self) -> str:

@@ -54,6 +54,7 @@ class OwnTime:
     would_tell = OFF
     electric = True
     strikes = False
+    undecided = ()
 
     @property
     def supply_hz(self) -> float | None:

@@ -48,7 +48,7 @@ def all_stages(
             "p_any": found.screen.p_any,
             "p_best": found.screen.p_best,
             "p_direct": found.screen.p_direct,
-            "p_lines": found.screen.p_lines,
+            "p_lines": found.screen.p_lines if _repeat(found) else None,
             "p_first": found.screen.p_first,
             "p": decision.p,
         },
@@ -88,3 +88,8 @@ def revisions(revision: Revised | None) -> tuple[Mapping[str, object], ...]:
             "left_of_it_db": round(revision.after_db, 2),
         },
     )
+
+
+def _repeat(found: Found) -> bool:
+    """Whether single lines were asked: those of rattling bearings are not."""
+    return all(getattr(view.view, "repeats", True) for view in found.views[1:])

@@ -62,6 +62,10 @@ class Strange(Protocol):
         """Whether a drive may do it, so that hum in the recording is the machine's own."""
 
     @property
+    def undecided(self) -> tuple[str, ...]:
+        """What else would look so."""
+
+    @property
     def strikes(self) -> bool:
         """Whether it strikes, so that a part named as pitted must be heard at its own lines."""
 
@@ -105,7 +109,8 @@ def with_strange(report: Report, seen: Strange | None, machine: MachineSpec, hea
     where = replace(report.where, lines=lines, sites=seen.sites(machine))
     causes = tuple(replace(cause, named=False) for cause in report.causes)
     return replace(
-        report, verdict="unknown_physics", sentence=sentence, where=where, causes=causes, fault=None, undecidable=(),
+        report, verdict="unknown_physics", sentence=sentence, where=where, causes=causes, fault=None,
+        undecidable=seen.undecided,
         next_experiment=seen.would_tell, held_out=None, machine=None, force=None, faintest=(),
     )  # fmt: skip
 

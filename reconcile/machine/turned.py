@@ -164,7 +164,8 @@ def with_unconfirmed(report: Report, machine: MachineSpec, data: Sequence[PointD
     unsure = [d.point.speed_hz for d in data if not _confirmed(d.turned)]
     if _has_teeth(machine) or len(unsure) < len(data) or report.verdict in ("nothing_missing", "measurement_fault"):
         return report
-    if any(stage.get("name") in OWN for stage in report.stages):  # what keeps its own time hangs on no order
+    by_itself = any(stage.get("name") in OWN for stage in report.stages)
+    if by_itself and report.verdict == "unknown_physics":  # what keeps its own time hangs on no order
         return report
     if report.verdict == "explained" and report.held_out is not None and (report.held_out.gain_low or 0.0) >= FITS:
         return report

@@ -62,4 +62,6 @@ def test_a_pit_is_named_with_its_place_and_size_by_machines_fitted_to_lines_that
     stages = {str(stage["name"]): stage for stage in report.stages}
     fit = stages["calibrate"]
     assert fit["machines"] == 24 and fit["misfit_after"] < fit["misfit_allowed"]  # type: ignore[operator]
+    shares = [float(one["share"]) for one in fit["decided"]]  # type: ignore[attr-defined]
+    assert sum(share > 0.97 for share in shares) <= 4, "lines that repeat badly do not decide all numbers"
     assert "inner_spall@bearing1" in stages["judge"]["fitted_with_the_machine"]  # type: ignore[operator]

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.signal import iirpeak, lfilter
+from scipy.signal import butter, iirpeak, lfilter, sosfilt
 
 from reconcile.gate.compare import compared
 from reconcile.gate.findings import Finding
@@ -108,10 +108,54 @@ def test_silence_by_degrees_is_no_dropout_and_a_gap_is_one() -> None:
     assert [f.channel for f in sample_findings(replace(one, samples=gap), "test 1") if f.kind == "dropouts"] == ["a0"]
 
 
-@pytest.mark.parametrize(("end", "told"), [(FREE_FALL_M_PER_S2, []), (7.0, ["clipped"])])
-def test_a_plateau_at_the_weight_s_acceleration_is_free_flight(end: float, told: list[str]) -> None:
+@pytest.mark.parametrize("share", [0.02, 0.03])
+def test_a_gap_that_is_not_quite_silent_is_one_too(share: float) -> None:
     one = rotor(30.0, 1)
     samples = one.samples.copy()
-    samples[0] = 8.0 * samples[0] + 1e-3 * np.random.default_rng(4).standard_normal(samples.shape[1])
-    samples[0] = np.where(samples[0] < -end, -end + 1e-3 * samples[1], samples[0])
-    assert [f.kind for f in sample_findings(replace(one, samples=samples), "test 1")] == told
+    for start in (3_000, 9_010, 15_020):
+        samples[0, start : start + 200] *= share
+    found = [f.channel for f in sample_findings(replace(one, samples=samples), "test 1") if f.kind == "dropouts"]
+    assert found == ["a0"]
+
+
+ONE_END, BOTH = (1,), (1, -1)
+
+
+@pytest.mark.parametrize(
+    ("end", "ends", "unit", "told"),
+    [
+        (FREE_FALL_M_PER_S2, ONE_END, "m/s^2", []),
+        (FREE_FALL_M_PER_S2, BOTH, "m/s^2", ["clipped"]),
+        (FREE_FALL_M_PER_S2, ONE_END, "m/s", ["clipped"]),
+        (9.0, ONE_END, "m/s^2", ["clipped"]),
+        (7.0, ONE_END, "m/s^2", ["clipped"]),
+    ],
+)
+def test_a_plateau_of_one_end_at_the_weight_s_acceleration_is_free_flight(
+    end: float, ends: tuple[int, ...], unit: str, told: list[str]
+) -> None:
+    one = rotor(30.0, 1)
+    samples = one.samples.copy()
+    samples[0] = 10.0 * samples[0] + 1e-3 * np.random.default_rng(4).standard_normal(samples.shape[1])
+    for sign in ends:
+        samples[0] = np.where(sign * samples[0] < -end, -sign * end + 1e-3 * samples[1], samples[0])
+    channels = tuple(replace(c, unit=unit) for c in one.channels)
+    found = sample_findings(replace(one, samples=samples, channels=channels), "test 1")
+    assert [f.kind for f in found] == told
+
+
+def lined(one: Recording, k: int, noise: float = 0.0) -> Recording:
+    """With lines of the first channel from 3 to 5 kHz, and more noise between them."""
+    t = np.arange(one.samples.shape[1]) / RATE_HZ
+    samples = one.samples.copy()
+    samples[0] += sum(0.12 * np.sin(2 * np.pi * hz * t + hz) for hz in np.arange(3_000.0, 5_000.0, 2 * SPEEDS_HZ[k]))
+    band = butter(4, [3_000.0, 5_000.0], "bandpass", fs=RATE_HZ, output="sos")
+    samples[0] += noise * sosfilt(band, np.random.default_rng(70 + k).standard_normal(t.size))
+    return replace(one, samples=samples)
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.9])
+def test_noise_that_leaves_the_lines_is_no_loose_sensor(noise: float) -> None:
+    before = [lined(one, k) for k, one in enumerate(BASELINES)]
+    tests = [lined(one, k, noise) for k, one in enumerate(TESTS)]
+    assert compared(pairs(tests, before, SPEEDS_HZ, SPEEDS_HZ), tests) == ()

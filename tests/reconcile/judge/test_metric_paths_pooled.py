@@ -109,6 +109,13 @@ def test_single_lines_are_levels_and_phases_of_the_same_lines() -> None:
         assert both.sum() == 2 * levels.sum()
 
 
+def test_lines_of_machines_without_teeth_are_not_taken_to_repeat() -> None:
+    for name, repeats in (("paper-lightly-damped", True), ("rotor", False)):
+        watched = watch_list(preset(name))
+        views = [view(watched, layout_of(watched), points=1, channels=1) for view in (own_lines, lines_beside)]
+        assert [view.repeats for view in views] == [repeats] * 2
+
+
 def test_first_sidebands_are_the_pairs_next_to_the_mesh_harmonics() -> None:
     watched = watch_list(preset("paper-lightly-damped"))
     layout = layout_of(watched)

@@ -13,7 +13,7 @@ from reconcile.atlas.candidates import candidates
 from reconcile.atlas.plan import AtlasPlan, Point, atlas_plan
 from reconcile.calibrate.uncertain import uncertain_numbers
 from reconcile.machine.library import share_of
-from reconcile.machine.local import LANES, first_heat, more_draws, ordered_draws, repeat_db, second_heat
+from reconcile.machine.local import LANES, UNKNOWN_DB, first_heat, more_draws, ordered_draws, repeat_db, second_heat
 from reconcile.machine.meter import Meter
 from reconcile.observe.statistics import Statistics
 from sim import presets
@@ -111,3 +111,17 @@ def test_lines_repeat_by_what_twins_of_sound_machines_differ(atlas: AtlasPlan) -
     assert found.shape == (2, 3)
     np.testing.assert_allclose(found[:, [0, 2]], 0.0, atol=1e-9)
     np.testing.assert_allclose(found[:, 1], 4.0, rtol=0.4)
+
+
+def test_drift_that_moves_all_alike_counts_lines_that_vanish_are_bounded_and_few_say_nothing(atlas: AtlasPlan) -> None:
+    twins = [k for k, d in enumerate(atlas.draws) if d.candidate is None and d.twin]
+    line = np.ones((len(atlas.draws), 1, 2))
+    line[twins, :, 0] = 10.0**0.6
+    line[twins[0], :, 1] = 0.0
+    alive = np.ones(len(atlas.draws), dtype=bool)
+    found = repeat_db(SimpleNamespace(line=line, alive=alive), atlas)  # type: ignore[arg-type]
+    assert found[0, 0] == pytest.approx(6.0)
+    assert found[0, 1] == pytest.approx(20.0 / len(twins) ** 0.5)
+    alive[twins[3:]] = False
+    few = repeat_db(SimpleNamespace(line=line, alive=alive), atlas)  # type: ignore[arg-type]
+    assert np.all(few == UNKNOWN_DB)

@@ -79,6 +79,41 @@ def test_the_baselines_own_knocks_and_one_speed_tell_nothing() -> None:
     assert own_knocks(alone, CHANNELS) is None  # type: ignore[arg-type]
 
 
+def test_a_baseline_too_short_or_with_uneven_knocks_of_its_own_makes_nothing_new() -> None:
+    now = data(lambda _: 1.0 / 15.0)
+    short = [
+        Seen(spectra=(d.spectra[0], replace(d.spectra[1], samples=d.spectra[1].samples[:, :8_000])))  # type: ignore[type-var]
+        for d in now
+    ]
+    assert own_knocks(short, CHANNELS) is None  # type: ignore[arg-type]
+    uneven = [
+        Seen(spectra=(d.spectra[0], steady(hz, 1.0 / 15.0, 40 + k, late=0.9)))
+        for k, (d, hz) in enumerate(zip(now, SPEEDS_HZ, strict=True))
+    ]
+    assert own_knocks(uneven, CHANNELS) is None  # type: ignore[arg-type]
+
+
+def test_a_glitch_stays_in_its_cable_and_a_lone_sensor_cannot_tell() -> None:
+    alone = []
+    for d in data(lambda _: 1.0 / 15.0):
+        now = d.spectra[0]
+        other = 0.05 * np.random.default_rng(3).standard_normal(now.samples.shape[1])
+        alone.append(replace(d, spectra=(replace(now, samples=np.array([other, now.samples[1]])), d.spectra[1])))
+    assert own_knocks(alone, CHANNELS) is None
+    one = [
+        replace(d, spectra=tuple(replace(s, samples=s.samples[1:]) for s in d.spectra))  # type: ignore[type-var]
+        for d in alone
+    ]
+    found = own_knocks(one, CHANNELS[1:])
+    assert found is not None and "glitches" in found.undecided[0]
+
+
+@pytest.mark.parametrize(("apart", "told"), [(1.0, True), (1.08, False)])
+def test_the_time_is_the_same_within_three_per_cent(apart: float, told: bool) -> None:
+    found = own_knocks(data(lambda hz: (apart if hz == SPEEDS_HZ[2] else 1.0) / 15.0), CHANNELS)  # type: ignore[arg-type]
+    assert (found is not None) == told
+
+
 def test_noise_and_knocks_without_a_distance_are_none() -> None:
     assert knocks_of(steady(25.0, None, 5), 0) is None
     uneven = steady(25.0, 1.0 / 15.0, 5, late=0.9)

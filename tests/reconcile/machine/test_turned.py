@@ -133,6 +133,8 @@ def test_what_keeps_its_own_time_hangs_on_no_speed() -> None:
     stages = ({"name": "self-excited"},)
     before = Report(verdict="unknown_physics", sentence="So.", level="machine", where=Where(), stages=stages)
     assert with_unconfirmed(before, preset("rotor"), [unsure()]) is before  # type: ignore[list-item]
+    beside = replace(before, verdict="explained")
+    assert "No line confirms" in with_unconfirmed(beside, preset("rotor"), [unsure()]).sentence  # type: ignore[list-item]
 
 
 def test_one_confirmed_speed_speaks_for_the_labels() -> None:
