@@ -1,9 +1,10 @@
 """Stage 1: machines of the kind that agree with the baseline, by an iterated ensemble smoother.
 
-Healthy machines drawn from the specification's uncertainty are moved together towards the levels of the mesh lines in
-the baseline recordings: ensemble smoother with multiple data assimilation, A. A. Emerick and A. C. Reynolds, Computers
-& Geosciences 55 (2013) 3-15, equations 1-4 with equal inflation. The sensors' paths are unknown: they enter as
-correlated errors, smooth over frequency and the same at all speeds.
+Healthy machines drawn from the specification's uncertainty are moved together towards the levels of single lines in the
+baseline recordings (the teeth's; without teeth the shafts' and passing balls'): ensemble smoother with multiple data
+assimilation, A. A. Emerick and A. C. Reynolds, Computers & Geosciences 55 (2013) 3-15, equations 1-4 with equal
+inflation. The sensors' paths are unknown: they enter as correlated errors, smooth over frequency and the same at all
+speeds.
 """
 
 from __future__ import annotations

@@ -98,7 +98,7 @@ def seen(view: Callable[[FloatArray], FloatArray], whiten: Whitening, changes: F
 class OneByOne:
     """Whitened features of a channel that count each for itself, at every point: `chosen` (F,) is a mask.
 
-    On machines that agree with the baseline the pattern of single mesh lines is that of the effect: which resonance
+    On machines that agree with the baseline the pattern of single lines is that of the effect: which resonance
     each of them meets is known. Changes much larger than `LARGE` deviations count by their logarithm.
     """
 

@@ -15,7 +15,8 @@ from signals.series import FloatArray
 
 OTHER_VIEW = 0.5
 KINDS = 2
-"""Views of single lines by levels alone: mesh lines and first sidebands."""
+"""Views of single lines by levels alone: own lines (the teeth's; without teeth the shafts' and passing balls')
+and first sidebands."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,7 +126,7 @@ def judge(
 
 
 def _rest(views: Sequence[Fitted], observed: FloatArray, best: str, speaks: int) -> Rest:
-    """By levels: of mesh lines, unless sidebands speak for the effect."""
+    """By levels: of own lines, unless sidebands speak for the effect."""
     if len(views) == 1:
         return Rest()
     lines = [rest_of(view, observed, best) for view in views[1:]]

@@ -81,7 +81,7 @@ def _patterns(fitted: Fitted, *, least: float) -> FloatArray:
 
 
 def _single_lines(lines: Found) -> FloatArray:
-    """(m,): chance of each draw's change of mesh lines or sidebands, the smaller for as many looks."""
+    """(m,): chance of each draw's change of own lines or sidebands, the smaller for as many looks."""
     views = lines.views[1:]
     chances = [_chances(v.null, np.sum(v.points**2, axis=1)) for v in views]
     return np.minimum(len(views) * np.min(chances, axis=0), 1.0) if views else np.ones(lines.fitted.truth.size)

@@ -1,8 +1,8 @@
-"""A second effect beside one that strikes: what the mesh lines keep when the first one's change is taken off.
+"""A second effect beside one that strikes: what single lines keep when the first one's change is taken off.
 
-A local defect brings impacts, and little to the mesh lines of a machine that agrees with its baseline; a loose seat, a
-clearance or an eccentric gear changes these lines and strikes nowhere. Found together they are told apart without
-simulating all pairs.
+A local defect brings impacts, and little to the lines of the teeth (without teeth: of the shafts) of a machine that
+agrees with its baseline; a loose seat, a clearance or an eccentric gear changes these lines and strikes nowhere. Found
+together they are told apart without simulating all pairs.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ def looks_for_second(found: Found) -> bool:
 
 
 def beside(setting: Setting, found: Found, first: str) -> Beside | None:
-    """Effects that might explain what mesh lines or sidebands keep; None without views of single lines."""
+    """Effects that might explain what single lines or sidebands keep; None without views of single lines."""
     left = setting.changes.left(np.nan_to_num(fitted_change(found, first, setting.changes.observed)))
     seen = [one for one in (_beside_in(view, left) for view in found.views[1:]) if one is not None]
     if not seen:

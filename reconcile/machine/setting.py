@@ -45,7 +45,8 @@ class Found:
     fitted: Fitted
     screen: Screen
     fine: Fitted | None = None
-    """The view of single mesh lines, on machines that agree with the baseline."""
+    """The view of single lines (the teeth's; without teeth the shafts' and passing balls'), on machines that agree with
+    the baseline."""
     sides: Fitted | None = None
     """The view of single sidebands there."""
     phases: tuple[Fitted, ...] = ()
@@ -69,7 +70,7 @@ class Found:
 
     @property
     def views(self) -> tuple[Fitted, ...]:
-        """Families, single mesh lines, single sidebands, both with phases; what there is of them, in this order."""
+        """Families, single lines, single sidebands, both with phases; what there is of them, in this order."""
         return tuple(v for v in (self.fitted, self.fine, self.sides, *self.phases) if v is not None)
 
     def view(self, name: str) -> Fitted:
@@ -82,7 +83,7 @@ class Found:
         return next((v for v in ((self.fine, self.sides)[k] for k in known) if v is not None), view)
 
     def lines(self, name: str) -> Fitted:
-        """The view of single lines (levels) that an effect is fitted in: mesh lines, unless sidebands speak for it."""
+        """The view of single lines (levels) that an effect is fitted in: own lines, unless sidebands speak for it."""
         view = self.view(name)
         if view is self.fitted and self.fine is not None:
             return self.fine
