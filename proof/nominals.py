@@ -62,3 +62,27 @@ NOMINALS: Mapping[str, Nominal] = {
 }  # fmt: skip
 """`stiff`: 1.7 times the supports, nine balls, a wider mesh; `soft`: half of the supports, more damped, faster, coarser
 teeth; `fine`: a module of 1.5 mm, eleven small balls, a light load."""
+KINDS: Mapping[str, Nominal] = {
+    "even": Nominal(
+        parameters={
+            **NOMINAL, "z1": 37.0, "z2": 41.0, "W": 0.022, "fr1": 22.0, "T": 30.0, "If1": 0.0035, "Ip": 1.6e-3,
+            "Ig": 2.3e-3, "If2": 0.0042, "mp_": 1.7, "mg": 1.95, "kf": 3.2e4, "ks": 8.2e7, "kp": 5.4e7, "cs": 2e3,
+            "cp": 2.6e3, "kr": 3.6e8, "ms": 0.55, "mr": 0.6, "kre": 7.5e9, "c0": 3e-6, "e0": 2.2e-5, "em": 1e-5,
+            "ct": 1700.0,
+        },
+        rolling=Rolling(balls=10, pitch_diameter_m=0.0435, ball_diameter_m=0.0079),
+        speeds_hz=(17.0, 22.0, 28.0),
+    ),
+    "coarse": Nominal(
+        parameters={
+            **NOMINAL, "z1": 21.0, "z2": 71.0, "m": 0.003, "W": 0.035, "fr1": 34.0, "T": 60.0, "If1": 0.004,
+            "Ip": 9e-4, "Ig": 1.5e-2, "If2": 0.016, "mp_": 1.6, "mg": 5.2, "kf": 8e4, "cf": 8.0, "ks": 1.4e8,
+            "kp": 1.2e8, "cs": 3.4e3, "cp": 3.4e3, "kr": 4.2e8, "cr": 2.4e3, "ms": 0.8, "mo": 0.2, "mr": 0.9,
+            "kre": 1e10, "e0": 3e-5, "em": 1.4e-5, "ct": 2400.0,
+        },
+        rolling=Rolling(balls=12, pitch_diameter_m=0.062, ball_diameter_m=0.0111),
+        speeds_hz=(26.0, 34.0, 43.0),
+    ),
+}  # fmt: skip
+"""Of the split `kinds`. `even`: shafts that turn nearly alike, ten balls; `coarse`: heavy, stiff and loaded, a module
+of 3 mm, twelve balls."""

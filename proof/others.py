@@ -9,6 +9,7 @@ from typing import get_args
 
 import numpy as np
 
+from proof.kinds import kinds
 from proof.nominals import NOMINALS, PAPER
 from proof.plan import SEEDS, SENSOR_COUNTS, SNRS_DB, TARGET, Case, Split, hiding_of, plan, sensors_of
 from proof.rotors.plan import rotors
@@ -33,7 +34,8 @@ def cases_of(split: Split) -> tuple[Case, ...]:
     """All cases of any split."""
     if split in {"rotors", "rotors-later"}:
         return rotors(split)
-    return others() if split == "others" else plan(split)
+    made = {"others": others, "kinds": kinds}
+    return made[split]() if split in made else plan(split)
 
 
 def _case(machine: str, index: int, name: str | None) -> Case:

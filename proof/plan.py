@@ -16,12 +16,23 @@ import numpy as np
 
 from proof.effects import Law
 from proof.library import CLOSED
-from proof.nominals import NOMINALS, PAPER, Nominal
+from proof.nominals import KINDS, NOMINALS, PAPER, Nominal
 from proof.rotors.machine import ROTORS
 from proof.unknown import OPEN
 
 Split = Literal[
-    "dev", "sealed", "later", "third", "fourth", "quiet", "unmet", "next", "others", "rotors", "rotors-later"
+    "dev",
+    "sealed",
+    "later",
+    "third",
+    "fourth",
+    "quiet",
+    "unmet",
+    "next",
+    "others",
+    "rotors",
+    "rotors-later",
+    "kinds",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -36,6 +47,7 @@ SEEDS = {
     "others": 9_036_127_745,
     "rotors": 1_873_264_509,
     "rotors-later": 6_340_917_285,
+    "kinds": 7_752_049_163,
 }
 COUNTS = {
     "dev": {
@@ -85,7 +97,7 @@ SHOWN_PAIRS = (
 are two to be told. Of 25 pairs of `PAIRS` at the target condition 12 have one that does not: cracks of teeth and gears
 that run out."""
 SHOWN = ("fourth", "unmet", "next")
-MACHINES: Mapping[str, Nominal] = {**NOMINALS, **ROTORS}
+MACHINES: Mapping[str, Nominal] = {**NOMINALS, **KINDS, **ROTORS}
 FAULTS = ("clipping", "dropouts", "mains_hum", "loose_sensor", "stuck", "swapped", "gain_change", "aliasing")
 
 
