@@ -133,6 +133,8 @@ class Description(_Part):
     def _only_shaft(cls, given: object) -> object:
         if not isinstance(given, Mapping):
             return given
+        if _tells_no_speed(given.get("operating")):
+            return {**given, "operating": None}
         operating, shaft = given.get("operating"), _only_shaft(given)
         if not isinstance(operating, Mapping) or "shaft" in operating or shaft is None:
             return given
@@ -226,6 +228,14 @@ def _slips(document: Mapping[str, object]) -> list[Problem]:
     for i, entry in enumerate(channels if isinstance(channels, list) else []):
         found += _alike(entry, ChannelEntry, f"channels.{i}.")
     return found
+
+
+def _tells_no_speed(operating: object) -> bool:
+    """Whether an operating point says neither speed nor torque, under no name: as if it had been left out."""
+    if not isinstance(operating, Mapping):
+        return False
+    told = {str(key).lower() for key, value in operating.items() if value is not None}
+    return not any(word in key for key in told for word in ("speed", "rpm", "frequency", "hz", "torque"))
 
 
 def _alike(part: object, model: type[BaseModel], prefix: str) -> list[Problem]:
