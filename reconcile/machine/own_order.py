@@ -44,6 +44,7 @@ sound machines of the proof the largest is 1.4 dB; of two pits 3.1 and 7.5 dB, w
 MOST_BEFORE_DB = 2.0
 """Mean level in the baselines, above what chance reaches, up to which a line is new: what turned before and is not in
 the specification either may turn harder now without being what is missing."""
+SHIFTS = 12
 SEPARATE, LEAK_BINS = 0.1, 3.0
 """Distance of two lines, in turns and bins at least: a strong one is as wide at its foot."""
 
@@ -204,8 +205,11 @@ class _Seen:
         """Centre of the line that stands out around `best`: its flank may be all that lies clear of a part's order."""
         near = np.abs(self.grid - self.grid[best]) <= self._width
         top = int(np.argmax(np.where(near, self.every, -np.inf)))
-        line = (np.abs(self.grid - self.grid[top]) <= 0.5 * self._width) & (self.every > 0.5 * self.every[top])
-        return float(np.average(self.grid[line], weights=self.every[line]))
+        high, middle = self.every > 0.5 * self.every[top], float(self.grid[top])
+        for _ in range(SHIFTS):  # the top of a strong line is flat, and its highest point anywhere on it
+            line = (np.abs(self.grid - middle) <= 0.5 * self._width) & high
+            middle = float(np.average(self.grid[line], weights=self.every[line]))
+        return middle
 
     def _of_a_part(self, order: float) -> bool:
         near = max(CENTRED, CENTRED_BINS * self.bin_order)

@@ -25,6 +25,9 @@ LOWEST_HZ, HIGHEST_HZ, STEP_HZ = 12.0, 260.0, 0.4
 """Nearer to the teeth's lines there is what is left of the speed's wander."""
 OWN_HZ = 1.0
 """Distance from an order of a shaft below which a frequency may be that order's."""
+LOW, BESIDE = 6, 0.5
+"""A multiple of a shaft up to the first is its own; a higher one where those beside it have risen so much as well: a
+broken tooth raises them all, and of a slow shaft some multiple lies near any frequency."""
 MULTIPLES = 4
 """Of what a bearing's part modulates with: at two speeds its third and its second may meet, at 2:3."""
 LEAST_DB, AHEAD = 1.2, 2.0
@@ -97,11 +100,12 @@ def own_time(machine: MachineSpec, data: Sequence[PointData], channels: Sequence
         return None
     bearings = _parts(machine)
     rises = np.stack([rise(d, reached, grid) for d in data])
-    least = rises.mean(axis=(1, 2)).min(axis=0)
+    mean = rises.mean(axis=(1, 2))
+    least = mean.min(axis=0)
     while least.max() >= LEAST_DB:
         best = int(np.argmax(least))
         hz = _middle(grid, least, best)
-        if _free(data, teeth.shafts, hz) and not _of_a_part(data, bearings, hz):
+        if _free(data, teeth.shafts, hz, mean, grid) and not _of_a_part(data, bearings, hz):
             break
         least[np.abs(grid - hz) <= SEPARATE_HZ] = 0.0  # an order, with what its line leaks
     else:
@@ -129,14 +133,30 @@ def _middle(grid: FloatArray, least: FloatArray, best: int) -> float:
     return float(np.average(grid[near], weights=least[near]))
 
 
-def _free(data: Sequence[PointData], shafts: Sequence[int], hz: float) -> bool:
-    """Whether a frequency is at two speeds at least no order of a shaft: those of two speeds may meet."""
+def _free(data: Sequence[PointData], shafts: Sequence[int], hz: float, mean: FloatArray, grid: FloatArray) -> bool:
+    """Whether a frequency is at two speeds at least no order of a shaft: those of two speeds may meet. `mean`
+    (speeds, grid): what has risen, dB."""
     clear = [
         d.point.speed_hz
-        for d in data
-        if all(abs(hz - round(hz / turn) * turn) > min(OWN_HZ, 0.25 * turn) for turn in (d.lines_hz[k] for k in shafts))
+        for d, risen in zip(data, mean, strict=True)
+        if not any(_an_order(float(d.lines_hz[k]), hz, risen, grid) for k in shafts)
     ]
     return bool(clear) and max(clear) > APART * min(clear)
+
+
+def _an_order(turn_hz: float, hz: float, risen: FloatArray, grid: FloatArray) -> bool:
+    """Whether a frequency is a multiple of a shaft's that is low, or stands among others that have risen too."""
+    number, quarter = max(1, round(hz / turn_hz)), 0.25 * turn_hz
+    apart = abs(hz - number * turn_hz)
+    if number <= LOW and apart <= min(OWN_HZ, quarter):
+        return True
+    near = min(SEPARATE_HZ, quarter)
+
+    def most(at_hz: float) -> float:
+        return float(risen[np.abs(grid - at_hz) <= near + STEP_HZ].max(initial=0.0))
+
+    beside = [most(k * turn_hz) for k in (number - 1, number + 1) if k > 0 and k * turn_hz < grid[-1]]
+    return apart <= near and bool(beside) and min(beside) >= BESIDE * most(hz)
 
 
 def _parts(machine: MachineSpec) -> tuple[Family, ...]:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.kinematics.spec import KinematicSpec, of_machine
-from reconcile.machine.own_order import OwnOrder, own_order
+from reconcile.machine.own_order import OwnOrder, _known, _Seen, own_order
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
 from sim.core.spec import MachineSpec
@@ -151,3 +151,17 @@ def test_a_bearing_of_which_no_sizes_are_known_may_turn_at_any_order(
 
     monkeypatch.setattr("reconcile.machine.own_order.of_machine", fewer)
     assert told(machine, at_order(1.9)) is None
+
+
+def test_the_flat_top_of_a_shafts_strong_line_is_the_shafts(machine: MachineSpec) -> None:
+    """What a broken tooth of the proof raises about the second turn, dB: the highest point is not the middle."""
+    tie = _known(machine)
+    assert tie is not None
+    risen = [3, 3, 3, 9, 13, 13, 17, 21, 21, 22, *[21.5] * 10, 20, 20, 14, 12, 12, 7, 4, 3, 3]
+    grid = np.arange(0.4, 3.0, 0.01)
+    for first, stranger in ((1.86, False), (2.2, True)):
+        every = np.zeros(grid.size)
+        begin = int(np.argmin(np.abs(grid - first)))
+        every[begin : begin + len(risen)] = risen
+        seen = _Seen(grid=grid, every=every, bin_order=0.049, tie=tie)
+        assert (seen.stranger() is not None) == stranger

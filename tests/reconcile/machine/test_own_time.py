@@ -100,3 +100,13 @@ def test_hum_that_was_added_and_what_the_baseline_has_are_none(machine: MachineS
 def test_one_speed_or_no_baseline_say_nothing(machine: MachineSpec) -> None:
     assert told(machine, at_hz(100.0), speeds_hz=(30.0,)) is None
     assert told(machine, at_hz(100.0), None) is None
+
+
+def test_a_high_multiple_of_the_slow_shaft_lies_near_any_frequency(machine: MachineSpec) -> None:
+    """100 Hz is the 13th multiple of the gear's shaft at one speed and the 10th at the other."""
+    slow = 23 / 81
+    speeds_hz = (100.0 / 13 / slow, 100.0 / 10 / slow)
+    seen = told(machine, at_hz(100.0), speeds_hz=speeds_hz)
+    assert seen is not None and seen.hz == pytest.approx(100.0, abs=0.7)
+    comb = lambda hz: 0.25 * sum(at_order(k * slow)(hz) for k in range(1, 17))  # noqa: E731
+    assert told(machine, comb, speeds_hz=speeds_hz) is None, "a tooth of the gear is broken"
