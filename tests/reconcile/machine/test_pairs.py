@@ -180,6 +180,23 @@ def test_a_rival_close_by_keeps_the_second_from_being_named(
     assert named_pair(EXPLAINED, None, None) == (EXPLAINED, None)
 
 
+def test_one_of_several_beside_impacts_must_add_as_much_as_without(
+    simulated: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    setting, found = found_in(seen(SMALLER))
+    (one,) = sums(setting, found, RIGHT, 8)  # type: ignore[arg-type]
+    pair = fitted_pair(setting, found, RIGHT, one, map)  # type: ignore[arg-type]
+    assert pair is not None and simulated
+    monkeypatch.setattr(pairs, "strikes", lambda _: True)
+    monkeypatch.setattr(pairs, "heard_in", lambda found, _: list(found.views))
+    monkeypatch.setattr(pairs, "LEAST_GAIN", pair.gain + 1.0)
+    for lead, stands in ((7.0, True), (1.0, False)):
+        untried = replace(one, name="unbalance@pinion", gain=pair.gain - lead)
+        monkeypatch.setattr(pairs, "sums", lambda *_, other=untried: [one, other])
+        told = best_pair(setting, found, EXPLAINED, 8, 1, map)  # type: ignore[arg-type]
+        assert told is not None and (told.best is not None) == stands
+
+
 def test_what_would_strike_stands_beside_only_if_it_is_heard() -> None:
     observed = test_second.seen((2, 0), 1)
     setting, found = test_second.found_in(observed, 0.0)
