@@ -13,6 +13,7 @@ from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import Decision, decide
+from reconcile.machine.elsewhere import placed_by_forecast
 from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
 from reconcile.machine.limits import limits
 from reconcile.machine.lines import by_name, line_changes
@@ -105,12 +106,13 @@ def answer(
     weights = of_one_part(merged_weights(found.screen), found.screen.struck)
     missing = decision.word != "nothing_missing"
     decision, other = named_pair(decision, second_effect(setting, found, decision), pairs)
-    struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
-    ranked = ranked_causes(found, decision, weights, observed, other, struck) if missing else ()
-    causes = with_forms(ranked, found.screen)
     both = other.together if other is not None else None
     beside = other.names[0] if other is not None else None
     held = _held(setting, found, decision, layout, unknown, beside) if decision.chosen else None
+    decision = placed_by_forecast(decision, held)
+    struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
+    ranked = ranked_causes(found, decision, weights, observed, other, struck) if missing else ()
+    causes = with_forms(ranked, found.screen)
     revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter, both)
     fitted = _fitted(setting, found, decision, revision, unknown)
     before = decision

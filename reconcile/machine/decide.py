@@ -58,6 +58,7 @@ FEW_VIEWS = 2
 """So few sensors and operating points together cannot exclude what explains half as much."""
 FEW_SHARE = 0.5
 FEW_REASON = "so few sensors and operating points do not exclude what has half the evidence, whatever its weight"
+PLACE_OPEN = "the place is not decided by these sensors"
 GREAT = 25.0
 """Deviations of the most changed group that impacts of a known effect do not bring without its pattern."""
 FAINT = 14.0
@@ -210,7 +211,7 @@ def _not_excluded(screen: Screen, weights: dict[str, float], chosen: tuple[str, 
 def _why(chosen: Sequence[str]) -> str:
     terms, sites = {c.split("@")[0] for c in chosen}, {c.split("@")[1] for c in chosen}
     if len(terms) == 1:
-        return "the place is not decided by these sensors"
+        return PLACE_OPEN
     if len(sites) == 1:
         return "the mechanism is not decided by these recordings"
     return "several effects at several places look alike in these recordings"
