@@ -22,7 +22,7 @@ SECTIONS = {
     "machine quiet, one not decidable; two of them have set rules.",
     "kinds": "No version of the engine had met these before their run: two further gearboxes (`proof/nominals.py`: "
     "shafts that turn nearly alike, with bearings of ten balls; heavy, with coarse teeth and bearings of twelve), all "
-    "at the target condition, the faintest severities left out. Core-seconds of the first case of each machine hold its "
+    "at the target condition, the faintest severities left out. Core-seconds of each machine's first case hold its "
     "three atlases, those of k014 another three: its torque is its own. k004, k006, k013 and k021 have each set a rule "
     "since.",
     "rotors-later": "No version of the engine had met these before their run: two machines without teeth, a disc of 5 "
@@ -172,7 +172,7 @@ RULES = (
     ),
     (
         "of two places with the same lines neither is named where the other forecasts better",
-        "k021, a pit of one bearing named at the next (held-out gains 0.46 and 0.54; elsewhere the right one leads by 0.2)",
+        "k021, a pit of one bearing named at the next (held-out gains 0.46 and 0.54; right ones lead by 0.2)",
     ),
     (
         "beside impacts one of several seconds needs what a second without impacts needs",
@@ -224,8 +224,8 @@ engine of that day, and is development from then on. First runs at the target co
 | k001 to k024 (split `kinds`) | and speeds refined | 7 of 12 | 0 of 4 alarms | 1 of 2 flagged |
 
 Of the first six rows no summary is stored: their counts were taken down when they were run, and cannot be checked here.
-Together they name and place 54 of 128 effects (42 %, 35 to 49), most of them with engines that could less; the last seven
-38 of 73. What is stored of first runs, each case once, with the engine of its day:
+Together they name and place 54 of 128 effects (42 %, 35 to 49), most of them with engines that could less; the last
+seven 38 of 73. What is stored of first runs, each case once, with the engine of its day:
 
 {together}
 
@@ -252,7 +252,7 @@ place. So some 80 % of the plan's effects are there to be seen by this measure, 
 plan, not of the engine alone; what lies between 8 and 13 is the engine's. Faint severities are in the plan on purpose:
 where nothing is to be seen, nothing may be named.
 
-**Sections.** "Next" and "Others" are the last first runs, "Unmet", "Fourth" and "Third" those before, "Renewed" the
+**Sections.** "Kinds", "Next" and "Others" are the last first runs, "Unmet", "Fourth" and "Third" those before, "Renewed" the
 cases of "Unmet" and "Repeat" those of "Third" with the rules that came of them. The rest need no
 atlas but those of the nominal machine at up to three speeds (one has an atlas of its own): of the split `later` those
 at the target condition with whose names in view nothing of the engine was chosen, and those that had been looked at;
