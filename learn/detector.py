@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import scipy
 from scipy import fft
-from scipy.signal import butter, sosfiltfilt
 
 from learn.bank import even_length
 from learn.orders import FaultOrders
@@ -32,7 +32,7 @@ def kinematic_detector(
         x = even_length(samples)
         for i in range(BANDS):
             edges = (max(i / BANDS, 0.02), min((i + 1) / BANDS, 0.98))
-            band = sosfiltfilt(butter(4, edges, btype="bandpass", output="sos"), x)
+            band = scipy.signal.sosfiltfilt(scipy.signal.butter(4, edges, btype="bandpass", output="sos"), x)
             square = np.abs(_analytic(band)) ** 2
             spectrum = np.abs(fft.rfft((square - np.mean(square)) * np.hanning(square.size)))
             step = rate_hz / square.size

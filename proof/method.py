@@ -252,16 +252,16 @@ place. So some 80 % of the plan's effects are there to be seen by this measure, 
 plan, not of the engine alone; what lies between 8 and 13 is the engine's. Faint severities are in the plan on purpose:
 where nothing is to be seen, nothing may be named.
 
-**Sections.** "Kinds", "Next" and "Others" are the last first runs, "Unmet", "Fourth" and "Third" those before, "Renewed" the
-cases of "Unmet" and "Repeat" those of "Third" with the rules that came of them. The rest need no
-atlas but those of the nominal machine at up to three speeds (one has an atlas of its own): of the split `later` those
-at the target condition with whose names in view nothing of the engine was chosen, and those that had been looked at;
-of `sealed` those without a baseline and one whose nominal machine is mis-set; twelve at five speeds ("Crossing"); and
+**Sections.** "Kinds", "Next" and "Others" are the last first runs, "Unmet", "Fourth" and "Third" those before,
+"Renewed" the cases of "Unmet" and "Repeat" those of "Third" with the rules that came of them. The rest need no atlas
+but those of the nominal machine at up to three speeds (one has an atlas of its own): of the split `later` those at
+the target condition with whose names in view nothing of the engine was chosen, and those that had been looked at; of
+`sealed` those without a baseline and one whose nominal machine is mis-set; twelve at five speeds ("Crossing"); and
 twelve at other conditions with the engine that compares phases between sensors
-([decision](decisions/reconcile-phases.md), "Phases"). How often cases that nobody has
-met are right is what "Next", "Others", "Unmet", "Fourth", "Third", "Lone", "Fresh", "Further", "Crossing" and "Phases"
-say; "Seen", "Rerun", "Alone", "Again" and "Sound" are runs again. Without a baseline further eight healthy cases were
-run on their tests alone while the rule for that was made: four alarmed, and with the rule none of these four does.
+([decision](decisions/reconcile-phases.md), "Phases"). How often cases that nobody has met are right is what "Next",
+"Others", "Unmet", "Fourth", "Third", "Lone", "Fresh", "Further", "Crossing" and "Phases" say; "Seen", "Rerun",
+"Alone", "Again" and "Sound" are runs again. Without a baseline further eight healthy cases were run on their tests
+alone while the rule for that was made: four alarmed, and with the rule none of these four does.
 
 **What the first runs taught**, in their order. Each rule was made for cases and therefore proves nothing on them:
 

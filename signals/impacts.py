@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy.signal import find_peaks
+import scipy
 
 from signals.series import BoolArray, FloatArray, IntArray
 
@@ -158,7 +158,7 @@ def _force_peaks(force_n: FloatArray, touching: BoolArray) -> IntArray:
     if high - low <= 1e-6 * largest or largest == 0.0:
         return np.zeros(0, dtype=np.int64)
     # a filtered force rings below zero around an impact: that is no force
-    found, _ = find_peaks(np.maximum(force_n, 0.0), prominence=PROMINENCE * (high - max(low, 0.0)))
+    found, _ = scipy.signal.find_peaks(np.maximum(force_n, 0.0), prominence=PROMINENCE * (high - max(low, 0.0)))
     # the filter may move a short impact's peak by a sample from where the state was seen
     wide = np.convolve(np.asarray(touching, dtype=np.float64), np.ones(3), mode="same") > 0
     return np.asarray(found[wide[found]], dtype=np.int64)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.signal import get_window
+import scipy
 
 from signals.series import FloatArray
 from sim.core.errors import UnknownName
@@ -57,7 +57,7 @@ def window(name: str, n: int) -> Window:
 
 
 def _made(name: str, n: int) -> Window:
-    values = np.asarray(get_window(name, n, fftbins=True), dtype=np.float64)
+    values = np.asarray(scipy.signal.get_window(name, n, fftbins=True), dtype=np.float64)
     values.flags.writeable = False
     gain = float(np.mean(values))
     return Window(

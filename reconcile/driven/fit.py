@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy import signal, stats
+import scipy
 from scipy.optimize import least_squares
+from scipy.special import stdtrit
 
 from reconcile.driven.channels import Driven, FloatArray
 from reconcile.driven.model import LINEAR, Model, Run, errors
@@ -16,7 +17,7 @@ from reconcile.force_law.library import FRICTION, GAPPED, PUSHING, UNANCHORED, L
 from reconcile.force_law.samples import even_blocks
 
 BLOCKS = 24
-INTERVAL = float(stats.t.ppf(0.95, BLOCKS - 1))
+INTERVAL = float(stdtrit(BLOCKS - 1, 0.95))
 """Standard errors of a 90 % interval, their size known from as many blocks."""
 GAIN, OUTPUT_OFFSET = 2, 4
 """Indices of the gain and of the output's offset among the parameters."""
@@ -73,9 +74,9 @@ def first_guess(data: Driven) -> Model:
     """Linear model from the frequency response: 1/H is linear in its parameters (weights: coherent, strong lines)."""
     n = min(4096, data.answer.size // 4)
     rate = 1.0 / data.step_s
-    frequency, cross = signal.csd(data.drive, data.answer, rate, nperseg=n)
-    power_in = signal.welch(data.drive, rate, nperseg=n)[1]
-    power_out = signal.welch(data.answer, rate, nperseg=n)[1]
+    frequency, cross = scipy.signal.csd(data.drive, data.answer, rate, nperseg=n)
+    power_in = scipy.signal.welch(data.drive, rate, nperseg=n)[1]
+    power_out = scipy.signal.welch(data.answer, rate, nperseg=n)[1]
     omega = 2.0 * math.pi * frequency[1:]
     response = cross[1:] / np.maximum(power_in[1:], 1e-300) / (1j * omega) ** data.order
     coherence = np.abs(cross[1:]) ** 2 / np.maximum(power_in[1:] * power_out[1:], 1e-300)

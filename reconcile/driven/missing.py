@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy import signal
+import scipy
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.model import Model, Run, answer_to, simulated
@@ -71,7 +71,7 @@ def _smooth(power: FloatArray) -> FloatArray:
 def _taper(n: int) -> FloatArray:
     """Weights (n,) that fade in and out: an end cut off sharply leaks from strong lines into weak ones, of error and
     signals alike, and what both have in common then looks like a cause."""
-    weights = np.asarray(signal.windows.tukey(n, TAPERED), dtype=np.float64)
+    weights = np.asarray(scipy.signal.windows.tukey(n, TAPERED), dtype=np.float64)
     weights.flags.writeable = False
     return weights
 

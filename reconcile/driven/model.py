@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.signal import firwin, upfirdn
+import scipy
 
 from reconcile.driven.channels import Driven, FloatArray
 from reconcile.force_law.kernels import free_run
@@ -76,10 +76,10 @@ class Model:
 
 def refined(samples: FloatArray) -> FloatArray:
     """Band-limited interpolation of (n,) to (n - 1) * FINE + 1 values: a sinc under a Kaiser window."""
-    taps = firwin(2 * HALF_TAPS * FINE + 1, 1.0 / FINE, window=("kaiser", WINDOW_BETA)) * FINE
+    taps = scipy.signal.firwin(2 * HALF_TAPS * FINE + 1, 1.0 / FINE, window=("kaiser", WINDOW_BETA)) * FINE
     held = np.concatenate([np.full(HALF_TAPS, samples[0]), samples, np.full(HALF_TAPS, samples[-1])])
     first = 2 * HALF_TAPS * FINE
-    return np.ascontiguousarray(upfirdn(taps, held, FINE)[first : first + (samples.size - 1) * FINE + 1])
+    return np.ascontiguousarray(scipy.signal.upfirdn(taps, held, FINE)[first : first + (samples.size - 1) * FINE + 1])
 
 
 @dataclass(frozen=True, kw_only=True)

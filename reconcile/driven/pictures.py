@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import signal
+import scipy
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.forced import Analysis
@@ -96,7 +96,7 @@ def _spectra(found: Analysis) -> dict[str, object]:
     n = min(2048, run.compared.size)
 
     def level(values: FloatArray) -> FloatArray:
-        power = signal.welch(values[run.skip :], rate, nperseg=n)[1]
+        power = scipy.signal.welch(values[run.skip :], rate, nperseg=n)[1]
         return np.asarray(10.0 * np.log10(np.maximum(power, 10.0 ** (FLOOR_DB / 10.0))))
 
     frequency = np.fft.rfftfreq(n, 1.0 / rate)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+import scipy
 
 from reconcile.force_law.samples import FloatArray, ForceSamples, IntArray, block_sums
 from reconcile.verdict import AngleWindow
@@ -100,7 +100,7 @@ def firing_angle(samples: ForceSamples, shaft: str, rng: np.random.Generator) ->
     centre = float(np.arctan2(sine.sum(), cosine.sum()))
     pairs = np.column_stack([cosine, sine])
     mean, spread = pairs.mean(axis=0), np.cov(pairs.T) + 1e-300 * np.eye(2)
-    if samples.count * float(mean @ np.linalg.solve(spread, mean)) < float(stats.chi2.ppf(0.99, 2)):
+    if samples.count * float(mean @ np.linalg.solve(spread, mean)) < float(scipy.stats.chi2.ppf(0.99, 2)):
         return None
     picks = rng.integers(0, samples.count, (RESAMPLES, samples.count))
     again = np.arctan2(sine[picks].sum(axis=1), cosine[picks].sum(axis=1))

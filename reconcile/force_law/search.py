@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+import scipy
 
 from reconcile.force_law.library import Law, library
 from reconcile.force_law.samples import FloatArray, ForceSamples, block_sums
@@ -64,7 +64,7 @@ def _robust(column: FloatArray, force: FloatArray, samples: ForceSamples, fitted
     scores = block_sums(column * (force - coefficient * column), samples.blocks, samples.count)
     free = max(samples.count - 1 - fitted, 1)
     error = math.sqrt(float(scores @ scores) * samples.count / free) / size
-    p = 2.0 * float(stats.t.sf(abs(coefficient) / max(error, 1e-300), free))
+    p = 2.0 * float(scipy.stats.t.sf(abs(coefficient) / max(error, 1e-300), free))
     return coefficient, error, p
 
 

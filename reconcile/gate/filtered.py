@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import reduce
 
 import numpy as np
-from scipy.signal import resample_poly
+import scipy
 
 from reconcile.gate.findings import Finding
 from reconcile.gate.levels import Pair
@@ -91,6 +91,6 @@ def _below(recording: Recording, hz: FloatArray, change_db: FloatArray) -> Recor
     samples = np.fft.irfft(np.fft.rfft(samples, axis=1) * gain, samples.shape[1], axis=1)
     ratio = Fraction(float(hz[-1]) / HEARD / rate).limit_denominator(FINEST)
     if 0 < ratio < 1:
-        samples = resample_poly(samples, ratio.numerator, ratio.denominator, axis=1)
+        samples = scipy.signal.resample_poly(samples, ratio.numerator, ratio.denominator, axis=1)
         rate *= float(ratio)
     return replace(recording, sampling_rate_hz=rate, samples=np.asarray(samples))

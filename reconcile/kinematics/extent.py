@@ -12,8 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from scipy import fft
-from scipy.signal import find_peaks
 
 from reconcile.kinematics.envelopes import squared_envelope, whitened
 from reconcile.kinematics.evidence import Evidence
@@ -133,7 +133,9 @@ def _pair_lag(lags: FloatArray, curve: FloatArray, period: float, first: float, 
     # the second difference of white noise has six times its variance; slopes and peaks hardly show in its median
     noise = 1.4826 * float(np.median(np.abs(np.diff(smooth[lags > 0.3 * period], 2)))) / np.sqrt(6)
     least = max(least, NOISE_TIMES * noise)
-    places, facts = find_peaks(smooth, prominence=MATE_SHARE * least, distance=max(1, int(first / 2 / step)))
+    places, facts = scipy.signal.find_peaks(
+        smooth, prominence=MATE_SHARE * least, distance=max(1, int(first / 2 / step))
+    )
     prominence = dict(zip(places.tolist(), facts["prominences"].tolist(), strict=True))
     best: tuple[float, float] | None = None
     for place, height in prominence.items():

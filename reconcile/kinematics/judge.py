@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import chi2
+import scipy
 
 from reconcile.kinematics.contrast import Contrast, contrast
 from reconcile.kinematics.evidence import Evidence, family_evidence
@@ -196,7 +196,7 @@ def same(a: Family, b: Family) -> bool:
 
 def fisher(chances: Sequence[float]) -> float:
     """Combined chance of independent tests (R. A. Fisher, Statistical Methods for Research Workers, 1932, 21.1)."""
-    return float(chi2.sf(-2 * float(np.sum(np.log(chances))), 2 * len(chances)))
+    return float(scipy.stats.chi2.sf(-2 * float(np.sum(np.log(chances))), 2 * len(chances)))
 
 
 def holm(chances: Sequence[float]) -> list[float]:

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+import scipy
 from scipy import fft
-from scipy.signal import CZT
 
 from signals.series import FloatArray
 
@@ -41,9 +41,9 @@ def _kept(orders: np.ndarray, teeth: Sequence[int]) -> np.ndarray:
     return kept
 
 
-def _harmonics(length: int, count: int, turns_per_sample: float) -> CZT:
+def _harmonics(length: int, count: int, turns_per_sample: float) -> scipy.signal.CZT:
     """The transform at multiples of the turn."""
-    return CZT(length, count, np.exp(-2j * np.pi * turns_per_sample))
+    return scipy.signal.CZT(length, count, np.exp(-2j * np.pi * turns_per_sample))
 
 
 _shared = lru_cache(maxsize=8)(_harmonics)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.signal import hilbert
+import scipy
 
 from reconcile.tail import tail_chance
 from reconcile.verdict import AngleWindow
@@ -71,7 +71,7 @@ def local_energy(series: Series, *, shaft: str, rotation: FloatArray, ratio: flo
             mean = synchronous_average(
                 cut, shaft=shaft, rotation=rotation[part], ratio=ratio, samples_per_revolution=per_turn
             )
-            halves.append(hilbert(separate(mean, teeth=(teeth,)).difference))
+            halves.append(scipy.signal.hilbert(separate(mean, teeth=(teeth,)).difference))
         except SpecError:
             return None
     one, other = halves

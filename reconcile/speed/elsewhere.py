@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import binom
+import scipy
 
 from reconcile.speed.estimate import NOISE_LOG, SEARCH, coarse_speed, line_logs
 from reconcile.speed.excess import line_excess, mains_bins
@@ -196,7 +196,7 @@ def _stands(lines: Lines, comb: Comb, tried: int, ratios: Sequence[float]) -> bo
     above = lines.hz[(lines.log >= CLEAR) & (lines.hz > 1.01 * comb.speed_hz)]
     width = 2 * np.maximum(REACH * above, REACH_BINS * lines.step_hz)
     covered = min(float(np.sum(width)) / max((comb.within - 1) * comb.speed_hz, lines.step_hz), 1.0)
-    chance = tried * float(binom.sf(len(comb.there) - 2, comb.within - 1, covered))
+    chance = tried * float(scipy.stats.binom.sf(len(comb.there) - 2, comb.within - 1, covered))
     return chance < CHANCE and not _slower(lines, comb.speed_hz, ratios)
 
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import scipy
 from scipy.fft import prev_fast_len, rfft
-from scipy.signal import butter, sosfiltfilt
 
 from reconcile.speed.excess import mains_bins
 from signals.recording import Recording
@@ -96,17 +96,19 @@ def _every(rate_hz: float) -> int:
 
 def _parts(row: FloatArray, rate_hz: float) -> list[FloatArray]:
     """The signal below `TOP_HZ` and the squared envelopes' of bands above it, thinned out."""
-    low = butter(6, min(TOP_HZ, 0.45 * rate_hz), fs=rate_hz, output="sos")
+    low = scipy.signal.butter(6, min(TOP_HZ, 0.45 * rate_hz), fs=rate_hz, output="sos")
     if row.size < MIN_SAMPLES:
         return []
     parts = [row]
     lower, top = TOP_HZ, 0.45 * rate_hz
     while 2 * lower < top:
         upper = min(2.5 * lower, top)
-        band = sosfiltfilt(butter(4, [lower, upper], btype="band", fs=rate_hz, output="sos"), row)
+        band = scipy.signal.sosfiltfilt(
+            scipy.signal.butter(4, [lower, upper], btype="band", fs=rate_hz, output="sos"), row
+        )
         parts.append(band**2)
         lower = upper
-    return [np.asarray(_centred(sosfiltfilt(low, p)[:: _every(rate_hz)])) for p in parts]
+    return [np.asarray(_centred(scipy.signal.sosfiltfilt(low, p)[:: _every(rate_hz)])) for p in parts]
 
 
 def _centred(values: FloatArray) -> FloatArray:

@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import Literal
 
 import numpy as np
-from scipy.stats import qmc
+import scipy
 
 from sideband_datasets.plan.lattice import factorial_point
 from sideband_datasets.plan.seeds import Stream, generator
@@ -44,7 +44,9 @@ class Points:
         if not self.levels:
             return np.zeros((self.count, 0))
         if self.kind == "sobol":
-            engine = qmc.Sobol(len(self.levels), scramble=True, rng=generator(self.seed, self.stream, self.number))
+            engine = scipy.stats.qmc.Sobol(
+                len(self.levels), scramble=True, rng=generator(self.seed, self.stream, self.number)
+            )
             blocks = [engine.random(BLOCK) for _ in range(-(-self.count // BLOCK))]
             return np.asarray(np.concatenate(blocks)[: self.count], dtype=np.float64)
         return np.stack([self.at(k) for k in range(self.count)])
@@ -53,7 +55,7 @@ class Points:
 @lru_cache(maxsize=64)
 def _sobol(dimensions: int, seed: int, stream: Stream, number: int, block: int) -> FloatArray:
     """Scrambled Sobol points (A. B. Owen, J. Complexity 14 (1998) 466-489; S. Joe, F. Y. Kuo 2008), (BLOCK, d)."""
-    engine = qmc.Sobol(dimensions, scramble=True, rng=generator(seed, stream, number))
+    engine = scipy.stats.qmc.Sobol(dimensions, scramble=True, rng=generator(seed, stream, number))
     if block:
         engine.fast_forward(block * BLOCK)
     return np.asarray(engine.random(BLOCK), dtype=np.float64)
@@ -62,5 +64,5 @@ def _sobol(dimensions: int, seed: int, stream: Stream, number: int, block: int) 
 @lru_cache(maxsize=64)
 def _latin(dimensions: int, count: int, seed: int, stream: Stream, number: int) -> FloatArray:
     """A Latin hypercube of all points of one plan, (count, d): each of `count` slices of every axis has one."""
-    engine = qmc.LatinHypercube(dimensions, rng=generator(seed, stream, number))
+    engine = scipy.stats.qmc.LatinHypercube(dimensions, rng=generator(seed, stream, number))
     return np.asarray(engine.random(count), dtype=np.float64)

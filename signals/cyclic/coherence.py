@@ -14,8 +14,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from scipy import fft
-from scipy.stats import gamma
 
 from signals.series import ComplexArray, FloatArray, IntArray, Series
 from signals.spectra.segments import effective_averages, hop_length, segment_length, segments
@@ -59,7 +59,7 @@ class CyclicCoherence:
         """
         k = self.averages
         mean, variance = 1 / k, (k - 1) / (k**2 * (k + 1)) / (self.effective_segments * bands)
-        return float(gamma.isf(false_alarm, mean**2 / variance, scale=variance / mean))
+        return float(scipy.stats.gamma.isf(false_alarm, mean**2 / variance, scale=variance / mean))
 
 
 def cyclic_coherence(

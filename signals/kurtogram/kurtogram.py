@@ -14,8 +14,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from scipy import fft
-from scipy.signal.windows import tukey
 
 from signals.series import FloatArray, Series
 from signals.spectra.band import FALSE_ALARM, MIN_BAND_SAMPLES, MIN_POWER_SHARE, chance_level, tree
@@ -119,7 +119,7 @@ def _check(max_level: int, min_bandwidth_hz: float, nyquist: float) -> None:
 
 def _transforms(series: Series, blocks: int, length: int) -> Iterator[np.ndarray[tuple[int], np.dtype[np.complex128]]]:
     mean = float(np.mean(series.samples))
-    fade = tukey(length, 2 * TAPER)
+    fade = scipy.signal.windows.tukey(length, 2 * TAPER)
     for i in range(blocks):
         block = series.samples[i * length : (i + 1) * length] - mean
         yield np.asarray(fft.rfft(block * fade), dtype=np.complex128)

@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 from scipy import fft
-from scipy.signal import bilinear, butter, lfilter
 
 from signals.series import FloatArray
 
@@ -76,6 +76,8 @@ def high_pass(samples: FloatArray, rate_hz: float, corner_hz: float, order: int)
     the rest of the curve is the analogue one within (pi f / rate)^2 / 3. Its memory of seconds costs no padding.
     """
     warped = 2.0 * rate_hz * math.tan(math.pi * corner_hz / rate_hz)
-    numerator, denominator = bilinear(*butter(order, warped, btype="highpass", analog=True), fs=rate_hz)
-    result: FloatArray = lfilter(numerator, denominator, samples)
+    numerator, denominator = scipy.signal.bilinear(
+        *scipy.signal.butter(order, warped, btype="highpass", analog=True), fs=rate_hz
+    )
+    result: FloatArray = scipy.signal.lfilter(numerator, denominator, samples)
     return result

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from scipy.interpolate import CubicSpline, PchipInterpolator
 from scipy.ndimage import map_coordinates
-from scipy.signal import resample_poly
 
 from signals.recording import Tacho
 from signals.series import FloatArray, Series
@@ -77,7 +77,7 @@ def resample_in_angle(series: Series, angle_rad: FloatArray, samples_per_revolut
 
 def samples_at(samples: FloatArray, index: FloatArray) -> FloatArray:
     """Values (m,) at fractional indices (m,) of samples (n,): band-limited oversampling, then a quintic."""
-    fine = resample_poly(samples, UPSAMPLING, 1, padtype="line")
+    fine = scipy.signal.resample_poly(samples, UPSAMPLING, 1, padtype="line")
     place = np.asarray(index[np.newaxis] * UPSAMPLING, dtype=np.float64)
     resampled = map_coordinates(np.asarray(fine, dtype=np.float64), place, order=5, mode="mirror")
     return np.asarray(resampled, dtype=np.float64)
