@@ -29,19 +29,30 @@ QUIET_SHARE = 75.0
 pass, and where an acceleration is integrated, there is noise."""
 STEPS_PER_OCTAVE = 12
 LOWEST_BIN = 8
-ADDED_DB = -50.0
-"""Over the level of the channel: far below what the engine was proved with (-10 to -30 dB)."""
+ADDED_DB, MOST_DB = -50.0, -20.0
+"""Over the level of the loudest recording of about one speed: far below what the engine was proved with (-10 to -30
+dB); and at most over that of the quietest: what strikes may be a thousand times as loud as the sound machine was."""
+ALIKE_DB = 10.0
+"""Below the floor that a channel has in another recording a floor is none of a sensor: above it the channel has noise,
+however little that is beside what a damaged part does."""
 LEAST_BINS = 64
 BLOCKS = 16
 UNTOLD = ("alias", "loose_sensor")
 
+_Floor = tuple[float, float, str]
+"""Over its channel's level, dB, and by itself, dB; label of the recording."""
+
 
 def noiseless(recordings: Sequence[Recording], labels: Sequence[str]) -> tuple[Finding, ...]:
-    """A remark for every channel that has no noise in one of the recordings."""
-    quietest: dict[str, tuple[float, str]] = {}
+    """A remark for every channel that has no noise in one of the recordings, nor that of another one."""
+    floors: dict[str, list[_Floor]] = {}
     for recording, label in zip(recordings, labels, strict=True):
         for name, samples in zip(recording.names, recording.samples, strict=True):
-            quietest[name] = min(quietest.get(name, (0.0, label)), (floor_db(samples), label))
+            power = float(np.mean((samples - np.mean(samples)) ** 2))
+            if 0.0 < power < np.inf:
+                relative = floor_db(samples)
+                floors.setdefault(name, []).append((relative, relative + float(10 * np.log10(power)), label))
+    quietest = {name: _bare(seen) for name, seen in floors.items()}
     return tuple(
         Finding(
             kind="noiseless",
@@ -56,6 +67,17 @@ def noiseless(recordings: Sequence[Recording], labels: Sequence[str]) -> tuple[F
     )
 
 
+def _bare(floors: Sequence[_Floor]) -> tuple[float, str]:
+    """The lowest floor over its channel's level that no other recording shows to be a sensor's; 0 dB where all are."""
+    sensed = [absolute for relative, absolute, _ in floors if relative >= NONE_DB]
+    bare = [
+        (relative, label)
+        for relative, absolute, label in floors
+        if relative < NONE_DB and all(absolute < other - ALIKE_DB for other in sensed)
+    ]
+    return min(bare, default=(0.0, ""))
+
+
 def told(found: Sequence[Finding], bare: Collection[str]) -> tuple[Finding, ...]:
     """Without what cannot be told of channels that have no noise."""
     return tuple(f for f in found if not (f.kind in UNTOLD and f.channel in bare))
@@ -64,13 +86,15 @@ def told(found: Sequence[Finding], bare: Collection[str]) -> tuple[Finding, ...]
 def with_floor(
     recordings: Sequence[Recording], speeds_hz: Sequence[float], bare: Collection[str]
 ) -> tuple[Recording, ...]:
-    """Noise of `ADDED_DB` on the channels that have none, over the loudest recording of about the same speed."""
+    """Noise of `ADDED_DB` on the channels that have none, over the loudest recording of about the same speed, but at
+    most `MOST_DB` over the quietest one."""
     levels = [{name: _level(r, name) for name in bare if name in r.names} for r in recordings]
     found = []
     for recording, speed in zip(recordings, speeds_hz, strict=True):
         near = [one for one, hz in zip(levels, speeds_hz, strict=True) if abs(hz / speed - 1.0) <= SAME_SPEED]
-        loudest = {n: max(one[n] for one in near if n in one) for n in bare if n in recording.names}
-        found.append(_noisy(recording, loudest))
+        heard = {n: [one[n] for one in near if one.get(n, 0.0) > 0.0] for n in bare if n in recording.names}
+        added = {n: min(_times(max(own), ADDED_DB), _times(min(own), MOST_DB)) for n, own in heard.items() if own}
+        found.append(_noisy(recording, added))
     return tuple(found)
 
 
@@ -93,13 +117,17 @@ def _level(recording: Recording, name: str) -> float:
     return float(np.median([np.std(block) for block in np.array_split(samples, BLOCKS)]))
 
 
-def _noisy(recording: Recording, level: Mapping[str, float]) -> Recording:
-    """White noise on each channel that has a level: the same bytes for the same samples, whatever else is sent."""
-    if not level:
+def _times(level: float, db: float) -> float:
+    return float(level * 10 ** (db / 20))
+
+
+def _noisy(recording: Recording, deviation: Mapping[str, float]) -> Recording:
+    """White noise on each channel that has a deviation: the same bytes for the same samples, whatever else is sent."""
+    if not deviation:
         return recording
     samples = recording.samples.copy()
-    for name, one in level.items():
+    for name, one in deviation.items():
         row = recording.names.index(name)
         rng = np.random.default_rng([17, zlib.crc32(np.ascontiguousarray(samples[row]).tobytes())])
-        samples[row] += 10 ** (ADDED_DB / 20) * one * rng.standard_normal(samples.shape[1])
+        samples[row] += one * rng.standard_normal(samples.shape[1])
     return replace(recording, samples=samples)

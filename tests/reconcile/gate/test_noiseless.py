@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.signal import butter, sosfiltfilt
 
 from reconcile.gate import inspect_measurement
-from reconcile.gate.noiseless import ADDED_DB, NONE_DB, floor_db, noiseless, with_floor
+from reconcile.gate.noiseless import ADDED_DB, MOST_DB, NONE_DB, floor_db, noiseless, with_floor
 from signals.recording import Operating, Recording
 from sim.core.response import Channel
 from sim.core.spec import TermSpec
@@ -88,6 +88,24 @@ def test_a_channel_without_noise_gets_the_same_level_at_one_speed_and_noise_of_i
     assert all(np.array_equal(a[1], np.zeros(N)) for a in added)
     assert abs(np.corrcoef(added[0][0], added[1][0])[0, 1]) < 0.1
     assert floor_db(noisy[0].samples[0]) > NONE_DB
+
+
+def test_a_damaged_part_a_thousand_times_as_loud_does_not_take_the_noise_away() -> None:
+    """Its floor is as high as the baseline's; without noise it would be far below."""
+    baseline = recording(1e-3 * (lines() + noise(-20.0)))
+    struck = recording(lines() + 1e-3 * noise(-20.0, 3))
+    assert floor_db(struck.samples[0]) < NONE_DB
+    assert not noiseless([baseline, struck], ["baseline 1", "test 1"])
+    (remark,) = noiseless([baseline, recording(1e-3 * lines())], ["baseline 1", "test 1"])
+    assert remark.recording == "test 1"
+
+
+def test_the_noise_that_is_added_leaves_the_quietest_recording_heard() -> None:
+    quiet, loud = recording(1e-3 * lines()), recording(lines())
+    noisy = with_floor([quiet, loud, recording(np.zeros(N))], [30.0, 30.0, 30.0], {"a0"})
+    for before, after in zip((quiet, loud), noisy, strict=False):
+        added = after.samples - before.samples
+        assert np.std(added) == pytest.approx(10 ** (MOST_DB / 20) * np.std(quiet.samples), rel=0.05)
 
 
 def test_the_noise_does_not_depend_on_what_else_is_sent_or_in_which_order() -> None:
