@@ -10,7 +10,7 @@ import numpy as np
 from reconcile.judge.changes import Changes
 from reconcile.machine.pictures import place_of
 from reconcile.observe.features import Layout
-from reconcile.observe.observation import PointData
+from reconcile.observe.observation import PointData, heard_hz
 from reconcile.observe.slack import slack
 from reconcile.observe.watch import WatchList, bases_at
 from reconcile.verdict import LineChange
@@ -49,7 +49,7 @@ def line_changes(
                 if np.isfinite(value) and abs(value) > STANDS_OUT:
                     found = LineChange(
                         label=line.label,
-                        frequency_hz=float(one.lines_hz[i]),
+                        frequency_hz=heard_hz(one, i),
                         change_db=float(changes.observed[start + i]),
                         channel=name,
                         locked_to=locked_to(line.orders),

@@ -129,7 +129,7 @@ def own_order(machine: MachineSpec, data: Sequence[PointData], channels: Sequenc
             data[k],
             reached[0][0],
             rises[k, ..., best],
-            order * data[k].point.speed_hz,
+            order * data[k].spectra[0].speed_hz,
             f"{order:.3g}*{tie.reference}",
             "",
             channels,

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d
 
 from reconcile.observe.extract import USABLE, hann_spectrum
-from reconcile.observe.observation import PointData
+from reconcile.observe.observation import PointData, heard_hz
 from reconcile.observe.steady import Steady
 from reconcile.observe.watch import watch_list
 from reconcile.speed.excess import power_over_floor
@@ -114,7 +114,7 @@ def risen_lines(
         found.append(
             LineChange(
                 label=f"teeth {'+' if sign > 0 else '-'} {told}",
-                frequency_hz=float(one.lines_hz[mesh] + sign * hz),
+                frequency_hz=heard_hz(one, mesh) + sign * hz,
                 change_db=float(rises[row, channel]),
                 channel=channels[channel],
                 locked_to=locked,

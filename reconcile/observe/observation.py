@@ -43,6 +43,11 @@ class PointData:
     """Of all its baselines."""
 
 
+def heard_hz(one: PointData, line: int) -> float:
+    """Frequency of a watched line in the test itself, at the speed it turned with; `lines_hz` are the point's."""
+    return float(one.lines_hz[line]) * one.spectra[0].speed_hz / one.point.speed_hz
+
+
 def _torque(machine: MachineSpec) -> float | None:
     shaft = machine.operating.shaft if machine.operating else ""
     torques = [x.torque_nm for x in machine.loads if isinstance(x, TorqueLoad) and x.shaft == shaft]
