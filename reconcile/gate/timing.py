@@ -87,8 +87,10 @@ def length_findings(recording: Recording, label: str, speed_hz: float, lowest_or
     turns = recording.duration_s * speed_hz * lowest_order
     if turns >= MIN_TURNS:
         return ()
+    needed_s = MIN_TURNS / max(speed_hz * lowest_order, 1e-9)
     detail = (
-        f"{recording.duration_s:.4g} s hold {turns:.3g} turns of order {lowest_order:.3g}; {MIN_TURNS:g} are needed"
+        f"{recording.duration_s:.4g} s hold {turns:.3g} turns of order {lowest_order:.3g}; {MIN_TURNS:g} are needed, "
+        f"{needed_s:.2g} s"
     )
     severity = float(1 - turns / MIN_TURNS)
     return (Finding(kind="too_short", channel="", recording=label, detail=detail, severity=severity),)

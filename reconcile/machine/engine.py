@@ -48,6 +48,7 @@ from reconcile.machine.search import (
 )
 from reconcile.machine.second import second_effect
 from reconcile.machine.setting import Found, Setting
+from reconcile.machine.short import with_short
 from reconcile.machine.strange import explained_by, strange, with_strange
 from reconcile.machine.suspected import of_the_sensor, without_suspected
 from reconcile.machine.teeth_elsewhere import teeth_elsewhere
@@ -146,9 +147,9 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
     report = with_mistaken(with_beaten(with_grown(report, machine)), looks.setting, looks.by_families, channels)
-    report = with_misfit(report, looks.fit)
+    report = with_misfit(report, looks.fit, machine)
     report = with_strange(report, strange(machine, alike, channels, gate.findings), machine, setting.direct.evidence)
-    return with_limits(with_unconfirmed(report, machine, alike), apart)
+    return with_short(with_limits(with_unconfirmed(report, machine, alike), apart), alike, gate.findings)
 
 
 def _told_by(meter: Meter, seed: int, budget: Budget) -> Mapping[str, object]:

@@ -58,6 +58,7 @@ def all_stages(
             "misfit": found.screen.misfit,
             "overdispersion": found.fitted.overdispersion,
             "lines_left": rest.unmet if lines else None,
+            "lines_left_elsewhere": rest.elsewhere if lines else None,
             "lines_explained": rest.kept if lines else None,
             "families_explained": rest.pooled,
             "fitted_with_the_machine": sorted(found.led),

@@ -10,6 +10,8 @@ from reconcile.verdict import Report, Word
 EXCHANGED = "exchanged, or a part replaced"
 """How the sentence says that the baseline has what the tests have not (`reconcile.kinematics.remarks`,
 `reconcile.machine.exchanged`)."""
+NO_FIT = "the machine file does not fit"
+"""How the sentence says that the file is another machine's (`reconcile.machine.misfit`)."""
 NO_PART = "no part of the machine file has a line"
 """How the sentence says that something strikes which the file has not (`reconcile.machine.foreign`)."""
 SET_SHARE = 0.5
@@ -52,6 +54,8 @@ def _place(report: Report) -> str:
 
 def _nothing(report: Report) -> str:
     kept = "nothing follows from these recordings; keep them to compare later ones with."
+    if NO_FIT in report.sentence:
+        kept = "correct the machine file first, and ask again: what sound machines show is measured with it."
     unseen = " What they would hardly have shown stands under “What would have been seen”." if report.faintest else ""
     return f"{kept}{unseen}"
 
