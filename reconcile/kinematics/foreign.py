@@ -14,7 +14,8 @@ from reconcile.kinematics.observe import Observation
 
 LOWEST = 0.3
 LEAST_Z = 12.0
-GROWTH_DB = 10.0
+GROWTH_DB, BESIDE_DB = 10.0, 5.0
+"""Growth over the baseline that it takes, and beside impacts once a turn that have been told already."""
 LEAST_DEPTH = 0.3
 MULTIPLES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
 SLOW = 1.0
@@ -33,7 +34,13 @@ class Foreign:
 
 
 def foreign_comb(
-    test: Observation, baselines: Sequence[Observation], ties: Ties, seed: int, *, sums: bool = True
+    test: Observation,
+    baselines: Sequence[Observation],
+    ties: Ties,
+    seed: int,
+    *,
+    sums: bool = True,
+    least_db: float = GROWTH_DB,
 ) -> Foreign | None:
     """The strongest comb that no part explains and the baseline does not have; None without a baseline.
 
@@ -65,7 +72,7 @@ def foreign_comb(
     growth = contrast(found, test, baselines, ties)
     if found.z < LEAST_Z or growth.growth_db is None:
         return None
-    if growth.growth_db < GROWTH_DB or growth.depth < LEAST_DEPTH:
+    if growth.growth_db < least_db or growth.depth < LEAST_DEPTH:
         return None
     return Foreign(order=found.order, evidence=found, growth_db=growth.growth_db)
 

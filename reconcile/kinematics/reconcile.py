@@ -20,7 +20,7 @@ from reconcile.kinematics.extent import Extent
 from reconcile.kinematics.faint import impulsive_report, shallow_report
 from reconcile.kinematics.families import Ties, ties
 from reconcile.kinematics.finish import fault_report, finished, refused_report
-from reconcile.kinematics.foreign import foreign_comb
+from reconcile.kinematics.foreign import BESIDE_DB, foreign_comb
 from reconcile.kinematics.gears import GearEvidence, gear_evidence
 from reconcile.kinematics.grown import grown_defect, old_defects
 from reconcile.kinematics.judge import DEFECTS, Candidate, named
@@ -230,7 +230,8 @@ def _without_a_part(
     turn = next((c for c in every if c.family.kind == "turn" and c.present and c.risen), None)
     if turn is not None and baselines:
         carried = [b.name for b in known.bearings if b.shaft == turn.family.site]
-        return turn_report(turn, tie, tests, baselines, carried)
+        stranger = foreign_comb(tests[0], baselines, tie, seed, sums=False, least_db=BESIDE_DB)
+        return turn_report(turn, tie, tests, baselines, carried, stranger)
     foreign = foreign_comb(tests[0], baselines, tie, seed)
     if foreign is not None:
         return foreign_report(foreign, tests, baselines)

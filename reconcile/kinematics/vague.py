@@ -81,8 +81,10 @@ def turn_report(
     tests: Sequence[Observation],
     baselines: Sequence[Observation],
     carried: Sequence[str],
+    foreign: Foreign | None = None,
 ) -> Report:
-    """Impacts once a turn that the baseline has not; `carried`: gears and bearings on that shaft."""
+    """Impacts once a turn that the baseline has not; `carried`: gears and bearings on that shaft; `foreign`: a comb at
+    an order of no part beside them, as an inner race makes whose numbers are not those of the specification."""
     shaft = candidate.family.site
     gears = [name for mesh in ties.meshes for s, name in zip(mesh[2], mesh[3], strict=True) if s == shaft]
     causes = [(term, g, 1.0) for g in gears for term in TOOTH_TERMS]
@@ -96,16 +98,36 @@ def turn_report(
         verdict="ambiguous",
         sentence=f"Impacts once a turn of {shaft} that no known rolling element makes: a rub, a loose part"
         + (", a damaged tooth" if gears else "")
-        + " or a badly damaged bearing are alike at this level.",
+        + " or a badly damaged bearing are alike at this level."
+        + ("" if foreign is None else _beside_turn(foreign)),
         level="kinematics",
         where=Where(sites=(PlaceWeight(site=shaft, weight=1.0),), lines=lines_of(candidate, tests, baselines)),
         causes=tuple(
             Cause(term=t, site=s, score=candidate.z * w, reasons=("once a turn says where it turns, not what strikes",))
             for t, s, w in causes
         ),
-        undecidable=("what strikes once a turn", "how large: a size can't be given without a model"),
-        next_experiment=NextExperiment(sentence="Record with a tacho: the angle of the impacts tells a rub from play."),
+        undecidable=(
+            "what strikes once a turn",
+            *(() if foreign is None else ("whether the bearings' numbers are those of the machine",)),
+            "how large: a size can't be given without a model",
+        ),
+        next_experiment=NextExperiment(sentence=_next_of_turn(tests, foreign)),
     )
+
+
+def _beside_turn(foreign: Foreign) -> str:
+    return (
+        f" Impacts {foreign.order:.4g} times a turn stand beside them, an order of no part of the specification: the "
+        "inner race of a bearing with other numbers than those given would bring both."
+    )
+
+
+def _next_of_turn(tests: Sequence[Observation], foreign: Foreign | None) -> str:
+    if foreign is not None:
+        return "Check the bearing sizes of the specification (balls, diameters, angle, or the catalogue number)."
+    if any(t.speed.method == "tacho" for t in tests):
+        return "Follow the angle of the impacts against the tacho over several recordings: a rub keeps it."
+    return "Record with a tacho: the angle of the impacts tells a rub from play."
 
 
 def shaft_report(changes: Sequence[ShaftChange], tests: Sequence[Observation]) -> Report:

@@ -1,0 +1,43 @@
+"""Impacts once a turn, with or without an order of no part beside them."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from tests.strategies.impulses import recorded, sound, train
+
+SHAFT = {"name": "shaft"}
+SIZES = {"ball_diameter_m": 0.00794, "pitch_diameter_m": 0.03904}
+TRUE_INNER = 5.4152
+"""Of the nine balls that turn."""
+
+
+def spec(balls: int):  # type: ignore[no-untyped-def]
+    bearing = {"name": "bearing1", "shaft": "shaft", "balls": balls, **SIZES}
+    return read_kinematic_spec({"kinematics": {"shafts": [SHAFT], "bearings": [bearing]}})
+
+
+@pytest.mark.slow
+def test_an_inner_race_of_other_numbers_is_told_beside_the_turn_it_is_loaded_with() -> None:
+    rng = np.random.default_rng(5)
+    struck = recorded(sound(2) + train(rng, 0.992 * TRUE_INNER, 1.0, load=0.8) + train(rng, 1.0, 1.6))
+    report = reconcile_kinematics(spec(8), [struck], [recorded(sound(1))], seed=3)
+    assert report.verdict == "ambiguous" and "Impacts once a turn of shaft" in report.sentence
+    assert (
+        re.search(r"Impacts 5\.3[67]\d times a turn", report.sentence)
+        and "order of no part of the specification" in report.sentence
+    )
+    assert "whether the bearings' numbers are those of the machine" in report.undecidable
+    assert report.next_experiment is not None and "Check the bearing sizes" in report.next_experiment.sentence
+
+
+@pytest.mark.slow
+def test_a_turn_alone_has_nothing_beside_it() -> None:
+    knocked = recorded(sound(2) + train(np.random.default_rng(5), 1.0, 1.6))
+    report = reconcile_kinematics(spec(8), [knocked], [recorded(sound(1))], seed=3)
+    assert "Impacts once a turn of shaft" in report.sentence and "no part of the specification" not in report.sentence
+    assert report.next_experiment is not None and "Record with a tacho" in report.next_experiment.sentence
