@@ -61,7 +61,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--baseline", metavar="R.json", type=Path, nargs="+", default=[], action="extend")
     parser.add_argument("--recording", metavar="R.json", type=Path, nargs="+", required=True, action="extend")
-    parser.add_argument("--budget", choices=sorted(BUDGETS), default="quick", help="how much is simulated anew")
+    parser.add_argument(
+        "--budget", choices=sorted(BUDGETS), default="quick", help="how much is simulated anew (default: quick)"
+    )
     parser.add_argument(
         "--out",
         metavar="DIR",
@@ -70,8 +72,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="folder for report.json, report.html (earlier ones there are replaced)",
     )
     parser.add_argument("--seed", type=whole, default=0, help="seed of the atlas and of the bootstrap")
-    parser.add_argument("--jobs", metavar="N", type=int, default=2, help="processes that simulate the atlas")
-    parser.add_argument("--atlas", metavar="DIR", type=Path, default=None, help="where atlases are kept between runs")
+    parser.add_argument("--jobs", metavar="N", type=int, default=2, help="processes that simulate (default: 2)")
+    parser.add_argument(
+        "--atlas",
+        metavar="DIR",
+        type=Path,
+        default=None,
+        help="where atlases are kept (default: $SIDEBAND_ATLAS, else ~/.cache/sideband/atlas)",
+    )
     parser.add_argument("--json", action="store_true", help="print report.json too")
 
 
