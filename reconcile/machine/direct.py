@@ -51,6 +51,8 @@ MODELLED_BARE = 3.0
 ring told at the other bearing's lines 1.9, by 7.7 deviations of control lines; a whirl -0.3."""
 ALIKE = 4.0 / 9.0
 """Share of the evidence (two thirds of the deviations) from which two parts with lines at one place are alike."""
+SAME_LINE = 1e-3
+"""Relative difference of orders below which parts of two bearings have one line: no recording tells them apart."""
 MOST = 25.0
 """Log evidence beyond which more impacts prove no more."""
 SURE, HEARD = 8.0, 5.0
@@ -108,17 +110,25 @@ def direct_evidence(
     spared = unjudged(evidence, tie, [c.family for c in seen if c.risen and c not in every])
     firm = [c for c in every if c.present and c.risen]
     several = combs(tests, baselines, tie, every, seed) if baselines else ()
+    heard = [c for c in every if c.risen and c.z > 2.0]
     usual = [f"{c.family.key}: {c.z:.1f}, but sound machines show as much" for c in seen if c.risen and c not in every]
     return Direct(
         evidence={name: min(value, MOST) for name, value in unheard(evidence, spared).items() if value != 0.0},
         p=min([1.0, *(c.chance for c in firm), *(chance for _, chance in heights.values())]),
         told=(
-            *(f"{c.family.key}: {c.z:.1f} deviations of control lines" for c in every if c.risen and c.z > 2.0),
+            *(f"{_called(c.family, tie)}: {c.z:.1f} deviations of control lines" for c in heard),
             *usual,
             *(f"{c.family.key}: {c.z:.1f} without the lines of {several[0].family.key}" for c in several[1:]),
         ),
         struck=by_comb(several, machine, tie, evidence, MOST),
     )
+
+
+def _called(family: Family, tie: Ties) -> str:
+    """The part, with those of other bearings whose lines stand at the same place."""
+    alike = [f for f in tie.families if f.kind == family.kind and f.slip > 0.0]
+    near = [f.key for f in alike if abs(f.order / family.order - 1.0) < SAME_LINE and f.key != family.key]
+    return " or ".join((family.key, *dict.fromkeys(near)))
 
 
 def shared_lines(evidence: Mapping[str, float], tie: Ties) -> dict[str, float]:
