@@ -12,7 +12,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -165,6 +165,20 @@ def _writable(folder: Path) -> None:
         raise SpecError(Problem(field="--out", message=f"cannot be written: {reason}", given=str(folder))) from error
 
 
+@contextmanager
+def _made(folder: Path) -> Iterator[None]:
+    """The folder for the report, taken away again if it was made for a comparison that is refused."""
+    there = folder.exists()
+    _writable(folder)
+    try:
+        yield
+    except BaseException:
+        if not there:
+            with suppress(OSError):
+                folder.rmdir()
+        raise
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
     if not 1 <= arguments.jobs <= 64:
@@ -172,9 +186,8 @@ def run(arguments: argparse.Namespace) -> int:
     machine = _machine(arguments.machine)
     tests = [_recording(path) for path in arguments.recording]
     baselines = [_recording(path) for path in arguments.baseline]
-    _writable(arguments.out)
     keeper = AtlasFolder(arguments.atlas or default_atlas_folder())
-    with processes(arguments.jobs) as workers, _machine_named(arguments.machine):
+    with _made(arguments.out), processes(arguments.jobs) as workers, _machine_named(arguments.machine):
         report = reconcile_recordings(
             machine,
             tests,

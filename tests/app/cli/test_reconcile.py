@@ -235,6 +235,17 @@ def test_what_was_given_in_place_of_a_description_or_a_machine_is_said(
     assert "strange.xlsx" in said(known, strange)
 
 
+def test_a_refused_comparison_leaves_no_empty_folder_and_touches_none_that_was_there(tmp_path: Path) -> None:
+    """It turns with a shaft that the drawing does not have."""
+    machine = kinematics(tmp_path)
+    recording = written(tmp_path, "r", operating={"shaft": "elsewhere", "speed_hz": 30.0})
+    mine = tmp_path / "mine"
+    mine.mkdir()
+    for out, stays in ((tmp_path / "new", False), (mine, True)):
+        assert main(asked(machine, recording, out)) == 2
+        assert out.exists() == stays
+
+
 def test_where_nothing_can_be_written_is_said_before_the_work(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
