@@ -39,7 +39,8 @@ def with_misfit(report: Report, fit: Mapping[str, object], machine: MachineSpec)
     if off < cast(float, fit.get("misfit_allowed", FOREIGN)):
         return report
     told, advice = _told(off, fit), _advice(fit, machine)
-    limited = replace(report, where=replace(report.where, limits=(*report.where.limits, told)))
+    # what would have been seen is measured with the file's machines
+    limited = replace(report, where=replace(report.where, limits=(*report.where.limits, told)), faintest=())
     if report.verdict == "measurement_fault":
         return limited
     if report.verdict != "unknown_physics":

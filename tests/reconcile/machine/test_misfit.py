@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 
@@ -39,8 +41,10 @@ def test_unknown_physics_is_not_told_of_another_machine() -> None:
 
 @pytest.mark.parametrize("verdict", ["nothing_missing", "explained", "ambiguous", "not_decidable"])
 def test_other_answers_stand_and_say_it(verdict: str) -> None:
-    before = replace(UNKNOWN, verdict=verdict)  # type: ignore[arg-type]
+    seen = (cast(Any, SimpleNamespace(term="unbalance")),)
+    before = replace(UNKNOWN, verdict=verdict, faintest=seen)  # type: ignore[arg-type]
     report = with_misfit(before, FIT, GEARBOX)
+    assert report.faintest == (), "measured with machines that are not this one"
     assert report.verdict == verdict and report.where.sites == before.where.sites
     assert report.sentence.startswith("Something is missing. But the machine file does not fit the baseline")
 
