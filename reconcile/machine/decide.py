@@ -19,6 +19,7 @@ from reconcile.machine.weigh import (
     of_one_part,
     of_the_place,
 )
+from reconcile.report.action import PLACE_OPEN
 from reconcile.verdict import Word
 
 DETECT_P = 0.01
@@ -58,7 +59,6 @@ FEW_VIEWS = 2
 """So few sensors and operating points together cannot exclude what explains half as much."""
 FEW_SHARE = 0.5
 FEW_REASON = "so few sensors and operating points do not exclude what has half the evidence, whatever its weight"
-PLACE_OPEN = "the place is not decided by these sensors"
 GREAT = 25.0
 """Deviations of the most changed group that impacts of a known effect do not bring without its pattern."""
 FAINT = 14.0

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from reconcile.atlas.bank import Mapper
 from reconcile.atlas.candidates import Candidate, candidates
 from reconcile.atlas.keep import Forgetful, Keeper, kept_bank
-from reconcile.atlas.places import simulated_channels, standard_channels
+from reconcile.atlas.places import sensor_sites, simulated_channels, standard_channels
 from reconcile.atlas.plan import AtlasPlan, atlas_plan, simulated_at, with_tooth_pairs
 from reconcile.calibrate.uncertain import uncertain_numbers
 from reconcile.faults import measurement_faults, with_faults
@@ -25,6 +25,7 @@ from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.decide import Decision, decide, leaves_lines, remarkable, tempered, unmeasured
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.drive import on_drive
+from reconcile.machine.elsewhere import with_place
 from reconcile.machine.exchanged import with_exchanged
 from reconcile.machine.faintest import faintest_seen
 from reconcile.machine.foreign import with_foreign
@@ -143,6 +144,8 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     progress(0.95, "held-out data")
     cost = {"until_atlas_core_s": atlas_s, "budget": budget.name}
     report = answer(setting, found, gate, meter, cost, looks.fit, unknown, looks.pairs)
+    sensors = sensor_sites(looks.setting.machine, looks.setting.simulated)
+    report = with_place(report, looks.setting.direct.evidence, len(looks.setting.data), sensors)
     report = with_foreign(with_exchanged(report, setting, channels), setting, channels)
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))

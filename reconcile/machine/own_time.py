@@ -26,8 +26,9 @@ LOWEST_HZ, HIGHEST_HZ, STEP_HZ = 12.0, 260.0, 0.4
 OWN_HZ = 1.0
 """Distance from an order of a shaft below which a frequency may be that order's."""
 LOW, BESIDE = 6, 0.5
-"""A multiple of a shaft up to the first is its own; a higher one where those beside it have risen so much as well: a
-broken tooth raises them all, and of a slow shaft some multiple lies near any frequency."""
+"""A multiple of a shaft up to the first is its own; a higher one where those beside it, or every second to sixth one
+about it, have risen so much as well: a broken tooth raises them all, several damaged ones or a jaw coupling every so
+many, and of a slow shaft some multiple lies near any frequency."""
 MULTIPLES = 4
 """Of what a bearing's part modulates with: at two speeds its third and its second may meet, at 2:3."""
 LEAST_DB, AHEAD = 1.2, 2.0
@@ -155,8 +156,11 @@ def _an_order(turn_hz: float, hz: float, risen: FloatArray, grid: FloatArray) ->
     def most(at_hz: float) -> float:
         return float(risen[np.abs(grid - at_hz) <= near + STEP_HZ].max(initial=0.0))
 
-    beside = [most(k * turn_hz) for k in (number - 1, number + 1) if k > 0 and k * turn_hz < grid[-1]]
-    return apart <= near and bool(beside) and min(beside) >= BESIDE * most(hz)
+    def in_comb(every: int) -> bool:
+        beside = [most(k * turn_hz) for k in (number - every, number + every) if k > 0 and k * turn_hz < grid[-1]]
+        return bool(beside) and min(beside) >= BESIDE * most(hz)
+
+    return apart <= near and any(in_comb(every) for every in range(1, LOW + 1) if number % every == 0)
 
 
 def _parts(machine: MachineSpec) -> tuple[Family, ...]:

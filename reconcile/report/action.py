@@ -10,6 +10,9 @@ from reconcile.verdict import Report, Word
 EXCHANGED = "exchanged, or a part replaced"
 """How the sentence says that the baseline has what the tests have not (`reconcile.kinematics.remarks`,
 `reconcile.machine.exchanged`)."""
+PLACE_OPEN = "the place is not decided by these sensors"
+"""How a set of places is told; with the reason behind a colon by those causes alone that make it
+(`reconcile.machine.elsewhere`)."""
 NO_FIT = "the machine file does not fit"
 """How the sentence says that the file is another machine's (`reconcile.machine.misfit`)."""
 NO_PART = "no part of the machine file has a line"
@@ -44,7 +47,8 @@ def _perhaps_all(report: Report) -> bool:
 def undecided(report: Report) -> tuple[list[str], list[str]]:
     """Effects and places of an ambiguous set, as far as the report's causes show it."""
     best = max((c.score for c in report.causes), default=0.0)
-    kept = [c for c in report.causes if c.score >= SET_SHARE * best]
+    opened = [c for c in report.causes if any(r.startswith(f"{PLACE_OPEN}:") for r in c.reasons)]
+    kept = opened or [c for c in report.causes if c.score >= SET_SHARE * best]
     return list(dict.fromkeys(c.term for c in kept)), list(dict.fromkeys(c.site for c in kept if c.site))
 
 

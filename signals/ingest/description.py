@@ -231,11 +231,10 @@ def _slips(document: Mapping[str, object]) -> list[Problem]:
 
 
 def _tells_no_speed(operating: object) -> bool:
-    """Whether an operating point says neither speed nor torque, under no name: as if it had been left out."""
-    if not isinstance(operating, Mapping):
+    """Whether an operating point holds no number, under whatever name: as if it had been left out."""
+    if not isinstance(operating, Mapping) or not isinstance(operating.get("shaft", ""), str):
         return False
-    told = {str(key).lower() for key, value in operating.items() if value is not None}
-    return not any(word in key for key in told for word in ("speed", "rpm", "frequency", "hz", "torque"))
+    return all(value is None or isinstance(value, str) for value in operating.values())
 
 
 def _alike(part: object, model: type[BaseModel], prefix: str) -> list[Problem]:

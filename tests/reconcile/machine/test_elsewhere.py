@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import pytest
 
-from reconcile.machine.decide import PLACE_OPEN, Decision
-from reconcile.machine.elsewhere import better_elsewhere, placed_by_forecast
-from reconcile.machine.weigh import of_the_set
-from reconcile.machine.words import sentence
-from reconcile.verdict import HeldOut, Placebo
+from reconcile.machine.elsewhere import LEAST_GAIN, with_place
+from reconcile.machine.heldout import MANY
+from reconcile.report.action import PLACE_OPEN, to_do
+from reconcile.verdict import Cause, HeldOut, Placebo, PlaceWeight, Report, Where
 
-NAMED = Decision(word="explained", chosen=("outer_spall@bearing1",), p=1e-9, reasons=())
 HELD = HeldOut(
     metric="log_spectral_distance", unit="dB", before=7.0, after=3.8, gain=0.46, gain_low=0.38, gain_high=0.52,
     retuned=0.06, black_box=0.4, placebo=0.54, held="each operating point in turn", ceiling=0.8, numbers=4,
@@ -23,36 +22,72 @@ HELD = HeldOut(
     ),
     effects=("outer_spall@bearing1",),
 )  # fmt: skip
+CAUSES = (
+    Cause(term="outer_spall", site="bearing1", score=42.9, named=True, reasons=("a part of the change is left",)),
+    Cause(term="unbalance", site="gear", score=25.0),
+    Cause(term="outer_spall", site="bearing2", score=20.0),
+)
+NAMED = Report(
+    verdict="explained",
+    sentence="Outer-race spall at bearing1.",
+    level="machine",
+    where=Where(sites=(PlaceWeight(site="bearing1", weight=0.99),), limits=("known",)),
+    causes=CAUSES,
+    held_out=HELD,
+    undecidable=("impacts come from another part too, one of these: outer_spall@bearing3",),
+    machine={"name": "revised"},
+)
+HEARD = {"outer_spall@bearing1": 25.0, "outer_spall@bearing2": 25.0}
+
+
+def told(report: Report = NAMED, heard: Mapping[str, float] = HEARD) -> Report:
+    return with_place(report, heard, 3, ("bearing1", "bearing4"))
 
 
 def test_a_better_forecast_of_the_same_effect_elsewhere_opens_the_place() -> None:
-    told = placed_by_forecast(NAMED, HELD)
-    assert (told.word, told.chosen) == ("ambiguous", ("outer_spall@bearing1", "outer_spall@bearing2"))
-    assert told.p == NAMED.p
-    (reason,) = told.reasons
-    assert reason == (
-        f"{PLACE_OPEN}: on data it was not fitted to bearing2 does better (54 %) than bearing1 (46 %), "
-        "which fits better"
+    report = told()
+    assert report.verdict == "ambiguous"
+    assert report.sentence == (
+        f"Something is missing, but {PLACE_OPEN}: at bearing1 it fits best, but forecasts data it was not fitted to "
+        "less well (46 %) than at bearing2 (54 %): outer-race spall at bearing1, or outer-race spall at bearing2."
     )
-    assert "outer-race spall at bearing1, or outer-race spall at bearing2" in sentence(told, None, HELD)
-    shown = of_the_set({"outer_spall@bearing1": 0.99, "outer_spall@bearing2": 0.01}, told.chosen)
-    assert shown == {"outer_spall@bearing1": 0.5, "outer_spall@bearing2": 0.5}
+    assert [(s.site, s.weight) for s in report.where.sites] == [("bearing1", 0.5), ("bearing2", 0.5)]
+    assert [(c.term, c.site, c.named) for c in report.causes] == [
+        ("outer_spall", "bearing1", False), ("outer_spall", "bearing2", False), ("unbalance", "gear", False),
+    ]  # fmt: skip
+    assert report.causes[0].reasons[1:] == CAUSES[0].reasons and report.causes[2].reasons == ()
+    assert report.undecidable[0].startswith(PLACE_OPEN) and report.undecidable[1:] == NAMED.undecidable
+    assert report.next_experiment is not None and "nearest to bearing2" in report.next_experiment.sentence
+    assert report.next_experiment.separation_now is None, "what fits better is what the forecast speaks against"
+    assert to_do(report).startswith("plan to inspect bearing1 and bearing2: one of them has it.")
+    assert report.where.limits == NAMED.where.limits and report.machine == NAMED.machine
+
+
+def rival(**changes: object) -> Report:
+    ball, outer, other = HELD.placebos
+    placebos = (ball, replace(outer, **changes), other)  # type: ignore[arg-type]
+    return replace(NAMED, held_out=replace(HELD, placebos=placebos))
 
 
 @pytest.mark.parametrize(
-    "held",
+    "report",
     [
-        None,
-        replace(HELD, gain_high=0.55),
-        replace(HELD, placebos=HELD.placebos[:1]),
-        replace(HELD, effects=("outer_spall@bearing1", "unbalance@gear")),
+        replace(NAMED, held_out=None),
+        replace(NAMED, held_out=replace(HELD, gain_high=0.55)),
+        replace(NAMED, held_out=replace(HELD, effects=("outer_spall@bearing1", "unbalance@gear"))),
+        replace(NAMED, causes=CAUSES[:2]),
+        replace(NAMED, verdict="ambiguous"),
+        rival(draws=MANY - 1),
+        rival(term="inner_spall"),
+        replace(rival(gain=0.99 * LEAST_GAIN), held_out=replace(rival(gain=0.09).held_out, gain_high=0.0)),  # type: ignore[type-var]
     ],
-    ids=["no forecast", "within its interval", "another effect at the place", "two effects"],
+    ids=["no forecast", "within", "two effects", "not simulated", "no name", "few draws", "other effect", "no gain"],
 )
-def test_else_the_name_stands(held: HeldOut | None) -> None:
-    assert placed_by_forecast(NAMED, held) is NAMED
+def test_else_the_name_stands(report: Report) -> None:
+    assert told(report) is report
 
 
-@pytest.mark.parametrize("word", ["nothing_missing", "ambiguous", "not_decidable", "unknown_physics"])
-def test_only_a_name_has_a_place_to_lose(word: str) -> None:
-    assert better_elsewhere(replace(NAMED, word=word), HELD) is None  # type: ignore[arg-type]
+def test_impacts_at_a_places_own_lines_are_there_whatever_the_levels_forecast() -> None:
+    assert told(heard={"outer_spall@bearing1": 25.0}) is NAMED
+    assert told(heard={**HEARD, "outer_spall@bearing2": 13.0}).verdict == "ambiguous"
+    assert told(heard={}).verdict == "ambiguous", "what does not strike"

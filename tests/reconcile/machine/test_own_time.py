@@ -4,9 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
 import pytest
 
-from reconcile.machine.own_time import OwnTime, own_time
+from reconcile.machine.own_time import (
+    BESIDE,
+    LOW,
+    LOWEST_HZ,
+    OWN_HZ,
+    STEP_HZ,
+    OwnTime,
+    _an_order,
+    own_time,
+)
 from reconcile.observe.extract import USABLE
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
@@ -108,5 +118,39 @@ def test_a_high_multiple_of_the_slow_shaft_lies_near_any_frequency(machine: Mach
     speeds_hz = (100.0 / 13 / slow, 100.0 / 10 / slow)
     seen = told(machine, at_hz(100.0), speeds_hz=speeds_hz)
     assert seen is not None and seen.hz == pytest.approx(100.0, abs=0.7)
-    comb = lambda hz: 0.25 * sum(at_order(k * slow)(hz) for k in range(1, 17))  # noqa: E731
-    assert told(machine, comb, speeds_hz=speeds_hz) is None, "a tooth of the gear is broken"
+    for every in (1, 2, 3, 4, 6):
+        assert told(machine, lobes(every), speeds_hz=speeds_hz) is None, f"every {every}th multiple"
+
+
+def lobes(every: int) -> Modulation:
+    """Every so many multiples of the gear's shaft: one broken tooth, or several evenly spaced."""
+    return lambda hz: 0.25 * sum(at_order(k * 23 / 81)(hz) for k in range(every, 37, every))
+
+
+@pytest.mark.parametrize("speeds_hz", [(20.0, 30.0), (22.5, 30.0), (20.0, 30.0, 40.0)])
+@pytest.mark.parametrize("every", [2, 3, 4])
+def test_several_damaged_teeth_are_no_frequency_of_its_own(
+    machine: MachineSpec, every: int, speeds_hz: tuple[float, ...]
+) -> None:
+    """Where speeds stand in a small ratio, multiples of the slow shaft meet at one frequency."""
+    assert told(machine, lobes(every), speeds_hz=speeds_hz) is None
+
+
+def test_only_a_low_multiple_is_an_order_by_itself() -> None:
+    """And one among neighbours that rose as much, within what a strong line leaks."""
+    grid = np.arange(LOWEST_HZ, 260.0, STEP_HZ)
+
+    def order(number: int, *, beside: float, off_hz: float = 0.0) -> bool:
+        hz = number * 10.0 + off_hz
+        risen = 8.0 * (np.abs(grid - hz) < 1.0)
+        for k in (number - 1, number + 1):
+            risen = np.maximum(risen, beside * (np.abs(grid - 10.0 * k) < 1.0))
+        return _an_order(10.0, hz, risen, grid)
+
+    assert order(LOW, beside=0.0) and not order(LOW + 1, beside=0.0)
+    assert order(LOW + 1, beside=8.0 * BESIDE + 0.1) and not order(LOW + 1, beside=8.0 * BESIDE - 0.1)
+    assert not order(LOW, beside=0.0, off_hz=OWN_HZ + 0.3) and order(LOW, beside=8.0, off_hz=OWN_HZ + 0.3)
+    assert not order(LOW + 1, beside=8.0, off_hz=4.5)
+    one_side = 8.0 * ((np.abs(grid - 110.0) < 1.0) | (np.abs(grid - 120.0) < 1.0))
+    assert not _an_order(10.0, 110.0, one_side, grid), "both neighbours"
+    assert _an_order(10.0, 250.0, 8.0 * ((np.abs(grid - 250.0) < 1.0) | (np.abs(grid - 240.0) < 1.0)), grid), "one only"

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ from scipy.signal import welch
 from reconcile.atlas.candidates import Candidate
 from reconcile.calibrate.uncertain import DRIFT, draw_offsets, moved, uncertain_numbers
 from reconcile.entry import reconcile_recordings
+from reconcile.machine import engine
 from reconcile.observe.statistics import third_octaves
 from reconcile.report.pictures import numbers, several
 from reconcile.verdict import Report
@@ -93,8 +96,14 @@ def baseline(real: MachineSpec) -> Recording:
 @pytest.mark.long
 @pytest.mark.xdist_group("reconcile-machine")
 def test_a_hidden_spall_is_found(
-    real: MachineSpec, baseline: Recording, atlas: prebuilt.Kept, simulated: Simulated
+    real: MachineSpec,
+    baseline: Recording,
+    atlas: prebuilt.Kept,
+    simulated: Simulated,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    placed: list[tuple[Report, tuple[object, ...]]] = []
+    monkeypatch.setattr(engine, "with_place", lambda report, *more: (placed.append((report, more)), report)[1])
     known = uncertain_numbers(real)
     later = draw_offsets(known, np.random.default_rng(78))
     drifted = moved(real, known, type(later)(values=DRIFT * later.values))
@@ -122,6 +131,9 @@ def test_a_hidden_spall_is_found(
     again = MachineSpec.model_validate(report.machine)
     assert again.terms[-1].term == best.term
     assert heard == sorted(heard) and heard[-1] == 1.0
+    ((before, (impacts, points, sensors)),) = placed
+    assert before.held_out is not None and (points, sensors) == (1, PLACES)
+    assert cast(Mapping[str, float], impacts)["outer_spall@bearing1"] > 0.0
     json.dumps(report.document())
     simulated_as_drawn(again, report)
 

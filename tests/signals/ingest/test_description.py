@@ -125,11 +125,21 @@ def test_a_shaft_that_is_not_named_is_the_only_one(more: dict, shaft: str | None
         assert operating.shaft == shaft
 
 
-@pytest.mark.parametrize("none", [{}, {"speed_hz": None}, {"shaft": "input", "load": 2}, None])
+@pytest.mark.parametrize("none", [{}, {"speed_hz": None}, {"shaft": "input", "load": "half"}, None])
 def test_an_operating_point_without_speed_is_none(none: dict | None) -> None:
     assert read_description({"channels": [CHANNEL], "operating": none}).operating is None
 
 
-@pytest.mark.parametrize("half", [{"speed_rpm": 1500}, {"speed_hz": None, "torque_nm": 4.0}, {"rpm": 1500}])
+@pytest.mark.parametrize(
+    "half",
+    [
+        {"speed_rpm": 1500},
+        {"speed_hz": None, "torque_nm": 4.0},
+        {"rps": 25},
+        {"omega": 157.0},
+        {"load": 2},
+        {"shaft": 5},
+    ],
+)
 def test_a_speed_under_another_name_or_a_torque_without_one_is_refused(half: dict) -> None:
     assert any(field.startswith("operating") for field in problems({"channels": [CHANNEL], "operating": half}))
