@@ -112,7 +112,9 @@ def among_all(p: float, *, asked: int, known: int) -> float:
 def unmeasured(screen: Screen) -> Screen:
     """Without a baseline the test is compared with the model, whose form errs too: a pattern that explains hardly more
     than no change is the model's fault. Four of eight healthy cases of development came to `p_best` below 0.006 so,
-    with evidence up to 2.8."""
+    with evidence up to 2.8. Nor do bearings that rattle without teeth to load them repeat what they did in the
+    baseline: a sound rig came to 0.005 with evidence 0.9; of 18 effects that were detected on the proof's rotors all
+    but a faint waviness, of which nothing could be told, have 7 or more."""
     return screen if screen.pattern >= LEAST_EVIDENCE else replace(screen, p_best=1.0)
 
 

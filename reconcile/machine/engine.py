@@ -210,7 +210,8 @@ def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, prog
     progress(0.87, "machine and effect together")
     found = assimilated(closer, found, to_fit(closer, found, budget), budget.members, budget.assimilations, meter)
     based = setting.changes.with_baseline
-    screen = tempered(found.screen, atlas.screen) if based else unmeasured(found.screen)
+    screen = tempered(found.screen, atlas.screen) if based else found.screen
+    screen = screen if based and setting.machine.gears else unmeasured(screen)
     screen = replace(screen, struck=tuple(frozenset(part) for part in setting.direct.struck))
     fit = told(local) if local is not None else {}
     found = replace(found, screen=screen)

@@ -16,6 +16,7 @@ from reconcile.observe.observation import PointData
 from reconcile.verdict import Report
 from sim.core.errors import SpecError
 from sim.core.response import Channel
+from sim.core.spec import MachineSpec
 
 SURE = 6.0
 """Deviations of control lines from which a remark is worth it; it changes no verdict."""
@@ -31,6 +32,12 @@ def _held_otherwise(report: Report) -> set[str]:
     """Places at which an effect is named that changes how a bearing is held or loaded: such a ring no longer passes on
     what each ball that rolls by does to a sound bearing, and those lines are gone without an exchange."""
     return {c.site for c in report.causes if c.named and c.term in HOLDS_OTHERWISE}
+
+
+def _turned_otherwise(report: Report, machine: MachineSpec) -> bool:
+    """Whether what is named turns with the shaft of a machine without teeth: it moves the load round all bearings."""
+    bearings = {b.name for b in machine.bearings}
+    return not machine.gears and any(c.named and c.site not in bearings for c in report.causes)
 
 
 def _louder_db(one: PointData, channel: int) -> float:
@@ -59,7 +66,7 @@ def with_exchanged(report: Report, setting: Setting, channels: Sequence[Channel]
     ]
     seen = candidates(rested, now, tie, setting.seed)
     deep = next((c for c in seen if c.family.kind in DEFECTS and c.present and c.risen and c.z > SURE), None)
-    if deep is None or deep.family.site in _held_otherwise(report):
+    if deep is None or deep.family.site in _held_otherwise(report) or _turned_otherwise(report, machine):
         return report
     channel = [c.name for c in channels].index(deep.best.channel)
     if any(_louder_db(d, channel) > LOUDER_DB for d in pairs):

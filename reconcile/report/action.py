@@ -23,8 +23,11 @@ SET_SHARE = 0.5
 
 def to_do(report: Report) -> str:
     """The sentence for a verdict, with the next experiment where one is advised."""
+    exchanged = "check which recording is which: the baseline shows more than the tests."
+    if EXCHANGED in report.sentence and report.verdict != "explained":
+        return exchanged
     if EXCHANGED in report.sentence:
-        return "check which recording is which: the baseline shows more than the tests."
+        return f"{ACTIONS[report.verdict](report)} Before that {exchanged}"
     advice = f"{ACTIONS[report.verdict](report)}{_sensor_too(report)}"
     if report.next_experiment is None or report.verdict not in OPEN:
         return advice

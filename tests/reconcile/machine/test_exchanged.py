@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.machine.direct import NOTHING
-from reconcile.machine.exchanged import with_exchanged
+from reconcile.machine.exchanged import _turned_otherwise, with_exchanged
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
 from reconcile.report.action import to_do
@@ -64,3 +64,26 @@ def test_a_named_change_of_how_the_ring_is_held_explains_that_its_lines_are_gone
     cause = Cause(term=term, site=site, severity=None, score=20.0, named=named)
     report = told(machine, sound(1), hit, verdict, (cause,))
     assert ("exchanged" in report.sentence) is said
+
+
+@pytest.mark.slow
+def test_beside_a_name_the_name_comes_first_in_what_to_do() -> None:
+    machine = preset("paper-lightly-damped")
+    hit = sound(2) + struck(bases_at(machine, SPEED_HZ)["f_o1"])
+    named = (Cause(term="unbalance", site="pinion", score=9.0, named=True),)
+    report = told(machine, sound(1), hit, "explained", named)
+    assert "exchanged" in report.sentence
+    assert to_do(report).startswith("inspect pinion") and "which recording is which" in to_do(report)
+
+
+def test_what_turns_on_a_shaft_without_teeth_moves_the_load_and_its_lines() -> None:
+    gearbox, rig = preset("paper-lightly-damped"), preset("bearing-rig")
+    for machine, site, named, otherwise in (
+        (rig, "disc", True, True),
+        (rig, "disc", False, False),
+        (rig, "fan_end", True, False),
+        (gearbox, "pinion", True, False),
+    ):
+        causes = (Cause(term="unbalance", site=site, score=9.0, named=named),)
+        report = Report(verdict="explained", sentence="", level="machine", causes=causes)
+        assert _turned_otherwise(report, machine) == otherwise
