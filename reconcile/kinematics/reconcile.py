@@ -231,7 +231,8 @@ def _without_a_part(
     if turn is not None and baselines:
         carried = [b.name for b in known.bearings if b.shaft == turn.family.site]
         stranger = foreign_comb(tests[0], baselines, tie, seed, sums=False, least_db=BESIDE_DB)
-        return turn_report(turn, tie, tests, baselines, carried, stranger)
+        line = next((c for c in grown if c.multiple == 1.0 and c.shaft == turn.family.site), None)
+        return turn_report(turn, tie, tests, baselines, carried, foreign=stranger, line=line)
     foreign = foreign_comb(tests[0], baselines, tie, seed)
     if foreign is not None:
         return foreign_report(foreign, tests, baselines)

@@ -24,6 +24,7 @@ SHAFT_TERMS = {
     2.0: ("parallel_misalignment", "angular_misalignment", "shaft_crack"),
     3.0: ("parallel_misalignment", "pedestal_looseness"),
 }
+TURNING = ("unbalance", "bent_shaft")
 NEAR_DB = 3.0
 
 
@@ -81,13 +82,17 @@ def turn_report(
     tests: Sequence[Observation],
     baselines: Sequence[Observation],
     carried: Sequence[str],
+    *,
     foreign: Foreign | None = None,
+    line: ShaftChange | None = None,
 ) -> Report:
     """Impacts once a turn that the baseline has not; `carried`: gears and bearings on that shaft; `foreign`: a comb at
-    an order of no part beside them, as an inner race makes whose numbers are not those of the specification."""
+    an order of no part beside them, as an inner race makes whose numbers are not those of the specification; `line`:
+    growth of the turn's own line, as an unbalance brings, which strikes too where a bearing has play."""
     shaft = candidate.family.site
     gears = [name for mesh in ties.meshes for s, name in zip(mesh[2], mesh[3], strict=True) if s == shaft]
-    causes = [(term, g, 1.0) for g in gears for term in TOOTH_TERMS]
+    causes = [(term, shaft, 1.0) for term in TURNING if line is not None]
+    causes += [(term, g, 1.0) for g in gears for term in TOOTH_TERMS]
     causes += [
         ("rub", shaft, 0.9),
         ("pedestal_looseness", shaft, 0.85),
@@ -99,6 +104,7 @@ def turn_report(
         sentence=f"Impacts once a turn of {shaft} that no known rolling element makes: a rub, a loose part"
         + (", a damaged tooth" if gears else "")
         + " or a badly damaged bearing are alike at this level."
+        + ("" if line is None else _with_line(line))
         + ("" if foreign is None else _beside_turn(foreign)),
         level="kinematics",
         where=Where(sites=(PlaceWeight(site=shaft, weight=1.0),), lines=lines_of(candidate, tests, baselines)),
@@ -112,6 +118,13 @@ def turn_report(
             "how large: a size can't be given without a model",
         ),
         next_experiment=NextExperiment(sentence=_next_of_turn(tests, foreign)),
+    )
+
+
+def _with_line(line: ShaftChange) -> str:
+    return (
+        f" The turn's own line grew by {line.growth_db:.0f} dB: an unbalance or a bow of {line.shaft} brings that, and "
+        "in a bearing with play it strikes once a turn too."
     )
 
 

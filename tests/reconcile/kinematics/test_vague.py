@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
-from tests.strategies.impulses import recorded, sound, train
+from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, sound, train
 
 SHAFT = {"name": "shaft"}
 SIZES = {"ball_diameter_m": 0.00794, "pitch_diameter_m": 0.03904}
@@ -40,4 +40,14 @@ def test_a_turn_alone_has_nothing_beside_it() -> None:
     knocked = recorded(sound(2) + train(np.random.default_rng(5), 1.0, 1.6))
     report = reconcile_kinematics(spec(8), [knocked], [recorded(sound(1))], seed=3)
     assert "Impacts once a turn of shaft" in report.sentence and "no part of the specification" not in report.sentence
+    assert "own line" not in report.sentence and "unbalance" not in {c.term for c in report.causes}
     assert report.next_experiment is not None and "Record with a tacho" in report.next_experiment.sentence
+
+
+@pytest.mark.slow
+def test_an_unbalance_is_one_of_what_strikes_once_a_turn_where_its_line_grew() -> None:
+    line = 3.0 * np.sin(2.0 * np.pi * SPEED_HZ * np.arange(N) / RATE_HZ)
+    knocked = recorded(sound(2) + line + train(np.random.default_rng(5), 1.0, 1.6))
+    report = reconcile_kinematics(spec(9), [knocked], [recorded(sound(1))], seed=3)
+    assert "Impacts once a turn of shaft" in report.sentence and "The turn's own line grew by" in report.sentence
+    assert [(c.term, c.site) for c in report.causes[:2]] == [("unbalance", "shaft"), ("bent_shaft", "shaft")]
