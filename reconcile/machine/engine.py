@@ -37,6 +37,7 @@ from reconcile.machine.misfit import with_misfit
 from reconcile.machine.mistaken import with_mistaken
 from reconcile.machine.octave import doubted_speed, rival_speed
 from reconcile.machine.pairs import Pairs, best_pair, named_pair
+from reconcile.machine.pictures import as_named
 from reconcile.machine.search import (
     broader,
     fit_views,
@@ -152,7 +153,7 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = with_mistaken(with_beaten(with_grown(report, machine)), looks.setting, looks.by_families, channels)
     report = with_misfit(report, looks.fit, machine)
     report = with_strange(report, strange(machine, alike, channels, gate.findings), machine, setting.direct.evidence)
-    return with_short(with_limits(with_unconfirmed(report, machine, alike), apart), alike, gate.findings)
+    return as_named(with_short(with_limits(with_unconfirmed(report, machine, alike), apart), alike, gate.findings))
 
 
 def _told_by(meter: Meter, seed: int, budget: Budget) -> Mapping[str, object]:

@@ -17,7 +17,7 @@ from reconcile.observe.features import Layout
 from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
 from reconcile.observe.watch import bases_at
-from reconcile.verdict import AngleWindow, Cause
+from reconcile.verdict import AngleWindow, Cause, Report
 from signals.series import FloatArray
 from sim.core.spec import MachineSpec
 
@@ -109,6 +109,16 @@ def ranking(setting: Setting, found: Found, named: Collection[str]) -> list[dict
         }
         for k in (*best, *(screen.names.index(name) for name in named if name in screen.names and name not in shown))
     ]
+
+
+def as_named(report: Report) -> Report:
+    """The report whose ranking marks what its causes name: names may be taken back after it was drawn."""
+    rows = report.pictures.get("ranking")
+    if not isinstance(rows, list):
+        return report
+    told = {f"{c.term}@{c.site}" for c in report.causes if c.named}
+    marked = [{**row, "named": row["label"] in told} for row in rows]
+    return replace(report, pictures={**report.pictures, "ranking": marked})
 
 
 def turn_maps(

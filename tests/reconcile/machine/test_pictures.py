@@ -10,12 +10,12 @@ import pytest
 from reconcile.atlas.plan import Point
 from reconcile.calibrate.chain import band_centres_hz
 from reconcile.judge.screen import Screen
-from reconcile.machine.pictures import TURN_BINS, forms, spectra, turn_maps, with_forms
+from reconcile.machine.pictures import TURN_BINS, as_named, forms, spectra, turn_maps, with_forms
 from reconcile.machine.weigh import merged_weights
 from reconcile.machine.words import with_points
 from reconcile.observe.features import Layout
 from reconcile.observe.steady import Steady
-from reconcile.verdict import AngleWindow, Cause, HeldOut
+from reconcile.verdict import AngleWindow, Cause, HeldOut, Report
 from sim.presets import preset
 
 BANDS = band_centres_hz().size
@@ -111,3 +111,12 @@ def test_what_was_held_out_is_said_by_its_operating_points(data: list[SimpleName
     )  # fmt: skip
     said = with_points(held, data).held  # type: ignore[arg-type]
     assert said == "each operating point in turn, fitted on the others: 22.5 Hz, 30 Hz at 0.5 of the torque"
+
+
+def test_a_name_that_was_taken_back_is_marked_in_no_picture() -> None:
+    rows = [{"label": f"outer_spall@bearing{k}", "score": 9.0, "named": k == 1} for k in (1, 2)]
+    causes = tuple(Cause(term="outer_spall", site=f"bearing{k}", score=9.0, named=k == 2) for k in (1, 2))
+    report = Report(verdict="explained", sentence="", level="machine", causes=causes, pictures={"ranking": rows})
+    marked = as_named(report).pictures["ranking"]
+    assert [row["named"] for row in marked] == [False, True]  # type: ignore[attr-defined]
+    assert as_named(Report(verdict="explained", sentence="", level="machine")).pictures == {}
