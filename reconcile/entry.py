@@ -14,6 +14,7 @@ from reconcile.driven import reconcile_driven
 from reconcile.kinematics import KinematicSpec, reconcile_kinematics
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.engine import Progress, reconcile_machine
+from reconcile.repeated import check_repeated
 from reconcile.stated import (
     Given,
     check_locations,
@@ -155,10 +156,12 @@ def reconcile_recordings(
     check_size(tests, baselines)
     sent = sent_as(tests, baselines)
     if isinstance(machine, MachineSpec) and not machine.shafts:
+        check_repeated(tests, baselines)
         report = reconcile_driven(machine, tests, baselines, seed=seed)
         return _with_labels(report, sent, machine.name)
     check_descriptions(machine, tests, baselines)
     check_channels(tests, baselines)
+    check_repeated(tests, baselines)
     level: Level = "kinematics" if isinstance(machine, KinematicSpec) else "machine"
     silent = (*unstated(given(tests, baselines)), *exchanged(given(tests, baselines)))
     if isinstance(machine, MachineSpec):
