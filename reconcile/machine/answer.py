@@ -13,6 +13,7 @@ from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import Decision, decide
+from reconcile.machine.elsewhere import by_forecast
 from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
 from reconcile.machine.limits import limits
 from reconcile.machine.lines import by_name, line_changes
@@ -108,6 +109,7 @@ def answer(
     both = other.together if other is not None else None
     beside = other.names[0] if other is not None else None
     held = _held(setting, found, decision, layout, unknown, beside) if decision.chosen else None
+    decision = by_forecast(decision, held)
     struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
     ranked = ranked_causes(found, decision, weights, observed, other, struck) if missing else ()
     causes = with_forms(ranked, found.screen)

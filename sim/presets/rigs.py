@@ -5,6 +5,7 @@ What each number stands for and where it comes from: docs/physics/presets.md.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from sim.core.spec import (
@@ -27,8 +28,13 @@ GRAVITY_M_PER_S2 = 9.80665
 BENDING_DAMPING_S = 3e-6
 """Damping ratio 0.01 at 1.06 kHz."""
 CLEARANCE_M = 2e-6
+RIG_HZ, RIG_ROTOR_KG, RIG_DISC_KG = 29.95, 7.0, 2.5
 SEAT_N_PER_M, SEAT_NS_PER_M = 5e8, 1e3
 """Interference fit of an inner ring on its shaft."""
+
+BALANCED_MM_PER_S = 2.5
+"""Balance quality grade G 2.5 of electric motors' rotors: ISO 21940-11:2016, Table 1; permissible residual unbalance is
+mass times grade over the largest angular speed (clause 6.2.3)."""
 
 GEAR_NS_PER_M = 400.0
 """Oil and ball contacts, whose law has no damping: ratio 0.02 to 0.05 for the shafts' modes on their balls."""
@@ -89,6 +95,12 @@ def _disc(name: str, mass_kg: float, *, polar: float, diametral: float, damping_
     )
 
 
+def _left_unbalance(body: str, mass_kg: float, speed_hz: float, phase_rad: float) -> TermSpec:
+    """What balancing leaves of a body's unbalance, all that its grade permits."""
+    moment = mass_kg * BALANCED_MM_PER_S * 1e-3 / (2.0 * math.pi * speed_hz)
+    return TermSpec(term="unbalance", site=body, parameters={"moment": float(f"{moment:.2g}"), "phase": phase_rad})
+
+
 def bearing_rig() -> MachineSpec:
     """A motor shaft on two 6205 bearings with a load disc beyond the drive end."""
     housing = Housing(stiffness_n_per_m=1e8, damping_ns_per_m=1.5e3, mass_kg=0.6)
@@ -110,16 +122,21 @@ def bearing_rig() -> MachineSpec:
     )
     return MachineSpec(
         name="bearing-rig",
-        notes="A motor shaft on two 6205 bearings, 1797 r/min, a load disc overhung at the drive end, under gravity.",
+        notes="A motor shaft on two 6205 bearings, 1797 r/min, a load disc overhung at the drive end, under gravity; "
+        "rotor and disc are balanced to G 2.5.",
         shafts=[shaft],
         bodies=[
-            _disc("rotor", 7.0, polar=0.0110, diametral=0.0148, damping_ns_per_m=500.0),
-            _disc("disc", 2.5, polar=0.0045, diametral=0.0023, damping_ns_per_m=200.0),
+            _disc("rotor", RIG_ROTOR_KG, polar=0.0110, diametral=0.0148, damping_ns_per_m=500.0),
+            _disc("disc", RIG_DISC_KG, polar=0.0045, diametral=0.0023, damping_ns_per_m=200.0),
         ],
         bearings=bearings,
         resonators=_sensors(bearings),
         gravity_m_per_s2=GRAVITY_M_PER_S2,
-        operating=OperatingSpec(shaft="motor", speed_hz=29.95, rotation="geared"),
+        operating=OperatingSpec(shaft="motor", speed_hz=RIG_HZ, rotation="geared"),
+        terms=[
+            _left_unbalance("rotor", RIG_ROTOR_KG, RIG_HZ, 0.0),
+            _left_unbalance("disc", RIG_DISC_KG, RIG_HZ, 2.0),
+        ],
     )
 
 

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import pytest
 
-from reconcile.machine.elsewhere import LEAST_GAIN, with_place
+from reconcile.machine.decide import Decision
+from reconcile.machine.elsewhere import BY_FORECAST, CLEARLY, LEAST_GAIN, by_forecast, with_place
 from reconcile.machine.heldout import MANY
 from reconcile.report.action import PLACE_OPEN, to_do
 from reconcile.verdict import Cause, HeldOut, Placebo, PlaceWeight, Report, Where
@@ -91,3 +92,31 @@ def test_impacts_at_a_places_own_lines_are_there_whatever_the_levels_forecast() 
     assert told(heard={"outer_spall@bearing1": 25.0}) is NAMED
     assert told(heard={**HEARD, "outer_spall@bearing2": 13.0}).verdict == "ambiguous"
     assert told(heard={}).verdict == "ambiguous", "what does not strike"
+
+
+PLACES = ("outer_spall@bearing1", "outer_spall@bearing2")
+OPEN = Decision(word="ambiguous", chosen=PLACES, p=1e-4, reasons=(PLACE_OPEN,))
+FARTHER = Placebo(term="outer_spall", site="bearing2", gain=0.3, draws=16)
+FAR = replace(HELD, gain=0.83, gain_low=0.79, placebos=(FARTHER,))
+
+
+def test_held_out_data_name_the_place_that_alone_forecasts_them() -> None:
+    found = by_forecast(OPEN, FAR)
+    assert (found.word, found.chosen, found.reasons) == ("explained", OPEN.chosen[:1], (BY_FORECAST,))
+
+
+@pytest.mark.parametrize(
+    ("decision", "held"),
+    [
+        (replace(OPEN, word="not_decidable"), FAR),
+        (replace(OPEN, chosen=("outer_spall@bearing1", "inner_spall@bearing1")), FAR),
+        (replace(OPEN, chosen=(*OPEN.chosen, "outer_spall@bearing4")), FAR),
+        (OPEN, None),
+        (OPEN, replace(FAR, effects=("outer_spall@bearing2",))),
+        (OPEN, replace(FAR, gain_low=LEAST_GAIN - 0.01)),
+        (OPEN, replace(FAR, gain_low=0.3 + CLEARLY - 0.01)),
+        (OPEN, replace(FAR, placebos=(replace(FARTHER, draws=MANY - 1),))),
+    ],
+)  # fmt: skip
+def test_and_stay_silent_where_they_do_not(decision: Decision, held: HeldOut | None) -> None:
+    assert by_forecast(decision, held) is decision
