@@ -45,13 +45,18 @@ def ranked_causes(
                 score=told[name],
                 severity=estimated_severity(found.view(name), found.known, name, observed),
                 named=decision.word == "explained" and name == decision.chosen[0],
-                reasons=(ITS_IMPACTS,) if name in struck else decision.reasons,
+                reasons=(ITS_IMPACTS,) if name in struck else _reasons(decision, name),
                 values=dict(drawn[0].parameters) if drawn else {},
             )
         )
     if other is not None:
         causes.insert(1, _beside(found, other))
     return tuple(causes)
+
+
+def _reasons(decision: Decision, name: str) -> tuple[str, ...]:
+    """What the verdict is based on, of all it leaves open; of a name, of that name alone."""
+    return decision.reasons if decision.word != "explained" or name in decision.chosen else ()
 
 
 def _beside(found: Found, other: Beside) -> Cause:

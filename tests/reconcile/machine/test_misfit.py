@@ -11,7 +11,6 @@ import pytest
 from reconcile.machine.misfit import FOREIGN, FOREIGN_BARE, with_misfit
 from reconcile.report.action import to_do
 from reconcile.verdict import PlaceWeight, Report, Where
-from sim.core.spec import TermSpec
 from sim.presets import preset
 
 GEARBOX, RIG = preset("paper-lightly-damped"), preset("bearing-rig")
@@ -78,12 +77,12 @@ def test_advice_speaks_of_what_the_machine_has() -> None:
 def test_a_rotor_that_the_file_balances_perfectly_is_told_to_have_an_unbalance() -> None:
     turn = {**FARTHEST, "line": "1*f_r1", "off_db": 118.0}
     fit = {"misfit_after": 9.0, "misfit_allowed": FOREIGN_BARE, "farthest": [turn], "strayed": ["bodies.0.mass_kg"]}
+    perfect = RIG.model_copy(update={"terms": [t for t in RIG.terms if t.term != "unbalance"]})
     for before in (UNKNOWN, replace(UNKNOWN, verdict="nothing_missing")):
-        report = with_misfit(before, fit, RIG)
+        report = with_misfit(before, fit, perfect)
         assert "1*f_r1 at 30 Hz in a1, of which the file makes hardly any" in report.sentence
         assert "1 number at the edge of their spread (bodies.0.mass_kg)" in report.sentence
         assert "residual unbalance" in report.sentence + to_do(report)
     assert to_do(report).startswith("correct the machine file first")
-    balanced = RIG.model_copy(update={"terms": [*RIG.terms, TermSpec(term="unbalance", site="disc")]})
-    for machine, line in ((balanced, turn), (RIG, {**turn, "line": "2*f_r1"}), (RIG, {**turn, "off_db": 20.0})):
+    for machine, line in ((RIG, turn), (perfect, {**turn, "line": "2*f_r1"}), (perfect, {**turn, "off_db": 20.0})):
         assert "residual" not in with_misfit(UNKNOWN, {**fit, "farthest": [line]}, machine).next_experiment.sentence  # type: ignore[union-attr]
