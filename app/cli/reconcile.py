@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -24,6 +25,7 @@ from app.cli.processes import processes
 from reconcile.entry import reconcile_recordings
 from reconcile.kinematics import KinematicSpec, read_kinematic_spec
 from reconcile.machine.budget import BUDGETS
+from reconcile.machine.engine import ATLASES_DONE
 from reconcile.report import write_report
 from reconcile.report.write import PAGE, REPORT
 from reconcile.told import about
@@ -134,6 +136,8 @@ def _machine_named(path: Path) -> Iterator[None]:
 
 
 STEP = 0.05
+LEAST_DONE, LEAST_SPENT_S = 0.01, 5.0
+"""Progress and seconds from which there is a pace."""
 """Share of the whole after which a stage that lasts is told again."""
 
 
@@ -143,14 +147,32 @@ class _Shown:
 
     last: str = ""
     share: float = 0.0
+    clock: Callable[[], float] = time.monotonic
+    begun: tuple[float, float] | None = None
+    """Share and time, s, at which the atlas at hand was begun: those before it may have been kept."""
 
     def __call__(self, share: float, stage: str) -> None:
+        left = self._left(share, stage)
         if sys.stderr.isatty():
-            print(f"\r{share:4.0%} {stage:<40}", end="\n" if share >= 1.0 else "", file=sys.stderr, flush=True)
+            print(f"\r{share:4.0%} {stage + left:<60}", end="\n" if share >= 1.0 else "", file=sys.stderr, flush=True)
         elif stage != self.last or share >= self.share + STEP:
-            print(f"{share:4.0%} {stage}", file=sys.stderr, flush=True)
+            print(f"{share:4.0%} {stage}{left}", file=sys.stderr, flush=True)
             self.share = share
         self.last = stage
+
+    def _left(self, share: float, stage: str) -> str:
+        """How long the atlases of all operating points still take at the pace so far; nothing while that is open."""
+        if not stage.startswith("atlas"):
+            return ""
+        now = self.clock()
+        if self.begun is None or stage != self.last:
+            self.begun = (share, now)
+        first, since = self.begun
+        done, spent = share - first, now - since
+        if done < LEAST_DONE or spent < LEAST_SPENT_S:
+            return ""
+        left_s = max(ATLASES_DONE - share, 0.0) * spent / done
+        return f", all atlases in about {left_s / 60.0:.0f} min" if left_s >= 60.0 else ", all atlases within a minute"
 
 
 def _writable(folder: Path) -> None:

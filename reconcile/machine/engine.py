@@ -64,6 +64,8 @@ from signals.recording import Recording
 from sim.core.spec import MachineSpec
 
 Progress = Callable[[float, str], None]
+ATLASES_BEGUN, ATLASES_DONE = 0.1, 0.6
+"""Shares of a reconciliation between which atlases are made."""
 CLOSER_LINES_P = 0.05
 """Chance of a change of single lines, on machines that agree with the baseline, from which candidates are asked."""
 
@@ -137,7 +139,7 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
         return told_apart(apart, data, gate, _told_by(meter, seed, budget))
     setting = _setting(machine, gate, alike, asked.plan, asked.keeper, meter, progress)
     atlas_s = meter.spent_s()
-    progress(0.6, "candidates")
+    progress(ATLASES_DONE, "candidates")
     looks = _answered(setting, screen_atlas(setting), budget, meter, progress)
     of_kind, setting, found = setting, looks.setting, looks.found
     progress(0.9, "laws that nobody listed")
@@ -264,9 +266,10 @@ def _setting(
     distinct = standard_channels(machine, simulated)
     banks = []
     for k, one in enumerate(data):
-        begun, stage = 0.1 + 0.5 * k / len(data), f"atlas at {one.point.speed_hz:g} Hz"
+        width = (ATLASES_DONE - ATLASES_BEGUN) / len(data)
+        begun, stage = ATLASES_BEGUN + k * width, f"atlas at {one.point.speed_hz:g} Hz"
         progress(begun, stage)
-        telling = Telling(mapper, lambda share, a=begun, s=stage: progress(a + 0.5 * share / len(data), s))  # type: ignore[misc]
+        telling = Telling(mapper, lambda share, a=begun, s=stage, w=width: progress(a + share * w, s))  # type: ignore[misc]
         bank = kept_bank(plan, simulated_at(machine, one.point), distinct, keeper=keeper, mapper=telling)
         banks.append(bank.at(range(len(plan.draws)), [distinct.index(s) for s in simulated]))
     seen = lenses(data, banks, plan)

@@ -267,6 +267,19 @@ def test_descriptions_and_machines_may_begin_with_a_byte_order_mark(tmp_path: Pa
     assert main(asked(machine, given, tmp_path / "out", "--jobs", "1", "--atlas", str(tmp_path / "atlas"))) == 0
 
 
+def test_progress_says_how_long_the_atlases_still_take(capsys: pytest.CaptureFixture[str]) -> None:
+    now = iter([0.0, 2.0, 60.0, 110.0, 114.0])
+    shown = _Shown(clock=lambda: next(now))
+    for share in (0.1, 0.11, 0.35, 0.58, 0.6):
+        shown(share, "atlas at 30 Hz")
+    shown(0.62, "candidates")
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[0] == " 10% atlas at 30 Hz", "no pace yet"
+    assert lines[1].endswith("35% atlas at 30 Hz, all atlases in about 1 min")
+    assert lines[2].endswith("58% atlas at 30 Hz, all atlases within a minute")
+    assert lines[-1] == " 62% candidates"
+
+
 @pytest.mark.parametrize("terminal", [True, False])
 def test_progress_is_one_line_on_a_terminal_and_a_line_a_stage_or_a_twentieth_elsewhere(
     terminal: bool, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
