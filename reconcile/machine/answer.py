@@ -18,7 +18,7 @@ from reconcile.machine.heldout import feature_channels, feature_frequencies, hel
 from reconcile.machine.limits import limits
 from reconcile.machine.lines import by_name, line_changes
 from reconcile.machine.meter import Meter
-from reconcile.machine.pairs import Pairs, named_pair
+from reconcile.machine.pairs import Pair, Pairs, named_pair
 from reconcile.machine.pictures import ranking, spectra, turn_maps, with_forms
 from reconcile.machine.proved import proved
 from reconcile.machine.revised import Revised, paths, revised_machine
@@ -107,8 +107,8 @@ def answer(
     missing = decision.word != "nothing_missing"
     decision, other = named_pair(decision, second_effect(setting, found, decision), pairs)
     both = other.together if other is not None else None
-    beside = other.names[0] if other is not None else None
-    held = _held(setting, found, decision, layout, unknown, beside) if decision.chosen else None
+    pair = pairs.best if pairs is not None and pairs.best is not None and other is pairs.best.beside else None
+    held = _held(setting, found, decision, layout, unknown, other, pair) if decision.chosen else None
     decision = by_forecast(decision, held)
     struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
     ranked = ranked_causes(found, decision, weights, observed, other, struck) if missing else ()
@@ -265,7 +265,8 @@ def _held(
     decision: Decision,
     layout: Layout,
     unknown: Unknown | None,
-    beside: str | None,
+    other: Beside | None,
+    pair: Pair | None,
 ) -> HeldOut:
     lines = [d.lines_hz for d in setting.data]
     count = len(setting.channels)
@@ -274,7 +275,8 @@ def _held(
         setting.changes,
         known,
         decision.chosen[0] if unknown is None or unknown.label is None else unknown.label,
-        beside=beside,
+        beside=other.names[0] if other is not None else None,
+        drawn=pair.drawn if pair is not None else None,
         spectral=spectral_mask(layout, setting.seen_through),
         frequency=feature_frequencies(layout, lines, count),
         channel=feature_channels(layout, len(lines), count),

@@ -13,7 +13,7 @@ class Budget:
     machines each, which are then fitted to the observation together with the effect in so many `assimilations`.
     Where no known effect is adequate force laws are tried at the likeliest `supports` bearings, after the best
     `broader` effects at a place that have few draws got all of them: one not met at its size looks like none. Beside
-    the best effect so many of those that add most to it are simulated (`pairs`)."""
+    the best effect so many of those that add most to it are simulated (`pairs`; `seconds` where it does not strike)."""
 
     name: Literal["quick", "full"]
     terms: int
@@ -25,6 +25,7 @@ class Budget:
     members: int
     assimilations: int
     pairs: int
+    seconds: int
 
 
 QUICK = Budget(
@@ -38,6 +39,7 @@ QUICK = Budget(
     members=8,
     assimilations=1,
     pairs=2,
+    seconds=2,
 )
 FULL = Budget(
     name="full",
@@ -50,5 +52,6 @@ FULL = Budget(
     members=16,
     assimilations=2,
     pairs=6,
+    seconds=6,
 )
 BUDGETS = {"quick": QUICK, "full": FULL}

@@ -34,17 +34,19 @@ def ranked_causes(
     told = dict(zip(found.screen.names, map(float, found.screen.evidence), strict=True))
     rest = sorted((n for n in weights if n not in struck), key=lambda n: -told[n])
     listed = list(decision.chosen) + [n for n in dict.fromkeys((*struck, *rest)) if n not in apart]
+    own = other.together.own if other is not None and other.together is not None else None
     causes = []
     for name in listed[:MOST_CAUSES]:
         term, site = name.split("@")
         drawn = best_draws(found.view(name), found.known, name, observed, count=1)
+        named = decision.word == "explained" and name == decision.chosen[0]
         causes.append(
             Cause(
                 term=term,
                 site=site,
                 score=told[name],
-                severity=estimated_severity(found.view(name), found.known, name, observed),
-                named=decision.word == "explained" and name == decision.chosen[0],
+                severity=(own if named else None) or estimated_severity(found.view(name), found.known, name, observed),
+                named=named,
                 reasons=(ITS_IMPACTS,) if name in struck else _reasons(decision, name),
                 values=dict(drawn[0].parameters) if drawn else {},
             )

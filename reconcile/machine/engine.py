@@ -31,6 +31,8 @@ from reconcile.machine.faintest import faintest_seen
 from reconcile.machine.foreign import with_foreign
 from reconcile.machine.gate_orders import gate_orders
 from reconcile.machine.grown import with_grown
+from reconcile.machine.left_pairs import best_left_pair
+from reconcile.machine.library import Catalogued
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter, Telling
 from reconcile.machine.misfit import with_misfit
@@ -48,7 +50,7 @@ from reconcile.machine.search import (
     screen_atlas,
     to_fit,
 )
-from reconcile.machine.second import second_effect
+from reconcile.machine.second import second_effect, strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.short import with_short
 from reconcile.machine.strange import explained_by, strange, with_strange
@@ -219,7 +221,7 @@ def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, prog
     fit = told(local) if local is not None else {}
     found = replace(found, screen=screen)
     progress(0.89, "two effects together")
-    pairs = _paired(closer, found, budget, meter)
+    pairs = _paired(closer, found, atlas.known, budget, meter)
     return _Looks(setting=closer, found=found, fit=fit, atlas=atlas, lines=seen, pairs=pairs)
 
 
@@ -227,10 +229,12 @@ def _decided(setting: Setting, found: Found) -> Decision:
     return decide(found.screen, views=len(setting.channels) * len(setting.data))
 
 
-def _paired(setting: Setting, found: Found, budget: Budget, meter: Meter) -> Pairs | None:
+def _paired(setting: Setting, found: Found, atlas: Catalogued, budget: Budget, meter: Meter) -> Pairs | None:
     decision = _decided(setting, found)
     if second_effect(setting, found, decision) is not None:
         return None
+    if decision.chosen and not strikes(decision.chosen[0]):
+        return best_left_pair(setting, found, decision, atlas, budget.members, budget.seconds, meter)
     return best_pair(setting, found, decision, budget.members, budget.pairs, meter)
 
 

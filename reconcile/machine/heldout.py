@@ -94,17 +94,20 @@ def held_out(
     frequency: FloatArray,
     channel: np.ndarray | None = None,
     beside: str | None = None,
+    drawn: FloatArray | None = None,
     seed: int,
 ) -> HeldOut:
     """Log-spectral distance before and after adding the effect, or it and another `beside` it, with a 90 %
     block-bootstrap interval of the gain. Placebos of a pair keep the first and put something else for the second.
+    `drawn` (n, F): what both show together on simulated machines, else their draws are summed.
 
     `black_box` is the better of one curve for all sensors and one for each (`channel` (F,)) with as many numbers."""
     noise = np.nan_to_num(changes.measured, nan=10.0) ** 2
     drift = np.mean(np.nan_to_num(changes.null) ** 2, axis=0)
     sigma = np.sqrt(noise + drift + 1.0)
     ways, how = splits(changes, spectral)
-    named = known if beside is None else with_sums(changes, known, name, beside)
+    named = known if beside is None else with_drawn(known, name, drawn)
+    named = with_sums(changes, known, name, beside) if beside is not None and drawn is None else named
     before = [_distance(w.scored, np.zeros(changes.observed.size), w) for w in ways]
     after, used = _told(named, named.library.groups[name], ways, spectral, sigma)
     count = max(_parameters(name) + (0 if beside is None else _parameters(beside)), round(used))
@@ -144,6 +147,16 @@ def with_sums(changes: Changes, known: Catalogued, first: str, second: str) -> C
     sums = np.concatenate([changes.both(one[None], other) for one in own])
     rows = tuple(range(len(library.changes), len(library.changes) + len(sums)))
     both = np.concatenate([library.changes, sums])
+    return replace(known, library=replace(library, changes=both, groups={**library.groups, first: rows}))
+
+
+def with_drawn(known: Catalogued, first: str, drawn: FloatArray | None) -> Catalogued:
+    """The library in which the first effect's draws are these (n, F)."""
+    if drawn is None:
+        return known
+    library = known.library
+    rows = tuple(range(len(library.changes), len(library.changes) + len(drawn)))
+    both = np.concatenate([library.changes, drawn])
     return replace(known, library=replace(library, changes=both, groups={**library.groups, first: rows}))
 
 

@@ -22,11 +22,14 @@ from reconcile.judge.space import Fitted
 from reconcile.machine.assimilate import Ensemble, moved, simulated_again
 from reconcile.machine.decide import STRANGE, Decision, leaves_lines
 from reconcile.machine.direct import HEARD
+from reconcile.machine.library import Catalogued
 from reconcile.machine.second import Beside, Together, strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.severity import weighted_severity
 from reconcile.machine.weigh import LEAST_EVIDENCE, exclusive, variants
+from reconcile.verdict import Severity
 from signals.series import FloatArray
+from sim.core.spec import TermSpec
 from sim.core.terms import Term
 from sim.terms import REGISTRY
 
@@ -66,6 +69,8 @@ class Pair:
     gain: float
     rest: Rest
     others: tuple[str, ...] = ()
+    drawn: FloatArray | None = None
+    """What both show on machines that were not led to the observation, (n, F) dB, where these were simulated."""
 
 
 def evidence_in(view: Fitted, changes: FloatArray, observed: FloatArray) -> FloatArray:
@@ -177,28 +182,47 @@ def fitted_pair(setting: Setting, found: Found, first: str, second: Sum, mapper:
     views = heard_in(found, first)
     told = [evidence_in(v, changes, observed) - x for v, x in zip(views, alone(views, first, observed), strict=True)]
     gains = together(told)
-    order = np.argsort(-gains)
-    terms = tuple((more.terms[k], led.also[more.pairs[k]]) for k in order)
-    size = size_parameter(_registered(second.name))
-    weights = np.exp(gains[order] - gains.max())
-    both = Together(
-        severity=weighted_severity(
-            size, np.array([abs(t[1].parameters[size.name]) for t in terms]), weights / weights.sum()
-        ),
-        terms=terms,
-        middle=Offsets(values=np.mean([o.values for o in more.offsets], axis=0)),
-    )
-    gain = float(gains.max())
+    return pair_of(setting, found, first, second.name, second.view, Simulated(known=more, also=led.also, gains=gains))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Simulated:
+    """Machines with both effects: what they show and with which first effect (`known`), the second effect `also` of
+    every machine asked for, and log evidence (n,) of every one that ran over the first alone."""
+
+    known: Catalogued
+    also: tuple[TermSpec, ...]
+    gains: FloatArray
+
+
+def pair_of(
+    setting: Setting, found: Found, first: str, second: str, view: Fitted, made: Simulated, gain: float | None = None
+) -> Pair:
+    """The pair as these machines show it, by the best of them if no other `gain` is given, with which the first's size
+    beside the second counts; `view`: of single lines, in which they were fitted."""
+    observed, changes = setting.changes.observed, made.known.library.changes
+    order = np.argsort(-made.gains)
+    terms = tuple((made.known.terms[k], made.also[made.known.pairs[k]]) for k in order)
+    weights = np.exp(made.gains[order] - made.gains.max())
+    sizes = [_size_of(name, [t[k] for t in terms], weights) for k, name in enumerate((first, second))]
+    middle = Offsets(values=np.mean([o.values for o in made.known.offsets], axis=0))
+    both = Together(severity=sizes[1], terms=terms, middle=middle, own=None if gain is None else sizes[0])
+    adds = float(made.gains.max()) if gain is None else gain
     beside = Beside(
-        view=second.view,
+        view=view,
         left=observed,
-        names=(second.name,),
-        evidence=np.array([gain]),
-        p=float(np.exp(-max(gain, 0.0))),
-        misfit=_misfit(second.view, changes, observed),
+        names=(second,),
+        evidence=np.array([adds]),
+        p=float(np.exp(-max(adds, 0.0))),
+        misfit=_misfit(view, changes, observed),
         together=both,
     )
-    return Pair(first=first, beside=beside, gain=gain, rest=_rest(found, first, changes, observed))
+    return Pair(first=first, beside=beside, gain=adds, rest=_rest(found, first, changes, observed))
+
+
+def _size_of(name: str, terms: Sequence[TermSpec], weights: FloatArray) -> Severity:
+    size = size_parameter(_registered(name))
+    return weighted_severity(size, np.array([abs(t.parameters[size.name]) for t in terms]), weights / weights.sum())
 
 
 def best_pair(
@@ -228,7 +252,7 @@ def best_pair(
 
 def _stands(setting: Setting, found: Found, decision: Decision, best: Pair) -> bool:
     least = LEAST_BESIDE_IMPACTS if strikes(best.first) else LEAST_GAIN
-    if best.gain < least or (decision.word != "explained" and _inadequate(best)):
+    if best.gain < least or (decision.word != "explained" and inadequate(best)):
         return False
     return not any(_as_well(setting, found, rival, best) for rival in decision.chosen[1:])
 
@@ -251,7 +275,8 @@ def _as_well(setting: Setting, found: Found, rival: str, best: Pair) -> bool:
     return bool(told[rival] + max(more, 0.0) > told[best.first] + best.gain - UNTRIED)
 
 
-def _inadequate(pair: Pair) -> bool:
+def inadequate(pair: Pair) -> bool:
+    """Whether both together leave what no known effects should."""
     return leaves_lines(pair.rest) or pair.beside.misfit > STRANGE
 
 

@@ -35,11 +35,12 @@ LEFT = 0.9
 @dataclass(frozen=True, kw_only=True)
 class Together:
     """Two effects fitted together with the machine: the second's size, both terms of every member, the nearest first,
-    and how their machines are moved on the mean."""
+    and how their machines are moved on the mean; the first's size beside the second, where it is better so."""
 
     severity: Severity
     terms: tuple[tuple[TermSpec, TermSpec], ...]
     middle: Offsets
+    own: Severity | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,0 +1,102 @@
+"""What a fitted effect leaves, feature by feature: the likelihood by which a second one may stand beside it.
+
+The metric that tells effects apart counts in units of how far draws of one effect lie apart on machines of the kind,
+sixteen to twenty times what measurement and drift make. Once the best effect is fitted to the observation together with
+the machine, what it leaves is compared with measurement, drift and the fitted draws' own spread instead, every feature
+by itself, and a second effect counts by how much less both leave (docs/decisions/reconcile-leftover.md).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.judge.changes import Changes
+from reconcile.judge.metric import LEAST_DB
+from reconcile.machine.library import Catalogued
+from reconcile.machine.setting import Found, Setting
+from signals.series import FloatArray
+
+NEAREST = 8
+"""Draws of the fitted effect that speak for it."""
+OWN_SHARE = 0.3
+"""Share of a feature's change by which the forms of laws may err, as a deviation: of fits with the right effect half of
+all features that change by more than 6 dB miss by less. The same whatever is supposed, so that a large supposed change
+buys no tolerance."""
+QUIET_DB = 1.0
+"""The fitted effect moves a feature less: what moved there is another's."""
+LARGE = 3.0
+"""Deviations from which a feature counts by its logarithm."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Leftover:
+    """What the effect's nearest draws `members` (n, F) leave of the `observed` change (F,), dB; `variance` (F,) dB^2 of
+    what they may leave, `used` (F,) features, and `quiet` those that the effect does not move."""
+
+    observed: FloatArray
+    members: FloatArray
+    variance: FloatArray
+    used: np.ndarray
+    quiet: np.ndarray
+
+    @property
+    def shown(self) -> FloatArray:
+        """The median change, (F,) dB."""
+        return np.asarray(np.median(self.members, axis=0))
+
+    @property
+    def base(self) -> float:
+        """Log likelihood of the effect alone: of the better half of its draws."""
+        return self.level(self.members)
+
+    def likelihood(self, changes: FloatArray, mask: np.ndarray | None = None) -> FloatArray:
+        """(n, F) -> (n,): log likelihood of the observation, up to a constant, by the features of `mask` or all; what
+        is far off counts by its logarithm."""
+        part = (self.used if mask is None else mask) & np.isfinite(changes)
+        away = np.where(part, (self.observed - changes) / np.sqrt(self.variance), 0.0)
+        compressed = LARGE * np.log1p(np.abs(away) / LARGE)
+        return np.asarray(-0.5 * np.sum(compressed**2, axis=-1))
+
+    def level(self, changes: FloatArray) -> float:
+        """Mean log likelihood of the better half: the best of many is better by chance."""
+        told = np.sort(self.likelihood(changes))
+        return float(told[told.size // 2 :].mean())
+
+    def by_sums(self, changes: Changes, others: FloatArray) -> FloatArray:
+        """(n,): log likelihood that each of the `others` (n, F) adds to the median as a sum; by all features or by
+        those that the effect does not move, whichever speaks louder: where both move one line, sums err."""
+        both = changes.both(self.shown[None], others)
+        alone = self.shown[None]
+        gains = [self.likelihood(both, m) - self.likelihood(alone, m) for m in (self.used, self.quiet)]
+        return np.asarray(np.maximum(*gains))
+
+
+def leftover(setting: Setting, found: Found, name: str, told: FloatArray) -> Leftover:
+    """Of an effect whose draws have the evidence `told` (draws,) in the library's order."""
+    changes, library = setting.changes, found.known.library
+    rows = np.array(library.groups[name])[np.argsort(-told)[:NEAREST]]
+    members = np.asarray(library.changes[rows])
+    drift = np.nanstd(np.nan_to_num(changes.null), axis=0)
+    observed = np.nan_to_num(changes.observed)
+    measured = np.nan_to_num(changes.measured)
+    spread = np.nan_to_num(np.std(members, axis=0))
+    variance = measured**2 + drift**2 + spread**2 + LEAST_DB**2 + (OWN_SHARE * observed) ** 2
+    used = np.isfinite(changes.observed) & np.isfinite(changes.measured) & np.isfinite(members).all(axis=0)
+    quiet = used & (np.abs(np.nan_to_num(members)).max(axis=0) < QUIET_DB)
+    return Leftover(observed=observed, members=members, variance=variance, used=used, quiet=quiet)
+
+
+def ranked_seconds(
+    left: Leftover, changes: Changes, atlas: Catalogued, names: Sequence[str]
+) -> list[tuple[str, float, tuple[int, ...]]]:
+    """Of every name in the `atlas`: what it adds by sums, the most first, and its rows there, the best first."""
+    found = []
+    for name in names:
+        rows = np.array(atlas.library.groups[name])
+        gains = left.by_sums(changes, atlas.library.changes[rows])
+        order = np.argsort(-gains)
+        found.append((name, float(gains[order[0]]), tuple(int(k) for k in rows[order])))
+    return sorted(found, key=lambda one: -one[1])

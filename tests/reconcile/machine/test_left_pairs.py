@@ -1,0 +1,133 @@
+"""A second effect beside one that does not strike: named where both leave less than the first alone and any other."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reconcile.machine import left_pairs
+from reconcile.machine.causes import ranked_causes
+from reconcile.machine.decide import Decision
+from reconcile.machine.direct import HEARD
+from reconcile.machine.heldout import held_out, with_drawn
+from reconcile.machine.left_pairs import LEAST_GAIN, best_left_pair
+from reconcile.machine.pairs import Pairs, named_pair
+from sim.core.spec import TermSpec
+from tests.reconcile.machine.rubs import FEATURES, MADE, RIGHT, WRONG, found_in
+from tests.reconcile.machine.test_leftover import TRUE, seen
+
+EXPLAINED = Decision(word="explained", chosen=(RIGHT,), p=1e-6, reasons=())
+SMALLER = 5e6
+Asked = list[tuple[str, list[np.ndarray], list[TermSpec]]]
+
+
+@pytest.fixture
+def simulated(monkeypatch: pytest.MonkeyPatch) -> Asked:
+    """Simulating is asking the made world; what was asked for."""
+    asked: Asked = []
+
+    def again(_setting, candidate, offsets, terms, _mapper, also=()):  # type: ignore[no-untyped-def]
+        asked.append((f"{candidate.label}+{also[0].site}", [o.values for o in offsets], list(also)))
+        return MADE.catalogue(candidate.label, [o.values for o in offsets], list(terms), also)
+
+    monkeypatch.setattr(left_pairs, "simulated_again", again)
+    return asked
+
+
+def pairs_in(observed: np.ndarray, decision: Decision = EXPLAINED, most: int = 2) -> Pairs | None:
+    setting, found = found_in(observed)
+    return best_left_pair(setting, found, decision, found.known, 8, most, map)  # type: ignore[arg-type]
+
+
+def test_a_second_is_named_and_a_single_effect_gets_none(simulated: Asked) -> None:
+    told = pairs_in(seen(SMALLER))
+    assert told is not None and told.best is not None
+    best = told.best
+    assert (best.first, best.beside.names, best.others) == (RIGHT, (WRONG,), ()) and best.gain > LEAST_GAIN
+    assert told.tried[0][0] == WRONG and told.tried[0][2] == best.gain
+    together = best.beside.together
+    assert together is not None and abs(np.log(together.severity.value / SMALLER)) < 0.9
+    assert together.own is not None and abs(np.log(together.own.value / 2e7)) < 0.5, "and the first's size beside it"
+    first = ranked_causes(found_in(seen(SMALLER))[1], EXPLAINED, {RIGHT: 0.9, WRONG: 0.1}, seen(SMALLER), best.beside)
+    assert [c.severity for c in first[:2]] == [together.own, together.severity]
+    assert {t.site for t in together.terms[0]} == {"gear", "pinion"}
+    decision, beside = named_pair(EXPLAINED, None, told)
+    assert decision.chosen == (RIGHT,) and beside is best.beside
+    simulated.clear()
+    alone = pairs_in(seen())
+    assert alone is not None and alone.best is None and simulated == [], "nothing adds enough to be worth simulating"
+    assert pairs_in(seen(SMALLER), replace(EXPLAINED, word="nothing_missing")) is None
+
+
+def test_forecasts_are_of_machines_that_were_not_led_to_the_observation(simulated: Asked) -> None:
+    observed = seen(SMALLER)
+    setting, found = found_in(observed)
+    told = best_left_pair(setting, found, EXPLAINED, found.known, 8, 2, map)  # type: ignore[arg-type]
+    assert told is not None and told.best is not None and told.best.drawn is not None
+    fitted, drawn = simulated
+    own = {tuple(o.values) for o in setting.plan.offsets}
+    assert {tuple(o) for o in drawn[1]} <= own and not {tuple(o) for o in fitted[1]} <= own
+    given = {"spectral": np.ones(FEATURES, dtype=bool), "frequency": np.linspace(10.0, 1e3, FEATURES), "seed": 1}
+    both = held_out(setting.changes, found.known, RIGHT, beside=WRONG, drawn=told.best.drawn, **given)  # type: ignore[arg-type]
+    alone = held_out(setting.changes, found.known, RIGHT, **given)  # type: ignore[arg-type]
+    assert both.gain > alone.gain + 0.1 and both.effects == (RIGHT, WRONG)
+    rows = with_drawn(found.known, RIGHT, told.best.drawn).library
+    assert np.array_equal(rows.changes[list(rows.groups[RIGHT])], told.best.drawn)
+    assert with_drawn(found.known, RIGHT, None) is found.known
+
+
+def test_a_rival_close_by_is_told_beside_it(simulated: Asked, monkeypatch: pytest.MonkeyPatch) -> None:
+    setting, found = found_in(seen(SMALLER))
+    library = found.known.library
+    groups = {**library.groups, "unbalance@pinion": library.groups[WRONG]}
+    atlas = replace(found.known, library=replace(library, groups=groups))
+    for lead, others in ((left_pairs.LEAD + 1.0, ()), (1.0, (WRONG, "unbalance@pinion"))):
+        made = left_pairs._fitted
+
+        def near(asked, second, rows, made=made, lead=lead):  # type: ignore[no-untyped-def]
+            pair = made(asked, WRONG, rows)
+            beside = replace(pair.beside, names=(second,))
+            return replace(pair, beside=beside, gain=pair.gain - (0.0 if second == WRONG else lead))
+
+        with monkeypatch.context() as patched:
+            patched.setattr(left_pairs, "_fitted", near)
+            told = best_left_pair(setting, found, EXPLAINED, atlas, 8, 2, map)  # type: ignore[arg-type]
+        assert told is not None and told.best is not None and told.best.others == others
+        assert (told.best.drawn is None) == bool(others), "nothing is forecast for what is not named"
+    assert simulated
+
+
+def test_no_pair_where_another_effect_alone_or_another_first_does_as_well(simulated: Asked) -> None:
+    observed = seen(SMALLER)
+    setting, found = found_in(observed)
+    library = found.known.library
+    new = len(library.changes)
+    whole = np.concatenate([library.changes, np.repeat(observed[None], 4, axis=0)])
+    alone = replace(library, changes=whole, groups={**library.groups, "bent_shaft@gear": tuple(range(new, new + 4))})
+    other = replace(found, known=replace(found.known, library=alone))
+    told = best_left_pair(setting, other, EXPLAINED, found.known, 8, 2, map)  # type: ignore[arg-type]
+    assert told is not None and told.best is None, "one effect is enough"
+    rivals = replace(EXPLAINED, word="ambiguous", chosen=(RIGHT, "bent_shaft@gear"))
+    first = np.repeat(MADE.change(RIGHT, TRUE, 2e7)[None], 4, axis=0)
+    twin = replace(alone, changes=np.concatenate([library.changes, first]))
+    other = replace(found, known=replace(found.known, library=twin))
+    told = best_left_pair(setting, other, rivals, found.known, 8, 2, map)  # type: ignore[arg-type]
+    assert told is not None and told.best is None, "what is first is open"
+    told = best_left_pair(setting, other, EXPLAINED, found.known, 8, 2, map)  # type: ignore[arg-type]
+    assert told is not None and told.best is not None and simulated
+
+
+def test_what_would_strike_is_asked_only_if_it_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
+    setting, found = found_in(seen(SMALLER))
+    monkeypatch.setattr(left_pairs, "strikes", lambda name: name == WRONG)
+    for evidence, there in (({}, False), ({WRONG: HEARD - 0.1}, False), ({WRONG: HEARD}, True)):
+        setting.direct.evidence = evidence
+        assert left_pairs._possible(setting, found.known, RIGHT) == [WRONG] * there  # type: ignore[arg-type]
+
+
+def test_without_single_lines_nothing_is_looked_for(simulated: Asked) -> None:
+    setting, found = found_in(seen(SMALLER))
+    blind = replace(found, fine=None)
+    assert best_left_pair(setting, blind, EXPLAINED, found.known, 8, 2, map) is None and simulated == []  # type: ignore[arg-type]
