@@ -39,7 +39,7 @@ QUICK = Budget(
     members=8,
     assimilations=1,
     pairs=2,
-    seconds=2,
+    seconds=6,
 )
 FULL = Budget(
     name="full",
@@ -52,6 +52,6 @@ FULL = Budget(
     members=16,
     assimilations=2,
     pairs=6,
-    seconds=6,
+    seconds=10,
 )
 BUDGETS = {"quick": QUICK, "full": FULL}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from reconcile.machine.refine import best_draws
 from reconcile.machine.second import Beside, strikes
 from reconcile.machine.setting import Found
 from reconcile.machine.severity import estimated_severity
-from reconcile.verdict import Cause
+from reconcile.verdict import Cause, Severity
 from sim.core.spec import TermSpec
 
 MOST_CAUSES = 10
@@ -40,12 +41,13 @@ def ranked_causes(
         term, site = name.split("@")
         drawn = best_draws(found.view(name), found.known, name, observed, count=1)
         named = decision.word == "explained" and name == decision.chosen[0]
+        size = estimated_severity(found.view(name), found.known, name, observed)
         causes.append(
             Cause(
                 term=term,
                 site=site,
                 score=told[name],
-                severity=(own if named else None) or estimated_severity(found.view(name), found.known, name, observed),
+                severity=_between(size, own if named else None),
                 named=named,
                 reasons=(ITS_IMPACTS,) if name in struck else _reasons(decision, name),
                 values=dict(drawn[0].parameters) if drawn else {},
@@ -54,6 +56,20 @@ def ranked_causes(
     if other is not None:
         causes.insert(1, _beside(found, other))
     return tuple(causes)
+
+
+def _between(alone: Severity | None, beside: Severity | None) -> Severity | None:
+    """The size of a first effect: as it is alone, where a second one was not fitted with it; else between both, and
+    within either interval. Of three pairs of the proof two unbalances were nearer beside the second (25 and 15 % off
+    for 46 and 25 %), a loose fit was not (2.6 and 4.7 um of 9.6)."""
+    if alone is None or beside is None:
+        return alone
+    return replace(
+        alone,
+        value=float(np.sqrt(alone.value * beside.value)),
+        low=min(alone.low, beside.low),
+        high=max(alone.high, beside.high),
+    )
 
 
 def _reasons(decision: Decision, name: str) -> tuple[str, ...]:

@@ -18,7 +18,7 @@ from reconcile.machine.assimilate import Ensemble, moved, simulated_again
 from reconcile.machine.decide import Decision
 from reconcile.machine.direct import HEARD
 from reconcile.machine.leftover import Leftover, leftover, ranked_seconds
-from reconcile.machine.library import Catalogued
+from reconcile.machine.library import Catalogued, joined
 from reconcile.machine.pairs import Pair, Pairs, Simulated, evidence_in, inadequate, pair_of
 from reconcile.machine.second import strikes
 from reconcile.machine.setting import Found, Setting
@@ -32,21 +32,25 @@ LEAST_GAIN, LEAD = 12.0, 6.0
 """Log likelihood that it must add as simulated, and by which it must lead the other simulated ones. Features are not
 independent, so this counts several times what evidence does: right seconds of three pairs of the proof add 29 to 66 and
 lead by 17 to 63, wrong ones beside single effects at most 5."""
+NEAR_SHARE, LEAST_ASKED = 0.5, 2
+"""Share of the most that any adds by sums from which a second must be simulated, or is told with the best; two are in
+any case. Beside a loose fit a crack of a shaft added 47 by sums and the unbalance that was there 34; simulated 40 and
+154."""
 TEMPER = 4.0
 """Log likelihood that counts as one unit of evidence where sizes are weighed."""
 DRAWS = 3
-"""The second effect's draws of the atlas that start an ensemble, in turn."""
+"""The second effect's draws that start an ensemble, in turn."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Asked:
-    """Seconds beside the effect `first`: rows of the `atlas`, best first, by name; `view` of single lines in which
-    both are fitted."""
+    """Seconds beside the effect `first`: `every` draw, of the atlas and of machines that agree with the baseline;
+    `view` of single lines in which both are fitted."""
 
     setting: Setting
     found: Found
     first: str
-    atlas: Catalogued
+    every: Catalogued
     left: Leftover
     view: Fitted
     members: int
@@ -68,20 +72,22 @@ def best_left_pair(
     lines = found.sides or found.fine
     if decision.word not in ("explained", "ambiguous", "unknown_physics") or not decision.chosen or lines is None:
         return None
-    first = decision.chosen[0]
+    first, every = decision.chosen[0], joined(atlas, found.known)
     asked = _Asked(
         setting=setting,
         found=found,
         first=first,
-        atlas=atlas,
+        every=every,
         left=_left(setting, found, first),
         view=lines,
         members=members,
         mapper=mapper,
     )
-    seen = ranked_seconds(asked.left, setting.changes, atlas, _possible(setting, atlas, first))
+    seen = ranked_seconds(asked.left, setting.changes, every, _possible(setting, every, first))
+    near = [one for one in seen if one[1] >= max(PROMISING, NEAR_SHARE * seen[0][1])]
     seen = [one for one in seen if one[1] >= PROMISING]
-    fitted = {name: _fitted(asked, name, rows) for name, _, rows in seen[:most]}
+    asked_for = max(LEAST_ASKED, min(len(near), most))
+    fitted = {name: _fitted(asked, name, rows) for name, _, rows in seen[:asked_for]}
     pairs = sorted((p for p in fitted.values() if p is not None), key=lambda p: -p.gain)
     simulated = {name: None if pair is None else pair.gain for name, pair in fitted.items()}
     tried = tuple((name, gain, simulated.get(name)) for name, gain, _ in seen)
@@ -89,10 +95,11 @@ def best_left_pair(
     if best is not None:
         second = best.beside.names[0]
         names = [p.beside.names[0] for p in pairs[1:] if p.gain > best.gain - LEAD]
-        near = [n for n in names if not variants(n, second)]
+        names += [name for name, _, _ in near[asked_for:]]
+        others = [n for n in names if not variants(n, second)]
         rows = next(rows for name, _, rows in seen if name == second)
-        drawn = None if near else _shown(asked, _start(asked, rows))
-        best = replace(best, others=(second, *near) if near else (), drawn=drawn)
+        drawn = None if others else _shown(asked, _start(asked, rows))
+        best = replace(best, others=(second, *others) if others else (), drawn=drawn)
     return Pairs(first=first, tried=tried, best=best)
 
 
@@ -102,14 +109,14 @@ def _left(setting: Setting, found: Found, name: str) -> Leftover:
     return leftover(setting, found, name, told)
 
 
-def _possible(setting: Setting, atlas: Catalogued, first: str) -> list[str]:
+def _possible(setting: Setting, every: Catalogued, first: str) -> list[str]:
     heard = {n for n, value in setting.direct.evidence.items() if value >= HEARD}
-    names = [n for n in atlas.library.groups if n != first and not exclusive(n, first)]
+    names = [n for n in every.library.groups if n != first and not exclusive(n, first)]
     return [n for n in names if n in heard or not strikes(n)]
 
 
 def _start(asked: _Asked, rows: Sequence[int]) -> Ensemble:
-    """The first's nearest draws, with the second's of the atlas in turn."""
+    """The first's nearest draws, with the second's best in turn."""
     known, changes = asked.found.known, asked.setting.changes
     own = list(known.library.groups[asked.first])
     told = evidence_in(asked.found.fitted, known.library.changes[own], changes.observed)
@@ -122,8 +129,8 @@ def _start(asked: _Asked, rows: Sequence[int]) -> Ensemble:
         candidate=Candidate(term=term, site=site),
         offsets=tuple(known.offsets[k] for k in a),
         terms=tuple(known.terms[k] for k in a),
-        also=tuple(asked.atlas.terms[k] for k in b),
-        changes=changes.both(known.library.changes[a], asked.atlas.library.changes[b]),
+        also=tuple(asked.every.terms[k] for k in b),
+        changes=changes.both(known.library.changes[a], asked.every.library.changes[b]),
     )
 
 
@@ -166,8 +173,8 @@ def _alone(asked: _Asked, name: str) -> float:
 
 def _with_another(asked: _Asked, first: str, second: str) -> float:
     """What another first reaches with the second, as a sum."""
-    changes, atlas = asked.setting.changes, asked.atlas.library
+    changes, every = asked.setting.changes, asked.every.library
     shown = _left(asked.setting, asked.found, first).shown
     if exclusive(first, second):
         return -np.inf
-    return float(asked.left.likelihood(changes.both(shown[None], atlas.changes[list(atlas.groups[second])])).max())
+    return float(asked.left.likelihood(changes.both(shown[None], every.changes[list(every.groups[second])])).max())

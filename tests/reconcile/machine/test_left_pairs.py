@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -13,13 +14,16 @@ from reconcile.machine.decide import Decision
 from reconcile.machine.direct import HEARD
 from reconcile.machine.heldout import held_out, with_drawn
 from reconcile.machine.left_pairs import LEAST_GAIN, best_left_pair
-from reconcile.machine.pairs import Pairs, named_pair
+from reconcile.machine.library import joined
+from reconcile.machine.pairs import Pair, Pairs, named_pair
+from reconcile.machine.setting import Found
 from sim.core.spec import TermSpec
 from tests.reconcile.machine.rubs import FEATURES, MADE, RIGHT, WRONG, found_in
 from tests.reconcile.machine.test_leftover import TRUE, seen
 
 EXPLAINED = Decision(word="explained", chosen=(RIGHT,), p=1e-6, reasons=())
 SMALLER = 5e6
+THIRD = "rub@wheel"
 Asked = list[tuple[str, list[np.ndarray], list[TermSpec]]]
 
 
@@ -27,6 +31,8 @@ Asked = list[tuple[str, list[np.ndarray], list[TermSpec]]]
 def simulated(monkeypatch: pytest.MonkeyPatch) -> Asked:
     """Simulating is asking the made world; what was asked for."""
     asked: Asked = []
+    for made in (MADE.patterns, MADE.turns):
+        monkeypatch.setitem(made, THIRD, 0.0 * made[RIGHT])
 
     def again(_setting, candidate, offsets, terms, _mapper, also=()):  # type: ignore[no-untyped-def]
         asked.append((f"{candidate.label}+{also[0].site}", [o.values for o in offsets], list(also)))
@@ -51,7 +57,11 @@ def test_a_second_is_named_and_a_single_effect_gets_none(simulated: Asked) -> No
     assert together is not None and abs(np.log(together.severity.value / SMALLER)) < 0.9
     assert together.own is not None and abs(np.log(together.own.value / 2e7)) < 0.5, "and the first's size beside it"
     first = ranked_causes(found_in(seen(SMALLER))[1], EXPLAINED, {RIGHT: 0.9, WRONG: 0.1}, seen(SMALLER), best.beside)
-    assert [c.severity for c in first[:2]] == [together.own, together.severity]
+    alone = ranked_causes(found_in(seen(SMALLER))[1], EXPLAINED, {RIGHT: 0.9, WRONG: 0.1}, seen(SMALLER), None)[0]
+    size, own = first[0].severity, alone.severity
+    assert size is not None and own is not None and first[1].severity == together.severity
+    assert size.value == pytest.approx(np.sqrt(own.value * together.own.value)), "between both"
+    assert (size.low, size.high) == (min(own.low, together.own.low), max(own.high, together.own.high))
     assert {t.site for t in together.terms[0]} == {"gear", "pinion"}
     decision, beside = named_pair(EXPLAINED, None, told)
     assert decision.chosen == (RIGHT,) and beside is best.beside
@@ -78,45 +88,66 @@ def test_forecasts_are_of_machines_that_were_not_led_to_the_observation(simulate
     assert with_drawn(found.known, RIGHT, None) is found.known
 
 
+def alike(second: str, behind: float = left_pairs.LEAD + 1.0) -> Callable[..., Pair]:
+    """Whatever is fitted is the right second, called so; all others are as far behind."""
+    made = left_pairs._fitted
+
+    def one(asked, name, rows):  # type: ignore[no-untyped-def]
+        right = made(asked, second, list(asked.every.library.groups[second]))
+        assert right is not None
+        return replace(
+            right, beside=replace(right.beside, names=(name,)), gain=right.gain - (0.0 if name == second else behind)
+        )
+
+    return one
+
+
 def test_a_rival_close_by_is_told_beside_it(simulated: Asked, monkeypatch: pytest.MonkeyPatch) -> None:
     setting, found = found_in(seen(SMALLER))
     library = found.known.library
     groups = {**library.groups, "unbalance@pinion": library.groups[WRONG]}
     atlas = replace(found.known, library=replace(library, groups=groups))
     for lead, others in ((left_pairs.LEAD + 1.0, ()), (1.0, (WRONG, "unbalance@pinion"))):
-        made = left_pairs._fitted
-
-        def near(asked, second, rows, made=made, lead=lead):  # type: ignore[no-untyped-def]
-            pair = made(asked, WRONG, rows)
-            beside = replace(pair.beside, names=(second,))
-            return replace(pair, beside=beside, gain=pair.gain - (0.0 if second == WRONG else lead))
-
         with monkeypatch.context() as patched:
-            patched.setattr(left_pairs, "_fitted", near)
+            patched.setattr(left_pairs, "_fitted", alike(WRONG, lead))
             told = best_left_pair(setting, found, EXPLAINED, atlas, 8, 2, map)  # type: ignore[arg-type]
         assert told is not None and told.best is not None and told.best.others == others
         assert (told.best.drawn is None) == bool(others), "nothing is forecast for what is not named"
     assert simulated
 
 
+def with_third(found: Found, change: np.ndarray) -> Found:
+    """Four draws of another effect that all show this change."""
+    third = MADE.catalogue(RIGHT, [TRUE] * 4, [TermSpec(term="rub", site="wheel", parameters={"stiffness": 2e7})] * 4)
+    library = replace(third.library, changes=np.repeat(change[None], 4, axis=0), groups={THIRD: (0, 1, 2, 3)})
+    return replace(found, known=joined(found.known, replace(third, library=library)))
+
+
 def test_no_pair_where_another_effect_alone_or_another_first_does_as_well(simulated: Asked) -> None:
     observed = seen(SMALLER)
     setting, found = found_in(observed)
-    library = found.known.library
-    new = len(library.changes)
-    whole = np.concatenate([library.changes, np.repeat(observed[None], 4, axis=0)])
-    alone = replace(library, changes=whole, groups={**library.groups, "bent_shaft@gear": tuple(range(new, new + 4))})
-    other = replace(found, known=replace(found.known, library=alone))
-    told = best_left_pair(setting, other, EXPLAINED, found.known, 8, 2, map)  # type: ignore[arg-type]
+    told = best_left_pair(setting, with_third(found, observed), EXPLAINED, found.known, 8, 2, map)  # type: ignore[arg-type]
     assert told is not None and told.best is None, "one effect is enough"
-    rivals = replace(EXPLAINED, word="ambiguous", chosen=(RIGHT, "bent_shaft@gear"))
-    first = np.repeat(MADE.change(RIGHT, TRUE, 2e7)[None], 4, axis=0)
-    twin = replace(alone, changes=np.concatenate([library.changes, first]))
-    other = replace(found, known=replace(found.known, library=twin))
-    told = best_left_pair(setting, other, rivals, found.known, 8, 2, map)  # type: ignore[arg-type]
+    rivals = replace(EXPLAINED, word="ambiguous", chosen=(RIGHT, THIRD))
+    twin = with_third(found, MADE.change(RIGHT, TRUE, 2e7))
+    told = best_left_pair(setting, twin, rivals, found.known, 8, 2, map)  # type: ignore[arg-type]
     assert told is not None and told.best is None, "what is first is open"
-    told = best_left_pair(setting, other, EXPLAINED, found.known, 8, 2, map)  # type: ignore[arg-type]
+    told = best_left_pair(setting, twin, EXPLAINED, found.known, 8, 2, map)  # type: ignore[arg-type]
     assert told is not None and told.best is not None and simulated
+
+
+def test_what_adds_as_much_by_sums_and_was_not_simulated_is_told_too(simulated: Asked) -> None:
+    setting, found = found_in(seen(SMALLER))
+    twin = with_third(found, MADE.change(WRONG, TRUE, SMALLER))
+    for most, others in ((3, ()), (1, (WRONG, THIRD))):
+        with pytest.MonkeyPatch.context() as patched:
+            patched.setattr(left_pairs, "LEAST_ASKED", 1)
+            patched.setattr(left_pairs, "_alone", lambda *_: -np.inf)
+            patched.setattr(left_pairs, "_fitted", alike(WRONG))
+            told = best_left_pair(setting, twin, EXPLAINED, found.known, 8, most, map)  # type: ignore[arg-type]
+        assert told is not None and told.best is not None
+        assert set(told.best.others) == set(others)
+    assert simulated
 
 
 def test_what_would_strike_is_asked_only_if_it_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
