@@ -48,6 +48,8 @@ class Screen:
     """`p_best` among all machines of the kind, where the rest is of those that agree with the baseline."""
     struck: tuple[frozenset[str], ...] = ()
     """Effects that strike at the lines of one part each, where impacts come at those of several."""
+    likelihoods: Mapping[str, float] = field(default_factory=dict)
+    """Log likelihood over no change, feature by feature, of effects that were fitted together with the machine."""
     unmoved: float | None = None
     """Largest evidence of a pattern before machines were fitted to what was observed; none where none were."""
 

@@ -32,6 +32,7 @@ from reconcile.machine.foreign import with_foreign
 from reconcile.machine.gate_orders import gate_orders
 from reconcile.machine.grown import with_grown
 from reconcile.machine.left_pairs import best_left_pair
+from reconcile.machine.leftover import likelihoods
 from reconcile.machine.library import Catalogued
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter, Telling
@@ -218,6 +219,8 @@ def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, prog
     screen = tempered(found.screen, atlas.screen) if based else found.screen
     screen = screen if based and setting.machine.gears else unmeasured(screen)
     screen = replace(screen, struck=tuple(frozenset(part) for part in setting.direct.struck))
+    if based and local is not None:
+        screen = replace(screen, likelihoods=likelihoods(closer, found))
     fit = told(local) if local is not None else {}
     found = replace(found, screen=screen)
     progress(0.89, "two effects together")

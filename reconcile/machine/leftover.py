@@ -16,6 +16,7 @@ import numpy as np
 from reconcile.judge.changes import Changes
 from reconcile.judge.metric import LEAST_DB
 from reconcile.machine.library import Catalogued
+from reconcile.machine.second import strikes
 from reconcile.machine.setting import Found, Setting
 from signals.series import FloatArray
 
@@ -25,6 +26,8 @@ OWN_SHARE = 0.3
 """Share of a feature's change by which the forms of laws may err, as a deviation: of fits with the right effect half of
 all features that change by more than 6 dB miss by less. The same whatever is supposed, so that a large supposed change
 buys no tolerance."""
+BEST = 4
+"""Draws by which effects are compared with each other."""
 QUIET_DB = 1.0
 """The fitted effect moves a feature less: what moved there is another's."""
 LARGE = 3.0
@@ -76,9 +79,12 @@ class Leftover:
 
 def leftover(setting: Setting, found: Found, name: str, told: FloatArray) -> Leftover:
     """Of an effect whose draws have the evidence `told` (draws,) in the library's order."""
-    changes, library = setting.changes, found.known.library
+    library = found.known.library
     rows = np.array(library.groups[name])[np.argsort(-told)[:NEAREST]]
-    members = np.asarray(library.changes[rows])
+    return _left_by(setting.changes, np.asarray(library.changes[rows]))
+
+
+def _left_by(changes: Changes, members: FloatArray) -> Leftover:
     drift = np.nanstd(np.nan_to_num(changes.null), axis=0)
     observed = np.nan_to_num(changes.observed)
     measured = np.nan_to_num(changes.measured)
@@ -87,6 +93,19 @@ def leftover(setting: Setting, found: Found, name: str, told: FloatArray) -> Lef
     used = np.isfinite(changes.observed) & np.isfinite(changes.measured) & np.isfinite(members).all(axis=0)
     quiet = used & (np.abs(np.nan_to_num(members)).max(axis=0) < QUIET_DB)
     return Leftover(observed=observed, members=members, variance=variance, used=used, quiet=quiet)
+
+
+def likelihoods(setting: Setting, found: Found) -> dict[str, float]:
+    """Log likelihood over no change of every effect that was fitted together with the machine and does not strike: the
+    mean of its best draws, all against the same variance."""
+    changes, library = setting.changes, found.known.library
+    nothing = _left_by(changes, np.zeros((1, changes.observed.size)))
+    told = {}
+    for name in found.led:
+        values = np.sort(nothing.likelihood(library.changes[list(library.groups[name])]))
+        if not strikes(name):
+            told[name] = float(values[-BEST:].mean()) - nothing.base
+    return told
 
 
 def ranked_seconds(

@@ -1,0 +1,58 @@
+"""A set whose first effect is far likelier, feature by feature, than all others of it is no set."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from reconcile.machine import leftover
+from reconcile.machine.decide import FEW_VIEWS, LEAST_LIKELIER, LIKELIER_SHARE, LINE_BY_LINE, decide, likelier
+from reconcile.machine.leftover import likelihoods
+from tests.reconcile.machine.rubs import FEATURES, MADE, RIGHT, WRONG, found_in
+from tests.reconcile.machine.test_decide import NAMES, screen
+
+EVIDENCE = [20.0, 19.0, 0.0, 0.0]
+BOTH = NAMES[:2]
+
+
+def told(first: float, second: float) -> dict[str, float]:
+    return dict(zip(BOTH, (first, second), strict=True))
+
+
+def test_the_likelier_of_a_set_is_named_with_the_reason() -> None:
+    assert decide(screen(EVIDENCE), views=9).word == "ambiguous"
+    found = decide(screen(EVIDENCE, likelihoods=told(100.0, 80.0)), views=9)
+    assert (found.word, found.chosen, found.reasons) == ("explained", BOTH[:1], (LINE_BY_LINE,))
+
+
+@pytest.mark.parametrize(
+    "likelihoods",
+    [
+        {},
+        {BOTH[0]: 100.0},
+        told(LEAST_LIKELIER - 1.0, 0.0),
+        told(1000.0, 1000.0 * (1.0 - LIKELIER_SHARE) + 1.0),
+        told(80.0, 100.0),
+    ],
+)
+def test_and_stays_one_where_it_is_not(likelihoods: dict[str, float]) -> None:
+    assert decide(screen(EVIDENCE, likelihoods=likelihoods), views=9).word == "ambiguous"
+    assert not likelier(screen(EVIDENCE, likelihoods=likelihoods), BOTH)
+
+
+def test_few_views_fit_by_chance_and_one_name_needs_no_lead() -> None:
+    sure = screen(EVIDENCE, likelihoods=told(100.0, 0.0))
+    assert decide(sure, views=FEW_VIEWS).word == "ambiguous"
+    assert not likelier(sure, BOTH[:1])
+
+
+def test_likelihoods_are_of_what_was_fitted_and_does_not_strike(monkeypatch: pytest.MonkeyPatch) -> None:
+    observed = MADE.change(RIGHT, np.array([0.06, -0.05, 0.03]), 2e7)
+    observed += np.random.default_rng(8).normal(0, 1, FEATURES)
+    setting, found = found_in(observed)
+    assert likelihoods(setting, found) == {}  # type: ignore[arg-type]
+    found.led.update(dict.fromkeys((RIGHT, WRONG), setting.plan.offsets[0]))  # type: ignore[attr-defined]
+    both = likelihoods(setting, found)  # type: ignore[arg-type]
+    assert both[RIGHT] > 30.0 and both[WRONG] < 0.0, "what moves other features is less likely than no change"
+    monkeypatch.setattr(leftover, "strikes", lambda name: name == WRONG)
+    assert likelihoods(setting, found) == {RIGHT: both[RIGHT]}  # type: ignore[arg-type]
