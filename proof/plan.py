@@ -2,8 +2,8 @@
 
 Every second case stands at the target condition (3 sensors, 20 dB, 3 speeds, baseline); the others run through the nine
 rows of an orthogonal array of sensors x noise x speeds, so each pair of levels occurs equally often. All cases of
-the splits `third`, `fourth`, `quiet`, `unmet` and `next` stand at the target condition. Laws, sites, severities and
-variants go round in cycles of different length.
+the splits `third`, `fourth`, `quiet`, `unmet`, `next` and `beside` stand at the target condition. Laws, sites,
+severities and variants go round in cycles of different length.
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ Split = Literal[
     "rotors",
     "rotors-later",
     "kinds",
+    "beside",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -48,6 +49,7 @@ SEEDS = {
     "rotors": 1_873_264_509,
     "rotors-later": 6_340_917_285,
     "kinds": 7_752_049_163,
+    "beside": 3_958_271_407,
 }
 COUNTS = {
     "dev": {
@@ -63,16 +65,18 @@ COUNTS = {
     "quiet": {"null": 40},
     "unmet": {"null": 2, "single": 10, "double": 4, "open": 2},
     "next": {"null": 3, "single": 9, "double": 4, "open": 4},
+    "beside": {"null": 2, "single": 6, "double": 10, "open": 2},
 }  # fmt: skip
 """`later` was sealed when the cases of `sealed` that share the nominal machine's atlases had been looked at, `third`
 when those of `later` at the target condition had been; `fourth` when two effects were first fitted together;
 `quiet`, of sound machines alone, to count false alarms at the target condition; `unmet` when the collision damping of a
-fit was first searched; `next` when lines at multiples of a slow shaft and orders of no part had been."""
-TURNED = {"third": 40, "fourth": 60, "quiet": 80, "unmet": 100, "next": 124}
+fit was first searched; `next` when lines at multiples of a slow shaft and orders of no part had been; `beside` when
+second effects were first found by what the fitted first one leaves."""
+TURNED = {"third": 40, "fourth": 60, "quiet": 80, "unmet": 100, "next": 124, "beside": 148}
 """From which number on the cycles of laws, severities and variants go in a split that others have gone before."""
 EXTRA: dict[str, tuple[tuple[Group, int], ...]] = {
     "dev": (("sensor", 5), ("sensor", 6), ("sensor", 7)), "sealed": (), "later": (), "third": (), "fourth": (),
-    "quiet": (), "unmet": (), "next": (),
+    "quiet": (), "unmet": (), "next": (), "beside": (),
 }  # fmt: skip
 """Cases behind the shuffled ones: the faults that the first five leave out."""
 SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS = (3, 1, 8), (20.0, 30.0, 10.0), (3, 1, 5)
@@ -93,10 +97,10 @@ SHOWN_PAIRS = (
     ("outer_pit", "wider_clearance"), ("loose_fit", "outer_pit"), ("inner_pit", "loose_seat"),
     ("wider_clearance", "imbalance"), ("loose_fit", "loose_seat"), ("outer_pit", "imbalance"),
 )  # fmt: skip
-"""Of the splits `fourth`, `unmet` and `next`: effects that mostly move the spectrum more than drift does, so that there
-are two to be told. Of 25 pairs of `PAIRS` at the target condition 12 have one that does not: cracks of teeth and gears
-that run out."""
-SHOWN = ("fourth", "unmet", "next")
+"""Of the splits `fourth`, `unmet`, `next` and `beside`: effects that mostly move the spectrum more than drift does, so
+that there are two to be told. Of 25 pairs of `PAIRS` at the target condition 12 have one that does not: cracks of teeth
+and gears that run out."""
+SHOWN = ("fourth", "unmet", "next", "beside")
 MACHINES: Mapping[str, Nominal] = {**NOMINALS, **KINDS, **ROTORS}
 FAULTS = ("clipping", "dropouts", "mains_hum", "loose_sensor", "stuck", "swapped", "gain_change", "aliasing")
 

@@ -33,9 +33,9 @@ LEAST_GAIN, LEAD = 12.0, 6.0
 independent, so this counts several times what evidence does: right seconds of three pairs of the proof add 29 to 66 and
 lead by 17 to 63, wrong ones beside single effects at most 5."""
 NEAR_SHARE, LEAST_ASKED = 0.5, 2
-"""Share of the most that any adds by sums from which a second must be simulated, or is told with the best; two are in
-any case. Beside a loose fit a crack of a shaft added 47 by sums and the unbalance that was there 34; simulated 40 and
-154."""
+"""Share of the most that any adds by sums from which a second is simulated, two in any case, and of what the best adds
+simulated from which one that was not is told with it. Beside a loose fit a crack of a shaft added 47 by sums and the
+unbalance that was there 34; simulated 40 and 154."""
 TEMPER = 4.0
 """Log likelihood that counts as one unit of evidence where sizes are weighed."""
 DRAWS = 3
@@ -84,9 +84,9 @@ def best_left_pair(
         mapper=mapper,
     )
     seen = ranked_seconds(asked.left, setting.changes, every, _possible(setting, every, first))
-    near = [one for one in seen if one[1] >= max(PROMISING, NEAR_SHARE * seen[0][1])]
     seen = [one for one in seen if one[1] >= PROMISING]
-    asked_for = max(LEAST_ASKED, min(len(near), most))
+    near = sum(one[1] >= NEAR_SHARE * seen[0][1] for one in seen)
+    asked_for = max(LEAST_ASKED, min(near, most))
     fitted = {name: _fitted(asked, name, rows) for name, _, rows in seen[:asked_for]}
     pairs = sorted((p for p in fitted.values() if p is not None), key=lambda p: -p.gain)
     simulated = {name: None if pair is None else pair.gain for name, pair in fitted.items()}
@@ -95,7 +95,7 @@ def best_left_pair(
     if best is not None:
         second = best.beside.names[0]
         names = [p.beside.names[0] for p in pairs[1:] if p.gain > best.gain - LEAD]
-        names += [name for name, _, _ in near[asked_for:]]
+        names += [name for name, gain, _ in seen[asked_for:] if gain >= NEAR_SHARE * best.gain]
         others = [n for n in names if not variants(n, second)]
         rows = next(rows for name, _, rows in seen if name == second)
         drawn = None if others else _shown(asked, _start(asked, rows))

@@ -24,6 +24,7 @@ from proof.unknown import OPEN
         ("quiet", 40),
         ("unmet", 18),
         ("next", 20),
+        ("beside", 20),
     ],
 )
 def test_the_plan_is_the_same_every_time_and_as_large_as_stated(split, least):
@@ -103,7 +104,7 @@ def test_tables_agree():
     assert all(law in CLOSED for pair in PAIRS for law in pair)
 
 
-@pytest.mark.parametrize("split", ["dev", "sealed", "later", "third", "fourth", "quiet", "unmet", "next"])
+@pytest.mark.parametrize("split", ["dev", "sealed", "later", "third", "fourth", "quiet", "unmet", "next", "beside"])
 def test_every_effect_fits_its_law(split):
     for case in plan(split):
         for hiding in case.effects:
