@@ -6,7 +6,7 @@ simulated beside the first; what is simulated decides.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,7 +15,7 @@ from reconcile.atlas.bank import Mapper
 from reconcile.atlas.candidates import Candidate
 from reconcile.judge.space import Fitted
 from reconcile.machine.assimilate import Ensemble, moved, simulated_again
-from reconcile.machine.decide import Decision
+from reconcile.machine.decide import Decision, alike
 from reconcile.machine.direct import HEARD
 from reconcile.machine.leftover import Leftover, leftover, ranked_seconds
 from reconcile.machine.library import Catalogued, joined
@@ -36,6 +36,9 @@ NEAR_SHARE, LEAST_ASKED = 0.5, 2
 """Share of the most that any adds by sums from which a second is simulated, two in any case, and of what the best adds
 simulated from which one that was not is told with it. Beside a loose fit a crack of a shaft added 47 by sums and the
 unbalance that was there 34; simulated 40 and 154."""
+TWIN_SHARE = 0.75
+"""Share of the gain of a bow or an unbalance from which the other one of the same body is told too, on a machine with
+teeth, which tell."""
 TEMPER = 4.0
 """Log likelihood that counts as one unit of evidence where sizes are weighed."""
 DRAWS = 3
@@ -68,9 +71,9 @@ def best_left_pair(
 ) -> Pairs | None:
     """What stands beside the best effect, of at most so many that are simulated: nothing where none adds enough, where
     both leave what no known effects should, or where another effect alone or another first would do as well. None where
-    none is looked for. `atlas`: draws of all effects."""
+    none is looked for, as where no known effect is adequate: two of them mimic much. `atlas`: draws of all effects."""
     lines = found.sides or found.fine
-    if decision.word not in ("explained", "ambiguous", "unknown_physics") or not decision.chosen or lines is None:
+    if decision.word not in ("explained", "ambiguous") or not decision.chosen or lines is None:
         return None
     first, every = decision.chosen[0], joined(atlas, found.known)
     asked = _Asked(
@@ -94,13 +97,29 @@ def best_left_pair(
     best = pairs[0] if pairs and _stands(asked, decision, pairs[0]) else None
     if best is not None:
         second = best.beside.names[0]
-        names = [p.beside.names[0] for p in pairs[1:] if p.gain > best.gain - LEAD]
-        names += [name for name, gain, _ in seen[asked_for:] if gain >= NEAR_SHARE * best.gain]
-        others = [n for n in names if not variants(n, second)]
+        others = _rivals(asked, best, pairs[1:], {name: gain for name, gain, _ in seen})
         rows = next(rows for name, _, rows in seen if name == second)
         drawn = None if others else _shown(asked, _start(asked, rows))
         best = replace(best, others=(second, *others) if others else (), drawn=drawn)
     return Pairs(first=first, tried=tried, best=best)
+
+
+def _rivals(asked: _Asked, best: Pair, pairs: Sequence[Pair], sums: Mapping[str, float]) -> list[str]:
+    """What may stand beside the first as well as the best does: what is near it simulated; what was not simulated and
+    is near it by its sum; a bow for an unbalance and the other way round, which teeth alone tell apart."""
+    second, told = best.beside.names[0], {p.beside.names[0]: p.gain for p in pairs}
+    teeth = bool(asked.setting.machine.gears)
+    near = []
+    for name, gain in sums.items():
+        least = TWIN_SHARE * best.gain if teeth else -np.inf
+        reached = told.get(name, gain)
+        if name == second or variants(name, second):
+            continue
+        if alike(name, second):
+            near += [name] if reached > least else []
+        elif reached > (best.gain - LEAD if name in told else NEAR_SHARE * best.gain):
+            near.append(name)
+    return near
 
 
 def _left(setting: Setting, found: Found, name: str) -> Leftover:

@@ -75,6 +75,7 @@ def found_in(observed: np.ndarray) -> tuple[SimpleNamespace, Found]:
     setting = SimpleNamespace(
         changes=seen,
         seed=0,
+        machine=SimpleNamespace(gears=("gear", "pinion")),
         direct=SimpleNamespace(evidence={}, p=1.0),
         plan=SimpleNamespace(offsets=tuple(Offsets(values=m) for m in machines)),
     )

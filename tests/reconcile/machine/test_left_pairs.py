@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -68,7 +69,8 @@ def test_a_second_is_named_and_a_single_effect_gets_none(simulated: Asked) -> No
     simulated.clear()
     alone = pairs_in(seen())
     assert alone is not None and alone.best is None and simulated == [], "nothing adds enough to be worth simulating"
-    assert pairs_in(seen(SMALLER), replace(EXPLAINED, word="nothing_missing")) is None
+    for word in ("nothing_missing", "unknown_physics"):
+        assert pairs_in(seen(SMALLER), replace(EXPLAINED, word=word)) is None
 
 
 def test_forecasts_are_of_machines_that_were_not_led_to_the_observation(simulated: Asked) -> None:
@@ -162,3 +164,19 @@ def test_without_single_lines_nothing_is_looked_for(simulated: Asked) -> None:
     setting, found = found_in(seen(SMALLER))
     blind = replace(found, fine=None)
     assert best_left_pair(setting, blind, EXPLAINED, found.known, 8, 2, map) is None and simulated == []  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("teeth", "gain", "told"), [(True, 74.0, False), (True, 76.0, True), (False, 20.0, True), (True, None, False)]
+)
+def test_a_bow_is_told_with_an_unbalance_where_nothing_tells_them_apart(
+    teeth: bool, gain: float | None, told: bool
+) -> None:
+    setting, _ = found_in(seen(SMALLER))
+    setting.machine.gears = ("gear",) * teeth
+    asked = SimpleNamespace(setting=setting)
+    best, bow = (SimpleNamespace(beside=SimpleNamespace(names=(f"{n}@disc",))) for n in ("unbalance", "bent_shaft"))
+    best.gain, bow.gain = 100.0, gain
+    sums = {"bent_shaft@disc": 40.0, "unbalance@disc": 60.0, "bent_shaft@gear": 45.0}
+    near = left_pairs._rivals(asked, best, [bow] if gain else [], sums)  # type: ignore[arg-type]
+    assert near == ["bent_shaft@disc"] * told

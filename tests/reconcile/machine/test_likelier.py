@@ -21,7 +21,7 @@ def told(first: float, second: float) -> dict[str, float]:
 
 def test_the_likelier_of_a_set_is_named_with_the_reason() -> None:
     assert decide(screen(EVIDENCE), views=9).word == "ambiguous"
-    found = decide(screen(EVIDENCE, likelihoods=told(100.0, 80.0)), views=9)
+    found = decide(screen(EVIDENCE, likelihoods=told(100.0, 70.0)), views=9)
     assert (found.word, found.chosen, found.reasons) == ("explained", BOTH[:1], (LINE_BY_LINE,))
 
 
@@ -37,13 +37,22 @@ def test_the_likelier_of_a_set_is_named_with_the_reason() -> None:
 )
 def test_and_stays_one_where_it_is_not(likelihoods: dict[str, float]) -> None:
     assert decide(screen(EVIDENCE, likelihoods=likelihoods), views=9).word == "ambiguous"
-    assert not likelier(screen(EVIDENCE, likelihoods=likelihoods), BOTH)
+    assert likelier(screen(EVIDENCE, likelihoods=likelihoods), BOTH) == BOTH
 
 
 def test_few_views_fit_by_chance_and_one_name_needs_no_lead() -> None:
     sure = screen(EVIDENCE, likelihoods=told(100.0, 0.0))
     assert decide(sure, views=FEW_VIEWS).word == "ambiguous"
-    assert not likelier(sure, BOTH[:1])
+    assert likelier(sure, BOTH[:1]) == BOTH[:1]
+
+
+def test_what_is_far_less_likely_leaves_the_set_and_a_bow_stays_with_its_unbalance() -> None:
+    names = ("unbalance@pinion", "bent_shaft@pinion", "bent_shaft@gear")
+    known = dict(zip(names, (106.0, 20.0, 20.0), strict=True))
+    made = screen([20.0, 19.0, 18.0], names, likelihoods=known)
+    assert likelier(made, names) == names[:2]
+    found = decide(made, views=9)
+    assert (found.word, found.chosen) == ("ambiguous", names[:2]) and LINE_BY_LINE not in found.reasons
 
 
 def test_likelihoods_are_of_what_was_fitted_and_does_not_strike(monkeypatch: pytest.MonkeyPatch) -> None:
