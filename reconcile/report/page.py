@@ -49,7 +49,7 @@ def _where(report: Report) -> Markup:
     machine = plain(report.machine)
     weights = {p.site: p.weight for p in report.where.sites}
     drawing = sketch(machine, weights) if isinstance(machine, dict) else Markup("")
-    sites = bullets(f"{p.site}: {100 * p.weight:.0f} % of the evidence" for p in report.where.sites)
+    sites = bullets(f"{p.site}: {100 * p.weight:.0f} % of the weight" for p in report.where.sites)
     return section("Where", drawing, told(sites, where_table(report.where)))
 
 

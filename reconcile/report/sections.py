@@ -80,16 +80,19 @@ def _tile(value: str, label: str) -> Markup:
 def _place(report: Report, best: PlaceWeight) -> Markup:
     """The tile of the place: one, or the several that a set leaves open."""
     if report.verdict == "not_decidable":
-        return _tile(best.site, f"leads with {percent(best.weight)} of the evidence; the place is not decided")
+        return _tile(best.site, f"leads with {percent(best.weight)} of the weight; the place is not decided")
     kinds, sites = undecided(report)
     if report.verdict == "unknown_physics" and len(report.where.likeliest) > 1:
         return _tile(" or ".join(report.where.likeliest[:MOST_PLACES]), "places that nothing tells apart")
+    named = list(dict.fromkeys(c.site for c in report.causes if c.named))
+    if len(named) > 1:
+        return _tile(" and ".join(named), "places of the effects that are named")
     if report.verdict != "ambiguous" or not sites:
-        return _tile(best.site, f"most likely place, {percent(best.weight)} of the evidence")
+        return _tile(best.site, f"most likely place, {percent(best.weight)} of the weight")
     if len(sites) > 1:
         what = "" if len(kinds) == 1 else "; what it is is open too"
         return _tile(" or ".join(sites[:MOST_PLACES]), f"places that these recordings do not tell apart{what}")
-    return _tile(sites[0], f"place, {percent(best.weight)} of the evidence; what it is is not decided")
+    return _tile(sites[0], f"place, {percent(best.weight)} of the weight; what it is is not decided")
 
 
 def head(report: Report) -> Markup:

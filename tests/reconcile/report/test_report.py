@@ -168,6 +168,14 @@ def test_places_that_nothing_tells_apart_are_all_said() -> None:
     assert "look at input or output first" in drawn
 
 
+def test_the_places_of_two_named_effects_are_both_said() -> None:
+    report = full_report()
+    first = report.causes[0]
+    second = replace(first, term="unbalance", site="gear", named=True)
+    drawn = page(replace(report, verdict="explained", causes=(replace(first, named=True), second)))
+    assert f"<b>{first.site} and gear</b>" in drawn and "most likely place" not in drawn
+
+
 def test_a_report_without_anything_still_makes_a_page() -> None:
     parser = Balanced()
     parser.feed(page(Report(verdict="not_decidable", sentence="Too short.", level="kinematics")))
