@@ -55,6 +55,6 @@ class ReconciliationRequest(SpecModel):
     baselines: Annotated[list[RecordingId], Field(max_length=MOST_RECORDINGS, default_factory=list)]
     """Ids of recordings of the same machine when it was sound."""
     budget: Literal["quick", "full"] = "quick"
-    """How much is simulated beyond the atlas: 5 candidates once, or 8 candidates twice."""
+    """How much is simulated beyond the atlas: the best few effects, or more of them (docs/reconcile.md)."""
     seed: Annotated[int, Field(ge=0, le=2**53 - 1)] = 0
     """Seed of the atlas and of the bootstrap."""

@@ -186,6 +186,8 @@ def likelier(screen: Screen, chosen: tuple[str, ...]) -> tuple[str, ...]:
     first, told = chosen[0], screen.likelihoods
     if any(name not in told for name in chosen) or told[first] < max(told[name] for name in chosen):
         return chosen
+    if told[first] < LEAST_LIKELIER:
+        return chosen
     least = told[first] - max(LEAST_LIKELIER, LIKELIER_SHARE * told[first])
     return tuple(name for name in chosen if told[name] > least or alike(first, name))
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from reconcile.machine.decide import Decision
-from reconcile.machine.heldout import MANY
+from reconcile.machine.heldout import LATER, MANY
 from reconcile.machine.words import next_experiment, title
 from reconcile.report.action import PLACE_OPEN
 from reconcile.report.words import percent
@@ -14,8 +14,9 @@ from reconcile.verdict import Cause, HeldOut, NextExperiment, Placebo, PlaceWeig
 
 LEAST_GAIN = 0.1
 """Held-out gain below which no forecast says anything of a place."""
-CLEARLY = 0.05
-"""By which the lower end of the leader's held-out gain must pass what every other place forecasts, to be named."""
+CLEARLY, CLEARLY_LATER = 0.05, 0.2
+"""By which the lower end of the leader's held-out gain must pass what every other place forecasts, to be named; where a
+later time of one record is all that was held out, what errs in the model errs in both."""
 SAME_LINES = 0.5
 """Share of the impacts' evidence from which another place strikes at the same lines."""
 MOST_PLACES = 3
@@ -59,9 +60,10 @@ def by_forecast(decision: Decision, held: HeldOut | None) -> Decision:
     if decision.word != "ambiguous" or len(terms) != 1 or not others or held is None or held.effects != (first,):
         return decision
     told = {f"{p.term}@{p.site}": p for p in held.placebos if p.draws >= MANY}
-    if held.gain_low < LEAST_GAIN or any(n not in told for n in others):
+    if any(n not in told for n in others) or decision.reasons[0] != PLACE_OPEN:
         return decision
-    if max(told[n].gain for n in others) > held.gain_low - CLEARLY:
+    ahead = CLEARLY_LATER if held.held.startswith(LATER) else CLEARLY
+    if not held.gain_low >= max(LEAST_GAIN, ahead + max(told[n].gain for n in others)):
         return decision
     return replace(decision, word="explained", chosen=(first,), reasons=(BY_FORECAST,))
 

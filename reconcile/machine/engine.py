@@ -62,7 +62,7 @@ from reconcile.machine.unfitting import misfit_report, told_of
 from reconcile.machine.unknown import Unknown, unknown_force
 from reconcile.observe.observation import PointData, observe
 from reconcile.observe.watch import watch_list
-from reconcile.verdict import Report
+from reconcile.verdict import Report, operating_point
 from signals.recording import Recording
 from sim.core.spec import MachineSpec
 
@@ -274,7 +274,8 @@ def _setting(
     banks = []
     for k, one in enumerate(data):
         width = (ATLASES_DONE - ATLASES_BEGUN) / len(data)
-        begun, stage = ATLASES_BEGUN + k * width, f"atlas at {one.point.speed_hz:g} Hz"
+        begun = ATLASES_BEGUN + k * width
+        stage = f"atlas at {operating_point(one.point.speed_hz, one.point.torque_ratio)}"
         progress(begun, stage)
         telling = Telling(mapper, lambda share, a=begun, s=stage, w=width: progress(a + share * w, s))  # type: ignore[misc]
         bank = kept_bank(plan, simulated_at(machine, one.point), distinct, keeper=keeper, mapper=telling)

@@ -29,9 +29,9 @@ PROMISING = 2.5
 """Log likelihood that a second effect must add by sums to be simulated: a clearance beside an unbalance added 3.6 so
 and 66 simulated."""
 LEAST_GAIN, LEAD = 12.0, 6.0
-"""Log likelihood that it must add as simulated, and by which it must lead the other simulated ones. Features are not
-independent, so this counts several times what evidence does: right seconds of three pairs of the proof add 29 to 66 and
-lead by 17 to 63, wrong ones beside single effects at most 5."""
+"""Log likelihood that it must add as simulated, beyond what the first gains by being moved as often, and by which it
+must lead the other simulated ones. Features are not independent, so this counts several times what evidence does (right
+and wrong ones: docs/decisions/reconcile-leftover.md)."""
 NEAR_SHARE, LEAST_ASKED = 0.5, 2
 """Share of the most that any adds by sums from which a second is simulated, two in any case, and of what the best adds
 simulated from which one that was not is told with it. Beside a loose fit a crack of a shaft added 47 by sums and the
@@ -75,22 +75,13 @@ def best_left_pair(
     lines = found.sides or found.fine
     if decision.word not in ("explained", "ambiguous") or not decision.chosen or lines is None:
         return None
-    first, every = decision.chosen[0], joined(atlas, found.known)
-    asked = _Asked(
-        setting=setting,
-        found=found,
-        first=first,
-        every=every,
-        left=_left(setting, found, first),
-        view=lines,
-        members=members,
-        mapper=mapper,
-    )
-    seen = ranked_seconds(asked.left, setting.changes, every, _possible(setting, every, first))
+    first = decision.chosen[0]
+    asked = _asked(setting, found, first, atlas, lines, members, mapper)
+    seen = ranked_seconds(asked.left, setting.changes, asked.every, _possible(setting, asked.every, first))
     seen = [one for one in seen if one[1] >= PROMISING]
     near = sum(one[1] >= NEAR_SHARE * seen[0][1] for one in seen)
-    asked_for = max(LEAST_ASKED, min(near, most))
-    fitted = {name: _fitted(asked, name, rows) for name, _, rows in seen[:asked_for]}
+    made = {name: _fitted(asked, name, rows) for name, _, rows in seen[: max(LEAST_ASKED, min(near, most))]}
+    fitted = _fairly(asked, made)
     pairs = sorted((p for p in fitted.values() if p is not None), key=lambda p: -p.gain)
     simulated = {name: None if pair is None else pair.gain for name, pair in fitted.items()}
     tried = tuple((name, gain, simulated.get(name)) for name, gain, _ in seen)
@@ -98,10 +89,34 @@ def best_left_pair(
     if best is not None:
         second = best.beside.names[0]
         others = _rivals(asked, best, pairs[1:], {name: gain for name, gain, _ in seen})
-        rows = next(rows for name, _, rows in seen if name == second)
-        drawn = None if others else _shown(asked, _start(asked, rows))
+        drawn = None if others else _drawn(asked, atlas, second)
         best = replace(best, others=(second, *others) if others else (), drawn=drawn)
+        best = best if others or drawn is not None else None
     return Pairs(first=first, tried=tried, best=best)
+
+
+def _asked(
+    setting: Setting, found: Found, first: str, atlas: Catalogued, view: Fitted, members: int, mapper: Mapper
+) -> _Asked:
+    return _Asked(
+        setting=setting,
+        found=found,
+        first=first,
+        every=joined(atlas, found.known),
+        left=_left(setting, found, first),
+        view=view,
+        members=members,
+        mapper=mapper,
+    )
+
+
+def _fairly(asked: _Asked, made: Mapping[str, Pair | None]) -> dict[str, Pair | None]:
+    """With what the first alone gains by being moved once more, as the pairs were, taken off; where it matters."""
+    if max((p.gain for p in made.values() if p is not None), default=0.0) < LEAST_GAIN:
+        return dict(made)
+    again = _moved(asked, _start(asked, (), ""), "")
+    gained = 0.0 if again is None else max(0.0, asked.left.level(again.known.library.changes) - asked.left.base)
+    return {name: None if p is None else replace(p, gain=p.gain - gained) for name, p in made.items()}
 
 
 def _rivals(asked: _Asked, best: Pair, pairs: Sequence[Pair], sums: Mapping[str, float]) -> list[str]:
@@ -134,43 +149,56 @@ def _possible(setting: Setting, every: Catalogued, first: str) -> list[str]:
     return [n for n in names if n in heard or not strikes(n)]
 
 
-def _start(asked: _Asked, rows: Sequence[int]) -> Ensemble:
-    """The first's nearest draws, with the second's best in turn."""
+def _start(asked: _Asked, rows: Sequence[int], second: str) -> Ensemble:
+    """The first's nearest draws, with the best of the `second` in turn if there are `rows` of one."""
     known, changes = asked.found.known, asked.setting.changes
     own = list(known.library.groups[asked.first])
     told = evidence_in(asked.found.fitted, known.library.changes[own], changes.observed)
     near = [own[k] for k in np.argsort(-told)[: asked.members]]
-    others = list(rows[:DRAWS])
     a = [near[k % len(near)] for k in range(asked.members)]
-    b = [others[k % len(others)] for k in range(asked.members)]
+    others = list(rows[:DRAWS])
+    b = [others[k % len(others)] for k in range(asked.members)] if second else []
     term, site = asked.first.split("@")
+    shown = known.library.changes[a]
     return Ensemble(
         candidate=Candidate(term=term, site=site),
         offsets=tuple(known.offsets[k] for k in a),
         terms=tuple(known.terms[k] for k in a),
         also=tuple(asked.every.terms[k] for k in b),
-        changes=changes.both(known.library.changes[a], asked.every.library.changes[b]),
+        changes=changes.both(shown, asked.every.library.changes[b]) if second else shown,
     )
 
 
-def _shown(asked: _Asked, start: Ensemble) -> FloatArray | None:
-    """What these machines show, moved to nothing: for held-out data."""
-    more = simulated_again(asked.setting, start.candidate, start.offsets, start.terms, asked.mapper, also=start.also)
+def _drawn(asked: _Asked, atlas: Catalogued, second: str) -> FloatArray | None:
+    """What both show on machines that were not led to the observation: for held-out data. None where too few run."""
+    bare = replace(asked.found, known=asked.found.unled)
+    free = _asked(asked.setting, bare, asked.first, atlas, asked.view, asked.members, asked.mapper)
+    ((_, _, rows),) = ranked_seconds(free.left, free.setting.changes, free.every, [second])
+    start = _start(free, rows, second)
+    more = simulated_again(free.setting, start.candidate, start.offsets, start.terms, free.mapper, also=start.also)
     return None if more is None else more.library.changes
 
 
-def _fitted(asked: _Asked, second: str, rows: Sequence[int]) -> Pair | None:
-    """Both on the machines of the first one's draws, fitted together; None where too few run."""
+def _moved(asked: _Asked, start: Ensemble, second: str) -> Simulated | None:
+    """These machines and effects led to the observation, simulated; None where too few run."""
     setting, left = asked.setting, asked.left
     rng = np.random.default_rng([setting.seed, 23, *f"{asked.first}+{second}".encode()])
-    led = moved(_start(asked, rows), asked.view, setting.changes.observed, 1.0, rng)
+    led = moved(start, asked.view, setting.changes.observed, 1.0, rng)
     more = simulated_again(setting, led.candidate, led.offsets, led.terms, asked.mapper, also=led.also)
     if more is None:
         return None
     gains = (left.likelihood(more.library.changes) - left.base) / TEMPER
-    made = Simulated(known=more, also=led.also, gains=gains)
-    gain = left.level(more.library.changes) - left.base
-    return pair_of(setting, asked.found, asked.first, second, asked.view, made, gain)
+    return Simulated(known=more, also=led.also, gains=gains)
+
+
+def _fitted(asked: _Asked, second: str, rows: Sequence[int]) -> Pair | None:
+    """Both on the machines of the first one's draws, fitted together; None where too few run."""
+    made = _moved(asked, _start(asked, rows, second), second)
+    if made is None:
+        return None
+    gain = asked.left.level(made.known.library.changes) - asked.left.base
+    pair = pair_of(asked.setting, asked.found, asked.first, second, asked.view, made, gain / TEMPER)
+    return replace(pair, gain=gain)
 
 
 def _stands(asked: _Asked, decision: Decision, best: Pair) -> bool:
@@ -185,15 +213,17 @@ def _stands(asked: _Asked, decision: Decision, best: Pair) -> bool:
 
 
 def _alone(asked: _Asked, name: str) -> float:
-    """What another effect of the same machines reaches without a second."""
+    """What another effect of the same machines reaches without a second, by as many draws."""
     known = asked.found.known.library
-    return asked.left.level(known.changes[list(known.groups[name])])
+    return asked.left.level(asked.left.nearest(known.changes[list(known.groups[name])]))
 
 
 def _with_another(asked: _Asked, first: str, second: str) -> float:
-    """What another first reaches with the second, as a sum."""
-    changes, every = asked.setting.changes, asked.every.library
-    shown = _left(asked.setting, asked.found, first).shown
+    """What another first reaches with the second, simulated as the best was."""
     if exclusive(first, second):
         return -np.inf
-    return float(asked.left.likelihood(changes.both(shown[None], every.changes[list(every.groups[second])])).max())
+    other = replace(asked, first=first)
+    shown = _left(asked.setting, asked.found, first)
+    ((_, _, rows),) = ranked_seconds(shown, asked.setting.changes, asked.every, [second])
+    made = _moved(other, _start(other, rows, second), second)
+    return -np.inf if made is None else asked.left.level(made.known.library.changes)

@@ -37,7 +37,8 @@ LARGE = 3.0
 @dataclass(frozen=True, kw_only=True)
 class Leftover:
     """What the effect's nearest draws `members` (n, F) leave of the `observed` change (F,), dB; `variance` (F,) dB^2 of
-    what they may leave, `used` (F,) features, and `quiet` those that the effect does not move."""
+    what they may leave, `used` (F,) features (levels and shapes, no phases), and `quiet` those that the effect does not
+    move."""
 
     observed: FloatArray
     members: FloatArray
@@ -62,6 +63,10 @@ class Leftover:
         away = np.where(part, (self.observed - changes) / np.sqrt(self.variance), 0.0)
         compressed = LARGE * np.log1p(np.abs(away) / LARGE)
         return np.asarray(-0.5 * np.sum(compressed**2, axis=-1))
+
+    def nearest(self, changes: FloatArray) -> FloatArray:
+        """(n, F) -> (k, F): as many of these as speak for the effect, the likeliest."""
+        return np.asarray(changes[np.argsort(-self.likelihood(changes))[:NEAREST]])
 
     def level(self, changes: FloatArray) -> float:
         """Mean log likelihood of the better half: the best of many is better by chance."""
@@ -91,6 +96,8 @@ def _left_by(changes: Changes, members: FloatArray) -> Leftover:
     spread = np.nan_to_num(np.std(members, axis=0))
     variance = measured**2 + drift**2 + spread**2 + LEAST_DB**2 + (OWN_SHARE * observed) ** 2
     used = np.isfinite(changes.observed) & np.isfinite(changes.measured) & np.isfinite(members).all(axis=0)
+    channel = changes.single.chosen.size
+    used &= np.arange(used.size) % channel < channel - changes.phases  # known up to whole turns only
     quiet = used & (np.abs(np.nan_to_num(members)).max(axis=0) < QUIET_DB)
     return Leftover(observed=observed, members=members, variance=variance, used=used, quiet=quiet)
 

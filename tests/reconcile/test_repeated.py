@@ -25,8 +25,11 @@ def test_a_test_given_twice_is_refused_and_like_ones_are_not() -> None:
     one = recording(seconds=0.1)
     with pytest.raises(SpecError, match=r"recording\[1\].samples"):
         check_repeated([one, one], [])
+    shorter = replace(one, samples=one.samples[:, :-100].astype(np.float32))
+    with pytest.raises(SpecError, match="against itself"):
+        check_repeated([one], [shorter])
     nudged = one.samples.copy()
-    nudged[0, -1] += 1e-9
+    nudged[0, 0] += 1e-3
     check_repeated([one, replace(one, samples=nudged)], [replace(one, samples=-one.samples)])
 
 

@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 
 from reconcile.machine.decide import Decision
-from reconcile.machine.elsewhere import BY_FORECAST, CLEARLY, LEAST_GAIN, by_forecast, with_place
-from reconcile.machine.heldout import MANY
+from reconcile.machine.elsewhere import BY_FORECAST, CLEARLY, CLEARLY_LATER, LEAST_GAIN, by_forecast, with_place
+from reconcile.machine.heldout import LATER, MANY
 from reconcile.report.action import PLACE_OPEN, to_do
 from reconcile.verdict import Cause, HeldOut, Placebo, PlaceWeight, Report, Where
 
@@ -115,6 +115,9 @@ def test_held_out_data_name_the_place_that_alone_forecasts_them() -> None:
         (OPEN, replace(FAR, effects=("outer_spall@bearing2",))),
         (OPEN, replace(FAR, gain_low=LEAST_GAIN - 0.01)),
         (OPEN, replace(FAR, gain_low=0.3 + CLEARLY - 0.01)),
+        (OPEN, replace(FAR, gain_low=float("nan"))),
+        (OPEN, replace(FAR, gain_low=0.3 + CLEARLY_LATER - 0.01, held=f"{LATER}: 30 Hz")),
+        (replace(OPEN, reasons=("only impacts tell",)), FAR),
         (OPEN, replace(FAR, placebos=(replace(FARTHER, draws=MANY - 1),))),
     ],
 )  # fmt: skip

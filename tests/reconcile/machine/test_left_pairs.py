@@ -36,7 +36,8 @@ def simulated(monkeypatch: pytest.MonkeyPatch) -> Asked:
         monkeypatch.setitem(made, THIRD, 0.0 * made[RIGHT])
 
     def again(_setting, candidate, offsets, terms, _mapper, also=()):  # type: ignore[no-untyped-def]
-        asked.append((f"{candidate.label}+{also[0].site}", [o.values for o in offsets], list(also)))
+        second = also[0].site if also else "nothing"
+        asked.append((f"{candidate.label}+{second}", [o.values for o in offsets], list(also)))
         return MADE.catalogue(candidate.label, [o.values for o in offsets], list(terms), also)
 
     monkeypatch.setattr(left_pairs, "simulated_again", again)
@@ -76,18 +77,79 @@ def test_a_second_is_named_and_a_single_effect_gets_none(simulated: Asked) -> No
 def test_forecasts_are_of_machines_that_were_not_led_to_the_observation(simulated: Asked) -> None:
     observed = seen(SMALLER)
     setting, found = found_in(observed)
-    told = best_left_pair(setting, found, EXPLAINED, found.known, 8, 2, map)  # type: ignore[arg-type]
+    led = MADE.catalogue(RIGHT, [TRUE] * 8, [TermSpec(term="rub", site="gear", parameters={"stiffness": 2e7})] * 8)
+    found = replace(found, before=found.known, known=joined(found.known, led))
+    told = best_left_pair(setting, found, EXPLAINED, found.unled, 8, 2, map)  # type: ignore[arg-type]
     assert told is not None and told.best is not None and told.best.drawn is not None
-    fitted, drawn = simulated
+    assert [label for label, _, _ in simulated] == [f"{RIGHT}+pinion", f"{RIGHT}+nothing", f"{RIGHT}+pinion"]
+    fitted, _, drawn = simulated
     own = {tuple(o.values) for o in setting.plan.offsets}
     assert {tuple(o) for o in drawn[1]} <= own and not {tuple(o) for o in fitted[1]} <= own
+    assert tuple(TRUE) not in {tuple(o) for o in drawn[1]}, "nor are draws that an effect alone was led by"
     given = {"spectral": np.ones(FEATURES, dtype=bool), "frequency": np.linspace(10.0, 1e3, FEATURES), "seed": 1}
-    both = held_out(setting.changes, found.known, RIGHT, beside=WRONG, drawn=told.best.drawn, **given)  # type: ignore[arg-type]
-    alone = held_out(setting.changes, found.known, RIGHT, **given)  # type: ignore[arg-type]
+    both = held_out(setting.changes, found.unled, RIGHT, beside=WRONG, drawn=told.best.drawn, **given)  # type: ignore[arg-type]
+    alone = held_out(setting.changes, found.unled, RIGHT, **given)  # type: ignore[arg-type]
     assert both.gain > alone.gain + 0.1 and both.effects == (RIGHT, WRONG)
-    rows = with_drawn(found.known, RIGHT, told.best.drawn).library
+    rows = with_drawn(found.unled, RIGHT, told.best.drawn).library
     assert np.array_equal(rows.changes[list(rows.groups[RIGHT])], told.best.drawn)
     assert with_drawn(found.known, RIGHT, None) is found.known
+
+
+def test_no_pair_where_the_machines_of_its_forecast_do_not_run(
+    simulated: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(left_pairs, "_drawn", lambda *_: None)
+    told = pairs_in(seen(SMALLER))
+    assert told is not None and told.best is None and simulated
+
+
+def test_what_the_first_gains_by_being_moved_once_more_is_not_the_seconds(
+    simulated: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = pairs_in(seen(SMALLER))
+    made = left_pairs._moved
+    exact = MADE.change(RIGHT, TRUE, 2e7)
+
+    def again(asked, start, second):  # type: ignore[no-untyped-def]
+        found = made(asked, start, second)
+        if second:
+            return found
+        library = replace(found.known.library, changes=np.repeat(exact[None], len(found.known.terms), axis=0))
+        return replace(found, known=replace(found.known, library=library))
+
+    monkeypatch.setattr(left_pairs, "_moved", again)
+    less = pairs_in(seen(SMALLER))
+    assert whole is not None and less is not None and simulated
+    assert whole.tried[0][2] is not None and less.tried[0][2] is not None
+    assert less.tried[0][2] < whole.tried[0][2] - 0.5
+
+
+@pytest.mark.parametrize(("gain", "stands"), [(LEAST_GAIN - 0.1, False), (LEAST_GAIN + 0.1, True)])
+def test_a_second_must_add_enough(gain: float, stands: bool, simulated: Asked, monkeypatch: pytest.MonkeyPatch) -> None:
+    fitted = left_pairs._fitted
+
+    def so_much(asked, name, rows):  # type: ignore[no-untyped-def]
+        return replace(fitted(asked, name, rows), gain=gain)
+
+    monkeypatch.setattr(left_pairs, "_fitted", so_much)
+    monkeypatch.setattr(left_pairs, "_fairly", lambda _, made: made)
+    told = pairs_in(seen(SMALLER))
+    assert told is not None and (told.best is not None) == stands and simulated
+
+
+def test_of_an_open_set_both_must_leave_what_known_effects_do(
+    simulated: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(left_pairs, "inadequate", lambda _: True)
+    open_set = replace(EXPLAINED, word="ambiguous", chosen=(RIGHT, WRONG))
+    for decision, stands in ((open_set, False), (EXPLAINED, True)):
+        told = pairs_in(seen(SMALLER), decision)
+        assert told is not None and (told.best is not None) == stands and simulated
+
+
+def test_a_second_of_the_set_itself_is_no_other_first(simulated: Asked) -> None:
+    told = pairs_in(seen(SMALLER), replace(EXPLAINED, word="ambiguous", chosen=(RIGHT, WRONG)))
+    assert told is not None and told.best is not None and simulated
 
 
 def alike(second: str, behind: float = left_pairs.LEAD + 1.0) -> Callable[..., Pair]:
@@ -125,7 +187,9 @@ def with_third(found: Found, change: np.ndarray) -> Found:
     return replace(found, known=joined(found.known, replace(third, library=library)))
 
 
-def test_no_pair_where_another_effect_alone_or_another_first_does_as_well(simulated: Asked) -> None:
+def test_no_pair_where_another_effect_alone_or_another_first_does_as_well(
+    simulated: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
     observed = seen(SMALLER)
     setting, found = found_in(observed)
     told = best_left_pair(setting, with_third(found, observed), EXPLAINED, found.known, 8, 2, map)  # type: ignore[arg-type]
@@ -133,7 +197,12 @@ def test_no_pair_where_another_effect_alone_or_another_first_does_as_well(simula
     rivals = replace(EXPLAINED, word="ambiguous", chosen=(RIGHT, THIRD))
     twin = with_third(found, MADE.change(RIGHT, TRUE, 2e7))
     told = best_left_pair(setting, twin, rivals, found.known, 8, 2, map)  # type: ignore[arg-type]
+    assert told is not None and told.best is not None, "simulated, the other first does not do"
+    for made in (MADE.patterns, MADE.turns):
+        monkeypatch.setitem(made, THIRD, made[RIGHT])
+    told = best_left_pair(setting, twin, rivals, found.known, 8, 2, map)  # type: ignore[arg-type]
     assert told is not None and told.best is None, "what is first is open"
+    assert simulated[-1][0] == f"{THIRD}+pinion"
     told = best_left_pair(setting, twin, EXPLAINED, found.known, 8, 2, map)  # type: ignore[arg-type]
     assert told is not None and told.best is not None and simulated
 

@@ -57,6 +57,33 @@ def test_what_is_farther_off_is_less_likely_and_counts_by_its_logarithm(near: fl
     assert a >= -0.5 * 4 * near**2 - 1e-9
 
 
+def test_phases_which_are_known_up_to_whole_turns_do_not_count() -> None:
+    observed = seen()
+    setting, found = found_in(observed)
+    setting.changes = replace(setting.changes, phases=5)
+    rows = list(found.known.library.groups[RIGHT])
+    told = evidence_in(found.fitted, found.known.library.changes[rows], observed)
+    left = leftover(setting, found, RIGHT, told)  # type: ignore[arg-type]
+    channel = setting.changes.single.chosen.size
+    assert not left.used.reshape(-1, channel)[:, -5:].any() and left.used.reshape(-1, channel)[:, :-5].all()
+
+
+def test_measurement_drift_and_the_draws_spread_are_tolerated() -> None:
+    observed = seen()
+    setting, found = found_in(observed)
+    rows = list(found.known.library.groups[RIGHT])
+    told = evidence_in(found.fitted, found.known.library.changes[rows], observed)
+    changes = setting.changes
+    least = 1.0 + (OWN_SHARE * observed) ** 2
+    spread = left_of(observed).members.std(axis=0) ** 2
+    setting.changes = replace(changes, null=0.0 * changes.null, measured=np.full(FEATURES, 2.0))
+    left = leftover(setting, found, RIGHT, told)  # type: ignore[arg-type]
+    assert left.variance == pytest.approx(least + 4.0 + spread)
+    setting.changes = replace(changes, measured=np.zeros(FEATURES))
+    left = leftover(setting, found, RIGHT, told)  # type: ignore[arg-type]
+    assert left.variance == pytest.approx(least + changes.null.std(axis=0) ** 2 + spread)
+
+
 def test_what_is_not_known_is_left_out() -> None:
     observed = seen()
     observed[:10] = np.nan

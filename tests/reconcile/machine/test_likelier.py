@@ -33,6 +33,8 @@ def test_the_likelier_of_a_set_is_named_with_the_reason() -> None:
         told(LEAST_LIKELIER - 1.0, 0.0),
         told(1000.0, 1000.0 * (1.0 - LIKELIER_SHARE) + 1.0),
         told(80.0, 100.0),
+        told(100.0, 76.0),
+        told(-50.0, -70.0),
     ],
 )
 def test_and_stays_one_where_it_is_not(likelihoods: dict[str, float]) -> None:

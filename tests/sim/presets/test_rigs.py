@@ -108,6 +108,20 @@ def test_the_bearing_rig_shows_its_ball_pass():
         assert peak(spectrum, k * bases["f_o1"]) > 10.0
 
 
+def test_the_bearing_rig_is_balanced_to_its_grade():
+    """G 2.5: a residual unbalance moves the centre of mass at 2.5 mm/s at the rig's speed (ISO 21940-11)."""
+    machine = preset("bearing-rig")
+    speed_m_per_s = {
+        t.site: t.parameters["moment"]
+        / next(b.mass_kg for b in machine.bodies if b.name == t.site)
+        * 2
+        * math.pi
+        * machine.operating.speed_hz
+        for t in machine.terms
+    }
+    assert speed_m_per_s == {"rotor": pytest.approx(2.5e-3, rel=0.02), "disc": pytest.approx(2.5e-3, rel=0.02)}
+
+
 def reactions_n(name, bearings):
     """Mean force of each bearing on its shaft (x, y), N: no gravity and no run-out, six turns of the input averaged."""
     machine = preset(name).model_copy(update={"gravity_m_per_s2": 0.0, "terms": []})
