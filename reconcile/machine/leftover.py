@@ -18,6 +18,7 @@ from reconcile.judge.metric import LEAST_DB
 from reconcile.machine.library import Catalogued
 from reconcile.machine.second import strikes
 from reconcile.machine.setting import Found, Setting
+from reconcile.observe.phases import wrapped
 from signals.series import FloatArray
 
 NEAREST = 8
@@ -37,14 +38,15 @@ LARGE = 3.0
 @dataclass(frozen=True, kw_only=True)
 class Leftover:
     """What the effect's nearest draws `members` (n, F) leave of the `observed` change (F,), dB; `variance` (F,) dB^2 of
-    what they may leave, `used` (F,) features (levels and shapes, no phases), and `quiet` those that the effect does not
-    move."""
+    what they may leave, `used` (F,) features, `quiet` those that the effect does not move, and
+    `turns` those that are known up to whole turns: phases."""
 
     observed: FloatArray
     members: FloatArray
     variance: FloatArray
     used: np.ndarray
     quiet: np.ndarray
+    turns: np.ndarray
 
     @property
     def shown(self) -> FloatArray:
@@ -60,7 +62,7 @@ class Leftover:
         """(n, F) -> (n,): log likelihood of the observation, up to a constant, by the features of `mask` or all; what
         is far off counts by its logarithm."""
         part = (self.used if mask is None else mask) & np.isfinite(changes)
-        away = np.where(part, (self.observed - changes) / np.sqrt(self.variance), 0.0)
+        away = np.where(part, _turned(self.observed - changes, self.turns) / np.sqrt(self.variance), 0.0)
         compressed = LARGE * np.log1p(np.abs(away) / LARGE)
         return np.asarray(-0.5 * np.sum(compressed**2, axis=-1))
 
@@ -82,6 +84,13 @@ class Leftover:
         return np.asarray(np.maximum(*gains))
 
 
+def _turned(away: FloatArray, turns: np.ndarray) -> FloatArray:
+    """Differences (n, F), those of phases to the nearest turn."""
+    found = np.array(away)
+    found[..., turns] = wrapped(found[..., turns])
+    return found
+
+
 def leftover(setting: Setting, found: Found, name: str, told: FloatArray) -> Leftover:
     """Of an effect whose draws have the evidence `told` (draws,) in the library's order."""
     library = found.known.library
@@ -93,13 +102,14 @@ def _left_by(changes: Changes, members: FloatArray) -> Leftover:
     drift = np.nanstd(np.nan_to_num(changes.null), axis=0)
     observed = np.nan_to_num(changes.observed)
     measured = np.nan_to_num(changes.measured)
+    channel = changes.single.chosen.size
+    turns = np.arange(observed.size) % channel >= channel - changes.phases
+    members = members[0] + _turned(members - members[0], turns)
     spread = np.nan_to_num(np.std(members, axis=0))
     variance = measured**2 + drift**2 + spread**2 + LEAST_DB**2 + (OWN_SHARE * observed) ** 2
     used = np.isfinite(changes.observed) & np.isfinite(changes.measured) & np.isfinite(members).all(axis=0)
-    channel = changes.single.chosen.size
-    used &= np.arange(used.size) % channel < channel - changes.phases  # known up to whole turns only
     quiet = used & (np.abs(np.nan_to_num(members)).max(axis=0) < QUIET_DB)
-    return Leftover(observed=observed, members=members, variance=variance, used=used, quiet=quiet)
+    return Leftover(observed=observed, members=members, variance=variance, used=used, quiet=quiet, turns=turns)
 
 
 def likelihoods(setting: Setting, found: Found) -> dict[str, float]:

@@ -236,7 +236,7 @@ def test_without_single_lines_nothing_is_looked_for(simulated: Asked) -> None:
 
 
 @pytest.mark.parametrize(
-    ("teeth", "gain", "told"), [(True, 74.0, False), (True, 76.0, True), (False, 20.0, True), (True, None, False)]
+    ("teeth", "gain", "told"), [(True, 84.0, False), (True, 86.0, True), (False, 20.0, True), (True, None, False)]
 )
 def test_a_bow_is_told_with_an_unbalance_where_nothing_tells_them_apart(
     teeth: bool, gain: float | None, told: bool

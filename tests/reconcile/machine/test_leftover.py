@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from reconcile.machine.leftover import LARGE, NEAREST, OWN_SHARE, Leftover, leftover, ranked_seconds
 from reconcile.machine.pairs import evidence_in
+from reconcile.observe.phases import HALF_TURN_DB
 from tests.reconcile.machine.rubs import FEATURES, MADE, RIGHT, WRONG, found_in
 
 TRUE = np.array([0.06, -0.05, 0.03])
@@ -47,9 +48,9 @@ def test_the_tolerance_is_the_observations_whatever_is_supposed() -> None:
 
 @given(st.floats(0.1, 50.0), st.floats(0.1, 50.0))
 def test_what_is_farther_off_is_less_likely_and_counts_by_its_logarithm(near: float, more: float) -> None:
-    observed = np.zeros(4)
+    every = np.ones(4, dtype=bool)
     left = Leftover(
-        observed=observed, members=np.zeros((2, 4)), variance=np.ones(4), used=np.ones(4, bool), quiet=np.ones(4, bool)
+        observed=np.zeros(4), members=np.zeros((2, 4)), variance=np.ones(4), used=every, quiet=every, turns=~every
     )
     a, b = left.likelihood(np.full((1, 4), near))[0], left.likelihood(np.full((1, 4), near + more))[0]
     assert b < a <= 0.0
@@ -57,7 +58,7 @@ def test_what_is_farther_off_is_less_likely_and_counts_by_its_logarithm(near: fl
     assert a >= -0.5 * 4 * near**2 - 1e-9
 
 
-def test_phases_which_are_known_up_to_whole_turns_do_not_count() -> None:
+def test_phases_are_known_up_to_whole_turns() -> None:
     observed = seen()
     setting, found = found_in(observed)
     setting.changes = replace(setting.changes, phases=5)
@@ -65,7 +66,17 @@ def test_phases_which_are_known_up_to_whole_turns_do_not_count() -> None:
     told = evidence_in(found.fitted, found.known.library.changes[rows], observed)
     left = leftover(setting, found, RIGHT, told)  # type: ignore[arg-type]
     channel = setting.changes.single.chosen.size
-    assert not left.used.reshape(-1, channel)[:, -5:].any() and left.used.reshape(-1, channel)[:, :-5].all()
+    assert np.array_equal(np.flatnonzero(left.turns), np.flatnonzero(np.arange(FEATURES) % channel >= channel - 5))
+    turned = np.array([observed])
+    turned[:, left.turns] += 2.0 * HALF_TURN_DB
+    assert left.likelihood(turned)[0] == pytest.approx(0.0, abs=1e-9)
+    turned[:, ~left.turns] += 2.0 * HALF_TURN_DB
+    assert left.likelihood(turned)[0] < -100.0
+    either = found.known.library.changes.copy()
+    either[np.ix_(rows[::2], np.flatnonzero(left.turns))] += 2.0 * HALF_TURN_DB
+    found = replace(found, known=replace(found.known, library=replace(found.known.library, changes=either)))
+    again = leftover(setting, found, RIGHT, told)  # type: ignore[arg-type]
+    assert again.variance == pytest.approx(left.variance) and again.base == pytest.approx(left.base)
 
 
 def test_measurement_drift_and_the_draws_spread_are_tolerated() -> None:
