@@ -27,8 +27,8 @@ OVER_FLOOR_DB = 12.0
 """One bin of Gaussian noise stands that far above the mean power with probability exp(-10^1.2) = 1.3e-7."""
 RISE_DB = 6.0
 """The line at least doubles."""
-SETTLING_S, SPAN_S, RATE_HZ = 0.2, 2.0, 12_000.0
-"""Resolution 0.5 Hz: the lowest base frequency of the demo machines is 3 Hz, their nearest lines are 4 Hz apart."""
+SETTLING_S, SPAN_S, RATE_HZ = 0.2, 1.0, 12_000.0
+"""Resolution 1 Hz: the lowest base frequency of the demo machines is 3 Hz, their nearest lines are 4 Hz apart."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,20 +66,20 @@ def promised(term: Term, system: System, without: System) -> list[Line]:
 
 
 @cache
-def _recorded(document: str) -> Recording:
+def _recorded(document: str, span_s: float) -> Recording:
     machine = MachineSpec.model_validate_json(document)
     run = simulate(
         machine,
-        duration_s=SETTLING_S + SPAN_S,
+        duration_s=SETTLING_S + span_s,
         output_rate_hz=RATE_HZ,
         settings=Settings(estimate_error=False),
     )
     return from_response(run).select(start_s=SETTLING_S)
 
 
-def recorded(machine: MachineSpec) -> Recording:
+def recorded(machine: MachineSpec, span_s: float = SPAN_S) -> Recording:
     """Sensor signals after the start-up, one run a machine."""
-    return _recorded(machine.model_dump_json())
+    return _recorded(machine.model_dump_json(), span_s)
 
 
 def spectra(series: Series, other: Series) -> list[tuple[Spectrum, Spectrum]]:
@@ -98,10 +98,12 @@ def amplitude_at(spectrum: Spectrum, frequency_hz: float) -> float:
     return float(np.max(spectrum.values[nearest - 1 : nearest + 2]))
 
 
-def shown(term: Term, lines: list[Line], with_term: MachineSpec, without: MachineSpec) -> list[Shown]:
+def shown(
+    term: Term, lines: list[Line], with_term: MachineSpec, without: MachineSpec, span_s: float = SPAN_S
+) -> list[Shown]:
     """How plainly each line shows on the sensor and in the spectrum that shows it best."""
     bases = assemble(with_term).bases_hz
-    here, there = recorded(with_term), recorded(without)
+    here, there = recorded(with_term, span_s), recorded(without, span_s)
     pairs = [
         (f"{kind} spectrum of {name}", a, b, noise_floor(a, FloorSettings()).level)
         for name in here.names
