@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
 
+from jobs import example as module
 from jobs.demonstration import demonstration, predicted
 from jobs.example import MAX_POINTS, example
+from signals.recording import Recording
+from sim.core.spec import MachineSpec
 from sim.terms import REGISTRY
 
 RISE = 1.99
@@ -27,6 +31,24 @@ NO_LINES = {
     "support_mode": "adds a resonance, not a line",
 }
 """Effects that predict no lines, and why."""
+
+
+@pytest.fixture(scope="module", autouse=True)
+def runs() -> Iterator[None]:
+    """One run a machine: many effects are shown against the same one without them."""
+    made: dict[str, Recording] = {}
+    run = module._recorded
+
+    def once(machine: MachineSpec) -> Recording:
+        document = machine.model_dump_json()
+        if document not in made:
+            made[document] = run(machine)
+            made[document].samples.flags.writeable = False
+        return made[document]
+
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(module, "_recorded", once)
+        yield
 
 
 @cache
