@@ -104,7 +104,7 @@ def with_effect(name, site, value, variant=0, seed=1):
     return machine
 
 
-def run(machine, duration_s=1.0, settle_s=0.25):
+def run(machine, duration_s=0.5, settle_s=0.25):
     fine = accelerations(
         machine, steady(30.0), duration_s=duration_s, settle_s=settle_s, oversampling=1, rate_hz=120_000, dofs=Y_DOFS
     )
