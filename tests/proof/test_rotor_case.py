@@ -1,4 +1,7 @@
-"""A concealed rotor from file to verdict: a pit hidden by the proof's own physics on a machine without teeth."""
+"""A concealed rotor from file to verdict: a pit hidden by the proof's own physics on a machine without teeth.
+
+Small atlases stand beside the tests (`tests/proof/atlas`), so that only what belongs to the case is simulated.
+"""
 
 from __future__ import annotations
 
@@ -10,37 +13,22 @@ import pytest
 
 from app.cli.recordings import Given, read_recording
 from proof import case as made
-from proof.plan import Case, Hiding
-from proof.rotors.machine import ROTORS
 from proof.score.one import score
-from reconcile.atlas.candidates import Candidate
 from reconcile.entry import reconcile_recordings
 from sim.core.spec import MachineSpec
+from tests.proof.rotor import CASE, HIDDEN, NOMINATED, wanted
+from tests.reconcile import prebuilt
 
 pytestmark = [pytest.mark.slow, pytest.mark.long, pytest.mark.xdist_group("proof-rotor")]
-HIDDEN = Hiding(law="inner_pit", site="bearing1", value=1.6e-3, variant=0)
-CASE = Case(
-    name="t101",
-    index=0,
-    seed=58_230_917,
-    group="single",
-    effects=(HIDDEN,),
-    level=2,
-    sensors=("bearing1.y", "bearing2.y", "bearing1.x"),
-    snr_db=20.0,
-    speeds_hz=ROTORS["alike"].speeds_hz[::2],
-    baseline=True,
-    machine="alike",
-)
-NOMINATED = tuple(
-    Candidate(term=term, site=site)
-    for term, site in (
-        ("inner_spall", "bearing1"),
-        ("inner_spall", "bearing2"),
-        ("outer_spall", "bearing1"),
-        ("unbalance", "disc"),
-    )
-)
+
+
+@pytest.mark.parametrize("now", wanted(), ids=lambda now: now.bank.stem)
+def test_the_small_atlases_are_what_the_simulator_gives_today(now: prebuilt.Wanted) -> None:
+    why = prebuilt.stale(now)
+    if why is not None:
+        pytest.fail(why, pytrace=False)
+    found = prebuilt.deviation_db(now, -1)
+    assert max(found.values()) < prebuilt.SAME_DB, f"the physics changed (dB: {found}): {prebuilt.REMAKE}"
 
 
 def test_a_pit_is_named_with_its_place_and_size_by_machines_fitted_to_lines_that_are_no_teeths(tmp_path: Path) -> None:
@@ -51,7 +39,8 @@ def test_a_pit_is_named_with_its_place_and_size_by_machines_fitted_to_lines_that
         [read_recording(path, Given()) for path in sorted(folder.glob(f"{kind}_*.npz"))]
         for kind in ("test", "baseline")
     )
-    report = reconcile_recordings(machine, tests, baselines, nominated=NOMINATED)
+    keeper = prebuilt.kept(wanted(), tmp_path / "atlas")
+    report = reconcile_recordings(machine, tests, baselines, keeper=keeper, nominated=NOMINATED)
     truth = json.loads((tmp_path / "truth" / f"{CASE.name}.json").read_text(encoding="utf-8"))
     found = score(truth, json.loads(json.dumps(report.document())))
     said = (report.sentence, asdict(found))
