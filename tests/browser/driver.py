@@ -37,6 +37,10 @@ FLAGS = (
     "--disable-sync",
     "--disable-dev-shm-usage",
     "--force-device-scale-factor=1",
+    "--disable-extensions",
+    "--disable-default-apps",
+    "--renderer-process-limit=1",
+    "--disable-features=SpareRendererForSitePerProcess,BackForwardCache",
 )
 
 
