@@ -121,7 +121,8 @@ def test_of_several_recordings_the_one_that_is_refused_is_named(
 
 def written(folder: Path, name: str, *, seconds: float = 2.0, **further: object) -> Path:
     rate_hz = 20_000
-    np.savetxt(folder / f"{name}.csv", np.random.default_rng(0).normal(size=round(seconds * rate_hz)), header="a")
+    noise = np.random.default_rng([*name.encode()]).normal(size=round(seconds * rate_hz))
+    np.savetxt(folder / f"{name}.csv", noise, header="a")
     channel = {"name": "a", "quantity": "acceleration", "unit": "m/s^2", "location": "bearing1", "axis": "y"}
     operating = {"shaft": "input", "speed_hz": 30.0}
     description = {"sampling_rate_hz": rate_hz, "channels": [channel], "operating": operating, **further}
