@@ -47,13 +47,14 @@ DRAWS = 3
 
 @dataclass(frozen=True, kw_only=True)
 class _Asked:
-    """Seconds beside the effect `first`: `every` draw, of the atlas and of machines that agree with the baseline;
-    `view` of single lines in which both are fitted."""
+    """Seconds beside the effect `first`: `every` draw, of the atlas and, from row `local` on, of machines that agree
+    with the baseline; `view` of single lines in which both are fitted."""
 
     setting: Setting
     found: Found
     first: str
     every: Catalogued
+    local: int
     left: Leftover
     view: Fitted
     members: int
@@ -103,6 +104,7 @@ def _asked(
         found=found,
         first=first,
         every=joined(atlas, found.known),
+        local=len(atlas.terms),
         left=_left(setting, found, first),
         view=view,
         members=members,
@@ -150,23 +152,37 @@ def _possible(setting: Setting, every: Catalogued, first: str) -> list[str]:
 
 
 def _start(asked: _Asked, rows: Sequence[int], second: str) -> Ensemble:
-    """The first's nearest draws, with the best of the `second` in turn if there are `rows` of one."""
-    known, changes = asked.found.known, asked.setting.changes
-    own = list(known.library.groups[asked.first])
-    told = evidence_in(asked.found.fitted, known.library.changes[own], changes.observed)
+    """The first's nearest draws, with the best of the `second` in turn if there are `rows` of one; half of them are
+    what fits best in sum: alone, the first is as large as it must be to explain the second too."""
+    every, changes = asked.every, asked.setting.changes
+    own = [k for k in every.library.groups[asked.first] if k >= asked.local]
+    told = evidence_in(asked.found.fitted, every.library.changes[own], changes.observed)
     near = [own[k] for k in np.argsort(-told)[: asked.members]]
     a = [near[k % len(near)] for k in range(asked.members)]
-    others = list(rows[:DRAWS])
-    b = [others[k % len(others)] for k in range(asked.members)] if second else []
+    b = [rows[k % min(DRAWS, len(rows))] for k in range(asked.members)] if second else []
+    if second:
+        half = asked.members // 2
+        summed = _best_sums(asked, own, rows[:DRAWS])[: asked.members - half]
+        a[half : half + len(summed)], b[half : half + len(summed)] = zip(*summed, strict=True)
     term, site = asked.first.split("@")
-    shown = known.library.changes[a]
+    shown = every.library.changes[a]
     return Ensemble(
         candidate=Candidate(term=term, site=site),
-        offsets=tuple(known.offsets[k] for k in a),
-        terms=tuple(known.terms[k] for k in a),
-        also=tuple(asked.every.terms[k] for k in b),
-        changes=changes.both(shown, asked.every.library.changes[b]) if second else shown,
+        offsets=tuple(every.offsets[k] for k in a),
+        terms=tuple(every.terms[k] for k in a),
+        also=tuple(every.terms[k] for k in b),
+        changes=changes.both(shown, every.library.changes[b]) if second else shown,
     )
+
+
+def _best_sums(asked: _Asked, firsts: Sequence[int], seconds: Sequence[int]) -> list[tuple[int, int]]:
+    """Draws of both whose sums are likeliest, the best first, every first once."""
+    library = asked.every.library.changes
+    told = np.array(
+        [asked.left.likelihood(asked.setting.changes.both(library[[a]], library[list(seconds)])) for a in firsts]
+    )
+    order = np.argsort(-told.max(axis=1))
+    return [(firsts[int(k)], seconds[int(np.argmax(told[k]))]) for k in order]
 
 
 def _drawn(asked: _Asked, atlas: Catalogued, second: str) -> FloatArray | None:
