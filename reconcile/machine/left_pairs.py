@@ -27,7 +27,7 @@ from signals.series import FloatArray
 
 PROMISING = 2.5
 """Log likelihood that a second effect must add by sums to be simulated: a clearance beside an unbalance added 3.6 so
-and 66 simulated."""
+and 64 simulated."""
 LEAST_GAIN, LEAD = 12.0, 6.0
 """Log likelihood that it must add as simulated, beyond what the first gains by being moved as often, and by which it
 must lead the other simulated ones. Features are not independent, so this counts several times what evidence does (right
