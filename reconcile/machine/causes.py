@@ -59,9 +59,9 @@ def ranked_causes(
 
 
 def _between(alone: Severity | None, beside: Severity | None) -> Severity | None:
-    """The size of a first effect: as it is alone, where a second one was not fitted with it; else between both, with
-    an interval that holds either. Of three pairs of the proof two unbalances were nearer beside the second (25 and 15 % off
-    for 46 and 25 %), a loose fit was not (2.6 and 4.7 um of 9.6)."""
+    """The size of a first effect: as it is alone, where a second one was not fitted with it; else between both, with an
+    interval that holds either. Of three pairs of the proof two unbalances were nearer beside the second (25 and 15 %
+    off for 46 and 25 %), a loose fit was not (2.6 and 4.7 um of 9.6)."""
     if alone is None or beside is None:
         return alone
     return replace(
