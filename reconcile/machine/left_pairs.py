@@ -34,8 +34,8 @@ must lead the other simulated ones. Features are not independent, so this counts
 and wrong ones: docs/decisions/reconcile-leftover.md)."""
 NEAR_SHARE, LEAST_ASKED = 0.5, 2
 """Share of the most that any adds by sums from which a second is simulated, two in any case, and of what the best adds
-simulated from which one that was not is told with it. Beside a loose fit a crack of a shaft added 47 by sums and the
-unbalance that was there 34; simulated 40 and 154."""
+simulated from which one that was not is told with it. Beside a loose fit a crack of a shaft added 48 by sums and the
+unbalance that was there 37; simulated 54 and 123."""
 TWIN_SHARE = 0.85
 """Share of the gain of a bow or an unbalance from which the other one of the same body is told too, on a machine with
 teeth, which tell."""

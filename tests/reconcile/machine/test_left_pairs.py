@@ -249,3 +249,18 @@ def test_a_bow_is_told_with_an_unbalance_where_nothing_tells_them_apart(
     sums = {"bent_shaft@disc": 40.0, "unbalance@disc": 60.0, "bent_shaft@gear": 45.0}
     near = left_pairs._rivals(asked, best, [bow] if gain else [], sums)  # type: ignore[arg-type]
     assert near == ["bent_shaft@disc"] * told
+
+
+def test_half_of_an_ensemble_starts_where_sums_fit_best() -> None:
+    setting, found = found_in(seen(SMALLER))
+    asked = left_pairs._asked(setting, found, RIGHT, found.known, found.fine, 8, map)  # type: ignore[arg-type]
+    ((_, _, rows),) = left_pairs.ranked_seconds(asked.left, setting.changes, asked.every, [WRONG])
+    start = left_pairs._start(asked, rows, WRONG)
+    alone = left_pairs._start(asked, (), "")
+    assert start.terms[:4] == alone.terms[:4] and alone.also == () and len(start.also) == 8
+    own = [k for k in asked.every.library.groups[RIGHT] if k >= asked.local]
+    every = asked.every.library.changes
+    told = [asked.left.likelihood(setting.changes.both(every[[a]], every[list(rows[:3])])).max() for a in own]
+    best = np.sort(told)[::-1][:4]
+    assert asked.left.likelihood(start.changes[4:]) == pytest.approx(best), "the likeliest sums, every first once"
+    assert len({id(t) for t in start.terms[4:]}) == 4
