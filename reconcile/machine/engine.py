@@ -236,7 +236,7 @@ def _paired(setting: Setting, found: Found, atlas: Catalogued, budget: Budget, m
     decision = _decided(setting, found)
     if second_effect(setting, found, decision) is not None:
         return None
-    if decision.chosen and not strikes(decision.chosen[0]):
+    if decision.chosen and (setting.machine.gears or not strikes(decision.chosen[0])):
         return best_left_pair(setting, found, decision, atlas, budget.members, budget.seconds, meter)
     return best_pair(setting, found, decision, budget.members, budget.pairs, meter)
 

@@ -1,7 +1,8 @@
-"""A second effect beside one that does not strike, by what the first leaves (`leftover`): all of the atlas are asked.
+"""A second effect beside the best one, by what that leaves (`leftover`): all of the atlas are asked.
 
 Sums err where two effects act on each other: wider clearance lets an unbalance rattle. They only choose who is
-simulated beside the first; what is simulated decides.
+simulated beside the first; what is simulated decides. Beside one that strikes the teeth's own lines alone are asked:
+impacts bring a forest of other lines, and what is left of that is the form of their law.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from reconcile.machine.library import Catalogued, joined
 from reconcile.machine.pairs import Pair, Pairs, Simulated, evidence_in, inadequate, pair_of
 from reconcile.machine.second import strikes
 from reconcile.machine.setting import Found, Setting
-from reconcile.machine.weigh import exclusive, variants
+from reconcile.machine.weigh import LEAST_EVIDENCE, exclusive, variants
 from signals.series import FloatArray
 
 PROMISING = 2.5
@@ -32,6 +33,8 @@ LEAST_GAIN, LEAD = 12.0, 6.0
 """Log likelihood that it must add as simulated, beyond what the first gains by being moved as often, and by which it
 must lead the other simulated ones. Features are not independent, so this counts several times what evidence does (right
 and wrong ones: docs/decisions/reconcile-leftover.md)."""
+BESIDE_IMPACTS, LEAD_BESIDE_IMPACTS = 8.0, 3.0
+"""The same beside one that strikes, by the teeth's own lines: a fifth of the features."""
 NEAR_SHARE, LEAST_ASKED = 0.5, 2
 """Share of the most that any adds by sums from which a second is simulated, two in any case, and of what the best adds
 simulated from which one that was not is told with it. Beside a loose fit a crack of a shaft added 48 by sums and the
@@ -60,6 +63,16 @@ class _Asked:
     members: int
     mapper: Mapper
 
+    @property
+    def beside_impacts(self) -> bool:
+        """Whether the first strikes."""
+        return strikes(self.first)
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """What a second must add, and its lead."""
+        return (BESIDE_IMPACTS, LEAD_BESIDE_IMPACTS) if self.beside_impacts else (LEAST_GAIN, LEAD)
+
 
 def best_left_pair(
     setting: Setting,
@@ -73,8 +86,8 @@ def best_left_pair(
     """What stands beside the best effect, of at most so many that are simulated: nothing where none adds enough, where
     both leave what no known effects should, or where another effect alone or another first would do as well. None where
     none is looked for, as where no known effect is adequate: two of them mimic much. `atlas`: draws of all effects."""
-    lines = found.sides or found.fine
-    if decision.word not in ("explained", "ambiguous") or not decision.chosen or lines is None:
+    lines = _lines(setting, found, decision)
+    if lines is None:
         return None
     first = decision.chosen[0]
     asked = _asked(setting, found, first, atlas, lines, members, mapper)
@@ -96,6 +109,16 @@ def best_left_pair(
     return Pairs(first=first, tried=tried, best=best)
 
 
+def _lines(setting: Setting, found: Found, decision: Decision) -> Fitted | None:
+    """The view of single lines in which a pair is fitted; None where none is looked for. Impacts are there whatever
+    else is, so what stands beside them is looked for in a change that no effect alone explains, too."""
+    if not decision.chosen or decision.word in ("nothing_missing", "not_decidable"):
+        return None
+    if strikes(decision.chosen[0]):
+        return found.fine if setting.machine.gears else None
+    return (found.sides or found.fine) if decision.word != "unknown_physics" else None
+
+
 def _asked(
     setting: Setting, found: Found, first: str, atlas: Catalogued, view: Fitted, members: int, mapper: Mapper
 ) -> _Asked:
@@ -114,7 +137,7 @@ def _asked(
 
 def _fairly(asked: _Asked, made: Mapping[str, Pair | None]) -> dict[str, Pair | None]:
     """With what the first alone gains by being moved once more, as the pairs were, taken off; where it matters."""
-    if max((p.gain for p in made.values() if p is not None), default=0.0) < LEAST_GAIN:
+    if max((p.gain for p in made.values() if p is not None), default=0.0) < asked.limits[0]:
         return dict(made)
     again = _moved(asked, _start(asked, (), ""), "")
     gained = 0.0 if again is None else max(0.0, asked.left.level(again.known.library.changes) - asked.left.base)
@@ -134,7 +157,7 @@ def _rivals(asked: _Asked, best: Pair, pairs: Sequence[Pair], sums: Mapping[str,
             continue
         if alike(name, second):
             near += [name] if reached > least else []
-        elif reached > (best.gain - LEAD if name in told else NEAR_SHARE * best.gain):
+        elif reached > (best.gain - asked.limits[1] if name in told else NEAR_SHARE * best.gain):
             near.append(name)
     return near
 
@@ -142,13 +165,22 @@ def _rivals(asked: _Asked, best: Pair, pairs: Sequence[Pair], sums: Mapping[str,
 def _left(setting: Setting, found: Found, name: str) -> Leftover:
     rows = list(found.known.library.groups[name])
     told = evidence_in(found.fitted, found.known.library.changes[rows], setting.changes.observed)
-    return leftover(setting, found, name, told)
+    left = leftover(setting, found, name, told)
+    return left.by(own_lines(setting)) if strikes(name) else left
+
+
+def own_lines(setting: Setting) -> np.ndarray:
+    """(F,): the teeth's own lines, with their phases between sensors where these are compared."""
+    changes = setting.changes
+    mask = np.zeros(changes.observed.size, dtype=bool)
+    mask[(changes.phased or (changes.single,))[0].columns] = True
+    return mask
 
 
 def _possible(setting: Setting, every: Catalogued, first: str) -> list[str]:
     heard = {n for n, value in setting.direct.evidence.items() if value >= HEARD}
     names = [n for n in every.library.groups if n != first and not exclusive(n, first)]
-    return [n for n in names if n in heard or not strikes(n)]
+    return [n for n in names if not strikes(n) or (n in heard and not strikes(first))]
 
 
 def _start(asked: _Asked, rows: Sequence[int], second: str) -> Ensemble:
@@ -160,7 +192,7 @@ def _start(asked: _Asked, rows: Sequence[int], second: str) -> Ensemble:
     near = [own[k] for k in np.argsort(-told)[: asked.members]]
     a = [near[k % len(near)] for k in range(asked.members)]
     b = [rows[k % min(DRAWS, len(rows))] for k in range(asked.members)] if second else []
-    if second:
+    if second and not asked.beside_impacts:  # whose lines say nothing of how large the first is
         half = asked.members // 2
         summed = _best_sums(asked, own, rows[:DRAWS])[: asked.members - half]
         a[half : half + len(summed)], b[half : half + len(summed)] = zip(*summed, strict=True)
@@ -214,18 +246,31 @@ def _fitted(asked: _Asked, second: str, rows: Sequence[int]) -> Pair | None:
         return None
     gain = asked.left.level(made.known.library.changes) - asked.left.base
     pair = pair_of(asked.setting, asked.found, asked.first, second, asked.view, made, gain / TEMPER)
+    together = pair.beside.together
+    if asked.beside_impacts and together is not None:
+        pair = replace(pair, beside=replace(pair.beside, together=replace(together, own=None)))
     return replace(pair, gain=gain)
 
 
 def _stands(asked: _Asked, decision: Decision, best: Pair) -> bool:
-    if best.gain < LEAST_GAIN or (decision.word != "explained" and inadequate(best)):
+    least, lead = asked.limits
+    if best.gain < least or (decision.word != "explained" and inadequate(best)):
         return False
-    reached = asked.left.base + best.gain - LEAD
+    if asked.beside_impacts:
+        return _leads(asked, decision)
+    reached = asked.left.base + best.gain - lead
     if any(_alone(asked, name) > reached for name in asked.found.known.library.groups if name != asked.first):
         return False
     second = best.beside.names[0]
     firsts = [n for n in decision.chosen[1:] if n != second and not variants(n, asked.first)]
     return not any(_with_another(asked, name, second) > reached for name in firsts)
+
+
+def _leads(asked: _Asked, decision: Decision) -> bool:
+    """Whether the first leads what else it may be: the teeth's lines say nothing of which part is struck."""
+    told = dict(zip(asked.found.screen.names, asked.found.screen.evidence, strict=True))
+    others = [n for n in decision.chosen[1:] if not variants(n, asked.first)]
+    return all(told[asked.first] - told[n] >= LEAST_EVIDENCE for n in others)
 
 
 def _alone(asked: _Asked, name: str) -> float:

@@ -9,7 +9,7 @@ by itself, and a second effect counts by how much less both leave (docs/decision
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -74,6 +74,10 @@ class Leftover:
         """Mean log likelihood of the better half: the best of many is better by chance."""
         told = np.sort(self.likelihood(changes))
         return float(told[told.size // 2 :].mean())
+
+    def by(self, mask: np.ndarray) -> Leftover:
+        """By the features of `mask` (F,) alone."""
+        return replace(self, used=self.used & mask, quiet=self.quiet & mask)
 
     def by_sums(self, changes: Changes, others: FloatArray) -> FloatArray:
         """(n,): log likelihood that each of the `others` (n, F) adds to the median as a sum; by all features or by

@@ -7,10 +7,12 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
 from reconcile.calibrate.uncertain import Offsets
 from reconcile.judge.screen import judge
 from reconcile.judge.space import Library, fit_space
+from reconcile.machine import left_pairs
 from reconcile.machine.library import Catalogued, joined
 from reconcile.machine.setting import Found
 from sim.core.spec import TermSpec
@@ -19,6 +21,7 @@ from tests.reconcile.judge.made import FEATURES, changes, world
 RIGHT, WRONG = "rub@gear", "rub@pinion"
 NUMBERS, MEMBERS = 3, 16
 SIZES = (1e6, 1e8)
+Asked = list[tuple[str, list[np.ndarray], list[TermSpec]]]
 
 
 class Made:
@@ -80,3 +83,18 @@ def found_in(observed: np.ndarray) -> tuple[SimpleNamespace, Found]:
         plan=SimpleNamespace(offsets=tuple(Offsets(values=m) for m in machines)),
     )
     return setting, Found(known=known, fitted=views[0], fine=views[1], screen=screen)
+
+
+def asked_of_the_made(monkeypatch: pytest.MonkeyPatch, third: str) -> Asked:
+    """Pairs are simulated by asking the made machines; what was asked for. The effect `third` shows nothing."""
+    asked: Asked = []
+    for made in (MADE.patterns, MADE.turns):
+        monkeypatch.setitem(made, third, 0.0 * made[RIGHT])
+
+    def again(_setting, candidate, offsets, terms, _mapper, also=()):  # type: ignore[no-untyped-def]
+        second = also[0].site if also else "nothing"
+        asked.append((f"{candidate.label}+{second}", [o.values for o in offsets], list(also)))
+        return MADE.catalogue(candidate.label, [o.values for o in offsets], list(terms), also)
+
+    monkeypatch.setattr(left_pairs, "simulated_again", again)
+    return asked

@@ -19,29 +19,18 @@ from reconcile.machine.library import joined
 from reconcile.machine.pairs import Pair, Pairs, named_pair
 from reconcile.machine.setting import Found
 from sim.core.spec import TermSpec
-from tests.reconcile.machine.rubs import FEATURES, MADE, RIGHT, WRONG, found_in
+from tests.reconcile.machine.rubs import FEATURES, MADE, RIGHT, WRONG, Asked, asked_of_the_made, found_in
 from tests.reconcile.machine.test_leftover import TRUE, seen
 
 EXPLAINED = Decision(word="explained", chosen=(RIGHT,), p=1e-6, reasons=())
 SMALLER = 5e6
 THIRD = "rub@wheel"
-Asked = list[tuple[str, list[np.ndarray], list[TermSpec]]]
 
 
 @pytest.fixture
 def simulated(monkeypatch: pytest.MonkeyPatch) -> Asked:
     """Simulating is asking the made world; what was asked for."""
-    asked: Asked = []
-    for made in (MADE.patterns, MADE.turns):
-        monkeypatch.setitem(made, THIRD, 0.0 * made[RIGHT])
-
-    def again(_setting, candidate, offsets, terms, _mapper, also=()):  # type: ignore[no-untyped-def]
-        second = also[0].site if also else "nothing"
-        asked.append((f"{candidate.label}+{second}", [o.values for o in offsets], list(also)))
-        return MADE.catalogue(candidate.label, [o.values for o in offsets], list(terms), also)
-
-    monkeypatch.setattr(left_pairs, "simulated_again", again)
-    return asked
+    return asked_of_the_made(monkeypatch, THIRD)
 
 
 def pairs_in(observed: np.ndarray, decision: Decision = EXPLAINED, most: int = 2) -> Pairs | None:

@@ -1,0 +1,152 @@
+"""A second effect beside one that strikes: the teeth's own lines tell, whatever the forest of the impacts leaves."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from reconcile.machine import left_pairs
+from reconcile.machine.causes import ranked_causes
+from reconcile.machine.decide import Decision
+from reconcile.machine.left_pairs import BESIDE_IMPACTS, LEAD_BESIDE_IMPACTS, best_left_pair, own_lines
+from reconcile.machine.pairs import Pairs
+from reconcile.machine.setting import Found
+from reconcile.machine.weigh import LEAST_EVIDENCE
+from tests.reconcile.machine.rubs import FEATURES, RIGHT, WRONG, Asked, asked_of_the_made, found_in
+from tests.reconcile.machine.test_left_pairs import with_third
+from tests.reconcile.machine.test_leftover import seen
+
+EXPLAINED = Decision(word="explained", chosen=(RIGHT,), p=1e-6, reasons=())
+SMALLER = 5e6
+THIRD = "rub@wheel"
+OWN = np.arange(FEATURES) >= 28
+"""The teeth's lines: two that the first moves, and all of the second's."""
+FOREST = np.where(OWN, 0.0, np.random.default_rng(3).choice([-12.0, 12.0], FEATURES))
+"""What the form of an impact's law leaves of the other lines."""
+
+
+@pytest.fixture
+def simulated(monkeypatch: pytest.MonkeyPatch) -> Asked:
+    """The rub at the gear stands for impacts."""
+    monkeypatch.setattr(left_pairs, "strikes", lambda name: name == RIGHT)
+    return asked_of_the_made(monkeypatch, THIRD)
+
+
+def struck(observed: np.ndarray) -> tuple[SimpleNamespace, Found]:
+    setting, found = found_in(observed)
+    single = replace(setting.changes.single, chosen=OWN)
+    setting.changes = replace(setting.changes, single=single)
+    return setting, found
+
+
+def pairs_in(observed: np.ndarray, decision: Decision = EXPLAINED) -> Pairs | None:
+    """A third effect of the atlas shows just the forest."""
+    setting, found = struck(observed)
+    atlas = with_third(found, FOREST).known
+    return best_left_pair(setting, found, decision, atlas, 8, 2, map)  # type: ignore[arg-type]
+
+
+def test_the_forest_that_impacts_leave_neither_makes_nor_hides_a_second(simulated: Asked) -> None:
+    both = pairs_in(seen(SMALLER) + FOREST)
+    assert both is not None and both.best is not None
+    assert (both.best.first, both.best.beside.names, both.best.others) == (RIGHT, (WRONG,), ())
+    assert both.best.gain > BESIDE_IMPACTS
+    simulated.clear()
+    alone = pairs_in(seen() + FOREST)
+    assert alone is not None and alone.best is None and simulated == []
+
+
+def test_only_the_teeths_own_lines_are_asked(simulated: Asked) -> None:
+    setting, found = struck(seen(SMALLER))
+    left = left_pairs._left(setting, found, RIGHT)  # type: ignore[arg-type]
+    assert np.array_equal(left.used, OWN) and not left.quiet[~OWN].any() and simulated == []
+    assert np.array_equal(own_lines(setting), OWN)  # type: ignore[arg-type]
+    setting.changes = replace(setting.changes, phased=(setting.changes.sides, setting.changes.single))
+    assert np.array_equal(own_lines(setting), setting.changes.sides.chosen), "with their phases where there are any"  # type: ignore[arg-type]
+    assert left_pairs._left(setting, found, WRONG).used.all(), "what does not strike is seen by all"  # type: ignore[arg-type]
+
+
+def test_the_first_keeps_its_size(simulated: Asked) -> None:
+    observed = seen(SMALLER)
+    told = pairs_in(observed)
+    assert told is not None and told.best is not None and simulated
+    together = told.best.beside.together
+    assert together is not None and together.own is None
+    sizes = [
+        ranked_causes(struck(observed)[1], EXPLAINED, {RIGHT: 0.9, WRONG: 0.1}, observed, beside)[0].severity
+        for beside in (told.best.beside, None)
+    ]
+    assert sizes[0] == sizes[1] is not None
+
+
+def test_machines_start_where_the_first_was_nearest(simulated: Asked) -> None:
+    setting, found = struck(seen(SMALLER))
+    asked = left_pairs._asked(setting, found, RIGHT, found.known, found.fine, 8, map)  # type: ignore[arg-type]
+    ((_, _, rows),) = left_pairs.ranked_seconds(asked.left, setting.changes, asked.every, [WRONG])
+    start = left_pairs._start(asked, rows, WRONG)
+    assert start.terms == left_pairs._start(asked, (), "").terms and len(start.also) == 8 and simulated == []
+
+
+@pytest.mark.parametrize(
+    ("gain", "behind", "stands", "others"),
+    [
+        (BESIDE_IMPACTS - 0.1, 20.0, False, 0),
+        (BESIDE_IMPACTS + 0.1, LEAD_BESIDE_IMPACTS + 0.1, True, 0),
+        (BESIDE_IMPACTS + 0.1, LEAD_BESIDE_IMPACTS - 0.1, True, 2),
+    ],
+)
+def test_how_much_it_must_add_and_lead(
+    gain: float, behind: float, stands: bool, others: int, simulated: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fitted = left_pairs._fitted
+
+    def so_much(asked, name, rows):  # type: ignore[no-untyped-def]
+        made = fitted(asked, WRONG, list(asked.every.library.groups[WRONG]))
+        beside = replace(made.beside, names=(name,))
+        return replace(made, beside=beside, gain=gain if name == WRONG else gain - behind)
+
+    monkeypatch.setattr(left_pairs, "_fitted", so_much)
+    monkeypatch.setattr(left_pairs, "_fairly", lambda _, made: made)
+    setting, found = struck(seen(SMALLER))
+    library = found.known.library
+    groups = {**library.groups, "unbalance@pinion": library.groups[WRONG]}
+    atlas = replace(found.known, library=replace(library, groups=groups))
+    told = best_left_pair(setting, found, EXPLAINED, atlas, 8, 2, map)  # type: ignore[arg-type]
+    assert told is not None and (told.best is not None) == stands and simulated
+    assert told.best is None or len(told.best.others) == others
+
+
+@pytest.mark.parametrize(("lead", "named"), [(LEAST_EVIDENCE - 0.1, False), (LEAST_EVIDENCE + 0.1, True)])
+def test_which_part_is_struck_must_be_decided_without_the_teeth(lead: float, named: bool, simulated: Asked) -> None:
+    setting, found = struck(seen(SMALLER))
+    names = (RIGHT, WRONG, THIRD)
+    screen = replace(found.screen, names=names, evidence=np.array([20.0, 1.0, 20.0 - lead]), by=np.zeros(3, dtype=int))
+    rivals = replace(EXPLAINED, word="ambiguous", chosen=(RIGHT, THIRD))
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(left_pairs, "inadequate", lambda _: False)
+        told = best_left_pair(setting, replace(found, screen=screen), rivals, found.known, 8, 2, map)  # type: ignore[arg-type]
+    assert told is not None and (told.best is not None) == named and simulated
+
+
+@pytest.mark.parametrize(("leaves", "named"), [(True, False), (False, True)])
+def test_of_a_change_that_no_effect_explains_both_must_leave_what_known_ones_do(
+    leaves: bool, named: bool, simulated: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(left_pairs, "inadequate", lambda _: leaves)
+    told = pairs_in(seen(SMALLER), replace(EXPLAINED, word="unknown_physics"))
+    assert told is not None and (told.best is not None) == named and simulated
+
+
+def test_neither_where_there_are_no_teeth_nor_for_what_would_strike_too(
+    simulated: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    setting, found = struck(seen(SMALLER))
+    setting.machine.gears = ()
+    assert best_left_pair(setting, found, EXPLAINED, found.known, 8, 2, map) is None and simulated == []  # type: ignore[arg-type]
+    setting, found = struck(seen(SMALLER))
+    setting.direct.evidence = {WRONG: 20.0}
+    monkeypatch.setattr(left_pairs, "strikes", lambda _: True)
+    assert left_pairs._possible(setting, found.known, RIGHT) == []  # type: ignore[arg-type]
