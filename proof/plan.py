@@ -2,8 +2,8 @@
 
 Every second case stands at the target condition (3 sensors, 20 dB, 3 speeds, baseline); the others run through the nine
 rows of an orthogonal array of sensors x noise x speeds, so each pair of levels occurs equally often. All cases of
-the splits `third`, `fourth`, `quiet`, `unmet`, `next` and `beside` stand at the target condition. Laws, sites,
-severities and variants go round in cycles of different length.
+the splits `third`, `fourth`, `quiet`, `unmet`, `next`, `beside` and `pitted` stand at the target condition. Laws,
+sites, severities and variants go round in cycles of different length.
 """
 
 from __future__ import annotations
@@ -34,6 +34,7 @@ Split = Literal[
     "rotors-later",
     "kinds",
     "beside",
+    "pitted",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -50,6 +51,7 @@ SEEDS = {
     "rotors-later": 6_340_917_285,
     "kinds": 7_752_049_163,
     "beside": 3_958_271_407,
+    "pitted": 9_302_716_583,
 }
 COUNTS = {
     "dev": {
@@ -66,17 +68,19 @@ COUNTS = {
     "unmet": {"null": 2, "single": 10, "double": 4, "open": 2},
     "next": {"null": 3, "single": 9, "double": 4, "open": 4},
     "beside": {"null": 2, "single": 6, "double": 10, "open": 2},
+    "pitted": {"null": 1, "single": 5, "double": 9},
 }  # fmt: skip
 """`later` was sealed when the cases of `sealed` that share the nominal machine's atlases had been looked at, `third`
 when those of `later` at the target condition had been; `fourth` when two effects were first fitted together;
 `quiet`, of sound machines alone, to count false alarms at the target condition; `unmet` when the collision damping of a
 fit was first searched; `next` when lines at multiples of a slow shaft and orders of no part had been; `beside` when
-second effects were first found by what the fitted first one leaves."""
-TURNED = {"third": 40, "fourth": 60, "quiet": 80, "unmet": 100, "next": 124, "beside": 148}
+second effects were first found by what the fitted first one leaves; `pitted` when those beside impacts were first found
+by the teeth's own lines."""
+TURNED = {"third": 40, "fourth": 60, "quiet": 80, "unmet": 100, "next": 124, "beside": 148, "pitted": 172}
 """From which number on the cycles of laws, severities and variants go in a split that others have gone before."""
 EXTRA: dict[str, tuple[tuple[Group, int], ...]] = {
     "dev": (("sensor", 5), ("sensor", 6), ("sensor", 7)), "sealed": (), "later": (), "third": (), "fourth": (),
-    "quiet": (), "unmet": (), "next": (), "beside": (),
+    "quiet": (), "unmet": (), "next": (), "beside": (), "pitted": (),
 }  # fmt: skip
 """Cases behind the shuffled ones: the faults that the first five leave out."""
 SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS = (3, 1, 8), (20.0, 30.0, 10.0), (3, 1, 5)
@@ -100,6 +104,13 @@ SHOWN_PAIRS = (
 """Of the splits `fourth`, `unmet`, `next` and `beside`: effects that mostly move the spectrum more than drift does, so
 that there are two to be told. Of 25 pairs of `PAIRS` at the target condition 12 have one that does not: cracks of teeth
 and gears that run out."""
+PITTED_PAIRS = (
+    ("outer_pit", "loose_seat"), ("inner_pit", "loose_fit"), ("outer_pit", "wider_clearance"),
+    ("inner_pit", "loose_seat"), ("outer_pit", "loose_fit"), ("inner_pit", "wider_clearance"),
+    ("outer_pit", "imbalance"),
+)  # fmt: skip
+PITTED = ("outer_pit", "inner_pit", "broken_tooth", "outer_pit", "ball_pit")
+"""Pairs and single effects of the split `pitted`: all strike, and only pairs hide a second effect."""
 SHOWN = ("fourth", "unmet", "next", "beside")
 MACHINES: Mapping[str, Nominal] = {**NOMINALS, **KINDS, **ROTORS}
 FAULTS = ("clipping", "dropouts", "mains_hum", "loose_sensor", "stuck", "swapped", "gain_change", "aliasing")
@@ -204,7 +215,8 @@ def _case(split: Split, name: str, index: int, group: Group, number: int) -> Cas
     sensors, snr, speeds = SENSOR_COUNTS[row[0]], SNRS_DB[row[1]], SPEED_COUNTS[row[2]]
     least = {"single": 0, "ambiguous": 2}.get(group, 1)
     level = max(least, (2, 1, 3, 0, 2, 1, 3)[number % 7])
-    effects = _effects(group, number, level, rng, SHOWN_PAIRS if split in SHOWN else PAIRS)
+    pairs = SHOWN_PAIRS if split in SHOWN else PITTED_PAIRS if split == "pitted" else PAIRS
+    effects = _effects(group, number, level, rng, pairs, PITTED if split == "pitted" else ())
     chosen = sensors_of(sensors, number)
     causes: tuple[tuple[str, str], ...] = ()
     if group == "ambiguous":
@@ -228,8 +240,14 @@ def _case(split: Split, name: str, index: int, group: Group, number: int) -> Cas
 
 
 def _effects(
-    group: Group, number: int, level: int, rng: np.random.Generator, pairs: Sequence[tuple[str, str]]
+    group: Group,
+    number: int,
+    level: int,
+    rng: np.random.Generator,
+    pairs: Sequence[tuple[str, str]],
+    lone: Sequence[str] = (),
 ) -> tuple[Hiding, ...]:
+    """`lone`: laws of single effects in turn; those of all splits if not given."""
     if group in {"null", "misset", "sensor"}:
         return ()
     if group == "open":
@@ -244,8 +262,8 @@ def _effects(
     if group == "no_baseline":
         return (hiding_of(FIRST[number % len(FIRST)], number, level, rng),)
     turn, place = divmod(number, 8)
-    name = FIRST[place] if place < 6 else OTHERS[(2 * turn + place - 6) % len(OTHERS)]
-    return (hiding_of(name, turn + place, level, rng),)
+    cycled = FIRST[place] if place < 6 else OTHERS[(2 * turn + place - 6) % len(OTHERS)]
+    return (hiding_of(lone[number % len(lone)] if lone else cycled, turn + place, level, rng),)
 
 
 def hiding_of(name: str, number: int, level: int, rng: np.random.Generator) -> Hiding:
