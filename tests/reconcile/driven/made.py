@@ -56,7 +56,7 @@ def recording(
         rows, poles, _ = cont2discrete(([1 / MASS], [1.0, 2 * DAMPING * w, w * w]), step, method="foh")
         x = lfilter(rows[0], poles, fine)[::FINE]
     else:
-        run = ode(slope).set_integrator("dopri5", rtol=1e-7, atol=1e-11, first_step=2 * step, max_step=2 * step)
+        run = ode(slope).set_integrator("dopri5", rtol=1e-6, atol=1e-9, first_step=2 * step, max_step=2 * step)
         run.set_initial_value([0.0, 0.0], 0.0)
         x = np.array([0.0, *(run.integrate(at)[0] for at in t[1:])])
     dirt = np.convolve(rng.normal(size=n + 4), [0.4, 0.3, 0.2, 0.1, 0.1], mode="valid")
