@@ -7,6 +7,7 @@ started by its supervisor from their command.
 from __future__ import annotations
 
 import gc
+import importlib
 import logging
 import os
 import signal
@@ -23,6 +24,10 @@ from store.settings import StoreSettings
 from store.worker_settings import WorkerSettings
 from tests.service.fakes import FakeEngine, analyse
 from workers.main import Start, run_worker
+
+# SciPy loads its parts when they are used: else in each of the processes forked from here.
+for _part in ("integrate", "signal", "stats"):
+    importlib.import_module(f"scipy.{_part}")
 
 ROOT = Path(__file__).resolve().parents[2]
 Physics = Callable[[], tuple[Engine, Analyser]]
