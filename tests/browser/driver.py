@@ -75,7 +75,7 @@ class Browser:
             "args": [*FLAGS, f"--user-data-dir={profile}", f"--window-size={width},{height}"],
         }
         wanted = {"browserName": "chrome", "goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL"}}
-        self._session = ""
+        self._session, self._opened = "", 0
         self._session = self._call("POST", "/session", {"capabilities": {"alwaysMatch": wanted}})["sessionId"]
 
     def _listening(self) -> bool:
@@ -92,8 +92,17 @@ class Browser:
         return value
 
     def open(self, url: str) -> None:
-        """Load a page anew, also when only the part after # differs."""
-        self._call("POST", "/url", {"url": "about:blank"})
+        """Load a page anew, also when only the part after # differs.
+
+        The dashboard by a query of its own, which it does not read: after an empty page between them each page would be
+        rendered by a process of its own. Other addresses may refuse queries.
+        """
+        address, _, place = url.partition("#")
+        if address.endswith("/"):
+            self._opened += 1
+            url = f"{address}?{self._opened}#{place}"
+        else:
+            self._call("POST", "/url", {"url": "about:blank"})
         self._call("POST", "/url", {"url": url})
 
     def run(self, script: str, *args: object) -> Any:
