@@ -65,14 +65,18 @@ kernels: env  # as `setup`, and those of machines side by side, with which two g
 	@echo "[3/4] numerical kernels: loading, or compiling them once (about a minute)"
 	@$(BIN)/python -m workers.warm --lanes
 
-collected: lint  # compiles the tests once, not in every process; what is wrong with them, the run itself says
+collected: dev kernels  # compiles the tests once, not in every process; what is wrong with them, the run itself says
 	@PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q --collect-only >/dev/null || true
 
 fast: dev  ## the loop while working: without the slow tests (half a minute on two cores)
 	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 2 -m "not slow"
 
-test: env  ## lint and every test; what CI runs
-	@$(MAKE) --no-print-directory -j 3 -O kernels collected browser  # kernels on one core, tools and types on the other
+# A browser comes beside the packages; then kernels and after them the tests' own code are compiled on one core, while
+# tools are fetched and types checked on the other.
+test:  ## lint and every test; what CI runs
+	@$(MAKE) --no-print-directory browser & \
+	  { $(MAKE) --no-print-directory env && $(MAKE) --no-print-directory -j 2 -O kernels lint collected; }; \
+	  found=$$?; wait; exit $$found
 	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 4 --dist loadgroup --no-loadscope-reorder  # on two cores: many tests wait for servers and workers
 
 bench: dev setup  ## speed and accuracy; ends with one line of JSON
