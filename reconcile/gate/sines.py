@@ -32,7 +32,11 @@ def without_sines(
 
 def _refined(samples: FloatArray, time: FloatArray, hz: float, width_hz: float) -> float:
     """Frequency within half a bin that holds most, Hz."""
-    window = np.hanning(time.size)
     trial = hz + width_hz * np.linspace(-0.6, 0.6, 13)
-    level = [abs(np.sum(window * samples * np.exp(-2j * np.pi * f * time))) for f in trial]
+    turned = np.hanning(time.size) * samples * np.exp(-2j * np.pi * trial[0] * time)
+    step = np.exp(-2j * np.pi * (trial[1] - trial[0]) * time)
+    level = [abs(np.sum(turned))]
+    for _ in trial[1:]:
+        turned *= step
+        level.append(abs(np.sum(turned)))
     return float(trial[int(np.argmax(level))])
