@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from signals.labels.families import MECHANISM
 from signals.labels.identity import VectorKey, base_vectors, vector_key
@@ -156,6 +157,7 @@ def _series(line: Line) -> Series:
     return frozenset(base for base, _ in line.orders)
 
 
+@lru_cache(maxsize=1024)
 def _rank(base: str) -> tuple[int, int, str]:
     match = _BASE.match(base)
     if match is None or match["family"] not in FAMILY_ORDER:

@@ -37,7 +37,8 @@ def vector_key(orders: Sequence[tuple[str, Order]], vectors: Mapping[str, Vector
     total: dict[str, Fraction] = {}
     for base, n in orders:
         for symbol, share in vectors.get(base, {base: Fraction(1)}).items():
-            total[symbol] = total.get(symbol, Fraction(0)) + n * share
+            part = share if n == 1 else n * share  # most are a base once: sums of fractions are dear
+            total[symbol] = total[symbol] + part if symbol in total else part
     return tuple(sorted((symbol, value) for symbol, value in total.items() if value))
 
 
