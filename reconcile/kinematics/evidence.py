@@ -123,7 +123,7 @@ def trials(family: Family, order: float, reach: float, order_step: float) -> Flo
 
 def scores(values: FloatArray, envelopes: Envelopes, family: Family, base: FloatArray) -> FloatArray:
     """Comb scores, shape (bands, trials)."""
-    return _summed(values, *_placed(envelopes, family, base))
+    return np.asarray(_summed(_by_bin(values), *_placed(envelopes, family, base)).T)
 
 
 def _placed(envelopes: Envelopes, family: Family, base: FloatArray) -> tuple[IntArray, FloatArray]:
@@ -133,8 +133,14 @@ def _placed(envelopes: Envelopes, family: Family, base: FloatArray) -> tuple[Int
     return np.where(inside, envelopes.place(np.abs(lines)), 0), weights  # at 0 is nothing, `logs` sees to that
 
 
-def _summed(values: FloatArray, place: IntArray, weights: FloatArray) -> FloatArray:
-    return np.asarray(np.take(values, place, axis=1, mode="clip") @ weights, dtype=np.float64)
+def _by_bin(values: FloatArray) -> FloatArray:
+    """(bins, bands): all bands of a bin lie together, so that a line is fetched once, not once a band."""
+    return np.ascontiguousarray(values.T)
+
+
+def _summed(by_bin: FloatArray, place: IntArray, weights: FloatArray) -> FloatArray:
+    """Weighted sums over lines, shape (trials, bands)."""
+    return np.asarray(np.matmul(weights, np.take(by_bin, place, axis=0, mode="clip")), dtype=np.float64)
 
 
 def without(
@@ -251,8 +257,9 @@ def _foreign(envelopes: Envelopes, family: Family, orders: FloatArray, reach: fl
 
 def _controls(values: FloatArray, foreign: Sequence[_Controls]) -> tuple[FloatArray, FloatArray, FloatArray]:
     """(best scores at the control orders (bands, controls), their medians and robust deviations (bands, 1))."""
-    found = [np.maximum.reduceat(_summed(values, few.place, few.weights), few.first, axis=1) for few in foreign]
-    control = np.concatenate(found, axis=1)
+    by_bin = _by_bin(values)
+    found = [np.maximum.reduceat(_summed(by_bin, few.place, few.weights), few.first, axis=0) for few in foreign]
+    control = np.ascontiguousarray(np.concatenate(found).T)
     centre = np.median(control, axis=1, keepdims=True)
     spread = np.maximum(1.4826 * np.median(np.abs(control - centre), axis=1, keepdims=True), LEAST_SPREAD)
     return control, centre, spread
