@@ -31,7 +31,13 @@ def running_median(power: FloatArray, width: int = FLOOR_BINS) -> FloatArray:
     edges = np.minimum(np.arange(count) * step + step // 2, power.size - 1)
     low = np.clip(edges - width // 2, 0, power.size - width)
     block = np.lib.stride_tricks.sliding_window_view(power, width)[low]
-    return np.asarray(np.interp(np.arange(power.size), edges, np.median(block, axis=1)), dtype=np.float64)
+    return np.asarray(np.interp(np.arange(power.size), edges, _medians(block)), dtype=np.float64)
+
+
+def _medians(rows: FloatArray) -> FloatArray:
+    """Of each row: an odd one's is its middle value, for which `np.median` takes five times as long."""
+    middle, odd = divmod(rows.shape[1], 2)
+    return np.asarray(np.partition(rows, middle, axis=1)[:, middle] if odd else np.median(rows, axis=1))
 
 
 def power_over_floor(power: FloatArray, width: int = FLOOR_BINS) -> FloatArray:
