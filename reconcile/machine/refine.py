@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from reconcile.atlas.candidates import Candidate, size_parameter
+from reconcile.atlas.candidates import Candidate, size_parameter, size_range
 from reconcile.atlas.plan import AtlasPlan, Draw
 from reconcile.judge.space import Fitted
 from reconcile.machine.library import Catalogued
 from signals.series import FloatArray
 from sim.core.params import Param
 from sim.core.spec import TermSpec
+from sim.core.terms import Term
 from sim.terms import REGISTRY
 
 NEAR_SIZE = 0.35
 """Standard deviation of the logarithm of the size around the best draws."""
 NEAR_ANGLE_RAD = 0.5
 NEAR = 0.25
+SMALLER, LARGER = 4.0, 8.0
+"""Times by which sizes are spread about those of the best draws."""
 
 
 def _moved(param: Param, value: float, rng: np.random.Generator) -> float:
@@ -33,10 +37,15 @@ def _moved(param: Param, value: float, rng: np.random.Generator) -> float:
     return float(np.clip(moved, param.low, param.high))
 
 
+def _known(name: str) -> Term:
+    term = REGISTRY.get(name)
+    if term is None:
+        raise ValueError(f"no term {name}")
+    return term
+
+
 def _near(term: TermSpec, rng: np.random.Generator) -> TermSpec:
-    known = REGISTRY.get(term.term)
-    if known is None:
-        raise ValueError(f"no term {term.term}")
+    known = _known(term.term)
     size = size_parameter(known)
     values = {p.name: _moved(p, term.parameters[p.name], rng) for p in known.params if p.name in term.parameters}
     grown = term.parameters[size.name] * float(np.exp(rng.normal(0.0, NEAR_SIZE)))
@@ -57,6 +66,33 @@ def best_draws(fitted: Fitted, known: Catalogued, name: str, observed: FloatArra
     return [known.terms[k] for k in chosen[:count]]
 
 
+def spread_plan(
+    plan: AtlasPlan,
+    around: Sequence[tuple[str, Sequence[TermSpec]]],
+    *,
+    draws: int,
+    pairs: int,
+    seed: int,
+) -> AtlasPlan:
+    """`draws` machines an effect, as its best draws are in all but the size, which goes in steps from a fourth to eight
+    times theirs, as far as it is sought at all."""
+    planned = []
+    for name, terms in around:
+        term, site = name.split("@")
+        rng = np.random.default_rng([seed, 5, *name.encode()])
+        size = size_parameter(_known(term))
+        least, most = size_range(size)
+        middle = float(np.exp(np.mean(np.log(np.clip([t.parameters[size.name] for t in terms], least, most)))))
+        low, high = max(middle / SMALLER, least), min(middle * LARGER, most)
+        for j in range(draws):
+            near = _near(terms[j % len(terms)], rng)
+            share = (j + 0.5) / draws
+            sized = {**near.parameters, size.name: low ** (1.0 - share) * high**share}
+            spread = near.model_copy(update={"parameters": sized})
+            planned.append(Draw(pair=j % pairs, candidate=Candidate(term=term, site=site), term=spread))
+    return replace(plan, draws=tuple(planned), seed=plan.seed + 7907)
+
+
 def refined_plan(
     plan: AtlasPlan,
     around: Sequence[tuple[str, Sequence[TermSpec]]],
@@ -74,11 +110,4 @@ def refined_plan(
         for j in range(draws):
             start = terms[j % len(terms)]
             planned.append(Draw(pair=(j + 8) % pairs, candidate=candidate, term=_near(start, rng)))
-    return AtlasPlan(
-        machine=plan.machine,
-        numbers=plan.numbers,
-        offsets=plan.offsets,
-        twins=plan.twins,
-        draws=tuple(planned),
-        seed=plan.seed + 7919,
-    )
+    return replace(plan, draws=tuple(planned), seed=plan.seed + 7919)

@@ -18,8 +18,8 @@ from reconcile.machine.budget import Budget
 from reconcile.machine.decide import DETECT_P
 from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import LANES, first_heat, more_draws, ordered_draws, second_heat, simulated_banks
-from reconcile.machine.refine import best_draws, refined_plan
-from reconcile.machine.second import beside, looks_for_second, struck_too
+from reconcile.machine.refine import best_draws, refined_plan, spread_plan
+from reconcile.machine.second import beside, looks_for_second, strikes, struck_too
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.weigh import LEAST_EVIDENCE, credible_set, merged_weights, plausible
 from signals.series import FloatArray
@@ -38,6 +38,9 @@ nearest draw of the right effect explains 0.2 to 0.6 in five, with a size within
 NEAREST = 2
 SECONDS = 3
 """Candidates for a second effect that are simulated with all their draws."""
+MOSTLY_SEEN, SPREAD, SPREAD_ABOUT = 0.75, 6, 2
+"""Share of an effect's draws from which its sizes are known as they are drawn, else so many draws spread over the sizes
+about so many of the best."""
 FITTED_SECONDS = 2
 """Of these so many are fitted together with the machine."""
 
@@ -216,10 +219,25 @@ def to_fit(setting: Setting, found: Found, budget: Budget) -> list[Task]:
     return [first, *seconds]
 
 
+def spread_out(setting: Setting, found: Found, leading: Sequence[str], mapper: Mapper) -> Found:
+    """With leading effects that strike and that most draws hide simulated over the sizes, as they are best else: of an
+    outer race's pits those outside the load show nothing, and the few in it are not of all sizes."""
+    visible, groups = found.fitted.visible, found.known.library.groups
+    few = [n for n in leading if strikes(n) and visible[list(groups[n])].mean() < MOSTLY_SEEN]
+    if not few:
+        return found
+    around = [(n, best_draws(found.view(n), found.known, n, setting.changes.observed, count=SPREAD_ABOUT)) for n in few]
+    pairs = len(setting.plan.offsets)
+    plan = spread_plan(setting.plan, around, draws=SPREAD, pairs=pairs, seed=setting.seed)
+    return fit_views(setting, simulated(setting, plan, mapper, found.known))
+
+
 def refined(
     setting: Setting, found: Found, budget: Budget, mapper: Mapper, turn: int, near: Sequence[str] = ()
 ) -> Found:
     """Simulate the leading candidates again near their best draws, and judge with both libraries."""
+    if turn == 0:
+        found = spread_out(setting, found, leaders(found, budget, near), mapper)
     leading = leaders(found, budget, near)
     around = [(name, best_draws(found.view(name), found.known, name, setting.changes.observed)) for name in leading]
     others = beside(setting, found, leading[0]) if looks_for_second(found) else None

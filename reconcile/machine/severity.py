@@ -36,7 +36,15 @@ def estimated_severity(fitted: Fitted, known: Catalogued, name: str, observed: F
     squared = fitted.paths.distances(fitted.place(observed))[rows]
     values = np.array([_size(known, fitted, int(k), size.name) for k in rows])
     scale = max(fitted.overdispersion, float(np.partition(squared, min(2, squared.size - 1))[:3].mean()) * 0.1)
-    return weighted_severity(size, values, _weights(squared, scale))
+    return weighted_severity(size, values, evened(values, _weights(squared, scale)))
+
+
+def evened(values: FloatArray, weights: FloatArray) -> FloatArray:
+    """Weights (n,) of sizes (n,) by the share of the scale that each stands for: draws crowd where the search went,
+    which says nothing of how large an effect is."""
+    logs = np.log(np.maximum(values, 1e-300))
+    crowd = np.exp(-0.5 * ((logs[:, None] - logs[None, :]) / LEAST_SPREAD) ** 2).sum(axis=1)
+    return np.asarray(weights / crowd / (weights / crowd).sum())
 
 
 def weighted_severity(size: Param, values: FloatArray, weights: FloatArray) -> Severity:

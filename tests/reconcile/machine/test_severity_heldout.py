@@ -12,7 +12,7 @@ from reconcile.judge.paths import build_paths
 from reconcile.judge.space import Library
 from reconcile.machine.heldout import LATER, held_out, spectral_mask, splits
 from reconcile.machine.library import Catalogued, joined
-from reconcile.machine.severity import estimated_severity
+from reconcile.machine.severity import LEAST_SPREAD, estimated_severity, evened
 from reconcile.observe.features import SOFT, Layout
 from reconcile.observe.statistics import third_octaves
 from sim.core.spec import TermSpec
@@ -62,6 +62,32 @@ def test_intervals_of_the_size_cover_it() -> None:
         away.append(abs(np.log(found.value / size)))
     assert covered >= 0.8 * trials
     assert np.median(away) < 0.35
+
+
+def test_draws_that_crowd_count_once_for_the_scale_they_stand_for() -> None:
+    few = np.exp(np.array([0.0, 3.0, 6.0]))
+    crowded = np.concatenate([few[:1].repeat(8), few[1:]])
+    assert evened(few, np.full(3, 1 / 3)) == pytest.approx(np.full(3, 1 / 3), rel=1e-9)
+    told = evened(crowded, np.full(10, 0.1))
+    assert told.sum() == pytest.approx(1.0) and told[:8].sum() == pytest.approx(1 / 3, rel=1e-9)
+    near = np.exp(np.array([0.0, LEAST_SPREAD, 6.0]))
+    assert evened(near, np.array([0.5, 0.25, 0.25]))[:2].sum() == pytest.approx(
+        0.75 / (1 + np.exp(-0.5)) / (0.75 / (1 + np.exp(-0.5)) + 0.25)
+    )
+
+
+def test_a_size_does_not_lean_to_where_most_was_simulated() -> None:
+    rng = np.random.default_rng(1)
+    even = (np.arange(16) + 0.5) / 16
+    crowd = np.sort(np.concatenate([even, rng.uniform(0.65, 0.75, 24)]))
+    values = []
+    for shares in (even, crowd):
+        points = np.stack([0.2 * shares, 0 * shares, 0 * shares], axis=1)
+        known = catalogue(shares, points, (NAME,))
+        paths = build_paths(points, known.library.groups, shares)
+        fitted = SimpleNamespace(paths=paths, place=lambda x: x, overdispersion=0.2)
+        values.append(estimated_severity(fitted, known, NAME, np.array([0.1, 0.0, 0.0])).value)  # type: ignore[arg-type]
+    assert abs(np.log(values[1] / values[0])) < 0.25, "nothing tells the size: as before"
 
 
 def spectral(points: int) -> np.ndarray:

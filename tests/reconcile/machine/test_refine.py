@@ -1,0 +1,105 @@
+"""Effects simulated again: near their best draws, and over the sizes where most draws hide the effect."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from reconcile.atlas.candidates import size_parameter, size_range
+from reconcile.atlas.plan import AtlasPlan
+from reconcile.calibrate.uncertain import Offsets
+from reconcile.machine import search
+from reconcile.machine.refine import LARGER, NEAR_ANGLE_RAD, SMALLER, refined_plan, spread_plan
+from reconcile.machine.search import MOSTLY_SEEN, SPREAD, spread_out
+from sim.core.spec import TermSpec
+from sim.presets import preset
+from sim.terms import REGISTRY
+
+PIT, RACE = "outer_spall@bearing1", "inner_spall@bearing1"
+LOOSE = "pedestal_looseness@bearing1"
+TERM = REGISTRY.get("outer_spall")
+assert TERM is not None
+SIZE = size_parameter(TERM)
+
+
+def pit(width_m: float, angle: float = -1.8) -> TermSpec:
+    return TermSpec(term="outer_spall", site="bearing1", parameters={"width": width_m, "depth": 5e-5, "angle": angle})
+
+
+@pytest.fixture(scope="module")
+def plan() -> AtlasPlan:
+    rest = tuple(Offsets(values=np.zeros(1)) for _ in range(8))
+    return AtlasPlan(machine=preset("paper"), numbers=(), offsets=rest, twins=rest, draws=(), seed=3)
+
+
+def test_sizes_are_spread_about_the_best_and_the_rest_stays_near(plan: AtlasPlan) -> None:
+    around = [(PIT, [pit(5e-4), pit(8e-4)])]
+    spread = spread_plan(plan, around, draws=6, pairs=8, seed=1)
+    terms = [d.term for d in spread.draws if d.term is not None]
+    widths = np.array([t.parameters["width"] for t in terms])
+    middle = np.sqrt(5e-4 * 8e-4)
+    low, high = max(middle / SMALLER, size_range(SIZE)[0]), min(middle * LARGER, size_range(SIZE)[1])
+    assert np.allclose(widths, np.geomspace(low, high, 13)[1::2])
+    assert {d.candidate.label for d in spread.draws if d.candidate} == {PIT} and len(terms) == 6
+    assert all(abs(t.parameters["angle"] + 1.8) < 4 * NEAR_ANGLE_RAD for t in terms)
+    assert len({t.parameters["angle"] for t in terms}) == 6
+    assert len({d.pair for d in spread.draws}) == 6 and spread.offsets == plan.offsets and spread.seed != plan.seed
+    assert spread_plan(plan, around, draws=6, pairs=8, seed=1) == spread
+
+
+@pytest.mark.parametrize("width", [SIZE.low, SIZE.high])
+def test_sizes_stay_within_what_is_sought(plan: AtlasPlan, width: float) -> None:
+    spread = spread_plan(plan, [(PIT, [pit(width)])], draws=6, pairs=8, seed=1)
+    widths = [d.term.parameters["width"] for d in spread.draws if d.term is not None]
+    low, high = size_range(SIZE)
+    assert low <= min(widths) < max(widths) <= high
+
+
+def test_near_the_best_means_near_in_size_too(plan: AtlasPlan) -> None:
+    near = refined_plan(plan, [(PIT, [pit(5e-4)])], draws=8, pairs=8, seed=1)
+    widths = np.array([d.term.parameters["width"] for d in near.draws if d.term is not None])
+    assert widths.size == 8 and 0.05 < np.std(np.log(widths)) < 0.8 and np.all(np.abs(np.log(widths / 5e-4)) < 1.5)
+
+
+Shown = list[Sequence[str]]
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> Shown:
+    """Which effects were spread, and how often."""
+    shown: Shown = []
+
+    def planned(_plan: object, around: Sequence[tuple[str, Sequence[TermSpec]]], *, draws: int, **_: object) -> str:
+        shown.append([name for name, _ in around])
+        assert draws == SPREAD
+        return "plan"
+
+    monkeypatch.setattr(search, "spread_plan", planned)
+    monkeypatch.setattr(search, "best_draws", lambda *_, count: [pit(5e-4)] * count)
+    monkeypatch.setattr(search, "simulated", lambda _, plan, *__: f"simulated {plan}")
+    monkeypatch.setattr(search, "fit_views", lambda _, known: f"judged {known}")
+    return shown
+
+
+def found_with(shares: dict[str, float]) -> SimpleNamespace:
+    """Eight draws of each effect, so large a share of them seen."""
+    groups = {name: tuple(range(8 * k, 8 * k + 8)) for k, name in enumerate(shares)}
+    visible = np.concatenate([np.arange(8) < round(8 * share) for share in shares.values()])
+    known = SimpleNamespace(library=SimpleNamespace(groups=groups))
+    return SimpleNamespace(fitted=SimpleNamespace(visible=visible), known=known, view=lambda _: None)
+
+
+def test_only_what_strikes_and_most_draws_hide_is_spread(asked: Shown) -> None:
+    setting = SimpleNamespace(
+        plan=SimpleNamespace(offsets=(0,) * 8), seed=0, changes=SimpleNamespace(observed=np.zeros(3))
+    )
+    hidden = found_with({PIT: 0.5, RACE: MOSTLY_SEEN, LOOSE: 0.25})
+    told = spread_out(setting, hidden, [PIT, RACE, LOOSE], map)  # type: ignore[arg-type]
+    assert asked == [[PIT]] and told == "judged simulated plan"
+    asked.clear()
+    seen = found_with({PIT: 1.0, LOOSE: 0.25})
+    assert spread_out(setting, seen, [PIT, LOOSE], map) is seen and asked == []  # type: ignore[arg-type]
+    assert spread_out(setting, hidden, [RACE, LOOSE], map) is hidden and asked == [], "nor what does not lead"  # type: ignore[arg-type]
