@@ -103,7 +103,7 @@ def _local_median(values: FloatArray, excluded: BoolArray, width_bins: int) -> F
     starts = np.append(np.arange(0, n - width, step), n - width)
     blocks = sliding_window_view(kept, width)[starts]
     full = sliding_window_view(values, width)[starts]
-    counts = np.count_nonzero(np.isfinite(blocks), axis=1)
+    counts = np.count_nonzero(~np.isnan(blocks), axis=1)
     enough = counts >= 0.25 * width
     medians = np.empty(starts.size)
     medians[~enough] = np.median(full[~enough], axis=1)

@@ -92,6 +92,12 @@ def size_now(own: TermSpec, size: Param) -> float:
     return float(own.parameters.get(size.name, size.default))
 
 
+def sought_range(machine: MachineSpec, term: Term, site: str) -> tuple[float, float]:
+    """Smallest and largest size sought of an effect at a site, from that on which the machine has there already."""
+    own, size = already(machine, term.key, site), size_parameter(term)
+    return size_range(size) if own is None else _grown(size, own)
+
+
 def _grown(size: Param, own: TermSpec) -> tuple[float, float]:
     """Sizes between which one that a machine has already is sought: up to `ABOVE` times, or as far as any other."""
     now = size_now(own, size)

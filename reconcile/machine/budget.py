@@ -13,7 +13,8 @@ class Budget:
     machines each, which are then fitted to the observation together with the effect in so many `assimilations`.
     Where no known effect is adequate force laws are tried at the likeliest `supports` bearings, after the best
     `broader` effects at a place that have few draws got all of them: one not met at its size looks like none. Beside
-    the best effect so many of those that add most to it are simulated (`pairs`; `seconds` where it does not strike)."""
+    the best effect so many of those that add most to it are simulated (`pairs`; `seconds` where it does not strike, or
+    the teeth tell what stands beside its impacts)."""
 
     name: Literal["quick", "full"]
     terms: int

@@ -31,7 +31,7 @@ from reconcile.machine.faintest import faintest_seen
 from reconcile.machine.foreign import with_foreign
 from reconcile.machine.gate_orders import gate_orders
 from reconcile.machine.grown import with_grown
-from reconcile.machine.left_pairs import best_left_pair
+from reconcile.machine.left_pairs import best_left_pair, teeth_tell
 from reconcile.machine.leftover import likelihoods
 from reconcile.machine.library import Catalogued
 from reconcile.machine.local import around_baseline, told
@@ -236,7 +236,9 @@ def _paired(setting: Setting, found: Found, atlas: Catalogued, budget: Budget, m
     decision = _decided(setting, found)
     if second_effect(setting, found, decision) is not None:
         return None
-    if decision.chosen and (setting.machine.gears or not strikes(decision.chosen[0])):
+    first = decision.chosen[0] if decision.chosen else ""
+    by_teeth = decision.word != "unknown_physics" and first and teeth_tell(setting, found, first)
+    if first and (by_teeth or not strikes(first)):
         return best_left_pair(setting, found, decision, atlas, budget.members, budget.seconds, meter)
     return best_pair(setting, found, decision, budget.members, budget.pairs, meter)
 

@@ -1,8 +1,8 @@
 """A second effect beside the best one, by what that leaves (`leftover`): all of the atlas are asked.
 
 Sums err where two effects act on each other: wider clearance lets an unbalance rattle. They only choose who is
-simulated beside the first; what is simulated decides. Beside one that strikes the teeth's own lines alone are asked:
-impacts bring a forest of other lines, and what is left of that is the form of their law.
+simulated beside the first; what is simulated decides. Beside a pit of a bearing whose impacts are sure the teeth's own
+lines alone are asked: impacts bring a forest of other lines, and what is left of that is the form of their law.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import numpy as np
 
 from reconcile.atlas.bank import Mapper
 from reconcile.atlas.candidates import Candidate
+from reconcile.judge.screen import looked
 from reconcile.judge.space import Fitted
 from reconcile.machine.assimilate import Ensemble, moved, simulated_again
 from reconcile.machine.decide import Decision, alike
@@ -21,10 +22,11 @@ from reconcile.machine.direct import HEARD
 from reconcile.machine.leftover import Leftover, leftover, ranked_seconds
 from reconcile.machine.library import Catalogued, joined
 from reconcile.machine.pairs import Pair, Pairs, Simulated, evidence_in, inadequate, pair_of
-from reconcile.machine.second import strikes
+from reconcile.machine.second import strikes, sure
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.weigh import LEAST_EVIDENCE, exclusive, variants
 from signals.series import FloatArray
+from sim.terms import REGISTRY
 
 PROMISING = 2.5
 """Log likelihood that a second effect must add by sums to be simulated: a clearance beside an unbalance added 3.6 so
@@ -33,8 +35,6 @@ LEAST_GAIN, LEAD = 12.0, 6.0
 """Log likelihood that it must add as simulated, beyond what the first gains by being moved as often, and by which it
 must lead the other simulated ones. Features are not independent, so this counts several times what evidence does (right
 and wrong ones: docs/decisions/reconcile-leftover.md)."""
-BESIDE_IMPACTS, LEAD_BESIDE_IMPACTS = 8.0, 3.0
-"""The same beside one that strikes, by the teeth's own lines: a fifth of the features."""
 NEAR_SHARE, LEAST_ASKED = 0.5, 2
 """Share of the most that any adds by sums from which a second is simulated, two in any case, and of what the best adds
 simulated from which one that was not is told with it. Beside a loose fit a crack of a shaft added 48 by sums and the
@@ -65,13 +65,8 @@ class _Asked:
 
     @property
     def beside_impacts(self) -> bool:
-        """Whether the first strikes."""
+        """Whether the first is a pit."""
         return strikes(self.first)
-
-    @property
-    def limits(self) -> tuple[float, float]:
-        """What a second must add, and its lead."""
-        return (BESIDE_IMPACTS, LEAD_BESIDE_IMPACTS) if self.beside_impacts else (LEAST_GAIN, LEAD)
 
 
 def best_left_pair(
@@ -110,13 +105,21 @@ def best_left_pair(
 
 
 def _lines(setting: Setting, found: Found, decision: Decision) -> Fitted | None:
-    """The view of single lines in which a pair is fitted; None where none is looked for. Impacts are there whatever
-    else is, so what stands beside them is looked for in a change that no effect alone explains, too."""
-    if not decision.chosen or decision.word in ("nothing_missing", "not_decidable"):
+    """The view of single lines in which a pair is fitted; None where none is looked for."""
+    if decision.word not in ("explained", "ambiguous") or not decision.chosen:
         return None
-    if strikes(decision.chosen[0]):
-        return found.fine if setting.machine.gears else None
-    return (found.sides or found.fine) if decision.word != "unknown_physics" else None
+    first = decision.chosen[0]
+    if strikes(first):
+        return found.fine if teeth_tell(setting, found, first) else None
+    return found.sides or found.fine
+
+
+def teeth_tell(setting: Setting, found: Found, first: str) -> bool:
+    """Whether the teeth's own lines say what stands beside a first effect that strikes: a pit of a bearing, which
+    hardly moves them, and which is there by its impacts whatever else is."""
+    term = REGISTRY.get(first.split("@", maxsplit=1)[0])
+    on_teeth = term is None or term.strikes == "tooth"
+    return bool(setting.machine.gears) and not on_teeth and sure(found, first)
 
 
 def _asked(
@@ -137,7 +140,7 @@ def _asked(
 
 def _fairly(asked: _Asked, made: Mapping[str, Pair | None]) -> dict[str, Pair | None]:
     """With what the first alone gains by being moved once more, as the pairs were, taken off; where it matters."""
-    if max((p.gain for p in made.values() if p is not None), default=0.0) < asked.limits[0]:
+    if max((p.gain for p in made.values() if p is not None), default=0.0) < LEAST_GAIN:
         return dict(made)
     again = _moved(asked, _start(asked, (), ""), "")
     gained = 0.0 if again is None else max(0.0, asked.left.level(again.known.library.changes) - asked.left.base)
@@ -157,7 +160,7 @@ def _rivals(asked: _Asked, best: Pair, pairs: Sequence[Pair], sums: Mapping[str,
             continue
         if alike(name, second):
             near += [name] if reached > least else []
-        elif reached > (best.gain - asked.limits[1] if name in told else NEAR_SHARE * best.gain):
+        elif reached > (best.gain - LEAD if name in told else NEAR_SHARE * best.gain):
             near.append(name)
     return near
 
@@ -232,6 +235,8 @@ def _moved(asked: _Asked, start: Ensemble, second: str) -> Simulated | None:
     setting, left = asked.setting, asked.left
     rng = np.random.default_rng([setting.seed, 23, *f"{asked.first}+{second}".encode()])
     led = moved(start, asked.view, setting.changes.observed, 1.0, rng)
+    if asked.beside_impacts:  # of which the teeth's lines say nothing
+        led = replace(led, terms=start.terms)
     more = simulated_again(setting, led.candidate, led.offsets, led.terms, asked.mapper, also=led.also)
     if more is None:
         return None
@@ -253,12 +258,11 @@ def _fitted(asked: _Asked, second: str, rows: Sequence[int]) -> Pair | None:
 
 
 def _stands(asked: _Asked, decision: Decision, best: Pair) -> bool:
-    least, lead = asked.limits
-    if best.gain < least or (decision.word != "explained" and inadequate(best)):
+    if best.gain < LEAST_GAIN or (decision.word != "explained" and inadequate(best)):
         return False
     if asked.beside_impacts:
         return _leads(asked, decision)
-    reached = asked.left.base + best.gain - lead
+    reached = asked.left.base + best.gain - LEAD
     if any(_alone(asked, name) > reached for name in asked.found.known.library.groups if name != asked.first):
         return False
     second = best.beside.names[0]
@@ -267,8 +271,11 @@ def _stands(asked: _Asked, decision: Decision, best: Pair) -> bool:
 
 
 def _leads(asked: _Asked, decision: Decision) -> bool:
-    """Whether the first leads what else it may be: the teeth's lines say nothing of which part is struck."""
-    told = dict(zip(asked.found.screen.names, asked.found.screen.evidence, strict=True))
+    """Whether the first leads what else of the set it may be by impacts and families of features: single lines of the
+    teeth say nothing of which part is struck."""
+    fitted, screen = asked.found.fitted, asked.found.screen
+    families = looked(fitted, asked.setting.changes.observed).evidence
+    told = dict(zip(screen.names, families + screen.direct, strict=True))
     others = [n for n in decision.chosen[1:] if not variants(n, asked.first)]
     return all(told[asked.first] - told[n] >= LEAST_EVIDENCE for n in others)
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from reconcile.atlas.candidates import Candidate, size_parameter, size_range
+from reconcile.atlas.candidates import Candidate, size_parameter, sought_range
 from reconcile.atlas.plan import AtlasPlan, Draw
 from reconcile.judge.space import Fitted
 from reconcile.machine.library import Catalogued
@@ -74,14 +74,14 @@ def spread_plan(
     pairs: int,
     seed: int,
 ) -> AtlasPlan:
-    """`draws` machines an effect, as its best draws are in all but the size, which goes in steps from a fourth to eight
-    times theirs, as far as it is sought at all."""
+    """`draws` machines an effect, near its best draws in all but the size, which goes in even steps between a
+    fourth and eight times theirs, as far as it is sought at all."""
     planned = []
     for name, terms in around:
         term, site = name.split("@")
         rng = np.random.default_rng([seed, 5, *name.encode()])
         size = size_parameter(_known(term))
-        least, most = size_range(size)
+        least, most = sought_range(plan.machine, _known(term), site)
         middle = float(np.exp(np.mean(np.log(np.clip([t.parameters[size.name] for t in terms], least, most)))))
         low, high = max(middle / SMALLER, least), min(middle * LARGER, most)
         for j in range(draws):

@@ -10,9 +10,9 @@ import pytest
 
 from reconcile.machine import left_pairs
 from reconcile.machine.causes import ranked_causes
-from reconcile.machine.decide import Decision
-from reconcile.machine.left_pairs import BESIDE_IMPACTS, LEAD_BESIDE_IMPACTS, best_left_pair, own_lines
-from reconcile.machine.pairs import Pairs
+from reconcile.machine.decide import STRUCK, Decision
+from reconcile.machine.left_pairs import LEAD, LEAST_GAIN, best_left_pair, own_lines, teeth_tell
+from reconcile.machine.pairs import Pair, Pairs
 from reconcile.machine.setting import Found
 from reconcile.machine.weigh import LEAST_EVIDENCE
 from tests.reconcile.machine.rubs import FEATURES, RIGHT, WRONG, Asked, asked_of_the_made, found_in
@@ -30,8 +30,9 @@ FOREST = np.where(OWN, 0.0, np.random.default_rng(3).choice([-12.0, 12.0], FEATU
 
 @pytest.fixture
 def simulated(monkeypatch: pytest.MonkeyPatch) -> Asked:
-    """The rub at the gear stands for impacts."""
+    """The rub at the gear stands for a pit."""
     monkeypatch.setattr(left_pairs, "strikes", lambda name: name == RIGHT)
+    monkeypatch.setattr(left_pairs, "teeth_tell", lambda *_: True)
     return asked_of_the_made(monkeypatch, THIRD)
 
 
@@ -53,7 +54,7 @@ def test_the_forest_that_impacts_leave_neither_makes_nor_hides_a_second(simulate
     both = pairs_in(seen(SMALLER) + FOREST)
     assert both is not None and both.best is not None
     assert (both.best.first, both.best.beside.names, both.best.others) == (RIGHT, (WRONG,), ())
-    assert both.best.gain > BESIDE_IMPACTS
+    assert both.best.gain > LEAST_GAIN
     simulated.clear()
     alone = pairs_in(seen() + FOREST)
     assert alone is not None and alone.best is None and simulated == []
@@ -93,9 +94,9 @@ def test_machines_start_where_the_first_was_nearest(simulated: Asked) -> None:
 @pytest.mark.parametrize(
     ("gain", "behind", "stands", "others"),
     [
-        (BESIDE_IMPACTS - 0.1, 20.0, False, 0),
-        (BESIDE_IMPACTS + 0.1, LEAD_BESIDE_IMPACTS + 0.1, True, 0),
-        (BESIDE_IMPACTS + 0.1, LEAD_BESIDE_IMPACTS - 0.1, True, 2),
+        (LEAST_GAIN - 0.1, 20.0, False, 0),
+        (LEAST_GAIN + 0.1, LEAD + 0.1, True, 0),
+        (LEAST_GAIN + 0.1, LEAD - 0.1, True, 2),
     ],
 )
 def test_how_much_it_must_add_and_lead(
@@ -120,10 +121,14 @@ def test_how_much_it_must_add_and_lead(
 
 
 @pytest.mark.parametrize(("lead", "named"), [(LEAST_EVIDENCE - 0.1, False), (LEAST_EVIDENCE + 0.1, True)])
-def test_which_part_is_struck_must_be_decided_without_the_teeth(lead: float, named: bool, simulated: Asked) -> None:
+def test_which_part_is_struck_must_be_decided_by_impacts_and_families(
+    lead: float, named: bool, simulated: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
     setting, found = struck(seen(SMALLER))
     names = (RIGHT, WRONG, THIRD)
-    screen = replace(found.screen, names=names, evidence=np.array([20.0, 1.0, 20.0 - lead]), by=np.zeros(3, dtype=int))
+    direct, families = np.array([11.0, 0.0, 12.0 - lead]), np.array([9.0, 30.0, 8.0])
+    screen = replace(found.screen, names=names, direct=direct, evidence=np.array([0.0, 0.0, 99.0]))
+    monkeypatch.setattr(left_pairs, "looked", lambda *_: SimpleNamespace(evidence=families))
     rivals = replace(EXPLAINED, word="ambiguous", chosen=(RIGHT, THIRD))
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(left_pairs, "inadequate", lambda _: False)
@@ -132,20 +137,77 @@ def test_which_part_is_struck_must_be_decided_without_the_teeth(lead: float, nam
 
 
 @pytest.mark.parametrize(("leaves", "named"), [(True, False), (False, True)])
-def test_of_a_change_that_no_effect_explains_both_must_leave_what_known_ones_do(
+def test_of_an_open_set_both_must_leave_what_known_ones_do(
     leaves: bool, named: bool, simulated: Asked, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(left_pairs, "inadequate", lambda _: leaves)
-    told = pairs_in(seen(SMALLER), replace(EXPLAINED, word="unknown_physics"))
+    told = pairs_in(seen(SMALLER), replace(EXPLAINED, word="ambiguous"))
     assert told is not None and (told.best is not None) == named and simulated
 
 
-def test_neither_where_there_are_no_teeth_nor_for_what_would_strike_too(
+@pytest.mark.parametrize(
+    ("first", "gears", "direct", "tell"),
+    [
+        ("outer_spall@bearing1", 2, STRUCK, True),
+        ("ball_spall@bearing1", 2, STRUCK + 1, True),
+        ("outer_spall@bearing1", 2, STRUCK - 0.1, False),
+        ("outer_spall@bearing1", 0, STRUCK, False),
+        ("tooth_crack@pinion", 2, STRUCK, False),
+    ],
+)
+def test_teeth_tell_beside_a_pit_whose_impacts_are_sure(first: str, gears: int, direct: float, tell: bool) -> None:
+    screen = SimpleNamespace(names=("rub@gear", first), direct=np.array([0.0, direct]))
+    setting = SimpleNamespace(machine=SimpleNamespace(gears=("gear",) * gears))
+    assert teeth_tell(setting, SimpleNamespace(screen=screen), first) is tell  # type: ignore[arg-type]
+
+
+def test_else_nothing_is_looked_for_nor_in_what_no_effect_explains(
+    simulated: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert pairs_in(seen(SMALLER), replace(EXPLAINED, word="unknown_physics")) is None
+    monkeypatch.setattr(left_pairs, "teeth_tell", lambda *_: False)
+    assert pairs_in(seen(SMALLER)) is None and simulated == []
+
+
+def test_machines_are_led_by_the_teeths_own_lines_and_the_first_keeps_its_parameters(
     simulated: Asked, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     setting, found = struck(seen(SMALLER))
-    setting.machine.gears = ()
-    assert best_left_pair(setting, found, EXPLAINED, found.known, 8, 2, map) is None and simulated == []  # type: ignore[arg-type]
+    found = replace(found, sides=found.fitted)
+    made, views = left_pairs.moved, []
+
+    def moved(start, view, *rest):  # type: ignore[no-untyped-def]
+        views.append((view, start.terms))
+        return made(start, view, *rest)
+
+    monkeypatch.setattr(left_pairs, "moved", moved)
+    monkeypatch.setattr(left_pairs, "pair_of", lambda *given: given)
+    asked = left_pairs._asked(setting, found, RIGHT, found.known, left_pairs._lines(setting, found, EXPLAINED), 8, map)  # type: ignore[arg-type]
+    ((_, _, rows),) = left_pairs.ranked_seconds(asked.left, setting.changes, asked.every, [WRONG])
+    led = left_pairs._moved(asked, left_pairs._start(asked, rows, WRONG), WRONG)
+    assert led is not None and views[0][0] is found.fine
+    assert (
+        tuple(led.known.terms) == views[0][1] and led.also != left_pairs._start(asked, rows, WRONG).also and simulated
+    )
+
+
+def test_what_the_first_gains_by_being_moved_once_more_counts_from_the_limit_on(
+    simulated: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    setting, found = struck(seen(SMALLER))
+    asked = left_pairs._asked(setting, found, RIGHT, found.known, found.fine, 8, map)  # type: ignore[arg-type]
+    base = asked.left.base
+    again = SimpleNamespace(known=SimpleNamespace(library=SimpleNamespace(changes=asked.left.members)))
+    monkeypatch.setattr(left_pairs, "_moved", lambda *_: again)
+    monkeypatch.setattr(type(asked.left), "base", base)
+    monkeypatch.setattr(type(asked.left), "level", lambda *_: base + 3.0)
+    for gain, left in ((LEAST_GAIN - 0.1, LEAST_GAIN - 0.1), (LEAST_GAIN + 0.1, LEAST_GAIN - 2.9)):
+        pair = Pair(first=RIGHT, beside=None, gain=gain, rest=None)  # type: ignore[arg-type]
+        told = left_pairs._fairly(asked, {WRONG: pair})[WRONG]
+        assert told is not None and told.gain == pytest.approx(left)
+
+
+def test_what_would_strike_too_is_not_asked(monkeypatch: pytest.MonkeyPatch) -> None:
     setting, found = struck(seen(SMALLER))
     setting.direct.evidence = {WRONG: 20.0}
     monkeypatch.setattr(left_pairs, "strikes", lambda _: True)

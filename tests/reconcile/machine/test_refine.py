@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -58,6 +59,13 @@ def test_sizes_stay_within_what_is_sought(plan: AtlasPlan, width: float) -> None
     assert low <= min(widths) < max(widths) <= high
 
 
+def test_a_pit_that_the_machine_has_is_spread_from_its_size_on(plan: AtlasPlan) -> None:
+    own = replace(plan, machine=plan.machine.model_copy(update={"terms": [pit(1e-3)]}))
+    spread = spread_plan(own, [(PIT, [pit(1.2e-3)])], draws=6, pairs=8, seed=1)
+    widths = [d.term.parameters["width"] for d in spread.draws if d.term is not None]
+    assert min(widths) > 1e-3 and max(widths) > 4e-3
+
+
 def test_near_the_best_means_near_in_size_too(plan: AtlasPlan) -> None:
     near = refined_plan(plan, [(PIT, [pit(5e-4)])], draws=8, pairs=8, seed=1)
     widths = np.array([d.term.parameters["width"] for d in near.draws if d.term is not None])
@@ -75,10 +83,11 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> Shown:
     def planned(_plan: object, around: Sequence[tuple[str, Sequence[TermSpec]]], *, draws: int, **_: object) -> str:
         shown.append([name for name, _ in around])
         assert draws == SPREAD
+        assert [t.parameters["width"] for t in around[0][1]] == pytest.approx([4e-4, 3e-4]), "draws that show something"
         return "plan"
 
     monkeypatch.setattr(search, "spread_plan", planned)
-    monkeypatch.setattr(search, "best_draws", lambda *_, count: [pit(5e-4)] * count)
+    monkeypatch.setattr(search, "best_draws", lambda _, known, *__, count: known.terms[7::-1][:count])
     monkeypatch.setattr(search, "simulated", lambda _, plan, *__: f"simulated {plan}")
     monkeypatch.setattr(search, "fit_views", lambda _, known: f"judged {known}")
     return shown
@@ -88,7 +97,7 @@ def found_with(shares: dict[str, float]) -> SimpleNamespace:
     """Eight draws of each effect, so large a share of them seen."""
     groups = {name: tuple(range(8 * k, 8 * k + 8)) for k, name in enumerate(shares)}
     visible = np.concatenate([np.arange(8) < round(8 * share) for share in shares.values()])
-    known = SimpleNamespace(library=SimpleNamespace(groups=groups))
+    known = SimpleNamespace(library=SimpleNamespace(groups=groups), terms=[pit(1e-4 * k) for k in range(1, 25)])
     return SimpleNamespace(fitted=SimpleNamespace(visible=visible), known=known, view=lambda _: None)
 
 
@@ -103,3 +112,29 @@ def test_only_what_strikes_and_most_draws_hide_is_spread(asked: Shown) -> None:
     seen = found_with({PIT: 1.0, LOOSE: 0.25})
     assert spread_out(setting, seen, [PIT, LOOSE], map) is seen and asked == []  # type: ignore[arg-type]
     assert spread_out(setting, hidden, [RACE, LOOSE], map) is hidden and asked == [], "nor what does not lead"  # type: ignore[arg-type]
+    silent = found_with({PIT: 0.0})
+    assert spread_out(setting, silent, [PIT], map) is silent and asked == [], "nor about draws that show nothing"  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("turn", "spread"), [(0, [[PIT]]), (1, [])])
+def test_leaders_are_spread_before_they_are_refined_once(
+    turn: int, spread: list[list[str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[list[str]] = []
+
+    def spread_out(_setting: object, found: object, leading: list[str], _mapper: object) -> object:
+        asked.append(leading)
+        return found
+
+    for name in ("looks_for_second", "struck_too", "beside"):
+        monkeypatch.setattr(search, name, lambda *_: None)
+    monkeypatch.setattr(search, "spread_out", spread_out)
+    monkeypatch.setattr(search, "leaders", lambda *_: [PIT])
+    monkeypatch.setattr(search, "best_draws", lambda *_: [pit(5e-4)])
+    monkeypatch.setattr(search, "refined_plan", lambda _, around, **__: [name for name, _ in around])
+    monkeypatch.setattr(search, "simulated", lambda _, plan, *__: plan)
+    monkeypatch.setattr(search, "fit_views", lambda _, known: known)
+    setting = SimpleNamespace(plan=SimpleNamespace(offsets=()), seed=0, changes=SimpleNamespace(observed=None))
+    found = SimpleNamespace(view=lambda _: None, known=None)
+    budget = SimpleNamespace(members=8)
+    assert search.refined(setting, found, budget, map, turn) == [PIT] and asked == spread  # type: ignore[arg-type]
