@@ -31,13 +31,13 @@ SECTIONS = {
     "name that is not there, by the older rule of what impacts leave; its width, and b015's, are told a quarter of "
     "what they are.",
     "pitted": "What stands beside a pit: nine pairs, four single pits, a broken tooth and a sound machine, all at the "
-    "target condition. Pits are easier than the plan's effects, so these are not counted among the first runs above. No "
-    "version of the engine had met twelve of them before; p001, p002 and p003 had been run by the one before sizes of "
-    "pits were spread, whose results were thrown away unread. Run when the teeth's own lines were first asked beside "
-    "pits ([decision](decisions/reconcile-beside-impacts.md)), with limits of 8 and 3, since 12 and 6, which changes "
-    "no answer: what was named beside a pit an older rule named. Laws and levels of pairs go in step, seven of each, so "
-    "races are not to be compared by them; effects that no library has are not among them. p015, a loose fit and a pit "
-    "that is hardly heard beside it, got an eccentric gear for the pit.",
+    "target condition. Pits are easier than the plan's effects, so these are not counted among the first runs above. "
+    "No version of the engine had met twelve of them before; p001, p002 and p003 had been run by the one before sizes "
+    "of pits were spread, whose results were thrown away unread. Run when the teeth's own lines were first asked "
+    "beside pits ([decision](decisions/reconcile-beside-impacts.md)), with limits of 8 and 3, since 12 and 6, which "
+    "changes no answer: what was named beside a pit an older rule named. Laws and levels of pairs go in step, seven of "
+    "each, so races are not to be compared by them; effects that no library has are not among them. p015, a loose fit "
+    "and a pit that is hardly heard beside it, got an eccentric gear for the pit.",
     "rotors-later": "No version of the engine had met these before their run: two machines without teeth, a disc of 5 "
     "and of 9 kg on a shaft in two bearings, alike and unlike (`proof/rotors`), loaded by weight and shaken by a "
     "residual unbalance; all at the target condition. Not counted among the gearboxes above. An unbalance and a bow of "
@@ -197,8 +197,7 @@ RULES = (
         "k013, a torque at 100 Hz told as an order of no part; k004, the second turn of a broken tooth's gear as one",
     ),
     (
-        "beside a pit whose impacts are sure the teeth's own lines tell "
-        "([decision](decisions/reconcile-beside-impacts.md))",
+        "beside a sure pit the teeth's own lines tell ([decision](decisions/reconcile-beside-impacts.md))",
         "b018, a pit alone with a misaligned coupling beside it (15 by the metric, nothing by the teeth); b004",
     ),
     (
