@@ -28,7 +28,7 @@ SECTIONS = {
     "beside": "No version of the engine had met these before their run; all at the target condition, pairs of laws "
     "that mostly show. Run when second effects were first found by what the fitted first one leaves "
     "([decision](decisions/reconcile-leftover.md)). Other work shared the machine. The single pit of b018 got a second "
-    "name that is not there, by the older rule of what impacts leave; its width, and b015's, are told a quarter of "
+    "name that is not there, by the metric, fitted together with it; its width, and b015's, are told a quarter of "
     "what they are.",
     "pitted": "What stands beside a pit: nine pairs, four single pits, a broken tooth and a sound machine, all at the "
     "target condition. Pits are easier than the plan's effects, so these are not counted among the first runs above. "
