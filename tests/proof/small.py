@@ -63,7 +63,7 @@ def hiding(law: str, site: str, value: float) -> Hiding:
 
 
 CASES = {
-    "nothing": small_case(0, 0, "null"),
+    "nothing": small_case(0, 1, "null"),
     "broken_tooth": small_case(3, 1, "single", hiding("broken_tooth", "pinion", 1.0)),
     "dropouts": small_case(5, 1, "sensor", fault="dropouts"),
 }
