@@ -1,6 +1,6 @@
 """Concealed cases small enough for the test command: one speed, three sensors, few candidates, fixed seeds.
 
-An effect and a sensor fault are on one hidden machine: what only depends on the machine is paid for once. The effect
+All are on one hidden machine: what only depends on it and its baseline is paid for once. The effect
 strikes teeth; one that strikes a race is hidden in a rotor (`test_rotor_case`), an outer race's pit and an effect of
 lines alone are reconciled in `tests/reconcile/machine`, on machines of the engine's own simulator.
 """
