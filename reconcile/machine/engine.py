@@ -31,7 +31,7 @@ from reconcile.machine.faintest import faintest_seen
 from reconcile.machine.foreign import with_foreign
 from reconcile.machine.gate_orders import gate_orders
 from reconcile.machine.grown import with_grown
-from reconcile.machine.left_pairs import best_left_pair, teeth_tell
+from reconcile.machine.left_pairs import best_left_pair
 from reconcile.machine.leftover import likelihoods
 from reconcile.machine.library import Catalogued
 from reconcile.machine.local import around_baseline, told
@@ -57,6 +57,7 @@ from reconcile.machine.short import with_short
 from reconcile.machine.strange import explained_by, strange, with_strange
 from reconcile.machine.suspected import of_the_sensor, without_suspected
 from reconcile.machine.teeth_elsewhere import teeth_elsewhere
+from reconcile.machine.told_by import teeth_tell
 from reconcile.machine.turned import told_apart, turned_alike, with_limits, with_unconfirmed
 from reconcile.machine.unfitting import misfit_report, told_of
 from reconcile.machine.unknown import Unknown, unknown_force

@@ -18,23 +18,24 @@ from reconcile.judge.screen import looked
 from reconcile.judge.space import Fitted
 from reconcile.machine.assimilate import Ensemble, moved, simulated_again
 from reconcile.machine.decide import Decision, alike
-from reconcile.machine.direct import HEARD
 from reconcile.machine.leftover import Leftover, leftover, ranked_seconds
 from reconcile.machine.library import Catalogued, joined
 from reconcile.machine.pairs import Pair, Pairs, Simulated, evidence_in, inadequate, pair_of
-from reconcile.machine.second import strikes, sure
+from reconcile.machine.second import strikes
 from reconcile.machine.setting import Found, Setting
+from reconcile.machine.told_by import heard, own_lines, teeth_tell
 from reconcile.machine.weigh import LEAST_EVIDENCE, exclusive, variants
 from signals.series import FloatArray
-from sim.terms import REGISTRY
 
 PROMISING = 2.5
 """Log likelihood that a second effect must add by sums to be simulated: a clearance beside an unbalance added 3.6 so
 and 64 simulated."""
-LEAST_GAIN, LEAD = 12.0, 6.0
+LEAST_GAIN, LEAD = 20.0, 6.0
 """Log likelihood that it must add as simulated, beyond what the first gains by being moved as often, and by which it
-must lead the other simulated ones. Features are not independent, so this counts several times what evidence does (right
-and wrong ones: docs/decisions/reconcile-leftover.md)."""
+must lead the other simulated ones. Features are not independent, so this counts several times what evidence does. Right
+seconds of the proof add 28 and more, wrong ones 7.2 and 14.7 (docs/decisions/reconcile-leftover.md)."""
+BESIDE_PIT = 12.0
+"""What it must add by the teeth's own lines, a fifth of the features: a right one adds 12.8, wrong ones up to 7.3."""
 NEAR_SHARE, LEAST_ASKED = 0.5, 2
 """Share of the most that any adds by sums from which a second is simulated, two in any case, and of what the best adds
 simulated from which one that was not is told with it. Beside a loose fit a crack of a shaft added 48 by sums and the
@@ -67,6 +68,11 @@ class _Asked:
     def beside_impacts(self) -> bool:
         """Whether the first is a pit."""
         return strikes(self.first)
+
+    @property
+    def least(self) -> float:
+        """What a second must add."""
+        return BESIDE_PIT if self.beside_impacts else LEAST_GAIN
 
 
 def best_left_pair(
@@ -114,14 +120,6 @@ def _lines(setting: Setting, found: Found, decision: Decision) -> Fitted | None:
     return found.sides or found.fine
 
 
-def teeth_tell(setting: Setting, found: Found, first: str) -> bool:
-    """Whether the teeth's own lines say what stands beside a first effect that strikes: a pit of a bearing, which
-    hardly moves them, and which is there by its impacts whatever else is."""
-    term = REGISTRY.get(first.split("@", maxsplit=1)[0])
-    on_teeth = term is None or term.strikes == "tooth"
-    return bool(setting.machine.gears) and not on_teeth and sure(found, first)
-
-
 def _asked(
     setting: Setting, found: Found, first: str, atlas: Catalogued, view: Fitted, members: int, mapper: Mapper
 ) -> _Asked:
@@ -140,7 +138,7 @@ def _asked(
 
 def _fairly(asked: _Asked, made: Mapping[str, Pair | None]) -> dict[str, Pair | None]:
     """With what the first alone gains by being moved once more, as the pairs were, taken off; where it matters."""
-    if max((p.gain for p in made.values() if p is not None), default=0.0) < LEAST_GAIN:
+    if max((p.gain for p in made.values() if p is not None), default=0.0) < asked.least:
         return dict(made)
     again = _moved(asked, _start(asked, (), ""), "")
     gained = 0.0 if again is None else max(0.0, asked.left.level(again.known.library.changes) - asked.left.base)
@@ -172,18 +170,9 @@ def _left(setting: Setting, found: Found, name: str) -> Leftover:
     return left.by(own_lines(setting)) if strikes(name) else left
 
 
-def own_lines(setting: Setting) -> np.ndarray:
-    """(F,): the teeth's own lines, with their phases between sensors where these are compared."""
-    changes = setting.changes
-    mask = np.zeros(changes.observed.size, dtype=bool)
-    mask[(changes.phased or (changes.single,))[0].columns] = True
-    return mask
-
-
 def _possible(setting: Setting, every: Catalogued, first: str) -> list[str]:
-    heard = {n for n, value in setting.direct.evidence.items() if value >= HEARD}
     names = [n for n in every.library.groups if n != first and not exclusive(n, first)]
-    return [n for n in names if not strikes(n) or (n in heard and not strikes(first))]
+    return [n for n in names if not strikes(n) or (heard(setting, n) and not strikes(first))]
 
 
 def _start(asked: _Asked, rows: Sequence[int], second: str) -> Ensemble:
@@ -258,7 +247,7 @@ def _fitted(asked: _Asked, second: str, rows: Sequence[int]) -> Pair | None:
 
 
 def _stands(asked: _Asked, decision: Decision, best: Pair) -> bool:
-    if best.gain < LEAST_GAIN or (decision.word != "explained" and inadequate(best)):
+    if best.gain < asked.least or (decision.word != "explained" and inadequate(best)):
         return False
     if asked.beside_impacts:
         return _leads(asked, decision)

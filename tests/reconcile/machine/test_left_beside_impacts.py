@@ -11,9 +11,10 @@ import pytest
 from reconcile.machine import left_pairs
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import STRUCK, Decision
-from reconcile.machine.left_pairs import LEAD, LEAST_GAIN, best_left_pair, own_lines, teeth_tell
+from reconcile.machine.left_pairs import BESIDE_PIT, LEAD, best_left_pair
 from reconcile.machine.pairs import Pair, Pairs
 from reconcile.machine.setting import Found
+from reconcile.machine.told_by import own_lines, teeth_tell
 from reconcile.machine.weigh import LEAST_EVIDENCE
 from tests.reconcile.machine.rubs import FEATURES, RIGHT, WRONG, Asked, asked_of_the_made, found_in
 from tests.reconcile.machine.test_left_pairs import with_third
@@ -54,7 +55,7 @@ def test_the_forest_that_impacts_leave_neither_makes_nor_hides_a_second(simulate
     both = pairs_in(seen(SMALLER) + FOREST)
     assert both is not None and both.best is not None
     assert (both.best.first, both.best.beside.names, both.best.others) == (RIGHT, (WRONG,), ())
-    assert both.best.gain > LEAST_GAIN
+    assert both.best.gain > BESIDE_PIT
     simulated.clear()
     alone = pairs_in(seen() + FOREST)
     assert alone is not None and alone.best is None and simulated == []
@@ -94,9 +95,9 @@ def test_machines_start_where_the_first_was_nearest(simulated: Asked) -> None:
 @pytest.mark.parametrize(
     ("gain", "behind", "stands", "others"),
     [
-        (LEAST_GAIN - 0.1, 20.0, False, 0),
-        (LEAST_GAIN + 0.1, LEAD + 0.1, True, 0),
-        (LEAST_GAIN + 0.1, LEAD - 0.1, True, 2),
+        (BESIDE_PIT - 0.1, 20.0, False, 0),
+        (BESIDE_PIT + 0.1, LEAD + 0.1, True, 0),
+        (BESIDE_PIT + 0.1, LEAD - 0.1, True, 2),
     ],
 )
 def test_how_much_it_must_add_and_lead(
@@ -201,7 +202,7 @@ def test_what_the_first_gains_by_being_moved_once_more_counts_from_the_limit_on(
     monkeypatch.setattr(left_pairs, "_moved", lambda *_: again)
     monkeypatch.setattr(type(asked.left), "base", base)
     monkeypatch.setattr(type(asked.left), "level", lambda *_: base + 3.0)
-    for gain, left in ((LEAST_GAIN - 0.1, LEAST_GAIN - 0.1), (LEAST_GAIN + 0.1, LEAST_GAIN - 2.9)):
+    for gain, left in ((BESIDE_PIT - 0.1, BESIDE_PIT - 0.1), (BESIDE_PIT + 0.1, BESIDE_PIT - 2.9)):
         pair = Pair(first=RIGHT, beside=None, gain=gain, rest=None)  # type: ignore[arg-type]
         told = left_pairs._fairly(asked, {WRONG: pair})[WRONG]
         assert told is not None and told.gain == pytest.approx(left)

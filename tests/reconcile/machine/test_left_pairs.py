@@ -18,6 +18,7 @@ from reconcile.machine.left_pairs import LEAST_GAIN, best_left_pair
 from reconcile.machine.library import joined
 from reconcile.machine.pairs import Pair, Pairs, named_pair
 from reconcile.machine.setting import Found
+from reconcile.machine.told_by import HALF_HEARD, heard
 from sim.core.spec import TermSpec
 from tests.reconcile.machine.rubs import FEATURES, MADE, RIGHT, WRONG, Asked, asked_of_the_made, found_in
 from tests.reconcile.machine.test_leftover import TRUE, seen
@@ -202,6 +203,7 @@ def test_what_adds_as_much_by_sums_and_was_not_simulated_is_told_too(simulated: 
     for most, others in ((3, ()), (1, (WRONG, THIRD))):
         with pytest.MonkeyPatch.context() as patched:
             patched.setattr(left_pairs, "LEAST_ASKED", 1)
+            patched.setattr(left_pairs, "LEAST_GAIN", 12.0)
             patched.setattr(left_pairs, "_alone", lambda *_: -np.inf)
             patched.setattr(left_pairs, "_fitted", alike(WRONG))
             told = best_left_pair(setting, twin, EXPLAINED, found.known, 8, most, map)  # type: ignore[arg-type]
@@ -213,9 +215,16 @@ def test_what_adds_as_much_by_sums_and_was_not_simulated_is_told_too(simulated: 
 def test_what_would_strike_is_asked_only_if_it_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
     setting, found = found_in(seen(SMALLER))
     monkeypatch.setattr(left_pairs, "strikes", lambda name: name == WRONG)
-    for evidence, there in (({}, False), ({WRONG: HEARD - 0.1}, False), ({WRONG: HEARD}, True)):
+    for evidence, there in (({}, False), ({WRONG: HALF_HEARD - 0.1}, False), ({WRONG: HALF_HEARD}, True)):
         setting.direct.evidence = evidence
         assert left_pairs._possible(setting, found.known, RIGHT) == [WRONG] * there  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("name", "least"), [("outer_spall@bearing1", HALF_HEARD), ("tooth_crack@pinion", HEARD)])
+def test_teeth_must_be_heard_better_than_balls(name: str, least: float) -> None:
+    for evidence, told in ((least, True), (least - 0.1, False)):
+        setting = SimpleNamespace(direct=SimpleNamespace(evidence={name: evidence}))
+        assert heard(setting, name) is told  # type: ignore[arg-type]
 
 
 def test_without_single_lines_nothing_is_looked_for(simulated: Asked) -> None:

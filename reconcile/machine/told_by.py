@@ -1,0 +1,37 @@
+"""By what a second effect may be told: the teeth's own lines beside a pit, and impacts beside what does not strike."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from reconcile.machine.direct import HEARD
+from reconcile.machine.second import sure
+from reconcile.machine.setting import Found, Setting
+from sim.terms import REGISTRY
+
+HALF_HEARD = 3.0
+"""Log evidence of impacts from which a pit of a bearing is asked beside what does not strike. The pit beside a loose
+seat of n018 has 3.9, and added 37 where all else added nothing."""
+
+
+def teeth_tell(setting: Setting, found: Found, first: str) -> bool:
+    """Whether the teeth's own lines say what stands beside a first effect that strikes: a pit of a bearing, which
+    hardly moves them, and which is there by its impacts whatever else is."""
+    term = REGISTRY.get(first.split("@", maxsplit=1)[0])
+    on_teeth = term is None or term.strikes == "tooth"
+    return bool(setting.machine.gears) and not on_teeth and sure(found, first)
+
+
+def own_lines(setting: Setting) -> np.ndarray:
+    """(F,): the teeth's own lines, with their phases between sensors where these are compared."""
+    changes = setting.changes
+    mask = np.zeros(changes.observed.size, dtype=bool)
+    mask[(changes.phased or (changes.single,))[0].columns] = True
+    return mask
+
+
+def heard(setting: Setting, name: str) -> bool:
+    """Whether a striking effect is heard well enough to be asked as a second one."""
+    term = REGISTRY.get(name.split("@", maxsplit=1)[0])
+    least = HEARD if term is None or term.strikes == "tooth" else HALF_HEARD
+    return setting.direct.evidence.get(name, 0.0) >= least
