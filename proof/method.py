@@ -201,6 +201,10 @@ RULES = (
         "b018, a pit alone with a misaligned coupling beside it (15 by the metric, nothing by the teeth); b004",
     ),
     (
+        "beside what does not strike a second must add 20; a pit that is half heard is asked too",
+        "p015, a loose fit with an eccentric gear (14.7) where a pit was; n018, whose pit adds 37",
+    ),
+    (
         "sizes of a pit that most draws hide are simulated over their range; draws that crowd count once",
         "b018, 0.58 mm of 2.4 (held-out gain 0.22, since 0.39)",
     ),
