@@ -74,9 +74,9 @@ fast: dev  ## the loop while working: without the slow tests (half a minute on t
 # A browser comes beside the packages; then kernels and after them the tests' own code are compiled on one core, while
 # tools are fetched and types checked on the other.
 test:  ## lint and every test; what CI runs
-	@$(MAKE) --no-print-directory browser & \
+	@$(MAKE) --no-print-directory browser & fetching=$$!; \
 	  { $(MAKE) --no-print-directory env && $(MAKE) --no-print-directory -j 2 -O kernels lint collected; }; \
-	  found=$$?; wait; exit $$found
+	  found=$$?; wait $$fetching || found=$$?; exit $$found
 	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 4 --dist loadgroup --no-loadscope-reorder  # on two cores: many tests wait for servers and workers
 
 bench: dev setup  ## speed and accuracy; ends with one line of JSON
