@@ -37,7 +37,8 @@ SECTIONS = {
     "beside pits ([decision](decisions/reconcile-beside-impacts.md)), with limits of 8 and 3, since 12 and 6, which "
     "changes no answer: what was named beside a pit an older rule named. Laws and levels of pairs go in step, seven of "
     "each, so races are not to be compared by them; effects that no library has are not among them. p015, a loose fit "
-    "and a pit that is hardly heard beside it, got an eccentric gear for the pit.",
+    "and a pit that is hardly heard beside it, got an eccentric gear for the pit; since a second must add 20 there it "
+    "is named alone, with impacts from another part told as one of two places of the pit.",
     "rotors-later": "No version of the engine had met these before their run: two machines without teeth, a disc of 5 "
     "and of 9 kg on a shaft in two bearings, alike and unlike (`proof/rotors`), loaded by weight and shaken by a "
     "residual unbalance; all at the target condition. Not counted among the gearboxes above. An unbalance and a bow of "
