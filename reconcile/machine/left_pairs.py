@@ -33,7 +33,7 @@ and 64 simulated."""
 LEAST_GAIN, LEAD = 20.0, 6.0
 """Log likelihood that it must add as simulated, beyond what the first gains by being moved as often, and by which it
 must lead the other simulated ones. Features are not independent, so this counts several times what evidence does. Right
-seconds of the proof add 28 and more, wrong ones 7.2 and 14.7 (docs/decisions/reconcile-leftover.md)."""
+seconds of the proof add 28 and more, wrong ones up to 16 (docs/decisions/reconcile-leftover.md)."""
 BESIDE_PIT = 12.0
 """What it must add by the teeth's own lines, a fifth of the features: a right one adds 12.8, wrong ones up to 7.3."""
 NEAR_SHARE, LEAST_ASKED = 0.5, 2
