@@ -45,6 +45,9 @@ def fault_sentence(fault: SensorFault) -> str:
     return text
 
 
+REMARKS = ("speed_mismatch", "too_short")
+
+
 def doubts(gate: Gate) -> tuple[str, ...]:
     """What is wrong with the measurement, as limits of an answer that is about the machine."""
     told = []
@@ -55,4 +58,11 @@ def doubts(gate: Gate) -> tuple[str, ...]:
         gone = "; the channel was left out" if found.channel and found.channel not in heard else ""
         told.append(f"{where}: {found.kind.replace('_', ' ')}, {found.detail}{maybe}{gone}")
     more = (f"and {len(told) - MOST_TOLD} more findings of the sensor gate",) if len(told) > MOST_TOLD else ()
+    return (*told[:MOST_TOLD], *more)
+
+
+def remarks(gate: Gate) -> tuple[str, ...]:
+    """What the gate found of speed and length, which is no fault of a sensor: limits of any answer."""
+    told = [f"{f.recording}: {f.detail}" for f in gate.findings if f.kind in REMARKS and not f.fault]
+    more = (f"and {len(told) - MOST_TOLD} more of the kind",) if len(told) > MOST_TOLD else ()
     return (*told[:MOST_TOLD], *more)

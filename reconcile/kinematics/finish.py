@@ -7,12 +7,15 @@ from dataclasses import replace
 
 from reconcile.faults import measurement_faults, with_faults
 from reconcile.gate import Gate
-from reconcile.gate.spoiled import doubts, fault_sentence
+from reconcile.gate.spoiled import doubts, fault_sentence, remarks
 from reconcile.kinematics.judge import Candidate
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.picture import envelope_picture, of_the_answer
 from reconcile.verdict import NOT_JUDGED, Report
 from sim.core.errors import SpecError
+
+SCORE_UNITS = {"nats": "deviations"}
+"""Scores here are robust deviations unless a report says what else they are."""
 
 
 def finished(
@@ -42,9 +45,11 @@ def finished(
         {"name": "families", "table": [_row(c) for c in every]},
     ]
     if report.verdict != "measurement_fault":
-        report = replace(report, where=replace(report.where, limits=(*report.where.limits, *doubts(gate))))
+        report = replace(
+            report, where=replace(report.where, limits=(*report.where.limits, *remarks(gate), *doubts(gate)))
+        )
     pictures = envelope_picture(of_the_answer(every, report.causes), tests, baselines)
-    causes = tuple(replace(c, score_unit="deviations") for c in report.causes)
+    causes = tuple(replace(c, score_unit=SCORE_UNITS.get(c.score_unit, c.score_unit)) for c in report.causes)
     report = replace(report, causes=causes, stages=tuple(stages), pictures=pictures)
     return with_faults(report, measurement_faults(gate))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,13 +39,13 @@ def foreign_comb(
     ties: Ties,
     seed: int,
     *,
-    sums: bool = True,
+    heard: Collection[str] = (),
     least_db: float = GROWTH_DB,
 ) -> Foreign | None:
     """The strongest comb that no part explains and the baseline does not have; None without a baseline.
 
-    `sums`: whether a part's lines with a sideband count as its own. With several shafts such sums cover nearly all
-    orders; a comb at one of them is the part's only if the part itself is heard.
+    `heard`: families (by key) and meshes (by name) that are heard; only their lines with a sideband count as theirs.
+    Those of all parts cover nearly all orders.
     """
     if not baselines:
         return None
@@ -60,7 +60,7 @@ def foreign_comb(
         spread = np.maximum(1.4826 * np.median(np.abs(table - centre), axis=1, keepdims=True), 0.7)
         top = np.max((table - centre) / spread, axis=0)
         for place in np.argsort(-top)[: 40 * MOST]:
-            if explained(float(base[place]), ties, test.doubt, sums=sums, step=0.0 if sums else e.order_step):
+            if explained(float(base[place]), ties, test.doubt, heard=heard, step=e.order_step):
                 continue
             if best is None or top[place] > best[0]:
                 best = (float(top[place]), float(base[place]))
@@ -77,19 +77,23 @@ def foreign_comb(
     return Foreign(order=found.order, evidence=found, growth_db=growth.growth_db)
 
 
-def explained(order: float, ties: Ties, doubt: float, *, sums: bool = True, step: float = 0.0) -> bool:
-    """Whether an order is a multiple or a half of a part's, or such with a sideband of the family or of a shaft
-    (`sums`), or else a multiple of a shaft's; `step`: what orders are resolved by, which counts below `SLOW`."""
-    rows = [(f.order, f.spacing, f.slip) for f in ties.families]
-    rows += [(order_of_mesh, 0.0, 0.0) for order_of_mesh in ties.mesh_orders]
-    if not sums:
-        turns = [max(1.0, float(np.round(order / shaft))) * shaft for shaft in ties.shafts.values()]
-        rows = [(o, 0.0, slip) for o, _, slip in rows] + [(turn, 0.0, 0.0) for turn in turns]
-    for base, spacing, slip in rows:
+def explained(
+    order: float, ties: Ties, doubt: float, *, heard: Collection[str] | None = None, step: float = 0.0
+) -> bool:
+    """Whether an order is a multiple or a half of a part's, a multiple of a shaft's, or lies by a sideband of the
+    family or of a shaft beside a multiple of one that is `heard` (families by key, meshes by name; None: all); `step`:
+    what orders are resolved by, which counts below `SLOW`."""
+    shafts = tuple(ties.shafts.values())
+    rows = [
+        (f.order, f.slip, (f.spacing, *shafts) if heard is None or f.key in heard else (0.0,)) for f in ties.families
+    ]
+    rows += [(m[1], 0.0, (0.0, *shafts) if heard is None or m[0] in heard else (0.0,)) for m in ties.meshes]
+    rows += [(max(1.0, float(np.round(order / shaft))) * shaft, 0.0, (0.0,)) for shaft in shafts]
+    for base, slip, shifts in rows:
         for multiple in MULTIPLES:
             target = base * multiple
             width = (slip + doubt + 0.003) * target + (step if target < SLOW else 0.0)
-            for shift in (0.0, spacing, *(ties.shafts.values() if sums else ())):
+            for shift in (0.0, *shifts):
                 if min(abs(order - target - shift), abs(order - target + shift)) < width:
                     return True
     return False

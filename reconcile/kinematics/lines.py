@@ -15,6 +15,9 @@ from signals.spectra.angle import resample_in_angle
 from sim.core.errors import SpecError
 
 SAME_SPEED = 0.03
+CLEAR_DB = 15.0
+"""By which the peak of a line stands above the floor that is held against a baseline by itself."""
+STRONGEST_TO = 10.0
 PRESENT_DB = 6.0
 """A line is there if it holds this much more power than the floor under it."""
 
@@ -106,3 +109,23 @@ def level_changes(now: OrderLines, before: OrderLines, orders: FloatArray, half_
     power, floor = now.within(orders, half_width)
     old, _ = before.within(orders, half_width)
     return np.where(power > floor * 10 ** (PRESENT_DB / 10), 10 * np.log10(power / old), np.nan)
+
+
+def spectra_of(test: Observation, base: Observation) -> list[tuple[str, OrderLines, OrderLines]]:
+    """(channel, its lines now, its lines before) of the channels both have."""
+    rows = []
+    for channel in (n for n in test.recording.names if n in base.recording.names):
+        now, before = order_lines(test, channel), order_lines(base, channel)
+        if now is not None and before is not None:
+            rows.append((channel, now, before))
+    return rows
+
+
+def line_growth(now: OrderLines, before: OrderLines, orders: FloatArray, within_db: float) -> FloatArray:
+    """Growth of the peaks at orders, dB, (n,), after the channel's own change of floor; NaN where no line is clear or
+    it is more than `within_db` below the strongest up to order 10."""
+    level, floor = now.at(orders)
+    old, old_floor = before.at(orders)
+    with np.errstate(invalid="ignore"):
+        there = (level - floor >= CLEAR_DB) & (level >= now.strongest(STRONGEST_TO) - within_db)
+        return np.where(there & np.isfinite(old), level - np.maximum(old, old_floor) - (floor - old_floor), np.nan)

@@ -16,6 +16,7 @@ from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.apart import with_speeds
 from reconcile.kinematics.doubted import against_rivals, factor_of, restated, unconfirmed
 from reconcile.kinematics.elsewhere import left_out, told_elsewhere, turned_elsewhere, without
+from reconcile.kinematics.evidence import CERTAIN_Z
 from reconcile.kinematics.extent import Extent
 from reconcile.kinematics.faint import impulsive_report, shallow_report
 from reconcile.kinematics.families import Ties, ties
@@ -27,16 +28,13 @@ from reconcile.kinematics.judge import DEFECTS, Candidate, named
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.other_speeds import by_baseline, nominees
 from reconcile.kinematics.remarks import remarked
-from reconcile.kinematics.shafts import Impulsiveness, ShaftChange, impulsiveness, shaft_changes
+from reconcile.kinematics.series import ShaftSeries, shaft_series
+from reconcile.kinematics.shafts import ShaftChange, grown_impacts, shaft_changes
 from reconcile.kinematics.spec import KinematicSpec, of_machine
+from reconcile.kinematics.teeth import other_teeth, told_with, with_teeth
+from reconcile.kinematics.turning import series_report, shaft_report, turn_report
 from reconcile.kinematics.unread import ALIKE_Z, Judged
-from reconcile.kinematics.vague import (
-    foreign_report,
-    gear_report,
-    nothing_report,
-    shaft_report,
-    turn_report,
-)
+from reconcile.kinematics.vague import foreign_report, gear_report, nothing_report
 from reconcile.origin import origin
 from reconcile.told import about
 from reconcile.verdict import LineChange, Report
@@ -61,7 +59,11 @@ def reconcile_kinematics(
 
 
 def _reconciled(
-    spec: KinematicSpec | MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording], seed: int
+    spec: KinematicSpec | MachineSpec,
+    tests: Sequence[Recording],
+    baselines: Sequence[Recording],
+    seed: int,
+    corrected: bool = False,
 ) -> Report:
     known = of_machine(spec) if isinstance(spec, MachineSpec) else spec
     operating = tests[0].operating if tests else None
@@ -86,6 +88,9 @@ def _reconciled(
         past = _observed(gate.baselines, "baseline", tie, stated, seed)
     except SpecError as error:
         return finished(refused_report(error), gate, (), ())
+    wrong = None if corrected else other_teeth(known, tie.reference, (*seen, *past))
+    if wrong is not None:
+        return told_with(_reconciled(with_teeth(known, wrong), tests, baselines, seed, corrected=True), wrong)
     gate, seen, past = without(gate, seen, past, whole.lost)
     far = turned_elsewhere((*seen, *past), tie, seed)
     gate, seen, past, told = left_out(gate, seen, past, far)
@@ -124,17 +129,18 @@ def _judged(
     chosen, every = named(tests, baselines, tie, seed)
     gears = gear_evidence(tests, baselines, tie)
     changes = shaft_changes(tests, baselines, tie)
+    series = shaft_series(tests, baselines, tie)
     grown = tuple(c for c in changes if c.grown)
     if chosen:
         report = _with_rest(
-            defect_report(chosen, tests, baselines, tie, np.random.default_rng(seed)), gears, grown, tests
+            defect_report(chosen, tests, baselines, tie, np.random.default_rng(seed)), gears, grown, tests, series
         )
     elif (growth := grown_defect(old_defects(every), tests, baselines, tie)) is not None:
         report = _regrown(growth, tests, baselines, tie, seed)
     elif gears and gears[0].grown:
         report = gear_report(gears, tests)
     else:
-        report = _without_a_part(known, tie, tests, baselines, every, grown, seed)
+        report = _without_a_part(known, tie, tests, baselines, every, grown, seed, series)
     rare = [f"{c.multiple:g} x {c.shaft} grew by {c.growth_db:.0f} dB in {c.label}" for c in changes if c.seldom]
     rare += [f"sidebands of {g.shaft} around {g.mesh} by {g.growth_db:.0f} dB in {g.label}" for g in gears if g.seldom]
     if rare:
@@ -222,41 +228,45 @@ def _without_a_part(
     every: Sequence[Candidate],
     grown: Sequence[ShaftChange],
     seed: int,
+    series: ShaftSeries | None,
 ) -> Report:
     """Impacts of a turn, of a foreign order, of no order; shaft lines; nothing."""
     risen = [c for c in every if c.family.kind in DEFECTS and c.present and c.risen]
     if risen:
         return shallow_report(risen, every, tests, baselines)
+    heard = [*(c.family.key for c in every if c.z > CERTAIN_Z), *(m[0] for m in tie.meshes)]
     turn = next((c for c in every if c.family.kind == "turn" and c.present and c.risen), None)
     if turn is not None and baselines:
         carried = [b.name for b in known.bearings if b.shaft == turn.family.site]
-        stranger = foreign_comb(tests[0], baselines, tie, seed, sums=False, least_db=BESIDE_DB)
+        stranger = foreign_comb(tests[0], baselines, tie, seed, heard=heard, least_db=BESIDE_DB)
         line = next((c for c in grown if c.multiple == 1.0 and c.shaft == turn.family.site), None)
         return turn_report(turn, tie, tests, baselines, carried, foreign=stranger, line=line)
-    foreign = foreign_comb(tests[0], baselines, tie, seed)
+    foreign = foreign_comb(tests[0], baselines, tie, seed, heard=heard)
     if foreign is not None:
         return foreign_report(foreign, tests, baselines)
-    impacts = _impacts(tests, baselines)
+    impacts = grown_impacts(tests, baselines)
     if impacts is not None and known.bearings:
         return impulsive_report(impacts, every, [b.name for b in known.bearings])
-    if grown:
-        return shaft_report(grown, tests)
+    if series is not None or grown:
+        return shaft_report(grown, tests) if series is None else series_report(series, tests)
     return nothing_report(every, old_defects(every), tests, baselines)
 
 
-def _impacts(tests: Sequence[Observation], baselines: Sequence[Observation]) -> Impulsiveness | None:
-    """Impulsiveness that grew in most of the tests."""
-    found = [x for t in tests if (x := impulsiveness(t, baselines)) is not None]
-    risen = [x for x in found if x.grown]
-    return max(risen, key=lambda x: x.now) if 2 * len(risen) > len(tests) else None
-
-
 def _with_rest(
-    report: Report, gears: Sequence[GearEvidence], grown: Sequence[ShaftChange], tests: Sequence[Observation]
+    report: Report,
+    gears: Sequence[GearEvidence],
+    grown: Sequence[ShaftChange],
+    tests: Sequence[Observation],
+    series: ShaftSeries | None,
 ) -> Report:
     """What changed besides the named defects is told, not explained by them."""
     rest = [f"{c.multiple:g} x {c.shaft} grew by {c.growth_db:.0f} dB" for c in grown]
     rest += [f"sidebands of {g.shaft} around {g.mesh} grew by {g.growth_db:.0f} dB" for g in gears if g.grown]
+    if series is not None:
+        rest.append(
+            f"{len(series.multiples)} multiples of {series.shaft}{' and halves' if series.halves else ''} grew by "
+            f"{series.middle_db:.0f} dB"
+        )
     if not rest:
         return report
     lines = tuple(

@@ -8,14 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reconcile.kinematics.families import Ties
-from reconcile.kinematics.lines import OrderLines, at_half_of_speeds, matched, order_lines
+from reconcile.kinematics.lines import OrderLines, at_half_of_speeds, line_growth, matched, spectra_of
 from reconcile.kinematics.observe import Observation
 
 GROWTH_DB = 10.0
 MEDIAN_GROWTH_DB = 6.0
 MULTIPLES = (0.5, 1.0, 2.0, 3.0)
-PRESENT_DB = 15.0
-STRONGEST_TO = 10.0
 MATERIAL_DB = 6.0
 """A shaft line that has grown counts if it is among the strongest up to order 10: a weak one wanders with load."""
 LEAST_PERIODS = 8.0
@@ -78,7 +76,7 @@ def shaft_changes(
         base = matched(test, baselines)
         if base is None:
             continue
-        spectra = _spectra(test, base)
+        spectra = spectra_of(test, base)
         turns = min(o.speed.speed_hz * o.recording.duration_s for o in (test, base))
         for shaft, ratio in ties.shafts.items():
             for multiple in MULTIPLES:
@@ -91,16 +89,6 @@ def shaft_changes(
                     found.append(change)
     told = [replace(c, seldom=c.grown and not at_half_of_speeds(speeds[c.shaft, c.multiple])) for c in found]
     return tuple(sorted(told, key=lambda c: -c.growth_db))
-
-
-def _spectra(test: Observation, base: Observation) -> list[tuple[str, OrderLines, OrderLines]]:
-    """(channel, its lines now, its lines before)."""
-    rows = []
-    for channel in (n for n in test.recording.names if n in base.recording.names):
-        now, before = order_lines(test, channel), order_lines(base, channel)
-        if now is not None and before is not None:
-            rows.append((channel, now, before))
-    return rows
 
 
 def _change(
@@ -123,16 +111,11 @@ def _change(
 
 
 def _growths(spectra: Sequence[tuple[str, OrderLines, OrderLines]], order: float) -> list[tuple[str, float]]:
-    rows = []
-    for channel, now, before in spectra:
-        level, floor = (float(x[0]) for x in now.at(np.array([order])))
-        old, old_floor = (float(x[0]) for x in before.at(np.array([order])))
-        if not np.isfinite(level + old) or level - floor < PRESENT_DB:
-            continue
-        if level < now.strongest(STRONGEST_TO) - MATERIAL_DB:
-            continue
-        rows.append((channel, level - max(old, old_floor) - (floor - old_floor)))
-    return rows
+    rows = [
+        (channel, float(line_growth(now, before, np.array([order]), MATERIAL_DB)[0]))
+        for channel, now, before in spectra
+    ]
+    return [row for row in rows if np.isfinite(row[1])]
 
 
 def impulsiveness(test: Observation, baselines: Sequence[Observation]) -> Impulsiveness | None:
@@ -155,3 +138,10 @@ def impulsiveness(test: Observation, baselines: Sequence[Observation]) -> Impuls
         if best is None or (one.grown, one.now) > (best.grown, best.now):
             best = one
     return best
+
+
+def grown_impacts(tests: Sequence[Observation], baselines: Sequence[Observation]) -> Impulsiveness | None:
+    """Impulsiveness that grew in most of the tests."""
+    found = [x for t in tests if (x := impulsiveness(t, baselines)) is not None]
+    risen = [x for x in found if x.grown]
+    return max(risen, key=lambda x: x.now) if 2 * len(risen) > len(tests) else None

@@ -1,4 +1,4 @@
-"""Answers where no bearing family stands: tooth faults, shafts, foreign orders, nothing at all."""
+"""Answers where no bearing family stands: tooth faults, foreign orders, nothing at all."""
 
 from __future__ import annotations
 
@@ -7,24 +7,15 @@ from collections.abc import Sequence
 import numpy as np
 
 from reconcile.kinematics.answer import lines_of
-from reconcile.kinematics.families import Ties
 from reconcile.kinematics.foreign import Foreign
 from reconcile.kinematics.gears import GearEvidence
 from reconcile.kinematics.judge import DEFECTS, Candidate
 from reconcile.kinematics.lines import matched
 from reconcile.kinematics.measured import measured_lines
 from reconcile.kinematics.observe import Observation
-from reconcile.kinematics.shafts import ShaftChange
 from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Report, Where
 
 TOOTH_TERMS = ("missing_tooth", "tooth_crack", "tooth_spall")
-SHAFT_TERMS = {
-    0.5: ("pedestal_looseness", "rub"),
-    1.0: ("unbalance", "bent_shaft", "eccentricity"),
-    2.0: ("parallel_misalignment", "angular_misalignment", "shaft_crack"),
-    3.0: ("parallel_misalignment", "pedestal_looseness"),
-}
-TURNING = ("unbalance", "bent_shaft")
 NEAR_DB = 3.0
 
 
@@ -39,12 +30,12 @@ def gear_report(found: Sequence[GearEvidence], tests: Sequence[Observation]) -> 
         Cause(
             term=term,
             site=g.gear,
-            score=g.growth_db / g.error_db / (1 + rank),
+            score=g.growth_db / g.error_db,
             reasons=("sidebands say that one tooth differs, not how; a model of the mesh is needed to tell",),
             values={"sideband_growth_db": g.growth_db, "mesh_growth_db": g.mesh_growth_db},
         )
         for g in tied
-        for rank, term in enumerate(TOOTH_TERMS)
+        for term in TOOTH_TERMS
     )
     return Report(
         verdict="ambiguous",
@@ -73,111 +64,6 @@ def gear_report(found: Sequence[GearEvidence], tests: Sequence[Observation]) -> 
             "how large: a size can't be given without a model",
         ),
         next_experiment=NextExperiment(sentence="Add the gear data and loads to the machine to fit the tooth faults."),
-    )
-
-
-def turn_report(
-    candidate: Candidate,
-    ties: Ties,
-    tests: Sequence[Observation],
-    baselines: Sequence[Observation],
-    carried: Sequence[str],
-    *,
-    foreign: Foreign | None = None,
-    line: ShaftChange | None = None,
-) -> Report:
-    """Impacts once a turn that the baseline has not; `carried`: gears and bearings on that shaft; `foreign`: a comb at
-    an order of no part beside them, as an inner race makes whose numbers are not those of the specification; `line`:
-    growth of the turn's own line, as an unbalance brings, which strikes too where a bearing has play."""
-    shaft = candidate.family.site
-    gears = [name for mesh in ties.meshes for s, name in zip(mesh[2], mesh[3], strict=True) if s == shaft]
-    causes = [(term, shaft, 1.0) for term in TURNING if line is not None]
-    causes += [(term, g, 1.0) for g in gears for term in TOOTH_TERMS]
-    causes += [
-        ("rub", shaft, 0.9),
-        ("pedestal_looseness", shaft, 0.85),
-        *(("pedestal_looseness", b, 0.8) for b in carried if b not in gears),
-    ]
-    causes += [("inner_spall", b, 0.5) for b in carried if b not in gears]
-    return Report(
-        verdict="ambiguous",
-        sentence=f"Impacts once a turn of {shaft} that no known rolling element makes: a rub, a loose part"
-        + (", a damaged tooth" if gears else "")
-        + " or a badly damaged bearing are alike at this level."
-        + ("" if line is None else _with_line(line))
-        + ("" if foreign is None else _beside_turn(foreign)),
-        level="kinematics",
-        where=Where(sites=(PlaceWeight(site=shaft, weight=1.0),), lines=lines_of(candidate, tests, baselines)),
-        causes=tuple(
-            Cause(term=t, site=s, score=candidate.z * w, reasons=("once a turn says where it turns, not what strikes",))
-            for t, s, w in causes
-        ),
-        undecidable=(
-            "what strikes once a turn",
-            *(() if foreign is None else ("whether the bearings' numbers are those of the machine",)),
-            "how large: a size can't be given without a model",
-        ),
-        next_experiment=NextExperiment(sentence=_next_of_turn(tests, foreign)),
-    )
-
-
-def _with_line(line: ShaftChange) -> str:
-    return (
-        f" The turn's own line grew by {line.growth_db:.0f} dB: an unbalance or a bow of {line.shaft} brings that, and "
-        "in a bearing with play it strikes once a turn too."
-    )
-
-
-def _beside_turn(foreign: Foreign) -> str:
-    return (
-        f" Impacts {foreign.order:.4g} times a turn stand beside them, an order of no part of the specification: the "
-        "inner race of a bearing with other numbers than those given would bring both."
-    )
-
-
-def _next_of_turn(tests: Sequence[Observation], foreign: Foreign | None) -> str:
-    if foreign is not None:
-        return "Check the bearing sizes of the specification (balls, diameters, angle, or the catalogue number)."
-    if any(t.speed.method == "tacho" for t in tests):
-        return "Follow the angle of the impacts against the tacho over several recordings: a rub keeps it."
-    return "Record with a tacho: the angle of the impacts tells a rub from play."
-
-
-def shaft_report(changes: Sequence[ShaftChange], tests: Sequence[Observation]) -> Report:
-    """Low multiples of a shaft grew on most channels."""
-    first = changes[0]
-    speed = next(t.speed.speed_hz for t in tests if t.label == first.label)
-    terms = SHAFT_TERMS[first.multiple]
-    kinds = ", ".join(t.replace("_", " ") for t in terms)
-    return Report(
-        verdict="ambiguous",
-        sentence=f"{first.multiple:g} times the speed of {first.shaft} grew by {first.growth_db:.0f} dB on "
-        f"{first.channel} ({first.median_db:.0f} dB in the middle of the channels): {kinds} or another mounting are "
-        "alike at this level.",
-        level="kinematics",
-        where=Where(
-            sites=(PlaceWeight(site=first.shaft, weight=1.0),),
-            lines=tuple(
-                LineChange(
-                    label=f"{c.multiple:g} x {c.shaft}",
-                    frequency_hz=c.order * speed,
-                    change_db=c.growth_db,
-                    channel=c.channel,
-                    locked_to=c.shaft,
-                    speed_hz=speed,
-                )
-                for c in changes
-            ),
-        ),
-        causes=tuple(
-            Cause(term=t, site=first.shaft, score=first.growth_db / (1 + i), reasons=("the line alone does not tell",))
-            for i, t in enumerate(terms)
-        ),
-        undecidable=(
-            "unbalance, bow and misalignment without phases",
-            "how large: a size can't be given without a model",
-        ),
-        next_experiment=NextExperiment(sentence="Record at two more speeds: unbalance grows with the square of speed."),
     )
 
 

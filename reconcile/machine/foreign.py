@@ -63,7 +63,7 @@ def _foreign(one: PointData, channels: Sequence[Channel], tie: Ties, seed: int) 
     test, rested = observed_as(now, "test", channels, tie), observed_as(then, "baseline", channels, tie)
     if any(c.present and c.risen for c in candidates([test], [rested], tie, seed)):
         return None
-    found = foreign_comb(test, [rested], tie, seed, sums=False)
+    found = foreign_comb(test, [rested], tie, seed)
     if found is None or _at_hz(rested, found.order * now.speed_hz / then.speed_hz, tie, seed) >= OLD_Z:
         return None
     return found

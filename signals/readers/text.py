@@ -8,10 +8,13 @@ from __future__ import annotations
 
 import gzip
 import io
+import sys
+import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
+from traceback import clear_frames
 from typing import BinaryIO, cast
 
 import numpy as np
@@ -25,6 +28,7 @@ from signals.series import FloatArray
 
 HEAD_BYTES = 2**16
 _BLOCK_BYTES = 2**22
+RELEASE_TRIES, RELEASE_S = 1000, 0.001
 _EMPTY = ["", "NA", "N/A", "#N/A", "null", "NULL", "None"]
 
 
@@ -84,6 +88,28 @@ def _read(path: Path, bounds: Bounds, layout: Layout, names: Sequence[str]) -> M
 
 
 def _by_delimiter(
+    path: Path, bounds: Bounds, layout: Layout, stream: io.BufferedReader, wanted: Sequence[int]
+) -> list[FloatArray]:
+    held = sys.getrefcount(stream)
+    try:
+        return _parsed(path, bounds, layout, stream, wanted)
+    except BaseException as error:
+        clear_frames(error.__traceback__)  # they hold the reader
+        raise
+    finally:
+        _released(stream, held)
+
+
+def _released(stream: io.BufferedReader, held: int) -> None:
+    """Waits until Arrow, which reads ahead in a thread of its own, has let go of the stream: a thread that is in Python
+    code when the interpreter ends aborts the process."""
+    for _ in range(RELEASE_TRIES):
+        if sys.getrefcount(stream) <= held:
+            return
+        time.sleep(RELEASE_S)
+
+
+def _parsed(
     path: Path, bounds: Bounds, layout: Layout, stream: io.BufferedReader, wanted: Sequence[int]
 ) -> list[FloatArray]:
     keys = [f"c{i}" for i in range(layout.columns)]

@@ -34,15 +34,26 @@ def shaft_lines(rng, speed_hz: float = SPEED_HZ):  # type: ignore[no-untyped-def
 
 
 def train(
-    rng, order: float, height: float, *, jitter: float = 0.01, load: float = 0.0, cage: float = 0.0, pair_s: float = 0.0
+    rng,
+    order: float,
+    height: float,
+    *,
+    jitter: float = 0.01,
+    load: float = 0.0,
+    cage: float = 0.0,
+    pair_s: float = 0.0,
+    zone: bool = False,
 ):  # type: ignore[no-untyped-def]
-    """Impulses at `order` (random slip `jitter` of each period), stronger with 1 + load cos(shaft) + cage cos(cage)."""
+    """Impulses at `order` (random slip `jitter` of each period), stronger with 1 + load cos(shaft) + cage cos(cage);
+    `zone`: strong in half of the shaft's turn only, a tenth of it elsewhere."""
     period = 1 / (order * SPEED_HZ)
     times = np.cumsum(period * (1 + jitter * rng.standard_normal(int(SECONDS / period) + 10)))
     times = times[times < SECONDS - 0.01]
     size = height * (
         1 + load * np.cos(2 * np.pi * SPEED_HZ * times) + cage * np.cos(2 * np.pi * 0.398 * SPEED_HZ * times)
     )
+    if zone:
+        size *= 0.1 + np.maximum(np.cos(2 * np.pi * SPEED_HZ * times), 0.0)
     force = np.zeros(N)
     np.add.at(force, (times * RATE_HZ).astype(int), size)
     if pair_s:

@@ -57,6 +57,17 @@ def test_evidence_grows_with_the_defect_and_finds_the_slip() -> None:
     assert found.band_hz[0] < 4200 < found.band_hz[1] or found.band_hz[1] > 3000
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2, 7))
+def test_sidebands_of_a_race_do_not_hide_it(seed: int) -> None:
+    """An inner race in the load zone has many sidebands, which the controls meet."""
+    inner = next(f for f in TIES.families if f.kind == "inner")
+    noise = np.random.default_rng(1).standard_normal(N)
+    hits = train(np.random.default_rng(seed), inner.order, 4.0, zone=True)
+    found = family_evidence(seen(0.3 * noise + hits), TIES, inner, 0.0, np.random.default_rng(3))
+    assert found.z > 10.0 and found.slip == pytest.approx(0.0, abs=0.003)
+
+
 GEARED = read_kinematic_spec(
     {
         "kinematics": {

@@ -210,7 +210,7 @@ def test_unbalance_is_one_of_a_set() -> None:
     test = sound(2) + 4 * np.sin(2 * np.pi * SPEED_HZ * t)
     report = reconcile_kinematics(SPEC, [recorded(test)], [BASELINE], seed=0)
     assert report.verdict == "ambiguous" and report.causes[0].term == "unbalance"
-    assert {c.score_unit for c in report.causes} == {"deviations"}
+    assert {c.score_unit for c in report.causes} == {"dB"}
 
 
 def test_where_no_channel_is_usable_the_machine_is_not_judged() -> None:

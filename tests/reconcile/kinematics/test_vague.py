@@ -51,3 +51,23 @@ def test_an_unbalance_is_one_of_what_strikes_once_a_turn_where_its_line_grew() -
     report = reconcile_kinematics(spec(9), [knocked], [recorded(sound(1))], seed=3)
     assert "Impacts once a turn of shaft" in report.sentence and "The turn's own line grew by" in report.sentence
     assert [(c.term, c.site) for c in report.causes[:2]] == [("unbalance", "shaft"), ("bent_shaft", "shaft")]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("balls", "told"), [(8, True), (9, False)])
+def test_an_outer_race_of_other_numbers_strikes_at_an_order_of_no_part(balls: int, told: bool) -> None:
+    """A second bearing brings orders whose halves and sidebands would cover this one, but none of them is heard."""
+    document = {
+        "shafts": [SHAFT],
+        "bearings": [
+            {"name": "bearing1", "shaft": "shaft", "balls": balls, **SIZES},
+            {"name": "bearing2", "shaft": "shaft", "catalogue": "6203"},
+        ],
+    }
+    struck = recorded(sound(2) + train(np.random.default_rng(6), 3.5848, 1.0))
+    known = read_kinematic_spec({"kinematics": document})
+    report = reconcile_kinematics(known, [struck], [recorded(sound(1))], seed=3)
+    assert (report.verdict == "unknown_physics") is told
+    assert bool(re.search(r"Impacts 3\.5[89]\d? times a turn", report.sentence)) is told
+    if not told:
+        assert [(c.term, c.site) for c in report.causes] == [("outer_spall", "bearing1")]

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import gzip
+import io
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from signals.ingest import Bounds
+from signals.readers import text
 from signals.readers.text import open_file as open_text
 from sim.core.errors import SpecError
 
@@ -117,3 +120,25 @@ def test_a_cut_gzip_is_refused(tmp_path, cut: int) -> None:
 def test_blanks_are_bounded_too(tmp_path) -> None:
     with pytest.raises(SpecError, match="too many samples"):
         columns(written(tmp_path, "1 2\n" * 100), Bounds(values=100))
+
+
+@pytest.mark.parametrize("word", ["0.5", "oops"])
+def test_no_thread_reads_on_when_the_file_is_done(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, word: str) -> None:
+    """A thread of Arrow's that still reads when the interpreter ends aborts the process."""
+    left: list[tuple[int, int]] = []
+    released = text._released
+
+    def noted(stream: io.BufferedReader, held: int) -> None:
+        released(stream, held + 1)  # this frame has it too
+        left.append((sys.getrefcount(stream), held + 1))
+
+    monkeypatch.setattr(text, "_released", noted)
+    rows = [f"{i},1.0" for i in range(400_000)]
+    rows[200_000] = f"{word},1.0"
+    path = written(tmp_path, "a,b\n" + "\n".join(rows) + "\n")
+    if word == "oops":
+        with pytest.raises(SpecError, match="cannot be read"):
+            columns(path)
+    else:
+        assert len(columns(path)["a"]) == len(rows)
+    assert left and all(now <= held for now, held in left)

@@ -1,0 +1,107 @@
+"""Many multiples of a shaft that grew together: what strikes or rubs once a turn, or lifts off, makes them all.
+
+Looseness brings the shaft's multiples and halves (ISO 13373-3:2015, annexes; R. B. Randall, Vibration-based Condition
+Monitoring, 2nd ed., 2021, section 2.2). Each may be weak beside the first, and a weak line alone wanders with load; of
+measured gearboxes under four loads no more than two of thirty wandered upwards together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.kinematics.families import Ties
+from reconcile.kinematics.lines import OrderLines, at_half_of_speeds, line_growth, matched, spectra_of
+from reconcile.kinematics.observe import Observation
+from signals.series import FloatArray
+
+MULTIPLES = np.arange(1, 25) / 2
+"""From one half to twelve."""
+GROWTH_DB = 10.0
+"""In the middle of the channels."""
+WITHIN_DB = 30.0
+"""Below the channel's strongest line up to order 10, at most."""
+LEAST = 4
+HALVES = 2
+"""Halves among them from which something lifts off at every other turn."""
+LEAST_PERIODS = 8.0
+TEETH = 5.5
+"""Multiples to either side of the teeth's that are theirs."""
+TWICE = 0.02
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShaftSeries:
+    """Multiples of a shaft that grew, their growth (dB, middle of the channels), and the channel that grew most."""
+
+    shaft: str
+    ratio: float
+    multiples: tuple[float, ...]
+    growth_db: tuple[float, ...]
+    channel: str
+    label: str
+
+    @property
+    def halves(self) -> bool:
+        """Whether halves of the speed are among them."""
+        return sum(m % 1.0 != 0.0 for m in self.multiples) >= HALVES
+
+    @property
+    def middle_db(self) -> float:
+        """Middle of the growths."""
+        return float(np.median(self.growth_db))
+
+
+def shaft_series(tests: Sequence[Observation], baselines: Sequence[Observation], ties: Ties) -> ShaftSeries | None:
+    """The shaft of which most multiples grew, if there are `LEAST`, at half of the speeds or more; None else, and
+    without a baseline at the same speed."""
+    found: list[ShaftSeries] = []
+    speeds: dict[str, list[tuple[float, bool]]] = {}
+    for test in tests:
+        base = matched(test, baselines)
+        if base is None:
+            continue
+        spectra = spectra_of(test, base)
+        turns = min(o.speed.speed_hz * o.recording.duration_s for o in (test, base))
+        for shaft, ratio in ties.shafts.items():
+            one = _series(spectra, shaft, ratio, _own(shaft, ratio, ties, turns), test.label)
+            speeds.setdefault(shaft, []).append((test.speed.speed_hz, one is not None))
+            if one is not None:
+                found.append(one)
+    often = [one for one in found if at_half_of_speeds(speeds[one.shaft])]
+    return max(often, key=lambda one: (len(one.multiples), one.middle_db), default=None)
+
+
+def _own(shaft: str, ratio: float, ties: Ties, turns: float) -> FloatArray:
+    """Multiples that are resolved and neither the teeth's nor a faster shaft's."""
+    kept = MULTIPLES[MULTIPLES * ratio * turns >= LEAST_PERIODS]
+    for mesh in ties.mesh_orders:
+        kept = kept[np.abs(kept - mesh / ratio) > TEETH]
+    for name, other in ties.shafts.items():
+        near = kept * ratio / other
+        if name != shaft and other > ratio:
+            kept = kept[(np.abs(near - np.rint(near)) > TWICE) | (near < 1.0 - TWICE)]
+    return np.asarray(kept)
+
+
+def _series(
+    spectra: Sequence[tuple[str, OrderLines, OrderLines]], shaft: str, ratio: float, multiples: FloatArray, label: str
+) -> ShaftSeries | None:
+    if not spectra or multiples.size < LEAST:
+        return None
+    rows = np.stack([line_growth(now, before, multiples * ratio, WITHIN_DB) for _, now, before in spectra])
+    middle = np.median(np.where(np.isfinite(rows), rows, 0.0), axis=0)
+    grown = middle > GROWTH_DB
+    if np.sum(grown) < LEAST:
+        return None
+    loudest = int(np.argmax(np.nansum(rows[:, grown], axis=1)))
+    return ShaftSeries(
+        shaft=shaft,
+        ratio=ratio,
+        multiples=tuple(float(m) for m in multiples[grown]),
+        growth_db=tuple(float(g) for g in middle[grown]),
+        channel=spectra[loudest][0],
+        label=label,
+    )

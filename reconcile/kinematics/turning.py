@@ -1,0 +1,174 @@
+"""Answers about a shaft as such: impacts once a turn, one of its multiples that grew, many of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from reconcile.kinematics.answer import lines_of
+from reconcile.kinematics.families import Ties
+from reconcile.kinematics.foreign import Foreign
+from reconcile.kinematics.judge import Candidate
+from reconcile.kinematics.observe import Observation
+from reconcile.kinematics.series import ShaftSeries
+from reconcile.kinematics.shafts import ShaftChange
+from reconcile.kinematics.vague import TOOTH_TERMS
+from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Report, Where
+
+SHAFT_TERMS = {
+    0.5: ("pedestal_looseness", "rub"),
+    1.0: ("unbalance", "bent_shaft", "eccentricity"),
+    2.0: ("parallel_misalignment", "angular_misalignment", "shaft_crack"),
+    3.0: ("parallel_misalignment", "pedestal_looseness"),
+}
+TURNING = ("unbalance", "bent_shaft")
+UNHEARD = 0.5
+"""Share of the score of a part that strikes once a turn for a race whose own line is not heard."""
+
+
+def turn_report(
+    candidate: Candidate,
+    ties: Ties,
+    tests: Sequence[Observation],
+    baselines: Sequence[Observation],
+    carried: Sequence[str],
+    *,
+    foreign: Foreign | None = None,
+    line: ShaftChange | None = None,
+) -> Report:
+    """Impacts once a turn that the baseline has not; `carried`: gears and bearings on that shaft; `foreign`: a comb at
+    an order of no part beside them, as an inner race makes whose numbers are not those of the specification; `line`:
+    growth of the turn's own line, as an unbalance brings, which strikes too where a bearing has play."""
+    shaft = candidate.family.site
+    gears = [name for mesh in ties.meshes for s, name in zip(mesh[2], mesh[3], strict=True) if s == shaft]
+    causes = [(term, shaft, 1.0) for term in TURNING if line is not None]
+    causes += [(term, g, 1.0) for g in gears for term in TOOTH_TERMS]
+    causes += [
+        ("rub", shaft, 1.0),
+        ("pedestal_looseness", shaft, 1.0),
+        *(("pedestal_looseness", b, 1.0) for b in carried if b not in gears),
+    ]
+    causes += [("inner_spall", b, UNHEARD) for b in carried if b not in gears]
+    return Report(
+        verdict="ambiguous",
+        sentence=f"Impacts once a turn of {shaft} that no known rolling element makes: a rub, a loose part"
+        + (", a damaged tooth" if gears else "")
+        + " or a badly damaged bearing are alike at this level."
+        + ("" if line is None else _with_line(line))
+        + ("" if foreign is None else _beside_turn(foreign)),
+        level="kinematics",
+        where=Where(sites=(PlaceWeight(site=shaft, weight=1.0),), lines=lines_of(candidate, tests, baselines)),
+        causes=tuple(
+            Cause(term=t, site=s, score=candidate.z * w, reasons=("once a turn says where it turns, not what strikes",))
+            for t, s, w in causes
+        ),
+        undecidable=(
+            "what strikes once a turn",
+            *(() if foreign is None else ("whether the bearings' numbers are those of the machine",)),
+            "how large: a size can't be given without a model",
+        ),
+        next_experiment=NextExperiment(sentence=_next_of_turn(tests, foreign)),
+    )
+
+
+def _with_line(line: ShaftChange) -> str:
+    return (
+        f" The turn's own line grew by {line.growth_db:.0f} dB: an unbalance or a bow of {line.shaft} brings that, and "
+        "in a bearing with play it strikes once a turn too."
+    )
+
+
+def _beside_turn(foreign: Foreign) -> str:
+    return (
+        f" Impacts {foreign.order:.4g} times a turn stand beside them, an order of no part of the specification: the "
+        "inner race of a bearing with other numbers than those given would bring both."
+    )
+
+
+def _next_of_turn(tests: Sequence[Observation], foreign: Foreign | None) -> str:
+    if foreign is not None:
+        return "Check the bearing sizes of the specification (balls, diameters, angle, or the catalogue number)."
+    if any(t.speed.method == "tacho" for t in tests):
+        return "Follow the angle of the impacts against the tacho over several recordings: a rub keeps it."
+    return "Record with a tacho: the angle of the impacts tells a rub from play."
+
+
+def shaft_report(changes: Sequence[ShaftChange], tests: Sequence[Observation]) -> Report:
+    """Low multiples of a shaft grew on most channels."""
+    first = changes[0]
+    speed = next(t.speed.speed_hz for t in tests if t.label == first.label)
+    terms = SHAFT_TERMS[first.multiple]
+    kinds = ", ".join(t.replace("_", " ") for t in terms)
+    return Report(
+        verdict="ambiguous",
+        sentence=f"{first.multiple:g} times the speed of {first.shaft} grew by {first.growth_db:.0f} dB on "
+        f"{first.channel} ({first.median_db:.0f} dB in the middle of the channels): {kinds} or another mounting are "
+        "alike at this level.",
+        level="kinematics",
+        where=Where(
+            sites=(PlaceWeight(site=first.shaft, weight=1.0),),
+            lines=tuple(
+                LineChange(
+                    label=f"{c.multiple:g} x {c.shaft}",
+                    frequency_hz=c.order * speed,
+                    change_db=c.growth_db,
+                    channel=c.channel,
+                    locked_to=c.shaft,
+                    speed_hz=speed,
+                )
+                for c in changes
+            ),
+        ),
+        causes=tuple(
+            Cause(
+                term=t,
+                site=first.shaft,
+                score=first.growth_db,
+                score_unit="dB",
+                reasons=("the line alone does not tell",),
+            )
+            for t in terms
+        ),
+        undecidable=(
+            "unbalance, bow and misalignment without phases",
+            "how large: a size can't be given without a model",
+        ),
+        next_experiment=NextExperiment(sentence="Record at two more speeds: unbalance grows with the square of speed."),
+    )
+
+
+def series_report(found: ShaftSeries, tests: Sequence[Observation]) -> Report:
+    """Many multiples of a shaft grew."""
+    speed = next(t.speed.speed_hz for t in tests if t.label == found.label)
+    terms = ("pedestal_looseness", "rub") if found.halves else ("pedestal_looseness", "rub", "parallel_misalignment")
+    kinds = ", ".join(t.replace("_", " ") for t in terms)
+    shown = ", ".join(f"{m:g}" for m in found.multiples)
+    which = "and halves of them" if found.halves else "together"
+    reason = "multiples of the turn say what turns, not what is loose"
+    return Report(
+        verdict="ambiguous",
+        sentence=f"Multiples of the speed of {found.shaft} {which} grew, {found.middle_db:.0f} dB in the middle "
+        f"({shown} times it), most on {found.channel}: something is loose, lifts off or rubs once a turn; {kinds} "
+        "are alike at this level.",
+        level="kinematics",
+        where=Where(
+            sites=(PlaceWeight(site=found.shaft, weight=1.0),),
+            lines=tuple(
+                LineChange(
+                    label=f"{m:g} x {found.shaft}",
+                    frequency_hz=m * found.ratio * speed,
+                    change_db=growth,
+                    channel=found.channel,
+                    locked_to=found.shaft,
+                    speed_hz=speed,
+                )
+                for m, growth in zip(found.multiples, found.growth_db, strict=True)
+            ),
+        ),
+        causes=tuple(
+            Cause(term=t, site=found.shaft, score=found.middle_db, score_unit="dB", reasons=(reason,)) for t in terms
+        ),
+        undecidable=("what is loose or rubs", "how large: a size can't be given without a model"),
+        next_experiment=NextExperiment(
+            sentence="Check bolts, feet and fits; record at two more speeds: a rub comes and goes, play stays."
+        ),
+    )

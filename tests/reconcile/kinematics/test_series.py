@@ -1,0 +1,76 @@
+"""Multiples of a shaft that grow together are looseness or a rub, weak as each may be; a few that wander are not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from reconcile.kinematics.families import ties
+from reconcile.kinematics.observe import Observation, observe
+from reconcile.kinematics.series import ShaftSeries, shaft_series
+from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, sound
+
+SPEC = read_kinematic_spec(
+    {
+        "kinematics": {
+            "shafts": [{"name": "shaft"}, {"name": "out"}],
+            "gears": [{"name": "pinion", "shaft": "shaft", "teeth": 8}, {"name": "gear", "shaft": "out", "teeth": 21}],
+            "meshes": [{"name": "mesh1", "gears": ["pinion", "gear"]}],
+        }
+    }
+)
+MOTOR = read_kinematic_spec({"kinematics": {"shafts": [{"name": "shaft"}]}})
+HALVES, WHOLE = (0.5, 1.5, 2.5, 3.5, 4.5), (4.0, 5.0, 6.0, 7.0, 8.0)
+
+
+def lines(multiples: tuple[float, ...], size: float = 0.1):  # type: ignore[no-untyped-def]
+    angle = 2 * np.pi * SPEED_HZ * np.arange(N) / RATE_HZ
+    return sum(size * np.cos(m * angle + m) for m in multiples)
+
+
+def seen(rows, spec=MOTOR, label: str = "test 1") -> Observation:  # type: ignore[no-untyped-def]
+    return observe(recorded(rows), ties(spec, "shaft"), label, stated_hz=None, seed=0)
+
+
+def series(added, spec=MOTOR) -> ShaftSeries | None:  # type: ignore[no-untyped-def]
+    return shaft_series([seen(sound(2) + added, spec)], [seen(sound(1), spec, "baseline 1")], ties(spec, "shaft"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("multiples", "halves"), [(HALVES, True), (WHOLE, False)])
+def test_multiples_that_grew_are_found(multiples: tuple[float, ...], halves: bool) -> None:
+    found = series(lines(multiples))
+    assert found is not None and found.shaft == "shaft"
+    assert set(found.multiples) == set(multiples) and found.halves is halves
+    assert found.middle_db > 10.0
+
+
+@pytest.mark.slow
+def test_fewer_than_four_and_none_are_no_series() -> None:
+    assert series(lines(WHOLE[:3])) is None
+    assert series(0.0 * lines(WHOLE)) is None
+
+
+@pytest.mark.slow
+def test_lines_about_the_teeth_are_theirs() -> None:
+    """Of eight teeth the multiples three to thirteen are sidebands."""
+    assert series(lines(WHOLE)) is not None
+    assert series(lines(WHOLE), SPEC) is None
+
+
+@pytest.mark.slow
+def test_without_a_baseline_nothing_has_grown() -> None:
+    assert shaft_series([seen(sound(2) + lines(HALVES))], [], ties(MOTOR, "shaft")) is None
+
+
+@pytest.mark.slow
+def test_looseness_far_below_the_first_line_is_told() -> None:
+    first = lines((1.0,), 3.0)
+    loose = recorded(sound(2) + first + lines(HALVES, 0.2))
+    report = reconcile_kinematics(MOTOR, [loose], [recorded(sound(1) + first)], seed=3)
+    assert report.verdict == "ambiguous"
+    assert "halves of them grew" in report.sentence
+    assert [c.term for c in report.causes] == ["pedestal_looseness", "rub"]
+    assert {c.site for c in report.causes} == {"shaft"} and {c.score_unit for c in report.causes} == {"dB"}
+    assert report.where.lines[0].frequency_hz == pytest.approx(0.5 * SPEED_HZ, rel=0.01)
