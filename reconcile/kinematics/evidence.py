@@ -37,9 +37,11 @@ than this share of the first. A race with sidebands of the shaft raises many, bu
 LEAST_SPREAD = 0.7
 WIDE_BINS, LEAN_BINS = 3, 2
 """To either side of a line that is taken out: as slip smears it, and the main lobe alone."""
-CERTAIN_Z = 4.5
-"""Robust deviations that noise does not reach: sound bearings stay below 3, races that are struck reach 5 and more even
-where the controls hear their sidebands."""
+PAIRS, MANY_PAIRS, COVERED = 2, 6, 0.25
+"""Pairs of sidebands that are taken out; in records so long that they cover less than this share, of the load zone's
+many."""
+CERTAIN_Z = 6.0
+"""Robust deviations that noise does not reach."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -145,18 +147,33 @@ def _summed(by_bin: FloatArray, place: IntArray, weights: FloatArray) -> FloatAr
 
 
 def without(
-    values: FloatArray, envelopes: Envelopes, spacings: Sequence[float], order: float, reach: int = WIDE_BINS
+    values: FloatArray,
+    envelopes: Envelopes,
+    spacings: Sequence[float],
+    order: float,
+    reach: int = WIDE_BINS,
+    pairs: int = PAIRS,
 ) -> FloatArray:
-    """`values` (bands, bins) with all harmonics of an order and two pairs of sidebands of each spacing put to noise,
+    """`values` (bands, bins) with all harmonics of an order and `pairs` of sidebands of each spacing put to noise,
     `reach` bins to either side."""
     cleared = values.copy()
     top = int(values.shape[1] * envelopes.order_step / order)
-    shifts = np.unique([0.0, *(m * s for s in spacings for m in (-2, -1, 1, 2))])
+    shifts = np.unique([0.0, *(m * s for s in spacings for m in range(-pairs, pairs + 1))])
     lines = (np.arange(1, top + 1)[:, np.newaxis] * order + shifts).ravel()
     for shift in range(-reach, reach + 1):
         place = np.rint(lines / envelopes.order_step).astype(np.int64) + shift
         cleared[:, place[(place >= 0) & (place < values.shape[1])]] = 0.0
     return cleared
+
+
+def _absent(values: FloatArray, envelopes: Envelopes, spacing: float, order: float) -> FloatArray:
+    """`values` without a family's lines: of its sidebands few in a short record, in which many would leave nothing."""
+    top = envelopes.excess.shape[1] * envelopes.order_step
+    covered = (
+        top / order * (2 * WIDE_BINS + 1) * envelopes.order_step
+    )  # of each distance of sidebands, by all harmonics
+    pairs = MANY_PAIRS if covered < COVERED * spacing else PAIRS
+    return without(values, envelopes, [spacing], order, pairs=pairs)
 
 
 def control_orders(ties: Ties, family: Family, rng: np.random.Generator, count: int = CONTROLS) -> FloatArray:
@@ -182,14 +199,16 @@ def family_evidence(
     rng: np.random.Generator,
     explained: Sequence[tuple[Family, float]] = (),
     lean: bool = False,
+    certain_z: float = CERTAIN_Z,
 ) -> Evidence:
-    """Evidence of one family over all bands and channels; `speed_doubt`: relative, widens the search.
+    """Evidence of one family over all bands and channels; `speed_doubt`: relative, widens the search; `certain_z`:
+    deviations from which its lines are kept from the controls.
 
     `explained`: families (with their order as found) whose lines are taken out first; `lean`: only those of the family
     itself, not what shafts and cage may add, which in short records covers much of what another has.
     """
     turn = family.kind == "turn"
-    reach = family.slip + speed_doubt if not turn else speed_doubt
+    reach = speed_doubt + (0.0 if turn else family.slip)
     controls = control_orders(ties, family, rng)
     best_control = np.full(controls.size, -np.inf)
     firmest: list[tuple[float, Envelopes, int, float]] = []
@@ -209,9 +228,9 @@ def family_evidence(
             foreign[size] = _foreign(e, family, controls, reach)
         control, centre, spread = _controls(values, foreign[size])
         z = (table - centre) / spread
-        if float(np.max(z)) > CERTAIN_Z:
+        if float(np.max(z)) > certain_z:
             # lines that are surely there must not be caught by the controls: were the family absent, so would they be
-            absent = without(values, e, [family.spacing], float(base[int(np.argmax(np.max(z, axis=0)))]))
+            absent = _absent(values, e, family.spacing, float(base[int(np.argmax(np.max(z, axis=0)))]))
             control, centre, spread = _controls(absent, foreign[size])
             z = (table - centre) / spread
         band, trial = (int(i) for i in np.unravel_index(int(np.argmax(z)), z.shape))

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import scipy
 
 from reconcile.kinematics.contrast import Contrast, contrast
-from reconcile.kinematics.evidence import Evidence, family_evidence
+from reconcile.kinematics.evidence import CERTAIN_Z, Evidence, family_evidence
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.observe import Observation
 
@@ -25,11 +26,16 @@ TURN_ALONE_DEPTH = 1.0
 """Sound shafts modulate too; only impacts reach this."""
 LEAST_Z = 5.0
 """Robust standard deviations of the controls that a named family stands above them, whatever its tail says."""
+HEARD_Z = 4.5
+"""Deviations from which a family's lines are kept from the orders it is held against, where nothing but these lines is
+known: sound bearings stay below 3, struck inner races reach 5 where the controls hear their sidebands."""
 SECOND_SHARE = 0.5
 """Of the first family's score, for a second one to be named beside it."""
 SECOND_LEVEL = 1e-3
 SAME_ORDER = 0.5
 """Families nearer than this share of the slip are one to the data."""
+LIKE_SPACING = 0.05
+"""Relative difference of cages' orders that no recording of a minute tells apart in the sidebands of a ball."""
 ONE_LINE = 0.004
 """Measured orders nearer than this are of one line: jitter and the search's grid move them by 0.2 %."""
 LIKE_SHARE = 0.7
@@ -103,6 +109,7 @@ def candidates(
     explained: Sequence[Candidate] = (),
     *,
     lean: bool = False,
+    certain_z: float = CERTAIN_Z,
 ) -> tuple[Candidate, ...]:
     """All families (but `explained`, whose lines are taken out, `lean`: no more than those), the firmest first."""
     left: list[Family] = []
@@ -115,7 +122,7 @@ def candidates(
         for i, t in enumerate(tests):
             rng = np.random.default_rng((seed, i, ties.families.index(f)))
             taken = [(c.family, c.evidence[i].order) for c in explained]
-            found.append(family_evidence(t.channels, ties, f, t.doubt, rng, taken, lean))
+            found.append(family_evidence(t.channels, ties, f, t.doubt, rng, taken, lean, certain_z))
         rows.append((f, tuple(found)))
     chances = holm([fisher([e.chance for e in found]) for _, found in rows])
 
@@ -154,15 +161,16 @@ def named(
     tests: Sequence[Observation], baselines: Sequence[Observation], ties: Ties, seed: int
 ) -> tuple[tuple[Candidate, ...], tuple[Candidate, ...]]:
     """(bearing defects that stand, at most two; all candidates)."""
-    every = candidates(tests, baselines, ties, seed)
+    every = candidates(tests, baselines, ties, seed, certain_z=HEARD_Z)
     first = next((c for c in every if c.family.kind in DEFECTS and c.present and c.risen and c.deep), None)
     if first is None:
         return (), every
-    first = nearest_drawing(first, every)
+    beside = partial(candidates, tests, baselines, ties, seed, certain_z=HEARD_Z)
+    first, left = own_lines(nearest_drawing(first, every), every, beside)
     second = next(
         (
             c
-            for c in candidates(tests, baselines, ties, seed, (first,))
+            for c in left
             if c.family.kind in DEFECTS
             and c.risen
             and c.deep
@@ -174,9 +182,29 @@ def named(
     return ((first,) if second is None else (first, second)), every
 
 
+def own_lines(
+    first: Candidate, every: Sequence[Candidate], beside: Callable[[tuple[Candidate, ...]], tuple[Candidate, ...]]
+) -> tuple[Candidate, tuple[Candidate, ...]]:
+    """The firmest, or a rival that is as firm and stands without the firmest's lines while that does not without the
+    rival's; and all `beside` it, without its lines. Sidebands of an inner race near five times the turn are the lattice
+    of an outer one near three times."""
+    left = beside((first,))
+    for rival in every:
+        firm = rival.family.kind in DEFECTS and rival.present and rival.risen and rival.deep
+        if rival is first or not firm or one_line(rival, first) or rival.z < LIKE_SHARE * first.z:
+            continue
+        if _z_of(rival, left) >= LEAST_Z > _z_of(first, instead := beside((rival,))):
+            return rival, instead
+    return first, left
+
+
+def _z_of(one: Candidate, every: Sequence[Candidate]) -> float:
+    return max((c.z for c in every if c.family.key == one.family.key), default=0.0)
+
+
 def one_line(a: Candidate, b: Candidate) -> bool:
     """Whether two candidates read one line as parts of two bearings."""
-    like = a.family.kind == b.family.kind and a.family.spacing == b.family.spacing
+    like = a.family.kind == b.family.kind and like_spacing(a.family, b.family)
     return like and abs(a.best.order / b.best.order - 1) < ONE_LINE
 
 
@@ -191,7 +219,12 @@ def nearest_drawing(first: Candidate, every: Sequence[Candidate]) -> Candidate:
 
 def same(a: Family, b: Family) -> bool:
     """Whether two families are one to the data (bearings of one geometry on shafts of one speed)."""
-    return abs(a.order / b.order - 1) < SAME_ORDER * max(a.slip, b.slip, 1e-6) and a.spacing == b.spacing
+    return abs(a.order / b.order - 1) < SAME_ORDER * max(a.slip, b.slip, 1e-6) and like_spacing(a, b)
+
+
+def like_spacing(a: Family, b: Family) -> bool:
+    """Whether sidebands of two families stand at one distance: those of one shaft, or of two cages that slip."""
+    return abs(a.spacing - b.spacing) <= LIKE_SPACING * max(a.spacing, b.spacing)
 
 
 def fisher(chances: Sequence[float]) -> float:

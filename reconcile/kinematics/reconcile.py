@@ -16,7 +16,6 @@ from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.apart import with_speeds
 from reconcile.kinematics.doubted import against_rivals, factor_of, restated, unconfirmed
 from reconcile.kinematics.elsewhere import left_out, told_elsewhere, turned_elsewhere, without
-from reconcile.kinematics.evidence import CERTAIN_Z
 from reconcile.kinematics.extent import Extent
 from reconcile.kinematics.faint import impulsive_report, shallow_report
 from reconcile.kinematics.families import Ties, ties
@@ -24,7 +23,7 @@ from reconcile.kinematics.finish import fault_report, finished, refused_report
 from reconcile.kinematics.foreign import BESIDE_DB, foreign_comb
 from reconcile.kinematics.gears import GearEvidence, gear_evidence
 from reconcile.kinematics.grown import grown_defect, old_defects
-from reconcile.kinematics.judge import DEFECTS, Candidate, named
+from reconcile.kinematics.judge import DEFECTS, HEARD_Z, Candidate, named
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.other_speeds import by_baseline, nominees
 from reconcile.kinematics.remarks import remarked
@@ -234,7 +233,7 @@ def _without_a_part(
     risen = [c for c in every if c.family.kind in DEFECTS and c.present and c.risen]
     if risen:
         return shallow_report(risen, every, tests, baselines)
-    heard = [*(c.family.key for c in every if c.z > CERTAIN_Z), *(m[0] for m in tie.meshes)]
+    heard = [*(c.family.key for c in every if c.z > HEARD_Z), *(m[0] for m in tie.meshes)]
     turn = next((c for c in every if c.family.kind == "turn" and c.present and c.risen), None)
     if turn is not None and baselines:
         carried = [b.name for b in known.bearings if b.shaft == turn.family.site]

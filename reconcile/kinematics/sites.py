@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from reconcile.kinematics.families import Family, Ties
-from reconcile.kinematics.judge import Candidate, same
+from reconcile.kinematics.judge import Candidate, like_spacing, same
 from reconcile.kinematics.observe import Observation
 from reconcile.verdict import PlaceWeight
 
@@ -51,7 +51,7 @@ def places(candidate: Candidate, tests: Sequence[Observation], ties: Ties) -> tu
 
 def _reaches(family: Family, named: Family, measured: float) -> bool:
     """Whether a family has the lines of the named one, or may have what was measured."""
-    near = abs(measured / family.order - 1.0) <= family.slip and family.spacing == named.spacing
+    near = abs(measured / family.order - 1.0) <= family.slip and like_spacing(family, named)
     return near or same(family, named)
 
 

@@ -13,7 +13,7 @@ from reconcile.kinematics.envelopes import Envelopes, envelopes
 from reconcile.kinematics.evidence import family_evidence, logs
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.gears import gear_evidence
-from reconcile.kinematics.judge import fisher, holm
+from reconcile.kinematics.judge import HEARD_Z, fisher, holm
 from reconcile.kinematics.observe import observe
 from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, sound, train
 
@@ -64,7 +64,8 @@ def test_sidebands_of_a_race_do_not_hide_it(seed: int) -> None:
     inner = next(f for f in TIES.families if f.kind == "inner")
     noise = np.random.default_rng(1).standard_normal(N)
     hits = train(np.random.default_rng(seed), inner.order, 4.0, zone=True)
-    found = family_evidence(seen(0.3 * noise + hits), TIES, inner, 0.0, np.random.default_rng(3))
+    heard = seen(0.3 * noise + hits)
+    found = family_evidence(heard, TIES, inner, 0.0, np.random.default_rng(3), certain_z=HEARD_Z)
     assert found.z > 10.0 and found.slip == pytest.approx(0.0, abs=0.003)
 
 

@@ -12,7 +12,7 @@ import pytest
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.answer import BOUND
 from reconcile.kinematics.families import Family
-from reconcile.kinematics.judge import nearest_drawing
+from reconcile.kinematics.judge import nearest_drawing, own_lines
 from reconcile.verdict import NOT_JUDGED
 from sim.core.errors import SpecError
 from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, shaft_lines, sound, train
@@ -76,6 +76,40 @@ def test_chance_does_not_choose_between_readings_of_one_line() -> None:
     geared = reading("drive", 3.585, 18.7, 0.0, spacing=0.5)
     for other in (elsewhere, faint, geared):
         assert nearest_drawing(fan, [fan, other]) is fan  # type: ignore[arg-type]
+
+
+def candidate(kind: str, z: float) -> SimpleNamespace:
+    """A firm family."""
+    family = Family(kind=kind, site="b", order={"outer": 2.98, "inner": 4.97}[kind], spacing=0.0, sidebands=0, slip=0.0)  # type: ignore[arg-type]
+    best = SimpleNamespace(order=family.order, slip=0.0)
+    return SimpleNamespace(family=family, best=best, z=z, present=True, risen=True, deep=True)
+
+
+@pytest.mark.parametrize(("left_of_inner", "left_of_outer", "chosen"), [(13.0, 1.0, "inner"), (13.0, 9.0, "outer")])
+def test_of_two_firm_families_the_one_that_explains_the_other_comes_first(
+    left_of_inner: float, left_of_outer: float, chosen: str
+) -> None:
+    """Near five times the turn the sidebands of an inner race are a comb near three times."""
+    outer, inner = candidate("outer", 13.4), candidate("inner", 13.0)
+
+    def beside(taken: tuple[SimpleNamespace, ...]) -> tuple[SimpleNamespace, ...]:
+        gone = taken[0].family.kind
+        return (candidate("inner", left_of_inner),) if gone == "outer" else (candidate("outer", left_of_outer),)
+
+    first, left = own_lines(outer, [outer, inner], beside)  # type: ignore[arg-type]
+    assert first.family.kind == chosen
+    assert [c.family.kind for c in left] == ["outer" if chosen == "inner" else "inner"]
+
+
+@pytest.mark.slow
+def test_balls_of_two_like_bearings_are_not_told_apart() -> None:
+    """Their cages differ by a hundredth, which no sideband shows."""
+    bearings = [{"name": n, "shaft": "shaft", "catalogue": c} for n, c in (("fan", "6207"), ("drive", "6206"))]
+    spec = read_kinematic_spec({"kinematics": {"shafts": [SHAFT], "bearings": bearings}})
+    struck = sound(2) + train(np.random.default_rng(2), 4.6153, 1.0, cage=0.8)
+    report = reconcile_kinematics(spec, [recorded(struck)], [BASELINE], seed=3)
+    assert {c.term for c in report.causes} == {"ball_spall"}
+    assert {c.site for c in report.causes} == {"fan", "drive"} and not any(c.named for c in report.causes)
 
 
 @pytest.mark.slow
