@@ -166,6 +166,11 @@ def without(
     return cleared
 
 
+def _around(family: Family, ties: Ties) -> list[float]:
+    """Distances of sidebands that load and shafts may give any defect: with Z balls BPFO + 2 shafts may lie on BPFI."""
+    return [*ties.shafts.values(), *(f.order for f in ties.families if f.key == f"{family.site}.cage")]
+
+
 def _absent(values: FloatArray, envelopes: Envelopes, spacing: float, order: float) -> FloatArray:
     """`values` without a family's lines: of its sidebands few in a short record, in which many would leave nothing."""
     top = envelopes.excess.shape[1] * envelopes.order_step
@@ -216,10 +221,7 @@ def family_evidence(
     for e in channels:
         values = logs(e, ties, shaft_lines=turn)
         for other, order in explained:
-            # load and shaft modulate any defect: with Z balls BPFO + 2 shafts may come to lie on BPFI
-            around = [*ties.shafts.values(), *(f.order for f in ties.families if f.key == f"{other.site}.cage")]
-            if lean:
-                around = [other.spacing] if other.sidebands else []
+            around = ([other.spacing] if other.sidebands else []) if lean else _around(other, ties)
             values = without(values, e, around, order, LEAN_BINS if lean else WIDE_BINS)
         base = trials(family, family.order, reach, e.order_step)
         table = scores(values, e, family, base)
