@@ -8,17 +8,15 @@ tooth once a turn.
 
 from __future__ import annotations
 
-import math
 from collections import deque
 from dataclasses import dataclass
 from typing import Literal
 
 from reconcile.kinematics.plausible import spin_of
-from reconcile.kinematics.spec import BearingOrders, KinematicBearing, KinematicSpec
+from reconcile.kinematics.spec import BearingOrders, KinematicBearing, KinematicSpec, given_geometry
 from sim.core.errors import Problem, SpecError
 from sim.parts.bearing.catalogue import lookup
 from sim.parts.bearing.frequencies import defect_orders
-from sim.parts.bearing.geometry import RollingGeometry
 
 Kind = Literal["outer", "inner", "ball", "cage", "turn"]
 SLIP = 0.025
@@ -163,24 +161,11 @@ def _bearing(bearing: KinematicBearing) -> tuple[BearingOrders, Race]:
         return BearingOrders(bpfo=o.bpfo, bpfi=o.bpfi, bsf=spin, ftf=cage), Race(
             balls=balls, ratio=gamma, pitch_m=None, cage=cage
         )
-    geometry = lookup(bearing.catalogue).geometry() if bearing.catalogue is not None else _given(bearing)
+    geometry = lookup(bearing.catalogue).geometry() if bearing.catalogue is not None else given_geometry(bearing)
     found = defect_orders(geometry)
     orders = BearingOrders(bpfo=found.outer_pass, bpfi=found.inner_pass, bsf=found.ball_spin, ftf=found.cage)
     pitch = geometry.pitch_diameter_m
     return orders, Race(balls=geometry.balls, ratio=geometry.diameter_ratio, pitch_m=pitch, cage=found.cage)
-
-
-def _given(bearing: KinematicBearing) -> RollingGeometry:
-    assert bearing.balls is not None
-    ball, pitch = bearing.ball_diameter_m, bearing.pitch_diameter_m
-    ratio = bearing.diameter_ratio if bearing.diameter_ratio is not None else (ball or 0.0) / (pitch or 1.0)
-    return RollingGeometry(
-        balls=bearing.balls,
-        diameter_ratio=ratio,
-        ball_diameter_m=ball,
-        pitch_diameter_m=pitch,
-        contact_angle_rad=math.radians(bearing.contact_angle_deg),
-    )
 
 
 def _families(site: str, orders: BearingOrders, shaft: float) -> list[Family]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Annotated
@@ -16,6 +17,7 @@ from sim.core.errors import Problem, SpecError
 from sim.core.near import did_you_mean
 from sim.core.spec import MachineSpec, Name, SpecModel
 from sim.core.spec.base import MAX_ITEMS, WHOLE
+from sim.parts.bearing.geometry import RollingGeometry
 
 
 class KinematicShaft(SpecModel):
@@ -174,6 +176,28 @@ def _implausible(spec: KinematicSpec) -> Iterator[Problem]:
             yield from implausible(f"bearings.{i}.orders", o.bpfo, o.bpfi, o.bsf, o.ftf)
 
 
+def given_geometry(bearing: KinematicBearing) -> RollingGeometry:
+    """Of a bearing whose balls are stated; SpecError where they can't be those of one."""
+    assert bearing.balls is not None
+    ball, pitch = bearing.ball_diameter_m, bearing.pitch_diameter_m
+    ratio = bearing.diameter_ratio if bearing.diameter_ratio is not None else (ball or 0.0) / (pitch or 1.0)
+    return RollingGeometry(
+        balls=bearing.balls,
+        diameter_ratio=ratio,
+        ball_diameter_m=ball,
+        pitch_diameter_m=pitch,
+        contact_angle_rad=math.radians(bearing.contact_angle_deg),
+    )
+
+
+def _misfitting(bearing: KinematicBearing, field: str) -> Iterator[Problem]:
+    """What of the stated sizes of a bearing cannot be together."""
+    try:
+        given_geometry(bearing)
+    except SpecError as error:
+        yield from (replace(p, field=f"{field}.{p.field}") for p in error.problems)
+
+
 def read_kinematic_spec(document: object) -> KinematicSpec:
     """The specification in {"kinematics": {...}}, or SpecError with every wrong field."""
     if not isinstance(document, dict) or set(document) != {"kinematics"}:
@@ -190,6 +214,9 @@ def read_kinematic_spec(document: object) -> KinematicSpec:
         if b.catalogue is not None
         and (problem := uncatalogued(b.catalogue, f"kinematics.bearings.{i}.catalogue")) is not None
     ]
+    for i, b in enumerate(spec.bearings):
+        if b.balls is not None:
+            unknown += _misfitting(b, f"kinematics.bearings.{i}")
     if unknown:
         raise SpecError(unknown)
     return spec

@@ -22,11 +22,19 @@ MENDED = {
     "loose_sensor": ("check how the sensor of {at} is fastened; if it is tight, inspect the parts beside it", ""),
 }
 """What to do, and what then where the fault is the whole answer."""
+ALSO_ON = "; also on "
+"""Before the further channels of a fault of one kind (`reconcile.gate.findings`)."""
 USUAL = ("check sensor and cable of {at}", AGAIN)
 
 
 def to_mend(fault: SensorFault, *, beside: bool = False) -> str:
     """A clause with its full stop, which begins small; `beside` another answer what follows is not said."""
     what, then = MENDED.get(fault.kind, USUAL)
-    what = what.format(at=fault.channel or "all channels")
+    what = what.format(at=_channels(fault) or "all channels")
     return f"{what.rstrip(',')}." if beside or not then else f"{what} {then}."
+
+
+def _channels(fault: SensorFault) -> str:
+    """The channel, with the others that the detail names."""
+    others = fault.detail.partition(ALSO_ON)[2]
+    return f"{fault.channel} and {others}" if others and fault.channel else fault.channel

@@ -163,3 +163,14 @@ def test_speeds_of_two_shafts_must_fit_the_teeth_between_them() -> None:
     read(9.98)
     with pytest.raises(SpecError, match=r"turn output at 9\.983 Hz, but its speed_hz is 20"):
         read(20.0)
+
+
+def test_balls_that_cannot_fit_are_refused_with_the_bearing_they_are_of() -> None:
+    bearings = [
+        {"name": "a", "shaft": "shaft", "catalogue": "6205"},
+        {"name": "b", "shaft": "shaft", "balls": 13, "diameter_ratio": 0.3},
+    ]
+    with pytest.raises(SpecError) as caught:
+        read_kinematic_spec({"kinematics": {"shafts": [{"name": "shaft"}], "bearings": bearings}})
+    (problem,) = caught.value.problems
+    assert problem.field == "kinematics.bearings.1.balls" and problem.given == 13

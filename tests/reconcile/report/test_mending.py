@@ -30,3 +30,9 @@ def test_a_description_is_corrected_and_nothing_is_recorded_anew() -> None:
 
 def test_no_kind_is_told_that_the_gate_has_not() -> None:
     assert set(MENDED) <= {*FAULTS, "speed_mismatch", "fixed_tones"}
+
+
+def test_all_exchanged_channels_are_asked_for() -> None:
+    detail = "all tests: looks like the baseline's free, not like its own; also on free"
+    told = to_mend(SensorFault(kind="swapped_channels", channel="drive", detail=detail))
+    assert "(here drive and free)" in told
