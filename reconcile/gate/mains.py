@@ -23,6 +23,8 @@ MATERIAL_SHARE = 0.01
 LEAST_SHARE = 0.002
 """Of the channel's power that new hum must hold to explain anything."""
 TOLERANCE = 0.002
+EVEN = 0.02
+"""Of twice a supply's frequency, by which a line may miss its multiple."""
 
 
 def hum_findings(
@@ -40,6 +42,8 @@ def hum_findings(
         grown = None if not before else 10 * np.log10(power / max(*before, 1e-300))
         fault = share > MATERIAL_SHARE if grown is None else bool(grown > GROWN_DB and share > LEAST_SHARE)
         change = "" if grown is None else f", {grown:+.0f} dB against the baseline"
+        if fault and grown is None and _pulls([hz for hz, _ in lines]):
+            fault, change = False, "; twice the supply and no odd multiple: the pull of a motor makes that too"
         places = ", ".join(f"{hz:.5g}" for hz, _ in lines)
         found.append(
             Finding(
@@ -53,6 +57,13 @@ def hum_findings(
             )
         )
     return tuple(found)
+
+
+def _pulls(lines_hz: Sequence[float]) -> bool:
+    """Whether all lines are even multiples of one supply's frequency, as a magnetic pull makes them and pick-up seldom
+    does."""
+    found = np.asarray(lines_hz)
+    return any(bool(np.all(np.abs(found / (2 * m) - np.rint(found / (2 * m))) < EVEN)) for m in MAINS_HZ)
 
 
 def hum_lines(recording: Recording, channel: str, expected_hz: FloatArray) -> list[tuple[float, float]]:

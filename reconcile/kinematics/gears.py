@@ -29,6 +29,8 @@ HALF_WIDTH = 0.3
 """Over which a line's power is summed, share of the smallest distance of sidebands."""
 ERRORS = 4.0
 MIN_LINES = 8
+NEAR_DB = 3.0
+"""Up to which two gears of a mesh have grown alike."""
 CONTRAST_DB = 6.0
 CONTRAST_WIDTH = 0.1
 """Share of the distance of sidebands to each side of a place: nothing of the sideband itself reaches half-way."""
@@ -54,6 +56,8 @@ class GearEvidence:
     """Of the sidebands over the places half-way between them, in this test."""
     multiples: int
     """Of the shaft, at which sidebands have grown."""
+    own_db: float = float("nan")
+    """Growth of those alone that no sideband of the other gear's shaft is near; NaN where there are none."""
     seldom: bool = False
     """Whether it has grown, but at fewer than half of the speeds."""
 
@@ -90,6 +94,13 @@ def gear_evidence(
     return tuple(sorted(map(_of_most, found.values()), key=lambda g: (-g.grown, -g.growth_db)))
 
 
+def of_own_lines(tied: Sequence[GearEvidence]) -> list[GearEvidence]:
+    """Of gears in one mesh whose sidebands grew alike those that stay when the lines near the other's are left out:
+    multiples of one shaft lie within the width of another's, whatever the teeth."""
+    best = max((g.own_db for g in tied if np.isfinite(g.own_db)), default=-np.inf)
+    return [g for g in tied if not g.own_db < best - NEAR_DB]
+
+
 def _of_most(tests: Sequence[tuple[float, GearEvidence]]) -> GearEvidence:
     """The evidence of the test that shows it most; it has grown only where it has at half of the speeds."""
     first = max((one for _, one in tests), key=lambda g: (g.grown, g.growth_db))
@@ -97,8 +108,9 @@ def _of_most(tests: Sequence[tuple[float, GearEvidence]]) -> GearEvidence:
     return replace(first, seldom=True) if rare else first
 
 
-def sideband_orders(mesh_order: float, shaft: float, other: float) -> FloatArray:
-    """k z +- m of a shaft, without those that are the other shaft's (a common multiple of both), (lines,)."""
+def sideband_orders(mesh_order: float, shaft: float, other: float, half_width: float = 1e-6) -> FloatArray:
+    """k z +- m of a shaft, without those within `half_width` of the other shaft's; of a common multiple of both without
+    none, if all are. (lines,)."""
     orders = [
         k * mesh_order + sign * m * shaft
         for k in range(1, MESHES + 1)
@@ -107,7 +119,7 @@ def sideband_orders(mesh_order: float, shaft: float, other: float) -> FloatArray
     ]
     values = np.asarray(orders)
     offset = np.abs(values - np.rint(values / mesh_order) * mesh_order)
-    shared = np.abs(offset / other - np.rint(offset / other)) < 1e-6
+    shared = np.abs(offset - np.rint(offset / other) * other) < half_width
     return np.sort(values[(values > 0) & ~shared]) if not np.all(shared) else np.sort(values[values > 0])
 
 
@@ -130,6 +142,7 @@ def _one(
     growth = level_changes(*lines, orders, half) - mesh_change[beside]
     there = np.isfinite(growth)
     values = growth[there]
+    apart = there & np.isin(orders, sideband_orders(order, ratio, other, half))
     mean = float(np.mean(values)) if values.size else 0.0
     error = float(np.std(values) / np.sqrt(values.size)) if values.size > 1 else 10.0
     teeth = round(order / ratio)
@@ -149,6 +162,7 @@ def _one(
         label=test.label,
         multiples=int(np.unique(_multiples(orders, order, ratio)[there & (growth > GROWTH_DB)]).size),
         contrast_db=_contrast(lines[0], orders[there], (order, ratio, other)),
+        own_db=float(np.mean(growth[apart])) if np.any(apart) else float("nan"),
     )
 
 

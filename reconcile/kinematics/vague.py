@@ -8,7 +8,7 @@ import numpy as np
 
 from reconcile.kinematics.answer import lines_of
 from reconcile.kinematics.foreign import Foreign
-from reconcile.kinematics.gears import GearEvidence
+from reconcile.kinematics.gears import NEAR_DB, GearEvidence, of_own_lines
 from reconcile.kinematics.judge import DEFECTS, Candidate
 from reconcile.kinematics.lines import matched
 from reconcile.kinematics.measured import measured_lines
@@ -16,13 +16,13 @@ from reconcile.kinematics.observe import Observation
 from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Report, Where
 
 TOOTH_TERMS = ("missing_tooth", "tooth_crack", "tooth_spall")
-NEAR_DB = 3.0
 
 
 def gear_report(found: Sequence[GearEvidence], tests: Sequence[Observation]) -> Report:
     """Sidebands of a gear's shaft grew around its mesh."""
     first = found[0]
-    tied = [g for g in found if g.grown and g.mesh == first.mesh and first.growth_db - g.growth_db < NEAR_DB]
+    near = [g for g in found if g.grown and g.mesh == first.mesh and first.growth_db - g.growth_db < NEAR_DB]
+    first, *_ = tied = of_own_lines(near)
     speed = next(t.speed.speed_hz for t in tests if t.label == first.label)
     total = sum(g.growth_db for g in tied)
     where = " or ".join(g.gear for g in tied)

@@ -187,6 +187,20 @@ def test_hum_is_taken_out() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(("hz", "fault"), [((99.96,), False), ((99.96, 199.92), False), ((49.98, 99.96), True)])
+def test_twice_the_supply_alone_may_be_the_pull_of_a_motor(hz: tuple[float, ...], fault: bool) -> None:
+    """Without a baseline to tell whether it is new."""
+
+    def hummed(x, i):  # type: ignore[no-untyped-def]
+        return x + sum(0.4 * np.sin(2 * np.pi * f * np.arange(x.size) / RATE_HZ) for f in hz)
+
+    gate = inspect_measurement((), changed(1, hummed), mesh_orders=(TEETH,))
+    found = [f for f in gate.findings if f.kind == "mains_hum" and f.channel == gate.tests[0].names[1]]
+    assert found and all(f.fault is fault for f in found)
+    assert all(("pull of a motor" in f.detail) is not fault for f in found)
+
+
+@pytest.mark.slow
 def test_hum_that_the_baseline_has_too_is_a_remark() -> None:
     def hummed(r: Recording) -> Recording:
         samples = r.samples.copy()

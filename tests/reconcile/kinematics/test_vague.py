@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from reconcile.kinematics.gears import GearEvidence, of_own_lines
 from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, sound, train
 
 SHAFT = {"name": "shaft"}
@@ -71,3 +72,19 @@ def test_an_outer_race_of_other_numbers_strikes_at_an_order_of_no_part(balls: in
     assert bool(re.search(r"Impacts 3\.5[89]\d? times a turn", report.sentence)) is told
     if not told:
         assert [(c.term, c.site) for c in report.causes] == [("outer_spall", "bearing1")]
+
+
+def grew(gear: str, growth_db: float, own_db: float) -> GearEvidence:
+    """Sidebands of a gear that grew."""
+    return GearEvidence(
+        mesh="mesh1", shaft=gear, gear=gear, channel="a0", growth_db=growth_db, error_db=0.5, mesh_growth_db=0.0,
+        lines=20, window=None, label="test 1", contrast_db=10.0, multiples=5, own_db=own_db,
+    )  # fmt: skip
+
+
+def test_of_two_gears_the_one_whose_own_lines_grew_has_the_fault() -> None:
+    wheel, pinion = grew("wheel", 10.0, 1.0), grew("pinion", 9.0, 8.0)
+    assert of_own_lines([wheel, pinion]) == [pinion]
+    assert of_own_lines([wheel, grew("pinion", 9.0, float("nan"))]) != [wheel], "of which nothing tells, stays"
+    both = [grew("wheel", 10.0, 7.0), pinion]
+    assert of_own_lines(both) == both
