@@ -36,6 +36,8 @@ SAME_ORDER = 0.5
 """Families nearer than this share of the slip are one to the data."""
 LIKE_SPACING = 0.05
 """Relative difference of cages' orders that no recording of a minute tells apart in the sidebands of a ball."""
+NEXT_BINS = 4.0
+"""Within which the skirts of a strong line reach."""
 ONE_LINE = 0.004
 """Measured orders nearer than this are of one line: jitter and the search's grid move them by 0.2 %."""
 LIKE_SHARE = 0.7
@@ -101,6 +103,10 @@ class Candidate:
         return 2 * sum(votes) > len(votes)
 
 
+Beside = Callable[[tuple[Candidate, ...]], tuple[Candidate, ...]]
+"""All candidates but these, without their lines."""
+
+
 def candidates(
     tests: Sequence[Observation],
     baselines: Sequence[Observation],
@@ -162,10 +168,11 @@ def named(
 ) -> tuple[tuple[Candidate, ...], tuple[Candidate, ...]]:
     """(bearing defects that stand, at most two; all candidates)."""
     every = candidates(tests, baselines, ties, seed, certain_z=HEARD_Z)
-    first = next((c for c in every if c.family.kind in DEFECTS and c.present and c.risen and c.deep), None)
+    beside = partial(candidates, tests, baselines, ties, seed, certain_z=HEARD_Z)
+    firm = (c for c in every if c.family.kind in DEFECTS and c.present and c.risen and c.deep)
+    first = next((c for c in firm if not of_the_turn(c, every, tests, beside)), None)
     if first is None:
         return (), every
-    beside = partial(candidates, tests, baselines, ties, seed, certain_z=HEARD_Z)
     first, left = own_lines(nearest_drawing(first, every), every, beside)
     second = next(
         (
@@ -182,9 +189,21 @@ def named(
     return ((first,) if second is None else (first, second)), every
 
 
-def own_lines(
-    first: Candidate, every: Sequence[Candidate], beside: Callable[[tuple[Candidate, ...]], tuple[Candidate, ...]]
-) -> tuple[Candidate, tuple[Candidate, ...]]:
+def of_the_turn(one: Candidate, every: Sequence[Candidate], tests: Sequence[Observation], beside: Beside) -> bool:
+    """Whether a family that begins next to a multiple of a shaft, of which something strikes once a turn and is firmer,
+    is what that leaves there: a broken tooth was the inner race, 1.5 bins off five times its shaft."""
+    channel = tests[one.strongest].channel(one.best.channel)
+    assert channel is not None
+    for turn in every:
+        if turn.family.kind != "turn" or not (turn.present and turn.risen) or turn.z <= one.z:
+            continue
+        number = round(one.best.order / turn.best.order)
+        if abs(one.best.order - number * turn.best.order) < NEXT_BINS * channel.order_step:
+            return _z_of(one, beside((turn,))) < LEAST_Z
+    return False
+
+
+def own_lines(first: Candidate, every: Sequence[Candidate], beside: Beside) -> tuple[Candidate, tuple[Candidate, ...]]:
     """The firmest, or a rival that is as firm and stands without the firmest's lines while that does not without the
     rival's; and all `beside` it, without its lines. Sidebands of an inner race near five times the turn are the lattice
     of an outer one near three times."""

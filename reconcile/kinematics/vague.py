@@ -22,7 +22,9 @@ def gear_report(found: Sequence[GearEvidence], tests: Sequence[Observation]) -> 
     """Sidebands of a gear's shaft grew around its mesh."""
     first = found[0]
     near = [g for g in found if g.grown and g.mesh == first.mesh and first.growth_db - g.growth_db < NEAR_DB]
-    first, *_ = tied = of_own_lines(near)
+    first, *more = of_own_lines(near)
+    # gears of one shaft turn together: sidebands say which shaft, not which mesh
+    tied = [first, *more, *(g for g in found if g.grown and g.mesh != first.mesh and g.shaft == first.shaft)]
     speed = next(t.speed.speed_hz for t in tests if t.label == first.label)
     total = sum(g.growth_db for g in tied)
     where = " or ".join(g.gear for g in tied)

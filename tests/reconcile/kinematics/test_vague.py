@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.gears import GearEvidence, of_own_lines
+from reconcile.kinematics.vague import gear_report
 from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, sound, train
 
 SHAFT = {"name": "shaft"}
@@ -74,11 +76,13 @@ def test_an_outer_race_of_other_numbers_strikes_at_an_order_of_no_part(balls: in
         assert [(c.term, c.site) for c in report.causes] == [("outer_spall", "bearing1")]
 
 
-def grew(gear: str, growth_db: float, own_db: float) -> GearEvidence:
+def grew(
+    gear: str, growth_db: float, own_db: float, *, mesh: str = "mesh1", shaft: str = "", lines: int = 20
+) -> GearEvidence:
     """Sidebands of a gear that grew."""
     return GearEvidence(
-        mesh="mesh1", shaft=gear, gear=gear, channel="a0", growth_db=growth_db, error_db=0.5, mesh_growth_db=0.0,
-        lines=20, window=None, label="test 1", contrast_db=10.0, multiples=5, own_db=own_db,
+        mesh=mesh, shaft=shaft or gear, gear=gear, channel="a0", growth_db=growth_db, error_db=0.5, mesh_growth_db=0.0,
+        lines=lines, window=None, label="test 1", contrast_db=10.0, multiples=5, own_db=own_db,
     )  # fmt: skip
 
 
@@ -88,3 +92,16 @@ def test_of_two_gears_the_one_whose_own_lines_grew_has_the_fault() -> None:
     assert of_own_lines([wheel, grew("pinion", 9.0, float("nan"))]) != [wheel], "of which nothing tells, stays"
     both = [grew("wheel", 10.0, 7.0), pinion]
     assert of_own_lines(both) == both
+
+
+def test_gears_of_one_shaft_that_both_grew_are_one_set() -> None:
+    """Multiples of one shaft surround the lines of both its meshes."""
+    test = SimpleNamespace(label="test 1", speed=SimpleNamespace(speed_hz=25.0))
+    first = grew("p2", 13.0, 13.0, mesh="mesh2", shaft="mid")
+    twin = grew("w1", 9.0, 9.0, mesh="mesh1", shaft="mid")
+    faint = grew("w1", 9.0, 9.0, mesh="mesh1", shaft="mid", lines=2)
+    other = grew("p1", 12.0, 12.0, mesh="mesh1", shaft="in")
+    report = gear_report([first, twin, other], [test])  # type: ignore[list-item]
+    assert {c.site for c in report.causes} == {"p2", "w1"} and report.causes[0].site == "p2"
+    assert "on p2 or w1" in report.sentence
+    assert {c.site for c in gear_report([first, faint, other], [test]).causes} == {"p2"}  # type: ignore[list-item]
