@@ -21,22 +21,23 @@ from reconcile.kinematics.faint import impulsive_report, shallow_report
 from reconcile.kinematics.families import Ties, ties
 from reconcile.kinematics.finish import fault_report, finished, refused_report
 from reconcile.kinematics.foreign import BESIDE_DB, foreign_comb
-from reconcile.kinematics.gears import GearEvidence, gear_evidence
+from reconcile.kinematics.gears import gear_evidence
 from reconcile.kinematics.grown import grown_defect, old_defects
 from reconcile.kinematics.judge import DEFECTS, HEARD_Z, Candidate, named
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.other_speeds import by_baseline, nominees
-from reconcile.kinematics.remarks import remarked
+from reconcile.kinematics.remarks import remarked, with_rest
 from reconcile.kinematics.series import ShaftSeries, shaft_series
 from reconcile.kinematics.shafts import ShaftChange, grown_impacts, shaft_changes
+from reconcile.kinematics.slow import slow_turn
 from reconcile.kinematics.spec import KinematicSpec, of_machine
 from reconcile.kinematics.teeth import other_teeth, told_with, with_teeth
-from reconcile.kinematics.turning import series_report, shaft_report, turn_report
+from reconcile.kinematics.turning import series_report, shaft_report, slow_report, turn_report
 from reconcile.kinematics.unread import ALIKE_Z, Judged
 from reconcile.kinematics.vague import foreign_report, gear_report, nothing_report
 from reconcile.origin import origin
 from reconcile.told import about
-from reconcile.verdict import LineChange, Report
+from reconcile.verdict import Report
 from signals.recording import Recording
 from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
@@ -131,7 +132,7 @@ def _judged(
     series = shaft_series(tests, baselines, tie)
     grown = tuple(c for c in changes if c.grown)
     if chosen:
-        report = _with_rest(
+        report = with_rest(
             defect_report(chosen, tests, baselines, tie, np.random.default_rng(seed)), gears, grown, tests, series
         )
     elif (growth := grown_defect(old_defects(every), tests, baselines, tie)) is not None:
@@ -243,45 +244,27 @@ def _without_a_part(
     foreign = foreign_comb(tests[0], baselines, tie, seed, heard=heard)
     if foreign is not None:
         return foreign_report(foreign, tests, baselines)
-    impacts = grown_impacts(tests, baselines)
-    if impacts is not None and known.bearings:
-        return impulsive_report(impacts, every, [b.name for b in known.bearings])
+    impacts = _of_impacts(known, tie, tests, baselines, every, seed)
+    if impacts is not None:
+        return impacts
     if series is not None or grown:
         return shaft_report(grown, tests) if series is None else series_report(series, tests)
     return nothing_report(every, old_defects(every), tests, baselines)
 
 
-def _with_rest(
-    report: Report,
-    gears: Sequence[GearEvidence],
-    grown: Sequence[ShaftChange],
-    tests: Sequence[Observation],
-    series: ShaftSeries | None,
-) -> Report:
-    """What changed besides the named defects is told, not explained by them."""
-    rest = [f"{c.multiple:g} x {c.shaft} grew by {c.growth_db:.0f} dB" for c in grown]
-    rest += [f"sidebands of {g.shaft} around {g.mesh} grew by {g.growth_db:.0f} dB" for g in gears if g.grown]
-    if series is not None:
-        rest.append(
-            f"{len(series.multiples)} multiples of {series.shaft}{' and halves' if series.halves else ''} grew by "
-            f"{series.middle_db:.0f} dB"
-        )
-    if not rest:
-        return report
-    lines = tuple(
-        LineChange(
-            label=f"{c.multiple:g} x {c.shaft}",
-            frequency_hz=c.order * next(t.speed.speed_hz for t in tests if t.label == c.label),
-            change_db=c.growth_db,
-            channel=c.channel,
-            locked_to=c.shaft,
-            speed_hz=next(t.speed.speed_hz for t in tests if t.label == c.label),
-        )
-        for c in grown
-    )
-    note = f"not explained by the defect: {', '.join(rest)} (load, unbalance or another mounting)"
-    return replace(
-        report,
-        undecidable=(*report.undecidable, note),
-        where=replace(report.where, lines=(*report.where.lines, *lines)),
-    )
+def _of_impacts(
+    known: KinematicSpec,
+    tie: Ties,
+    tests: list[Observation],
+    baselines: list[Observation],
+    every: Sequence[Candidate],
+    seed: int,
+) -> Report | None:
+    """Impacts without lines: at one angle of a shaft that turned seldom, or of a ball."""
+    impacts = grown_impacts(tests, baselines)
+    if impacts is None:
+        return None
+    slow = slow_turn(tests, impacts, tie, seed)
+    if slow is not None:
+        return slow_report(slow, impacts, tie, [b.name for b in known.bearings if b.shaft == slow.shaft])
+    return impulsive_report(impacts, every, [b.name for b in known.bearings]) if known.bearings else None

@@ -6,9 +6,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from reconcile.kinematics.families import Family, Ties
+from reconcile.kinematics.gears import GearEvidence
 from reconcile.kinematics.judge import DEFECTS, LEAST_Z, SECOND_SHARE, Candidate, named, one_line, same
 from reconcile.kinematics.observe import Observation
-from reconcile.verdict import Report
+from reconcile.kinematics.series import ShaftSeries
+from reconcile.kinematics.shafts import ShaftChange
+from reconcile.verdict import LineChange, Report
 from sim.terms import REGISTRY
 
 SAME_SPEED = 0.015
@@ -99,3 +102,39 @@ def _speeds_differ(tests: Sequence[Observation], baselines: Sequence[Observation
         return []
     told, had = (", ".join(f"{hz:.4g}" for hz in sorted(set(values))) for values in (lost, known))
     return [f"tests at {told} Hz were compared with baselines at {had} Hz: depths change with the speed too"]
+
+
+def with_rest(
+    report: Report,
+    gears: Sequence[GearEvidence],
+    grown: Sequence[ShaftChange],
+    tests: Sequence[Observation],
+    series: ShaftSeries | None,
+) -> Report:
+    """What changed besides the named defects is told, not explained by them."""
+    rest = [f"{c.multiple:g} x {c.shaft} grew by {c.growth_db:.0f} dB" for c in grown]
+    rest += [f"sidebands of {g.shaft} around {g.mesh} grew by {g.growth_db:.0f} dB" for g in gears if g.grown]
+    if series is not None:
+        rest.append(
+            f"{len(series.multiples)} multiples of {series.shaft}{' and halves' if series.halves else ''} grew by "
+            f"{series.middle_db:.0f} dB"
+        )
+    if not rest:
+        return report
+    lines = tuple(
+        LineChange(
+            label=f"{c.multiple:g} x {c.shaft}",
+            frequency_hz=c.order * next(t.speed.speed_hz for t in tests if t.label == c.label),
+            change_db=c.growth_db,
+            channel=c.channel,
+            locked_to=c.shaft,
+            speed_hz=next(t.speed.speed_hz for t in tests if t.label == c.label),
+        )
+        for c in grown
+    )
+    note = f"not explained by the defect: {', '.join(rest)} (load, unbalance or another mounting)"
+    return replace(
+        report,
+        undecidable=(*report.undecidable, note),
+        where=replace(report.where, lines=(*report.where.lines, *lines)),
+    )

@@ -10,7 +10,8 @@ from reconcile.kinematics.foreign import Foreign
 from reconcile.kinematics.judge import Candidate
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.series import ShaftSeries
-from reconcile.kinematics.shafts import ShaftChange
+from reconcile.kinematics.shafts import Impulsiveness, ShaftChange
+from reconcile.kinematics.slow import SlowTurn
 from reconcile.kinematics.vague import TOOTH_TERMS
 from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Report, Where
 
@@ -21,6 +22,7 @@ SHAFT_TERMS = {
     3.0: ("parallel_misalignment", "pedestal_looseness"),
 }
 TURNING = ("unbalance", "bent_shaft")
+NOT_WHAT = "once a turn says where it turns, not what strikes"
 UNHEARD = 0.5
 """Share of the score of a part that strikes once a turn for a race whose own line is not heard."""
 
@@ -35,19 +37,13 @@ def turn_report(
     foreign: Foreign | None = None,
     line: ShaftChange | None = None,
 ) -> Report:
-    """Impacts once a turn that the baseline has not; `carried`: gears and bearings on that shaft; `foreign`: a comb at
+    """Impacts once a turn that the baseline has not; `carried`: bearings on that shaft; `foreign`: a comb at
     an order of no part beside them, as an inner race makes whose numbers are not those of the specification; `line`:
     growth of the turn's own line, as an unbalance brings, which strikes too where a bearing has play."""
     shaft = candidate.family.site
-    gears = [name for mesh in ties.meshes for s, name in zip(mesh[2], mesh[3], strict=True) if s == shaft]
+    gears = _gears_on(shaft, ties)
     causes = [(term, shaft, 1.0) for term in TURNING if line is not None]
-    causes += [(term, g, 1.0) for g in gears for term in TOOTH_TERMS]
-    causes += [
-        ("rub", shaft, 1.0),
-        ("pedestal_looseness", shaft, 1.0),
-        *(("pedestal_looseness", b, 1.0) for b in carried if b not in gears),
-    ]
-    causes += [("inner_spall", b, UNHEARD) for b in carried if b not in gears]
+    causes += [*_once_a_turn(shaft, gears, carried), *(("inner_spall", b, UNHEARD) for b in carried)]
     return Report(
         verdict="ambiguous",
         sentence=f"Impacts once a turn of {shaft} that no known rolling element makes: a rub, a loose part"
@@ -57,16 +53,48 @@ def turn_report(
         + ("" if foreign is None else _beside_turn(foreign)),
         level="kinematics",
         where=Where(sites=(PlaceWeight(site=shaft, weight=1.0),), lines=lines_of(candidate, tests, baselines)),
-        causes=tuple(
-            Cause(term=t, site=s, score=candidate.z * w, reasons=("once a turn says where it turns, not what strikes",))
-            for t, s, w in causes
-        ),
+        causes=tuple(Cause(term=t, site=s, score=candidate.z * w, reasons=(NOT_WHAT,)) for t, s, w in causes),
         undecidable=(
             "what strikes once a turn",
             *(() if foreign is None else ("whether the bearings' numbers are those of the machine",)),
             "how large: a size can't be given without a model",
         ),
         next_experiment=NextExperiment(sentence=_next_of_turn(tests, foreign)),
+    )
+
+
+def _gears_on(shaft: str, ties: Ties) -> list[str]:
+    return [name for mesh in ties.meshes for s, name in zip(mesh[2], mesh[3], strict=True) if s == shaft]
+
+
+def _once_a_turn(shaft: str, gears: Sequence[str], carried: Sequence[str]) -> list[tuple[str, str, float]]:
+    """(term, site, weight) of what strikes once a turn of a shaft."""
+    teeth = [(term, g, 1.0) for g in gears for term in TOOTH_TERMS]
+    loose = [("pedestal_looseness", site, 1.0) for site in (shaft, *carried)]
+    return [*teeth, ("rub", shaft, 1.0), *loose]
+
+
+def slow_report(found: SlowTurn, impacts: Impulsiveness, ties: Ties, carried: Sequence[str]) -> Report:
+    """Impacts at one angle of a shaft; `carried`: bearings on it."""
+    gears = _gears_on(found.shaft, ties)
+    what = "a damaged tooth, a rub or a loose part" if gears else "a rub or a loose part"
+    return Report(
+        verdict="ambiguous",
+        sentence=f"{impacts.band_hz[0]:.0f}-{impacts.band_hz[1]:.0f} Hz of {impacts.channel} became impulsive (excess "
+        f"kurtosis {impacts.before or 0:.1f} to {impacts.now:.1f}), at one angle of {found.shaft} in its {found.turns} "
+        f"turns: {what} are alike at this level.",
+        level="kinematics",
+        where=Where(
+            sites=(PlaceWeight(site=found.shaft, weight=1.0),),
+            angle_window=found.window,
+            limits=(f"{found.turns} turns of {found.shaft} are too few for its lines",),
+        ),
+        causes=tuple(
+            Cause(term=t, site=s, score=found.score * w, reasons=(NOT_WHAT,))
+            for t, s, w in _once_a_turn(found.shaft, gears, carried)
+        ),
+        undecidable=("what strikes once a turn", "how large: a size can't be given without a model"),
+        next_experiment=NextExperiment(sentence=f"Record fifty turns of {found.shaft} or more, with a tacho."),
     )
 
 
