@@ -23,7 +23,7 @@ from reconcile.kinematics.finish import fault_report, finished, refused_report
 from reconcile.kinematics.foreign import BESIDE_DB, foreign_comb
 from reconcile.kinematics.gears import gear_evidence
 from reconcile.kinematics.grown import grown_defect, old_defects
-from reconcile.kinematics.judge import DEFECTS, HEARD_Z, Candidate, named
+from reconcile.kinematics.judge import DEFECTS, HEARD_Z, TURN_DEPTH, Candidate, named
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.other_speeds import by_baseline, nominees
 from reconcile.kinematics.remarks import remarked, with_rest
@@ -235,7 +235,8 @@ def _without_a_part(
     if risen:
         return shallow_report(risen, every, tests, baselines)
     heard = [*(c.family.key for c in every if c.z > HEARD_Z), *(m[0] for m in tie.meshes)]
-    turn = next((c for c in every if c.family.kind == "turn" and c.present and c.risen), None)
+    turns = (c for c in every if c.family.kind == "turn" and c.present and c.risen and c.depth >= TURN_DEPTH)
+    turn = next(turns, None)
     if turn is not None and baselines:
         carried = [b.name for b in known.bearings if b.shaft == turn.family.site]
         stranger = foreign_comb(tests[0], baselines, tie, seed, heard=heard, least_db=BESIDE_DB)

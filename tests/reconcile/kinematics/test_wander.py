@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from reconcile.kinematics import reconcile as module
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.gears import GearEvidence, gear_evidence
 from reconcile.kinematics.lines import at_half_of_speeds
@@ -133,3 +136,22 @@ def test_few_periods_of_a_slow_line_are_not_compared() -> None:
 
     assert ("out", 0.5) not in changes(1.2)
     assert changes(10.0)["out", 0.5].grown
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("depth", "told"), [(0.22, False), (0.37, True)])
+def test_shallow_impacts_of_a_turn_are_runout_under_load(
+    depth: float, told: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A sound gearbox under 1.6 times the load reached 0.22."""
+    turn = SimpleNamespace(
+        family=SimpleNamespace(kind="turn", site="shaft", key="shaft.turn"),
+        present=True,
+        risen=True,
+        depth=depth,
+        z=5.3,
+    )
+    monkeypatch.setattr(module, "turn_report", lambda *_, **__: "a turn")
+    rows = [seen(gearbox(seed, 24.0), 24.0, f"{word} 1") for seed, word in ((2, "test"), (1, "baseline"))]
+    found = module._without_a_part(SPEC, TIE, rows[:1], rows[1:], [turn], [], 0, None)  # type: ignore[list-item]
+    assert (found == "a turn") is told  # type: ignore[comparison-overlap]
