@@ -58,6 +58,7 @@ def test_blows_at_any_angle_keep_to_none() -> None:
     assert "at one angle" not in report.sentence
 
 
+@pytest.mark.slow
 def test_chances_of_turns_without_agreement_are_uniform() -> None:
     rng = np.random.default_rng(0)
     found = np.array([agreement(np.log(rng.chisquare(4, (8, 60))), rng)[2] for _ in range(200)])

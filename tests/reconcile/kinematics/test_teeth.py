@@ -11,7 +11,7 @@ from reconcile.report.action import to_do
 from tests.strategies.impulses import RATE_HZ, recorded
 
 TRUE, WHEEL = 23, 57
-SPEED_HZ, SECONDS = 25.0, 6.0
+SPEED_HZ, SECONDS = 25.0, 4.0
 
 
 def spec(teeth: int):  # type: ignore[no-untyped-def]
