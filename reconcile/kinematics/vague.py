@@ -25,6 +25,8 @@ def gear_report(found: Sequence[GearEvidence], tests: Sequence[Observation]) -> 
     first, *more = of_own_lines(near)
     # gears of one shaft turn together: sidebands say which shaft, not which mesh
     tied = [first, *more, *(g for g in found if g.grown and g.mesh != first.mesh and g.shaft == first.shaft)]
+    twins = sorted({g.gear for g in found if g.shaft == first.shaft} - {g.gear for g in tied})
+    other = (f"whether it is {' or '.join(twins)}, which turns with {first.gear}",) if twins else ()
     speed = next(t.speed.speed_hz for t in tests if t.label == first.label)
     total = sum(g.growth_db for g in tied)
     where = " or ".join(g.gear for g in tied)
@@ -62,6 +64,7 @@ def gear_report(found: Sequence[GearEvidence], tests: Sequence[Observation]) -> 
         ),
         causes=tuple(sorted(causes, key=lambda c: -c.score)),
         undecidable=(
+            *other,
             "broken, cracked or pitted: a model of the mesh is needed",
             "how large: a size can't be given without a model",
         ),
