@@ -17,7 +17,7 @@ WHOLE = $(BIN)/python -m pip check >/dev/null 2>&1 || $(PIP) --quiet --no-compil
 COMPILED = $(BIN)/python -m compileall -q -j 0 -x '/tests?/' $(VENV)/lib >/dev/null || true
 
 .DELETE_ON_ERROR:
-.PHONY: run setup env dev browser lint kernels collected fast test bench cost paper proof tests-atlas proof-real sim2real openapi lock clean help
+.PHONY: run setup env dev browser lint kernels collected fast test bench cost paper proof tests-atlas proof-real proof-made sim2real openapi lock clean help
 
 run: setup  ## start the service, simulate the demo through the queue, open its page (PORT=8001, OPEN= for no browser)
 	@echo "[4/4] starting broker, workers and HTTP server on port $(PORT)"
@@ -102,6 +102,9 @@ tests-atlas: dev setup  ## simulate again the small atlases that stand beside te
 
 proof-real: dev setup  ## the engine on real recordings beside the project, labels withheld; writes docs/proof-real.md
 	$(BIN)/python -m proof.real --docs docs/proof-real.md
+
+proof-made: dev setup  ## the engine on made rigs of which a drawing is known; writes docs/proof-made.md
+	$(BIN)/python -m proof.made --docs docs/proof-made.md
 
 sim2real: setup  ## train on simulations only, test on real recordings beside the project; tables into docs/sim2real.md
 	$(BIN)/python -m learn.sim2real --docs docs/sim2real.md

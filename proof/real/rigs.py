@@ -132,7 +132,7 @@ WHY = {
     "a change of the path to a1, and by the catalogue the sidebands of the broken tooth show almost only there.",
     "b30hz80": "As at 50 % load: only the path to a1 changed by more than load changes it.",
     "Motor1_DamagedBearing_SevereHi-Fi_02_7cm_30Hz": "No bearing size is known of this motor, and a microphone hears "
-    "impacts once a turn: a rub or a loose part make the same.",
+    "impacts once a turn: a rub or a loose part make the same as a damaged bearing, which is the last of the set.",
     "Motor1_UnbalancedRotor_2Weights_Yaxis_30Hz": "The clock of the phone repeats and skips; orders of such a record "
     "mean nothing.",
     "dataBenchmark": "A tank is no mass on a spring: the ceiling of its level is named, but of some 400 samples with a "

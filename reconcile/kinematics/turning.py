@@ -43,7 +43,8 @@ def turn_report(
     shaft = candidate.family.site
     gears = _gears_on(shaft, ties)
     causes = [(term, shaft, 1.0) for term in TURNING if line is not None]
-    causes += [*_once_a_turn(shaft, gears, carried), *(("inner_spall", b, UNHEARD) for b in carried)]
+    # where the file has no bearing on the shaft its lines could not be looked for
+    causes += [*_once_a_turn(shaft, gears, carried), *(("inner_spall", b, UNHEARD) for b in carried or (shaft,))]
     return Report(
         verdict="ambiguous",
         sentence=f"Impacts once a turn of {shaft} that no known rolling element makes: a rub, a loose part"
@@ -56,6 +57,7 @@ def turn_report(
         causes=tuple(Cause(term=t, site=s, score=candidate.z * w, reasons=(NOT_WHAT,)) for t, s, w in causes),
         undecidable=(
             "what strikes once a turn",
+            *(() if carried else (f"whether a bearing of {shaft} is damaged: the file has none there",)),
             *(() if foreign is None else ("whether the bearings' numbers are those of the machine",)),
             "how large: a size can't be given without a model",
         ),

@@ -48,6 +48,17 @@ def test_a_turn_alone_has_nothing_beside_it() -> None:
 
 
 @pytest.mark.slow
+def test_a_bearing_that_the_file_lacks_is_one_of_what_strikes_once_a_turn() -> None:
+    """Of a machine without bearings no bearing's lines can be looked for."""
+    bare = read_kinematic_spec({"kinematics": {"shafts": [SHAFT]}})
+    knocked = recorded(sound(2) + train(np.random.default_rng(5), 1.0, 1.6))
+    report = reconcile_kinematics(bare, [knocked], [recorded(sound(1))], seed=3)
+    assert [(c.term, c.site) for c in report.causes][-1] == ("inner_spall", "shaft")
+    assert report.causes[-1].score < report.causes[0].score
+    assert any("the file has none there" in text for text in report.undecidable)
+
+
+@pytest.mark.slow
 def test_an_unbalance_is_one_of_what_strikes_once_a_turn_where_its_line_grew() -> None:
     line = 3.0 * np.sin(2.0 * np.pi * SPEED_HZ * np.arange(N) / RATE_HZ)
     knocked = recorded(sound(2) + line + train(np.random.default_rng(5), 1.0, 1.6))
