@@ -23,8 +23,8 @@ MATERIAL_SHARE = 0.01
 LEAST_SHARE = 0.002
 """Of the channel's power that new hum must hold to explain anything."""
 TOLERANCE = 0.002
-EVEN = 0.02
-"""Of twice a supply's frequency, by which a line may miss its multiple."""
+PULLS, EVEN = np.array([2.0, 4.0]), 0.04
+"""Multiples of a supply that a motor's pull makes, and by which a line may miss one."""
 
 
 def hum_findings(
@@ -60,10 +60,10 @@ def hum_findings(
 
 
 def _pulls(lines_hz: Sequence[float]) -> bool:
-    """Whether all lines are even multiples of one supply's frequency, as a magnetic pull makes them and pick-up seldom
-    does."""
+    """Whether all lines are at twice or four times one supply's frequency, as a magnetic pull makes them and pick-up
+    seldom does."""
     found = np.asarray(lines_hz)
-    return any(bool(np.all(np.abs(found / (2 * m) - np.rint(found / (2 * m))) < EVEN)) for m in MAINS_HZ)
+    return any(bool(np.all(np.min(np.abs(found[:, None] / m - PULLS), axis=1) < EVEN)) for m in MAINS_HZ)
 
 
 def hum_lines(recording: Recording, channel: str, expected_hz: FloatArray) -> list[tuple[float, float]]:

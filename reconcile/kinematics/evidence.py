@@ -171,13 +171,13 @@ def _around(family: Family, ties: Ties) -> list[float]:
     return [*ties.shafts.values(), *(f.order for f in ties.families if f.key == f"{family.site}.cage")]
 
 
-def _absent(values: FloatArray, envelopes: Envelopes, spacing: float, order: float) -> FloatArray:
-    """`values` without a family's lines: of its sidebands few in a short record, in which many would leave nothing."""
+def _absent(values: FloatArray, envelopes: Envelopes, spacing: float, order: float, *, many: bool) -> FloatArray:
+    """`values` without a family's lines: few of its sidebands, or `many` in records so long that something is left."""
     top = envelopes.excess.shape[1] * envelopes.order_step
     covered = (
         top / order * (2 * WIDE_BINS + 1) * envelopes.order_step
     )  # of each distance of sidebands, by all harmonics
-    pairs = MANY_PAIRS if covered < COVERED * spacing else PAIRS
+    pairs = MANY_PAIRS if many and covered < COVERED * spacing else PAIRS
     return without(values, envelopes, [spacing], order, pairs=pairs)
 
 
@@ -232,7 +232,8 @@ def family_evidence(
         z = (table - centre) / spread
         if float(np.max(z)) > certain_z:
             # lines that are surely there must not be caught by the controls: were the family absent, so would they be
-            absent = _absent(values, e, family.spacing, float(base[int(np.argmax(np.max(z, axis=0)))]))
+            found = float(base[int(np.argmax(np.max(z, axis=0)))])
+            absent = _absent(values, e, family.spacing, found, many=certain_z < CERTAIN_Z)
             control, centre, spread = _controls(absent, foreign[size])
             z = (table - centre) / spread
         band, trial = (int(i) for i in np.unravel_index(int(np.argmax(z)), z.shape))

@@ -57,7 +57,8 @@ class GearEvidence:
     multiples: int
     """Of the shaft, at which sidebands have grown."""
     own_db: float = float("nan")
-    """Growth of those alone that no sideband of the other gear's shaft is near; NaN where there are none."""
+    """Growth of those that no sideband of the other gear's shaft is near, if there are any, else of all; NaN where none
+    is there."""
     seldom: bool = False
     """Whether it has grown, but at fewer than half of the speeds."""
 
@@ -98,7 +99,7 @@ def of_own_lines(tied: Sequence[GearEvidence]) -> list[GearEvidence]:
     """Of gears in one mesh whose sidebands grew alike those that stay when the lines near the other's are left out:
     multiples of one shaft lie within the width of another's, whatever the teeth."""
     best = max((g.own_db for g in tied if np.isfinite(g.own_db)), default=-np.inf)
-    return [g for g in tied if not g.own_db < best - NEAR_DB]
+    return [g for g in tied if not g.own_db < best - NEAR_DB] if best > GROWTH_DB / 2 else list(tied)
 
 
 def _of_most(tests: Sequence[tuple[float, GearEvidence]]) -> GearEvidence:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 import scipy
 
 from reconcile.kinematics.contrast import Contrast, contrast
+from reconcile.kinematics.envelopes import Envelopes
 from reconcile.kinematics.evidence import CERTAIN_Z, Evidence, family_evidence
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.observe import Observation
@@ -39,6 +40,8 @@ SAME_ORDER = 0.5
 """Families nearer than this share of the slip are one to the data."""
 LIKE_SPACING = 0.05
 """Relative difference of cages' orders that no recording of a minute tells apart in the sidebands of a ball."""
+CENTRE = 0.95
+"""Of a sideband's depth that the line itself has at least: in a load zone of half a turn sidebands have 0.85 of it."""
 NEXT_BINS = 4.0
 """Within which the skirts of a strong line reach."""
 ONE_LINE = 0.004
@@ -56,6 +59,8 @@ class Candidate:
     evidence: tuple[Evidence, ...]
     contrasts: tuple[Contrast, ...]
     chance: float
+    centred: bool = True
+    """Whether no sideband of it is deeper than the line itself, where that was asked."""
 
     @property
     def strongest(self) -> int:
@@ -86,7 +91,7 @@ class Candidate:
     @property
     def present(self) -> bool:
         """Whether its lines are there at all, in a sound machine or not."""
-        return self.chance < LEVEL and self.z > LEAST_Z
+        return self.chance < LEVEL and self.z > LEAST_Z and self.centred
 
     @property
     def depth(self) -> float:
@@ -175,7 +180,8 @@ def named(
     tests: Sequence[Observation], baselines: Sequence[Observation], ties: Ties, seed: int
 ) -> tuple[tuple[Candidate, ...], tuple[Candidate, ...]]:
     """(bearing defects that stand, at most two; all candidates)."""
-    every = candidates(tests, baselines, ties, seed, certain_z=HEARD_Z)
+    found = candidates(tests, baselines, ties, seed, certain_z=HEARD_Z)
+    every = tuple(replace(c, centred=c.family.kind not in DEFECTS or centred(c, tests, ties)) for c in found)
     beside = partial(candidates, tests, baselines, ties, seed, certain_z=HEARD_Z)
     firm = (c for c in every if c.family.kind in DEFECTS and c.present and c.risen and c.deep)
     first = next((c for c in firm if not of_the_turn(c, every, tests, beside)), None)
@@ -195,6 +201,28 @@ def named(
         None,
     )
     return ((first,) if second is None else (first, second)), every
+
+
+def centred(one: Candidate, tests: Sequence[Observation], ties: Ties) -> bool:
+    """Whether the first line of a family is as deep as what stands beside it at the distance of its sidebands or of a
+    turn. Blows are stronger or weaker as load and cage have it, never negative: so the mean of their strength, the line
+    itself, exceeds what modulates it. A line with deeper ones beside it is itself a sideband of a stranger."""
+    e = tests[one.strongest].channel(one.best.channel)
+    assert e is not None
+    band = int(np.argmin(np.abs(e.bands_hz - np.array(one.best.band_hz)).sum(axis=1)))
+    own = _depth_at(e, band, one.best.order)
+    turns = tuple(ties.shafts.values())
+    for distance in {one.family.spacing, *turns} - {0.0}:
+        for order in (one.best.order - distance, one.best.order + distance):
+            of_a_turn = any(abs(order - round(order / t) * t) < NEXT_BINS * e.order_step for t in turns)
+            if order > NEXT_BINS * e.order_step and not of_a_turn and _depth_at(e, band, order) * CENTRE > own:
+                return False
+    return True
+
+
+def _depth_at(envelopes: Envelopes, band: int, order: float) -> float:
+    place = round(order / envelopes.order_step)
+    return float(np.max(envelopes.depth[band, max(place - 2, 0) : place + 3], initial=0.0))
 
 
 def of_the_turn(one: Candidate, every: Sequence[Candidate], tests: Sequence[Observation], beside: Beside) -> bool:

@@ -16,7 +16,7 @@ import numpy as np
 from reconcile.kinematics.envelopes import Envelopes
 from reconcile.kinematics.evidence import LEAST_SPREAD, family_evidence, logs, scores, without
 from reconcile.kinematics.families import Family, Ties
-from reconcile.kinematics.judge import DEFECTS, LEAST_Z
+from reconcile.kinematics.judge import DEFECTS, HEARD_Z, LEAST_Z
 from reconcile.kinematics.observe import MOST_DOUBT, Observation
 from signals.series import FloatArray
 
@@ -90,7 +90,8 @@ def _score(tests: Sequence[Observation], ties: Ties, family: Family, factor: flo
     rows = []
     for i, test in enumerate(tests):
         rng = np.random.default_rng((seed, i, number))
-        rows.append(max(family_evidence(test.channels, scaled, scaled.families[number], MOST_DOUBT, rng).z, 0.0))
+        own = scaled.families[number]
+        rows.append(max(family_evidence(test.channels, scaled, own, MOST_DOUBT, rng, certain_z=HEARD_Z).z, 0.0))
     return float(np.sqrt(np.mean(np.square(rows))))
 
 

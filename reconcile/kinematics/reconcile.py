@@ -42,6 +42,9 @@ from signals.recording import Recording
 from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
 
+STANDS_OUT_DB = 10.0
+"""By which one multiple of a shaft must have grown more than the middle of many to be the answer alone."""
+
 
 def reconcile_kinematics(
     spec: KinematicSpec | MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording], *, seed: int
@@ -228,7 +231,7 @@ def _without_a_part(
     every: Sequence[Candidate],
     grown: Sequence[ShaftChange],
     seed: int,
-    series: ShaftSeries | None,
+    series: Sequence[ShaftSeries],
 ) -> Report:
     """Impacts of a turn, of a foreign order, of no order; shaft lines; nothing."""
     risen = [c for c in every if c.family.kind in DEFECTS and c.present and c.risen]
@@ -248,8 +251,9 @@ def _without_a_part(
     impacts = _of_impacts(known, tie, tests, baselines, every, seed)
     if impacts is not None:
         return impacts
-    if series is not None or grown:
-        return shaft_report(grown, tests) if series is None else series_report(series, tests)
+    stands_out = bool(series and grown) and grown[0].growth_db > series[0].middle_db + STANDS_OUT_DB
+    if series or grown:
+        return shaft_report(grown, tests) if stands_out or not series else series_report(series, grown, tests)
     return nothing_report(every, old_defects(every), tests, baselines)
 
 

@@ -109,16 +109,16 @@ def with_rest(
     gears: Sequence[GearEvidence],
     grown: Sequence[ShaftChange],
     tests: Sequence[Observation],
-    series: ShaftSeries | None,
+    series: Sequence[ShaftSeries],
 ) -> Report:
     """What changed besides the named defects is told, not explained by them."""
     rest = [f"{c.multiple:g} x {c.shaft} grew by {c.growth_db:.0f} dB" for c in grown]
     rest += [f"sidebands of {g.shaft} around {g.mesh} grew by {g.growth_db:.0f} dB" for g in gears if g.grown]
-    if series is not None:
-        rest.append(
-            f"{len(series.multiples)} multiples of {series.shaft}{' and halves' if series.halves else ''} grew by "
-            f"{series.middle_db:.0f} dB"
-        )
+    rest += [
+        f"{len(one.multiples)} multiples of {one.shaft} {'and halves ' if one.halves else ''}grew by "
+        f"{one.middle_db:.0f} dB"
+        for one in series
+    ]
     if not rest:
         return report
     lines = tuple(

@@ -21,6 +21,8 @@ MULTIPLES = np.arange(1, 25) / 2
 """From one half to twelve."""
 GROWTH_DB = 10.0
 """In the middle of the channels."""
+MIDDLE_DB = 15.0
+"""Middle of those that grew: lines that a load moves by 6 dB, each as it happens, pass the other limits."""
 WITHIN_DB = 30.0
 """Below the channel's strongest line up to order 10, at most."""
 LEAST = 4
@@ -29,6 +31,7 @@ HALVES = 2
 LEAST_PERIODS = 8.0
 TEETH = 5.5
 """Multiples to either side of the teeth's that are theirs."""
+MAINS_HZ = (50.0, 60.0)
 TWICE = 0.02
 
 
@@ -54,9 +57,9 @@ class ShaftSeries:
         return float(np.median(self.growth_db))
 
 
-def shaft_series(tests: Sequence[Observation], baselines: Sequence[Observation], ties: Ties) -> ShaftSeries | None:
-    """The shaft of which most multiples grew, if there are `LEAST`, at half of the speeds or more; None else, and
-    without a baseline at the same speed."""
+def shaft_series(tests: Sequence[Observation], baselines: Sequence[Observation], ties: Ties) -> tuple[ShaftSeries, ...]:
+    """The shafts of which `LEAST` multiples grew, at half of the speeds or more, that with most first; empty without a
+    baseline at the same speed. Multiples of two shafts that coincide count for both."""
     found: list[ShaftSeries] = []
     speeds: dict[str, list[tuple[float, bool]]] = {}
     for test in tests:
@@ -66,23 +69,32 @@ def shaft_series(tests: Sequence[Observation], baselines: Sequence[Observation],
         spectra = spectra_of(test, base)
         turns = min(o.speed.speed_hz * o.recording.duration_s for o in (test, base))
         for shaft, ratio in ties.shafts.items():
-            one = _series(spectra, shaft, ratio, _own(shaft, ratio, ties, turns), test.label)
+            multiples = _own(test, ratio, ties, turns)
+            one = _series(spectra, shaft, ratio, multiples, test.label)
             speeds.setdefault(shaft, []).append((test.speed.speed_hz, one is not None))
             if one is not None:
                 found.append(one)
-    often = [one for one in found if at_half_of_speeds(speeds[one.shaft])]
-    return max(often, key=lambda one: (len(one.multiples), one.middle_db), default=None)
+    best: dict[str, ShaftSeries] = {}
+    for one in sorted(found, key=lambda one: (len(one.multiples), one.middle_db), reverse=True):
+        if at_half_of_speeds(speeds[one.shaft]):
+            best.setdefault(one.shaft, one)
+    return tuple(best.values())
 
 
-def _own(shaft: str, ratio: float, ties: Ties, turns: float) -> FloatArray:
-    """Multiples that are resolved and neither the teeth's nor a faster shaft's."""
+def _own(test: Observation, ratio: float, ties: Ties, turns: float) -> FloatArray:
+    """Multiples that are resolved, no lines about the teeth's, no halves that are another shaft's whole ones, and none
+    of the supply's."""
     kept = MULTIPLES[MULTIPLES * ratio * turns >= LEAST_PERIODS]
     for mesh in ties.mesh_orders:
         kept = kept[np.abs(kept - mesh / ratio) > TEETH]
-    for name, other in ties.shafts.items():
+    for other in ties.shafts.values():
         near = kept * ratio / other
-        if name != shaft and other > ratio:
-            kept = kept[(np.abs(near - np.rint(near)) > TWICE) | (near < 1.0 - TWICE)]
+        whole = np.abs(near - np.rint(near)) < TWICE
+        kept = kept[~whole | (kept % 1.0 == 0.0)]
+    bin_hz = 1.0 / test.recording.duration_s
+    for supply in MAINS_HZ:
+        hz = kept * ratio * test.speed.speed_hz
+        kept = kept[np.abs(hz - np.rint(hz / supply) * supply) > bin_hz]
     return np.asarray(kept)
 
 
@@ -94,7 +106,7 @@ def _series(
     rows = np.stack([line_growth(now, before, multiples * ratio, WITHIN_DB) for _, now, before in spectra])
     middle = np.median(np.where(np.isfinite(rows), rows, 0.0), axis=0)
     grown = middle > GROWTH_DB
-    if np.sum(grown) < LEAST:
+    if np.sum(grown) < LEAST or np.median(middle[grown]) < MIDDLE_DB:
         return None
     loudest = int(np.argmax(np.nansum(rows[:, grown], axis=1)))
     return ShaftSeries(

@@ -6,6 +6,7 @@ speed that they give is far from the stated one, the shaft's own first line deci
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -21,7 +22,8 @@ FAR = 0.012
 NEAR = 0.005
 """Relative difference from the stated speed up to which a whole number of teeth explains the lines."""
 CLEAR_LOG = 3.0
-"""Log power over the floor of the shaft's first line at the one speed, and by which it is above that at the other."""
+"""Log power over the floor of the first lines of shaft and mesh at the one speed, and by which they are above those at
+the other."""
 BINS = 2
 
 
@@ -43,8 +45,9 @@ def other_teeth(known: KinematicSpec, reference: str, several: Sequence[Observat
     for mesh in known.meshes:
         for gear in (gears[name] for name in mesh.gears if gears[name].shaft == reference):
             found = [one for o in several if (one := _heard(gear.name, mesh.name, gear.teeth, o)) is not None]
-            if found and 2 * sum(one.heard == found[0].heard for one in found) > len(several):
-                return found[0]
+            counted = Counter(one.heard for one in found).most_common(1)
+            if counted and 2 * counted[0][1] > len(several):
+                return next(one for one in found if one.heard == counted[0][0])
     return None
 
 
@@ -58,13 +61,14 @@ def _heard(gear: str, mesh: str, teeth: int, seen: Observation) -> OtherTeeth | 
     if heard == teeth or heard < 1 or abs(turned / speed.stated_hz - 1.0) > NEAR:
         return None
     here, there = (_first_line(seen, hz) for hz in (speed.speed_hz, turned))
-    if there < CLEAR_LOG or there < here + CLEAR_LOG:
+    own, stated = (_first_line(seen, hz) for hz in (mesh_hz, teeth * speed.stated_hz))
+    if min(there, own) < CLEAR_LOG or there < here + CLEAR_LOG or own < stated + CLEAR_LOG:
         return None
     return OtherTeeth(gear=gear, mesh=mesh, teeth=teeth, heard=heard, mesh_hz=mesh_hz, label=seen.label)
 
 
 def _first_line(seen: Observation, hz: float) -> float:
-    """Log power over the floor of the line at `hz`, the mean over the channels."""
+    """Log power over the floor of the line at `hz`, the mean over the channels; 0 beyond the spectrum."""
     found = []
     for name in seen.recording.names:
         ratio, resolution = line_excess(seen.recording.series(name))

@@ -22,6 +22,7 @@ SHAFT_TERMS = {
     3.0: ("parallel_misalignment", "pedestal_looseness"),
 }
 TURNING = ("unbalance", "bent_shaft")
+LOOSE = ("pedestal_looseness", "rub")
 NOT_WHAT = "once a turn says where it turns, not what strikes"
 UNHEARD = 0.5
 """Share of the score of a part that strikes once a turn for a race whose own line is not heard."""
@@ -166,22 +167,26 @@ def shaft_report(changes: Sequence[ShaftChange], tests: Sequence[Observation]) -
     )
 
 
-def series_report(found: ShaftSeries, tests: Sequence[Observation]) -> Report:
-    """Many multiples of a shaft grew."""
+def series_report(several: Sequence[ShaftSeries], grown: Sequence[ShaftChange], tests: Sequence[Observation]) -> Report:
+    """Many multiples of a shaft grew, the first of `several`; `grown`: those that stand out, with what they may be."""
+    found = several[0]
     speed = next(t.speed.speed_hz for t in tests if t.label == found.label)
-    terms = ("pedestal_looseness", "rub") if found.halves else ("pedestal_looseness", "rub", "parallel_misalignment")
-    kinds = ", ".join(t.replace("_", " ") for t in terms)
+    single = [(t, c.shaft) for c in grown for t in SHAFT_TERMS[c.multiple]]
+    causes = list(dict.fromkeys([*((t, one.shaft) for one in several for t in LOOSE), *single]))
+    kinds = ", ".join(dict.fromkeys(t.replace("_", " ") for t, _ in causes))
     shown = ", ".join(f"{m:g}" for m in found.multiples)
     which = "and halves of them" if found.halves else "together"
+    where = " or ".join(one.shaft for one in several)
     reason = "multiples of the turn say what turns, not what is loose"
+    total = sum(len(one.multiples) for one in several)
     return Report(
         verdict="ambiguous",
-        sentence=f"Multiples of the speed of {found.shaft} {which} grew, {found.middle_db:.0f} dB in the middle "
-        f"({shown} times it), most on {found.channel}: something is loose, lifts off or rubs once a turn; {kinds} "
-        "are alike at this level.",
+        sentence=f"Multiples of the speed of {where} {which} grew, {found.middle_db:.0f} dB in the middle ({shown} "
+        f"times that of {found.shaft}), most on {found.channel}: something is loose, lifts off or rubs once a turn, or "
+        f"is mounted otherwise; {kinds} are alike at this level.",
         level="kinematics",
         where=Where(
-            sites=(PlaceWeight(site=found.shaft, weight=1.0),),
+            sites=tuple(PlaceWeight(site=one.shaft, weight=len(one.multiples) / total) for one in several),
             lines=tuple(
                 LineChange(
                     label=f"{m:g} x {found.shaft}",
@@ -195,7 +200,7 @@ def series_report(found: ShaftSeries, tests: Sequence[Observation]) -> Report:
             ),
         ),
         causes=tuple(
-            Cause(term=t, site=found.shaft, score=found.middle_db, score_unit="dB", reasons=(reason,)) for t in terms
+            Cause(term=t, site=s, score=found.middle_db, score_unit="dB", reasons=(reason,)) for t, s in causes
         ),
         undecidable=("what is loose or rubs", "how large: a size can't be given without a model"),
         next_experiment=NextExperiment(

@@ -33,8 +33,12 @@ def seen(rows, spec=MOTOR, label: str = "test 1") -> Observation:  # type: ignor
     return observe(recorded(rows), ties(spec, "shaft"), label, stated_hz=None, seed=0)
 
 
-def series(added, spec=MOTOR) -> ShaftSeries | None:  # type: ignore[no-untyped-def]
+def every(added, spec=MOTOR) -> tuple[ShaftSeries, ...]:  # type: ignore[no-untyped-def]
     return shaft_series([seen(sound(2) + added, spec)], [seen(sound(1), spec, "baseline 1")], ties(spec, "shaft"))
+
+
+def series(added, spec=MOTOR) -> ShaftSeries | None:  # type: ignore[no-untyped-def]
+    return next(iter(every(added, spec)), None)
 
 
 @pytest.mark.slow
@@ -61,7 +65,45 @@ def test_lines_about_the_teeth_are_theirs() -> None:
 
 @pytest.mark.slow
 def test_without_a_baseline_nothing_has_grown() -> None:
-    assert shaft_series([seen(sound(2) + lines(HALVES))], [], ties(MOTOR, "shaft")) is None
+    assert not shaft_series([seen(sound(2) + lines(HALVES))], [], ties(MOTOR, "shaft"))
+
+
+@pytest.mark.slow
+def test_whole_multiples_of_a_slow_shaft_are_no_halves_of_a_fast_one() -> None:
+    pair = read_kinematic_spec(
+        {
+            "kinematics": {
+                "shafts": [{"name": "shaft"}, {"name": "out"}],
+                "gears": [
+                    {"name": "pinion", "shaft": "shaft", "teeth": 20},
+                    {"name": "gear", "shaft": "out", "teeth": 40},
+                ],
+                "meshes": [{"name": "mesh1", "gears": ["pinion", "gear"]}],
+            }
+        }
+    )
+    found = every(lines(tuple(k / 2 for k in range(1, 13))), pair)
+    assert found[0].shaft == "out" and not any(one.halves for one in found)
+
+
+@pytest.mark.slow
+def test_a_load_that_moves_every_line_a_little_is_no_series() -> None:
+    """Twelve equal lines that grow by 6 dB, each by 6 more or less."""
+    scatter = np.array([12.0, 2.0, 11.0, 3.0, 12.5, 1.0, 11.0, 4.0, 12.0, 2.0, 11.5, -3.0])
+    grown = [(m, 10 ** (db / 20)) for m, db in enumerate(scatter, 1)]
+    before = lines(tuple(float(m) for m, _ in grown))
+    after = sum(lines((float(m),), 0.1 * size) for m, size in grown)
+    test, base = seen(sound(2) + after), seen(sound(1) + before, label="baseline 1")
+    assert np.sum(scatter > 10.0) >= 4, "as many as a series takes"
+    assert not shaft_series([test], [base], ties(MOTOR, "shaft"))
+
+
+@pytest.mark.slow
+def test_a_line_that_stands_out_keeps_its_names() -> None:
+    loose = sound(2) + lines((1.0,), 30.0) + lines(WHOLE, 3.0)
+    report = reconcile_kinematics(MOTOR, [recorded(loose)], [recorded(sound(1))], seed=3)
+    assert {"unbalance", "pedestal_looseness"} <= {c.term for c in report.causes}, report.sentence
+    assert "mounted otherwise" in report.sentence
 
 
 @pytest.mark.slow

@@ -87,6 +87,18 @@ def test_an_outer_race_of_other_numbers_strikes_at_an_order_of_no_part(balls: in
         assert [(c.term, c.site) for c in report.causes] == [("outer_spall", "bearing1")]
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(("balls", "ratio", "order", "height"), [(9, 0.2455, 6.599, 1.0), (9, 0.2455, 4.61, 2.0)])
+def test_a_sideband_of_a_stranger_is_no_race(balls: int, ratio: float, order: float, height: float) -> None:
+    """An inner race that the file has not, one turn above or below one that it has."""
+    bearing = {"name": "b", "shaft": "shaft", "balls": balls, "diameter_ratio": ratio}
+    known = read_kinematic_spec({"kinematics": {"shafts": [SHAFT], "bearings": [bearing]}})
+    for seed in range(3):
+        hits = train(np.random.default_rng(100 + seed), order, height, zone=True)
+        report = reconcile_kinematics(known, [recorded(sound(2 + seed) + hits)], [recorded(sound(50 + seed))], seed=3)
+        assert not any(c.named for c in report.causes), report.sentence
+
+
 def grew(
     gear: str, growth_db: float, own_db: float, *, mesh: str = "mesh1", shaft: str = "", lines: int = 20
 ) -> GearEvidence:
