@@ -15,7 +15,9 @@ from jobs.errors import BrokerAway, IllegalTransition
 from jobs.kinds import TICKETLESS, lane_of
 from jobs.parts import Transition
 from jobs.ports import ArtefactStore, Clock, JobCatalogue, Queue, Ticket
+from jobs.reconciliations.in_use import refuse_in_use
 from jobs.record import JobRecord
+from jobs.recordings.words import RECORDING
 from jobs.status import Status
 
 log = logging.getLogger(__name__)
@@ -80,9 +82,12 @@ def leaving(record: JobRecord, caller: Caller) -> frozenset[str]:
 
 
 def delete(catalogue: JobCatalogue, artefacts: ArtefactStore, clock: Clock, job_id: str) -> JobRecord:
-    """Forget a finished job and remove its result."""
+    """Forget a finished job and remove its result; a recording only if no job under way needs it."""
     now = clock()
-    _refuse_inner(catalogue, catalogue.get(job_id))
+    record = catalogue.get(job_id)
+    _refuse_inner(catalogue, record)
+    if record.kind == RECORDING:
+        refuse_in_use(catalogue, job_id)
     record = catalogue.change(job_id, lambda r: transitions.delete(r, now))
     _forget_parts(catalogue, artefacts, record, lambda r: transitions.delete(r, now))
     artefacts.delete_prefix(f"{job_id}/")

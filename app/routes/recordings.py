@@ -154,7 +154,8 @@ def signals(
 
 @router.delete(f"{ADDRESS}/{{job_id}}", status_code=204, responses=problems(401, 404, 409, 410, 503))
 def delete_recording(job_id: JobId, state: State) -> Response:
-    """Forget a recording with its file. One that is being read must be cancelled first (`links.job`)."""
+    """Forget a recording with its file. One that is being read must be cancelled first (`links.job`); one that a
+    reconciliation under way uses cannot be deleted."""
     _record(state, job_id)
     delete(state.stores.catalogue, state.stores.artefacts, state.desk().clock, job_id)
     return Response(status_code=204)

@@ -36,6 +36,7 @@ from reconcile.kinematics.turning import series_report, shaft_report, slow_repor
 from reconcile.kinematics.unread import ALIKE_Z, Judged
 from reconcile.kinematics.vague import foreign_report, gear_report, nothing_report
 from reconcile.origin import origin
+from reconcile.report.action import EXCHANGED
 from reconcile.told import about
 from reconcile.verdict import Report
 from signals.recording import Recording
@@ -108,7 +109,8 @@ def _reconciled(
     if report.verdict != "measurement_fault":
         report = remarked(report, tie, seen, past, every, seed)
     report = replace(report, where=replace(report.where, limits=(*report.where.limits, *told, *whole.told)))
-    if report.verdict in ("nothing_missing", "not_decidable") and gate.fault is not None:
+    quiet = report.verdict in ("nothing_missing", "not_decidable") and EXCHANGED not in report.sentence
+    if quiet and gate.fault is not None:
         report = fault_report(gate)
     return finished(report, gate, seen, every, past)
 

@@ -133,3 +133,14 @@ def _files(client: httpx.Client, found: dict[str, Any]) -> None:
     for part in ("/signals", "/indicators/gear?channel=a0"):
         problem(client.get(job + part), 422)
     assert found["id"] in [j["id"] for j in client.get(ADDRESS).json()["jobs"]]
+
+
+def test_a_recording_that_a_job_under_way_needs_cannot_be_deleted(client: httpx.Client) -> None:
+    base, test = (send(client, recorded(sound(seed))) for seed in (71, 72))
+    reply = client.post(ADDRESS, json={"machine": MACHINE, "recordings": [test], "baselines": [base]})
+    for name in (base, test):
+        for address in (f"/v1/recordings/{name}", f"/v1/jobs/{name}"):
+            refused = problem(client.delete(address), 409)
+            assert reply.json()["id"] in refused["detail"] and name in refused["detail"]
+    assert ended(client, reply)["status"] == "successful"
+    assert client.delete(f"/v1/recordings/{base}").status_code == 204
