@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from reconcile.kinematics.families import Family, Ties
-from reconcile.kinematics.gears import GearEvidence
+from reconcile.kinematics.gears import GearEvidence, gear_evidence
 from reconcile.kinematics.judge import DEFECTS, LEAST_Z, SECOND_SHARE, Candidate, named, one_line, same
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.series import ShaftSeries
@@ -85,10 +85,13 @@ def _unconfirmed(tests: Sequence[Observation]) -> list[str]:
 
 def _deeper_before(tie: Ties, tests: Sequence[Observation], baselines: Sequence[Observation], seed: int) -> list[str]:
     """A defect of the baseline that the tests have not."""
-    chosen, _ = named(baselines, tests, tie, seed) if baselines else ((), ())
+    if not baselines:
+        return []
+    chosen, _ = named(baselines, tests, tie, seed)
+    gears = [f"{g.gear}'s turn around {g.mesh}" for g in gear_evidence(baselines, tests, tie) if g.grown]
     return [
-        f"the baseline has deep lines of {c.family.key} that the tests have not; exchanged, or a part replaced"
-        for c in chosen[:1]
+        f"the baseline has deep lines of {what} that the tests have not; exchanged, or a part replaced"
+        for what in [*(c.family.key for c in chosen), *gears][:1]
     ]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -64,3 +65,18 @@ def test_shallow_lines_of_a_much_louder_machine_are_no_young_defect(
     assert ("a young race defect or a damaged ball" in report.sentence) is (times == 1.0)
     assert report.next_experiment is not None
     assert ("Inspect the bearing" in report.next_experiment.sentence) is (times > 1.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("exchanged", [True, False])
+def test_a_doubtful_sensor_does_not_hide_that_the_baseline_shows_more(exchanged: bool) -> None:
+    """One of three sensors at half its gain is the answer where nothing else is; a damaged baseline is said first."""
+    hits = train(np.random.default_rng(3), 3.052, 60.0 if exchanged else 0.0)
+    base, test = (
+        recorded([sound(10 * k + number) + extra for k in range(3)])
+        for number, extra in ((1, hits), (2, np.zeros(hits.size)))
+    )
+    quiet = replace(test, samples=test.samples * np.array([[0.5], [1.0], [1.0]]))
+    report = reconcile_kinematics(read_kinematic_spec({"kinematics": DRAWING}), [quiet], [base], seed=0)
+    assert ("exchanged, or a part replaced" in report.sentence) is exchanged, report.sentence
+    assert (report.verdict == "measurement_fault") is not exchanged

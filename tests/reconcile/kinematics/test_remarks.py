@@ -61,6 +61,17 @@ def test_baselines_at_another_speed_are_told() -> None:
 
 def test_a_baseline_with_a_defect_that_the_tests_have_not(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(remarks, "named", lambda *_: ((OUTER,), ()))
+    monkeypatch.setattr(remarks, "gear_evidence", lambda *_: ())
     report = told(NOTHING, baselines=[seen(30.0)])
     assert "drive_end.outer" in report.sentence and "exchanged" in report.where.limits[-1]
     assert told(NOTHING).sentence == "Nothing."
+
+
+def test_a_baseline_with_a_tooth_that_the_tests_have_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(remarks, "named", lambda *_: ((), ()))
+    rows = [SimpleNamespace(gear="wheel", mesh="mesh1", grown=True), SimpleNamespace(gear="p", mesh="m", grown=False)]
+    monkeypatch.setattr(remarks, "gear_evidence", lambda *_: rows)
+    report = told(NOTHING, baselines=[seen(30.0)])
+    assert "deep lines of wheel's turn around mesh1 that the tests have not" in report.sentence
+    monkeypatch.setattr(remarks, "gear_evidence", lambda *_: rows[1:])
+    assert told(NOTHING, baselines=[seen(30.0)]).sentence == "Nothing."
