@@ -71,7 +71,7 @@ def test_shallow_lines_of_a_much_louder_machine_are_no_young_defect(
 @pytest.mark.parametrize("exchanged", [True, False])
 def test_a_doubtful_sensor_does_not_hide_that_the_baseline_shows_more(exchanged: bool) -> None:
     """One of three sensors at half its gain is the answer where nothing else is; a damaged baseline is said first."""
-    hits = train(np.random.default_rng(3), 3.052, 60.0 if exchanged else 0.0)
+    hits = train(np.random.default_rng(3), 3.052, 2.0 if exchanged else 0.0)
     base, test = (
         recorded([sound(10 * k + number) + extra for k in range(3)])
         for number, extra in ((1, hits), (2, np.zeros(hits.size)))
