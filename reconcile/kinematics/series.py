@@ -15,6 +15,7 @@ import numpy as np
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.lines import OrderLines, at_half_of_speeds, line_growth, matched, spectra_of
 from reconcile.kinematics.observe import Observation
+from reconcile.speed.excess import MAINS_HZ
 from signals.series import FloatArray
 
 MULTIPLES = np.arange(1, 25) / 2
@@ -31,8 +32,8 @@ HALVES = 2
 LEAST_PERIODS = 8.0
 TEETH = 5.5
 """Multiples to either side of the teeth's that are theirs."""
-MAINS_HZ = (50.0, 60.0)
-TWICE = 0.02
+SAME = 0.02
+"""Of a multiple, by which another shaft's may differ to coincide with it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +90,7 @@ def _own(test: Observation, ratio: float, ties: Ties, turns: float) -> FloatArra
         kept = kept[np.abs(kept - mesh / ratio) > TEETH]
     for other in ties.shafts.values():
         near = kept * ratio / other
-        whole = np.abs(near - np.rint(near)) < TWICE
+        whole = np.abs(near - np.rint(near)) < SAME
         kept = kept[~whole | (kept % 1.0 == 0.0)]
     bin_hz = 1.0 / test.recording.duration_s
     for supply in MAINS_HZ:
