@@ -2,8 +2,8 @@
 
 Every second case stands at the target condition (3 sensors, 20 dB, 3 speeds, baseline); the others run through the nine
 rows of an orthogonal array of sensors x noise x speeds, so each pair of levels occurs equally often. All cases of
-the splits `third`, `fourth`, `quiet`, `unmet`, `next`, `beside` and `pitted` stand at the target condition. Laws,
-sites, severities and variants go round in cycles of different length.
+the splits `third`, `fourth`, `quiet`, `unmet`, `next`, `beside`, `pitted` and `anew` stand at the target condition.
+Laws, sites, severities and variants go round in cycles of different length.
 """
 
 from __future__ import annotations
@@ -35,6 +35,7 @@ Split = Literal[
     "kinds",
     "beside",
     "pitted",
+    "anew",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -52,6 +53,7 @@ SEEDS = {
     "kinds": 7_752_049_163,
     "beside": 3_958_271_407,
     "pitted": 9_302_716_583,
+    "anew": 5_790_146_323,
 }
 COUNTS = {
     "dev": {
@@ -69,18 +71,19 @@ COUNTS = {
     "next": {"null": 3, "single": 9, "double": 4, "open": 4},
     "beside": {"null": 2, "single": 6, "double": 10, "open": 2},
     "pitted": {"null": 1, "single": 5, "double": 9},
+    "anew": {"null": 3, "single": 14, "double": 4, "open": 4},
 }  # fmt: skip
 """`later` was sealed when the cases of `sealed` that share the nominal machine's atlases had been looked at, `third`
 when those of `later` at the target condition had been; `fourth` when two effects were first fitted together;
 `quiet`, of sound machines alone, to count false alarms at the target condition; `unmet` when the collision damping of a
 fit was first searched; `next` when lines at multiples of a slow shaft and orders of no part had been; `beside` when
 second effects were first found by what the fitted first one leaves; `pitted` when those beside impacts were first found
-by the teeth's own lines."""
-TURNED = {"third": 40, "fourth": 60, "quiet": 80, "unmet": 100, "next": 124, "beside": 148, "pitted": 172}
+by the teeth's own lines; `anew` when recordings of other rigs had been gone through."""
+TURNED = {"third": 40, "fourth": 60, "quiet": 80, "unmet": 100, "next": 124, "beside": 148, "pitted": 172, "anew": 196}
 """From which number on the cycles of laws, severities and variants go in a split that others have gone before."""
 EXTRA: dict[str, tuple[tuple[Group, int], ...]] = {
     "dev": (("sensor", 5), ("sensor", 6), ("sensor", 7)), "sealed": (), "later": (), "third": (), "fourth": (),
-    "quiet": (), "unmet": (), "next": (), "beside": (), "pitted": (),
+    "quiet": (), "unmet": (), "next": (), "beside": (), "pitted": (), "anew": (),
 }  # fmt: skip
 """Cases behind the shuffled ones: the faults that the first five leave out."""
 SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS = (3, 1, 8), (20.0, 30.0, 10.0), (3, 1, 5)
@@ -101,9 +104,9 @@ SHOWN_PAIRS = (
     ("outer_pit", "wider_clearance"), ("loose_fit", "outer_pit"), ("inner_pit", "loose_seat"),
     ("wider_clearance", "imbalance"), ("loose_fit", "loose_seat"), ("outer_pit", "imbalance"),
 )  # fmt: skip
-"""Of the splits `fourth`, `unmet`, `next` and `beside`: effects that mostly move the spectrum more than drift does, so
-that there are two to be told. Of 25 pairs of `PAIRS` at the target condition 12 have one that does not: cracks of teeth
-and gears that run out."""
+"""Of the splits of `SHOWN`: effects that mostly move the spectrum more than drift does, so that there are two to be
+told. Of 25 pairs of `PAIRS` at the target condition 12 have one that does not: cracks of teeth and gears that run
+out."""
 PITTED_PAIRS = (
     ("outer_pit", "loose_seat"), ("inner_pit", "loose_fit"), ("outer_pit", "wider_clearance"),
     ("inner_pit", "loose_seat"), ("outer_pit", "loose_fit"), ("inner_pit", "wider_clearance"),
@@ -111,7 +114,7 @@ PITTED_PAIRS = (
 )  # fmt: skip
 PITTED = ("outer_pit", "inner_pit", "broken_tooth", "outer_pit", "ball_pit")
 """Pairs and single effects of the split `pitted`: all strike, and only pairs hide a second effect."""
-SHOWN = ("fourth", "unmet", "next", "beside")
+SHOWN = ("fourth", "unmet", "next", "beside", "anew")
 MACHINES: Mapping[str, Nominal] = {**NOMINALS, **KINDS, **ROTORS}
 FAULTS = ("clipping", "dropouts", "mains_hum", "loose_sensor", "stuck", "swapped", "gain_change", "aliasing")
 
