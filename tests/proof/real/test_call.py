@@ -52,9 +52,14 @@ def test_columns_are_described_as_chosen(tmp_path: Path) -> None:
 @pytest.mark.slow
 @needs_recordings
 def test_silverbox_by_the_command_line() -> None:
+    """From the linear model to the cubic law; both directions of holding out below 1.1 %."""
     answer = driven.answered(Engine(timeout_s=TIMEOUT_S), RECORDINGS, ENTRIES, driven.SYSTEMS[0])
     assert answer.error is None
     assert driven.judged(driven.SYSTEMS[0], answer) == "right"
     assert answer.report is not None
     validations = [s for s in answer.report["stages"] if s.get("stage") == "validate"]
     assert [v["after"] < 0.011 for v in validations] == [True, True]
+    assert all(v["before"] > 0.1 for v in validations)
+    assert "cubic" in answer.report["sentence"]
+    assert [(c["term"], c["named"]) for c in answer.report["causes"][:1]] == [("cubic_support", True)]
+    assert answer.report["held_out"]["gain"] > answer.report["held_out"]["black_box"]

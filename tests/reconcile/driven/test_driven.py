@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.io import loadmat
 
 from reconcile.driven import reconcile_driven
 from reconcile.driven.channels import driven_of
@@ -18,16 +16,13 @@ from reconcile.driven.model import Model, errors, nrmse, ready, refined, simulat
 from reconcile.driven.split import parts_of, strongest
 from reconcile.report import page, strict_json
 from reconcile.verdict import Report
-from signals.recording import Recording
 from sim.core.errors import SpecError
 from sim.core.response import Channel
 from sim.core.spec import MachineSpec, MeasuredLoad
 from sim.presets import preset
 from sim.solve.api import simulate
-from sim.terms import REGISTRY
 from tests.reconcile.driven.made import DAMPING, FREQUENCY, MASS, RATE, hysteretic, recording
 
-SILVERBOX = Path(__file__).resolve().parents[4] / "shared" / "recordings" / "silverbox" / "SNLS80mV.mat"
 SPEC = preset("oscillator")
 STIFFNESS = MASS * (2 * np.pi * FREQUENCY) ** 2
 
@@ -124,33 +119,6 @@ def test_a_linear_recording_gets_no_name() -> None:
     assert not report.causes
     assert not report.where.sites
     assert report.held_out is None
-
-
-@pytest.mark.slow
-def test_a_measured_duffing_circuit() -> None:
-    """Silverbox: from the linear model to the cubic law; both directions of holding out below 1.1 %."""
-    if not SILVERBOX.exists():
-        pytest.skip(f"no recording at {SILVERBOX.name} beside the project")
-    data = loadmat(SILVERBOX)
-    channels = (
-        Channel(name="V1", quantity="voltage", unit="V", location="input"),
-        Channel(name="V2", quantity="voltage", unit="V", location="output"),
-    )
-    samples = np.vstack([data["V1"].ravel(), data["V2"].ravel()])
-    report = reconcile_driven(
-        SPEC, [Recording(sampling_rate_hz=1e7 / 2**14, channels=channels, samples=samples)], seed=1
-    )
-    known = REGISTRY.get("cubic_support") is not None
-    assert report.verdict == ("explained" if known else "unknown_physics")
-    assert "cubic" in report.sentence
-    assert report.causes[0].named
-    assert report.causes[0].term == ("cubic_support" if known else "custom_force")
-    validations = [s for s in report.stages if s["stage"] == "validate"]
-    assert [v["after"] < 0.011 for v in validations] == [True, True]
-    assert all(v["before"] > 0.1 for v in validations)
-    assert report.held_out is not None
-    assert report.held_out.gain > (report.held_out.black_box or 0)
-    assert reproduced(report) < 2e-3
 
 
 def test_roles_come_from_quantities_locations_or_are_stated() -> None:
