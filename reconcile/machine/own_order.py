@@ -16,12 +16,13 @@ from reconcile.kinematics.families import Ties, ties
 from reconcile.kinematics.spec import of_machine
 from reconcile.machine.part_orders import Lines, of_a_part, of_no_part
 from reconcile.machine.sidebands import (
-    APART,
     HIGHEST_SHARE,
     LEAST_LEVEL_DB,
+    apart,
     in_reach,
     levels_by_order,
     risen_lines,
+    second,
     teeth_of,
 )
 from reconcile.observe.observation import PointData
@@ -98,7 +99,7 @@ def own_order(machine: MachineSpec, data: Sequence[PointData], channels: Sequenc
     """None where nothing of the kind stands out, at one speed, without baselines or teeth, and where the sizes of a
     bearing are missing."""
     speeds = [d.spectra[0].speed_hz for d in data]
-    groups = _apart(speeds)
+    groups = apart(speeds)
     tie = _known(machine)
     if tie is None or len(groups) < 2 or any(d.spectra[1] is None for d in data):
         return None
@@ -112,7 +113,7 @@ def own_order(machine: MachineSpec, data: Sequence[PointData], channels: Sequenc
     both = [levels_by_order(d, reached, grid) for d in data]
     rises = np.stack([test - baseline for test, baseline in both])
     mean = rises.mean(axis=(1, 2))
-    seen = _Seen(grid=grid, every=_second(mean, groups), bin_order=bin_order, tie=tie)
+    seen = _Seen(grid=grid, every=second(mean, groups), bin_order=bin_order, tie=tie)
     order = seen.stranger()
     if order is None:
         return None
@@ -150,23 +151,6 @@ def _known(machine: MachineSpec) -> Ties | None:
     except SpecError:
         return None
     return tie if len(tie.races) == len(machine.bearings) else None
-
-
-def _apart(speeds: Sequence[float]) -> list[list[int]]:
-    """Numbers of the operating points, those of about one speed together: at one an order cannot be told from Hz."""
-    groups: list[list[int]] = []
-    for k in sorted(range(len(speeds)), key=lambda k: speeds[k]):
-        if groups and speeds[k] < APART * speeds[groups[-1][0]]:
-            groups[-1].append(k)
-        else:
-            groups.append([k])
-    return groups
-
-
-def _second(mean: FloatArray, groups: Sequence[Sequence[int]]) -> FloatArray:
-    """(orders,): the largest rise but one of speeds apart, dB."""
-    each = np.stack([mean[list(group)].max(axis=0) for group in groups])
-    return np.asarray(np.sort(each, axis=0)[-2])
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,13 +8,13 @@ hum picked up by a cable does not have. Where speeds differ the same distance at
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from reconcile.kinematics.families import Family, ties
 from reconcile.kinematics.spec import of_machine
-from reconcile.machine.sidebands import APART, HIGHEST_SHARE, in_reach, rise, risen_lines, teeth_of
+from reconcile.machine.sidebands import APART, HIGHEST_SHARE, apart, in_reach, rise, risen_lines, second, teeth_of
 from reconcile.observe.observation import PointData
 from reconcile.verdict import LineChange, NextExperiment, PlaceWeight
 from signals.series import FloatArray
@@ -34,6 +34,10 @@ MULTIPLES = 4
 LEAST_DB, AHEAD = 1.2, 2.0
 """Mean rise at the speed where it is least, and over that at any frequency elsewhere. Sound machines of the proof's
 third split come to 0.3 dB; a pit's forest of lines to 3.5 dB, but at many frequencies."""
+LEAST_AT_TWO_DB = 2.5
+"""And of three speeds or more at that where it is largest but one: at some speed the drive's path may be deaf."""
+HALF = 0.5
+"""Share of that rise from which on a speed shows it."""
 SEPARATE_HZ = 3.0
 SUPPLIES_HZ = (50.0, 60.0)
 SUPPLY_HZ = 1.0
@@ -45,13 +49,15 @@ OFF = NextExperiment(
 
 @dataclass(frozen=True, kw_only=True)
 class OwnTime:
-    """`hz`: distance of the sidebands at every speed; `rise_db` over the baseline, mean of channels, teeth's harmonics
-    and sides at the speed where it is least; `elsewhere_db`: the largest such rise at any other frequency."""
+    """`hz`: distance of the sidebands; `rise_db` over the baseline, mean of channels, teeth's harmonics and sides at
+    the speed where it is least (largest but one, if a speed is deaf to it); `elsewhere_db`: the largest such rise at
+    any other frequency; `speeds`: at how many of how many it has risen."""
 
     hz: float
     rise_db: float
     elsewhere_db: float
     lines: tuple[LineChange, ...] = ()
+    speeds: tuple[int, int] = (1, 1)
 
     follows = "It follows no shaft of this machine."
     beside = "no order of this machine"
@@ -68,7 +74,9 @@ class OwnTime:
     @property
     def text(self) -> str:
         """What is seen."""
-        text = f"the teeth's lines are modulated at {self.hz:.4g} Hz at every speed, new since the baseline"
+        seen, of = self.speeds
+        at = "at every speed" if seen == of else f"at {seen} of {of} speeds"
+        text = f"the teeth's lines are modulated at {self.hz:.4g} Hz {at}, new since the baseline"
         if self.supply_hz is None:
             return text
         return f"{text}; a supply of {self.supply_hz:g} Hz would do that through torque or pull of an electric drive"
@@ -91,7 +99,8 @@ class OwnTime:
 def own_time(machine: MachineSpec, data: Sequence[PointData], channels: Sequence[str]) -> OwnTime | None:
     """None where nothing of the kind stands out, at one speed, and without baselines."""
     speeds = [d.point.speed_hz for d in data]
-    if max(speeds) < APART * min(speeds) or any(d.spectra[1] is None for d in data):
+    groups = apart(speeds)
+    if len(groups) < 2 or any(d.spectra[1] is None for d in data):
         return None
     teeth = teeth_of(machine)
     slowest = min((float(d.lines_hz[k]) for d in data for k in teeth.meshes), default=0.0)
@@ -99,33 +108,58 @@ def own_time(machine: MachineSpec, data: Sequence[PointData], channels: Sequence
     reached = in_reach(data, teeth.meshes, [float(grid[-1])] * len(data)) if grid.size > 1 else []
     if not reached:
         return None
-    bearings = _parts(machine)
     rises = np.stack([rise(d, reached, grid) for d in data])
     mean = rises.mean(axis=(1, 2))
-    least = mean.min(axis=0)
-    while least.max() >= LEAST_DB:
-        best = int(np.argmax(least))
-        hz = _middle(grid, least, best)
-        if _free(data, teeth.shafts, hz, mean, grid) and not _of_a_part(data, bearings, hz):
-            break
-        least[np.abs(grid - hz) <= SEPARATE_HZ] = 0.0  # an order, with what its line leaks
-    else:
+    search = _Search(data=data, shafts=teeth.shafts, parts=_parts(machine), mean=mean, grid=grid)
+    found = search.standing(mean.min(axis=0), LEAST_DB)
+    if found is None and len(groups) > 2:
+        found = search.standing(second(mean, groups), LEAST_AT_TWO_DB)
+    if found is None:
         return None
-    away = np.ones(grid.size, dtype=bool)
-    for multiple in (1 / 3, 0.5, 1.0, 2.0, 3.0):
-        away &= np.abs(grid - multiple * hz) > SEPARATE_HZ
-    elsewhere = float(least[away].max(initial=0.0))
-    if least[best] < max(LEAST_DB, AHEAD * elsewhere):
-        return None
-    found = OwnTime(hz=hz, rise_db=float(least[best]), elsewhere_db=elsewhere)
-    locked = "mains" if found.supply_hz else ""
+    best, seen = found
+    risen = [k for k in range(len(data)) if mean[k, best] >= HALF * seen.rise_db]
+    locked = "mains" if seen.supply_hz else ""
     mesh = reached[0][0]
     lines = [
         line
-        for k, d in enumerate(data)
-        for line in risen_lines(d, mesh, rises[k, ..., best], hz, f"{hz:.4g} Hz", locked, channels)
+        for k in risen
+        for line in risen_lines(data[k], mesh, rises[k, ..., best], seen.hz, f"{seen.hz:.4g} Hz", locked, channels)
     ]
-    return OwnTime(hz=hz, rise_db=found.rise_db, elsewhere_db=elsewhere, lines=tuple(lines))
+    count = sum(any(k in risen for k in group) for group in groups)
+    return replace(seen, lines=tuple(lines), speeds=(count, len(groups)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Search:
+    """`mean` (speeds, grid): what has risen, dB; `shafts`: numbers of their first lines."""
+
+    data: Sequence[PointData]
+    shafts: Sequence[int]
+    parts: Sequence[Family]
+    mean: FloatArray
+    grid: FloatArray
+
+    def standing(self, least: FloatArray, least_db: float) -> tuple[int, OwnTime] | None:
+        """The frequency of no order that stands out by `least` (grid,), dB, with its number in the grid."""
+        left = least.copy()
+        while left.max() >= least_db:
+            best = int(np.argmax(left))
+            hz = _middle(self.grid, left, best)
+            risen = [k for k in range(len(self.data)) if self.mean[k, best] >= HALF * left[best]]
+            data = [self.data[k] for k in risen]
+            free = _free(data, self.shafts, hz, self.mean[risen], self.grid)
+            if free and not _of_a_part(data, self.parts, hz):
+                break
+            left[np.abs(self.grid - hz) <= SEPARATE_HZ] = 0.0  # an order, with what its line leaks
+        else:
+            return None
+        away = np.ones(self.grid.size, dtype=bool)
+        for multiple in (1 / 3, 0.5, 1.0, 2.0, 3.0):
+            away &= np.abs(self.grid - multiple * hz) > SEPARATE_HZ
+        elsewhere = float(left[away].max(initial=0.0))
+        if left[best] < max(least_db, AHEAD * elsewhere):
+            return None
+        return best, OwnTime(hz=hz, rise_db=float(left[best]), elsewhere_db=elsewhere)
 
 
 def _middle(grid: FloatArray, least: FloatArray, best: int) -> float:

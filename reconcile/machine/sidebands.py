@@ -51,6 +51,23 @@ def teeth_of(machine: MachineSpec) -> Teeth:
     )
 
 
+def apart(speeds: Sequence[float]) -> list[list[int]]:
+    """Numbers of the operating points, those of about one speed together: at one an order cannot be told from Hz."""
+    groups: list[list[int]] = []
+    for k in sorted(range(len(speeds)), key=lambda k: speeds[k]):
+        if groups and speeds[k] < APART * speeds[groups[-1][0]]:
+            groups[-1].append(k)
+        else:
+            groups.append([k])
+    return groups
+
+
+def second(mean: FloatArray, groups: Sequence[Sequence[int]]) -> FloatArray:
+    """(distances,): the largest rise but one of speeds apart, dB, of `mean` (operating points, distances)."""
+    each = np.stack([mean[list(group)].max(axis=0) for group in groups])
+    return np.asarray(np.sort(each, axis=0)[-2])
+
+
 def in_reach(data: Sequence[PointData], first: Sequence[int], widest_hz: Sequence[float]) -> list[tuple[int, int]]:
     """Harmonics of the teeth (line, order) whose sidebands, up to `widest_hz` of each operating point, are below the
     band's end in all its recordings."""

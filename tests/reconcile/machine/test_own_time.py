@@ -78,6 +78,20 @@ def test_a_frequency_of_its_own_is_found(machine: MachineSpec, hz: float, supply
         assert below.change_db > 6
 
 
+def test_a_speed_at_which_the_path_is_deaf_does_not_hide_it(machine: MachineSpec) -> None:
+    speeds_hz = (22.5, 30.0, 39.0)
+    seen = told(machine, lambda hz: (at_hz(100.0) if hz > 25.0 else steady)(hz), speeds_hz=speeds_hz)
+    assert seen is not None and seen.hz == pytest.approx(100.0, abs=0.7)
+    assert seen.speeds == (2, 3) and "at 2 of 3 speeds" in seen.text
+    assert {line.speed_hz for line in seen.lines} == {30.0, 39.0}
+    assert told(machine, lambda hz: (at_hz(100.0) if hz > 35.0 else steady)(hz), speeds_hz=speeds_hz) is None
+    # 90 Hz is the third order at one speed and the fourth at another
+    both = {30.0: at_order(3.0), 22.5: at_order(4.0), 39.0: steady}
+    assert told(machine, lambda hz: both[hz](hz), speeds_hz=speeds_hz) is None
+    every = told(machine, at_hz(100.0), speeds_hz=speeds_hz)
+    assert every is not None and every.speeds == (3, 3) and "at every speed" in every.text
+
+
 def test_what_turns_with_a_shaft_is_none(machine: MachineSpec) -> None:
     assert told(machine, steady) is None
     # 90 Hz is the fourth order at one speed and the third at the other
