@@ -13,12 +13,13 @@ import matplotlib as mpl
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 
-from proof.method import FIRST_RUNS, METHOD, RULES, SECTIONS
+from proof.method import FIRST_RUNS, METHOD, SECTIONS
 from proof.others import cases_of
 from proof.plan import COUNTS, FIRST, OTHERS
 from proof.score.one import Score
 from proof.score.rates import MEASURES, Rate, at_target, rate
 from proof.score.table import failures
+from proof.taught import RULES
 from proof.unknown import OPEN
 from proof.visible import Visible, stored, told
 

@@ -26,6 +26,7 @@ from proof.unknown import OPEN
         ("next", 20),
         ("beside", 20),
         ("pitted", 15),
+        ("anew", 25),
     ],
 )
 def test_the_plan_is_the_same_every_time_and_as_large_as_stated(split, least):

@@ -1,0 +1,137 @@
+"""What the first runs taught, for the page: rules with the cases that set them."""
+
+from __future__ import annotations
+
+RULES = (
+    (
+        (
+            "the best of the effects that the observation chose is judged as the best of all; impacts"
+            " at the lines of several parts stand beside each other; a place whose effects lead all "
+            "elsewhere is no unknown physics"
+        ),
+        "l093, s154",
+    ),
+    (
+        (
+            "a speed is doubted by the teeth; impacts at a single point must exceed what sound "
+            "machines show; lines without a pattern count from 1e-4"
+        ),
+        "two sound machines that alarmed, l077, s106",
+    ),
+    (
+        "a name is taken back where the machine with it, simulated, is no nearer to the recorded levels than without",
+        "the sound l008 (3.92 dB of 3.49)",
+    ),
+    (
+        "the place of an unknown force is told among supports alone",
+        "l022, right by it",
+    ),
+    (
+        (
+            "phases between sensors are compared; a lead alone does not carry what fits worse than "
+            "nearly all known effects and explains next to nothing"
+        ),
+        "l041",
+    ),
+    (
+        "teeth refine the speed where they are sure",
+        "l073: a line beside the shaft's own had led it 2.8 % away",
+    ),
+    (
+        "single lines count at one operating point from three sensors on",
+        "l077",
+    ),
+    (
+        "what single lines make plausible is simulated too, in turn with what machines of the kind do",
+        "l078, named before phases and unknown physics with them, is named again",
+    ),
+    (
+        "the silence of what balls would strike counts where they strike another part for sure",
+        'l056, l069: outer races named as inner ones ("Again"), since 41 before 26 and 37 before 27',
+    ),
+    (
+        "a set whose best effect hardly stands out must come nearer by simulation, as a name must",
+        'the sound s106 ("Sound"), since not decidable; l068 stays a set',
+    ),
+    (
+        (
+            "what impacts bring between the shafts' harmonics is noise upon lines of shafts and teeth "
+            "([decision](decisions/reconcile-background.md))"
+        ),
+        "t008, lost to an eccentric gear by the phases of drowned sidebands; 45 before 32 since",
+    ),
+    (
+        "what modulates the teeth at one frequency in Hz at every speed is no order, and unknown physics",
+        "t016 and t032, a magnetic pull and a torque at twice the supply's frequency, which no one looked for",
+    ),
+    (
+        "a sensor of which the gate is in doubt is left out where nothing known explains what it hears",
+        "t030: beside a loose sensor the others had drifted by 3.6 dB in its band",
+    ),
+    (
+        "a second effect is fitted together with the first ([decision](decisions/reconcile-pairs.md))",
+        "t026, l016: one of two named, or a set; both since",
+    ),
+    (
+        "a set carries 95 % of the weight, not 90",
+        'f007 ("Fourth"): a wrong name 2.8 ahead of the right one',
+    ),
+    (
+        (
+            "the collision damping of a loose fit is searched "
+            "([decision](decisions/reconcile-damping.md)); of two named effects the forecast is of both"
+        ),
+        "t034, f007 (held-out gains of 0.11 and 0.20, since 0.68 and 0.63), t026 (0.24 of one, 0.57 of both)",
+    ),
+    (
+        (
+            "lines that one sensor always heard do not hide that they have risen at another; only forms of one "
+            "effect count together, not what cannot act beside it"
+        ),
+        "o002, an outer race 40 dB out of one envelope and unknown physics; o006, f007, named as supports that stiffen",
+    ),
+    (
+        (
+            "lines at multiples of a slow shaft are not its where these are usually empty: in 27 turns they cover half "
+            "of all orders, and the ninth of this gear is the outer race"
+        ),
+        "u003, named as a ball's pit; u011, unknown physics (5.6 and 3.6 deviations of control lines, since 19 and 10)",
+    ),
+    (
+        "what modulates the teeth at an order of no part, at two speeds or more, is unknown physics",
+        "u013, a belt at 0.39 of the shaft's speed and nothing missing until then (5.0 dB, elsewhere 0.2)",
+    ),
+    (
+        "a name beyond doubt stays where no simulated form of it is nearer, and its cause says so",
+        "o016, a loose seat with 38.5 of evidence, 21 ahead, and not decidable",
+    ),
+    (
+        "of two places with the same lines neither is named where the other forecasts better",
+        "k021, a pit of one bearing named at the next (held-out gains 0.46 and 0.54; 18 of 19 right ones lead)",
+    ),
+    (
+        "beside impacts one of several seconds needs what a second without impacts needs",
+        "k006, a pit with one of six effects beside it, of which none was there",
+    ),
+    (
+        "a frequency that stays in Hz may lie near a high multiple of a slow shaft; a strong line's top is flat",
+        "k013, a torque at 100 Hz told as an order of no part; k004, the second turn of a broken tooth's gear as one",
+    ),
+    (
+        "beside a sure pit the teeth's own lines tell ([decision](decisions/reconcile-beside-impacts.md))",
+        "b018, a pit alone with a misaligned coupling beside it (15 by the metric, nothing by the teeth); b004",
+    ),
+    (
+        "beside what does not strike a second must add 20; a pit that is half heard is asked too",
+        "p015, a loose fit with an eccentric gear (14.7) where a pit was; n018, whose pit adds 37",
+    ),
+    (
+        "sizes of a pit that most draws hide are simulated over their range; draws that crowd count once",
+        "b018, 0.58 mm of 2.4 (held-out gain 0.22, since 0.39)",
+    ),
+    (
+        "of three speeds one may be deaf to what modulates the teeth at one frequency in Hz",
+        "a009, a torque at 100 Hz and nothing missing (10.9, 3.3 and 0.4 dB; sound ones of `third` up to 0.8 at two)",
+    ),
+)
+"""What first runs taught: a rule, and the cases that set it."""
