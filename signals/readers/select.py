@@ -33,11 +33,18 @@ def pick(contents: Contents, column: str | int, field: str) -> Pick:
     """The array that a column means; SpecError lists what the file holds."""
     found = _by_number(contents, column) if isinstance(column, int) else _by_name(contents, column)
     if found is None:
-        names = list(contents.entries)
+        names = [_parts(name, entry.shape) for name, entry in contents.entries.items()]
         listed = ", ".join(names[:_SHOWN]) + (" ..." if len(names) > _SHOWN else "")
         message = "is not in the file"
         raise SpecError(Problem(field=field, message=message, given=column, allowed=listed or "nothing: no numbers"))
     return found
+
+
+def _parts(name: str, shape: tuple[int, ...] | None) -> str:
+    """How the channels of an array are named: of a table, rows or columns, its shorter side."""
+    if shape is None or len(shape) != 2 or min(shape) < 2:
+        return name
+    return f"{name}[0] to {name}[{min(shape) - 1}]"
 
 
 def only_array(contents: Contents) -> str | None:

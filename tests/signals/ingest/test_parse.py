@@ -63,7 +63,7 @@ def test_a_matrix_without_an_index_is_refused_with_what_to_write(read, archive) 
 
 def test_what_is_not_in_the_file_is_named_with_what_is(read, archive) -> None:
     text = refusal(read, archive, channels=[{"name": "x", "unit": "g"}, {"name": "y", "unit": "g"}])
-    assert "channels.0.column" in text and "channels.1.column" in text and "both" in text
+    assert "channels.0.column" in text and "channels.1.column" in text and "both[0] to both[1]" in text
 
 
 def test_channels_of_unequal_length_are_refused(read, archive) -> None:
