@@ -167,6 +167,7 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
             )
             return Decision(word="ambiguous", chosen=here[:MOST_NAMED], p=p, reasons=(reason,))
         return Decision(word="unknown_physics", chosen=chosen[:3], p=p, reasons=(_misfit(screen, alone and not weak),))
+    chosen = beside_impacts(screen, chosen)
     likely = likelier(screen, chosen) if views > FEW_VIEWS else chosen
     led, chosen = len(likely) < len(chosen), likely
     if len(chosen) == 1:
@@ -178,6 +179,18 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
         few = (FEW_REASON,) if views <= FEW_VIEWS and len(credible_set(weights)) < len(chosen) else ()
         return Decision(word="ambiguous", chosen=chosen, p=p, reasons=(_why(chosen), *few))
     return Decision(word="not_decidable", chosen=chosen, p=p, reasons=(f"{len(chosen)} effects look alike",))
+
+
+def beside_impacts(screen: Screen, chosen: tuple[str, ...]) -> tuple[str, ...]:
+    """Of a set whose first strikes nowhere, though others do for sure: the first alone, where the pattern without these
+    impacts is its own. They are no other answer then, but stand beside it: neither explains the other's."""
+    struck = {name: float(screen.direct[screen.names.index(name)]) for name in chosen}
+    if struck[chosen[0]] >= LEAST_EVIDENCE or max(struck.values()) < STRUCK:
+        return chosen
+    pattern = screen.evidence - screen.direct
+    weights = np.exp(pattern - pattern.max())
+    own = credible_set(merged_weights(replace(screen, weights=weights / weights.sum())))
+    return chosen[:1] if own == chosen[:1] else chosen
 
 
 def likelier(screen: Screen, chosen: tuple[str, ...]) -> tuple[str, ...]:
