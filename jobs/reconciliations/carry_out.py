@@ -14,7 +14,7 @@ from jobs.reconciliations.follow import followed, teller
 from jobs.reconciliations.machine import Known, restored_known
 from jobs.reconciliations.request import ReconciliationRequest
 from jobs.reconciliations.words import MACHINE, PAGE, REPORT
-from jobs.record import ResultRef
+from jobs.record import Answer, ResultRef
 from jobs.reporter import Reporter
 from jobs.results import Manifest, json_bytes, put_file
 from reconcile.atlas.bank import Task, run_task
@@ -143,4 +143,6 @@ def _kept(
     )
     table = put_file(artefacts, f"{prefix}/manifest.json", [json_bytes(manifest.model_dump(mode="json"))])
     size = table.bytes + sum(entry.bytes for entry in files.values())
-    return ResultRef(attempt=attempt, size_bytes=size, sha256=table.sha256, expires_at=expires_at)
+    causes = tuple(f"{cause.term}@{cause.site}" for cause in report.causes if cause.named)
+    answer = Answer(verdict=report.verdict, causes=causes)
+    return ResultRef(attempt=attempt, size_bytes=size, sha256=table.sha256, expires_at=expires_at, answer=answer)

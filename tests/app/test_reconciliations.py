@@ -132,7 +132,9 @@ def _files(client: httpx.Client, found: dict[str, Any]) -> None:
         problem(client.get(job + part), 404)
     for part in ("/signals", "/indicators/gear?channel=a0"):
         problem(client.get(job + part), 422)
-    assert found["id"] in [j["id"] for j in client.get(ADDRESS).json()["jobs"]]
+    for listed in (ADDRESS, "/v1/jobs"):
+        row = next(j for j in client.get(listed).json()["jobs"] if j["id"] == found["id"])
+        assert row["answer"] == {"verdict": "explained", "causes": ["outer_spall@bearing1"]}
 
 
 def test_a_recording_that_a_job_under_way_needs_cannot_be_deleted(client: httpx.Client) -> None:

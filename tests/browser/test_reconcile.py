@@ -62,5 +62,6 @@ def test_a_recording_is_sent_chosen_and_reconciled(browser: Browser, service: Se
     assert [heads for heads in browser.run(HEADS) if "candidate" in heads], "by itself the report is whole"
     browser.size(360)
     browser.open(service.page("/reconcile"))
-    browser.find("[aria-label=Reconciliations] tr[data-status=successful]")
+    listed = browser.text("[aria-label=Reconciliations] tr[data-status=successful]")
+    assert "explained" in listed and "outer spall at bearing 1" in listed, "the list tells what was found"
     assert browser.run("return document.documentElement.scrollWidth") <= 360

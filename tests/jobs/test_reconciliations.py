@@ -13,9 +13,10 @@ from jobs import transitions
 from jobs.budget import Budget
 from jobs.errors import BudgetSpent, IdempotencyConflict, ResultNotReady
 from jobs.reconciliations import carry_out
+from jobs.record import Answer
 from jobs.results import ResultReader
 from jobs.status import Status
-from reconcile.verdict import Report
+from reconcile.verdict import Cause, Report
 from sim.core.errors import Problem, SpecError
 from store.catalogue.ledger import SqlLedger
 from tests.service.fakes import machine
@@ -27,7 +28,17 @@ def world(tmp_path: Path) -> World:
     return World(tmp_path)
 
 
-REPORT = Report(verdict="explained", sentence="A <b> spall.", level="machine", machine={"name": "m"}, provenance={})
+REPORT = Report(
+    verdict="explained",
+    sentence="A <b> spall.",
+    level="machine",
+    machine={"name": "m"},
+    provenance={},
+    causes=(
+        Cause(term="outer_spall", site="bearing1", score=9.0, named=True),
+        Cause(term="unbalance", site="input", score=1.0),
+    ),
+)
 
 
 @pytest.mark.slow
@@ -54,6 +65,8 @@ def test_the_answer_is_kept_as_report_page_and_machine(world: World, monkeypatch
     np.testing.assert_array_equal(seen["baselines"][0].samples, made(2).samples)
     assert (seen["seed"], seen["budget"].name, seen["told"].stage) == (7, "full", "held-out data")
     assert 0.4 < seen["told"].fraction < 0.6
+    assert world.catalogue.get(record.id).result == done.result
+    assert done.result.answer == Answer(verdict="explained", causes=("outer_spall@bearing1",))
     reader = ResultReader(world.artefacts, f"{record.id}/1")
     assert reader.document("report")["sentence"] == "A <b> spall."
     assert reader.document("summary") == {"verdict": "explained", "sentence": "A <b> spall.", "level": "machine"}
