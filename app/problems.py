@@ -26,7 +26,7 @@ class FieldError(BaseModel):
     field: str
     """Dotted path of the field, with indices in lists."""
     location: str = "body"
-    """`body`, `query`, `path` or `header`."""
+    """`body`, `query`, `path` (the method too) or `header`."""
     message: str
     given: object = None
     allowed: str = ""
