@@ -76,9 +76,15 @@ async def _http(request: Request, error: Exception) -> Response:
         slug=_SLUGS.get(status, f"http-{status}"),
         status=status,
         detail=_DETAILS.get(status, str(error.detail)),
+        fields=[_no_such_address(request.url.path)] if status == 404 else (),
         headers=dict(error.headers or {}),
     )
     return problems.response(told, request.url.path)
+
+
+def _no_such_address(path: str) -> problems.FieldError:
+    message, allowed = "is no address of this interface", "an address listed in /openapi.json"
+    return problems.FieldError(field="path", location="path", message=message, given=path[:200], allowed=allowed)
 
 
 def methods_at(request: Request) -> tuple[str, ...]:

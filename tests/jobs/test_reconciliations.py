@@ -115,7 +115,7 @@ def test_recordings_that_cannot_be_used_are_named(world: World) -> None:
     [
         ("nothing", "machine"),
         ({"kinematics": {"shafts": []}}, "machine.kinematics.shafts"),
-        ({"kinematics": {}, "name": "x"}, "machine"),
+        ({"kinematics": {}, "name": "x"}, "machine.name"),
         ({"name": "x", "bodies": [{"name": "m"}]}, "machine.bodies.0.mass_kg"),
         ({"parameters": 3}, "machine.parameters"),
         ({"parameters": {}, "other": 1}, "machine.other"),
