@@ -9,6 +9,7 @@ from jobs.identity import digest, job_id
 from jobs.reconciliations.chosen import Chosen, choose
 from jobs.reconciliations.machine import Known, read_known, stored_form
 from jobs.reconciliations.request import ReconciliationRequest
+from jobs.reconciliations.together import check_together
 from jobs.reconciliations.words import METHOD_VERSION, RECONCILIATION
 from jobs.record import Cost
 from jobs.validation import Findings
@@ -41,6 +42,7 @@ def accept_reconciliation(
     identifier = job_id(RECONCILIATION, document, f"{desk.engine.version} {METHOD_VERSION}")
     new_work = needs_work(desk.catalogue, identifier)
     if new_work:
+        check_together(known, *chosen.described())
         check_queue(desk)
     now = desk.clock()
     name = known.name or "kinematics"

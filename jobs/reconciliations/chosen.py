@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from jobs.errors import RecordingsNotReady, UnknownJob
 from jobs.ports import ArtefactStore, JobCatalogue
 from jobs.record import JobRecord
-from jobs.recordings.stored import stored_recording
+from jobs.recordings.stored import described_recording, stored_recording
 from jobs.recordings.words import RECORDING
 from jobs.results import ResultReader
 from jobs.status import Status
@@ -32,6 +32,14 @@ class Chosen:
     def samples(self) -> int:
         """Of all channels together."""
         return sum(r.manifest.samples * len(r.manifest.channels) for r in (*self.recordings, *self.baselines))
+
+    def described(self) -> tuple[list[Recording], list[Recording]]:
+        """The same without their samples, labelled by their places in the request."""
+        tests, baselines = (
+            [described_recording(reader, f"{field}.{place}") for place, reader in enumerate(readers)]
+            for field, readers in (("recordings", self.recordings), ("baselines", self.baselines))
+        )
+        return tests, baselines
 
     def loaded(self) -> tuple[list[Recording], list[Recording]]:
         """The recordings and the baselines with their samples."""

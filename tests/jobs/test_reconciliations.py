@@ -224,8 +224,7 @@ def test_what_is_accepted_is_charged_once_and_a_refusal_costs_nothing(world: Wor
 
 @pytest.mark.slow
 def test_what_a_worker_refuses_names_the_recording(world: World) -> None:
-    id_ = world.recording(1)
-    other = {"kinematics": {"shafts": [{"name": "output"}], "bearings": []}}
-    record = world.carried_out(world.ask([id_], known=other))
+    once, again = world.recording(1), world.sent(replace(made(1), notes="sent again"))
+    record = world.carried_out(world.ask([once, again]))
     assert record.status is Status.FAILED and record.failure is not None
-    assert f"r.npz ({id_}): operating.shaft" in str(record.failure)
+    assert f"r.npz ({again})" in str(record.failure)
