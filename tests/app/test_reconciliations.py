@@ -151,5 +151,13 @@ def test_a_recording_that_a_job_under_way_needs_cannot_be_deleted(client: httpx.
         for address in (f"/v1/recordings/{name}", f"/v1/jobs/{name}"):
             refused = problem(client.delete(address), 409)
             assert reply.json()["id"] in refused["detail"] and name in refused["detail"]
+    mine = reply.headers["Location"]
+    early = client.delete(mine)
     assert ended(client, reply)["status"] == "successful"
+    assert problem(early, 409)["errors"][0]["allowed"] == "successful, failed, dismissed", "still under way"
+    problem(client.delete(f"{ADDRESS}/{test}"), 404)
+    assert client.delete(mine).status_code == 204
+    for gone in (client.get(mine), client.delete(mine), client.get(f"{mine}/report.json")):
+        problem(gone, 410)
+    assert client.get(f"/v1/recordings/{test}").json()["status"] == "ready", "recordings are kept"
     assert client.delete(f"/v1/recordings/{base}").status_code == 204
