@@ -23,6 +23,7 @@ from app.recovery import RecoveryThread
 from app.routes import (
     dataset_files,
     datasets,
+    docs,
     estimate,
     events,
     health,
@@ -59,6 +60,7 @@ _MODULES = (
     terms,
     reference,
     health,
+    docs,
 )
 ROUTERS = tuple(module.router for module in _MODULES)
 
