@@ -19,7 +19,7 @@ body { font: 15px/1.5 system-ui, sans-serif; margin: 0 auto; max-width: 64rem; p
 h2 { margin-top: 2.5rem; } h3 { margin: 0; font-size: 1rem; }
 code, pre { font: 13px/1.5 ui-monospace, monospace; } code { overflow-wrap: anywhere; }
 pre, .wide { overflow-x: auto; } pre { border: 1px solid #8886; border-radius: 6px; padding: .6rem; }
-section { border-top: 1px solid #8886; padding: 1rem 0; } section p { margin: .4rem 0; white-space: pre-line; }
+section { border-top: 1px solid #8886; padding: 1rem 0; } section p { margin: .4rem 0; }
 table { border-collapse: collapse; } th, td { text-align: left; vertical-align: top; padding: .2rem 1rem .2rem 0; }
 nav { display: flex; flex-wrap: wrap; gap: .3rem 1rem; } b { text-transform: uppercase; }
 """
@@ -62,8 +62,9 @@ def _section(
     about = operation.get("description") or operation.get("summary", "")
     replies = ", ".join(operation.get("responses", {}))
     call = curl(document, path, method, operation, base=base, keys=keys)
+    told = "".join(f"<p>{escape(part)}</p>" for part in about.split("\n\n"))
     return (
-        f"<section><h3><b>{method}</b> <code>{escape(path)}</code></h3><p>{escape(about)}</p>"
+        f"<section><h3><b>{method}</b> <code>{escape(path)}</code></h3>{told}"
         f"{_parameters(operation.get('parameters', []))}<pre>{escape(call)}</pre>"
         f"<p>Answers: {escape(replies)}</p></section>"
     )
