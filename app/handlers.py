@@ -10,6 +10,7 @@ from fastapi.routing import APIRoute
 from pydantic import BaseModel
 from starlette.exceptions import HTTPException
 from starlette.responses import Response
+from starlette.routing import Match, Route
 
 from app import problems
 from app.guards.upload import UploadRefused
@@ -18,10 +19,9 @@ from sim.core.errors import SidebandError, UnknownName
 
 log = logging.getLogger(__name__)
 
-_DETAILS = {
-    404: "no such address; the interface is described at /openapi.json",
-    405: "this address does not take this method",
-}
+_DETAILS = {404: "no such address; the interface is described at /openapi.json"}
+FILES = ("GET", "HEAD")
+"""What files of the dashboard take."""
 _SLUGS = {400: "bad-request", 404: "not-found", 405: "method-not-allowed", 422: "invalid-request"}
 
 
@@ -67,13 +67,44 @@ def _body_model(route: object) -> type[BaseModel] | None:
 async def _http(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
     status = error.status_code
+    if status in (404, 405):
+        # The dashboard's files take what no route does, also an address of ours with another method.
+        allowed = methods_at(request)
+        if status == 405 or (allowed and request.method not in allowed):
+            return problems.response(_no_such_method(request.method, allowed or FILES), request.url.path)
     told = problems.Told(
         slug=_SLUGS.get(status, f"http-{status}"),
         status=status,
         detail=_DETAILS.get(status, str(error.detail)),
+        fields=[_no_such_address(request.url.path)] if status == 404 else (),
         headers=dict(error.headers or {}),
     )
     return problems.response(told, request.url.path)
+
+
+def _no_such_address(path: str) -> problems.FieldError:
+    message, allowed = "is no address of this interface", "an address listed in /openapi.json"
+    return problems.FieldError(field="path", location="path", message=message, given=path[:200], allowed=allowed)
+
+
+def methods_at(request: Request) -> tuple[str, ...]:
+    """Methods that any route takes at the request's address, HEAD where there is GET; none: no route is there."""
+    here = (
+        route
+        for route in (*request.app.routes, *getattr(request.app.state, "routes", ()))
+        if isinstance(route, Route) and route.matches(dict(request.scope))[0] is not Match.NONE
+    )
+    methods = {method for route in here for method in route.methods or ()}
+    return tuple(sorted(methods | ({"HEAD"} if "GET" in methods else set())))
+
+
+def _no_such_method(given: str, allowed: tuple[str, ...]) -> problems.Told:
+    listed = ", ".join(allowed)
+    error = problems.FieldError(
+        field="method", location="path", message="is not one that this address takes", given=given, allowed=listed
+    )
+    detail = f"this address does not take {given}; it takes {listed}"
+    return problems.Told(slug=_SLUGS[405], status=405, detail=detail, fields=(error,), headers={"Allow": listed})
 
 
 async def _unexpected(request: Request, error: Exception) -> Response:

@@ -153,7 +153,7 @@ def _numbers(state: AppState, now: float) -> stats.JobStats:
 
 def _workers(state: AppState, now: float) -> list[WorkerHealth]:
     try:
-        rows = workers.seen_since(state.stores.catalogue.engine, now - state.settings.worker_silent_s)
+        rows = workers.present(state.stores.catalogue.engine, now, state.settings.worker_silent_s)
     except JobError:
         return []
     return [

@@ -14,6 +14,7 @@ from app import handlers
 from app.document import describe
 from app.guards.access import AccessGuard
 from app.guards.body import BodyGuard
+from app.guards.head import HeadAsGet
 from app.guards.headers import ReplyHeaders
 from app.guards.upload import UploadGuard
 from app.instruments import Instruments, Measured
@@ -22,6 +23,7 @@ from app.recovery import RecoveryThread
 from app.routes import (
     dataset_files,
     datasets,
+    docs,
     estimate,
     events,
     health,
@@ -58,6 +60,7 @@ _MODULES = (
     terms,
     reference,
     health,
+    docs,
 )
 ROUTERS = tuple(module.router for module in _MODULES)
 
@@ -91,6 +94,7 @@ def create_app(settings: Settings, *, engine: Engine, encode: Encoder, stores: S
     )
     app.state.sideband = state
     app.state.streams = set()
+    app.state.routes = tuple(route for router in ROUTERS for route in router.routes)
     for router in ROUTERS:
         app.include_router(router)
     if settings.static_folder.is_dir():
@@ -104,6 +108,7 @@ def create_app(settings: Settings, *, engine: Engine, encode: Encoder, stores: S
 def _guard(app: FastAPI, state: AppState) -> None:
     """Guards, the innermost first."""
     settings = state.settings
+    app.add_middleware(HeadAsGet)
     app.add_middleware(
         UploadGuard,
         max_bytes=settings.max_upload_bytes,

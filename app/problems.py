@@ -12,7 +12,7 @@ from pydantic_core import ErrorDetails
 from starlette.responses import Response
 
 from jobs import errors
-from jobs.validation import problem_of, shown
+from jobs.validation import several_of, shown
 from sim.core.errors import Diverged, Meaningless, Problem, SidebandError, SpecError, UnknownName
 from sim.core.near import did_you_mean
 
@@ -26,7 +26,7 @@ class FieldError(BaseModel):
     field: str
     """Dotted path of the field, with indices in lists."""
     location: str = "body"
-    """`body`, `query`, `path` or `header`."""
+    """`body`, `query`, `path` (the method too) or `header`; `service` for a bound of the server itself."""
     message: str
     given: object = None
     allowed: str = ""
@@ -96,7 +96,7 @@ def _detail(error: SidebandError) -> str:
 
 
 def _fields(error: SidebandError, location: str) -> Sequence[FieldError]:
-    if isinstance(error, SpecError):
+    if isinstance(error, SpecError | errors.RecordingsNotReady):
         return [field_error(problem, location) for problem in error.problems]
     if isinstance(error, UnknownName):
         return [_choice(error.kind, error.name, error.known, location)]
@@ -107,7 +107,33 @@ def _fields(error: SidebandError, location: str) -> Sequence[FieldError]:
         return [FieldError(field="Idempotency-Key", location="header", message=message, given=error.key)]
     if isinstance(error, errors.BudgetSpent | errors.BudgetTooSmall):
         return [_over_budget(error)]
-    return ()
+    return _of_state(error)
+
+
+def _of_state(error: SidebandError) -> Sequence[FieldError]:
+    """What stands in the way and is not written in the request: the job's state, or a bound of the server."""
+    given: object = None
+    if isinstance(error, errors.QueueFull | errors.PlannersBusy):
+        field = "waiting" if isinstance(error, errors.QueueFull) else "planning"
+        given = error.waiting if isinstance(error, errors.QueueFull) else error.allowed
+        message = "is all that may be under way"
+        return [FieldError(field=field, location="service", message=message, given=given, allowed=f"< {error.allowed}")]
+    if isinstance(error, errors.ResultNotReady):
+        field, message, given, allowed = "status", "has no result yet, or none", error.status.value, "successful"
+    elif isinstance(error, errors.IllegalTransition):
+        field, message, given, allowed = "status", str(error), error.given or None, error.allowed
+    elif isinstance(error, errors.UnknownJob):
+        field, message, given, allowed = (
+            "job_id",
+            "is no id that is known here",
+            shown(error.job_id),
+            "an id of the list",
+        )
+    elif isinstance(error, errors.JobGone):
+        field, message, given, allowed = "job_id", f"is {error.why}", error.job_id, "the id of a result that is kept"
+    else:
+        return ()
+    return [FieldError(field=field, location="path", message=message, given=given, allowed=allowed)]
 
 
 def _over_budget(error: errors.BudgetSpent | errors.BudgetTooSmall) -> FieldError:
@@ -150,11 +176,12 @@ def field_error(problem: Problem, location: str = "body") -> FieldError:
 
 def request_errors(details: Sequence[ErrorDetails], body: type[BaseModel] | None = None) -> list[FieldError]:
     """Findings of the framework's own validation; their first place says where the field is. `body`: what is read."""
-    found = []
+    found: list[FieldError] = []
     for item in details:
         location, *rest = item["loc"] or ("body",)
         inner = ErrorDetails(**{**item, "loc": tuple(rest)})
-        found.append(field_error(problem_of(inner, model=body if location == "body" else None), str(location)))
+        told = several_of(inner, model=body if location == "body" else None)
+        found += [field_error(problem, str(location)) for problem in told]
     return found
 
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from fastapi import Request
 from fastapi.dependencies.models import Dependant
+from fastapi.dependencies.utils import request_params_to_args
 from fastapi.exceptions import RequestValidationError
 from fastapi.routing import APIRoute
 
@@ -24,7 +25,8 @@ async def only_known_query(request: Request) -> None:
     known = query_names(request.scope.get("route"))
     unknown = [name for name in dict.fromkeys(request.query_params) if name not in known]
     if unknown:
-        raise RequestValidationError([_told(name, known, request.query_params[name]) for name in unknown])
+        told = [_told(name, known, request.query_params[name]) for name in unknown]
+        raise RequestValidationError([*told, *_wrong(request)])
 
 
 def query_names(route: object) -> tuple[str, ...]:
@@ -32,6 +34,13 @@ def query_names(route: object) -> tuple[str, ...]:
     if not isinstance(route, APIRoute):
         return ()
     return tuple(_declared(route.dependant))
+
+
+def _wrong(request: Request) -> Sequence[object]:
+    """What is wrong with the known parameters, which is told in the same reply."""
+    route = request.scope.get("route")
+    fields = route.dependant.query_params if isinstance(route, APIRoute) else []
+    return request_params_to_args(fields, request.query_params)[1]
 
 
 def _declared(dependant: Dependant) -> Iterator[str]:

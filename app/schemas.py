@@ -58,6 +58,15 @@ class ResultView(Reply):
     expires_at: datetime | None
 
 
+class AnswerView(Reply):
+    """What a reconciliation says, in few words."""
+
+    verdict: str
+    """`nothing_missing`, `explained`, `ambiguous`, `unknown_physics`, `measurement_fault` or `not_decidable`."""
+    causes: list[str]
+    """The causes that it names, as `TERM@SITE`; none where it names none."""
+
+
 class JobLinks(Reply):
     """Where to go from here."""
 
@@ -83,6 +92,8 @@ class JobView(Reply):
     progress: ProgressView
     failure: FailureView | None
     result: ResultView | None
+    answer: AnswerView | None = None
+    """Of a successful reconciliation (one of an earlier version has it in its report only)."""
     gone: str | None
     """`expired` when the result is no longer kept."""
     created_at: datetime
@@ -139,6 +150,7 @@ def _fields(record: JobRecord) -> dict[str, object]:
         if failure is None
         else {**vars(failure), "detail": None if failure.detail is None else dict(failure.detail)},
         "result": vars(record.result) if there and record.result else None,
+        "answer": vars(record.result.answer) if there and record.result and record.result.answer else None,
         "gone": record.gone,
         "created_at": _time(record.created_at),
         "accepted_at": _time(record.accepted_at),

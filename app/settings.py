@@ -41,7 +41,7 @@ class Settings:
     event_streams: int = 200
     recover_every_s: float = 2.0
     max_losses: int = 2
-    worker_silent_s: float = 60.0
+    worker_silent_s: float = 45.0
     """A worker not heard of for so long is not counted as present."""
     static_folder: Path = Path(__file__).parent / "dashboard" / "static"
     pages_folder: Path = Path(__file__).parents[1] / "docs" / "physics"

@@ -4,6 +4,7 @@ JobError
  +- UnknownJob             no such job
  +- JobGone                the job's result expired, or the job was deleted
  +- ResultNotReady         the job has not finished successfully (yet)
+ |   +- RecordingsNotReady recordings named in a request are still being read; carries field problems
  +- IllegalTransition      the job is in a state that does not allow the step
  |   +- StaleAttempt       a worker reports for an attempt that is no longer its own
  +- IdempotencyConflict    the same key was used with another request
@@ -49,7 +50,7 @@ class JobGone(JobError):
 
 
 class ResultNotReady(JobError):
-    """The job has no result to show in its present state."""
+    """The job has no result to show in its present state; `status` says which."""
 
     def __init__(self, job_id: str, status: Status) -> None:
         self.job_id, self.status = job_id, status
@@ -57,8 +58,20 @@ class ResultNotReady(JobError):
         super().__init__(f"job {job_id} is {status.value} and has no result; {advice}")
 
 
+class RecordingsNotReady(ResultNotReady):
+    """Recordings that a request names are still being read; `problems` say which of its fields name them."""
+
+    def __init__(self, job_id: str, status: Status, problems: Sequence[Problem]) -> None:
+        self.problems = tuple(problems)
+        super().__init__(job_id, status)
+
+
 class IllegalTransition(JobError):
-    """The job's state does not allow this step."""
+    """The job's state does not allow this step; `given` is what stands in the way, `allowed` what would not."""
+
+    def __init__(self, message: str, *, given: str = "", allowed: str = "") -> None:
+        self.given, self.allowed = given, allowed
+        super().__init__(message)
 
 
 class StaleAttempt(IllegalTransition):

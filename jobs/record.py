@@ -42,6 +42,14 @@ class Failure:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Answer:
+    """What a reconciliation says in few words, for lists: the verdict, and named causes as `TERM@SITE`."""
+
+    verdict: str
+    causes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
 class ResultRef:
     """Where the result lies: the attempt that made it, its size, the digest of its manifest, when it expires."""
 
@@ -49,6 +57,8 @@ class ResultRef:
     size_bytes: int
     sha256: str
     expires_at: float | None
+    answer: Answer | None = None
+    """Of a reconciliation; None also for those of earlier versions."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -51,9 +51,9 @@ class Reporter:
             self._look(lambda: self._catalogue.get(self._job_id))
         return self._stop
 
-    def stage(self, name: str, fraction: float) -> None:
-        """Enter a stage; raises Cancelled when the work is not wanted any more."""
-        self._tell(Progress(fraction=fraction, stage=name), self._clock())
+    def stage(self, name: str, fraction: float, eta_s: float | None = None) -> None:
+        """Enter a stage, with the time left in s where it is known; raises Cancelled when the work is not wanted."""
+        self._tell(Progress(fraction=fraction, stage=name, eta_s=eta_s), self._clock())
         self.raise_if_stale()
         if self._stop:
             raise Cancelled("cancelled")

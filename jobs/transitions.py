@@ -131,7 +131,9 @@ def dismiss(record: JobRecord, *, attempt: int, now: float) -> JobRecord:
 def withdraw(record: JobRecord, leaving: Collection[str], now: float) -> JobRecord:
     """Take submitters off. When none is left, waiting work is dismissed and running work is asked to stop."""
     if not record.status.active or record.gone is not None:
-        raise IllegalTransition(f"job {record.id} is {record.gone or record.status.value} and cannot be cancelled")
+        state = record.gone or record.status.value
+        message = f"job {record.id} is {state} and cannot be cancelled"
+        raise IllegalTransition(message, given=state, allowed="accepted, running")
     left = tuple(s for s in record.submitters if s not in leaving)
     changed = replace(record, submitters=left, updated_at=now)
     if left:
@@ -186,7 +188,8 @@ def expire(record: JobRecord, now: float) -> JobRecord:
 def delete(record: JobRecord, now: float) -> JobRecord:
     """Forget a finished job and its result; the id stays known so that attempts keep counting."""
     if record.status.active:
-        raise IllegalTransition(f"job {record.id} is {record.status.value}; cancel it before deleting it")
+        message = f"job {record.id} is {record.status.value}; cancel it before deleting it"
+        raise IllegalTransition(message, given=record.status.value, allowed="successful, failed, dismissed")
     return replace(record, gone="deleted", updated_at=now)
 
 

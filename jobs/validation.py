@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from signals.validation import UNITS, Findings, problem_of, problems_of, shown, unit_of
+from signals.validation import UNITS, Findings, problem_of, problems_of, several_of, shown, unit_of
 
-__all__ = ["UNITS", "Findings", "problem_of", "problems_of", "shown", "unit_of"]
+__all__ = ["UNITS", "Findings", "problem_of", "problems_of", "several_of", "shown", "unit_of"]

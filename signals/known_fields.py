@@ -23,14 +23,18 @@ def fields_beside(model: type[BaseModel], loc: Sequence[int | str]) -> tuple[str
 
 def expected_at(model: type[BaseModel], loc: Sequence[int | str]) -> str:
     """What the field at `loc` takes: `a number > 0`, `text`, `an object with shaft, speed_hz`; empty if not known."""
-    if not loc or isinstance(loc[-1], int):
+    if not loc:
+        return f"an object with {', '.join(list(model.model_fields)[:MOST_NAMED])}"
+    if isinstance(loc[-1], int):
         return ""
     found = [part.model_fields[loc[-1]] for part in _parts(model, loc) if loc[-1] in part.model_fields]
     if not found:
         return ""
-    told = found[0].description or ""
+    told = (found[0].description or "").replace("\n", " ")
     words = _expected(found[0].annotation, found[0])
-    return f"{words} ({told.rstrip('.')})" if words and 0 < len(told) <= MOST_TOLD else words
+    if not words:
+        return told.rstrip(".")
+    return f"{words} ({told.rstrip('.')})" if 0 < len(told) <= MOST_TOLD else words
 
 
 def _expected(annotation: Any, field: FieldInfo | None = None) -> str:  # noqa: ANN401, PLR0911 - any annotation

@@ -10,6 +10,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from signals.known_fields import expected_at, fields_beside
+from signals.wording import WORDS, demanded
 from sim.core.errors import Problem, SpecError
 from sim.core.near import did_you_mean
 
@@ -46,6 +47,7 @@ KINDS = (
 )
 WORDED = {
     r"^[a-z][a-z0-9_]{0,39}$": "a lower-case letter, then lower-case letters, digits and _, 40 characters at most",
+    r"^[A-Za-z0-9_-]+$": "letters, digits, _ and -",
     r"^[A-Za-z0-9][A-Za-z0-9._-]*$": "a letter or digit, then letters, digits, dot, _ and -",
 }
 """Patterns of names in words."""
@@ -61,7 +63,16 @@ def unit_of(field: str) -> str:
 
 def problems_of(error: ValidationError, prefix: str = "", model: type[BaseModel] | None = None) -> tuple[Problem, ...]:
     """Every finding of a pydantic validation as a field problem; `model`: what was validated, to say what it knows."""
-    return tuple(problem_of(details, prefix, model) for details in error.errors(include_url=False))
+    found = error.errors(include_url=False)
+    return tuple(problem for details in found for problem in several_of(details, prefix, model))
+
+
+def several_of(details: ErrorDetails, prefix: str = "", model: type[BaseModel] | None = None) -> tuple[Problem, ...]:
+    """One finding as field problems: those of a validator that names fields itself (SpecError), else one."""
+    cause = details.get("ctx", {}).get("error")
+    if isinstance(cause, SpecError):
+        return cause.problems
+    return (problem_of(details, prefix, model),)
 
 
 def problem_of(details: ErrorDetails, prefix: str = "", model: type[BaseModel] | None = None) -> Problem:
@@ -75,13 +86,15 @@ def problem_of(details: ErrorDetails, prefix: str = "", model: type[BaseModel] |
     parts += [str(context["field"])] if "field" in context else []
     field = ".".join(parts) or "request"
     unit = unit_of(field)
-    message, allowed = _message(details), _allowed(details["type"], context)
+    message, allowed = _message(details), _allowed(context)
     if details["type"] == "extra_forbidden" and model is not None:
         known = fields_beside(model, details["loc"])
         message, allowed, unit = message + did_you_mean(str(details["loc"][-1]), known), ", ".join(known), ""
     if details["type"] == "missing":
-        allowed = expected_at(model, details["loc"]) if model is not None else ""
         message += _rpm_beside(details.get("input"), field)
+    if not allowed:
+        expected = expected_at(model, details["loc"]) if model is not None else ""
+        allowed = expected or WORDS.get(details["type"], ("", ""))[1] or demanded(message)
     message += _unit_hint(details.get("input"), field, context)
     return Problem(field=field, message=message, given=given, allowed=allowed, unit=unit)
 
@@ -108,21 +121,15 @@ def shown(value: object) -> object:
 
 
 def _message(details: ErrorDetails) -> str:
-    if details["type"] == "extra_forbidden":
-        return "is not a known field"
-    if details["type"] == "missing":
-        return "is required"
     if details["type"] in TAGS:
         return TAGS[details["type"]]
-    if details["type"] == "string_pattern_mismatch":
-        return "is no name as these are written"
+    if details["type"] in WORDS:
+        return WORDS[details["type"]][0]
     text = details["msg"].removeprefix("Value error, ")
     return text[:1].lower() + text[1:]
 
 
-def _allowed(kind: str, context: Mapping[str, object]) -> str:
-    if kind == "finite_number":
-        return "a finite number"
+def _allowed(context: Mapping[str, object]) -> str:
     for key in ("expected", "expected_tags"):
         if key in context:
             return str(context[key])

@@ -56,8 +56,10 @@ class SidebandWorker(Worker):
 
     def heartbeat(self, timeout: int | None = None, pipeline: Pipeline | None = None) -> None:
         """Tell the broker and the catalogue that this worker lives."""
-        super().heartbeat(timeout, pipeline)
-        self._watch.report("busy" if self._horse_pid else "idle")
+        try:
+            super().heartbeat(timeout, pipeline)
+        finally:  # also while the broker is away: the job goes on
+            self._watch.report("busy" if self._horse_pid else "idle")
 
     def run_maintenance_tasks(self) -> None:
         """The broker's registries, and one pass of recovery over the catalogue, if no other worker makes one now."""

@@ -78,4 +78,4 @@ def _foreign(headers: Mapping[str, str]) -> bool:
 
 def needs_key(path: str) -> bool:
     """Whether an address asks for a key where keys are needed; the dashboard's own files do not."""
-    return path not in _OPEN and (path.startswith("/v1") or path in ("/metrics", "/openapi.json"))
+    return path not in _OPEN and (path.startswith("/v1") or path in ("/metrics", "/openapi.json", "/docs"))

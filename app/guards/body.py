@@ -69,7 +69,10 @@ class BodyGuard:
                 json_text.check(body, self._max_depth)
         except json_text.NotStrictJson as error:
             return Told(
-                slug="not-json", status=400, detail=str(error), fields=[FieldError(field="request", message=str(error))]
+                slug="not-json",
+                status=400,
+                detail=str(error),
+                fields=[FieldError(field="request", message=str(error), allowed="strict JSON")],
             )
         return body
 

@@ -16,7 +16,7 @@ _CHANGES: tuple[tuple[str, str, Scope], ...] = (
     ("POST", r"/v1/machines/check", "read"),
     ("POST", r"/v1/(simulations|datasets|reconciliations)", "submit"),
     ("POST", r"/v1/jobs/[^/]+/cancel", "cancel"),
-    ("DELETE", r"/v1/(jobs|recordings)/[^/]+", "cancel"),
+    ("DELETE", r"/v1/(jobs|recordings|reconciliations)/[^/]+", "cancel"),
     ("POST", r"/v1/recordings", "upload"),
 )
 

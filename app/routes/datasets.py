@@ -97,8 +97,8 @@ def estimate(request: DatasetRequest, state: State) -> DatasetEstimate:
 
 
 def _workers(state: AppState) -> int:
-    since = time.time() - state.settings.worker_silent_s
-    return max(1, len(workers.seen_since(state.stores.catalogue.engine, since)))
+    found = workers.present(state.stores.catalogue.engine, time.time(), state.settings.worker_silent_s)
+    return max(1, len(found))
 
 
 @router.get(ADDRESS, response_model=JobPage, responses=problems(401, 422, 503))

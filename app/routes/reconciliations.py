@@ -14,6 +14,7 @@ from app.routes.responses import problems
 from app.routes.simulations import KeyName, SubmitterName, named
 from app.schemas import JobPage, JobView, Reply, SubmittedView, job_view, submitted_view
 from app.state import AppState, HolderBudget, Principal, State
+from jobs.control import delete
 from jobs.errors import JobGone, UnknownArtefact, UnknownJob
 from jobs.reconciliations.accept import accept_reconciliation
 from jobs.reconciliations.request import ReconciliationRequest
@@ -140,6 +141,15 @@ def report_page(job_id: JobId, request: Request, state: State) -> Response:
 def machine(job_id: JobId, request: Request, state: State) -> Response:
     """The revised machine specification; `POST /v1/simulations` takes it as `machine`."""
     return _file(state, job_id, request, f"{MACHINE}.json", "application/json")
+
+
+@router.delete(f"{ADDRESS}/{{job_id}}", status_code=204, responses=problems(401, 404, 409, 410, 503))
+def delete_reconciliation(job_id: JobId, state: State) -> Response:
+    """Forget a finished reconciliation with its report. One under way must be cancelled first (`links.cancel`); the
+    recordings are kept."""
+    _record(state, job_id)
+    delete(state.stores.catalogue, state.stores.artefacts, state.desk().clock, job_id)
+    return Response(status_code=204)
 
 
 def _file(state: AppState, job_id: str, request: Request, name: str, media_type: str) -> Response:

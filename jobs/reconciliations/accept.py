@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from jobs import transitions
 from jobs.accept import Acceptance, Desk, charged, check_queue, hand_over, needs_work, replayed, reserve
+from jobs.errors import RecordingsNotReady
 from jobs.identity import digest, job_id
-from jobs.reconciliations.chosen import choose
+from jobs.reconciliations.chosen import Chosen, choose
 from jobs.reconciliations.machine import Known, read_known, stored_form
 from jobs.reconciliations.request import ReconciliationRequest
+from jobs.reconciliations.together import check_together
 from jobs.reconciliations.words import METHOD_VERSION, RECONCILIATION
 from jobs.record import Cost
+from jobs.validation import Findings
 from reconcile.kinematics import KinematicSpec
 
 KINEMATIC_S, DRIVEN_S = 5.0, 60.0
@@ -33,13 +36,13 @@ def accept_reconciliation(
         earlier = replayed(desk, scope, key, body)
         if earlier is not None:
             return earlier
-    known = read_known(request.machine, desk.engine)
-    chosen = choose(desk.catalogue, desk.artefacts, request.recordings, request.baselines)
+    known, chosen = _understood(desk, request)
     settings = request.model_dump(mode="json", exclude={"machine"})
     document = {"machine": stored_form(known), **settings}
     identifier = job_id(RECONCILIATION, document, f"{desk.engine.version} {METHOD_VERSION}")
     new_work = needs_work(desk.catalogue, identifier)
     if new_work:
+        check_together(known, *chosen.described())
         check_queue(desk)
     now = desk.clock()
     name = known.name or "kinematics"
@@ -62,6 +65,26 @@ def accept_reconciliation(
             again=lambda present: transitions.submit_again(present, submitter, now),
         )
     return Acceptance(record=hand_over(desk, record), created=created, replayed=False)
+
+
+def _understood(desk: Desk, request: ReconciliationRequest) -> tuple[Known, Chosen]:
+    """The machine and the recordings; what is wrong with either is told together, before what is not ready yet."""
+    findings = Findings()
+    known: Known | None = None
+    chosen: Chosen | None = None
+    late: RecordingsNotReady | None = None
+    with findings.step():
+        known = read_known(request.machine, desk.engine)
+    with findings.step():
+        try:
+            chosen = choose(desk.catalogue, desk.artefacts, request.recordings, request.baselines)
+        except RecordingsNotReady as error:
+            late = error
+    findings.settle()
+    if late is not None:
+        raise late
+    assert known is not None and chosen is not None
+    return known, chosen
 
 
 def _cost(known: Known, request: ReconciliationRequest, samples: int) -> Cost:

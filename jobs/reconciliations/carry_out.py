@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
@@ -9,15 +10,17 @@ from jobs.atlas.lead import Lead
 from jobs.errors import NotReconcilable
 from jobs.ports import ArtefactStore, JobCatalogue
 from jobs.reconciliations.chosen import choose
-from jobs.reconciliations.machine import restored_known
+from jobs.reconciliations.follow import followed, teller
+from jobs.reconciliations.machine import Known, restored_known
 from jobs.reconciliations.request import ReconciliationRequest
 from jobs.reconciliations.words import MACHINE, PAGE, REPORT
-from jobs.record import ResultRef
+from jobs.record import Answer, ResultRef
 from jobs.reporter import Reporter
 from jobs.results import Manifest, json_bytes, put_file
 from reconcile.atlas.bank import Task, run_task
 from reconcile.atlas.keep import Keeper
 from reconcile.entry import reconcile_recordings
+from reconcile.kinematics import KinematicSpec
 from reconcile.machine.budget import BUDGETS
 from reconcile.machine.meter import Timed
 from reconcile.report import page, strict_json
@@ -87,20 +90,28 @@ def reconcile_stored(
         known = restored_known(document["machine"])
         tests, baselines = choose(catalogue, artefacts, request.recordings, request.baselines).loaded()
         watched = Watched(reporter, len({r.operating for r in tests}), lead)
-        report = reconcile_recordings(
-            known,
-            tests,
-            baselines,
-            budget=BUDGETS[request.budget],
-            keeper=keeper,
-            mapper=watched.map,
-            seed=request.seed,
-            progress=watched.stage,
-        )
+        with _telling(known, reporter, sum(r.samples.size for r in (*tests, *baselines))):
+            report = reconcile_recordings(
+                known,
+                tests,
+                baselines,
+                budget=BUDGETS[request.budget],
+                keeper=keeper,
+                mapper=watched.map,
+                seed=request.seed,
+                progress=watched.stage,
+            )
     except SpecError as error:
         raise NotReconcilable(error.problems) from error
     reporter.stage("storing", STORING)
     return _kept(artefacts, prefix, attempt, report, request.seed, tests[0].sampling_rate_hz, expires_at())
+
+
+def _telling(known: Known, reporter: Reporter, samples: int) -> contextlib.AbstractContextManager[None]:
+    """Follows the level of kinematics from beside it; a machine that is simulated tells its stages itself."""
+    if not isinstance(known, KinematicSpec):
+        return contextlib.nullcontext()
+    return followed(teller(reporter, LOADED, STORING), samples=samples)
 
 
 def _kept(
@@ -132,4 +143,6 @@ def _kept(
     )
     table = put_file(artefacts, f"{prefix}/manifest.json", [json_bytes(manifest.model_dump(mode="json"))])
     size = table.bytes + sum(entry.bytes for entry in files.values())
-    return ResultRef(attempt=attempt, size_bytes=size, sha256=table.sha256, expires_at=expires_at)
+    causes = tuple(f"{cause.term}@{cause.site}" for cause in report.causes if cause.named)
+    answer = Answer(verdict=report.verdict, causes=causes)
+    return ResultRef(attempt=attempt, size_bytes=size, sha256=table.sha256, expires_at=expires_at, answer=answer)

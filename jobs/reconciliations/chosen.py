@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from jobs.errors import ResultNotReady, UnknownJob
+from jobs.errors import RecordingsNotReady, UnknownJob
 from jobs.ports import ArtefactStore, JobCatalogue
 from jobs.record import JobRecord
-from jobs.recordings.stored import stored_recording
+from jobs.recordings.stored import described_recording, stored_recording
 from jobs.recordings.words import RECORDING
 from jobs.results import ResultReader
 from jobs.status import Status
 from reconcile.entry import MOST_SAMPLES
 from signals.recording import Recording
 from sim.core.errors import Problem, SpecError
+
+USABLE = "the id of a recording that is ready"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,6 +33,14 @@ class Chosen:
         """Of all channels together."""
         return sum(r.manifest.samples * len(r.manifest.channels) for r in (*self.recordings, *self.baselines))
 
+    def described(self) -> tuple[list[Recording], list[Recording]]:
+        """The same without their samples, labelled by their places in the request."""
+        tests, baselines = (
+            [described_recording(reader, f"{field}.{place}") for place, reader in enumerate(readers)]
+            for field, readers in (("recordings", self.recordings), ("baselines", self.baselines))
+        )
+        return tests, baselines
+
     def loaded(self) -> tuple[list[Recording], list[Recording]]:
         """The recordings and the baselines with their samples."""
         readers = (*self.recordings, *self.baselines)
@@ -41,25 +51,29 @@ class Chosen:
 def choose(
     catalogue: JobCatalogue, artefacts: ArtefactStore, recordings: Sequence[str], baselines: Sequence[str]
 ) -> Chosen:
-    """Find them; SpecError names every id that cannot be used, ResultNotReady the first that is still being read."""
+    """Find them; SpecError names every id that cannot be used, RecordingsNotReady those that are still being read."""
     problems = list(_repeated(recordings, baselines))
-    waiting: list[JobRecord] = []
+    waiting: list[tuple[str, JobRecord]] = []
     found: dict[str, list[ResultReader]] = {"recordings": [], "baselines": []}
     labels: list[str] = []
     for field, ids in (("recordings", recordings), ("baselines", baselines)):
         for place, identifier in enumerate(ids):
             record, reason = _looked_up(catalogue, identifier)
             if reason:
-                problems.append(Problem(field=f"{field}.{place}", message=reason, given=identifier))
+                problems.append(Problem(field=f"{field}.{place}", message=reason, given=identifier, allowed=USABLE))
             elif record is not None and record.status.active:
-                waiting.append(record)
+                waiting.append((f"{field}.{place}", record))
             elif record is not None and record.result is not None:
                 found[field].append(ResultReader(artefacts, f"{identifier}/{record.result.attempt}"))
                 labels.append(_label(record))
     if problems:
         raise SpecError(problems)
     if waiting:
-        raise ResultNotReady(waiting[0].id, waiting[0].status)
+        late = [
+            Problem(field=field, message=f"is still being read ({r.status.value})", given=r.id, allowed=USABLE)
+            for field, r in waiting
+        ]
+        raise RecordingsNotReady(waiting[0][1].id, waiting[0][1].status, late)
     chosen = Chosen(recordings=tuple(found["recordings"]), baselines=tuple(found["baselines"]), labels=tuple(labels))
     if chosen.samples > MOST_SAMPLES:
         message = "the recordings are too long together"

@@ -21,7 +21,9 @@ def refuse_in_use(catalogue: JobCatalogue, recording_id: str) -> None:
             if recording_id in (*_ids(asked.get("recordings")), *_ids(asked.get("baselines"))):
                 raise IllegalTransition(
                     f"recording {recording_id} is used by job {row.id}, which is {row.status.value}; cancel that or "
-                    "wait for it before deleting the recording"
+                    "wait for it before deleting the recording",
+                    given=f"used by {row.id}",
+                    allowed="used by no job under way",
                 )
         if len(rows) < PAGE:
             return

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from pydantic import ValidationError
 
 from jobs.ports import Engine
+from jobs.reconciliations.slips import told_behind_slips
 from jobs.resolve import report_of
-from jobs.validation import problems_of
+from jobs.validation import Findings, problems_of, shown
 from reconcile.kinematics import KinematicSpec, read_kinematic_spec
 from sim.core.errors import Problem, SpecError
 from sim.core.near import did_you_mean
@@ -27,12 +28,18 @@ def read_known(form: object, engine: Engine) -> Known:
     """The machine, assembled once so that what does not fit is told before anything runs; raises SpecError."""
     if isinstance(form, str):
         return _preset(form, engine)
+    known = read_form(form)
+    if isinstance(known, MachineSpec):
+        report_of(known, engine)
+    return known
+
+
+def read_form(form: object) -> Known:
+    """The machine of an object in any of its forms, not yet assembled; SpecError names every field that is wrong."""
     assert isinstance(form, Mapping)
     if _KINEMATICS in form:
-        return _read(dict(form))
-    machine = _from_parameters(form) if _is_parameters(form) else _spec(form)
-    report_of(machine, engine)
-    return machine
+        return told_behind_slips(_read, form)
+    return _from_parameters(form) if _is_parameters(form) else told_behind_slips(_spec, form)
 
 
 def stored_form(known: Known) -> dict[str, object]:
@@ -44,7 +51,7 @@ def stored_form(known: Known) -> dict[str, object]:
 def restored_known(document: object) -> Known:
     """Inverse of `stored_form`."""
     assert isinstance(document, dict)
-    return _read(document) if _KINEMATICS in document else MachineSpec.model_validate(document)
+    return read_kinematic_spec(document) if _KINEMATICS in document else MachineSpec.model_validate(document)
 
 
 def _preset(name: str, engine: Engine) -> MachineSpec:
@@ -55,13 +62,26 @@ def _preset(name: str, engine: Engine) -> MachineSpec:
     return engine.preset(name)
 
 
-def _read(document: dict[str, object]) -> KinematicSpec:
-    try:
-        return read_kinematic_spec(document)
-    except SpecError as error:
-        raise SpecError(
-            [replace(p, field=f"machine.{p.field}".replace("machine.machine", "machine")) for p in error.problems]
-        ) from None
+def _read(form: Mapping[str, object]) -> KinematicSpec:
+    others = _unknown(form, (_KINEMATICS,), "is not a known field beside kinematics")
+    with others.step():
+        try:
+            spec = read_kinematic_spec({_KINEMATICS: form[_KINEMATICS]})
+        except SpecError as error:
+            raise SpecError([replace(p, field=f"machine.{p.field}") for p in error.problems]) from None
+    others.settle()
+    return spec
+
+
+def _unknown(form: Mapping[str, object], known: Sequence[str], message: str) -> Findings:
+    """Findings of keys that are none of those `known`."""
+    findings = Findings()
+    for key in form:
+        if key not in known:
+            told, allowed = f"{message}{did_you_mean(str(key), known)}", ", ".join(known)
+            with findings.step():
+                raise SpecError(Problem(field=f"machine.{key}", message=told, given=shown(form[key]), allowed=allowed))
+    return findings
 
 
 def _spec(form: Mapping[str, object]) -> MachineSpec:
@@ -77,17 +97,29 @@ def _is_parameters(form: Mapping[str, object]) -> bool:
 
 def _from_parameters(form: Mapping[str, object]) -> MachineSpec:
     sections = form if "parameters" in form else {"parameters": form}
-    unknown = [key for key in sections if key not in _SECTIONS]
-    if unknown:
-        allowed = ", ".join(_SECTIONS)
-        message = "is not a known section"
-        raise SpecError([Problem(field=f"machine.{k}", message=message, allowed=allowed) for k in unknown])
+    findings = _unknown(sections, _SECTIONS, "is not a known section")
     parameters = sections["parameters"]
-    if not isinstance(parameters, Mapping):
-        raise SpecError(Problem(field="machine.parameters", message="is not an object", allowed="names and numbers"))
-    return reference_machine(
-        parameters,
-        bearings=sections.get("bearings"),
-        tolerance=sections.get("tolerance"),
-        name=str(sections.get("name", "reference"))[:80],
-    ).machine
+    with findings.step():
+        if not isinstance(parameters, Mapping):
+            message, allowed = "is not an object", "an object of names and numbers"
+            raise SpecError(
+                Problem(field="machine.parameters", message=message, given=shown(parameters), allowed=allowed)
+            )
+        machine = _referred(parameters, sections, "machine." if sections is form else "")
+    findings.settle()
+    return machine
+
+
+def _referred(parameters: Mapping[str, object], sections: Mapping[str, object], prefix: str) -> MachineSpec:
+    """The machine of the parameters; `prefix` goes before `parameters`, which a flat file does not name."""
+    try:
+        return reference_machine(
+            parameters,
+            bearings=sections.get("bearings"),
+            tolerance=sections.get("tolerance"),
+            name=str(sections.get("name", "reference"))[:80],
+        ).machine
+    except SpecError as error:
+        told = [replace(p, field=f"{prefix}{p.field}") for p in error.problems]
+        flat = [replace(p, field=p.field.replace("parameters.", "machine.", 1)) for p in told]
+        raise SpecError(told if prefix else flat) from None

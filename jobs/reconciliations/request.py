@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from collections.abc import Mapping
+from typing import Annotated, Literal, Self
 
-from pydantic import AfterValidator, ConfigDict, Field, WithJsonSchema
+from pydantic import (
+    AfterValidator,
+    ConfigDict,
+    Field,
+    ModelWrapValidatorHandler,
+    ValidationError,
+    WithJsonSchema,
+    model_validator,
+)
 
+from jobs.reconciliations.machine import read_form
+from jobs.validation import problems_of
 from reconcile.entry import MOST_RECORDINGS
+from sim.core.errors import SpecError
 from sim.core.spec import SpecModel
 
 RecordingId = Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9_-]+$")]
@@ -58,3 +70,19 @@ class ReconciliationRequest(SpecModel):
     """How much is simulated beyond the atlas: the best few effects, or more of them (docs/reconcile.md)."""
     seed: Annotated[int, Field(ge=0, le=2**53 - 1)] = 0
     """Seed of the atlas and of the bootstrap."""
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _told_together(cls, given: object, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Where another field is wrong the machine is read too, so that all is told in one reply."""
+        try:
+            return handler(given)
+        except ValidationError as error:
+            form = given.get("machine") if isinstance(given, Mapping) else None
+            problems = [*problems_of(error, model=cls)]
+            try:
+                if isinstance(form, Mapping):
+                    read_form(form)
+            except SpecError as further:
+                problems += further.problems
+            raise SpecError(problems) from error

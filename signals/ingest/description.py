@@ -245,7 +245,9 @@ def _alike(part: object, model: type[BaseModel], prefix: str) -> list[Problem]:
         if isinstance(key, str) and key not in model.model_fields:
             alike = near(key, model.model_fields, most=1, like=ALIKE)
             if alike:
-                problems.append(Problem(field=f"{prefix}{key[:80]}", message="is not a known field", allowed=alike[0]))
+                message = f"is not a known field (did you mean {alike[0]}?)"
+                given = shown(part[key])
+                problems.append(Problem(field=f"{prefix}{key[:80]}", message=message, given=given, allowed=alike[0]))
     return problems
 
 

@@ -42,6 +42,17 @@ def forget(engine: Engine, *, name: str | None = None, seen_before: float | None
             connection.execute(delete(schema.workers).where(table.seen_at < seen_before))
 
 
+BUSY_SILENT_S = 20.0
+"""A busy worker reports every few seconds, an idle one four times a minute: silence of the first says more."""
+
+
+def present(engine: Engine, now: float, silent_s: float) -> list[WorkerReport]:
+    """Workers that live, by name: idle ones silent for at most `silent_s`, busy ones for 20 s at most as well."""
+    busy_s = min(BUSY_SILENT_S, silent_s)
+    rows = seen_since(engine, now - silent_s)
+    return [row for row in rows if row.state != "busy" or row.seen_at >= now - busy_s]
+
+
 def seen_since(engine: Engine, time: float) -> list[WorkerReport]:
     """Workers that reported after a time, by name."""
     reading = engine.execution_options(read_only=True)

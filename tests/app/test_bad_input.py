@@ -182,6 +182,7 @@ def test_declared_length_is_refused_at_once(client: httpx.Client) -> None:
 def test_addresses_and_queries(client: httpx.Client, method: str, path: str, status: int) -> None:
     reply = client.request(method, path)
     body = problem(reply, status)
+    assert body["errors"], "something is always named"
     if status == 405:
         assert reply.headers["Allow"]
     if status == 422:

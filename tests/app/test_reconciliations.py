@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from typing import Any
 
 import httpx
@@ -88,18 +89,24 @@ def test_other_jobs_are_no_recordings_and_no_reconciliations(client: httpx.Clien
 def test_what_the_engine_refuses_fails_with_fields_and_the_worker_lives(
     client: httpx.Client, parts: Parts, short: str
 ) -> None:
-    other = recorded(np.random.default_rng(2).normal(size=(2, 64)))
-    parts_of = MACHINE["kinematics"]
-    second = {**parts_of["bearings"][0], "name": "bearing2"}
-    machine = {"kinematics": {**parts_of, "bearings": [*parts_of["bearings"], second]}}
-    baseline = send(client, other)
-    body = {"machine": machine, "recordings": [short], "baselines": [baseline]}
+    same = replace(recorded(np.random.default_rng(1).normal(size=64)), notes="sent again")
+    baseline = send(client, same)
+    body = {"machine": MACHINE, "recordings": [short], "baselines": [baseline]}
     found = ended(client, client.post(ADDRESS, json=body))
     assert (found["status"], found["job"]["failure"]["code"]) == ("failed", "not-reconcilable")
     errors = found["job"]["failure"]["detail"]["errors"]
-    assert [e["field"] for e in errors] == [f"r.npz ({baseline}): channels"] and errors[0]["given"] == 2
+    assert [e["field"].split(":")[0] for e in errors] == [f"r.npz ({baseline})"]
     problem(client.get(f"{ADDRESS}/{found['id']}/report.html"), 409)
     assert parts.workers[0].poll() is None
+
+
+def test_recordings_that_cannot_go_together_are_refused_before_there_is_a_job(client: httpx.Client, short: str) -> None:
+    two = send(client, recorded(np.random.default_rng(2).normal(size=(2, 64))))
+    before = client.get(ADDRESS).json()["total"]
+    body = {"machine": MACHINE, "recordings": [short], "baselines": [two]}
+    (error,) = problem(client.post(ADDRESS, json=body), 422)["errors"]
+    assert (error["field"], error["given"]) == ("baselines.0.channels", 2) and error["allowed"]
+    assert client.get(ADDRESS).json()["total"] == before
 
 
 def test_a_spall_is_found_by_its_kinematics(client: httpx.Client, parts: Parts) -> None:
@@ -132,7 +139,9 @@ def _files(client: httpx.Client, found: dict[str, Any]) -> None:
         problem(client.get(job + part), 404)
     for part in ("/signals", "/indicators/gear?channel=a0"):
         problem(client.get(job + part), 422)
-    assert found["id"] in [j["id"] for j in client.get(ADDRESS).json()["jobs"]]
+    for listed in (ADDRESS, "/v1/jobs"):
+        row = next(j for j in client.get(listed).json()["jobs"] if j["id"] == found["id"])
+        assert row["answer"] == {"verdict": "explained", "causes": ["outer_spall@bearing1"]}
 
 
 def test_a_recording_that_a_job_under_way_needs_cannot_be_deleted(client: httpx.Client) -> None:
@@ -142,5 +151,13 @@ def test_a_recording_that_a_job_under_way_needs_cannot_be_deleted(client: httpx.
         for address in (f"/v1/recordings/{name}", f"/v1/jobs/{name}"):
             refused = problem(client.delete(address), 409)
             assert reply.json()["id"] in refused["detail"] and name in refused["detail"]
+    mine = reply.headers["Location"]
+    early = client.delete(mine)
     assert ended(client, reply)["status"] == "successful"
+    assert problem(early, 409)["errors"][0]["allowed"] == "successful, failed, dismissed", "still under way"
+    problem(client.delete(f"{ADDRESS}/{test}"), 404)
+    assert client.delete(mine).status_code == 204
+    for gone in (client.get(mine), client.delete(mine), client.get(f"{mine}/report.json")):
+        problem(gone, 410)
+    assert client.get(f"/v1/recordings/{test}").json()["status"] == "ready", "recordings are kept"
     assert client.delete(f"/v1/recordings/{base}").status_code == 204

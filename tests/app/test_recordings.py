@@ -199,7 +199,7 @@ def test_the_worker_lives_on_after_all_of_these(client: httpx.Client, parts: Par
 @pytest.mark.parametrize(
     ("about", "name", "field", "says"),
     [
-        ({**ABOUT, "channels": [{"name": "a", "unit": ""}]}, "r.npz", "channels.0.unit", "at least 1"),
+        ({**ABOUT, "channels": [{"name": "a", "unit": ""}]}, "r.npz", "channels.0.unit", "too short"),
         ({**ABOUT, "channels": []}, "r.npz", "channels", "at least one"),
         ({**ABOUT, "channels": [{"name": "x", "unit": "not stated"}]}, "r.npz", "channels.0.unit", "never guessed"),
         ({**ABOUT, "sampling_rate": 3}, "r.npz", "sampling_rate", "not a known field"),

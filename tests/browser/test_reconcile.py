@@ -23,6 +23,15 @@ HEADS = (
     ".map((t) => [...t.querySelectorAll('th')].map((h) => h.textContent))"
 )
 """Heads of the tables that are seen."""
+PHONE = 390
+LOOSE = """
+    const scrolls = (e) => getComputedStyle(e).overflowX === "auto";
+    const boxed = (e) => e && e !== document.body && (scrolls(e) || boxed(e.parentElement));
+    const wide = (e) => e.getBoundingClientRect().right > innerWidth + 1;
+    const parts = [...document.querySelectorAll("table, svg.plot, pre")];
+    return parts.filter((e) => wide(e) && !boxed(e)).map((e) => e.tagName);
+"""
+"""What is wider than the screen and lies in no box that scrolls by itself."""
 FILL = "const e = document.querySelector(arguments[0]); e.value = arguments[1];"
 
 
@@ -60,7 +69,25 @@ def test_a_recording_is_sent_chosen_and_reconciled(browser: Browser, service: Se
     assert not browser.run("return document.querySelector('h1').offsetParent"), "the verdict is told above the frame"
     browser.open(pictures.removesuffix("#pictures"))
     assert [heads for heads in browser.run(HEADS) if "candidate" in heads], "by itself the report is whole"
+    _fits_a_phone(browser, service, pictures)
     browser.size(360)
     browser.open(service.page("/reconcile"))
-    browser.find("[aria-label=Reconciliations] tr[data-status=successful]")
+    listed = browser.text("[aria-label=Reconciliations] tr[data-status=successful]")
+    assert "explained" in listed and "outer spall at bearing 1" in listed, "the list tells what was found"
     assert browser.run("return document.documentElement.scrollWidth") <= 360
+
+
+def _fits_a_phone(browser: Browser, service: Service, pictures: str) -> None:
+    """No page is wider than the screen; tables and charts that are scroll in their own box."""
+    browser.size(PHONE)
+    answer = service.page(f"/reconcile/{pictures.split('/')[-2]}")
+    for address, part in (
+        (pictures.removesuffix("#pictures"), "svg.plot"),
+        (pictures, "svg.plot"),
+        (answer, "#answer-causes table"),
+        (f"{service.url.rstrip('/')}/docs", "section pre"),
+    ):
+        browser.open(address)
+        browser.find(part)
+        assert browser.run("return document.documentElement.scrollWidth") <= PHONE, address
+        assert browser.run(LOOSE) == [], address

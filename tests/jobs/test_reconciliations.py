@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,101 +9,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from jobs import run, transitions
-from jobs.accept import Desk
+from jobs import transitions
 from jobs.budget import Budget
 from jobs.errors import BudgetSpent, IdempotencyConflict, ResultNotReady
-from jobs.limits import Limits
-from jobs.ports import Ticket
 from jobs.reconciliations import carry_out
-from jobs.reconciliations.accept import accept_reconciliation
-from jobs.reconciliations.request import ReconciliationRequest
-from jobs.record import JobRecord
-from jobs.recordings.accept import Upload, accept_recording
+from jobs.record import Answer
 from jobs.results import ResultReader
-from jobs.run import Bench
 from jobs.status import Status
-from reconcile.verdict import Report
-from signals.encode import describe, encode
-from signals.recording import Operating, Recording
+from reconcile.verdict import Cause, Report
 from sim.core.errors import Problem, SpecError
-from sim.core.response import Channel
-from store.artefacts.folder import FolderStore
-from store.catalogue import engine, schema
-from store.catalogue.catalogue import SqlCatalogue
 from store.catalogue.ledger import SqlLedger
-from tests.service.fakes import FakeEngine, analyse, machine
-
-KINEMATICS: dict[str, Any] = {
-    "kinematics": {
-        "shafts": [{"name": "input"}],
-        "bearings": [{"name": "bearing1", "shaft": "input", "catalogue": "6205"}],
-    }
-}
-
-
-def made(seed: int) -> Recording:
-    return Recording(
-        sampling_rate_hz=1024.0,
-        channels=(Channel(name="a", quantity="acceleration", unit="m/s^2", location="bearing1", axis="x"),),
-        samples=np.random.default_rng(seed).normal(size=(1, 900)),
-        operating=Operating(shaft="input", speed_hz=20.0),
-    )
-
-
-class Broker:
-    """`jobs.ports.Queue` that keeps nothing."""
-
-    def ping(self) -> None:
-        pass
-
-    def submit(self, ticket: Ticket) -> None:
-        pass
-
-    def holds(self, ticket: Ticket) -> bool:
-        return True
-
-    def withdraw(self, ticket: Ticket) -> None:
-        pass
-
-    def length(self) -> int:
-        return 0
-
-
-class World:
-    """Desk, bench and stores on one folder, with a clock that goes on by itself."""
-
-    def __init__(self, folder: Path) -> None:
-        database = engine.connect(f"sqlite:///{folder / 'c.sqlite'}")
-        schema.create_schema(database)
-        self.now = 1000.0
-        self.catalogue, self.artefacts = SqlCatalogue(database), FolderStore(folder / "artefacts")
-        common: Any = {"catalogue": self.catalogue, "artefacts": self.artefacts, "clock": self.clock}
-        self.desk = Desk(queue=Broker(), engine=FakeEngine(), limits=Limits(), **common)
-        self.bench = Bench(engine=FakeEngine(), analyse=analyse, keep_s=60.0, **common)
-
-    def clock(self) -> float:
-        self.now += 1.0
-        return self.now
-
-    def recording(self, seed: int, *, read: bool = True) -> str:
-        content, about = encode(made(seed), "npz"), json.loads(json.dumps(describe(made(seed))))
-        upload = Upload(name="r.npz", content=io.BytesIO(content))
-        record = accept_recording(self.desk, about, upload, submitter="me").record
-        if read:
-            done = run.run(self.bench, record.id, record.attempt, "w")
-            assert done is not None and done.status is Status.SUCCESSFUL
-        return record.id
-
-    def ask(self, ids: list[str], known: object = None, key: str | None = None, **more: Any) -> JobRecord:
-        body = {"machine": known or KINEMATICS, "recordings": ids, **more}
-        request = ReconciliationRequest.model_validate(body)
-        return accept_reconciliation(self.desk, request, submitter="me", scope="", key=key).record
-
-    def carried_out(self, record: JobRecord) -> JobRecord:
-        done = run.run(self.bench, record.id, record.attempt, "w")
-        assert done is not None
-        return done
+from tests.service.fakes import machine
+from tests.service.reconciling import World, made
 
 
 @pytest.fixture
@@ -113,7 +28,17 @@ def world(tmp_path: Path) -> World:
     return World(tmp_path)
 
 
-REPORT = Report(verdict="explained", sentence="A <b> spall.", level="machine", machine={"name": "m"}, provenance={})
+REPORT = Report(
+    verdict="explained",
+    sentence="A <b> spall.",
+    level="machine",
+    machine={"name": "m"},
+    provenance={},
+    causes=(
+        Cause(term="outer_spall", site="bearing1", score=9.0, named=True),
+        Cause(term="unbalance", site="input", score=1.0),
+    ),
+)
 
 
 @pytest.mark.slow
@@ -140,6 +65,8 @@ def test_the_answer_is_kept_as_report_page_and_machine(world: World, monkeypatch
     np.testing.assert_array_equal(seen["baselines"][0].samples, made(2).samples)
     assert (seen["seed"], seen["budget"].name, seen["told"].stage) == (7, "full", "held-out data")
     assert 0.4 < seen["told"].fraction < 0.6
+    assert world.catalogue.get(record.id).result == done.result
+    assert done.result.answer == Answer(verdict="explained", causes=("outer_spall@bearing1",))
     reader = ResultReader(world.artefacts, f"{record.id}/1")
     assert reader.document("report")["sentence"] == "A <b> spall."
     assert reader.document("summary") == {"verdict": "explained", "sentence": "A <b> spall.", "level": "machine"}
@@ -188,7 +115,7 @@ def test_recordings_that_cannot_be_used_are_named(world: World) -> None:
     [
         ("nothing", "machine"),
         ({"kinematics": {"shafts": []}}, "machine.kinematics.shafts"),
-        ({"kinematics": {}, "name": "x"}, "machine"),
+        ({"kinematics": {}, "name": "x"}, "machine.name"),
         ({"name": "x", "bodies": [{"name": "m"}]}, "machine.bodies.0.mass_kg"),
         ({"parameters": 3}, "machine.parameters"),
         ({"parameters": {}, "other": 1}, "machine.other"),
@@ -297,8 +224,7 @@ def test_what_is_accepted_is_charged_once_and_a_refusal_costs_nothing(world: Wor
 
 @pytest.mark.slow
 def test_what_a_worker_refuses_names_the_recording(world: World) -> None:
-    id_ = world.recording(1)
-    other = {"kinematics": {"shafts": [{"name": "output"}], "bearings": []}}
-    record = world.carried_out(world.ask([id_], known=other))
+    once, again = world.recording(1), world.sent(replace(made(1), notes="sent again"))
+    record = world.carried_out(world.ask([once, again]))
     assert record.status is Status.FAILED and record.failure is not None
-    assert f"r.npz ({id_}): operating.shaft" in str(record.failure)
+    assert f"r.npz ({again})" in str(record.failure)

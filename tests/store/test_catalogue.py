@@ -172,6 +172,12 @@ def test_stats_and_workers(catalogue: SqlCatalogue) -> None:
     workers.report(catalogue.engine, row)
     workers.report(catalogue.engine, row)
     assert workers.seen_since(catalogue.engine, 1.0) == [row] and workers.seen_since(catalogue.engine, 3.0) == []
+    busy = workers.WorkerReport(name="v", host="h", pid=2, state="busy", job_id="a", started_at=1.0, seen_at=2.0)
+    workers.report(catalogue.engine, busy)
+    for now, names in ((21.0, ["v", "w"]), (30.0, ["w"]), (50.0, [])):
+        assert [row.name for row in workers.present(catalogue.engine, now, 45.0)] == names
+    assert workers.present(catalogue.engine, 8.0, 5.0) == []
+    workers.forget(catalogue.engine, name="v")
     workers.forget(catalogue.engine, name="w")
     assert workers.seen_since(catalogue.engine, 0.0) == []
 

@@ -3,7 +3,7 @@
 import { cancelJob, deleteJob } from "/js/lib/jobs.js";
 import { h, icon, replace } from "/js/lib/dom.js";
 import { ago, clock, duration, plainNumber, quantity } from "/js/lib/format.js";
-import { statusPill } from "/js/lib/status.js";
+import { outcome } from "/js/lib/status.js";
 import { changesText } from "/js/lib/jobs.js";
 
 export function jobRow(refresh) {
@@ -38,7 +38,7 @@ export function jobRow(refresh) {
     name.textContent = request.preset ?? request.machine ?? request.name;
     changes.textContent = changesText(request) || job.id.slice(0, 8);
     settings.textContent = settingsText(job);
-    replace(pill, statusPill(job));
+    replace(pill, outcome(job));
     eta.textContent = job.status === "running" ? `${Math.round(job.progress.fraction * 100)} %${job.progress.eta_s ? ` · ${duration(job.progress.eta_s)} left` : ""}` : "";
     progress.hidden = !active;
     progress.setAttribute("aria-valuenow", String(Math.round(job.progress.fraction * 100)));

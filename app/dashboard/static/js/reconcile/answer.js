@@ -4,8 +4,8 @@ import { apiKey, download } from "/js/lib/api.js";
 import { h, icon } from "/js/lib/dom.js";
 import { number, partName, quantity, unit } from "/js/lib/format.js";
 import { toastProblem } from "/js/lib/problem.js";
+import { verdictPill } from "/js/lib/status.js";
 
-const TONES = { nothing_missing: "ok", explained: "run", ambiguous: "warn", unknown_physics: "warn", measurement_fault: "bad", not_decidable: "warn" };
 const LEFT_OVER = "A part of the change is left that the named effect does not bring: either something else has changed as well, or the effect is not quite as its law here has it. Take the name as a lead and the size as rough, look for a second cause before repairing, and record at one more speed or load to tell.";
 const FORMS = "“or” names another form of the same effect: a law for the same part that excludes it there, so that at most one of them is true; their evidence counts together, under the strongest.";
 const isRest = (reason) => reason.startsWith("a part of the change is left");
@@ -26,7 +26,7 @@ function verdict(report) {
   const { fault, provenance } = report;
   const sent = Object.entries(provenance?.sent_as ?? {}).map(([name, label]) => `${name}: ${label}`);
   return h("section", { class: "card card-body reconcile-form", id: "answer-verdict", "aria-label": "Verdict" },
-    h("div", {}, h("span", { class: "pill", dataset: { tone: TONES[report.verdict] ?? "" } }, words(report.verdict))),
+    h("div", {}, verdictPill(report.verdict)),
     h("p", { class: "reconcile-sentence" }, report.sentence),
     sent.length ? h("p", { class: "muted small" }, [provenance.machine, ...sent].filter(Boolean).join("; ")) : null,
     report.to_do ? h("p", {}, h("b", {}, "What to do: "), report.to_do) : null,

@@ -4,7 +4,7 @@ import { getJson, reference, request, submitter } from "/js/lib/api.js";
 import { h, replace, segmented, select } from "/js/lib/dom.js";
 import { ago } from "/js/lib/format.js";
 import { problemBox } from "/js/lib/problem.js";
-import { statusPill } from "/js/lib/status.js";
+import { outcome } from "/js/lib/status.js";
 
 const LIST_MS = 3000;
 const NAMED = 2;
@@ -64,7 +64,7 @@ function listCard() {
   const element = h("section", { class: "card", hidden: true, "aria-label": "Reconciliations" },
     h("div", { class: "card-head" }, h("h2", {}, "Reconciliations")),
     h("div", { class: "table-wrap" }, h("table", { "aria-label": "Reconciliations" },
-      h("thead", {}, h("tr", {}, ["Machine", "Recordings", "Budget", "Status", "Asked for"].map((name) => h("th", { scope: "col" }, name)))), body)));
+      h("thead", {}, h("tr", {}, ["Machine", "Outcome", "Recordings", "Budget", "Asked for"].map((name) => h("th", { scope: "col" }, name)))), body)));
   let timer = 0;
   let shown = "";
 
@@ -90,9 +90,9 @@ function row(job, files) {
   const against = request.baselines.length ? ` against ${named(request.baselines, files)}` : ", no baseline";
   return h("tr", { dataset: { job: job.id, status: job.status } },
     h("td", {}, h("a", { href: `#/reconcile/${job.id}` }, request.preset ?? request.machine)),
+    h("td", {}, outcome(job), job.status === "running" ? h("span", { class: "muted small" }, ` ${job.progress.stage}`) : null),
     h("td", { class: "small" }, `${named(request.recordings, files)}${against}`),
     h("td", { class: "small" }, request.budget),
-    h("td", {}, statusPill(job), job.status === "running" ? h("span", { class: "muted small" }, ` ${job.progress.stage}`) : null),
     h("td", { class: "small num" }, ago(job.accepted_at)));
 }
 

@@ -1,0 +1,42 @@
+"""Errors that lie in the state of things name it: field, what was found, what is allowed."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.problems import FieldError, told
+from jobs.errors import (
+    IllegalTransition,
+    JobGone,
+    PlannersBusy,
+    QueueFull,
+    RecordingsNotReady,
+    ResultNotReady,
+    UnknownJob,
+)
+from jobs.status import Status
+from sim.core.errors import Problem, SidebandError
+
+LATE = Problem(field="baselines.0", message="is still being read (accepted)", given="b", allowed="ready")
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "field", "given", "allowed"),
+    [
+        (RecordingsNotReady("b", Status.ACCEPTED, [LATE]), 409, "baselines.0", "b", "ready"),
+        (ResultNotReady("a", Status.RUNNING), 409, "status", "running", "successful"),
+        (IllegalTransition("no", given="running", allowed="failed"), 409, "status", "running", "failed"),
+        (UnknownJob("x"), 404, "job_id", "x", "an id of the list"),
+        (JobGone("x", "deleted"), 410, "job_id", "x", "the id of a result that is kept"),
+        (QueueFull(5, 5, retry_after_s=30), 429, "waiting", 5, "< 5"),
+        (PlannersBusy(2, retry_after_s=5), 429, "planning", 2, "< 2"),
+    ],
+)
+def test_the_state_that_stands_in_the_way_is_named(
+    error: SidebandError, status: int, field: str, given: object, allowed: str
+) -> None:
+    found = told(error)
+    (wrong,) = found.fields
+    assert isinstance(wrong, FieldError) and found.status == status
+    assert (wrong.field, wrong.given, wrong.allowed) == (field, given, allowed) and wrong.message
+    assert ("Retry-After" in found.headers) == (status == 429 or isinstance(error, ResultNotReady))

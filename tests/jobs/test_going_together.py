@@ -1,0 +1,128 @@
+"""Recordings that cannot go together are refused when asked for, with their fields; doubts stay with the engine."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from jobs.reconciliations.machine import Known, read_form
+from jobs.reconciliations.together import check_together
+from jobs.status import Status
+from reconcile.entry import reconcile_recordings
+from signals.recording import Operating, Recording, Tacho
+from sim.core.errors import Problem, SpecError
+from sim.presets.catalogue import preset
+from tests.service.reconciling import KINEMATICS, World, made
+
+KNOWN = read_form(KINEMATICS)
+CHANNEL = made(1).channels[0]
+
+
+def placed(several: Sequence[Recording], field: str) -> list[Recording]:
+    """As they are seen before a job is made: without samples."""
+    return [
+        replace(one, samples=np.zeros((len(one.channels), 1)), origin="simulated", label=f"{field}.{i}")
+        for i, one in enumerate(several)
+    ]
+
+
+def told(tests: Sequence[Recording], baselines: Sequence[Recording] = (), known: Known = KNOWN) -> dict[str, Problem]:
+    try:
+        check_together(known, placed(tests, "recordings"), placed(baselines, "baselines"))
+    except SpecError as error:
+        return {p.field: p for p in error.problems}
+    return {}
+
+
+def turning(speed_hz: float, *, rate_hz: float = 51200.0) -> Recording:
+    return replace(made(1), sampling_rate_hz=rate_hz, operating=Operating(shaft="input", speed_hz=speed_hz))
+
+
+REFUSED: list[tuple[Recording, str, object, str]] = [
+    (replace(made(2), sampling_rate_hz=2048.0), "baselines.0.sampling_rate_hz", 2048.0, "1024"),
+    (
+        replace(made(2), channels=(replace(CHANNEL, unit="g"),)),
+        "baselines.0.channels.0",
+        "bearing1 x acceleration g",
+        "m/s^2",
+    ),
+    (
+        replace(made(2), operating=Operating(shaft="output", speed_hz=20.0)),
+        "baselines.0.operating.shaft",
+        "output",
+        "input",
+    ),
+    (
+        replace(made(2), operating=Operating(shaft="input", speed_hz=0.0)),
+        "baselines.0.operating.speed_hz",
+        0.0,
+        "> 0",
+    ),
+    (
+        replace(made(2), operating=Operating(shaft="input", speed_hz=1200.0)),
+        "baselines.0.operating.speed_hz",
+        1200.0,
+        "revolutions",
+    ),
+]
+
+
+@pytest.mark.parametrize(("baseline", "field", "given", "allowed"), REFUSED)
+def test_the_odd_one_is_named_by_its_place_in_the_request(
+    baseline: Recording, field: str, given: object, allowed: str
+) -> None:
+    found = told([made(1), made(3)], [baseline])
+    assert list(found) == [field]
+    assert found[field].given == given and allowed in found[field].allowed
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("baseline", [case[0] for case in REFUSED])
+def test_what_is_refused_the_engine_refuses_too(baseline: Recording) -> None:
+    with pytest.raises(SpecError):
+        reconcile_recordings(KNOWN, [made(1), made(3)], [baseline])
+
+
+def test_several_things_are_told_together() -> None:
+    wrong = replace(made(2), sampling_rate_hz=2048.0, operating=Operating(shaft="inptu", speed_hz=20.0))
+    found = told([made(1), made(3)], [wrong])
+    assert set(found) == {"baselines.0.sampling_rate_hz", "baselines.0.operating.shaft"}
+    assert "did you mean input?" in found["baselines.0.operating.shaft"].message
+
+
+def test_where_none_is_the_odd_one_the_other_is_named_in_words_of_the_request() -> None:
+    found = told([made(1)], [replace(made(2), sampling_rate_hz=2048.0)])
+    assert "recordings.0.sampling_rate_hz" in found["baselines.0.sampling_rate_hz"].message
+
+
+def test_what_hangs_on_samples_is_left_to_the_engine() -> None:
+    assert told([made(1), made(3)], [made(2)]) == {}
+    assert told([turning(600.0)], [turning(10.0)]) == {}, "lines of the shaft may confirm the fast run"
+    assert told([turning(40.0)], [turning(20.0)]) == {}, "operating points may differ"
+    assert list(told([turning(1200.0)], [turning(20.0)])) == ["recordings.0.operating.speed_hz"]
+
+
+def test_pulses_that_say_another_speed_are_certain() -> None:
+    pulses = Tacho(shaft="input", pulses_per_revolution=1, pulse_times_s=np.arange(20) / 10.0)
+    assert list(told([replace(turning(600.0), tacho=pulses)])) == ["recordings.0.operating.speed_hz"]
+
+
+def test_a_place_that_the_simulated_machine_does_not_have() -> None:
+    known, elsewhere = preset("paper"), replace(CHANNEL, location="roof")
+    test = replace(made(1), channels=(elsewhere,))
+    assert list(told([test], (), known)) == ["recordings.0.channels.a.location"]
+    assert told([made(1)], [made(2)], known) == {}
+
+
+@pytest.mark.slow
+def test_no_job_is_made_of_what_cannot_go_together(tmp_path: Path) -> None:
+    world = World(tmp_path)
+    test, baseline = world.recording(1), world.sent(replace(made(2), sampling_rate_hz=2048.0))
+    with pytest.raises(SpecError) as refused:
+        world.ask([test], baselines=[baseline])
+    assert [p.field for p in refused.value.problems] == ["baselines.0.sampling_rate_hz"]
+    assert world.ask([test], baselines=[world.recording(2)]).status is Status.ACCEPTED

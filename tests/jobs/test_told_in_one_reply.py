@@ -1,0 +1,86 @@
+"""Wrong requests for reconciliations: every field is told at once, misspelt keys with the close spelling."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from pydantic import ValidationError
+
+from jobs.reconciliations.machine import read_form
+from jobs.reconciliations.request import ReconciliationRequest
+from jobs.validation import problems_of
+from sim.core.errors import Problem, SpecError
+
+BEARING = {"name": "b", "shaft": "s", "catalogue": "6205"}
+
+
+def refused(form: dict[str, Any]) -> dict[str, Problem]:
+    with pytest.raises(SpecError) as caught:
+        read_form(form)
+    return {p.field: p for p in caught.value.problems}
+
+
+def test_a_misspelt_key_hides_neither_what_is_under_it_nor_the_rules_between_parts() -> None:
+    drawing = {
+        "shafts": [{"name": "s"}],
+        "berings": [{**BEARING, "shaft": "z"}],
+        "gears": [{"name": "g", "shaft": "q", "teeth": 20}],
+    }
+    told = refused({"kinematics": drawing})
+    slip = told["machine.kinematics.berings"]
+    assert "did you mean bearings?" in slip.message and "bearings" in slip.allowed and slip.given == "a list of 1"
+    assert told["machine.kinematics.berings.0.shaft"].given == "z", "told under the key as it was written"
+    assert told["machine.kinematics.gears.0.shaft"].given == "q"
+    assert drawing["berings"][0]["shaft"] == "z" and "bearings" not in drawing, "the request is left as it is"
+
+
+def test_a_wrong_value_beside_a_misspelt_key_is_told() -> None:
+    told = refused({"kinematics": {"shafts": [{"name": "s", "speed_hz": -1}], "berings": [BEARING]}})
+    assert set(told) == {"machine.kinematics.berings", "machine.kinematics.shafts.0.speed_hz"}
+    speed = told["machine.kinematics.shafts.0.speed_hz"]
+    assert (speed.message, speed.given, speed.allowed, speed.unit) == ("is too small", -1, "> 0", "Hz")
+
+
+def test_a_specification_is_read_behind_its_slips_too() -> None:
+    told = refused({"name": "x", "berings": [{"name": "b"}], "bodies": [{"name": "m", "mass": 1.0}]})
+    assert "did you mean bearings?" in told["machine.berings"].message
+    assert any(field.startswith("machine.berings.0.") for field in told)
+    assert "did you mean mass_kg?" in told["machine.bodies.0.mass"].message
+
+
+def test_a_key_beside_kinematics_and_a_section_are_named_with_what_else_is_wrong() -> None:
+    told = refused({"kinematics": {"shafts": []}, "nam": "x"})
+    assert told["machine.nam"].allowed == "kinematics" and told["machine.kinematics.shafts"].allowed
+    told = refused({"parameters": {"speed": 1}, "berings": []})
+    assert "did you mean bearings?" in told["machine.berings"].message and "machine.parameters.speed" in told
+
+
+def test_the_machine_is_told_together_with_the_other_fields() -> None:
+    body = {"machine": {"kinematics": {"shafts": "s"}}, "recordings": ["r"], "budget": "huge", "sed": 1}
+    with pytest.raises(ValidationError) as caught:
+        ReconciliationRequest.model_validate(body)
+    told = {p.field: p for p in problems_of(caught.value, model=ReconciliationRequest)}
+    assert set(told) == {"machine.kinematics.shafts", "budget", "sed"}
+    assert all(p.allowed and "input should" not in p.message for p in told.values())
+    assert "did you mean seed?" in told["sed"].message
+
+
+@pytest.mark.parametrize(
+    ("changes", "field", "allowed"),
+    [
+        ({"recordings": "x"}, "recordings", "a list"),
+        ({"baselines": {}}, "baselines", "a list"),
+        ({"baselines": ["x y"]}, "baselines.0", "letters, digits, _ and -"),
+        ({"seed": 1.5}, "seed", "a whole number >= 0"),
+        ({"machine": 3}, "machine", "Name of a preset"),
+        ({"machine": None}, "machine", "Name of a preset"),
+        ({"recordings": []}, "recordings", "min length 1"),
+    ],
+)
+def test_what_is_allowed_is_always_said(changes: dict[str, Any], field: str, allowed: str) -> None:
+    body = {"machine": "paper", "recordings": ["r"], **changes}
+    with pytest.raises(ValidationError) as caught:
+        ReconciliationRequest.model_validate({key: value for key, value in body.items() if value is not None})
+    (told,) = problems_of(caught.value, model=ReconciliationRequest)
+    assert told.field == field and allowed in told.allowed and "nput should" not in told.message
