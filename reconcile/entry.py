@@ -166,11 +166,13 @@ def reconcile_recordings(
     silent = (*unstated(given(tests, baselines)), *exchanged(given(tests, baselines)))
     if isinstance(machine, MachineSpec):
         tests, baselines = ([_turning(machine, one) for one in several] for several in (tests, baselines))
+    if isinstance(machine, KinematicSpec):
+        progress(0.0, "held speed")
     smeared = unsteady(tests, baselines, level, seed)
     if smeared is not None:
         return _with_labels(smeared, sent, machine.name)
     if isinstance(machine, KinematicSpec):
-        report = reconcile_kinematics(machine, tests, baselines, seed=seed)
+        report = reconcile_kinematics(machine, tests, baselines, seed=seed, progress=progress)
         remarks = unplaced(machine.parts, given(tests, baselines)) if _has_places(machine) else ()
         return _with_labels(_with_limits(report, (*remarks, *silent)), sent, machine.name)
     report = reconcile_machine(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
@@ -10,8 +10,7 @@ from jobs.atlas.lead import Lead
 from jobs.errors import NotReconcilable
 from jobs.ports import ArtefactStore, JobCatalogue
 from jobs.reconciliations.chosen import choose
-from jobs.reconciliations.follow import followed, teller
-from jobs.reconciliations.machine import Known, restored_known
+from jobs.reconciliations.machine import restored_known
 from jobs.reconciliations.request import ReconciliationRequest
 from jobs.reconciliations.words import MACHINE, PAGE, REPORT
 from jobs.record import Answer, ResultRef
@@ -35,16 +34,22 @@ ATLAS_END, ATLAS_SPAN, REFINED_SPAN = 0.6, 0.5, 0.05
 
 
 class Watched:
-    """Hears the engine's stages, and stands between its simulations to ask whether the work is still wanted."""
+    """Hears the engine's stages, and stands between its simulations to ask whether the work is still wanted.
 
-    def __init__(self, reporter: Reporter, points: int, lead: Lead | None = None) -> None:
+    `paced`: shares of the engine are shares of its time, so they tell how long it still takes; where an atlas may be
+    there already they are not.
+    """
+
+    def __init__(self, reporter: Reporter, points: int, lead: Lead | None = None, *, paced: bool = False) -> None:
         self._reporter, self._points, self._lead = reporter, max(points, 1), lead
         self._share, self._stage = 0.0, ""
+        self._paced, self._started_s = paced, time.monotonic()
 
     def stage(self, share: float, stage: str) -> None:
         """A stage of the engine begins; raises Cancelled."""
         self._share, self._stage = share, stage
-        self._tell(share, stage)
+        left_s = (time.monotonic() - self._started_s) * (1.0 - share) / share if self._paced and share > 0.0 else None
+        self._tell(share, stage, left_s)
 
     def map(self, run: Callable[[Task], Any], tasks: Iterable[Task]) -> Iterator[Any]:
         """`map` that tells how far it is and ends with Cancelled between two tasks; with a lead other workers help."""
@@ -67,8 +72,8 @@ class Watched:
         part = min(done + 1, total)
         self._tell(self._share + span * done / total, f"{self._stage}, part {part} of {total}")
 
-    def _tell(self, share: float, stage: str) -> None:
-        self._reporter.stage(stage, LOADED + (STORING - LOADED) * share)
+    def _tell(self, share: float, stage: str, left_s: float | None = None) -> None:
+        self._reporter.stage(stage, LOADED + (STORING - LOADED) * share, left_s)
 
 
 def reconcile_stored(
@@ -89,29 +94,22 @@ def reconcile_stored(
     try:
         known = restored_known(document["machine"])
         tests, baselines = choose(catalogue, artefacts, request.recordings, request.baselines).loaded()
-        watched = Watched(reporter, len({r.operating for r in tests}), lead)
-        with _telling(known, reporter, sum(r.samples.size for r in (*tests, *baselines))):
-            report = reconcile_recordings(
-                known,
-                tests,
-                baselines,
-                budget=BUDGETS[request.budget],
-                keeper=keeper,
-                mapper=watched.map,
-                seed=request.seed,
-                progress=watched.stage,
-            )
+        paced = isinstance(known, KinematicSpec)
+        watched = Watched(reporter, len({r.operating for r in tests}), lead, paced=paced)
+        report = reconcile_recordings(
+            known,
+            tests,
+            baselines,
+            budget=BUDGETS[request.budget],
+            keeper=keeper,
+            mapper=watched.map,
+            seed=request.seed,
+            progress=watched.stage,
+        )
     except SpecError as error:
         raise NotReconcilable(error.problems) from error
     reporter.stage("storing", STORING)
     return _kept(artefacts, prefix, attempt, report, request.seed, tests[0].sampling_rate_hz, expires_at())
-
-
-def _telling(known: Known, reporter: Reporter, samples: int) -> contextlib.AbstractContextManager[None]:
-    """Follows the level of kinematics from beside it; a machine that is simulated tells its stages itself."""
-    if not isinstance(known, KinematicSpec):
-        return contextlib.nullcontext()
-    return followed(teller(reporter, LOADED, STORING), samples=samples)
 
 
 def _kept(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -47,17 +47,33 @@ STANDS_OUT_DB = 10.0
 """By which one multiple of a shaft must have grown more than the middle of many to be the answer alone."""
 
 
+Progress = Callable[[float, str], None]
+GATE, FEATURES, LINES, SPEEDS, HELD_OUT = 0.4, 0.5, 0.6, 0.8, 0.9
+"""Shares of the work at which stages begin (recordings of 0.1 million samples); a held speed is judged before."""
+
+
+def _silent(share: float, stage: str) -> None:
+    pass
+
+
 def reconcile_kinematics(
-    spec: KinematicSpec | MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording], *, seed: int
+    spec: KinematicSpec | MachineSpec,
+    tests: Sequence[Recording],
+    baselines: Sequence[Recording],
+    *,
+    seed: int,
+    progress: Progress = _silent,
 ) -> Report:
     """What the tests have that the kinematics (and the baselines) do not explain.
+
+    `progress` is told the share that is done and what comes next.
 
     The sensor gate comes first; a measurement fault is the answer if the cleaned recordings show nothing missing.
     Without baselines only what sound machines never show is named: bearing lines of a depth that none reached, and no
     impacts once a turn. Sizes are given only where the signal itself measures them.
     """
     started = time.process_time()
-    report = _reconciled(spec, tests, baselines, seed)
+    report = _reconciled(spec, tests, baselines, seed, progress)
     provenance = {**origin(seed, time.process_time() - started), "level": "kinematics"}
     return replace(report, provenance=provenance)
 
@@ -67,8 +83,10 @@ def _reconciled(
     tests: Sequence[Recording],
     baselines: Sequence[Recording],
     seed: int,
+    progress: Progress,
     corrected: bool = False,
 ) -> Report:
+    progress(GATE, "sensor gate")
     known = of_machine(spec) if isinstance(spec, MachineSpec) else spec
     operating = tests[0].operating if tests else None
     tie = ties(known, operating.shaft if operating else None)
@@ -87,6 +105,7 @@ def _reconciled(
     gate = whole.gate
     if not gate.usable:
         return finished(fault_report(gate), gate, (), ())
+    progress(FEATURES, "speed and features")
     try:
         seen = _observed(gate.tests, "test", tie, stated, seed)
         past = _observed(gate.baselines, "baseline", tie, stated, seed)
@@ -94,11 +113,13 @@ def _reconciled(
         return finished(refused_report(error), gate, (), ())
     wrong = None if corrected else other_teeth(known, tie.reference, (*seen, *past))
     if wrong is not None:
-        return told_with(_reconciled(with_teeth(known, wrong), tests, baselines, seed, corrected=True), wrong)
+        return told_with(_reconciled(with_teeth(known, wrong), tests, baselines, seed, _silent, True), wrong)
     gate, seen, past = without(gate, seen, past, whole.lost)
     far = turned_elsewhere((*seen, *past), tie, seed)
     gate, seen, past, told = left_out(gate, seen, past, far)
+    progress(LINES, "lines of bearings, teeth and shafts")
     first, every = _judged(known, tie, seen, past, seed)
+    progress(SPEEDS, "other speeds")
     recordings = (gate.tests, seen), (gate.baselines, past)
     here = Judged(report=first, every=every)
     elsewhere = told_elsewhere(here, seen, far, partial(_at_speeds, known, tie, *recordings, seed))
@@ -106,6 +127,7 @@ def _reconciled(
     report = elsewhere or against_rivals(here, seen, tie, at, stated, _other_speeds(here, seen, past, tie, seed))
     if report.sentence == first.sentence:  # else the speed is doubted already
         report = with_speeds(report, seen, past)
+    progress(HELD_OUT, "held-out data")
     if report.verdict != "measurement_fault":
         report = remarked(report, tie, seen, past, every, seed)
     report = replace(report, where=replace(report.where, limits=(*report.where.limits, *told, *whole.told)))
