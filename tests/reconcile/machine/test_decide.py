@@ -57,23 +57,6 @@ def test_what_strikes_at_another_part_is_no_rival() -> None:
     assert decide(none, views=9).chosen == NAMES[4:6], "the likeliest strikes nowhere"
 
 
-def test_impacts_of_a_part_are_no_other_answer_than_a_pattern_that_strikes_nowhere() -> None:
-    """Neither explains the other's: a loose pedestal and the pit of one of two bearings with the same lines."""
-    looseness, spalls = "pedestal_looseness@bearing2", ("outer_spall@bearing3", "outer_spall@bearing4")
-    names = (looseness, *spalls, "rub@gear")
-    struck = np.array([0.0, 13.0, 13.0, 0.0])
-    both = replace(screen([15.0, 15.0, 14.8, 7.0], names), direct=struck)
-    assert decide(both, views=9).chosen == (looseness,)
-    rivals = replace(screen([15.0, 15.0, 14.8, 14.0], names), direct=struck)
-    assert len(decide(rivals, views=9).chosen) > 1, "the pattern is not decided"
-    own = replace(screen([15.0, 27.0, 14.8, 7.0], names), direct=struck)
-    assert decide(own, views=9).chosen == spalls[:1], "the pit's own pattern is as good"
-    near = replace(screen([15.0, 14.5, 4.8, 7.0], names), direct=np.array([0.0, 1.5, 0.0, 0.0]))
-    assert decide(near, views=9).chosen == (looseness, spalls[0]), "impacts that are not sure"
-    unsure = replace(screen([15.0, 14.9, 14.8, 1.0], names), direct=np.array([0.0, 1.0, 1.0, 0.0]))
-    assert decide(unsure, views=9).word == "ambiguous"
-
-
 def screen(evidence: list[float], names: tuple[str, ...] = NAMES, **how: object) -> Screen:
     values = np.array(evidence + [-5.0] * (len(names) - len(evidence)))
     weights = np.exp(values - values.max())

@@ -1,6 +1,9 @@
-"""A set whose first effect is far likelier, feature by feature, than all others of it is no set."""
+"""What is no set: one whose first effect is far likelier, feature by feature, than all others of it, or impacts beside a
+pattern."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -67,3 +70,20 @@ def test_likelihoods_are_of_what_was_fitted_and_does_not_strike(monkeypatch: pyt
     assert both[RIGHT] > 30.0 and both[WRONG] < 0.0, "what moves other features is less likely than no change"
     monkeypatch.setattr(leftover, "strikes", lambda name: name == WRONG)
     assert likelihoods(setting, found) == {RIGHT: both[RIGHT]}  # type: ignore[arg-type]
+
+
+def test_impacts_of_a_part_are_no_other_answer_than_a_pattern_that_strikes_nowhere() -> None:
+    """Neither explains the other's: a loose pedestal and the pit of one of two bearings with the same lines."""
+    looseness, spalls = "pedestal_looseness@bearing2", ("outer_spall@bearing3", "outer_spall@bearing4")
+    names = (looseness, *spalls, "rub@gear")
+    struck = np.array([0.0, 13.0, 13.0, 0.0])
+    both = replace(screen([15.0, 15.0, 14.8, 7.0], names), direct=struck)
+    assert decide(both, views=9).chosen == (looseness,)
+    rivals = replace(screen([15.0, 15.0, 14.8, 14.0], names), direct=struck)
+    assert len(decide(rivals, views=9).chosen) > 1, "the pattern is not decided"
+    own = replace(screen([15.0, 27.0, 14.8, 7.0], names), direct=struck)
+    assert decide(own, views=9).chosen == spalls[:1], "the pit's own pattern is as good"
+    near = replace(screen([15.0, 14.5, 4.8, 7.0], names), direct=np.array([0.0, 1.5, 0.0, 0.0]))
+    assert decide(near, views=9).chosen == (looseness, spalls[0]), "impacts that are not sure"
+    unsure = replace(screen([15.0, 14.9, 14.8, 1.0], names), direct=np.array([0.0, 1.0, 1.0, 0.0]))
+    assert decide(unsure, views=9).word == "ambiguous"
