@@ -1,5 +1,4 @@
-"""What is no set: one whose first effect is far likelier, feature by feature, than all others of it, or impacts beside a
-pattern."""
+"""What is no set: a first effect far likelier, feature by feature, than all others; impacts beside a pattern."""
 
 from __future__ import annotations
 
