@@ -65,6 +65,8 @@ LEAST_LIKELIER, LIKELIER_SHARE = 10.0, 0.25
 feature by feature, that it leaves the set. How near draws come is chance too: of an unbalance and a bow, which are
 alike, one leads by 453 of 2297 (r021). Of sets of the proof with one effect hidden the right first one leads a torque
 by 28 of 106 (t014), a stiffening support by 11 of 83 (k018), loose fits by 53 of 554 and 12 of 235 (r007, r114)."""
+AS_GOOD = 1.0
+"""Log evidence behind the first up to which an effect is as good: chance decides between such."""
 ALIKE = {"bent_shaft", "unbalance"}
 """An unbalance u and a bow u/m of one body are the same force on its bearings at every speed."""
 GREAT = 25.0
@@ -182,15 +184,19 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
 
 
 def beside_impacts(screen: Screen, chosen: tuple[str, ...]) -> tuple[str, ...]:
-    """Of a set whose first strikes nowhere, though others do for sure: the first alone, where the pattern without these
-    impacts is its own. They are no other answer then, but stand beside it: neither explains the other's."""
+    """Of a set that holds what strikes for sure and what strikes nowhere: the latter's best alone, where it is as good
+    as the first and the pattern without these impacts is its own. They are no other answer then, but stand beside it:
+    neither explains the other's."""
     struck = {name: float(screen.direct[screen.names.index(name)]) for name in chosen}
-    if struck[chosen[0]] >= LEAST_EVIDENCE or max(struck.values()) < STRUCK:
+    resting = [name for name in chosen if struck[name] < LEAST_EVIDENCE]
+    if not resting or max(struck.values()) < STRUCK:
+        return chosen
+    if screen.evidence.max() - screen.evidence[screen.names.index(resting[0])] > AS_GOOD:
         return chosen
     pattern = screen.evidence - screen.direct
     weights = np.exp(pattern - pattern.max())
     own = credible_set(merged_weights(replace(screen, weights=weights / weights.sum())))
-    return chosen[:1] if own == chosen[:1] else chosen
+    return own if own == (resting[0],) else chosen
 
 
 def likelier(screen: Screen, chosen: tuple[str, ...]) -> tuple[str, ...]:

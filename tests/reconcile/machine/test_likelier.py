@@ -78,6 +78,10 @@ def test_impacts_of_a_part_are_no_other_answer_than_a_pattern_that_strikes_nowhe
     struck = np.array([0.0, 13.0, 13.0, 0.0])
     both = replace(screen([15.0, 15.0, 14.8, 7.0], names), direct=struck)
     assert decide(both, views=9).chosen == (looseness,)
+    behind = replace(screen([14.9, 15.0, 14.0, 7.0], names), direct=struck)
+    assert decide(behind, views=9).chosen == (looseness,), "chance decides which of both is first"
+    far = replace(screen([13.0, 15.0, 14.8, 7.0], names), direct=struck)
+    assert len(decide(far, views=9).chosen) > 1, "the first's own pattern is not asked for"
     rivals = replace(screen([15.0, 15.0, 14.8, 14.0], names), direct=struck)
     assert len(decide(rivals, views=9).chosen) > 1, "the pattern is not decided"
     own = replace(screen([15.0, 27.0, 14.8, 7.0], names), direct=struck)
