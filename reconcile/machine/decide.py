@@ -150,6 +150,7 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     chosen = credible_set(weights)
     if views <= FEW_VIEWS:
         chosen = _not_excluded(screen, weights, chosen)
+    leader, chosen = chosen[0], beside_impacts(screen, chosen)
     evidence = {name: float(screen.evidence[screen.names.index(name)]) for name in chosen}
     weak = evidence[chosen[0]] < LEAST_EVIDENCE
     if weak and screen.strongest < FAINT and screen.p_lines > CLEAR_P:
@@ -160,7 +161,7 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     odd = screen.misfit > strange
     far = lead(screen) >= FAR_AHEAD and not (odd and screen.rest.kept < LEAST_KEPT_FAR)
     odd = odd and not (far and not screen.rest.rough)
-    inadequate = odd or (leaves_lines(screen.rest) and not far)
+    inadequate = chosen[0] == leader and (odd or (leaves_lines(screen.rest) and not far))  # what the leader leaves
     if weak or alone or (inadequate and struck < STRUCK):
         here = () if weak or alone else of_the_place(screen)
         if here:
@@ -169,7 +170,6 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
             )
             return Decision(word="ambiguous", chosen=here[:MOST_NAMED], p=p, reasons=(reason,))
         return Decision(word="unknown_physics", chosen=chosen[:3], p=p, reasons=(_misfit(screen, alone and not weak),))
-    chosen = beside_impacts(screen, chosen)
     likely = likelier(screen, chosen) if views > FEW_VIEWS else chosen
     led, chosen = len(likely) < len(chosen), likely
     if len(chosen) == 1:
