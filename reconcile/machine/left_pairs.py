@@ -8,7 +8,7 @@ lines alone are asked: impacts bring a forest of other lines, and what is left o
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from reconcile.atlas.bank import Mapper
 from reconcile.atlas.candidates import Candidate
 from reconcile.judge.screen import looked
 from reconcile.judge.space import Fitted
+from reconcile.machine.asked import TEMPER, Asked
 from reconcile.machine.assimilate import Ensemble, moved, simulated_again
 from reconcile.machine.decide import Decision, alike
 from reconcile.machine.leftover import Leftover, leftover, ranked_seconds
@@ -23,6 +24,7 @@ from reconcile.machine.library import Catalogued, joined
 from reconcile.machine.pairs import Pair, Pairs, Simulated, evidence_in, inadequate, pair_of
 from reconcile.machine.second import strikes
 from reconcile.machine.setting import Found, Setting
+from reconcile.machine.sizes import searched
 from reconcile.machine.told_by import heard, own_lines, teeth_tell
 from reconcile.machine.weigh import LEAST_EVIDENCE, exclusive, variants
 from signals.series import FloatArray
@@ -30,12 +32,8 @@ from signals.series import FloatArray
 PROMISING = 2.5
 """Log likelihood that a second effect must add by sums to be simulated: a clearance beside an unbalance added 3.6 so
 and 64 simulated."""
-LEAST_GAIN, LEAD = 20.0, 6.0
-"""Log likelihood that it must add as simulated, beyond what the first gains by being moved as often, and by which it
-must lead the other simulated ones. Features are not independent, so this counts several times what evidence does. Right
-seconds of the proof add 28 and more, wrong ones up to 16 (docs/decisions/reconcile-leftover.md)."""
-BESIDE_PIT = 12.0
-"""What it must add by the teeth's own lines, a fifth of the features: a right one adds 12.8, wrong ones up to 7.3."""
+LEAD = 6.0
+"""Log likelihood by which it must lead the other simulated ones."""
 NEAR_SHARE, LEAST_ASKED = 0.5, 2
 """Share of the most that any adds by sums from which a second is simulated, two in any case, and of what the best adds
 simulated from which one that was not is told with it. Beside a loose fit a crack of a shaft added 48 by sums and the
@@ -43,36 +41,8 @@ unbalance that was there 37; simulated 54 and 123."""
 TWIN_SHARE = 0.85
 """Share of the gain of a bow or an unbalance from which the other one of the same body is told too, on a machine with
 teeth, which tell."""
-TEMPER = 4.0
-"""Log likelihood that counts as one unit of evidence where sizes are weighed."""
 DRAWS = 3
 """The second effect's draws that start an ensemble, in turn."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Asked:
-    """Seconds beside the effect `first`: `every` draw, of the atlas and, from row `local` on, of machines that agree
-    with the baseline; `view` of single lines in which both are fitted."""
-
-    setting: Setting
-    found: Found
-    first: str
-    every: Catalogued
-    local: int
-    left: Leftover
-    view: Fitted
-    members: int
-    mapper: Mapper
-
-    @property
-    def beside_impacts(self) -> bool:
-        """Whether the first is a pit."""
-        return strikes(self.first)
-
-    @property
-    def least(self) -> float:
-        """What a second must add."""
-        return BESIDE_PIT if self.beside_impacts else LEAST_GAIN
 
 
 def best_left_pair(
@@ -96,7 +66,8 @@ def best_left_pair(
     seen = [one for one in seen if one[1] >= PROMISING]
     near = sum(one[1] >= NEAR_SHARE * seen[0][1] for one in seen)
     made = {name: _fitted(asked, name, rows) for name, _, rows in seen[: max(LEAST_ASKED, min(near, most))]}
-    fitted = _fairly(asked, made)
+    sought = _searched(asked, made, seen)
+    fitted = _fairly(asked, {**made, **sought})
     pairs = sorted((p for p in fitted.values() if p is not None), key=lambda p: -p.gain)
     simulated = {name: None if pair is None else pair.gain for name, pair in fitted.items()}
     tried = tuple((name, gain, simulated.get(name)) for name, gain, _ in seen)
@@ -104,7 +75,7 @@ def best_left_pair(
     if best is not None:
         second = best.beside.names[0]
         others = _rivals(asked, best, pairs[1:], {name: gain for name, gain, _ in seen})
-        drawn = None if others else _drawn(asked, atlas, second)
+        drawn = None if others else _drawn(asked, atlas, best, searched=second in sought)
         best = replace(best, others=(second, *others) if others else (), drawn=drawn)
         best = best if others or drawn is not None else None
     return Pairs(first=first, tried=tried, best=best)
@@ -122,8 +93,8 @@ def _lines(setting: Setting, found: Found, decision: Decision) -> Fitted | None:
 
 def _asked(
     setting: Setting, found: Found, first: str, atlas: Catalogued, view: Fitted, members: int, mapper: Mapper
-) -> _Asked:
-    return _Asked(
+) -> Asked:
+    return Asked(
         setting=setting,
         found=found,
         first=first,
@@ -136,7 +107,21 @@ def _asked(
     )
 
 
-def _fairly(asked: _Asked, made: Mapping[str, Pair | None]) -> dict[str, Pair | None]:
+def _searched(
+    asked: Asked, made: Mapping[str, Pair | None], seen: Sequence[tuple[str, float, tuple[int, ...]]]
+) -> dict[str, Pair]:
+    """The second whose simulation refuses least of what its sum promises, with the sizes of both searched, where none
+    of those `made` adds enough: a first that was fitted alone is too large beside it."""
+    gains = {name: -np.inf if pair is None else pair.gain for name, pair in made.items()}
+    refused = {name: rows for name, gain, rows in seen if name in made and gain >= asked.least}
+    if asked.beside_impacts or not refused or max(gains.values()) >= asked.least:
+        return {}
+    name = max(refused, key=lambda n: gains[n])
+    found = searched(asked, _start(asked, (), ""), refused[name])
+    return {} if found is None else {name: _pair(asked, name, found)}
+
+
+def _fairly(asked: Asked, made: Mapping[str, Pair | None]) -> dict[str, Pair | None]:
     """With what the first alone gains by being moved once more, as the pairs were, taken off; where it matters."""
     if max((p.gain for p in made.values() if p is not None), default=0.0) < asked.least:
         return dict(made)
@@ -145,7 +130,7 @@ def _fairly(asked: _Asked, made: Mapping[str, Pair | None]) -> dict[str, Pair | 
     return {name: None if p is None else replace(p, gain=p.gain - gained) for name, p in made.items()}
 
 
-def _rivals(asked: _Asked, best: Pair, pairs: Sequence[Pair], sums: Mapping[str, float]) -> list[str]:
+def _rivals(asked: Asked, best: Pair, pairs: Sequence[Pair], sums: Mapping[str, float]) -> list[str]:
     """What may stand beside the first as well as the best does: what is near it simulated; what was not simulated and
     is near it by its sum; a bow for an unbalance and the other way round, which teeth alone tell apart."""
     second, told = best.beside.names[0], {p.beside.names[0]: p.gain for p in pairs}
@@ -175,7 +160,7 @@ def _possible(setting: Setting, every: Catalogued, first: str) -> list[str]:
     return [n for n in names if not strikes(n) or (heard(setting, n) and not strikes(first))]
 
 
-def _start(asked: _Asked, rows: Sequence[int], second: str) -> Ensemble:
+def _start(asked: Asked, rows: Sequence[int], second: str) -> Ensemble:
     """The first's nearest draws, with the best of the `second` in turn if there are `rows` of one; half of them are
     what fits best in sum: alone, the first is as large as it must be to explain the second too."""
     every, changes = asked.every, asked.setting.changes
@@ -199,7 +184,7 @@ def _start(asked: _Asked, rows: Sequence[int], second: str) -> Ensemble:
     )
 
 
-def _best_sums(asked: _Asked, firsts: Sequence[int], seconds: Sequence[int]) -> list[tuple[int, int]]:
+def _best_sums(asked: Asked, firsts: Sequence[int], seconds: Sequence[int]) -> list[tuple[int, int]]:
     """Draws of both whose sums are likeliest, the best first, every first once."""
     library = asked.every.library.changes
     told = np.array(
@@ -209,17 +194,22 @@ def _best_sums(asked: _Asked, firsts: Sequence[int], seconds: Sequence[int]) -> 
     return [(firsts[int(k)], seconds[int(np.argmax(told[k]))]) for k in order]
 
 
-def _drawn(asked: _Asked, atlas: Catalogued, second: str) -> FloatArray | None:
-    """What both show on machines that were not led to the observation: for held-out data. None where too few run."""
+def _drawn(asked: Asked, atlas: Catalogued, pair: Pair, *, searched: bool) -> FloatArray | None:
+    """What both show on machines that were not led to the observation, with the sizes that were `searched` if they had
+    to be: for held-out data. None where too few run."""
+    second, together = pair.beside.names[0], pair.beside.together
     bare = replace(asked.found, known=asked.found.unled)
     free = _asked(asked.setting, bare, asked.first, atlas, asked.view, asked.members, asked.mapper)
     ((_, _, rows),) = ranked_seconds(free.left, free.setting.changes, free.every, [second])
     start = _start(free, rows, second)
+    if searched and together is not None:
+        both = [together.terms[k % len(together.terms)] for k in range(len(start.terms))]
+        start = replace(start, terms=tuple(a for a, _ in both), also=tuple(b for _, b in both))
     more = simulated_again(free.setting, start.candidate, start.offsets, start.terms, free.mapper, also=start.also)
     return None if more is None else more.library.changes
 
 
-def _moved(asked: _Asked, start: Ensemble, second: str) -> Simulated | None:
+def _moved(asked: Asked, start: Ensemble, second: str) -> Simulated | None:
     """These machines and effects led to the observation, simulated; None where too few run."""
     setting, left = asked.setting, asked.left
     rng = np.random.default_rng([setting.seed, 23, *f"{asked.first}+{second}".encode()])
@@ -233,11 +223,13 @@ def _moved(asked: _Asked, start: Ensemble, second: str) -> Simulated | None:
     return Simulated(known=more, also=led.also, gains=gains)
 
 
-def _fitted(asked: _Asked, second: str, rows: Sequence[int]) -> Pair | None:
+def _fitted(asked: Asked, second: str, rows: Sequence[int]) -> Pair | None:
     """Both on the machines of the first one's draws, fitted together; None where too few run."""
     made = _moved(asked, _start(asked, rows, second), second)
-    if made is None:
-        return None
+    return None if made is None else _pair(asked, second, made)
+
+
+def _pair(asked: Asked, second: str, made: Simulated) -> Pair:
     gain = asked.left.level(made.known.library.changes) - asked.left.base
     pair = pair_of(asked.setting, asked.found, asked.first, second, asked.view, made, gain / TEMPER)
     together = pair.beside.together
@@ -246,7 +238,7 @@ def _fitted(asked: _Asked, second: str, rows: Sequence[int]) -> Pair | None:
     return replace(pair, gain=gain)
 
 
-def _stands(asked: _Asked, decision: Decision, best: Pair) -> bool:
+def _stands(asked: Asked, decision: Decision, best: Pair) -> bool:
     if best.gain < asked.least or (decision.word != "explained" and inadequate(best)):
         return False
     if asked.beside_impacts:
@@ -259,7 +251,7 @@ def _stands(asked: _Asked, decision: Decision, best: Pair) -> bool:
     return not any(_with_another(asked, name, second) > reached for name in firsts)
 
 
-def _leads(asked: _Asked, decision: Decision) -> bool:
+def _leads(asked: Asked, decision: Decision) -> bool:
     """Whether the first leads what else of the set it may be by impacts and families of features: single lines of the
     teeth say nothing of which part is struck."""
     fitted, screen = asked.found.fitted, asked.found.screen
@@ -269,13 +261,13 @@ def _leads(asked: _Asked, decision: Decision) -> bool:
     return all(told[asked.first] - told[n] >= LEAST_EVIDENCE for n in others)
 
 
-def _alone(asked: _Asked, name: str) -> float:
+def _alone(asked: Asked, name: str) -> float:
     """What another effect of the same machines reaches without a second, by as many draws."""
     known = asked.found.known.library
     return asked.left.level(asked.left.nearest(known.changes[list(known.groups[name])]))
 
 
-def _with_another(asked: _Asked, first: str, second: str) -> float:
+def _with_another(asked: Asked, first: str, second: str) -> float:
     """What another first reaches with the second, simulated as the best was."""
     if exclusive(first, second):
         return -np.inf

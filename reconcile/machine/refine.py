@@ -37,7 +37,8 @@ def _moved(param: Param, value: float, rng: np.random.Generator) -> float:
     return float(np.clip(moved, param.low, param.high))
 
 
-def _known(name: str) -> Term:
+def known_term(name: str) -> Term:
+    """The registered term; ValueError for another name."""
     term = REGISTRY.get(name)
     if term is None:
         raise ValueError(f"no term {name}")
@@ -45,7 +46,7 @@ def _known(name: str) -> Term:
 
 
 def _near(term: TermSpec, rng: np.random.Generator) -> TermSpec:
-    known = _known(term.term)
+    known = known_term(term.term)
     size = size_parameter(known)
     values = {p.name: _moved(p, term.parameters[p.name], rng) for p in known.params if p.name in term.parameters}
     grown = term.parameters[size.name] * float(np.exp(rng.normal(0.0, NEAR_SIZE)))
@@ -80,8 +81,8 @@ def spread_plan(
     for name, terms in around:
         term, site = name.split("@")
         rng = np.random.default_rng([seed, 5, *name.encode()])
-        size = size_parameter(_known(term))
-        least, most = sought_range(plan.machine, _known(term), site)
+        size = size_parameter(known_term(term))
+        least, most = sought_range(plan.machine, known_term(term), site)
         middle = float(np.exp(np.mean(np.log(np.clip([t.parameters[size.name] for t in terms], least, most)))))
         low, high = max(middle / SMALLER, least), min(middle * LARGER, most)
         for j in range(draws):

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from reconcile.machine import left_pairs
+from reconcile.machine.asked import BESIDE_PIT
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import STRUCK, Decision
-from reconcile.machine.left_pairs import BESIDE_PIT, LEAD, best_left_pair
+from reconcile.machine.left_pairs import LEAD, best_left_pair
 from reconcile.machine.pairs import Pair, Pairs
 from reconcile.machine.setting import Found
 from reconcile.machine.told_by import own_lines, teeth_tell

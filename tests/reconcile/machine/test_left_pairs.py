@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 
 from reconcile.machine import left_pairs
+from reconcile.machine.asked import LEAST_GAIN
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import Decision
 from reconcile.machine.direct import HEARD
 from reconcile.machine.heldout import held_out, with_drawn
-from reconcile.machine.left_pairs import LEAST_GAIN, best_left_pair
+from reconcile.machine.left_pairs import best_left_pair
 from reconcile.machine.library import joined
 from reconcile.machine.pairs import Pair, Pairs, named_pair
 from reconcile.machine.setting import Found
@@ -88,7 +89,7 @@ def test_forecasts_are_of_machines_that_were_not_led_to_the_observation(simulate
 def test_no_pair_where_the_machines_of_its_forecast_do_not_run(
     simulated: Asked, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(left_pairs, "_drawn", lambda *_: None)
+    monkeypatch.setattr(left_pairs, "_drawn", lambda *_, **__: None)
     told = pairs_in(seen(SMALLER))
     assert told is not None and told.best is None and simulated
 
@@ -123,6 +124,7 @@ def test_a_second_must_add_enough(gain: float, stands: bool, simulated: Asked, m
 
     monkeypatch.setattr(left_pairs, "_fitted", so_much)
     monkeypatch.setattr(left_pairs, "_fairly", lambda _, made: made)
+    monkeypatch.setattr(left_pairs, "_searched", lambda *_: {})
     told = pairs_in(seen(SMALLER))
     assert told is not None and (told.best is not None) == stands and simulated
 

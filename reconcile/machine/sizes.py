@@ -1,0 +1,125 @@
+"""Sizes of two effects searched together, where what they show alone says little of what they show beside each other.
+
+A loose fit rattles otherwise under an unbalance than without: the first effect, fitted alone, is as large as it must be
+to explain both, sums choose a second of the wrong size, and machines moved from there by what they show get nowhere.
+So starts are spread over the sizes of both, and the likeliest of all that were simulated are varied, twice. What counts
+are the last, which were not chosen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.atlas.candidates import size_parameter, sought_range
+from reconcile.calibrate.uncertain import Offsets
+from reconcile.machine.asked import TEMPER, Asked
+from reconcile.machine.assimilate import Ensemble, packed, simulated_again, unpacked
+from reconcile.machine.library import Catalogued
+from reconcile.machine.pairs import Simulated
+from reconcile.machine.refine import known_term
+from reconcile.machine.setting import Setting
+from sim.core.params import Param
+from sim.core.spec import TermSpec
+
+VARIED = 6
+"""Draws of the second from which its other parameters are taken, in turn."""
+SMALLEST_FIRST = 0.25
+"""Of the first's size alone, from which on it is sought beside the second."""
+APART = 4.0
+"""Times by which the second's sizes are spread about those of its best sums."""
+PARENTS, TURNS = 4, 3
+"""Machines between so many of the likeliest are tried, so often;"""
+NEAR = 0.3
+"""at first so far aside, in logarithms, then half and a fourth of it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Trial:
+    """A machine with both effects."""
+
+    offsets: Offsets
+    first: TermSpec
+    second: TermSpec
+
+
+def searched(asked: Asked, start: Ensemble, rows: Sequence[int]) -> Simulated | None:
+    """The last machines with both effects; None where too few run. `start`: machines with the first alone, the nearest
+    first; `rows`: of `asked.every`, draws of the second, the best by sums first."""
+    every, count = asked.every, 2 * asked.members
+    own = [(start.offsets[k % len(start.terms)], start.terms[k % len(start.terms)]) for k in range(count)]
+    draws = [every.terms[rows[k % min(VARIED, len(rows))]] for k in range(count)]
+    trials = spread(
+        asked.setting, [Trial(offsets=o, first=a, second=b) for (o, a), b in zip(own, draws, strict=True)], asked.first
+    )
+    rng = np.random.default_rng([asked.setting.seed, 29, *f"{asked.first}+{draws[0].term}@{draws[0].site}".encode()])
+    pool: list[tuple[float, Trial]] = []
+    for turn in range(TURNS):
+        more = _shown(asked, start, trials)
+        if more is None:
+            return None
+        told = asked.left.likelihood(more.library.changes)
+        pool += [(float(value), trials[k]) for value, k in zip(told, more.pairs, strict=True)]
+        best = [trial for _, trial in sorted(pool, key=lambda one: -one[0])[:PARENTS]]
+        trials = tuple(_between(best, NEAR * 0.5**turn, rng) for _ in range(asked.members))
+    more = _shown(asked, start, trials)
+    if more is None:
+        return None
+    gains = (asked.left.likelihood(more.library.changes) - asked.left.base) / TEMPER
+    return Simulated(known=more, also=tuple(t.second for t in trials), gains=gains)
+
+
+def _shown(asked: Asked, start: Ensemble, trials: Sequence[Trial]) -> Catalogued | None:
+    offsets, terms = [t.offsets for t in trials], [t.first for t in trials]
+    also = [t.second for t in trials]
+    return simulated_again(asked.setting, start.candidate, offsets, terms, asked.mapper, also=also)
+
+
+def spread(setting: Setting, firsts: Sequence[Trial], label: str) -> tuple[Trial, ...]:
+    """As many machines whose sizes are spread over both ranges, every stretch of each once, as `firsts` are in all
+    else; `label` is the first effect's."""
+    count = len(firsts)
+    rng = np.random.default_rng([setting.seed, 31, *label.encode()])
+    own, other = _size(firsts[0].first), _size(firsts[0].second)
+    sought = sought_range(setting.machine, known_term(firsts[0].second.term), firsts[0].second.site)
+    middle = float(np.exp(np.mean([np.log(abs(t.second.parameters[other.name])) for t in firsts[:PARENTS]])))
+    low, high = max(sought[0], middle / APART), min(sought[1], middle * APART)
+    shares = [(rng.permutation(count) + 0.5) / count for _ in range(2)]
+    found = []
+    for k in range(count):
+        start = firsts[k % len(firsts)]
+        smaller = start.first.parameters[own.name] * SMALLEST_FIRST ** shares[0][k]
+        size = low ** (1.0 - shares[1][k]) * high ** shares[1][k]
+        found.append(
+            Trial(
+                offsets=start.offsets, first=_sized(start.first, own, smaller), second=_sized(start.second, other, size)
+            )
+        )
+    return tuple(found)
+
+
+def _between(parents: Sequence[Trial], spread: float, rng: np.random.Generator) -> Trial:
+    """Somewhere between two of them, and a little aside: `spread` of logarithms, and of angles."""
+    one, other = (parents[int(k)] for k in rng.integers(0, len(parents), 2))
+    share = rng.uniform()
+
+    def mixed(a: TermSpec, b: TermSpec) -> TermSpec:
+        middle = share * packed(a) + (1.0 - share) * packed(b)
+        return unpacked(a, middle + spread * rng.standard_normal(middle.size))
+
+    return Trial(
+        offsets=one.offsets.mixed(Offsets(values=other.offsets.values - one.offsets.values), 1.0 - share),
+        first=mixed(one.first, other.first),
+        second=mixed(one.second, other.second),
+    )
+
+
+def _size(term: TermSpec) -> Param:
+    return size_parameter(known_term(term.term))
+
+
+def _sized(term: TermSpec, size: Param, value: float) -> TermSpec:
+    bounded = float(np.copysign(np.clip(abs(value), size.low, size.high), value))
+    return term.model_copy(update={"parameters": {**term.parameters, size.name: bounded}})
