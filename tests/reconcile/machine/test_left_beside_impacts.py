@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from reconcile.machine import asked as asked_of
 from reconcile.machine import left_pairs
 from reconcile.machine.asked import BESIDE_PIT
 from reconcile.machine.causes import ranked_causes
@@ -33,7 +34,8 @@ FOREST = np.where(OWN, 0.0, np.random.default_rng(3).choice([-12.0, 12.0], FEATU
 @pytest.fixture
 def simulated(monkeypatch: pytest.MonkeyPatch) -> Asked:
     """The rub at the gear stands for a pit."""
-    monkeypatch.setattr(left_pairs, "strikes", lambda name: name == RIGHT)
+    for module in (left_pairs, asked_of):
+        monkeypatch.setattr(module, "strikes", lambda name: name == RIGHT)
     monkeypatch.setattr(left_pairs, "teeth_tell", lambda *_: True)
     return asked_of_the_made(monkeypatch, THIRD)
 
@@ -212,5 +214,6 @@ def test_what_the_first_gains_by_being_moved_once_more_counts_from_the_limit_on(
 def test_what_would_strike_too_is_not_asked(monkeypatch: pytest.MonkeyPatch) -> None:
     setting, found = struck(seen(SMALLER))
     setting.direct.evidence = {WRONG: 20.0}
-    monkeypatch.setattr(left_pairs, "strikes", lambda _: True)
+    for module in (left_pairs, asked_of):
+        monkeypatch.setattr(module, "strikes", lambda _: True)
     assert left_pairs._possible(setting, found.known, RIGHT) == []  # type: ignore[arg-type]

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from reconcile.machine import asked as asked_of
 from reconcile.machine import left_pairs
 from reconcile.machine.asked import LEAST_GAIN
 from reconcile.machine.causes import ranked_causes
@@ -205,7 +206,7 @@ def test_what_adds_as_much_by_sums_and_was_not_simulated_is_told_too(simulated: 
     for most, others in ((3, ()), (1, (WRONG, THIRD))):
         with pytest.MonkeyPatch.context() as patched:
             patched.setattr(left_pairs, "LEAST_ASKED", 1)
-            patched.setattr(left_pairs, "LEAST_GAIN", 12.0)
+            patched.setattr(asked_of, "LEAST_GAIN", 12.0)
             patched.setattr(left_pairs, "_alone", lambda *_: -np.inf)
             patched.setattr(left_pairs, "_fitted", alike(WRONG))
             told = best_left_pair(setting, twin, EXPLAINED, found.known, 8, most, map)  # type: ignore[arg-type]

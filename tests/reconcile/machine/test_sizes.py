@@ -1,0 +1,164 @@
+"""Sizes of two effects that act on each other are found where machines moved by what they show get nowhere."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from reconcile.calibrate.uncertain import Offsets
+from reconcile.machine import left_pairs, sizes
+from reconcile.machine.asked import LEAST_GAIN, TEMPER
+from reconcile.machine.assimilate import Ensemble
+from reconcile.machine.left_pairs import _searched
+from reconcile.machine.pairs import Pair
+from reconcile.machine.sizes import APART, SMALLEST_FIRST, VARIED, Trial, searched, spread
+from sim.core.spec import TermSpec
+
+FIRST, SECOND = "unbalance@pinion", "fit_clearance@bearing1"
+MOMENT, GAP = 5.4e-3, 2.2e-5
+ALONE, GAPS = 2.5 * MOMENT, (4.7e-5, 4.5e-6, 1.1e-5)
+SOUGHT = (2e-6, 1.2e-4)
+MEMBERS = 8
+SETTING = SimpleNamespace(seed=0, machine=None)
+
+
+def unbalance(moment: float) -> TermSpec:
+    return TermSpec(term="unbalance", site="pinion", parameters={"moment": moment, "angle": 0.3})
+
+
+def clearance(gap: float, damping: float = 2e3) -> TermSpec:
+    return TermSpec(term="fit_clearance", site="bearing1", parameters={"gap": gap, "damping": damping, "friction": 0.1})
+
+
+def sizes_of(trial: Trial) -> tuple[float, float]:
+    return trial.first.parameters["moment"], trial.second.parameters["gap"]
+
+
+def likelihood(changes: np.ndarray) -> np.ndarray:
+    """Of a ridge that bends: what is left when the one is wrong depends on the other."""
+    a, b = changes[:, 0] - np.log(MOMENT), changes[:, 1] - np.log(GAP)
+    return -400.0 * (a - 0.5 * b**2) ** 2 - 100.0 * b**2
+
+
+@pytest.fixture(autouse=True)
+def simulated(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Machines that show the logarithms of their sizes; how many were asked for each time. The third never runs."""
+    asked: list[int] = []
+
+    def again(_setting, candidate, offsets, terms, _mapper, also):  # type: ignore[no-untyped-def]
+        assert candidate.label == FIRST
+        asked.append(len(terms))
+        runs = tuple(k for k in range(len(terms)) if k != 2)
+        changes = np.log([[terms[k].parameters["moment"], also[k].parameters["gap"]] for k in runs])
+        return SimpleNamespace(
+            library=SimpleNamespace(changes=changes),
+            terms=tuple(terms[k] for k in runs),
+            pairs=runs,
+            offsets=tuple(offsets[k] for k in runs),
+        )
+
+    monkeypatch.setattr(sizes, "simulated_again", again)
+    monkeypatch.setattr(sizes, "sought_range", lambda *_: SOUGHT)
+    return asked
+
+
+def start(count: int = MEMBERS) -> Ensemble:
+    return Ensemble(
+        candidate=SimpleNamespace(label=FIRST),  # type: ignore[arg-type]
+        offsets=tuple(Offsets(values=np.full(3, 0.01 * k)) for k in range(count)),
+        terms=(unbalance(ALONE),) * count,
+        changes=np.zeros((count, 2)),
+    )
+
+
+def asked(**more: object) -> SimpleNamespace:
+    left = SimpleNamespace(likelihood=likelihood, base=-2000.0)
+    every = SimpleNamespace(terms=tuple(clearance(gap, 10.0 ** (3 + k)) for k, gap in enumerate(GAPS)))
+    given = {"setting": SETTING, "left": left, "first": FIRST, "every": every, "members": MEMBERS, "mapper": map}
+    return SimpleNamespace(**{**given, "least": LEAST_GAIN, "beside_impacts": False, **more})
+
+
+def test_both_sizes_are_found(simulated: list[int]) -> None:
+    found = searched(asked(), start(), (0, 1, 2))  # type: ignore[arg-type]
+    assert found is not None and simulated == [16, 8, 8, 8]
+    likely = np.argsort(-found.gains)[: MEMBERS // 2]
+    moments = [found.known.terms[k].parameters["moment"] for k in likely]
+    gaps = [found.also[found.known.pairs[k]].parameters["gap"] for k in likely]
+    assert np.median(moments) == pytest.approx(MOMENT, rel=0.15)
+    assert np.median(gaps) == pytest.approx(GAP, rel=0.25)
+    told = likelihood(found.known.library.changes)
+    assert found.gains == pytest.approx((told + 2000.0) / TEMPER)
+    begun = likelihood(np.log([[ALONE, gap] for gap in GAPS]))
+    assert np.median(told) > 0.1 * begun.max()
+    again = searched(asked(), start(), (0, 1, 2))  # type: ignore[arg-type]
+    assert again is not None and again.also == found.also
+
+
+def test_starts_are_spread_over_both_ranges_and_alike_in_all_else() -> None:
+    firsts = [Trial(offsets=Offsets(values=np.zeros(3)), first=unbalance(ALONE), second=clearance(2e-5))] * 16
+    moments, gaps = np.array([sizes_of(t) for t in spread(SETTING, firsts, FIRST)]).T  # type: ignore[arg-type]
+    for found, low, high in ((moments, SMALLEST_FIRST * ALONE, ALONE), (gaps, 2e-5 / APART, 2e-5 * APART)):
+        place = np.log(found / low) / np.log(high / low) * 16
+        assert sorted(np.floor(place)) == list(range(16)), "each stretch once"
+    other = spread(SETTING, firsts, FIRST)[0].second.parameters  # type: ignore[arg-type]
+    assert (other["damping"], other["friction"]) == (2e3, 0.1)
+    wide = [Trial(offsets=t.offsets, first=t.first, second=clearance(1e-4)) for t in firsts]
+    assert max(sizes_of(t)[1] for t in spread(SETTING, wide, FIRST)) <= SOUGHT[1]  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("fails", [0, 3])
+def test_nothing_where_machines_do_not_run(fails: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    made, calls = sizes.simulated_again, []
+
+    def again(*given, **more):  # type: ignore[no-untyped-def]
+        calls.append(1)
+        return None if len(calls) > fails else made(*given, **more)
+
+    monkeypatch.setattr(sizes, "simulated_again", again)
+    assert searched(asked(), start(), (0,)) is None  # type: ignore[arg-type]
+    assert len(calls) == fails + 1 and VARIED > 1
+
+
+@pytest.fixture
+def sought(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, ...]]:
+    """The draws with which a search began."""
+    begun: list[tuple[int, ...]] = []
+    monkeypatch.setattr(left_pairs, "_start", lambda *_: start())
+    monkeypatch.setattr(left_pairs, "searched", lambda _asked, _start, rows: begun.append(rows))
+    return begun
+
+
+def pair(gain: float) -> Pair:
+    return Pair(first=FIRST, beside=None, gain=gain, rest=None)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("made", "sums", "more", "rows"),
+    [
+        ({"a@x": pair(-900.0), "b@x": pair(-90.0)}, (430.0, 178.0), {}, [(2, 3)]),
+        ({"a@x": None, "b@x": pair(-90.0)}, (430.0, 178.0), {}, [(2, 3)]),
+        ({"a@x": pair(-900.0), "b@x": pair(LEAST_GAIN)}, (430.0, 178.0), {}, []),
+        ({"a@x": pair(-900.0), "b@x": pair(5.0)}, (430.0, LEAST_GAIN - 1.0), {}, [(0, 1)]),
+        ({"a@x": pair(-9.0), "b@x": pair(5.0)}, (LEAST_GAIN - 0.5, 4.0), {}, []),
+        ({"a@x": pair(-900.0), "b@x": pair(-90.0)}, (430.0, 178.0), {"beside_impacts": True}, []),
+    ],
+)
+def test_only_what_sums_promise_and_simulation_refuses_is_searched(
+    made: dict[str, Pair | None],
+    sums: tuple[float, float],
+    more: dict[str, bool],
+    rows: list[tuple[int, ...]],
+    sought: list[tuple[int, ...]],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    seen = [("a@x", sums[0], (0, 1)), ("b@x", sums[1], (2, 3))]
+    assert _searched(asked(**more), made, seen) == {}  # type: ignore[arg-type]
+    assert sought == rows
+    found: Callable[..., object] = lambda *_: SimpleNamespace()  # noqa: E731
+    monkeypatch.setattr(left_pairs, "searched", found)
+    monkeypatch.setattr(left_pairs, "_pair", lambda _asked, _name, _made: pair(55.0))
+    told = _searched(asked(**more), made, seen)  # type: ignore[arg-type]
+    assert [p.gain for p in told.values()] == ([55.0] if rows else [])
