@@ -2,8 +2,8 @@
 
 A loose fit rattles otherwise under an unbalance than without: the first effect, fitted alone, is as large as it must be
 to explain both, sums choose a second of the wrong size, and machines moved from there by what they show get nowhere.
-So starts are spread over the sizes of both, and the likeliest of all that were simulated are varied, twice. What counts
-are the last, which were not chosen.
+So starts are spread over the sizes of both, and machines between the likeliest of all that were simulated are tried, in
+turns. What counts are the last, which were not chosen.
 """
 
 from __future__ import annotations
@@ -30,10 +30,14 @@ SMALLEST_FIRST = 0.25
 """Of the first's size alone, from which on it is sought beside the second."""
 APART = 4.0
 """Times by which the second's sizes are spread about those of its best sums."""
-PARENTS, TURNS = 4, 3
-"""Machines between so many of the likeliest are tried, so often;"""
-NEAR = 0.3
-"""at first so far aside, in logarithms, then half and a fourth of it."""
+PARENTS, TURNS = 4, 6
+"""Machines between so many of the likeliest are tried, so often at most;"""
+NEAR, NEARER = 0.3, 0.7
+"""at first so far aside, in logarithms, and each time so much less."""
+ENOUGH = 60.0
+"""Log likelihood over the first alone, of the better half of one turn's machines, from which no further are tried;"""
+HOPELESS, HOPELESS_AFTER = -100.0, 3
+"""and of the best of all after so many turns, below which none are."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,19 +60,21 @@ def searched(asked: Asked, start: Ensemble, rows: Sequence[int]) -> Simulated | 
     )
     rng = np.random.default_rng([asked.setting.seed, 29, *f"{asked.first}+{draws[0].term}@{draws[0].site}".encode()])
     pool: list[tuple[float, Trial]] = []
-    for turn in range(TURNS):
-        more = _shown(asked, start, trials)
-        if more is None:
-            return None
-        told = asked.left.likelihood(more.library.changes)
+    turn = 0
+    while (more := _shown(asked, start, trials)) is not None:
+        told = asked.left.likelihood(more.library.changes) - asked.left.base
         pool += [(float(value), trials[k]) for value, k in zip(told, more.pairs, strict=True)]
-        best = [trial for _, trial in sorted(pool, key=lambda one: -one[0])[:PARENTS]]
-        trials = tuple(_between(best, NEAR * 0.5**turn, rng) for _ in range(asked.members))
-    more = _shown(asked, start, trials)
-    if more is None:
-        return None
-    gains = (asked.left.likelihood(more.library.changes) - asked.left.base) / TEMPER
-    return Simulated(known=more, also=tuple(t.second for t in trials), gains=gains)
+        pool = sorted(pool, key=lambda one: -one[0])[:PARENTS]
+        if turn > 0 and _settled(turn, float(np.sort(told)[told.size // 2 :].mean()), pool[0][0]):
+            return Simulated(known=more, also=tuple(t.second for t in trials), gains=told / TEMPER)
+        trials = tuple(_between([t for _, t in pool], NEAR * NEARER**turn, rng) for _ in range(asked.members))
+        turn += 1
+    return None
+
+
+def _settled(turn: int, level: float, best: float) -> bool:
+    """Whether these machines are good enough, none after so many turns comes near, or no turn is left."""
+    return level >= ENOUGH or (turn >= HOPELESS_AFTER and best < HOPELESS) or turn == TURNS
 
 
 def _shown(asked: Asked, start: Ensemble, trials: Sequence[Trial]) -> Catalogued | None:

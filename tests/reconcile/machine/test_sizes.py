@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,14 +14,14 @@ from reconcile.machine.asked import LEAST_GAIN, TEMPER
 from reconcile.machine.assimilate import Ensemble
 from reconcile.machine.left_pairs import _searched
 from reconcile.machine.pairs import Pair
-from reconcile.machine.sizes import APART, SMALLEST_FIRST, VARIED, Trial, searched, spread
+from reconcile.machine.sizes import APART, ENOUGH, HOPELESS_AFTER, SMALLEST_FIRST, TURNS, Trial, searched, spread
 from sim.core.spec import TermSpec
 
 FIRST, SECOND = "unbalance@pinion", "fit_clearance@bearing1"
 MOMENT, GAP = 5.4e-3, 2.2e-5
 ALONE, GAPS = 2.5 * MOMENT, (4.7e-5, 4.5e-6, 1.1e-5)
 SOUGHT = (2e-6, 1.2e-4)
-MEMBERS = 8
+MEMBERS, BASE = 8, -20.0
 SETTING = SimpleNamespace(seed=0, machine=None)
 
 
@@ -75,7 +75,7 @@ def start(count: int = MEMBERS) -> Ensemble:
 
 
 def asked(**more: object) -> SimpleNamespace:
-    left = SimpleNamespace(likelihood=likelihood, base=-2000.0)
+    left = SimpleNamespace(likelihood=likelihood, base=BASE)
     every = SimpleNamespace(terms=tuple(clearance(gap, 10.0 ** (3 + k)) for k, gap in enumerate(GAPS)))
     given = {"setting": SETTING, "left": left, "first": FIRST, "every": every, "members": MEMBERS, "mapper": map}
     return SimpleNamespace(**{**given, "least": LEAST_GAIN, "beside_impacts": False, **more})
@@ -83,18 +83,27 @@ def asked(**more: object) -> SimpleNamespace:
 
 def test_both_sizes_are_found(simulated: list[int]) -> None:
     found = searched(asked(), start(), (0, 1, 2))  # type: ignore[arg-type]
-    assert found is not None and simulated == [16, 8, 8, 8]
+    assert found is not None and simulated == [16] + [8] * TURNS
     likely = np.argsort(-found.gains)[: MEMBERS // 2]
     moments = [found.known.terms[k].parameters["moment"] for k in likely]
     gaps = [found.also[found.known.pairs[k]].parameters["gap"] for k in likely]
     assert np.median(moments) == pytest.approx(MOMENT, rel=0.15)
     assert np.median(gaps) == pytest.approx(GAP, rel=0.25)
     told = likelihood(found.known.library.changes)
-    assert found.gains == pytest.approx((told + 2000.0) / TEMPER)
+    assert found.gains == pytest.approx((told - BASE) / TEMPER)
     begun = likelihood(np.log([[ALONE, gap] for gap in GAPS]))
     assert np.median(told) > 0.1 * begun.max()
     again = searched(asked(), start(), (0, 1, 2))  # type: ignore[arg-type]
     assert again is not None and again.also == found.also
+
+
+@pytest.mark.parametrize(("base", "turns"), [(-3.0 * ENOUGH, range(1, 4)), (BASE, [TURNS]), (200.0, [HOPELESS_AFTER])])
+def test_the_search_ends_where_it_is_good_enough_or_hopeless(
+    base: float, turns: Sequence[int], simulated: list[int]
+) -> None:
+    left = SimpleNamespace(likelihood=likelihood, base=base)
+    assert searched(asked(left=left), start(), (0, 1, 2)) is not None  # type: ignore[arg-type]
+    assert len(simulated) - 1 in turns
 
 
 def test_starts_are_spread_over_both_ranges_and_alike_in_all_else() -> None:
@@ -119,7 +128,7 @@ def test_nothing_where_machines_do_not_run(fails: int, monkeypatch: pytest.Monke
 
     monkeypatch.setattr(sizes, "simulated_again", again)
     assert searched(asked(), start(), (0,)) is None  # type: ignore[arg-type]
-    assert len(calls) == fails + 1 and VARIED > 1
+    assert len(calls) == fails + 1
 
 
 @pytest.fixture
