@@ -9,7 +9,7 @@ import numpy as np
 
 from reconcile.machine.decide import Decision
 from reconcile.machine.refine import best_draws
-from reconcile.machine.second import Beside, strikes
+from reconcile.machine.second import Beside, Together, strikes
 from reconcile.machine.setting import Found
 from reconcile.machine.severity import estimated_severity
 from reconcile.verdict import Cause, Severity
@@ -35,7 +35,7 @@ def ranked_causes(
     told = dict(zip(found.screen.names, map(float, found.screen.evidence), strict=True))
     rest = sorted((n for n in weights if n not in struck), key=lambda n: -told[n])
     listed = list(decision.chosen) + [n for n in dict.fromkeys((*struck, *rest)) if n not in apart]
-    own = other.together.own if other is not None and other.together is not None else None
+    together = other.together if other is not None else None
     causes = []
     for name in listed[:MOST_CAUSES]:
         term, site = name.split("@")
@@ -47,7 +47,7 @@ def ranked_causes(
                 term=term,
                 site=site,
                 score=told[name],
-                severity=_between(size, own if named else None),
+                severity=_between(size, together if named else None),
                 named=named,
                 reasons=(ITS_IMPACTS,) if name in struck else _reasons(decision, name),
                 values=dict(drawn[0].parameters) if drawn else {},
@@ -58,12 +58,16 @@ def ranked_causes(
     return tuple(causes)
 
 
-def _between(alone: Severity | None, beside: Severity | None) -> Severity | None:
-    """The size of a first effect: as it is alone, where a second one was not fitted with it; else between both, with an
-    interval that holds either. Of three pairs of the proof two unbalances were nearer beside the second (25 and 15 %
-    off for 46 and 25 %), a loose fit was not (2.6 and 4.7 um of 9.6)."""
+def _between(alone: Severity | None, together: Together | None) -> Severity | None:
+    """The size of a first effect: as it is alone, where a second one was not fitted with it; beside the second, where
+    the sizes of both were searched; else between both, with an interval that holds either. Of three pairs of the proof
+    two unbalances were nearer beside the second (25 and 15 % off for 46 and 25 %), a loose fit was not (2.6 and 4.7 um
+    of 9.6)."""
+    beside = together.own if together is not None else None
     if alone is None or beside is None:
         return alone
+    if together is not None and together.searched:
+        return beside
     return replace(
         alone,
         value=float(np.sqrt(alone.value * beside.value)),

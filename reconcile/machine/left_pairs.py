@@ -75,7 +75,7 @@ def best_left_pair(
     if best is not None:
         second = best.beside.names[0]
         others = _rivals(asked, best, pairs[1:], {name: gain for name, gain, _ in seen})
-        drawn = None if others else _drawn(asked, atlas, best, searched=second in sought)
+        drawn = None if others else _drawn(asked, atlas, best)
         best = replace(best, others=(second, *others) if others else (), drawn=drawn)
         best = best if others or drawn is not None else None
     return Pairs(first=first, tried=tried, best=best)
@@ -118,7 +118,15 @@ def _searched(
         return {}
     name = max(refused, key=lambda n: gains[n])
     found = searched(asked, _start(asked, (), ""), refused[name])
-    return {} if found is None else {name: _pair(asked, name, found)}
+    return {} if found is None else {name: _of_both(_pair(asked, name, found))}
+
+
+def _of_both(pair: Pair) -> Pair:
+    """The pair, whose first's size is the one beside the second."""
+    together = pair.beside.together
+    if together is None:
+        return pair
+    return replace(pair, beside=replace(pair.beside, together=replace(together, searched=True)))
 
 
 def _fairly(asked: Asked, made: Mapping[str, Pair | None]) -> dict[str, Pair | None]:
@@ -194,15 +202,15 @@ def _best_sums(asked: Asked, firsts: Sequence[int], seconds: Sequence[int]) -> l
     return [(firsts[int(k)], seconds[int(np.argmax(told[k]))]) for k in order]
 
 
-def _drawn(asked: Asked, atlas: Catalogued, pair: Pair, *, searched: bool) -> FloatArray | None:
-    """What both show on machines that were not led to the observation, with the sizes that were `searched` if they had
+def _drawn(asked: Asked, atlas: Catalogued, pair: Pair) -> FloatArray | None:
+    """What both show on machines that were not led to the observation, with the sizes that were searched if they had
     to be: for held-out data. None where too few run."""
     second, together = pair.beside.names[0], pair.beside.together
     bare = replace(asked.found, known=asked.found.unled)
     free = _asked(asked.setting, bare, asked.first, atlas, asked.view, asked.members, asked.mapper)
     ((_, _, rows),) = ranked_seconds(free.left, free.setting.changes, free.every, [second])
     start = _start(free, rows, second)
-    if searched and together is not None:
+    if together is not None and together.searched:
         both = [together.terms[k % len(together.terms)] for k in range(len(start.terms))]
         start = replace(start, terms=tuple(a for a, _ in both), also=tuple(b for _, b in both))
     more = simulated_again(free.setting, start.candidate, start.offsets, start.terms, free.mapper, also=start.also)

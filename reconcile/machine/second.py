@@ -41,6 +41,8 @@ class Together:
     terms: tuple[tuple[TermSpec, TermSpec], ...]
     middle: Offsets
     own: Severity | None = None
+    searched: bool = False
+    """Whether the sizes of both were sought together, since the first's alone had to explain the second too."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from reconcile.calibrate.uncertain import Offsets
-from reconcile.machine import left_pairs, sizes
+from reconcile.machine import causes, left_pairs, sizes
 from reconcile.machine.asked import LEAST_GAIN, TEMPER
 from reconcile.machine.assimilate import Ensemble
 from reconcile.machine.left_pairs import _searched
 from reconcile.machine.pairs import Pair
+from reconcile.machine.second import Beside, Together
 from reconcile.machine.sizes import APART, ENOUGH, HOPELESS_AFTER, SMALLEST_FIRST, TURNS, Trial, searched, spread
+from reconcile.verdict import Severity
 from sim.core.spec import TermSpec
 
 FIRST, SECOND = "unbalance@pinion", "fit_clearance@bearing1"
@@ -140,8 +143,25 @@ def sought(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, ...]]:
     return begun
 
 
-def pair(gain: float) -> Pair:
-    return Pair(first=FIRST, beside=None, gain=gain, rest=None)  # type: ignore[arg-type]
+BOTH = Together(
+    severity=Severity(name="gap", value=GAP, unit="m", low=1e-5, high=4e-5),
+    terms=((unbalance(MOMENT), clearance(GAP)),),
+    middle=Offsets(values=np.zeros(3)),
+    own=Severity(name="moment", value=MOMENT, unit="kg*m", low=0.8 * MOMENT, high=1.2 * MOMENT),
+)
+
+
+def pair(gain: float, together: Together | None = None) -> Pair:
+    beside = Beside(
+        view=None,  # type: ignore[arg-type]
+        left=np.zeros(2),
+        names=(SECOND,),
+        evidence=np.array([gain]),
+        p=0.0,
+        misfit=0.5,
+        together=together,
+    )
+    return Pair(first=FIRST, beside=beside, gain=gain, rest=None)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
@@ -168,6 +188,37 @@ def test_only_what_sums_promise_and_simulation_refuses_is_searched(
     assert sought == rows
     found: Callable[..., object] = lambda *_: SimpleNamespace()  # noqa: E731
     monkeypatch.setattr(left_pairs, "searched", found)
-    monkeypatch.setattr(left_pairs, "_pair", lambda _asked, _name, _made: pair(55.0))
+    monkeypatch.setattr(left_pairs, "_pair", lambda _asked, _name, _made: pair(55.0, BOTH))
     told = _searched(asked(**more), made, seen)  # type: ignore[arg-type]
     assert [p.gain for p in told.values()] == ([55.0] if rows else [])
+    assert all(p.beside.together.searched for p in told.values() if p.beside.together)
+
+
+def test_the_first_is_as_large_as_it_is_beside_the_second() -> None:
+    alone = Severity(name="moment", value=ALONE, unit="kg*m", low=0.5 * ALONE, high=2.0 * ALONE)
+    assert BOTH.own is not None
+    between = causes._between(alone, BOTH)
+    assert between is not None and between.value == pytest.approx(np.sqrt(ALONE * MOMENT))
+    assert causes._between(alone, replace(BOTH, searched=True)) == BOTH.own
+    assert causes._between(alone, None) == alone
+
+
+def test_forecasts_have_the_sizes_that_were_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On machines that were not led to the observation."""
+    begun: list[tuple[tuple[TermSpec, ...], tuple[TermSpec, ...]]] = []
+
+    def again(_setting, _candidate, _offsets, terms, _mapper, also):  # type: ignore[no-untyped-def]
+        begun.append((terms, also))
+
+    given = asked(found=SimpleNamespace(unled=None), view=None)
+    monkeypatch.setattr(left_pairs, "simulated_again", again)
+    monkeypatch.setattr(left_pairs, "replace", lambda one, **more: one if one is given.found else replace(one, **more))
+    monkeypatch.setattr(left_pairs, "_asked", lambda *_: given)
+    monkeypatch.setattr(left_pairs, "ranked_seconds", lambda *_: [(SECOND, 430.0, (0,))])
+    monkeypatch.setattr(left_pairs, "_start", lambda *_: replace(start(), also=(clearance(4.7e-5),) * MEMBERS))
+    given.every, given.setting = None, SimpleNamespace(changes=None)
+    for searched_too in (True, False):
+        left_pairs._drawn(given, None, pair(55.0, replace(BOTH, searched=searched_too)))  # type: ignore[arg-type]
+    (found, other), (usual, before) = begun
+    assert {t.parameters["moment"] for t in found} == {MOMENT} and {t.parameters["gap"] for t in other} == {GAP}
+    assert {t.parameters["moment"] for t in usual} == {ALONE} and {t.parameters["gap"] for t in before} == {4.7e-5}
