@@ -18,7 +18,7 @@ from reconcile.machine.heldout import feature_channels, feature_frequencies, hel
 from reconcile.machine.limits import limits
 from reconcile.machine.lines import by_name, line_changes
 from reconcile.machine.meter import Meter
-from reconcile.machine.pairs import Pair, Pairs, named_pair
+from reconcile.machine.pairs import Pair, Pairs, named_pair, sizes_of
 from reconcile.machine.pictures import ranking, spectra, turn_maps, with_forms
 from reconcile.machine.proved import proved
 from reconcile.machine.revised import Revised, paths, revised_machine
@@ -111,7 +111,7 @@ def answer(
     held = _held(setting, found, decision, layout, unknown, other, pair) if decision.chosen else None
     decision = by_forecast(decision, held)
     struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
-    ranked = ranked_causes(found, decision, weights, observed, other, struck) if missing else ()
+    ranked = ranked_causes(found, decision, weights, observed, other, struck, sizes_of(pairs)) if missing else ()
     causes = with_forms(ranked, found.screen)
     revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter, both)
     fitted = _fitted(setting, found, decision, revision, unknown)

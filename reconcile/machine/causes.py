@@ -28,14 +28,15 @@ def ranked_causes(
     observed: np.ndarray,
     other: Beside | None,
     struck: Sequence[str] = (),
+    sought: Together | None = None,
 ) -> tuple[Cause, ...]:
     """The effects the verdict stands on, a second one with what it explains, those that share the impacts of another
-    part (`struck`), and the rest by score."""
+    part (`struck`), and the rest by score. `sought`: the best of several seconds, where sizes had to be searched."""
     apart = {*decision.chosen, *(other.names[:1] if other else ())}
     told = dict(zip(found.screen.names, map(float, found.screen.evidence), strict=True))
     rest = sorted((n for n in weights if n not in struck), key=lambda n: -told[n])
     listed = list(decision.chosen) + [n for n in dict.fromkeys((*struck, *rest)) if n not in apart]
-    together = other.together if other is not None else None
+    together = other.together if other is not None else sought
     causes = []
     for name in listed[:MOST_CAUSES]:
         term, site = name.split("@")

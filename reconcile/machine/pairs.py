@@ -265,6 +265,13 @@ def named_pair(decision: Decision, other: Beside | None, pairs: Pairs | None) ->
     return replace(decision, word="explained", chosen=(pair.first,), reasons=()), pair.beside
 
 
+def sizes_of(pairs: Pairs | None) -> Together | None:
+    """Of the best pair, where sizes of both had to be searched: the first's, fitted alone, is too large whichever of
+    several seconds stands beside it."""
+    together = pairs.best.beside.together if pairs is not None and pairs.best is not None else None
+    return together if together is not None and together.searched else None
+
+
 def _as_well(setting: Setting, found: Found, rival: str, best: Pair) -> bool:
     """Whether a rival of the first, summed with the second, comes near both."""
     told = dict(zip(found.screen.names, found.screen.evidence, strict=True))

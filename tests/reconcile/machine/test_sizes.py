@@ -14,7 +14,7 @@ from reconcile.machine import causes, left_pairs, sizes
 from reconcile.machine.asked import LEAST_GAIN, TEMPER
 from reconcile.machine.assimilate import Ensemble
 from reconcile.machine.left_pairs import _searched
-from reconcile.machine.pairs import Pair
+from reconcile.machine.pairs import Pair, Pairs, sizes_of
 from reconcile.machine.second import Beside, Together
 from reconcile.machine.sizes import APART, ENOUGH, HOPELESS_AFTER, SMALLEST_FIRST, TURNS, Trial, searched, spread
 from reconcile.verdict import Severity
@@ -36,7 +36,7 @@ def clearance(gap: float, damping: float = 2e3) -> TermSpec:
     return TermSpec(term="fit_clearance", site="bearing1", parameters={"gap": gap, "damping": damping, "friction": 0.1})
 
 
-def sizes_of(trial: Trial) -> tuple[float, float]:
+def made_of(trial: Trial) -> tuple[float, float]:
     return trial.first.parameters["moment"], trial.second.parameters["gap"]
 
 
@@ -111,14 +111,14 @@ def test_the_search_ends_where_it_is_good_enough_or_hopeless(
 
 def test_starts_are_spread_over_both_ranges_and_alike_in_all_else() -> None:
     firsts = [Trial(offsets=Offsets(values=np.zeros(3)), first=unbalance(ALONE), second=clearance(2e-5))] * 16
-    moments, gaps = np.array([sizes_of(t) for t in spread(SETTING, firsts, FIRST)]).T  # type: ignore[arg-type]
+    moments, gaps = np.array([made_of(t) for t in spread(SETTING, firsts, FIRST)]).T  # type: ignore[arg-type]
     for found, low, high in ((moments, SMALLEST_FIRST * ALONE, ALONE), (gaps, 2e-5 / APART, 2e-5 * APART)):
         place = np.log(found / low) / np.log(high / low) * 16
         assert sorted(np.floor(place)) == list(range(16)), "each stretch once"
     other = spread(SETTING, firsts, FIRST)[0].second.parameters  # type: ignore[arg-type]
     assert (other["damping"], other["friction"]) == (2e3, 0.1)
     wide = [Trial(offsets=t.offsets, first=t.first, second=clearance(1e-4)) for t in firsts]
-    assert max(sizes_of(t)[1] for t in spread(SETTING, wide, FIRST)) <= SOUGHT[1]  # type: ignore[arg-type]
+    assert max(made_of(t)[1] for t in spread(SETTING, wide, FIRST)) <= SOUGHT[1]  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("fails", [0, 3])
@@ -201,6 +201,10 @@ def test_the_first_is_as_large_as_it_is_beside_the_second() -> None:
     assert between is not None and between.value == pytest.approx(np.sqrt(ALONE * MOMENT))
     assert causes._between(alone, replace(BOTH, searched=True)) == BOTH.own
     assert causes._between(alone, None) == alone
+    several = replace(pair(55.0, replace(BOTH, searched=True)), others=(SECOND, "radial_clearance@bearing1"))
+    assert sizes_of(Pairs(first=FIRST, tried=(), best=several)) == several.beside.together
+    assert sizes_of(Pairs(first=FIRST, tried=(), best=pair(55.0, BOTH))) is None
+    assert sizes_of(Pairs(first=FIRST, tried=(), best=None)) is None and sizes_of(None) is None
 
 
 def test_forecasts_have_the_sizes_that_were_found(monkeypatch: pytest.MonkeyPatch) -> None:
