@@ -133,5 +133,16 @@ RULES = (
         "of three speeds one may be deaf to what modulates the teeth at one frequency in Hz",
         "a009, a torque at 100 Hz and nothing missing (10.9, 3.3 and 0.4 dB; sound ones of `third` up to 0.8 at two)",
     ),
+    (
+        "impacts that are sure are no other answer than a pattern that strikes nowhere, but stand beside it",
+        "p011, a loose pedestal and a pit elsewhere: a set of the two and the pit's twin, since the pit beside it",
+    ),
+    (
+        (
+            "sizes of two effects are searched together where sums promise what simulation refuses"
+            " ([decision](decisions/reconcile-sizes.md))"
+        ),
+        "b007, an unbalance 2.5 times too large that had swallowed a loose fit; since told beside it, one of three",
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""
