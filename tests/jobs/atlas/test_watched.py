@@ -19,7 +19,7 @@ class Told:
     def cancelled(self) -> bool:
         return False
 
-    def stage(self, name: str, fraction: float) -> None:
+    def stage(self, name: str, fraction: float, eta_s: float | None = None) -> None:
         pass
 
     def shared(self, tasks: list[object], heard: Any) -> list[Any] | None:
