@@ -15,7 +15,6 @@ from jobs import run
 from jobs.accept import Desk
 from jobs.errors import BrokerAway, UnknownJob
 from jobs.limits import Limits
-from jobs.ports import Ticket
 from jobs.recordings.accept import Upload, accept_recording
 from jobs.recordings.stored import stored_recording
 from jobs.recordings.words import upload_key
@@ -30,6 +29,7 @@ from store.artefacts.folder import FolderStore
 from store.catalogue import engine, schema
 from store.catalogue.catalogue import SqlCatalogue
 from tests.service.fakes import FakeEngine, analyse
+from tests.service.reconciling import Broker
 
 RECORDING = Recording(
     sampling_rate_hz=1024.0,
@@ -44,28 +44,6 @@ RECORDING = Recording(
     notes="n",
     start_s=2.0,
 )
-
-
-class Broker:
-    """`jobs.ports.Queue` that keeps nothing; `away` as told."""
-
-    away = False
-
-    def ping(self) -> None:
-        if self.away:
-            raise BrokerAway("away")
-
-    def submit(self, ticket: Ticket) -> None:
-        self.ping()
-
-    def holds(self, ticket: Ticket) -> bool:
-        return True
-
-    def withdraw(self, ticket: Ticket) -> None:
-        pass
-
-    def length(self) -> int:
-        return 0
 
 
 class World:

@@ -11,6 +11,7 @@ import numpy as np
 
 from jobs import run
 from jobs.accept import Desk
+from jobs.errors import BrokerAway
 from jobs.limits import Limits
 from jobs.ports import Ticket
 from jobs.reconciliations.accept import accept_reconciliation
@@ -45,13 +46,16 @@ def made(seed: int) -> Recording:
 
 
 class Broker:
-    """`jobs.ports.Queue` that keeps nothing."""
+    """`jobs.ports.Queue` that keeps nothing; `away` as told."""
+
+    away = False
 
     def ping(self) -> None:
-        pass
+        if self.away:
+            raise BrokerAway("away")
 
     def submit(self, ticket: Ticket) -> None:
-        pass
+        self.ping()
 
     def holds(self, ticket: Ticket) -> bool:
         return True
