@@ -36,6 +36,8 @@ LEAST_DB, AHEAD = 1.2, 2.0
 third split come to 0.3 dB; a pit's forest of lines to 3.5 dB, but at many frequencies."""
 LEAST_AT_TWO_DB = 2.5
 """And of three speeds or more at that where it is largest but one: at some speed the drive's path may be deaf."""
+MOST_SLIP = 0.005
+"""Share by which an order of balls that slip may differ between two speeds."""
 HALF = 0.5
 """Share of that rise from which on a speed shows it."""
 SEPARATE_HZ = 3.0
@@ -113,7 +115,7 @@ def own_time(machine: MachineSpec, data: Sequence[PointData], channels: Sequence
     search = _Search(data=data, shafts=teeth.shafts, parts=_parts(machine), mean=mean, grid=grid)
     found = search.standing(mean.min(axis=0), LEAST_DB)
     if found is None and len(groups) > 2:
-        found = search.standing(second(mean, groups), LEAST_AT_TWO_DB)
+        found = search.standing(second(mean, groups), LEAST_AT_TWO_DB, at_two=True)
     if found is None:
         return None
     best, seen = found
@@ -139,8 +141,9 @@ class _Search:
     mean: FloatArray
     grid: FloatArray
 
-    def standing(self, least: FloatArray, least_db: float) -> tuple[int, OwnTime] | None:
-        """The frequency of no order that stands out by `least` (grid,), dB, with its number in the grid."""
+    def standing(self, least: FloatArray, least_db: float, *, at_two: bool = False) -> tuple[int, OwnTime] | None:
+        """The frequency of no order that stands out by `least` (grid,), dB, with its number in the grid; `at_two`
+        speeds alone two orders may meet."""
         left = least.copy()
         while left.max() >= least_db:
             best = int(np.argmax(left))
@@ -148,6 +151,7 @@ class _Search:
             risen = [k for k in range(len(self.data)) if self.mean[k, best] >= HALF * left[best]]
             data = [self.data[k] for k in risen]
             free = _free(data, self.shafts, hz, self.mean[risen], self.grid)
+            free = free and not (at_two and (_of_parts(data, self.parts, hz) or self._orders(hz, risen, left[best])))
             if free and not _of_a_part(data, self.parts, hz):
                 break
             left[np.abs(self.grid - hz) <= SEPARATE_HZ] = 0.0  # an order, with what its line leaks
@@ -160,6 +164,17 @@ class _Search:
         if left[best] < max(least_db, AHEAD * elsewhere):
             return None
         return best, OwnTime(hz=hz, rise_db=float(left[best]), elsewhere_db=elsewhere)
+
+    def _orders(self, hz: float, risen: Sequence[int], level_db: float) -> bool:
+        """Whether what has risen at a speed has risen at the same order of another too."""
+        speeds = [d.spectra[0].speed_hz for d in self.data]
+        for k in risen:
+            for j, speed_hz in enumerate(speeds):
+                at = hz * speed_hz / speeds[k]
+                near = np.abs(self.grid - at) <= OWN_HZ + MOST_SLIP * at
+                if abs(at - hz) > SEPARATE_HZ and self.mean[j, near].max(initial=0.0) >= HALF * level_db:
+                    return True
+        return False
 
 
 def _middle(grid: FloatArray, least: FloatArray, best: int) -> float:
@@ -207,10 +222,16 @@ def _parts(machine: MachineSpec) -> tuple[Family, ...]:
 
 def _of_a_part(data: Sequence[PointData], families: Sequence[Family], hz: float) -> bool:
     """Whether one part's low multiples, within its slip, meet the frequency at every speed."""
-
-    def met(family: Family, speed_hz: float) -> bool:
-        own = [k * family.order * speed_hz for k in range(1, MULTIPLES + 1)]
-        return any(abs(hz - at) <= OWN_HZ + family.slip * at for at in own)
-
     turning = [f for f in families if f.slip > 0.0]
-    return any(all(met(f, d.spectra[0].speed_hz) for d in data) for f in turning)
+    return any(all(_met(f, d.spectra[0].speed_hz, hz) for d in data) for f in turning)
+
+
+def _of_parts(data: Sequence[PointData], families: Sequence[Family], hz: float) -> bool:
+    """Whether at every speed some part's do: both races' lines meet at 100 Hz at 22.5 and 39 Hz of the paper's."""
+    turning = [f for f in families if f.slip > 0.0]
+    return all(any(_met(f, d.spectra[0].speed_hz, hz) for f in turning) for d in data)
+
+
+def _met(family: Family, speed_hz: float, hz: float) -> bool:
+    own = [k * family.order * speed_hz for k in range(1, MULTIPLES + 1)]
+    return any(abs(hz - at) <= OWN_HZ + family.slip * at for at in own)

@@ -88,6 +88,10 @@ def test_a_speed_at_which_the_path_is_deaf_does_not_hide_it(machine: MachineSpec
     # 90 Hz is the third order at one speed and the fourth at another
     both = {30.0: at_order(3.0), 22.5: at_order(4.0), 39.0: steady}
     assert told(machine, lambda hz: both[hz](hz), speeds_hz=speeds_hz) is None
+    races = lambda hz: at_order(2.57355)(hz) + at_order(4.42645)(hz)  # noqa: E731
+    assert told(machine, races, speeds_hz=speeds_hz) is None, "the races' lines meet at 100 Hz at two speeds"
+    high = lambda hz: at_order(7.0)(hz) + at_order(8.0)(hz)  # noqa: E731
+    assert told(machine, high, speeds_hz=(21.0, 24.0, 33.0)) is None, "orders 7 and 8 meet at 168 Hz"
     every = told(machine, at_hz(100.0), speeds_hz=speeds_hz)
     assert every is not None and every.speeds == (3, 3) and "at every speed" in every.text
 
