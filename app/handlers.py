@@ -53,7 +53,7 @@ async def _invalid(request: Request, error: Exception) -> Response:
     fields = problems.request_errors(error.errors(), _body_model(request.scope.get("route")))
     count = len(fields)
     detail = f"{count} field{'s' if count != 1 else ''} must change; see `errors`"
-    told = problems.Told(slug="invalid-request", status=422, detail=detail, fields=fields)
+    told = problems.Told(slug="invalid-request", status=422, detail=detail, fields=fields[: problems.MOST_FIELDS])
     return problems.response(told, request.url.path)
 
 

@@ -18,6 +18,8 @@ from sim.core.near import did_you_mean
 
 MEDIA_TYPE = "application/problem+json"
 RETRY_AFTER_S = 5
+MOST_FIELDS = 200
+"""Fields of one reply that are told one by one: a reply is no larger for a request full of them."""
 
 
 class FieldError(BaseModel):
@@ -91,13 +93,14 @@ def told(error: SidebandError, location: str = "body") -> Told:
 def _detail(error: SidebandError) -> str:
     if isinstance(error, SpecError):
         count = len(error.problems)
-        return f"{count} field{'s' if count != 1 else ''} must change; see `errors`"
+        which = f"the first {MOST_FIELDS} are in `errors`" if count > MOST_FIELDS else "see `errors`"
+        return f"{count} field{'s' if count != 1 else ''} must change; {which}"
     return str(error)
 
 
 def _fields(error: SidebandError, location: str) -> Sequence[FieldError]:
     if isinstance(error, SpecError | errors.RecordingsNotReady):
-        return [field_error(problem, location) for problem in error.problems]
+        return [field_error(problem, location) for problem in error.problems[:MOST_FIELDS]]
     if isinstance(error, UnknownName):
         return [_choice(error.kind, error.name, error.known, location)]
     if isinstance(error, errors.UnknownArtefact) and error.known:

@@ -18,6 +18,8 @@ from sim.core.spec import MachineSpec
 from sim.presets.reference import KEYS, reference_machine
 
 Known = MachineSpec | KinematicSpec
+MOST_UNKNOWN = 20
+"""Unknown keys of one object that are told one by one."""
 MOST_FOREIGN = 5
 """A flat document with more reference names than this is a parameter file."""
 _SECTIONS = ("parameters", "bearings", "tolerance", "name", "notes")
@@ -75,12 +77,16 @@ def _read(form: Mapping[str, object]) -> KinematicSpec:
 
 def _unknown(form: Mapping[str, object], known: Sequence[str], message: str) -> Findings:
     """Findings of keys that are none of those `known`."""
-    findings = Findings()
-    for key in form:
-        if key not in known:
-            told, allowed = f"{message}{did_you_mean(str(key), known)}", ", ".join(known)
-            with findings.step():
-                raise SpecError(Problem(field=f"machine.{key}", message=told, given=shown(form[key]), allowed=allowed))
+    findings, allowed = Findings(), ", ".join(known)
+    others = [key for key in form if key not in known]
+    for key in others[:MOST_UNKNOWN]:
+        told = f"{message}{did_you_mean(str(key), known)}"
+        with findings.step():
+            raise SpecError(Problem(field=f"machine.{key}", message=told, given=shown(form[key]), allowed=allowed))
+    if len(others) > MOST_UNKNOWN:
+        told = f"has {len(others) - MOST_UNKNOWN} further keys that are not known"
+        with findings.step():
+            raise SpecError(Problem(field="machine", message=told, given=len(others), allowed=allowed))
     return findings
 
 

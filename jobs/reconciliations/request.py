@@ -37,6 +37,23 @@ MachineForm = Annotated[
 ]
 
 
+MOST_TOLD_TOGETHER = 2000
+"""Values of a machine that is read although another field is wrong: requests are checked one after the other."""
+
+
+def _is_small(form: object) -> bool:
+    """Whether an object has few enough values, at any depth."""
+    left, count = [form], 0
+    while left:
+        one = left.pop()
+        inside = list(one.values()) if isinstance(one, Mapping) else one if isinstance(one, list) else []
+        count += len(inside)
+        if count > MOST_TOLD_TOGETHER:
+            return False
+        left += inside
+    return True
+
+
 class ReconciliationRequest(SpecModel):
     """Recordings, and what is known of the machine they come from."""
 
@@ -81,7 +98,7 @@ class ReconciliationRequest(SpecModel):
             form = given.get("machine") if isinstance(given, Mapping) else None
             problems = [*problems_of(error, model=cls)]
             try:
-                if isinstance(form, Mapping):
+                if isinstance(form, Mapping) and _is_small(form):
                     read_form(form)
             except SpecError as further:
                 problems += further.problems

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.problems import FieldError, told
+from app.problems import MOST_FIELDS, FieldError, told
 from jobs.errors import (
     IllegalTransition,
     JobGone,
@@ -15,7 +15,7 @@ from jobs.errors import (
     UnknownJob,
 )
 from jobs.status import Status
-from sim.core.errors import Problem, SidebandError
+from sim.core.errors import Problem, SidebandError, SpecError
 
 LATE = Problem(field="baselines.0", message="is still being read (accepted)", given="b", allowed="ready")
 
@@ -40,3 +40,10 @@ def test_the_state_that_stands_in_the_way_is_named(
     assert isinstance(wrong, FieldError) and found.status == status
     assert (wrong.field, wrong.given, wrong.allowed) == (field, given, allowed) and wrong.message
     assert ("Retry-After" in found.headers) == (status == 429 or isinstance(error, ResultNotReady))
+
+
+def test_a_reply_tells_no_more_fields_than_its_bound() -> None:
+    many = SpecError([Problem(field=f"k{k}", message="is not a known field") for k in range(MOST_FIELDS + 7)])
+    found = told(many)
+    assert len(found.fields) == MOST_FIELDS
+    assert str(MOST_FIELDS + 7) in found.detail and str(MOST_FIELDS) in found.detail

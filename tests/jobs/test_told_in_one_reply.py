@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from jobs.reconciliations.machine import read_form
+from jobs.reconciliations.machine import MOST_UNKNOWN, read_form
 from jobs.reconciliations.request import ReconciliationRequest
 from jobs.validation import problems_of
 from sim.core.errors import Problem, SpecError
@@ -84,3 +84,14 @@ def test_what_is_allowed_is_always_said(changes: dict[str, Any], field: str, all
         ReconciliationRequest.model_validate({key: value for key, value in body.items() if value is not None})
     (told,) = problems_of(caught.value, model=ReconciliationRequest)
     assert told.field == field and allowed in told.allowed and "nput should" not in told.message
+
+
+def test_a_body_full_of_unknown_keys_is_told_in_bounds() -> None:
+    form = {"kinematics": {"shafts": [{"name": "s"}]}, **{f"k{k}": 1 for k in range(12_000)}}
+    document: dict[str, Any] = {"machine": form, "recordings": ["a"], "sed": 1}
+    with pytest.raises(ValidationError) as told:
+        ReconciliationRequest.model_validate(document)
+    assert [p.field for p in problems_of(told.value)] == ["sed"], "and the machine is not read beside it"
+    with pytest.raises(SpecError) as alone:
+        read_form(document["machine"])
+    assert len(alone.value.problems) == MOST_UNKNOWN + 1 and "further keys" in alone.value.problems[-1].message
