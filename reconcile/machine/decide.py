@@ -150,7 +150,13 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     chosen = credible_set(weights)
     if views <= FEW_VIEWS:
         chosen = _not_excluded(screen, weights, chosen)
-    leader, chosen = chosen[0], beside_impacts(screen, chosen)
+    odd = screen.misfit > strange
+    far = lead(screen) >= FAR_AHEAD and not (odd and screen.rest.kept < LEAST_KEPT_FAR)
+    odd = odd and not (far and not screen.rest.rough)
+    inadequate = odd or (leaves_lines(screen.rest) and not far)
+    apart = beside_impacts(screen, chosen)
+    if apart[0] == chosen[0] or not inadequate:  # what is left is known of the first alone
+        chosen = apart
     evidence = {name: float(screen.evidence[screen.names.index(name)]) for name in chosen}
     weak = evidence[chosen[0]] < LEAST_EVIDENCE
     if weak and screen.strongest < FAINT and screen.p_lines > CLEAR_P:
@@ -158,10 +164,6 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
         return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(reason,))
     struck = float(screen.direct[screen.names.index(chosen[0])])
     alone = evidence[chosen[0]] - struck < LEAST_EVIDENCE and screen.strongest > GREAT and not screen.struck
-    odd = screen.misfit > strange
-    far = lead(screen) >= FAR_AHEAD and not (odd and screen.rest.kept < LEAST_KEPT_FAR)
-    odd = odd and not (far and not screen.rest.rough)
-    inadequate = chosen[0] == leader and (odd or (leaves_lines(screen.rest) and not far))  # what the leader leaves
     if weak or alone or (inadequate and struck < STRUCK):
         here = () if weak or alone else of_the_place(screen)
         if here:
