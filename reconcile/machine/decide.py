@@ -155,8 +155,10 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     odd = odd and not (far and not screen.rest.rough)
     inadequate = odd or (leaves_lines(screen.rest) and not far)
     apart = beside_impacts(screen, chosen)
-    if apart[0] == chosen[0] or not inadequate or screen.direct[screen.names.index(chosen[0])] >= STRUCK:
-        chosen = apart  # what is left is known of the first alone, and a pit leaves what stands beside it
+    if apart[0] != chosen[0] and screen.direct[screen.names.index(chosen[0])] >= STRUCK:
+        inadequate = False  # what is left is known of the first alone, and a pit leaves what stands beside it
+    if apart[0] == chosen[0] or not inadequate:
+        chosen = apart
     evidence = {name: float(screen.evidence[screen.names.index(name)]) for name in chosen}
     weak = evidence[chosen[0]] < LEAST_EVIDENCE
     if weak and screen.strongest < FAINT and screen.p_lines > CLEAR_P:

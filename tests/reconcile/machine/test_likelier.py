@@ -82,7 +82,8 @@ def test_impacts_of_a_part_are_no_other_answer_than_a_pattern_that_strikes_nowhe
     behind = replace(screen([14.9, 15.0, 14.0, 7.0], names), direct=struck)
     assert decide(behind, views=9).chosen == (looseness,), "chance decides which of both is first"
     left = {"misfit": 1.0, "rest": Rest(unmet=9.0, kept=0.0)}
-    assert decide(replace(behind, **left), views=9).chosen == (looseness,), "a pit leaves what stands beside it"  # type: ignore[arg-type]
+    pit = decide(replace(behind, **left), views=9)  # type: ignore[arg-type]
+    assert (pit.word, pit.chosen) == ("explained", (looseness,)), "a pit leaves what stands beside it"
     unsure = replace(behind, direct=np.array([0.0, 4.0, 13.0, 0.0]), **left)  # type: ignore[arg-type]
     assert decide(unsure, views=9).word != "explained", "nothing tells that it fits"
     far = replace(screen([13.0, 15.0, 14.8, 7.0], names), direct=struck)
