@@ -22,6 +22,10 @@ DEFAULT_RATE_HZ = 30_000.0
 class MachineChoice(SpecModel):
     """A machine: a preset or a whole specification, and what to change in it."""
 
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"preset": "paper-demo", "set": {"fit_clearance@bearing1.gap": 2e-5}}]}
+    )
+
     preset: Annotated[str, Field(min_length=1, max_length=80)] | None = None
     """Name of a preset machine (see `/v1/presets`). Give either this or `machine`."""
     machine: MachineSpec | None = None

@@ -34,12 +34,13 @@ def test_head_tells_errors_and_validators_as_get_does(client: httpx.Client) -> N
     assert client.head("/v1/terms", headers={"If-None-Match": etag}).status_code == 304
 
 
-def test_head_of_a_stream_returns_at_once_and_holds_no_place(client: httpx.Client) -> None:
+def test_head_of_a_stream_returns_at_once_and_holds_no_place(parts: Parts, client: httpx.Client) -> None:
     body = {"machine": machine("sleep=3").model_dump(mode="json"), "sampling_rate_hz": 20000}
     job = client.post("/v1/simulations", json=body).json()
-    began = time.monotonic()
-    heads = [client.head(f"/v1/jobs/{job['id']}/events") for _ in range(40)]
-    assert time.monotonic() - began < 2.5, "before the job ends"
+    with LiveServer(parts.app(event_streams=2)) as narrow:
+        began = time.monotonic()
+        heads = [narrow.head(f"/v1/jobs/{job['id']}/events") for _ in range(5)]
+        assert time.monotonic() - began < 2.5, "before the job ends"
     assert {(head.status_code, head.content) for head in heads} == {(200, b"")}
     head = heads[-1]
     assert head.headers["Content-Type"].startswith("text/event-stream")
