@@ -19,17 +19,12 @@ from proof.plan import COUNTS, FIRST, OTHERS
 from proof.score.one import Score
 from proof.score.rates import MEASURES, Rate, at_target, rate
 from proof.score.table import failures
+from proof.shown import all_rows, pair_rows, seen_rows
 from proof.taught import RULES
 from proof.unknown import OPEN
-from proof.visible import Visible, stored, told
+from proof.visible import stored, told
 
 HALF = 0.5
-SEEN = (
-    (0.0, 1.0, "less than drift alone does"),
-    (1.0, 3.0, "one to three times as far as drift"),
-    (3.0, float("inf"), "more than three times as far"),
-)
-"""Ranges of effect over drift, both in dB."""
 TITLES = {
     "null": "nothing missing",
     "misset": "nothing missing, parameters mis-set",
@@ -64,7 +59,13 @@ def write_page(docs: Path, results: Path) -> Path:
     rules = "\n".join(["| rule | set by |", "|---|---|", *(f"| {rule} | {by} |" for rule, by in RULES)])
     parts = [
         METHOD.format(
-            together=together(results), rules=rules, laws=laws, crossing=laws * 4 * 27, n_single=single, **counts
+            together=together(results),
+            shown=of_what_shows(results),
+            rules=rules,
+            laws=laws,
+            crossing=laws * 4 * 27,
+            n_single=single,
+            **counts,
         )
     ]
     for section in SECTIONS:
@@ -142,13 +143,19 @@ def wrong_rows(scores: Sequence[Score]) -> list[str]:
     return [f"| {words} | {_written(r.document()) if r.n else '-'} |" for r, words in rows]
 
 
-def together(results: Path) -> str:
-    """Table of all stored first runs, each with the engine of its day."""
+def first_runs(results: Path) -> list[Score]:
+    """All stored first runs, each with the engine of its day."""
     scores = []
     for section in FIRST_RUNS:
         if (results / f"{section}.json").exists():
             kept = json.loads((results / f"{section}.json").read_text(encoding="utf-8"))["scores"]
             scores += [Score(**(s | {"laws": tuple(s["laws"])})) for s in kept]
+    return scores
+
+
+def together(results: Path) -> str:
+    """Table of all stored first runs."""
+    scores = first_runs(results)
     asked = [t for t in TARGETS if t[1] in ("alarm", "mechanism", "place", "top_three", "unknown_flagged", "both")]
     rows = ["| stored first runs | at the target condition | at all conditions |", "|---|---|---|"]
     parts = [[s for s in scores if at_target(s)], scores]
@@ -160,41 +167,17 @@ def together(results: Path) -> str:
     return "\n".join(rows)
 
 
+def of_what_shows(results: Path) -> str:
+    """The same at the target condition by how much there is to see."""
+    seen = {name: one for path in sorted(results.glob("visible-*.json")) for name, one in stored(path).items()}
+    return "\n".join(all_rows([s for s in first_runs(results) if at_target(s)], seen))
+
+
 def _above(scores: Sequence[Score]) -> str:
     """How many gains are surely above what was expected at most: an expectation is no bound."""
     told = [s for s in scores if s.ceiling is not None and s.gain_low is not None]
     over = sum(s.gain_low > s.ceiling for s in told if s.gain_low is not None and s.ceiling is not None)
     return f"; {over} of {len(told)} gains are surely above it, as it is an expectation and no bound" if over else ""
-
-
-def seen_rows(scores: Sequence[Score], seen: Mapping[str, Visible]) -> list[str]:
-    """Of single effects, how many are named with their place by how much there is to see of them; empty where that is
-    not stored of all."""
-    single = [s for s in scores if s.group == "single"]
-    if not single or any(s.name not in seen for s in single):
-        return []
-    rows = ["| one effect, by how far it moves the spectrum | detected | named with place |", "|---|---|---|"]
-    for low, high, title in SEEN:
-        part = [s for s in single if low <= seen[s.name].effect_db / max(seen[s.name].drift_db, 1e-9) < high]
-        told, named = sum(bool(s.alarm) for s in part), sum(bool(s.place) for s in part)
-        rows.append(f"| {title} | {told}/{len(part)} | {named}/{len(part)} |")
-    return [*rows, ""]
-
-
-def pair_rows(scores: Sequence[Score], seen: Mapping[str, Visible]) -> list[str]:
-    """Of pairs, how many are named rightly by how much there is to see of the fainter of the two beside the other."""
-    pairs = [s for s in scores if s.group == "double"]
-    if not pairs or any(s.name not in seen or not seen[s.name].parts_db for s in pairs):
-        return []
-    rows = [
-        "| two effects, by how far the fainter moves what the other shows | detected | both named |",
-        "|---|---|---|",
-    ]
-    for low, high, title in SEEN:
-        part = [s for s in pairs if low <= min(seen[s.name].parts_db) / max(seen[s.name].drift_db, 1e-9) < high]
-        told, named = sum(bool(s.alarm) for s in part), sum(bool(s.both) for s in part)
-        rows.append(f"| {title} | {told}/{len(part)} | {named}/{len(part)} |")
-    return [*rows, ""]
 
 
 def _rate(summary: Mapping[str, Any], part: str, group: str, measure: str) -> str:

@@ -7,9 +7,10 @@ from dataclasses import asdict, replace
 from pathlib import Path
 
 from proof.case import truth_of
-from proof.page import SEEN, cut_rows, pair_rows, seen_rows, together, wrong_rows
+from proof.page import cut_rows, of_what_shows, together, wrong_rows
 from proof.plan import plan
 from proof.score.one import Score, score
+from proof.shown import SEEN, all_rows, pair_rows, seen_rows
 from proof.visible import Visible
 
 
@@ -89,3 +90,26 @@ def test_first_runs_are_counted_together(tmp_path: Path):
         (tmp_path / f"{section}.json").write_text(json.dumps(kept), encoding="utf-8")
     (row,) = [row for row in together(tmp_path).splitlines() if "with place" in row]
     assert row.count("2/3 = 67 %") == 2
+    name = scores(right(0))[0].name
+    (tmp_path / "visible-third.json").write_text(json.dumps({name: asdict(seen(6, 1))}), encoding="utf-8")
+    table = of_what_shows(tmp_path).splitlines()
+    assert (
+        "| more than three times as far | 2/2 | 2/2 |" in table and len([r for r in table if r.startswith("| ")]) == 4
+    )
+
+
+def test_what_no_library_has_is_counted_by_what_there_is_to_see():
+    unknown = [c for c in plan("third") if c.group == "open"][:2]
+    found = [
+        score(json.loads(json.dumps(truth_of(c))), {"verdict": w})
+        for c, w in zip(unknown, ("unknown_physics", "nothing_missing"), strict=True)
+    ]
+    pair = score(json.loads(json.dumps(truth_of(next(c for c in plan("third") if c.group == "double")))), None)
+    effects = {found[0].name: seen(6, 1), found[1].name: seen(2, 1), pair.name: seen(1, 1)}
+    rows = all_rows([*found, pair], effects)
+    assert [row.rsplit("|", 3)[1:3] for row in rows[2:-1]] == [
+        [" 0/0 ", " 0/0 "],
+        [" 0/1 ", " 0/1 "],
+        [" 1/1 ", " 1/1 "],
+    ]
+    assert rows[0].startswith("| an effect that no library has") and len(rows) == 6, "no part of the pair was measured"
