@@ -158,12 +158,12 @@ the spectrum less than drift does beside the other or hardly more (b006, b010, b
 four detected, in two of the others one moves nothing. Of the nine of `pitted`, each with a pit, one (p002, by what
 impacts leave), eight detected.
 
-**What limits it.** The tables above: an effect that moves the spectrum less than what drifts between two recordings of
-a sound machine is seldom detected, and the report says that it need not show; 95 % named is out of reach of the plan
-for any engine. What is left to this one are the rows below the first, mostly the pairs and the unknown effects that
-show well and were a set of known ones, or one of two. Of the single effects that show best and were not named three are
-an unbalance or a bow told as the set of both, which are the same force (t014, u009, a006; read off once). Faint severities are in the plan on purpose: where nothing is to
-be seen, nothing may be named.
+**What limits it.** The tables above: an effect that moves the spectrum less than what drifts between two recordings
+of a sound machine is seldom detected, and the report says that it need not show; 95 % named is out of reach of the
+plan for any engine. What is left to this one are the rows below the first, mostly the pairs and the unknown effects
+that show well and were a set of known ones, or one of two. Of the single effects that show best and were not named
+three are an unbalance or a bow told as the set of both, which are the same force (t014, u009, a006; read off once).
+Faint severities are in the plan on purpose: where nothing is to be seen, nothing may be named.
 
 **Sections.** "Anew", "Beside", "Kinds", "Next" and "Others" are the last first runs, "Unmet", "Fourth" and "Third"
 those before, "Renewed" the cases of "Unmet" and "Repeat" those of "Third" with the rules that came of them. The rest
