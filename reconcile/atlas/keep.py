@@ -74,7 +74,8 @@ def kept_bank(
     bank = make_bank(plan, point, channels, mapper)
     if not bank.alive.any():
         message = "the machine does not run at this operating point: every simulation of it failed"
-        raise SpecError(Problem(field="machine", message=message, given=f"{point.speed_hz:g} Hz"))
+        allowed = "a machine that `sideband simulate` can run at this speed and torque"
+        raise SpecError(Problem(field="machine", message=message, given=f"{point.speed_hz:g} Hz", allowed=allowed))
     data = bank.to_bytes()
     keeper.put(key, data)
     if made is not None:

@@ -102,7 +102,8 @@ def driven_of(recording: Recording, spec: MachineSpec, *, motion_drives: bool = 
     if not np.all(np.isfinite(samples)):
         place = int(np.argmax(~np.isfinite(samples).all(axis=0)))
         message = "a driven model needs every sample of input and output"
-        raise SpecError(Problem(field="samples", message=message, given=f"no number at sample {place}"))
+        given = f"no number at sample {place}"
+        raise SpecError(Problem(field="samples", message=message, given=given, allowed="finite numbers throughout"))
     channels = recording.channels
     moved = channels[drive].quantity in MOTIONS and channels[answer].quantity in FORCES
     return Driven(

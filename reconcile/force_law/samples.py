@@ -35,7 +35,7 @@ class ForceSamples:
         arrays = (self.force_n, self.displacement_m, self.velocity_m_per_s)
         if len(sizes) != 1 or not all(bool(np.all(np.isfinite(a))) for a in arrays):
             message = "force, displacement, velocity and blocks must be finite and of one length"
-            raise SpecError(Problem(field="force", message=message, given=sorted(sizes)))
+            raise SpecError(Problem(field="force", message=message, given=sorted(sizes), allowed="one length"))
         if self.count < LEAST_BLOCKS:
             message = "too few independent blocks for an interval"
             raise SpecError(

@@ -121,7 +121,7 @@ def _repeated(spec: KinematicSpec) -> Iterator[Problem]:
         for i, part in enumerate(getattr(spec, kind)):
             if part.name in seen:
                 message = "is used twice: every part needs a name of its own"
-                yield Problem(field=f"{kind}.{i}.name", message=message, given=part.name)
+                yield Problem(field=f"{kind}.{i}.name", message=message, given=part.name, allowed="a name not yet used")
             seen.add(part.name)
 
 

@@ -206,8 +206,9 @@ def _by_pulses(recording: Recording, shaft: str, stated: float | None) -> SpeedE
     pulses = np.asarray(recording.tacho.pulse_times_s, dtype=np.float64)
     steps = np.diff(pulses)
     if pulses.size < 3 or not np.all(steps > 0):
-        message = "must be at least three rising times"
-        raise SpecError(Problem(field="tacho.pulse_times_s", message=message, given=f"{pulses.size} pulses", unit="s"))
+        message, given = "must be at least three rising times", f"{pulses.size} pulses"
+        allowed = "3 or more, each later than the one before"
+        raise SpecError(Problem(field="tacho.pulse_times_s", message=message, given=given, allowed=allowed, unit="s"))
     per_turn = recording.tacho.pulses_per_revolution
     speed = (pulses.size - 1) / float(pulses[-1] - pulses[0]) / per_turn
     _long_enough(recording, speed)
