@@ -11,6 +11,7 @@ from jobs.errors import NotReconcilable
 from jobs.ports import ArtefactStore, JobCatalogue
 from jobs.reconciliations.chosen import choose
 from jobs.reconciliations.machine import restored_known
+from jobs.reconciliations.pace import Pace
 from jobs.reconciliations.request import ReconciliationRequest
 from jobs.reconciliations.words import MACHINE, PAGE, REPORT
 from jobs.record import Answer, ResultRef
@@ -37,13 +38,14 @@ class Watched:
     """Hears the engine's stages, and stands between its simulations to ask whether the work is still wanted.
 
     `paced`: shares of the engine are shares of its time, so they tell how long it still takes; where an atlas may be
-    there already they are not.
+    there already they are not, and the pace of what is simulated for one tells.
     """
 
     def __init__(self, reporter: Reporter, points: int, lead: Lead | None = None, *, paced: bool = False) -> None:
         self._reporter, self._points, self._lead = reporter, max(points, 1), lead
         self._share, self._stage = 0.0, ""
         self._paced, self._started_s = paced, time.monotonic()
+        self._pace = Pace(begins=ATLAS_END - ATLAS_SPAN, ends=ATLAS_END)
 
     def stage(self, share: float, stage: str) -> None:
         """A stage of the engine begins; raises Cancelled."""
@@ -69,8 +71,9 @@ class Watched:
             self._reporter.raise_if_stale()
             raise Cancelled("cancelled")
         span = ATLAS_SPAN / self._points if self._share < ATLAS_END else REFINED_SPAN
-        part = min(done + 1, total)
-        self._tell(self._share + span * done / total, f"{self._stage}, part {part} of {total}")
+        part, share = min(done + 1, total), self._share + span * done / total
+        left_s = self._pace.left_s(self._stage, share)
+        self._tell(share, f"{self._stage}, part {part} of {total}", left_s)
 
     def _tell(self, share: float, stage: str, left_s: float | None = None) -> None:
         self._reporter.stage(stage, LOADED + (STORING - LOADED) * share, left_s)

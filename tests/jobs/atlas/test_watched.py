@@ -40,3 +40,30 @@ def test_the_engines_simulations_are_shared_and_seconds_here_are_not_counted_twi
     assert list(meter(carry_out.run_task, tasks[:1])) == [[None]] and meter.elsewhere_s == 5.0
     assert list(meter(lambda task: [None, None], tasks)) == [[None, None]] * 2, "other work stays here"
     assert told.shared_tasks == ["a", "b", "a"] and meter.elsewhere_s == 5.0
+
+
+def test_the_time_left_is_told_by_what_is_simulated_for_an_atlas_and_not_by_one_that_is_there(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    clock, told = [0.0], []
+    reporter: Any = Told()
+    reporter.stage = lambda name, fraction, eta_s=None: told.append((name, eta_s))
+    monkeypatch.setattr(carry_out, "run_task", lambda task: [None])
+    monkeypatch.setattr("time.monotonic", lambda: clock[0])
+    watched = carry_out.Watched(reporter, 2)
+
+    def simulated(count: int) -> None:
+        for _ in watched.map(carry_out.run_task, [None] * count):  # type: ignore[list-item]
+            clock[0] += 3.0
+
+    watched.stage(0.1, "atlas at 20 Hz")
+    clock[0] += 100.0  # it was there
+    watched.stage(0.35, "atlas at 30 Hz")
+    simulated(50)
+    assert told[1][1] is None and told[2] == ("atlas at 30 Hz, part 1 of 50", None), "nothing was simulated yet"
+    per_share = 3.0 / (0.25 / 50)
+    assert told[26][0].endswith("part 25 of 50")
+    assert told[26][1] == pytest.approx(per_share * (0.6 - (0.35 + 0.25 * 24 / 50) + 0.5 / 3))
+    watched.stage(0.7, "candidates on these machines")
+    simulated(2)
+    assert [left for _, left in told[-3:]] == [None] * 3, "the atlases are there"
