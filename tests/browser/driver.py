@@ -102,8 +102,12 @@ class Browser:
             self._opened += 1
             url = f"{address}?{self._opened}#{place}"
         else:
-            self._call("POST", "/url", {"url": "about:blank"})
+            self.leave()
         self._call("POST", "/url", {"url": url})
+
+    def leave(self) -> None:
+        """To an empty page: nothing asks a server any more, so it may end."""
+        self._call("POST", "/url", {"url": "about:blank"})
 
     def run(self, script: str, *args: object) -> Any:
         """Run a function body in the page; a promise is waited for."""

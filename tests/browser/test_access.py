@@ -100,6 +100,7 @@ def test_a_server_with_keys_asks_for_one(browser: Browser, tmp_path: Path) -> No
             browser.find('.tile[data-tile="broker"][data-status="ok"]')
             eventually(lambda: browser.count("#key-form") == 0, what="the question to go")
             assert "No job yet" in browser.text("[aria-label=Jobs]")
+            browser.leave()  # or its page asks the ended server while the next test runs
     finally:
         parts.close()
     assert all("401" in line or "ERR_CONNECTION" in line for line in browser.complaints())
