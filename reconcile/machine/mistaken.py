@@ -18,6 +18,7 @@ from reconcile.judge.screen import quantile_of_misfit
 from reconcile.judge.space import Fitted
 from reconcile.machine.beaten import beaten
 from reconcile.machine.setting import Setting
+from reconcile.machine.weigh import LEAST_EVIDENCE
 from reconcile.observe.statistics import Statistics
 from reconcile.report.words import readable
 from reconcile.verdict import NextExperiment, Report, SensorFault, Where
@@ -27,7 +28,8 @@ MOST_CHANNELS = 6
 """Of which any two may be exchanged."""
 SURE, BETTER = 20.0, 3.0
 """Log likelihood by which the tests must fit better put right than as they are where nothing known explains them, and
-exchanged where a name is doubted anyway. A rig's pit with its sensors exchanged: 3.3; in g for m/s^2: 57. With nothing
+exchanged where a name is doubted anyway, or leads the same effect elsewhere by less than a name's lead. A rig's pit
+with its sensors exchanged: 3.3 and 4.2 (right ones exchanged: -4.3); in g for m/s^2: 57. With nothing
 wrong in the tests exchanged ones are worse by 0.1 and more (six of a rotor, eleven gearboxes of the proof), and another
 unit is better by up to 5.9 where a pit is stronger than any that was simulated."""
 FITS = 0.9
@@ -62,8 +64,9 @@ class Fit:
 
 def with_mistaken(report: Report, setting: Setting, view: Fitted, channels: Sequence[Channel]) -> Report:
     """The report; a fault of the measurement where nothing known explains the tests as they are and something does
-    once they are put right, and no name where a doubted one fits better so. `view`: all candidates by families."""
-    doubted = beaten(report)
+    once they are put right, and no name where a doubted one, or one at either of two places, fits better so. `view`:
+    all candidates by families."""
+    doubted = beaten(report) or beside_twin(report)
     based = all(one.baseline is not None for one in setting.data)
     if not based or not (doubted or report.verdict == "unknown_physics"):
         return report
@@ -77,6 +80,16 @@ def with_mistaken(report: Report, setting: Setting, view: Fitted, channels: Sequ
     if better < (BETTER if doubted else SURE):
         return report
     return _doubted(report, one, best, channels) if doubted else _mistaken(report, one, best, channels)
+
+
+def beside_twin(report: Report) -> bool:
+    """Whether one effect is named and the same elsewhere is less than a name's lead behind: then which sensor hears it
+    louder decides the place."""
+    named = [c for c in report.causes if c.named]
+    if len(named) != 1:
+        return False
+    twins = [c.score for c in report.causes if c.term == named[0].term and c.site != named[0].site]
+    return bool(twins) and named[0].score - max(twins) < LEAST_EVIDENCE
 
 
 def corrections(channels: Sequence[Channel]) -> Iterator[Correction]:

@@ -95,6 +95,19 @@ def test_a_doubted_name_that_fits_better_with_sensors_exchanged_is_none(told) ->
     assert "inspect" not in to_do(found) and "Look which sensor is which channel" in to_do(found)
 
 
+@pytest.mark.parametrize(("behind", "heard"), [(2.5, True), (3.5, False)])
+def test_a_name_that_hardly_leads_its_twin_is_none_where_sensors_exchanged_fit_better(  # type: ignore[no-untyped-def]
+    told, behind: float, heard: bool
+) -> None:
+    twin = Cause(term="outer_spall", site="drive_end", score=CAUSE.score - behind, named=False)
+    other = Cause(term="unbalance", site="drive_end", score=CAUSE.score - 0.5, named=False)
+    near = replace(UNKNOWN, verdict="explained", sentence="A pit.", causes=(CAUSE, other, twin))
+    found = told(near, TRUE[::-1])
+    assert (found.verdict, found.fault is not None) == (("ambiguous", True) if heard else ("explained", False))
+    assert told(near, TRUE) is near, "as it is it fits"
+    assert told(replace(near, causes=(CAUSE, other)), TRUE[::-1]).verdict == "explained", "no twin is near"
+
+
 def test_what_fits_as_it_is_stays(told) -> None:  # type: ignore[no-untyped-def]
     for report in (UNKNOWN, DOUBTED):
         assert told(report, TRUE) is report

@@ -242,7 +242,7 @@ def test_a_missing_package_is_named_with_its_extra(
         parse(read_description({"channels": CHANNELS}), tmp_path / name, loader=load)
     (problem,) = caught.value.problems
     assert problem.field == name and f"needs the package {package}, which is not installed" in problem.message
-    assert f"pip install 'sideband[{extra}]'" in problem.message
+    assert f"pip install -e '.[{extra}]' in" in problem.message
     assert ("MATLAB file of version 7.3" in problem.message) == (name == "r.mat")
     monkeypatch.undo()
     importlib.invalidate_caches()
