@@ -106,5 +106,6 @@ def reader_of(path: Path) -> Reader:
 def needs_extra(path: Path, extra: str, package: str) -> SpecError:
     """The refusal of a file whose reader is an optional extra that is not there."""
     what = "is a MATLAB file of version 7.3, which is HDF5: it " if suffix_of(path) == ".mat" else ""
-    message = f"{what}needs the package {package}, which is not installed: pip install -e '.[{extra}]' in Sideband's folder adds it"
+    adds = f"pip install -e '.[{extra}]' in Sideband's folder adds it"
+    message = f"{what}needs the package {package}, which is not installed: {adds}"
     return SpecError(Problem(field=path.name, message=message, given=suffix_of(path)))
