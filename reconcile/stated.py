@@ -124,9 +124,9 @@ def check_speeds(nominal: Mapping[str, float | None], field: str, several: Seque
     problems = []
     for one in several:
         stated = _stated(one)
-        why = _contradicted(one, stated, nominal, several) if stated is not None else None
-        if stated is not None and why is not None:
-            problems.append(_rpm(one.field("operating.speed_hz"), stated[1], why))
+        if stated is not None and (why := _contradicted(one, stated, nominal, several)) is not None:
+            miscounted = _miscounted(one, stated, nominal)
+            problems.append(miscounted or _rpm(one.field("operating.speed_hz"), stated[1], why))
     if not problems:
         problems += _nominal_in_rpm(nominal, field, several)
     if problems:
@@ -180,6 +180,19 @@ def _stated(one: Given) -> tuple[str, float] | None:
 def _rpm(field: str, speed: float, why: str) -> Problem:
     message = f"looks like rpm: {speed:g} rpm = {speed / PER_MINUTE:.4g} Hz ({why})"
     return Problem(field=field, message=message, given=speed, allowed="revolutions per second")
+
+
+def _miscounted(one: Given, stated: tuple[str, float], nominal: Mapping[str, float | None]) -> Problem | None:
+    """Where several pulses a turn make the difference: the stated speed is about the machine's own."""
+    tacho, (shaft, speed) = one.recording.tacho, stated
+    pulses = pulses_hz(one.recording, shaft)
+    several = tacho is not None and tacho.pulses_per_revolution > 1 and speed <= FAST_HZ
+    if tacho is None or pulses is None or not several or not _is_usual(shaft, speed, nominal):
+        return None
+    counted = tacho.pulses_per_revolution * pulses / speed
+    message = f"its pulses make {pulses:.4g} Hz, but {speed:g} Hz are stated, about the machine's own speed"
+    field, allowed = one.field("tacho.pulses_per_revolution"), f"about {max(counted, 1.0):.3g} with this speed"
+    return Problem(field=field, message=message, given=tacho.pulses_per_revolution, allowed=allowed)
 
 
 def sixty_times(large: float, small: float) -> bool:

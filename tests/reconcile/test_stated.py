@@ -210,6 +210,17 @@ def pulsed(speed_hz: float, *, shaft: str = "shaft") -> Recording:
     return replace(quiet(shaft=shaft), operating=None, tacho=tacho)
 
 
+def test_pulses_counted_sixty_to_a_turn_are_the_tachos_fault_where_the_speed_is_the_machines_own() -> None:
+    tacho = Tacho(pulse_times_s=np.arange(0.0, 20.0, 1.0 / 24.3), pulses_per_revolution=60, shaft="shaft")
+    with pytest.raises(SpecError) as refusal:
+        check_speeds({"shaft": 24.0}, "", given([replace(quiet(24.3), tacho=tacho)], []))
+    (problem,) = refusal.value.problems
+    assert problem.field == "recording[0].tacho.pulses_per_revolution"
+    assert (problem.given, problem.allowed) == (60, "about 1 with this speed")
+    with pytest.raises(SpecError, match="looks like rpm"):  # the machine says otherwise
+        check_speeds({"shaft": 0.4}, "", given([replace(quiet(24.3), tacho=tacho)], []))
+
+
 FIELD = "kinematics.shafts.{shaft}.speed_hz"
 
 
