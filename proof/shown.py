@@ -18,51 +18,49 @@ SEEN = (
 def seen_rows(scores: Sequence[Score], seen: Mapping[str, Visible]) -> list[str]:
     """Of single effects, how many are named with their place by how much there is to see of them; empty where that is
     not stored of all."""
-    single = [s for s in scores if s.group == "single"]
-    if not single or any(s.name not in seen for s in single):
-        return []
-    head = "| one effect, by how far it moves the spectrum | detected | named with place |"
-    return _table(head, single, lambda s: _alone(seen[s.name]), lambda s: s.place)
+    words = "one effect, by how far it moves the spectrum", "named with place"
+    return _table("single", words, scores, seen, lambda s: s.place)
 
 
 def pair_rows(scores: Sequence[Score], seen: Mapping[str, Visible]) -> list[str]:
     """Of pairs, how many are named rightly by how much there is to see of the fainter of the two beside the other."""
-    pairs = [s for s in scores if s.group == "double"]
-    if not pairs or any(s.name not in seen or not seen[s.name].parts_db for s in pairs):
-        return []
-    head = "| two effects, by how far the fainter moves what the other shows | detected | both named |"
-    return _table(head, pairs, lambda s: _fainter(seen[s.name]), lambda s: s.both)
+    words = "two effects, by how far the fainter moves what the other shows", "both named"
+    return _table("double", words, scores, seen, lambda s: s.both)
 
 
 def open_rows(scores: Sequence[Score], seen: Mapping[str, Visible]) -> list[str]:
     """Of effects that no library has, how many are told as unknown by how much there is to see of them."""
-    unknown = [s for s in scores if s.group == "open"]
-    if not unknown or any(s.name not in seen for s in unknown):
-        return []
-    head = "| an effect that no library has, by how far it moves the spectrum | detected | told as unknown |"
-    return _table(head, unknown, lambda s: _alone(seen[s.name]), lambda s: s.unknown_flagged)
+    words = "an effect that no library has, by how far it moves the spectrum", "told as unknown"
+    return _table("open", words, scores, seen, lambda s: s.unknown_flagged)
 
 
 def all_rows(scores: Sequence[Score], seen: Mapping[str, Visible]) -> list[str]:
     """The three tables of the cases of which what is to be seen was measured."""
-    known = [s for s in scores if s.name in seen and (s.group != "double" or seen[s.name].parts_db)]
+    known = [s for s in scores if _ratio(s, seen) is not None]
     return [*seen_rows(known, seen), *pair_rows(known, seen), *open_rows(known, seen)]
 
 
-def _alone(one: Visible) -> float:
-    return one.effect_db / max(one.drift_db, 1e-9)
-
-
-def _fainter(one: Visible) -> float:
-    return min(one.parts_db) / max(one.drift_db, 1e-9)
+def _ratio(score: Score, seen: Mapping[str, Visible]) -> float | None:
+    """Effect over drift, of a pair that of the fainter beside the other; None where it was not measured."""
+    one = seen.get(score.name)
+    if one is None or (score.group == "double" and not one.parts_db):
+        return None
+    return (min(one.parts_db) if score.group == "double" else one.effect_db) / max(one.drift_db, 1e-9)
 
 
 def _table(
-    head: str, scores: Sequence[Score], far: Callable[[Score], float], right: Callable[[Score], bool | None]
+    group: str,
+    words: tuple[str, str],
+    scores: Sequence[Score],
+    seen: Mapping[str, Visible],
+    right: Callable[[Score], bool | None],
 ) -> list[str]:
-    rows = [head, "|---|---|---|"]
+    part = [(s, _ratio(s, seen)) for s in scores if s.group == group]
+    if not part or any(far is None for _, far in part):
+        return []
+    rows = [f"| {words[0]} | detected | {words[1]} |", "|---|---|---|"]
     for low, high, title in SEEN:
-        part = [s for s in scores if low <= far(s) < high]
-        told, named = sum(bool(s.alarm) for s in part), sum(bool(right(s)) for s in part)
-        rows.append(f"| {title} | {told}/{len(part)} | {named}/{len(part)} |")
+        here = [s for s, far in part if far is not None and low <= far < high]
+        told, named = sum(bool(s.alarm) for s in here), sum(bool(right(s)) for s in here)
+        rows.append(f"| {title} | {told}/{len(here)} | {named}/{len(here)} |")
     return [*rows, ""]
