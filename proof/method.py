@@ -157,7 +157,7 @@ four detected; of the ten of `beside` three (b016 by what the fitted first leave
 others one of both moves the spectrum less than drift does beside the other or hardly more (b006, b010, b015); of the
 four of `anew` one, all four detected, in two of the others one moves nothing. Of the nine of `pitted`, each with a
 pit, one (p002, by what impacts leave), eight detected. Of 28 pairs both of whose effects move the spectrum more than
-twice as far as drift does beside the other (the nine of `pitted` among them) 12 were named whole at their first run,
+twice as far as drift does beside the other (five of `pitted` among them) 12 were named whole at their first run,
 and 17 are by the engine of today, which these cases have taught; nothing that is not hidden is named in any of the
 28, in two more the second is told with the place of its twin (p011, p015), in one an unbalance as the set of it and a
 bow (u014; run again and read off once).
