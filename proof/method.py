@@ -135,7 +135,8 @@ nine 46 of 93. What is stored of first runs, each case once, with the engine of 
 {together}
 
 By how much there was to see in them ("How much there is to see" below; of those of which it was measured, pairs part by
-part; six singles of `later` that were named rightly and seven older pairs that were not are missing):
+part; six singles of `later` that were named rightly and seven older pairs that were not are
+missing):
 
 {shown}
 A section names the engine that made it. The engine has gone on since, so `make proof` may answer a case otherwise than
@@ -164,7 +165,8 @@ bow (u014; run again and read off once).
 
 **What limits it.** The tables above: an effect that moves the spectrum less than what drifts between two recordings
 of a sound machine is seldom detected, and the report says that it need not show; 95 % named is out of reach of
-what this engine compares. What is left to this one are the rows below the first, mostly the pairs and the unknown effects
+what this engine compares. What is left to this one are the rows below the first, mostly the pairs and the unknown
+effects
 that show well and were a set of known ones, or one of two. Of the single effects that show best and were not named
 three are an unbalance or a bow told as the set of both, which are the same force (t014, u009, a006; read off once).
 Faint severities are in the plan on purpose: where nothing is to be seen, nothing may be named.
