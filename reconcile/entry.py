@@ -14,6 +14,7 @@ from reconcile.driven import reconcile_driven
 from reconcile.kinematics import KinematicSpec, reconcile_kinematics
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.engine import Progress, reconcile_machine
+from reconcile.pulses import check_pulses
 from reconcile.repeated import check_repeated
 from reconcile.stated import (
     Given,
@@ -162,6 +163,8 @@ def reconcile_recordings(
     check_descriptions(machine, tests, baselines)
     check_channels(tests, baselines)
     check_repeated(tests, baselines)
+    if isinstance(machine, KinematicSpec):
+        check_pulses(given(tests, baselines))
     level: Level = "kinematics" if isinstance(machine, KinematicSpec) else "machine"
     silent = (*unstated(given(tests, baselines)), *exchanged(given(tests, baselines)))
     if isinstance(machine, MachineSpec):

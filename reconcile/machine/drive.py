@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from reconcile.pulses import contradiction
 from signals.recording import Recording
 from sim.assembly.kinematics import kinematics
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec
-
-SAME_SPEED = 0.05
-"""Relative difference up to which pulses and statement may be of one speed: labels are that wrong."""
 
 
 def on_drive(machine: MachineSpec, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
@@ -20,7 +18,7 @@ def on_drive(machine: MachineSpec, recordings: Sequence[Recording]) -> tuple[Rec
     SpecError where pulses contradict the stated speed.
     """
     found = tuple(_one(machine, r) for r in recordings)
-    problems = [p for r in found if (p := _contradiction(r)) is not None]
+    problems = [p for r in found if (p := contradiction(r, _field(r))) is not None]
     if problems:
         raise SpecError(problems)
     return found
@@ -42,17 +40,5 @@ def _one(machine: MachineSpec, recording: Recording) -> Recording:
     return replace(recording, operating=stated, tacho=tacho)
 
 
-def _contradiction(recording: Recording) -> Problem | None:
-    operating, tacho = recording.operating, recording.tacho
-    if operating is None or tacho is None or tacho.shaft != operating.shaft or tacho.pulse_times_s.size < 2:
-        return None
-    times = tacho.pulse_times_s
-    hz = float((times.size - 1) / (times[-1] - times[0]) / tacho.pulses_per_revolution)
-    if abs(hz / operating.speed_hz - 1.0) <= SAME_SPEED:
-        return None
-    return Problem(
-        field=f"{recording.label}: tacho.pulses_per_revolution" if recording.label else "tacho.pulses_per_revolution",
-        message=f"its pulses make {hz:.4g} Hz, but {operating.speed_hz:.4g} Hz are stated",
-        given=tacho.pulses_per_revolution,
-        allowed=f"pulses and speed_hz within {SAME_SPEED:.0%} of each other",
-    )
+def _field(recording: Recording) -> str:
+    return f"{recording.label}: tacho.pulses_per_revolution" if recording.label else "tacho.pulses_per_revolution"

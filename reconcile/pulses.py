@@ -1,0 +1,94 @@
+"""Pulses held against the speed that a recording states: a wrong number of pulses per revolution shifts every order."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from reconcile.speed import estimate_speed
+from reconcile.speed.estimate import ENOUGH, SEARCH
+from reconcile.stated import Given
+from signals.recording import Recording
+from signals.series import FloatArray
+from sim.core.errors import Problem, SpecError
+
+SAME_SPEED = 0.05
+"""Relative difference up to which pulses and statement may be of one speed: labels are that wrong."""
+MOST_PER_REVOLUTION = 10_000
+NEAR_WHOLE = 0.03
+"""By which a number of pulses per revolution that would fit may miss a whole one."""
+
+
+def check_pulses(several: Sequence[Given]) -> None:
+    """SpecError for pulses more than a tenth off the stated speed, all along, whose speed lines do not confirm.
+
+    Labels are wrong by some per cent, and there pulses are right. Further off one of both is wrong. The pulses stand
+    where lines of the shaft are at their speed and none at the stated one.
+    """
+    problems = [
+        p
+        for one in several
+        if (p := contradiction(one.recording, one.field("tacho.pulses_per_revolution"), SEARCH, all_along=True))
+        is not None
+        and not _by_lines(one.recording)
+    ]
+    if problems:
+        raise SpecError(problems)
+
+
+def contradiction(
+    recording: Recording, field: str, within: float = SAME_SPEED, *, all_along: bool = False
+) -> Problem | None:
+    """What is wrong where the mean speed by the pulses of the stated shaft is further than `within` from the stated
+    one, `all_along`: where the speed at every time is; None elsewhere."""
+    operating, tacho = recording.operating, recording.tacho
+    if operating is None or tacho is None or tacho.shaft != operating.shaft or tacho.pulse_times_s.size < 2:
+        return None
+    times, per_turn, stated = tacho.pulse_times_s, tacho.pulses_per_revolution, operating.speed_hz
+    hz = float((times.size - 1) / (times[-1] - times[0]) / per_turn)
+    slow, fast = _range_hz(times, per_turn) if all_along else (hz, hz)
+    if min(slow, hz) / stated <= 1.0 + within and max(fast, hz) / stated >= 1.0 - within:
+        return None
+    return Problem(
+        field=field,
+        message=f"its pulses make {hz:.4g} Hz, but {stated:.4g} Hz are stated",
+        given=per_turn,
+        allowed=f"pulses and speed_hz within {within:.0%} of each other{_would_fit(hz, stated, per_turn)}",
+    )
+
+
+def _range_hz(times: FloatArray, per_turn: int) -> tuple[float, float]:
+    """Slowest and fastest speed of a whole turn, Hz: single intervals jitter."""
+    step = per_turn
+    if times.size <= 3 * step:
+        hz = float((times.size - 1) / (times[-1] - times[0]) / per_turn)
+        return hz, hz
+    turns = 1.0 / (times[step:] - times[:-step])
+    low, high = np.quantile(turns, (0.05, 0.95))
+    return float(low), float(high)
+
+
+def _would_fit(hz: float, stated: float, per_turn: int) -> str:
+    """The whole number of pulses per revolution that makes the stated speed, if there is one."""
+    fit = hz * per_turn / stated
+    whole = round(fit)
+    if not 1 <= whole <= MOST_PER_REVOLUTION or abs(fit / whole - 1.0) > NEAR_WHOLE or whole == per_turn:
+        return ""
+    return f" (pulses_per_revolution {whole} would fit)"
+
+
+def _by_lines(recording: Recording) -> bool:
+    """Whether lines of the shaft stand at the speed of the pulses, and none at the stated speed."""
+    operating, tacho = recording.operating, recording.tacho
+    assert operating is not None and tacho is not None
+    times = tacho.pulse_times_s
+    hz = float((times.size - 1) / (times[-1] - times[0]) / tacho.pulses_per_revolution)
+    bare = replace(recording, tacho=None)
+    try:
+        at_pulses = estimate_speed(bare, shaft=operating.shaft, stated_hz=hz).confidence
+        at_stated = estimate_speed(bare, shaft=operating.shaft, stated_hz=operating.speed_hz).confidence
+    except SpecError:
+        return False
+    return at_pulses >= ENOUGH > at_stated

@@ -1,0 +1,70 @@
+"""Pulses that contradict the stated speed are refused at level kinematics, unless lines of the shaft speak for them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reconcile.entry import reconcile_recordings
+from reconcile.kinematics import read_kinematic_spec
+from reconcile.pulses import check_pulses, contradiction
+from reconcile.stated import given
+from signals.recording import Operating, Recording, Tacho
+from sim.core.errors import SpecError
+from tests.strategies.impulses import N, recorded, shaft_lines
+
+SPEC = read_kinematic_spec(
+    {
+        "kinematics": {
+            "shafts": [{"name": "shaft", "speed_hz": 30.0}],
+            "bearings": [{"name": "bearing1", "shaft": "shaft", "catalogue": "6205"}],
+        }
+    }
+)
+
+
+def turning(
+    hz: float, *, stated: float, pulses: float | None = None, per_turn: int = 1, lines: bool = True
+) -> Recording:
+    """Lines of a shaft at `hz`; pulses of it (or `pulses` a second) told as so many per turn."""
+    rng = np.random.default_rng(3)
+    samples = (shaft_lines(rng, hz) if lines else 0.0) + rng.standard_normal(N)
+    one = recorded(samples, hz)
+    tacho = Tacho(
+        shaft="shaft", pulse_times_s=np.arange(0.01, 1.9, 1.0 / (pulses or hz)), pulses_per_revolution=per_turn
+    )
+    return replace(one, operating=Operating(shaft="shaft", speed_hz=stated), tacho=tacho, label="t.json")
+
+
+@pytest.mark.parametrize("per_turn", [2, 3, 4])
+def test_a_miscounted_number_of_pulses_is_refused_with_the_one_that_fits(per_turn: int) -> None:
+    with pytest.raises(SpecError) as caught:
+        reconcile_recordings(SPEC, [turning(30.0, stated=30.0, per_turn=per_turn)])
+    (problem,) = caught.value.problems
+    assert problem.field == "t.json: tacho.pulses_per_revolution" and problem.given == per_turn
+    assert "(pulses_per_revolution 1 would fit)" in str(problem.allowed)
+
+
+def test_pulses_win_where_the_lines_of_the_shaft_are_at_their_speed() -> None:
+    check_pulses(given([turning(30.0, stated=22.5)], []))
+    with pytest.raises(SpecError, match=r"make 40 Hz, but 30 Hz are stated"):
+        check_pulses(given([turning(30.0, stated=30.0, pulses=40.0)], []))
+    with pytest.raises(SpecError, match=r"make 30 Hz, but 22.5 Hz are stated"):
+        check_pulses(given([turning(30.0, stated=22.5, lines=False)], []))
+
+
+def test_labels_may_be_wrong_by_some_per_cent() -> None:
+    check_pulses(given([turning(30.0, stated=28.0)], []))
+
+
+def test_a_run_up_may_state_any_speed_it_has() -> None:
+    turns = np.arange(0, 60)
+    times = (np.sqrt(20.0**2 + 2 * 10.0 * turns) - 20.0) / 10.0  # 20 Hz and 10 Hz/s more
+    one = replace(turning(30.0, stated=21.0, lines=False), tacho=Tacho(shaft="shaft", pulse_times_s=times))
+    check_pulses(given([one], []))
+    assert contradiction(one, "f") is not None, "which its mean is not"
+    slow = replace(one, operating=Operating(shaft="shaft", speed_hz=12.0))
+    with pytest.raises(SpecError):
+        check_pulses(given([slow], []))
