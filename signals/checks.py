@@ -71,7 +71,7 @@ def defects(samples: FloatArray) -> tuple[_Found, ...]:
 
 def held(samples: FloatArray) -> BoolArray:
     """Samples (n,) of stuck stretches, dropouts and constant channels: where nothing was measured, shape (n,)."""
-    if samples.size > 1 and np.ptp(samples) == 0:
+    if samples.size > 1 and np.all(samples == samples[0]):
         return np.ones(samples.size, dtype=np.bool_)
     mask = np.zeros(samples.size + 1, dtype=np.int64)
     for kind, _, runs in _stretches(samples):
@@ -82,7 +82,8 @@ def held(samples: FloatArray) -> BoolArray:
 
 
 def _stretches(samples: FloatArray) -> list[_Found]:
-    """Equal-value runs of a channel that moves, told apart by value and length."""
+    """Equal-value runs of a channel that moves, told apart by value and length; what is not finite equals nothing."""
+    samples = np.where(np.isfinite(samples), samples, np.nan)
     equal = _runs(np.concatenate(([False], np.diff(samples) == 0)))
     if not len(equal):
         return []

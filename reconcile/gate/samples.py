@@ -22,6 +22,9 @@ KIND: dict[str, Kind] = {
 MATERIAL_SHARE = 2e-4
 """Clipped or held samples below this share change no spectrum by a tenth of a decibel."""
 REPAIRABLE_SHARE = 0.02
+BRIDGED = 16
+"""Longest hole, in samples, that a straight line bridges without a trace, where such holes are few
+(`MATERIAL_SHARE`, one at least)."""
 QUIET_WINDOW_S = 2e-3
 QUIET_RATIO = 0.02
 """A window whose RMS is below 2 % of the median window's: the signal was away, not weak."""
@@ -39,12 +42,12 @@ PILE_SAMPLES = 30
 def sample_findings(recording: Recording, label: str) -> tuple[Finding, ...]:
     """Defects of every channel as findings; `fault` where they are large enough to matter."""
     n = recording.samples.shape[1]
-    found = [
-        _of_defect(d, label, n, float(recording.samples[recording.names.index(d.channel), 0]))
-        for d in inspect(recording)
-    ]
+    rows = dict(zip(recording.names, recording.samples, strict=True))
+    found = [_of_defect(d, label, n, rows[d.channel]) for d in inspect(recording)]
     known = {(f.channel, f.kind) for f in found}
-    for name, samples in zip(recording.names, recording.samples, strict=True):
+    for name, measured in rows.items():
+        gone = ~np.isfinite(measured)
+        samples = _bridged(measured, gone) if _short(gone) else measured
         if not np.all(np.isfinite(samples)) or np.ptp(samples) == 0:
             continue
         if (name, "dropouts") not in known and (name, "stuck") not in known:
@@ -64,9 +67,7 @@ def repaired(recording: Recording) -> tuple[Recording, tuple[str, ...]]:
         if good.size < 8 or np.ptp(good) == 0 or np.mean(bad) > REPAIRABLE_SHARE:
             lost.append(name)
             continue
-        if np.any(bad):
-            place = np.arange(bad.size)
-            samples[row][bad] = np.interp(place[bad], place[~bad], good)
+        samples[row] = _bridged(samples[row], bad)
         rows.append(row)
     if not rows:
         return recording, tuple(lost)
@@ -74,23 +75,42 @@ def repaired(recording: Recording) -> tuple[Recording, tuple[str, ...]]:
     return replace(recording, channels=kept, samples=samples[rows]), tuple(lost)
 
 
-def _of_defect(defect: Defect, label: str, n: int, value: float) -> Finding:
-    """A constant channel is silent at zero and stuck anywhere else (`value`: its first sample)."""
+def _short(gone: BoolArray) -> bool:
+    """Whether the samples `gone` (n,) are holes so short and few that bridging them changes nothing."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], gone, [False])).astype(np.int8)))
+    few = np.sum(gone) <= min(max(1.0, MATERIAL_SHARE * gone.size), gone.size - 1)
+    return bool(few and np.all(np.diff(edges)[::2] <= BRIDGED))
+
+
+def _bridged(samples: FloatArray, gone: BoolArray) -> FloatArray:
+    """Samples (n,) with straight lines in place of those `gone` (n,), of which some are left."""
+    place = np.arange(gone.size)
+    return np.where(gone, np.interp(place, place[~gone], samples[~gone]), samples) if np.any(gone) else samples
+
+
+def _of_defect(defect: Defect, label: str, n: int, samples: FloatArray) -> Finding:
+    """A constant channel is silent at zero and stuck anywhere else; of `samples` (n,), its channel's."""
     share = defect.samples / n
     first = defect.places[0]
     where = f"{defect.count} stretches, the first at {first.start_s:.6g} to {first.stop_s:.6g} s"
     kind = KIND[defect.kind]
-    if defect.kind == "constant" and value != 0.0:
+    finite = np.isfinite(samples)
+    if defect.kind == "constant" and samples[finite][0] != 0.0:
         kind = "stuck"
     always = defect.kind in ("not_finite", "constant", "dropout")
+    detail = f"{defect.message}: {share:.3%} of the samples"
+    bridged = defect.kind == "not_finite" and _short(~finite)
+    if bridged:
+        number = "1 sample is" if defect.samples == 1 else f"{defect.samples} samples are"
+        detail = f"{number} not finite, the first at {first.start_s:.6g} s; bridged by straight lines"
     return Finding(
         kind=kind,
         channel=defect.channel,
         recording=label,
-        detail=f"{defect.message}: {share:.3%} of the samples",
+        detail=detail,
         severity=float(min(1.0, share * (1 if defect.kind == "constant" else 20))),
         where=where,
-        fault=always or share > MATERIAL_SHARE,
+        fault=not bridged and (always or share > MATERIAL_SHARE),
     )
 
 
@@ -108,6 +128,7 @@ def _quiet_blocks(samples: FloatArray, sampling_rate_hz: float) -> tuple[BoolArr
     count = samples.size // length
     if count < 20:
         return np.zeros(0, dtype=np.bool_), length
+    samples = np.where(np.isfinite(samples), samples, np.nan)
     blocks = samples[: count * length].reshape(count, length)
     size = np.std(blocks, axis=1)
     usual = float(np.median(size))

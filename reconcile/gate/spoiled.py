@@ -49,10 +49,11 @@ REMARKS = ("speed_mismatch", "too_short")
 
 
 def doubts(gate: Gate) -> tuple[str, ...]:
-    """What is wrong with the measurement, as limits of an answer that is about the machine."""
+    """What is wrong with the measurement, as limits of an answer that is about the machine; holes that were bridged
+    too, though they are no fault."""
     told = []
     heard = gate.tests[0].names if gate.tests else ()
-    for found in (f for f in gate.findings if f.fault):
+    for found in (f for f in gate.findings if f.fault or f.kind == "not_finite"):
         where = " of ".join(part for part in (found.channel, found.recording) if part)
         maybe = " (or what the machine does there)" if found.kind in HEARD else ""
         gone = "; the channel was left out" if found.channel and found.channel not in heard else ""
