@@ -89,7 +89,9 @@ def problem_of(details: ErrorDetails, prefix: str = "", model: type[BaseModel] |
     message, allowed = _message(details), _allowed(context)
     if details["type"] == "extra_forbidden" and model is not None:
         known = fields_beside(model, details["loc"])
-        message, allowed, unit = message + did_you_mean(str(details["loc"][-1]), known), ", ".join(known), ""
+        name = str(details["loc"][-1])
+        hint = _in_rpm(name, details.get("input"), known) or did_you_mean(name, known)
+        message, allowed, unit = message + hint, ", ".join(known), ""
     if details["type"] == "missing":
         message += _rpm_beside(details.get("input"), field)
     if not allowed:
@@ -170,6 +172,15 @@ def _rpm_beside(part: object, field: str) -> str:
         if "rpm" in str(key).lower() and isinstance(value, int | float) and not isinstance(value, bool):
             return f" ({str(key)[:40]} is given: {value:g} rpm are {value / 60:g} Hz)"
     return ""
+
+
+def _in_rpm(name: str, value: object, known: Sequence[str]) -> str:
+    """Of an unknown field that gives a speed in rpm: what is known instead, in Hz."""
+    speed = next((field for field in known if field.endswith("speed_hz")), None)
+    number = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    if speed is None or not number or "rpm" not in name.lower():
+        return ""
+    return f" (speeds are in Hz: {value:g} rpm are {speed} {value / 60:g})"  # type: ignore[operator]
 
 
 class Findings:

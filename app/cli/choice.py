@@ -16,6 +16,7 @@ from signals.overrides import apply_overrides, told_by_key
 from sim import presets
 from sim.assembly.assemble import assemble
 from sim.core.errors import Problem, SpecError
+from sim.core.near import did_you_mean, likest
 from sim.core.spec import MachineSpec
 from sim.presets.reference import KEYS
 
@@ -44,9 +45,24 @@ def chosen_machine(arguments: argparse.Namespace) -> MachineSpec:
     return changed(machine, parse_set(arguments.set))
 
 
+def machine_document(path: Path, *, presets_too: bool = False) -> dict[str, object]:
+    """The JSON object in a machine's file; SpecError for a file that is not there says which preset, or (where
+    `presets_too`: presets are taken by name) which else, was meant."""
+    if path.exists():
+        return read_json(path)
+    ready = presets.names()
+    close = likest(str(path), ready)
+    if presets_too:
+        hint, allowed = did_you_mean(str(path), ready), f"a machine file, or a preset: {', '.join(ready)}"
+    else:
+        hint = f" (did you mean --preset {' or --preset '.join(close)}?)" if close else ""
+        allowed = "a machine file"
+    raise SpecError(Problem(field=str(path), message=f"no such file{hint}", allowed=allowed))
+
+
 def read_machine(path: Path) -> MachineSpec:
     """A machine specification from a file."""
-    document = read_json(path)
+    document = machine_document(path)
     if "parameters" in document or len(set(document) & set(KEYS)) > 5:
         message = (
             f"is a parameter file: make a machine of it with `sideband machine --from-reference {path} --out FILE`"

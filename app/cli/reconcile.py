@@ -12,18 +12,19 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryFile
 
-from app.cli.choice import read_machine
-from app.cli.files import check_folder, local_path, read_json
+from app.cli.choice import machine_document, read_machine
+from app.cli.files import check_folder, local_path
 from app.cli.parameters import read_parameters
 from app.cli.processes import processes
+from jobs.reconciliations.machine import read_form
 from reconcile.entry import reconcile_recordings
-from reconcile.kinematics import KinematicSpec, read_kinematic_spec
+from reconcile.kinematics import KinematicSpec
 from reconcile.machine.budget import BUDGETS
 from reconcile.machine.engine import ATLASES_DONE
 from reconcile.report import write_report
@@ -90,14 +91,13 @@ def _machine(path: Path) -> MachineSpec | KinematicSpec:
     file is called so; a refusal says the file."""
     if str(path) in presets.names() and not path.exists():
         return presets.preset(str(path))
-    document = read_json(path)
+    document = machine_document(path, presets_too=True)
     if {"channels", "sampling_rate_hz"} & set(document):
         message = "describes a recording, not a machine"
         allowed = f"a machine file, or a preset: {', '.join(presets.names())}"
         raise SpecError(Problem(field=f"--machine {path}", message=message, allowed=allowed))
     if "kinematics" in document:
-        with about(str(path)):
-            return read_kinematic_spec(document)
+        return _kinematics(path, document)
     if "parameters" in document or len(set(document) & set(KEYS)) > MOST_FOREIGN:
         with about(str(path)):
             return read_parameters(path).machine
@@ -107,6 +107,15 @@ def _machine(path: Path) -> MachineSpec | KinematicSpec:
             Problem(field=str(path), message=message, given=", ".join(document), allowed='{"kinematics": {...}}')
         )
     return read_machine(path)
+
+
+def _kinematics(path: Path, document: Mapping[str, object]) -> MachineSpec | KinematicSpec:
+    """As a request has it: all that is wrong with it is told at once."""
+    try:
+        return read_form(document)
+    except SpecError as error:
+        several = [replace(p, field=f"{path}: {p.field.removeprefix('machine.')}") for p in error.problems]
+        raise SpecError(several) from error
 
 
 def _recording(path: Path) -> Recording:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pydantic import ValidationError
 
 from jobs.ports import Engine
+from jobs.reconciliations.every_part import read_every_part
 from jobs.reconciliations.slips import told_behind_slips
 from jobs.resolve import report_of
 from jobs.validation import Findings, problems_of, shown
@@ -68,7 +69,7 @@ def _read(form: Mapping[str, object]) -> KinematicSpec:
     others = _unknown(form, (_KINEMATICS,), "is not a known field beside kinematics")
     with others.step():
         try:
-            spec = read_kinematic_spec({_KINEMATICS: form[_KINEMATICS]})
+            spec = read_every_part(form[_KINEMATICS])
         except SpecError as error:
             raise SpecError([replace(p, field=f"machine.{p.field}") for p in error.problems]) from None
     others.settle()

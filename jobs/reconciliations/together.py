@@ -26,6 +26,7 @@ from reconcile.stated import (
     check_turning,
     given,
     pulses_hz,
+    sixty_times,
 )
 from reconcile.told import about
 from signals.recording import Recording
@@ -80,8 +81,32 @@ def _check_speeds(known: Known, several: Sequence[Given]) -> None:
     except SpecError as error:
         places = {one.field("operating.speed_hz"): one.recording for one in several}
         sure = [p for p in error.problems if p.field in places and _certain(places[p.field])]
-        if sure:
-            raise SpecError(sure) from None
+        own = [p for p in error.problems if p.field in nominal and _own_certain(p.field, nominal[p.field], several)]
+        if sure or own:
+            raise SpecError([*sure, *(replace(p, field=_of_machine(p.field, known)) for p in own)]) from None
+
+
+def _of_machine(shaft: str, known: Known) -> str:
+    """Where the request has the shaft's nominal speed."""
+    if isinstance(known, KinematicSpec):
+        return f"machine.kinematics.shafts.{[s.name for s in known.shafts].index(shaft)}.speed_hz"
+    return "machine.operating.speed_hz"
+
+
+def _own_certain(shaft: str, nominal_hz: float | None, several: Sequence[Given]) -> bool:
+    """Whether the engine refuses a shaft's nominal speed whatever lines it finds: pulses count a sixtieth, a recording
+    states one and the speed is faster than machines turn, or nothing tells it and it is above half a sampling rate."""
+    if nominal_hz is None:
+        return False
+    told = False
+    for recording in (one.recording for one in several):
+        pulses, operating = pulses_hz(recording, shaft), recording.operating
+        stated = operating.speed_hz if operating is not None and operating.shaft == shaft else 0.0
+        speed = pulses or stated
+        told |= speed > 0.0
+        if speed > 0.0 and sixty_times(nominal_hz, speed) and (pulses or nominal_hz > FAST_HZ * FASTER):
+            return True
+    return not told and any(nominal_hz >= one.recording.sampling_rate_hz / 2 for one in several)
 
 
 def _certain(recording: Recording) -> bool:

@@ -111,6 +111,30 @@ def test_pulses_that_say_another_speed_are_certain() -> None:
     assert list(told([replace(turning(600.0), tacho=pulses)])) == ["recordings.0.operating.speed_hz"]
 
 
+def nominal(speed_hz: float) -> Known:
+    form = KINEMATICS["kinematics"]
+    return read_form({"kinematics": {**form, "shafts": [{"name": "input", "speed_hz": speed_hz}]}})
+
+
+def test_the_speed_of_the_machine_file_in_rpm_is_told_before_there_is_a_job() -> None:
+    found = told([turning(25.0)], (), nominal(1500.0))
+    assert list(found) == ["machine.kinematics.shafts.0.speed_hz"]
+    (problem,) = found.values()
+    assert problem.given == 1500.0 and "1500 rpm = 25 Hz" in problem.message and "revolutions" in problem.allowed
+    with pytest.raises(SpecError, match="1500 rpm = 25 Hz"):
+        reconcile_recordings(nominal(1500.0), [turning(25.0)], [])
+    silent = replace(made(1), operating=None)
+    assert list(told([silent], (), nominal(1500.0))) == ["machine.kinematics.shafts.0.speed_hz"], "above Nyquist's"
+    pulses = Tacho(shaft="input", pulses_per_revolution=1, pulse_times_s=np.arange(20) / 10.0)
+    assert list(told([replace(silent, tacho=pulses)], (), nominal(600.0))) == ["machine.kinematics.shafts.0.speed_hz"]
+
+
+def test_a_fast_machine_beside_a_slow_roll_is_left_to_the_engine() -> None:
+    assert told([turning(10.0)], (), nominal(600.0)) == {}, "its lines may be those of a slow roll"
+    assert told([turning(25.0), turning(1500.0)], (), nominal(1500.0)) == {}
+    assert told([turning(25.0)], (), nominal(25.0)) == {}
+
+
 def test_a_place_that_the_simulated_machine_does_not_have() -> None:
     known, elsewhere = preset("paper"), replace(CHANNEL, location="roof")
     test = replace(made(1), channels=(elsewhere,))

@@ -9,7 +9,7 @@ from jobs.request import SimulationRequest
 from signals.ingest.description import Description
 from signals.known_fields import expected_at, fields_beside
 from signals.validation import problems_of
-from sim.core.spec import MachineSpec
+from sim.core.spec import MachineSpec, SpecModel
 
 
 def test_the_known_fields_are_those_of_the_part_that_was_meant():
@@ -53,3 +53,24 @@ def test_a_missing_speed_beside_one_in_rpm_is_told_in_hz() -> None:
         Description.model_validate(document)
     (problem,) = problems_of(caught.value, model=Description)
     assert problem.field == "operating.speed_hz" and "1797 rpm are 29.95 Hz" in problem.message
+
+
+class Shaft(SpecModel):
+    name: str
+    speed_hz: float | None = None
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "said"),
+    [
+        ("rpm", 1500, "is not a known field (speeds are in Hz: 1500 rpm are speed_hz 25)"),
+        ("Speed_RPM", 1797.0, "is not a known field (speeds are in Hz: 1797 rpm are speed_hz 29.95)"),
+        ("rpm", "fast", "is not a known field"),
+        ("speed", 25.0, "is not a known field (did you mean speed_hz?)"),
+    ],
+)
+def test_an_unknown_field_in_rpm_is_told_in_hz(key: str, value: object, said: str) -> None:
+    with pytest.raises(ValidationError) as caught:
+        Shaft.model_validate({"name": "input", key: value})
+    (problem,) = problems_of(caught.value, model=Shaft)
+    assert (problem.field, problem.message, problem.allowed) == (key, said, "name, speed_hz")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from app.cli.choice import changed, parse_set, read_machine
+from app.cli.choice import changed, machine_document, parse_set, read_machine
 from sim.core.errors import SpecError
 from sim.core.spec import RampSpeed, TorqueLoad
 from sim.presets import preset
@@ -102,3 +102,17 @@ def test_broken_machine_files_are_refused(tmp_path: Path, text: str) -> None:
     path.write_text(text)
     with pytest.raises(SpecError):
         read_machine(path)
+
+
+@pytest.mark.parametrize(("name", "meant"), [("paper-dmo", "paper-demo"), ("two_stage", "two-stage")])
+def test_a_machine_file_that_is_not_there_may_have_been_a_preset(name: str, meant: str) -> None:
+    with pytest.raises(SpecError, match=rf"{name}: no such file \(did you mean --preset {meant}\?\)"):
+        read_machine(Path(name))
+    with pytest.raises(SpecError, match=rf"{name}: no such file \(did you mean {meant}\?\).*or a preset: .*overhung"):
+        machine_document(Path(name), presets_too=True)
+
+
+def test_a_machine_file_that_is_not_there_is_only_that(tmp_path: Path) -> None:
+    with pytest.raises(SpecError) as refused:
+        read_machine(tmp_path / "machine.json")
+    assert "did you mean" not in str(refused.value) and "no such file" in str(refused.value)

@@ -67,6 +67,23 @@ def test_the_three_forms_of_a_machine(machine: Path, tmp_path: Path) -> None:
     assert isinstance(command._machine(path), KinematicSpec)
 
 
+def test_all_that_is_wrong_with_kinematics_is_told_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "k.json"
+    shafts = [{"name": "shaft", "rpm": 1500}]
+    bearings = [{"name": "a", "shaft": "shfat", "catalogue": "6205"}, {"name": "b", "shaft": "shaft", "catalogue": "0"}]
+    path.write_text(json.dumps({"kinematics": {"shafts": shafts, "bearings": bearings}, "x": 1}), encoding="utf-8")
+    assert main(asked(path, tmp_path / "r.json", tmp_path / "out")) == 2
+    told = capsys.readouterr().err.splitlines()
+    assert all(line.startswith(f"error: {path}: ") and "allowed: " in line for line in told)
+    assert sorted(line.split(": ")[2] for line in told) == [
+        "kinematics.bearings.0.shaft",
+        "kinematics.bearings.1.catalogue",
+        "kinematics.shafts.0.rpm",
+        "x",
+    ]
+    assert any("1500 rpm are speed_hz 25" in line for line in told)
+
+
 def test_a_preset_is_a_machine_and_a_recording_is_none(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     found = command._machine(Path("bearing-rig"))
     assert isinstance(found, MachineSpec) and found == preset("bearing-rig")
@@ -75,6 +92,9 @@ def test_a_preset_is_a_machine_and_a_recording_is_none(tmp_path: Path, capsys: p
     assert main(asked(path, path, tmp_path / "out")) == 2
     told = capsys.readouterr().err
     assert "describes a recording, not a machine" in told and "bearing-rig" in told and told.count("error") == 1
+    assert main(asked(Path("bearing-rg"), path, tmp_path / "out")) == 2
+    told = capsys.readouterr().err
+    assert "bearing-rg: no such file (did you mean bearing-rig?)" in told and "two-stage" in told
 
 
 def test_arguments_that_are_missing_end_with_2(capsys: pytest.CaptureFixture[str]) -> None:
