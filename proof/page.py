@@ -13,18 +13,19 @@ import matplotlib as mpl
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 
-from proof.method import FIRST_RUNS, METHOD, SECTIONS
+from proof.method import METHOD, SECTIONS
 from proof.others import cases_of
 from proof.plan import COUNTS, FIRST, OTHERS
 from proof.score.one import Score
-from proof.score.rates import MEASURES, Rate, at_target, rate
+from proof.score.rates import at_target
 from proof.score.table import failures
-from proof.shown import all_rows, pair_rows, seen_rows
+from proof.shown import pair_rows, seen_rows
+from proof.targets import TARGETS, cut_rows, quoted, wrong_rows
 from proof.taught import RULES
 from proof.unknown import OPEN
 from proof.visible import stored, told
+from proof.whole import read, said_of
 
-HALF = 0.5
 TITLES = {
     "null": "nothing missing",
     "misset": "nothing missing, parameters mis-set",
@@ -35,20 +36,6 @@ TITLES = {
     "no_baseline": "one effect, no baseline",
     "ambiguous": "causes that look alike",
 }
-TARGETS = (
-    ("null", "alarm", "false alarms on nulls at most 8/300"),
-    ("single", "mechanism", "mechanism right at least 95 %"),
-    ("single", "place", "with place at least 85 %"),
-    ("single", "top_three", "among the first three at least 97 %"),
-    ("open", "unknown_flagged", "unknown effects flagged at least 80 %"),
-    ("single", "false_unknown", "false unknowns at most 5 %"),
-    ("double", "both", "both of a pair at least 70 %"),
-    ("double", "false_name", "a name beside the pair's"),
-    ("single", "severity_covered", "90 % intervals cover 85-95 %"),
-    ("single", "beats_black_box", "beats the black box in at least 80 %"),
-    ("single", "placebo_improves", "placebos (the median of each case's) improve in at most 5 %"),
-    ("ambiguous", "cannot_tell", '"cannot tell" in at least 90 % of look-alikes'),
-)
 
 
 def write_page(docs: Path, results: Path) -> Path:
@@ -59,8 +46,7 @@ def write_page(docs: Path, results: Path) -> Path:
     rules = "\n".join(["| rule | set by |", "|---|---|", *(f"| {rule} | {by} |" for rule, by in RULES)])
     parts = [
         METHOD.format(
-            together=together(results),
-            shown=of_what_shows(results),
+            **said_of(results),
             rules=rules,
             laws=laws,
             crossing=laws * 4 * 27,
@@ -91,9 +77,9 @@ def _drawn(summary: Mapping[str, Any]) -> bool:
 
 def _split(section: str, summary: Mapping[str, Any], results: Path) -> str:
     split = summary["split"]
-    scores = [Score(**(s | {"laws": tuple(s["laws"])})) for s in summary["scores"]]
+    scores = read(results / f"{section}.json")
     rows = ["| target (at the target condition) | reached |", "|---|---|"]
-    rows += [f"| {sentence} | {_rate(summary, 'target', group, measure)} |" for group, measure, sentence in TARGETS]
+    rows += [f"| {t.words} | {_rate(summary, 'target', t.group, t.measure)} |" for t in TARGETS]
     rows += [*cut_rows(scores), *wrong_rows([s for s in scores if at_target(s)])]
     planned: Counter[str] = Counter(case.group for case in cases_of(split))
     wide = ["| group | cases run | verdict right | mechanism | place |", "|---|---|---|---|---|"]
@@ -121,58 +107,6 @@ def _split(section: str, summary: Mapping[str, Any], results: Path) -> str:
     )  # fmt: skip
 
 
-def cut_rows(scores: Sequence[Score]) -> list[str]:
-    """How often the spectral distance is cut by half: of all single effects, undetected ones too, and of those of which
-    a gain was measured and drift and noise let one expect as much."""
-    single = [s for s in scores if s.group == "single" and at_target(s)]
-    room = [s for s in single if s.gain is not None and s.ceiling is not None and s.ceiling >= HALF]
-    rows = []
-    for part, words in ((single, "of all"), (room, "of those detected where drift and noise leave room for it")):
-        found = Rate(hits=sum(s.gain is not None and s.gain >= HALF for s in part), n=len(part)).document()
-        rows.append(f"| spectral distance cut by at least 50 %, {words} | {_written(found) if part else '-'} |")
-    return rows
-
-
-def wrong_rows(scores: Sequence[Score]) -> list[str]:
-    """Names given to single effects that are wrong in kind or place, and to machines where nothing is hidden."""
-    single = [s for s in scores if s.group == "single"]
-    found = Rate(hits=sum(s.verdict == "explained" and not s.place for s in single), n=len(single))
-    sound = [s for s in scores if s.group in ("null", "misset", "sensor")]
-    named = Rate(hits=sum(s.verdict == "explained" for s in sound), n=len(sound))
-    rows = ((found, "one effect named as another or elsewhere"), (named, "a name where no effect is hidden"))
-    return [f"| {words} | {_written(r.document()) if r.n else '-'} |" for r, words in rows]
-
-
-def first_runs(results: Path) -> list[Score]:
-    """All stored first runs, each with the engine of its day."""
-    scores = []
-    for section in FIRST_RUNS:
-        if (results / f"{section}.json").exists():
-            kept = json.loads((results / f"{section}.json").read_text(encoding="utf-8"))["scores"]
-            scores += [Score(**(s | {"laws": tuple(s["laws"])})) for s in kept]
-    return scores
-
-
-def together(results: Path) -> str:
-    """Table of all stored first runs."""
-    scores = first_runs(results)
-    asked = [t for t in TARGETS if t[1] in ("alarm", "mechanism", "place", "top_three", "unknown_flagged", "both")]
-    rows = ["| stored first runs | at the target condition | at all conditions |", "|---|---|---|"]
-    parts = [[s for s in scores if at_target(s)], scores]
-    for group, measure, words in asked:
-        cells = [rate([s for s in part if s.group == group], MEASURES[measure]) for part in parts]
-        rows.append(f"| {words} | {' | '.join(_written(c.document()) if c.n else '-' for c in cells)} |")
-    for first, second in zip(*(wrong_rows(part) for part in parts), strict=True):
-        rows.append(f"{first} {second.split('|')[2].strip()} |")
-    return "\n".join(rows)
-
-
-def of_what_shows(results: Path) -> str:
-    """The same at the target condition by how much there is to see."""
-    seen = {name: one for path in sorted(results.glob("visible-*.json")) for name, one in stored(path).items()}
-    return "\n".join(all_rows([s for s in first_runs(results) if at_target(s)], seen))
-
-
 def _above(scores: Sequence[Score]) -> str:
     """How many gains are surely above what was expected at most: an expectation is no bound."""
     told = [s for s in scores if s.ceiling is not None and s.gain_low is not None]
@@ -182,12 +116,7 @@ def _above(scores: Sequence[Score]) -> str:
 
 def _rate(summary: Mapping[str, Any], part: str, group: str, measure: str) -> str:
     found = summary["groups"][part].get(group, {}).get(measure)
-    return "-" if found is None else _written(found)
-
-
-def _written(found: Mapping[str, float]) -> str:
-    share = 100 * found["hits"] / found["n"]
-    return f"{found['hits']}/{found['n']} = {share:.0f} % ({100 * found['low']:.0f} to {100 * found['high']:.0f})"
+    return "-" if found is None else quoted(found)
 
 
 def _quantiles(found: Mapping[str, float], form: str = ".2g") -> str:
