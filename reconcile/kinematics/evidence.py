@@ -42,6 +42,8 @@ PAIRS, MANY_PAIRS, COVERED = 2, 6, 0.25
 many."""
 CERTAIN_Z = 6.0
 """Robust deviations that noise does not reach."""
+FIRM_SHARE, FIRM_Z = 0.5, 5.0
+"""Of the firmest band's score, and deviations, from which another band hears the family too."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,6 +61,10 @@ class Evidence:
     depth: float
     """Root of the summed squares of its lines in the squared envelope, over the mean of it."""
     channel_z: dict[str, float]
+    deepest: float = 0.0
+    """The largest depth over all bands of the channel that hear it."""
+    kurtosis: float = 0.0
+    """The largest excess kurtosis of those bands: impacts reach far beyond what noise does whose strength varies."""
     others: tuple[Evidence, ...] = ()
     """The same of each other channel, the firmest first."""
 
@@ -216,7 +222,7 @@ def family_evidence(
     reach = speed_doubt + (0.0 if turn else family.slip)
     controls = control_orders(ties, family, rng)
     best_control = np.full(controls.size, -np.inf)
-    firmest: list[tuple[float, Envelopes, int, float]] = []
+    firmest: list[_Firmest] = []
     foreign: dict[tuple[float, int], list[_Controls]] = {}
     for e in channels:
         values = logs(e, ties, shaft_lines=turn)
@@ -238,24 +244,44 @@ def family_evidence(
             z = (table - centre) / spread
         band, trial = (int(i) for i in np.unravel_index(int(np.argmax(z)), z.shape))
         best_control = np.maximum(best_control, np.max((control - centre) / spread, axis=0))
-        firmest.append((float(z[band, trial]), e, band, float(base[trial])))
-    by_channel = {e.channel: z for z, e, _, _ in firmest}
-    firmest.sort(key=lambda one: -one[0])
-    best, *others = (
-        Evidence(
-            family=family,
-            z=z,
-            chance=tail_chance(best_control, z),
-            slip=order / family.order - 1,
-            order=order,
-            channel=e.channel,
-            band_hz=(float(e.bands_hz[place, 0]), float(e.bands_hz[place, 1])),
-            depth=comb_depth(e, place, family, order),
-            channel_z=by_channel,
-        )
-        for z, e, place, order in firmest
-    )
+        firmest.append(_Firmest(envelopes=e, z=z[:, trial], band=band, order=float(base[trial])))
+    by_channel = {one.envelopes.channel: one.top for one in firmest}
+    firmest.sort(key=lambda one: -one.top)
+    least = max(FIRM_Z, FIRM_SHARE * firmest[0].top)
+    best, *others = (one.evidence(family, tail_chance(best_control, one.top), by_channel, least) for one in firmest)
     return replace(best, others=tuple(others))
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Firmest:
+    """The firmest reading of a family in one channel: scores of all bands (bands,) at its order, and the best band."""
+
+    envelopes: Envelopes
+    z: FloatArray
+    band: int
+    order: float
+
+    @property
+    def top(self) -> float:
+        return float(self.z[self.band])
+
+    def evidence(self, family: Family, chance: float, channel_z: dict[str, float], least: float) -> Evidence:
+        """`least`: score from which a band hears it."""
+        e = self.envelopes
+        hear = np.flatnonzero(self.z >= least)
+        return Evidence(
+            family=family,
+            z=self.top,
+            chance=chance,
+            slip=self.order / family.order - 1,
+            order=self.order,
+            channel=e.channel,
+            band_hz=(float(e.bands_hz[self.band, 0]), float(e.bands_hz[self.band, 1])),
+            depth=comb_depth(e, self.band, family, self.order),
+            channel_z=channel_z,
+            deepest=max((comb_depth(e, int(b), family, self.order) for b in hear), default=0.0),
+            kurtosis=float(np.max(e.kurtosis[hear], initial=0.0)),
+        )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,7 +9,7 @@ import numpy as np
 from reconcile.kinematics.answer import lines_of
 from reconcile.kinematics.foreign import Foreign
 from reconcile.kinematics.gears import NEAR_DB, GearEvidence, of_own_lines
-from reconcile.kinematics.judge import DEFECTS, Candidate
+from reconcile.kinematics.judge import ALONE_DEPTH, DEFECTS, Candidate
 from reconcile.kinematics.lines import matched
 from reconcile.kinematics.measured import measured_lines
 from reconcile.kinematics.observe import Observation
@@ -172,10 +172,19 @@ def _without_baseline(
     """Lines that a sound machine may have made: only a baseline tells whether it did. A measured gearbox without a
     fault knocks once a turn of its input at each of four loads, 20 to 25 deviations over orders of no part."""
     said, undecidable = [], []
-    if shallow:
-        keys = ", ".join(c.family.key for c in shallow)
+    deep = [c for c in shallow if c.deepest >= ALONE_DEPTH]
+    faint = [c for c in shallow if c not in deep]
+    if faint:
+        keys = ", ".join(c.family.key for c in faint)
         said.append(f"Lines of {keys} are there but shallow, as sound bearings show them too")
         undecidable.append("whether shallow lines are a young defect or the bearing as made")
+    if deep:
+        keys = ", ".join(c.family.key for c in deep)
+        said.append(
+            f"Lines of {keys} are deep, but nothing strikes: balls that pass in a sound bearing make such where little "
+            "else is heard"
+        )
+        undecidable.append("whether lines without blows are a defect or the bearing as made")
     if knocking:
         shafts = " and of ".join(c.family.site for c in knocking)
         said.append(f"Impacts once a turn of {shafts} are there, as sound gears, couplings and keys make them too")
