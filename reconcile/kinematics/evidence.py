@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reconcile.kinematics.controls import control_orders
 from reconcile.kinematics.envelopes import Envelopes
 from reconcile.kinematics.families import Family, Ties
 from reconcile.tail import tail_chance
@@ -20,11 +21,8 @@ from signals.series import FloatArray, IntArray
 NOISE_LOG = 1.5
 """Log power over the floor below which a bin counts nothing: noise passes it in 1 % of the bins."""
 LARGEST_LOG = 7.0
-CONTROLS = 300
 TOGETHER = 10
 """Control orders searched at once, which bounds the memory."""
-AWAY = 0.035
-"""Share by which a control order must differ from orders of parts, their halves and multiples."""
 SHAFT_BINS = 2.0
 DENSE = 0.2
 """Share of the orders that a shaft's multiples cover, from which not all of them are the shaft's."""
@@ -185,21 +183,6 @@ def _absent(values: FloatArray, envelopes: Envelopes, spacing: float, order: flo
     )  # of each distance of sidebands, by all harmonics
     pairs = MANY_PAIRS if many and covered < COVERED * spacing else PAIRS
     return without(values, envelopes, [spacing], order, pairs=pairs)
-
-
-def control_orders(ties: Ties, family: Family, rng: np.random.Generator, count: int = CONTROLS) -> FloatArray:
-    """Orders no part has, between half and twice the family's, shape (count,)."""
-    known = np.array([f.order * m for f in ties.families if f.kind != "turn" for m in (0.5, 1.0, 1.5, 2.0, 3.0)])
-    chosen = np.zeros(0)
-    tries = 0
-    while chosen.size < count:
-        orders = np.array([family.order * 2**power for power in rng.uniform(-1, 1, count).tolist()])
-        # many parts leave no gaps this wide
-        away = AWAY / 2.0 ** ((tries + 1 + np.arange(count)) // (20 * count))
-        clear = np.all(np.abs(orders[:, np.newaxis] / known - 1) > away[:, np.newaxis], axis=1)
-        chosen = np.concatenate([chosen, orders[clear]])
-        tries += count
-    return chosen[:count]
 
 
 def family_evidence(
