@@ -164,8 +164,8 @@ as the set of both, which are the same force (t014, u009, a006; read off once).
 * **False alarms are counted, not computed.** A parametric bootstrap for every case was planned. Where a machine can be
   simulated the chance is the rank of the observation among noisy copies of 48 simulated sound pairs, or of 24 fitted to
   the baseline, with an exponential tail beyond; only a measured force (level `driven`) has a bootstrap. How often sound
-  machines alarm is known from the nulls above alone: for 8/300 at least 99 without a single alarm are needed. "Not
-  decidable" is no alarm by the scores ({undecided} of these nulls got it).
+  machines alarm is known from the nulls above alone: for 8/300 at least 99 without a single alarm are needed (90 %
+  interval). "Not decidable" is no alarm by the scores ({undecided} of these nulls got it).
 * **Not run as first runs**: mis-set machine files and cases without a baseline ("Alone" are runs again). Conditions
   other than the target have {elsewhere} of {n_first} first runs, too few for the curves that were planned.
 * **Parallel misalignment**: the force is stiffness times offset, and only the product can be found. The generator's
@@ -198,7 +198,7 @@ then on. First runs at the target condition (`--budget quick`, physics 1.2.0):
 {history}
 
 Of the first six rows no summary is stored: their counts were taken down when they were run, and cannot be checked here.
-With them {overall} ones.
+{overall}
 
 **Pairs.** Before two effects were fitted together ([decision](decisions/reconcile-pairs.md), split `fourth`) no stored
 run named both of a pair with their places. The splits since are planned of laws that mostly show. `pitted`, planned

@@ -56,6 +56,8 @@ LAWS = {
     "stiffening_coupling": "coupling that stiffens",
 }
 """The library's laws in words of the field."""
+PITS = ("outer_pit", "inner_pit", "ball_pit")
+"""Of bearings, whose balls have no mass in the product either."""
 FEW = 2
 """So few cases of a law say next to nothing of it."""
 
@@ -146,8 +148,13 @@ def by_law(scores: Sequence[Score]) -> list[str]:
     never = [f"{LAWS[law]} ({len(part)})" for law, part in parts.items() if not any(s.mechanism for s in part)]
     few = sum(len(part) <= FEW for part in parts.values())
     absent = [title for law, title in LAWS.items() if law not in parts]
-    said = [f"Named in no case: {', '.join(never)}." if never else "", f"Hidden in no case: {', '.join(absent)}."]
-    return [*rows, *wrap(f"{' '.join(said)} {few} of the {len(parts)} stand for {FEW} cases at most.".strip(), WIDTH)]
+    others = rate([s for s in single if s.laws[0] not in PITS], MEASURES["place"])
+    said = [
+        f"Without the pits of bearings {written(others)} are named with their place.",
+        f"Named in no case: {', '.join(never)}." if never else "",
+        f"Hidden in no case: {', '.join(absent)}. {few} of the {len(parts)} have {FEW} cases at most.",
+    ]
+    return [*rows, *wrap(" ".join(said), WIDTH)]
 
 
 def _counts(part: Sequence[Score]) -> str:
@@ -185,7 +192,7 @@ def said_of(results: Path) -> dict[str, object]:
         "by_law": "\n".join(by_law(scores)),
         "shown": of_what_shows(scores, measured(results)),
         "history": history(results),
-        "overall": f"{written(every)} of single effects named with their place, beside {written(single)} of the stored",
+        "overall": f"Counted with them {written(every)} of single effects are named with their place.",
         "versions": len(engines),
         "undecided": sum(s.verdict == "not_decidable" for s in scores if s.group == "null"),
         "elsewhere": len(scores) - len(at),

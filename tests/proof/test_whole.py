@@ -64,6 +64,19 @@ def test_laws_add_up_to_the_aggregate(kept: list[Score]) -> None:
         assert [sum(int(row[column].split("/")[k]) for row in laws) for k in (0, 1)] == [found.hits, found.n]
 
 
+def test_what_is_named_without_pits_and_what_never_is_follows_from_the_table(kept: list[Score]) -> None:
+    table = by_law(kept)
+    laws = {row.split("`")[1]: cells(row) for row in table if "`" in row}
+    others = [row for law, row in laws.items() if not law.endswith("_pit")]
+    named, n = (sum(int(row[4].split("/")[k]) for row in others) for k in (0, 1))
+    text = " ".join(table[table.index("") :])
+    assert f"Without the pits of bearings {named}/{n} = " in text
+    never, absent = text.partition("Named in no case:")[2].split("Hidden in no case:")
+    for law, row in laws.items():
+        assert (f"{LAWS[law]} ({row[1]})" in never) == row[3].startswith("0/")
+        assert LAWS[law] not in absent
+
+
 def test_tables_of_what_shows_hold_every_case(kept: list[Score]) -> None:
     text = of_what_shows(kept, measured(RESULTS))
     tables = [t.splitlines() for t in text.split("\n\n") if t.startswith("|")]
