@@ -282,7 +282,8 @@ def _held(
         channel=feature_channels(layout, len(lines), count),
         seed=setting.seed,
     )
-    return with_points(held, setting.data)
+    together = None if pair is None else pair.beside.together
+    return with_points(held, setting.data, searched=together is not None and together.searched)
 
 
 def _next(setting: Setting, decision: Decision, lead: float) -> NextExperiment | None:

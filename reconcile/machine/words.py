@@ -31,10 +31,13 @@ def size(severity: Severity | None) -> str:
     return f", {severity.name} {figure_text(severity.value, severity.unit, digits=2)} (90 %: {low} to {high})"
 
 
-def with_points(held: HeldOut, data: Sequence[PointData]) -> HeldOut:
-    """The same with the operating points that were held out said by name."""
+SEARCHED = "the two sizes it is forecast with were searched with all points, these too"
+
+
+def with_points(held: HeldOut, data: Sequence[PointData], *, searched: bool = False) -> HeldOut:
+    """The same with the operating points that were held out said by name; `searched`: sizes that were not held out."""
     points = ", ".join(operating_point(d.point.speed_hz, d.point.torque_ratio) for d in data)
-    return replace(held, held=f"{held.held}: {points}")
+    return replace(held, held=f"{held.held}: {points}{f' ({SEARCHED})' if searched else ''}")
 
 
 def law_sentence(force: EstimatedForce, *, tried: bool) -> str:

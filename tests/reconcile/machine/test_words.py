@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import pytest
 
 from reconcile.machine.decide import Decision
-from reconcile.machine.words import LISTED, more, next_experiment, sentence, together
+from reconcile.machine.words import LISTED, more, next_experiment, sentence, together, with_points
 from reconcile.verdict import HeldOut
 
 
@@ -48,3 +50,15 @@ def test_a_bow_and_an_unbalance_are_told_apart_at_a_slow_roll(sites: tuple[str, 
     chosen = (f"unbalance@{sites[0]}", f"bent_shaft@{sites[1]}")
     asked = next_experiment((*chosen, "shaft_crack@bearing1"), 0.5, 3, ["bearing1"])
     assert asked is not None and "slow roll" in asked.sentence and asked.separation_expected is None
+
+
+@pytest.mark.parametrize("searched", [True, False])
+def test_sizes_that_know_the_held_out_points_are_told(searched: bool) -> None:
+    data = [SimpleNamespace(point=SimpleNamespace(speed_hz=hz, torque_ratio=1.0)) for hz in (22.5, 30.0)]
+    plain = HeldOut(
+        metric="m", unit="dB", before=2.0, after=1.0, gain=0.5, gain_low=0.4, gain_high=0.6,
+        retuned=None, black_box=None, placebo=None, held="each point",
+    )  # fmt: skip
+    held = with_points(plain, data, searched=searched)  # type: ignore[arg-type]
+    assert held.held.startswith("each point: ") and "22.5" in held.held
+    assert ("searched with all points" in held.held) == searched
