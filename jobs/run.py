@@ -136,7 +136,8 @@ def _simulated(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> R
 
 
 def _recorded(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> ResultRef:
-    return read_upload(bench.artefacts, reporter, bench.catalogue.request_of(job_id), job_id, attempt)
+    name = str(bench.catalogue.get(job_id).source.get("name", ""))
+    return read_upload(bench.artefacts, reporter, bench.catalogue.request_of(job_id), job_id, attempt, name)
 
 
 def _reconciled(bench: Bench, reporter: Reporter, job_id: str, attempt: int) -> ResultRef:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
@@ -23,18 +23,23 @@ from signals.ingest import Bounds, Ingested, parse, read_description, report
 from signals.readers.guard import load_apart
 from sim.core.errors import Problem, SpecError
 
+COPY = "data"
+
 
 def read_upload(
-    artefacts: ArtefactStore, reporter: Reporter, request: Mapping[str, object], job_id: str, attempt: int
+    artefacts: ArtefactStore, reporter: Reporter, request: Mapping[str, object], job_id: str, attempt: int, name: str
 ) -> ResultRef:
-    """Turn the file into a stored recording; RecordingRefused says why it is none, and the file is let go of."""
+    """Turn the file into a stored recording; RecordingRefused says why it is none, and the file is let go of.
+
+    `name`: what the sender calls the file, by which refusals name it.
+    """
     reporter.stage("reading", 0.1)
     try:
         found = _parsed(artefacts, request, job_id)
         spec = described_kinematics(read_description(request["description"]))
     except SpecError as error:
         artefacts.delete_prefix(f"{job_id}/")
-        raise RecordingRefused(error.problems) from error
+        raise RecordingRefused([_by_name(p, request["file"], name) for p in error.problems]) from error
     reporter.stage("analysing", 0.6)
     summary = report(found)
     condition = condition_document(found.recording, spec)
@@ -42,12 +47,25 @@ def read_upload(
     return _kept(artefacts, f"{job_id}/{attempt}", attempt, found, {"summary": summary, CONDITION: condition})
 
 
+def _by_name(problem: Problem, file: object, name: str) -> Problem:
+    """Here every file is called `data`: its sender's name in its place, in what is said of the file."""
+    assert isinstance(file, Mapping)
+    here = f"{COPY}{file['format']}"
+    if not name or here not in (problem.field, *problem.message.split()):
+        return problem
+    return replace(
+        problem,
+        field=name if problem.field == here else problem.field,
+        message=" ".join(name if word == here else word for word in problem.message.split(" ")),
+    )
+
+
 def _parsed(artefacts: ArtefactStore, request: Mapping[str, object], job_id: str) -> Ingested:
     file = request["file"]
     assert isinstance(file, Mapping)
     suffix, key = str(file["format"]), upload_key(job_id, str(file["format"]))
     with tempfile.TemporaryDirectory(prefix="sideband-") as folder:
-        path = Path(folder) / f"data{suffix}"
+        path = Path(folder) / f"{COPY}{suffix}"
         try:
             with path.open("wb") as stream:
                 for piece in artefacts.chunks(key, 0, artefacts.size(key)):

@@ -171,11 +171,11 @@ def irregular() -> bytes:
         ),
         (irregular, "r.npz", {}, "time", "irregular from sample 1500"),
         (lambda: npz(x=X), "r.npz", {"sampling_rate_hz": None}, "sampling_rate_hz", "never guessed"),
-        (lambda: b"PK\3\4 no archive", "r.npz", {}, "data.npz", "cannot be read"),
-        (malformed_mat, "r.mat", {}, "data.mat", "cannot be read"),
-        (lambda: b"\x89HDF\r\n\x1a\n" + bytes(900), "r.h5", {}, "data.h5", "cannot be read|not installed"),
-        (lambda: b"MATLAB 5.0 MAT-file" + bytes(400), "r.mat", {}, "data.mat", "cannot be read"),
-        (bomb, "bomb.npz", {}, "data.npz", "too large once unpacked"),
+        (lambda: b"PK\3\4 no archive", "r.npz", {}, "r.npz", "cannot be read"),
+        (malformed_mat, "r.mat", {}, "r.mat", "cannot be read"),
+        (lambda: b"\x89HDF\r\n\x1a\n" + bytes(900), "r.h5", {}, "r.h5", "cannot be read|not installed"),
+        (lambda: b"MATLAB 5.0 MAT-file" + bytes(400), "r.mat", {}, "r.mat", "cannot be read"),
+        (bomb, "bomb.npz", {}, "bomb.npz", "too large once unpacked"),
     ],
 )
 def test_broken_files_are_refused_with_reason_and_place(

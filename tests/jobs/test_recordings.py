@@ -117,11 +117,11 @@ def test_who_is_told_no_leaves_nothing_behind(world: World) -> None:
 
 @pytest.mark.slow
 def test_refused_is_an_end_with_reasons_and_sent_again_is_a_new_attempt(world: World) -> None:
-    record = world.send(b"no archive", about())
+    record = world.send(b"no archive", about(), "C:\\runs\\Pump 3, east.npz")
     done = run.run(world.bench, record.id, 1, "w")
     assert done is not None and done.status is Status.FAILED and done.failure is not None
     assert done.failure.code == "refused"
-    assert done.failure.detail is not None and done.failure.detail["errors"][0]["field"] == "data.npz"
+    assert done.failure.detail is not None and done.failure.detail["errors"][0]["field"] == "Pump 3, east.npz"
     assert not (world.folder / "artefacts" / record.id).exists()
     again = world.send(b"no archive", about())
     assert (again.id, again.attempt, again.status) == (record.id, 2, Status.ACCEPTED)
