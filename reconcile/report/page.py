@@ -15,10 +15,11 @@ from reconcile.report.figures.law import from_force, law
 from reconcile.report.figures.maps import force_map
 from reconcile.report.figures.path import path
 from reconcile.report.figures.sketch import sketch
+from reconcile.report.figures.spectrum import in_third_octaves
 from reconcile.report.figures.traces import trace
 from reconcile.report.markup import Markup, figure_text, tag
 from reconcile.report.panels import spectra, turns
-from reconcile.report.pictures import several, text
+from reconcile.report.pictures import numbers, several, text
 from reconcile.report.provenance import provenance
 from reconcile.report.sections import (
     bullets,
@@ -57,12 +58,15 @@ def _spectra(report: Report) -> Markup:
     drawn = several(report.pictures, "spectra")
     if not drawn:
         return Markup("")
+    thirds = all(in_third_octaves(numbers(p.get("frequency_hz"))) for p in drawn)
+    title = "Third-octave spectra" if thirds else "Spectra"
+    note = tag("p", THIRDS, css="muted") if thirds else Markup("")
     reference = "the baseline, or the model where there is none"
     if report.verdict == "nothing_missing" or all(p.get("after_db") == p.get("before_db") for p in drawn):
         # nothing is added to the reference
         bare = [{k: v for k, v in p.items() if k != "after_db"} for p in drawn]
-        return section("Spectra", _key(reference, None), spectra(bare, report.where.lines))
-    return section("Spectra", _key(f"without it: {reference}"), spectra(drawn, report.where.lines))
+        return section(title, note, _key(reference, None), spectra(bare, report.where.lines))
+    return section(title, note, _key(f"without it: {reference}"), spectra(drawn, report.where.lines))
 
 
 def _envelope(report: Report) -> Markup:
@@ -155,6 +159,10 @@ def _paths(report: Report) -> Markup:
 
 
 MOST_PATHS = 40
+THIRDS = (
+    "Power of a channel within each third of an octave, in dB over its unit squared: single lines are not told apart. "
+    "Ticks on the upper edge: single lines that changed."
+)
 
 
 def page(report: Report) -> str:

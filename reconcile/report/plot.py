@@ -103,7 +103,7 @@ class Frame:
             parts.append(tag("line", x1=at, x2=at, y1=TOP, y2=bottom, css="grid"))
             parts.append(tag("text", figure_text(value * factor), x=at, y=bottom + 15, css="tick mid"))
         factor, y_label = scaled(*self.y, self.y_label)
-        for value in ticks(*self.y, about=5) if y_ticks else []:
+        for value in ticks(*self.y) if y_ticks else []:
             at = self.py(value)
             parts.append(tag("line", x1=self.left, x2=self.width - RIGHT, y1=at, y2=at, css="grid"))
             parts.append(tag("text", figure_text(value * factor), x=self.left - 6, y=at + 3.5, css="tick end"))

@@ -16,6 +16,7 @@ from reconcile.report.words import (
     VERDICT,
     cause,
     compared,
+    distance,
     forms,
     gain,
     leaves_a_part,
@@ -23,6 +24,7 @@ from reconcile.report.words import (
     reached,
     readable,
     severity,
+    sizes,
     strongest_placebo,
 )
 from reconcile.verdict import Cause, HeldOut, Level, LineChange, PlaceWeight, Report, Where, operating_point
@@ -35,6 +37,10 @@ BARS = (
     "and the strongest of them. An effect that is there should beat all. Expected of a perfect model: what drift "
     "between the recordings and noise usually leave even to it; where this machine drifted less than others of its "
     "kind, more than that is reached."
+)
+SYMBOLS = (
+    "f_o, f_i, f_b, f_c: outer race, inner race, ball and cage of a bearing; f_r: a shaft; f_m: a mesh; numbered in "
+    "the order of the machine file. 3*f_i1-2*f_r1 is a sideband. Bearings that roll alike share their lines."
 )
 TOLD = '<div class="told">'
 SCORE = (
@@ -107,9 +113,7 @@ def head(report: Report) -> Markup:
         tiles.append(_place(report, best))
     for c in named[:2]:
         if c.severity is not None:
-            size, low, high = (
-                figure_text(v, c.severity.unit) for v in (c.severity.value, c.severity.low, c.severity.high)
-            )
+            size, low, high = sizes(c.severity)
             if c.severity.low == 0.0:  # a bound is all that is known
                 size, ends = f"at most {high}", "an upper bound"
             else:
@@ -178,7 +182,8 @@ def where_table(where: Where) -> Markup:
         since = "from the tacho's pulse or, without one, from the first sample on"
         said = tag("p", f"The residual sits at {text}, {since}.")
     limits = bullets(where.limits)
-    return Markup(said + table(heads, rows) + (tag("h3", "Limits") + limits if limits else ""))
+    key = tag("p", SYMBOLS, css="muted") if any("*f_" in x.label for x in shown) else ""
+    return Markup(said + table(heads, rows) + key + (tag("h3", "Limits") + limits if limits else ""))
 
 
 def _together(lines: Sequence[LineChange]) -> list[tuple[LineChange, list[LineChange]]]:
@@ -226,8 +231,8 @@ def held_out_table(found: HeldOut | None) -> Markup:
     if found is None:
         return Markup("")
     rows = [
-        ("without it", figure_text(found.before, found.unit), "–"),
-        ("with it", figure_text(found.after, found.unit), gain(found)),
+        ("without it", distance(found.before, found.unit), "–"),
+        ("with it", distance(found.after, found.unit), gain(found)),
         ("retuned parameters only", "", percent(found.retuned)),
         ("black box with as many parameters", "", percent(found.black_box)),
         ("placebo: the middle of all", "", percent(found.placebo)),

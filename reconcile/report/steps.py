@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from reconcile.report.markup import Markup, figure_text, tag
 from reconcile.report.sections import section, table
 from reconcile.report.strict import Plain, plain
+from reconcile.report.words import distance, percent
 from reconcile.verdict import Report
 
 MOST_KEYS, MOST_ITEMS = 24, 12
@@ -70,11 +71,15 @@ WORDS = {
     "hz": "distance from the teeth's lines at every speed, Hz",
     "turns": "distance from the teeth's lines, turns",
     "shaft": "of shaft",
+    "speed_hz": "speed, Hz",
     "rise_db": "risen by, dB",
     "elsewhere_db": "most at any other distance, dB",
     "nrmse": "error over the spread",
     "null_95": "of linear systems (95 %)",
 }
+SHARES = ("lines_explained", "families_explained", "share_on_left_out_blocks", "share_of_the_error_still_explained")
+GAINS = ("gain", "over_placebo", "retuned", "black_box", "placebo")
+DISTANCES = ("before", "after")
 VALUES = {
     "mode": {"A": "baselines of this machine", "B": "the drawing, without a baseline"},
     "method": {"stated": "as stated, no line confirms it", "harmonics": "lines of the shaft", "tacho": "tacho"},
@@ -91,7 +96,8 @@ def stages(report: Report) -> Markup:
         name = str(found.pop("stage", None) or found.pop("name", "")).replace("_", " ")
         title = TITLES.get(name, name)
         wide = {k: v for k, v in found.items() if _records(v)}
-        words = _told({k: v for k, v in found.items() if k not in wide})
+        gained = name == "validate" and "gain" in found
+        words = _told({k: _as_above(k, v, gained) for k, v in found.items() if k not in wide})
         if words:
             rows.append((title, words))
         tables += [Markup(tag("h3", title) + _table(v)) for v in wide.values()]
@@ -100,6 +106,20 @@ def stages(report: Report) -> Markup:
     note = "A small chance (p) speaks for a change; deviations are robust standard deviations."
     body = (tag("p", note, css="muted"), table(("step", "what it found"), rows), *tables)
     return section("How it was found", tag("details", tag("summary", "Steps and their figures"), *body))
+
+
+def _as_above(key: str, value: Plain, gained: bool) -> Plain:
+    """Shares as per cent, and figures of a validation (where it `gained`) as the sections have them that tell them too:
+    one figure has one rounding."""
+    values = value if isinstance(value, list) else [value]
+    if not values or not all(isinstance(v, float) for v in values):
+        return value
+    numbers = [v for v in values if isinstance(v, float)]
+    if key in SHARES or (gained and key in GAINS):
+        return ", ".join(percent(v) for v in numbers)
+    if gained and key in DISTANCES:
+        return ", ".join(distance(v, "1") for v in numbers)
+    return value
 
 
 def _records(value: Plain) -> list[dict[str, Plain]]:

@@ -60,9 +60,20 @@ def percent(share: float | None) -> str:
     return "–" if share is None or not math.isfinite(share) else f"{100 * share:.0f} %"
 
 
+def distance(value: float, unit: str) -> str:
+    """How far a model is off: with its unit, or of none as per cent, as the sentence has it."""
+    return f"{figure_text(100 * value, digits=2)} %" if unit in ("", "1") else figure_text(value, unit)
+
+
+def sizes(found: Severity) -> tuple[str, str, str]:
+    """Value and ends of the interval, to two figures: the sentence has no more, and no size is known better."""
+    value, low, high = (figure_text(v, found.unit, digits=2) for v in (found.value, found.low, found.high))
+    return value, low, high
+
+
 def severity(found: Severity) -> str:
     """`gap 12 µm (90 %: 10 µm to 14 µm)`, or `width at most 2 mm` where a bound is all that is known."""
-    value, low, high = (figure_text(v, found.unit) for v in (found.value, found.low, found.high))
+    value, low, high = sizes(found)
     if found.low == 0.0:
         return f"{found.name} at most {high} (90 %)"
     return f"{found.name} {value} (90 %: {low} to {high})"

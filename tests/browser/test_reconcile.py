@@ -77,6 +77,26 @@ def test_a_recording_is_sent_chosen_and_reconciled(browser: Browser, service: Se
     assert browser.run("return document.documentElement.scrollWidth") <= 360
 
 
+def test_the_list_begins_with_what_was_asked_for_last(browser: Browser, service: Service) -> None:
+    browser.open(service.page("/reconcile"))
+    times = [f"2026-03-01T08:{minute:02}:00.5Z" for minute in (3, 50, *range(4, 30))]
+    ids = browser.run(
+        "return import('/js/reconcile/start.js').then((m) => m.latest(arguments[0].map((t) => ({ accepted_at: t })))"
+        ".map((job) => job.accepted_at))",
+        times,
+    )
+    assert ids == sorted(times, reverse=True)[:20]
+
+
+def test_sizes_are_rounded_as_on_the_page_of_the_report(browser: Browser, service: Service) -> None:
+    browser.open(service.page("/reconcile"))
+    told = browser.run(
+        "return import('/js/lib/format.js').then((m) => arguments[0].map((v) => m.quantity(v, 'm', 2, true)))",
+        [1.664e-3, 3.751e-4, 7.391e-3, 9.24e-7],
+    )
+    assert [" ".join(text.split()) for text in told] == ["1.7 mm", "375 µm", "7.4 mm", "924 nm"]
+
+
 def _fits_a_phone(browser: Browser, service: Service, pictures: str) -> None:
     """No page is wider than the screen; tables and charts that are scroll in their own box."""
     browser.size(PHONE)

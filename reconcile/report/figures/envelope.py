@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
+from reconcile.report.figures.spectrum import ONE_PLACE, OR
 from reconcile.report.markup import Markup, tag
 from reconcile.report.pictures import number, numbers, text
 from reconcile.report.plot import BOTTOM, TOP, Frame, span
@@ -77,6 +78,10 @@ def _marks(frame: Frame, lines: Plain) -> Markup:
         if not frame.x[0] <= order <= frame.x[1]:
             continue
         at = frame.px(order)
+        if kind in ROWS and (same := _at_one_place(frame, items, kind, at)):
+            if label != same[0]:
+                continue
+            label = OR.join(same)
         if kind not in ROWS:
             parts.append(tag("line", x1=at, x2=at, y1=TOP, y2=TOP + 7.0, css="mark up"))
             continue
@@ -86,6 +91,13 @@ def _marks(frame: Frame, lines: Plain) -> Markup:
         if row is not None:
             parts.append(tag("text", label, x=at, y=row, css=f"tick mid said comb-name {kind}"))
     return Markup("".join(parts))
+
+
+def _at_one_place(frame: Frame, items: Sequence[Mapping[str, Plain]], kind: str, at: float) -> list[str]:
+    """Names of the lines of a kind that stand at one place on the picture."""
+    there = (i for i in items if text(i.get("kind"), "other") == kind)
+    near = (i for i in there if abs(frame.px(number(i.get("order"))) - at) <= ONE_PLACE)
+    return list(dict.fromkeys(text(i.get("label")) for i in near if text(i.get("label"))))
 
 
 def _fits(at: float, label: str, taken: list[tuple[float, float]], frame: Frame) -> bool:

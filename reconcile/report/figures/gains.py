@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from reconcile.report.figures.bars import NAME_WIDTH, row_name
-from reconcile.report.markup import Markup, figure_text, tag
-from reconcile.report.plot import BOTTOM, TOP, Frame
-from reconcile.report.words import gain, percent, reached, strongest_placebo
+from reconcile.report.markup import Markup, tag
+from reconcile.report.plot import BOTTOM, TOP, Frame, ticks
+from reconcile.report.words import distance, gain, percent, reached, strongest_placebo
 from reconcile.verdict import HeldOut
 
 ROW = 26.0
@@ -44,10 +44,14 @@ def _bar(frame: Frame, at: float, bar: _Bar) -> list[Markup]:
     return parts
 
 
-def _panel(bars: Sequence[_Bar], x: tuple[float, float], label: str, limit: _Bar | None, title: str) -> Markup:
-    """Bars over one axis; `limit`: what a perfect model would reach, as a line through all of them."""
+def _panel(
+    bars: Sequence[_Bar], x: tuple[float, float], label: str, limit: _Bar | None, title: str, whole: float = math.inf
+) -> Markup:
+    """Bars over one axis; `limit`: what a perfect model would reach, as a line through all of them; `whole`: where the
+    figures of the axis end."""
     height = TOP + BOTTOM + ROW * (len(bars) + 0.7)
-    frame = Frame(x=x, y=(0.0, 1.0), x_label=label, y_label="", height=height, left=NAME_WIDTH)
+    at_most = [v for v in ticks(*x, about=8) if v <= whole]
+    frame = Frame(x=x, y=(0.0, 1.0), x_label=label, y_label="", height=height, left=NAME_WIDTH, x_ticks=at_most)
     zero, bottom = frame.px(0.0), height - BOTTOM
     parts = [frame.axes(y_ticks=False), tag("line", x1=zero, x2=zero, y1=TOP, y2=bottom, css="zero")]
     if limit is not None and math.isfinite(limit.value):
@@ -63,16 +67,18 @@ def _panel(bars: Sequence[_Bar], x: tuple[float, float], label: str, limit: _Bar
 def distances(found: HeldOut, subject: str) -> Markup:
     """Two bars: how far the model is off without and with the answer, on data it was not fitted to."""
     pairs = ((f"without {subject}", found.before, "off"), (f"with {subject}", found.after, "on"))
-    bars = [_Bar(name=n, value=v, said=figure_text(v, found.unit), css=css) for n, v, css in pairs if math.isfinite(v)]
+    scale, unit = (100.0, "%") if found.unit in ("", "1") else (1.0, found.unit)
+    bars = [
+        _Bar(name=n, value=scale * v, said=distance(v, found.unit), css=css) for n, v, css in pairs if math.isfinite(v)
+    ]
     if not bars:
         return Markup("")
     limit = None
     expected = reached(found)
     if expected is not None:
         left = found.before * (1.0 - expected)
-        limit = _Bar(name=REACHED, value=left, said=figure_text(left, found.unit))
-    unit = "" if found.unit in ("", "1") else f", {found.unit}"
-    label = f"how far the model is off on data never fitted{unit} (less is better)"
+        limit = _Bar(name=REACHED, value=scale * left, said=distance(left, found.unit))
+    label = f"how far the model is off on data never fitted, {unit} (less is better)"
     most = max(bar.value for bar in bars) or 1.0
     return _panel(bars, (0.0, 1.2 * most), label, limit, "Held-out data without and with the answer")
 
@@ -99,7 +105,12 @@ def gains(found: HeldOut, subject: str) -> Markup:
     finite = [v for v in told if math.isfinite(v)]
     x = max(min(0.0, *finite), 100 * LOWEST), 1.6 * max(10.0, *finite)
     return _panel(
-        bars, x, "share of that error taken off, % (more is better)", limit, "Gain of the answer and of its rivals"
+        bars,
+        x,
+        "share of that error taken off, % (more is better)",
+        limit,
+        "Gain of the answer and of its rivals",
+        100.0,
     )
 
 

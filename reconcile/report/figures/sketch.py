@@ -14,6 +14,8 @@ from reconcile.report.pictures import number, text
 from reconcile.report.strict import Plain
 
 WIDTH, LANE, MARGIN = 720.0, 116.0, 70.0
+RING = 36.0
+"""Around what is located: clear of its name below."""
 GROUND = ""
 """Lane of parts on no shaft."""
 
@@ -79,9 +81,7 @@ def _place(name: str, x: float, y: float, weights: Mapping[str, float], at: floa
     label = tag("text", name, x=x, y=y + at, css="part-name mid")
     if weight <= 0.0:
         return [label]
-    ring = tag(
-        "circle", cx=x, cy=y, r=36 + 6 * weight, css="located", rule=f"opacity:{0.25 + 0.75 * min(weight, 1):.2f}"
-    )
+    ring = tag("circle", cx=x, cy=y, r=RING, css="located", rule=f"opacity:{0.25 + 0.75 * min(weight, 1):.2f}")
     return [ring, label, tag("text", f"{100 * weight:.0f} %", x=x + 34, y=y - 30, css="located-share")]
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 
 from reconcile.report.markup import Markup, tag
 from reconcile.report.pictures import number, numbers, text
@@ -11,6 +13,9 @@ from reconcile.report.strict import Plain
 from reconcile.verdict import LineChange
 
 MOST_MARKS = 8
+ONE_PLACE = 2.0
+"""Pixels within which lines stand at one place."""
+OR = " or "
 LETTER = 7.0
 """Width of a letter, pixels."""
 HEADROOM = 0.12
@@ -19,8 +24,15 @@ WIDE = 30.0
 """Highest over lowest frequency from which on their axis is logarithmic, as third octaves want it."""
 
 
+def in_third_octaves(frequency_hz: Sequence[float]) -> bool:
+    """Whether a spectrum's values are levels of third octaves: each centre a third of an octave above the last."""
+    pairs = list(pairwise(frequency_hz))
+    return bool(pairs) and all(a > 0.0 and abs(math.log2(b / a) - 1.0 / 3.0) < 0.01 for a, b in pairs)
+
+
 def _marks(frame: Frame, lines: Sequence[LineChange]) -> Markup:
-    """The largest changes as ticks with names; names that would collide are left to the table."""
+    """The largest changes as ticks with names, of lines at one place all of them; names that would collide are left to
+    the table."""
     inside = [line for line in lines if frame.x[0] <= line.frequency_hz <= frame.x[1]]
     kept = sorted(inside, key=lambda line: -abs(line.change_db))[:MOST_MARKS]
     parts, taken = [], list[tuple[float, float]]()
@@ -28,10 +40,12 @@ def _marks(frame: Frame, lines: Sequence[LineChange]) -> Markup:
         at = frame.px(line.frequency_hz)
         css = "up" if line.change_db >= 0 else "down"
         parts.append(tag("line", x1=at, x2=at, y1=TOP, y2=TOP + 7, css=f"mark {css}"))
-        half = 0.5 * LETTER * len(line.label)
-        if all(abs(at - other) > half + room for other, room in taken):
-            taken.append((at, half))
-            parts.append(tag("text", line.label, x=at, y=TOP + 17, css=f"tick mid said mark-name {css}"))
+        name = OR.join(dict.fromkeys(x.label for x in kept if abs(frame.px(x.frequency_hz) - at) <= ONE_PLACE))
+        half = 0.5 * LETTER * len(name)
+        middle = min(max(at, frame.left + half), max(frame.width - half, frame.left + half))
+        if all(abs(middle - other) > half + room for other, room in taken):
+            taken.append((middle, half))
+            parts.append(tag("text", name, x=middle, y=TOP + 17, css=f"tick mid said mark-name {css}"))
     return Markup("".join(parts))
 
 
@@ -41,17 +55,20 @@ def spectrum(picture: Mapping[str, Plain], lines: Sequence[LineChange]) -> Marku
     named = (("observed_db", "observed"), ("before_db", "before"), ("after_db", "after"))
     curves = [(numbers(picture.get(key)), css) for key, css in named]
     ends, (low, high) = span(x, pad=0.0), span(*(y for y, _ in curves))
+    thirds = in_third_octaves(x)
     frame = Frame(
         x=ends,
         y=(low, high + HEADROOM * (high - low)),
-        x_label="frequency, Hz",
-        y_label="level, dB",
+        x_label="centre of the third octave, Hz" if thirds else "frequency, Hz",
+        y_label="level of the third octave, dB" if thirds else "level, dB",
         log=0.0 < WIDE * ends[0] <= ends[1],
     )
     drawn = [frame.curve(x, y, css) for y, css in curves]
     channel = text(picture.get("channel"))
     here = [line for line in lines if line.channel in ("", channel) and _at_point(line, picture)]
-    return frame.svg(frame.axes(), *drawn, _marks(frame, here), title=f"Spectrum of {channel}")
+    return frame.svg(
+        frame.axes(), *drawn, _marks(frame, here), title=f"{'Third-octave s' if thirds else 'S'}pectrum of {channel}"
+    )
 
 
 def _at_point(line: LineChange, picture: Mapping[str, Plain]) -> bool:

@@ -6,12 +6,24 @@ import re
 
 import pytest
 
+from reconcile.report import page
 from reconcile.report.action import to_do
 from reconcile.report.provenance import provenance
 from reconcile.report.sections import where_table
 from reconcile.report.steps import stages
 from reconcile.report.words import compared
-from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Report, SensorFault, Where, Word
+from reconcile.verdict import (
+    Cause,
+    HeldOut,
+    LineChange,
+    NextExperiment,
+    PlaceWeight,
+    Report,
+    SensorFault,
+    Severity,
+    Where,
+    Word,
+)
 
 FAMILY = {
     "family": "b1.outer",
@@ -53,6 +65,24 @@ def test_short_objects_are_told_in_a_line_by_their_first_value() -> None:
     decided = [{"number": f"part {k}", "offset": 0.1, "share": 0.9} for k in range(15)]
     (_, told) = rows(stages(report(stages=({"name": "calibrate", "decided": decided},))))
     assert told[1].startswith("numbers the baseline decides: part 0, part 1,") and told[1].endswith("… (15)")
+
+
+def test_a_figure_is_rounded_as_it_is_elsewhere_on_the_page() -> None:
+    held = HeldOut(
+        metric="free-run NRMSE", unit="1", before=0.7314, after=0.1234, gain=0.8642, gain_low=0.8512, gain_high=0.8771,
+        retuned=0.0512, black_box=0.3049, placebo=0.1051, held="h",
+    )  # fmt: skip
+    validated = {
+        "stage": "validate", "before": 0.7314, "after": 0.1234, "gain": [0.8642, 0.8512, 0.8771], "retuned": 0.0512,
+        "black_box": 0.3049, "placebo": 0.1051,
+    }  # fmt: skip
+    whole = page(report(held_out=held, stages=(validated, {"stage": "judge", "lines_explained": 0.9666})))
+    assert "before: 73 %; after: 12 %; gain: 86 %, 85 %, 88 %; retuned: 5 %; black box: 30 %; placebo: 11 %" in whole
+    assert "share of the single lines&#x27; change explained: 97 %" in whole
+    assert "86 % (90 %: 85 % to 88 %)" in whole and "how far the model is off on data never fitted, %" in whole
+    assert not re.findall(r"0\.8[56]\d|0\.12\d|0\.73\d|86\.4", whole)
+    other = {"stage": "validate", "retuned": 0.1234}
+    assert "retuned: 0.1234" in page(report(stages=(other,))), "an error, not a gain"
 
 
 def test_nothing_found_is_no_section() -> None:
@@ -112,3 +142,17 @@ def test_lines_of_one_family_stand_in_one_row() -> None:
     other = LineChange(label="1 BPFI", frequency_hz=150.0, change_db=20.5, channel="a", locked_to="b1.inner")
     _, first, second = rows(where_table(Where(lines=(*lines, other))))
     assert first[0] == "1 BPFI" and second[:3] == ["1 BPFO, 2 BPFO", "100, 200", "+20.0"]
+
+
+def test_sizes_have_two_figures_as_the_sentence_has_them() -> None:
+    size = Severity(name="width", value=1.664e-3, low=3.751e-4, high=7.391e-3, unit="m")
+    cause = Cause(term="outer_spall", site="drive_end", score=29.6, named=True, severity=size)
+    whole = page(report(causes=(cause,)))
+    assert "<b>1.7 mm</b>" in whole and "width of outer spall at drive_end, 90 %: 375 µm to 7.4 mm" in whole
+    assert "width 1.7 mm (90 %: 375 µm to 7.4 mm)" in whole and "1.66" not in whole
+
+
+def test_symbols_of_lines_are_said_where_there_are_any() -> None:
+    for label, said in (("3*f_o1", True), ("BPFO", False)):
+        lines = (LineChange(label=label, frequency_hz=323.7, change_db=30.0),)
+        assert ("f_o, f_i, f_b, f_c: outer race" in where_table(Where(lines=lines))) is said

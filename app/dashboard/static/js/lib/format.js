@@ -49,10 +49,12 @@ export function scaled(size, siUnit) {
   return [1 / step, prefix + unit(siUnit)];
 }
 
-/** A value with its unit: `20 µm`. */
-export function quantity(value, siUnit, digits = 4) {
+/** A value with its unit: `20 µm`; with `whole` no digit before the point is rounded away. */
+export function quantity(value, siUnit, least = 4, whole = false) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const [factor, shown] = scaled(Math.abs(value), siUnit);
+  const before = String(Math.round(Math.abs(value) * factor)).length;
+  const digits = whole && before > least && before < 6 ? before : least;
   return shown ? `${number(value * factor, digits)}${NBSP}${shown}` : number(value * factor, digits);
 }
 

@@ -10,7 +10,9 @@ const LEFT_OVER = "A part of the change is left that the named effect does not b
 const FORMS = "“or” names another form of the same effect: a law for the same part that excludes it there, so that at most one of them is true; their evidence counts together, under the strongest.";
 const isRest = (reason) => reason.startsWith("a part of the change is left");
 const words = (text) => text.replace(/_/g, " ");
-const percent = (share) => (share === null || share === undefined ? "–" : `${number(100 * share, 3)} %`);
+/** Rounded as the report's page has it: a gain to a tenth of a per cent would say more than is known. */
+const percent = (share) => (share === null || share === undefined ? "–" : `${Math.round(100 * share)} %`);
+const distance = (value, of) => (!of || of === "1" ? `${number(100 * value, 2)} %` : `${number(value, 3)} ${unit(of)}`);
 
 export function answer({ id, report, links }) {
   return h("div", { class: "result-body" }, verdict(report), where(report.where), causes(report.causes), heldOut(report.held_out), force(report.force),
@@ -81,14 +83,18 @@ function effect({ term, forms }) {
 
 function severity(found) {
   if (!found) return "–";
-  if (found.low === 0) return `${words(found.name)} at most ${quantity(found.high, found.unit, 3)}`;
-  const range = `${quantity(found.low, found.unit, 3)} to ${quantity(found.high, found.unit, 3)}`;
-  return `${words(found.name)} ${quantity(found.value, found.unit, 3)} (${range})`;
+  if (found.low === 0) return `${words(found.name)} at most ${size(found.high, found.unit)}`;
+  return `${words(found.name)} ${size(found.value, found.unit)} (${size(found.low, found.unit)} to ${size(found.high, found.unit)})`;
+}
+
+/** To two figures, or the whole number that has more of them: as the sentence and the page say it. */
+function size(value, of) {
+  return quantity(value, of, 2, true);
 }
 
 function heldOut(found) {
   if (!found) return null;
-  const rows = [["Before", `${number(found.before)} ${unit(found.unit)}`], ["After", `${number(found.after)} ${unit(found.unit)}`],
+  const rows = [["Before", distance(found.before, found.unit)], ["After", distance(found.after, found.unit)],
     ["Gain (90 %)", `${percent(found.gain)} (${percent(found.gain_low)} to ${percent(found.gain_high)})`],
     ["Gain by retuning alone", percent(found.retuned)], ["Gain of a black box", percent(found.black_box)], ["Gain of a placebo", percent(found.placebo)]];
   if (found.ceiling != null) rows.push(["Gain of a perfect model (drift and noise stay)", percent(found.ceiling)]);

@@ -7,6 +7,7 @@ import { problemBox } from "/js/lib/problem.js";
 import { outcome } from "/js/lib/status.js";
 
 const LIST_MS = 3000;
+const SHOWN = 20;
 const NAMED = 2;
 const NAMES = { recordings: "Recordings to explain", baselines: "Baselines", machine: "Machine" };
 const EXAMPLE = JSON.stringify({ kinematics: { shafts: [{ name: "input" }], bearings: [{ name: "bearing1", shaft: "input", catalogue: "6205" }] } }, null, 1);
@@ -70,7 +71,8 @@ function listCard() {
 
   async function refresh() {
     try {
-      const { jobs } = document.hidden ? { jobs: [] } : await getJson("/v1/reconciliations?limit=20");
+      const { jobs: found } = document.hidden ? { jobs: [] } : await getJson("/v1/reconciliations?limit=100");
+      const jobs = latest(found);
       const now = JSON.stringify(jobs.map((job) => [job.id, job.status, job.progress.stage]));
       if (jobs.length && now !== shown) {
         const { recordings } = await getJson("/v1/recordings?limit=100");
@@ -83,6 +85,11 @@ function listCard() {
   }
   refresh();
   return { element, stop: () => clearTimeout(timer) };
+}
+
+/** Those asked for last, the last first: one that failed and was asked for again is as new as that. */
+export function latest(jobs) {
+  return [...jobs].sort((a, b) => Date.parse(b.accepted_at) - Date.parse(a.accepted_at)).slice(0, SHOWN);
 }
 
 function row(job, files) {
