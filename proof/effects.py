@@ -19,6 +19,8 @@ BEARINGS = ("bearing1", "bearing2", "bearing3", "bearing4")
 GEARS = ("pinion", "gear")
 SHAFTS = ("input", "output")
 MESH = ("mesh1",)
+LIPPED = 2
+"""Variant of a pit whose edges stand up."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,6 +93,8 @@ def race(width: B, depth: B, angle: B) -> Apply:
         b[angle] = loaded + c.rng.uniform(-0.5, 0.5) if width is B.OUTER_WIDTH else _turn(c.rng)
         if c.variant == 1:
             b[B.SPALL_ENTRY], b[B.SPALL_EXIT], b[B.SPALL_PEAK] = 0.35, 0.15, 0.65
+        if c.variant == LIPPED:
+            b[B.LIP], b[B.LIP_LENGTH] = c.rng.uniform(1e-6, 4e-6), c.rng.uniform(1e-4, 3e-4)
 
     return apply
 

@@ -36,6 +36,7 @@ Split = Literal[
     "beside",
     "pitted",
     "anew",
+    "entire",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -54,6 +55,7 @@ SEEDS = {
     "beside": 3_958_271_407,
     "pitted": 9_302_716_583,
     "anew": 5_790_146_323,
+    "entire": 8_064_731_295,
 }
 COUNTS = {
     "dev": {

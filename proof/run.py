@@ -33,6 +33,11 @@ class Engine:
     by_kinematics: bool = False
     """Whether the engine gets the drawings alone instead of the machine."""
 
+    @property
+    def source(self) -> str:
+        """Which engine it is."""
+        return engine_id("kinematics" if self.by_kinematics else "machine")
+
     def call(self, machine: Path, case: Path, out: Path) -> list[str]:
         """The whole command."""
         given = {kind: [str(p) for p in sorted(case.glob(f"{kind}_*.json"))] for kind in ("baseline", "test")}
@@ -57,7 +62,7 @@ def run_case(engine: Engine, case: Path, results: Path, *, fresh: bool = False) 
     stored = results / f"{case.name}.json"
     if stored.exists() and not fresh:
         found: dict[str, Any] = json.loads(stored.read_text(encoding="utf-8"))
-        if found.get("engine") == engine_id():
+        if found.get("engine") == engine.source:
             return found
     results.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="reconcile-") as temporary:
@@ -65,7 +70,7 @@ def run_case(engine: Engine, case: Path, results: Path, *, fresh: bool = False) 
         shutil.copytree(case, copy)
         began = time.monotonic()
         result = _reconciled(engine, copy, Path(temporary))
-        result |= {"wall_s": round(time.monotonic() - began, 2), "budget": engine.budget, "engine": engine_id()}
+        result |= {"wall_s": round(time.monotonic() - began, 2), "budget": engine.budget, "engine": engine.source}
     part = stored.with_suffix(".part")
     part.write_text(json.dumps(result, sort_keys=True, indent=1) + "\n", encoding="utf-8")
     part.replace(stored)

@@ -128,7 +128,7 @@ def page(rows: Mapping[tuple[str, str, str], int], wrong: Sequence[str], first: 
     lines = [
         "# Made rigs of which a drawing is known",
         "",
-        f"Made by `{command}`, engine `{engine_id()}`.",
+        f"Made by `{command}`, engine `{engine_id('kinematics')}`.",
         "Motors and gearboxes with other shafts, teeth, bearings, sensors, paths and speeds each (`proof/made`),",
         "labels up to 1 % off, speeds that wander by 0.03 to 0.3 %, balls that slip; strengths from hardly to be seen",
         "to gross, all counted. The generator shares no code with the product. Right is the one part alone: a defect",

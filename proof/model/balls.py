@@ -23,12 +23,16 @@ def pit(off, width, depth, radius, curvature, b):  # type: ignore[no-untyped-def
     """Drop, m, of a ball `off` rad from the middle of a pit: a trapezoid with a slow entry and a steep exit.
 
     No deeper than the ball sinks between the edges, width^2 / 8 times the relative curvature; the contact's own length
-    rounds the corners.
+    rounds the corners. Before and behind it the race may stand up by a lip, as what is pressed out of a dent piles up
+    (K. L. Johnson, Contact Mechanics, 1985, 6.3): there the ball is squeezed, whatever the pit's width.
     """
     half = 0.5 * width / radius
     x = 0.5 + 0.5 * off / half
     if x <= 0.0 or x >= 1.0:
-        return 0.0
+        if b[B.LIP] <= 0.0:
+            return 0.0
+        beyond = (math.fabs(off) - half) * radius / b[B.LIP_LENGTH]
+        return -b[B.LIP] * math.sin(math.pi * beyond) ** 2 if beyond < 1.0 else 0.0
     deepest = min(depth, b[B.SPALL_PEAK] * width * width * 0.125 * curvature)
     return deepest * smooth(x / b[B.SPALL_ENTRY]) * smooth((1.0 - x) / b[B.SPALL_EXIT])
 

@@ -134,7 +134,9 @@ class B(IntEnum):
     SPALL_EXIT = 69
     SPALL_PEAK = 70
     CREEP = 71
-    SIZE = 72
+    LIP = 72
+    LIP_LENGTH = 73
+    SIZE = 74
 
 
 class M(IntEnum):

@@ -211,17 +211,36 @@ def test_what_another_engine_stored_is_run_again(tmp_path):
     assert run_case(engine, case, results)["wall_s"] > 0.0
 
 
-def test_an_engine_is_known_by_its_source(tmp_path):
-    for package in ("reconcile/report", "signals", "sim"):
-        (tmp_path / package).mkdir(parents=True)
-    module, page = tmp_path / "sim" / "law.py", tmp_path / "reconcile" / "report" / "page.py"
-    module.write_text("a = 1\n")
-    page.write_text("b = 1\n")
-    first = engine_id.__wrapped__(tmp_path)
-    page.write_text("b = 2\n")
-    assert engine_id.__wrapped__(tmp_path) == first
-    module.write_text("a = 2\n")
-    assert engine_id.__wrapped__(tmp_path) != first
+def test_an_engine_is_known_by_the_source_that_it_imports(tmp_path):
+    files = {
+        "sim/law.py": "a = 1",
+        "reconcile/unsteady.py": "",
+        "reconcile/machine/engine.py": "from reconcile.machine import judge\nfrom signals.series import Series",
+        "reconcile/machine/judge.py": "import numpy, reconcile.report.page",
+        "reconcile/report/page.py": "b = 1",
+        "reconcile/kinematics/reconcile.py": "from signals import series",
+        "reconcile/kinematics/vague.py": "c = 1",
+        "signals/series.py": "d = 1",
+    }
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text + "\n")
+
+    def ids():
+        return [engine_id.__wrapped__(level, tmp_path) for level in ("machine", "kinematics")]
+
+    first = ids()
+    for name, moved in (
+        ("sim/law.py", [True, True]),
+        ("signals/series.py", [True, True]),
+        ("reconcile/machine/judge.py", [True, False]),
+        ("reconcile/report/page.py", [False, False]),
+        ("reconcile/kinematics/vague.py", [False, False]),
+    ):
+        (tmp_path / name).write_text(files[name] + "\nz = 2\n")
+        assert [a != b for a, b in zip(first, ids(), strict=True)] == moved, name
+        (tmp_path / name).write_text(files[name] + "\n")
+    assert ids() == first
 
 
 def test_slim_keeps_what_is_scored():

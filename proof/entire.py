@@ -1,0 +1,109 @@
+"""The split of all groups that one version of the engine runs: none of its cases was met by it or an earlier one.
+
+Three of four cases stand at the target condition, the fourth goes through the rows of the orthogonal array. Pairs are
+those of all earlier splits in turn. A third of the pits have edges that stand up, which no earlier split had.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+
+from proof.effects import LIPPED
+from proof.library import CLOSED
+from proof.plan import (
+    FAULTS,
+    FIRST,
+    LOOKALIKES,
+    ORTHOGONAL,
+    OTHERS,
+    PAIRS,
+    PITTED_PAIRS,
+    SEEDS,
+    SENSOR_COUNTS,
+    SHOWN_PAIRS,
+    SNRS_DB,
+    SPEED_COUNTS,
+    SPEEDS_HZ,
+    TARGET,
+    Case,
+    Group,
+    Hiding,
+    hiding_of,
+    sensors_of,
+)
+from proof.unknown import OPEN
+
+SPLIT: Literal["entire"] = "entire"
+GROUPS: dict[Group, int] = {
+    "null": 30, "misset": 3, "sensor": 14, "single": 76, "double": 26, "open": 26, "no_baseline": 9, "ambiguous": 8,
+}  # fmt: skip
+TURNED = 220
+"""From which number on the cycles of laws, severities and variants go: other splits have gone before."""
+ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
+STRUCK = ("outer_pit", "inner_pit", "ball_pit")
+FORMS = 3
+"""Of a pit: two trapezoids, and one with a lip."""
+LEVELS = (2, 1, 3, 0, 2, 1, 3)
+
+
+def entire() -> tuple[Case, ...]:
+    """All cases in the order of their names, which say nothing: any first so many are a sample of the split."""
+    every = [(group, i) for group, count in GROUPS.items() for i in range(count)]
+    order = np.random.default_rng(SEEDS[SPLIT]).permutation(len(every))
+    return tuple(_case(place, int(index), *every[int(index)]) for place, index in enumerate(order))
+
+
+def _case(place: int, index: int, group: Group, number: int) -> Case:
+    rng = np.random.default_rng([SEEDS[SPLIT], index, 0])
+    row = ORTHOGONAL[(number // 4) % len(ORTHOGONAL)] if number % 4 == 3 else TARGET
+    sensors, snr, speeds = SENSOR_COUNTS[row[0]], SNRS_DB[row[1]], SPEED_COUNTS[row[2]]
+    turned = number + TURNED
+    level = max({"single": 0, "ambiguous": 2}.get(group, 1), LEVELS[turned % len(LEVELS)])
+    chosen = sensors_of(sensors, turned)
+    causes: tuple[tuple[str, str], ...] = ()
+    if group == "ambiguous":
+        alike = LOOKALIKES[number % len(LOOKALIKES)]
+        chosen, speeds, causes, snr = alike.sensors, alike.speeds, alike.causes, 20.0
+    effects = _effects(group, number, turned, level, rng)
+    return Case(
+        name=f"{SPLIT[0]}{place + 1:03d}",
+        index=index,
+        seed=SEEDS[SPLIT],
+        group=group,
+        effects=effects,
+        level=level if effects else -1,
+        sensors=chosen,
+        snr_db=snr,
+        speeds_hz=SPEEDS_HZ[speeds],
+        baseline=group != "no_baseline",
+        fault=FAULTS[number % len(FAULTS)] if group == "sensor" else None,
+        causes=causes,
+    )
+
+
+def _effects(group: Group, number: int, turned: int, level: int, rng: np.random.Generator) -> tuple[Hiding, ...]:
+    if group in {"null", "misset", "sensor"}:
+        return ()
+    if group == "open":
+        return (hiding_of(tuple(OPEN)[number % len(OPEN)], turned, level, rng),)
+    if group == "double":
+        pair = ALL_PAIRS[number % len(ALL_PAIRS)]
+        return tuple(_formed(hiding_of(law, turned + i, level, rng), turned + i) for i, law in enumerate(pair))
+    if group == "ambiguous":
+        alike = LOOKALIKES[number % len(LOOKALIKES)]
+        law = CLOSED[alike.law]
+        return (Hiding(law=alike.law, site=alike.causes[0][1], value=law.levels[level], variant=number % law.variants),)
+    if group == "no_baseline":
+        return (_formed(hiding_of(FIRST[number % len(FIRST)], turned, level, rng), turned),)
+    turn, place = divmod(number, 8)
+    law_name = FIRST[place] if place < len(FIRST) else OTHERS[(2 * turn + place - len(FIRST)) % len(OTHERS)]
+    return (_formed(hiding_of(law_name, turned + turn, level, rng), turn + place),)
+
+
+def _formed(hiding: Hiding, number: int) -> Hiding:
+    """The same; of pits every third has a lip."""
+    if hiding.law not in STRUCK or number % FORMS != LIPPED:
+        return hiding
+    return Hiding(law=hiding.law, site=hiding.site, value=hiding.value, variant=LIPPED)

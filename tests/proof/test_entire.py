@@ -1,0 +1,62 @@
+"""The split that one engine runs: its groups, conditions and forms; pits whose edges stand up."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from proof import seal
+from proof.effects import LIPPED, Choice
+from proof.entire import GROUPS, STRUCK, entire
+from proof.library import CLOSED
+from proof.machine import arrays_of, exact_machine
+from proof.model.balls import pit
+from proof.model.layout import B
+from proof.plan import ORTHOGONAL, SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS, plan
+from proof.unknown import OPEN
+
+CASES = entire()
+
+
+def test_three_of_four_cases_stand_at_the_target_condition():
+    assert Counter(c.group for c in CASES) == GROUPS and len({c.name for c in CASES}) == sum(GROUPS.values()) == 192
+    conditions = Counter((len(c.sensors), c.snr_db, len(c.speeds_hz)) for c in CASES)
+    assert conditions[3, 20.0, 3] >= 0.75 * len(CASES)
+    for row in ORTHOGONAL:
+        assert conditions[SENSOR_COUNTS[row[0]], SNRS_DB[row[1]], SPEED_COUNTS[row[2]]] >= 2
+
+
+def test_the_first_half_is_a_sample_of_all_groups():
+    half = Counter(c.group for c in CASES[:96])
+    assert all(abs(half[g] - n / 2) <= 2 + 0.2 * n for g, n in GROUPS.items())
+
+
+def test_every_known_and_unknown_law_of_the_usual_load_occurs_and_every_third_pit_has_a_lip():
+    laws = Counter(e.law for c in CASES for e in c.effects)
+    assert set(laws) >= set(OPEN) and len(set(laws) & set(CLOSED)) >= 20
+    forms = Counter(e.variant for c in CASES if c.group == "single" for e in c.effects if e.law in STRUCK)
+    assert forms[LIPPED] >= 0.2 * sum(forms.values()) and set(forms) == {0, 1, LIPPED}
+    others = [e for s in ("dev", "sealed", "later", "third", "anew") for c in plan(s) for e in c.effects]
+    assert not any(e.variant == LIPPED for e in others if e.law in STRUCK), "which no earlier split has"
+
+
+def test_the_seals_were_committed():
+    assert seal.seals_of("entire") == seal.manifest("entire", CASES)["sha256"]
+
+
+def test_a_lip_squeezes_the_ball_before_and_behind_the_pit():
+    a = arrays_of(exact_machine())
+    CLOSED["outer_pit"].apply(a, Choice(site=0, value=1e-3, variant=LIPPED, rng=np.random.default_rng(2)))
+    b = a.bearings[0]
+    assert 1e-6 <= b[B.LIP] <= 4e-6
+    radius, half = 0.025, 0.5e-3
+    way = np.linspace(-1e-3, 1e-3, 4001)
+    drop = np.array([pit(s / radius, 1e-3, 1e-4, radius, 100.0, b) for s in way])
+    outside = np.abs(way) > half
+    assert drop[outside].min() == pytest.approx(-b[B.LIP], rel=1e-3) and drop[outside].max() == 0.0
+    assert np.all(drop[~outside] >= 0.0) and not np.any(drop[np.abs(way) > half + 1.01 * b[B.LIP_LENGTH]])
+    assert np.max(np.abs(np.diff(drop))) < 0.1 * drop.max(), "no step"
+    b[B.LIP] = 0.0
+    assert not np.any(np.array([pit(s / radius, 1e-3, 1e-4, radius, 100.0, b) for s in way])[outside])
