@@ -15,7 +15,7 @@ def operating_point(speed_hz: float | None, torque_ratio: float = 1.0) -> str:
     """`30 Hz`, or `30 Hz at 0.5 of the torque`; nothing where the speed is not known."""
     if speed_hz is None:
         return ""
-    return f"{speed_hz:g} Hz" if torque_ratio == 1.0 else f"{speed_hz:g} Hz at {torque_ratio:g} of the torque"
+    return f"{speed_hz:.5g} Hz" if torque_ratio == 1.0 else f"{speed_hz:.5g} Hz at {torque_ratio:g} of the torque"
 
 
 @dataclass(frozen=True, kw_only=True)

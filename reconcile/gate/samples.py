@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from reconcile.gate.bridge import MOST_SAMPLES, bridged, holes
 from reconcile.gate.findings import Finding, Kind
 from signals.checks import Finding as Defect
 from signals.checks import inspect
@@ -22,9 +23,6 @@ KIND: dict[str, Kind] = {
 MATERIAL_SHARE = 2e-4
 """Clipped or held samples below this share change no spectrum by a tenth of a decibel."""
 REPAIRABLE_SHARE = 0.02
-BRIDGED = 16
-"""Longest hole, in samples, that a straight line bridges without a trace, where such holes are few
-(`MATERIAL_SHARE`, one at least)."""
 QUIET_WINDOW_S = 2e-3
 QUIET_RATIO = 0.02
 """A window whose RMS is below 2 % of the median window's: the signal was away, not weak."""
@@ -47,7 +45,7 @@ def sample_findings(recording: Recording, label: str) -> tuple[Finding, ...]:
     known = {(f.channel, f.kind) for f in found}
     for name, measured in rows.items():
         gone = ~np.isfinite(measured)
-        samples = _bridged(measured, gone) if _short(gone) else measured
+        samples = bridged(measured, gone) if _short(gone) else measured
         if not np.all(np.isfinite(samples)) or np.ptp(samples) == 0:
             continue
         if (name, "dropouts") not in known and (name, "stuck") not in known:
@@ -67,7 +65,7 @@ def repaired(recording: Recording) -> tuple[Recording, tuple[str, ...]]:
         if good.size < 8 or np.ptp(good) == 0 or np.mean(bad) > REPAIRABLE_SHARE:
             lost.append(name)
             continue
-        samples[row] = _bridged(samples[row], bad)
+        samples[row] = bridged(samples[row], bad)
         rows.append(row)
     if not rows:
         return recording, tuple(lost)
@@ -76,16 +74,10 @@ def repaired(recording: Recording) -> tuple[Recording, tuple[str, ...]]:
 
 
 def _short(gone: BoolArray) -> bool:
-    """Whether the samples `gone` (n,) are holes so short and few that bridging them changes nothing."""
-    edges = np.flatnonzero(np.diff(np.concatenate(([False], gone, [False])).astype(np.int8)))
+    """Whether the samples `gone` (n,) are holes so short and few (`MATERIAL_SHARE`, one at least) that they may be
+    bridged and the channel stays."""
     few = np.sum(gone) <= min(max(1.0, MATERIAL_SHARE * gone.size), gone.size - 1)
-    return bool(few and np.all(np.diff(edges)[::2] <= BRIDGED))
-
-
-def _bridged(samples: FloatArray, gone: BoolArray) -> FloatArray:
-    """Samples (n,) with straight lines in place of those `gone` (n,), of which some are left."""
-    place = np.arange(gone.size)
-    return np.where(gone, np.interp(place, place[~gone], samples[~gone]), samples) if np.any(gone) else samples
+    return bool(few and all(stop - first <= MOST_SAMPLES for first, stop in holes(gone)))
 
 
 def _of_defect(defect: Defect, label: str, n: int, samples: FloatArray) -> Finding:
@@ -99,10 +91,10 @@ def _of_defect(defect: Defect, label: str, n: int, samples: FloatArray) -> Findi
         kind = "stuck"
     always = defect.kind in ("not_finite", "constant", "dropout")
     detail = f"{defect.message}: {share:.3%} of the samples"
-    bridged = defect.kind == "not_finite" and _short(~finite)
-    if bridged:
+    mended = defect.kind == "not_finite" and _short(~finite)
+    if mended:
         number = "1 sample is" if defect.samples == 1 else f"{defect.samples} samples are"
-        detail = f"{number} not finite, the first at {first.start_s:.6g} s; bridged by straight lines"
+        detail = f"{number} not finite, the first at {first.start_s:.6g} s; filled from the samples around"
     return Finding(
         kind=kind,
         channel=defect.channel,
@@ -110,7 +102,7 @@ def _of_defect(defect: Defect, label: str, n: int, samples: FloatArray) -> Findi
         detail=detail,
         severity=float(min(1.0, share * (1 if defect.kind == "constant" else 20))),
         where=where,
-        fault=not bridged and (always or share > MATERIAL_SHARE),
+        fault=not mended and (always or share > MATERIAL_SHARE),
     )
 
 
