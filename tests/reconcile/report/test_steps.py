@@ -156,3 +156,8 @@ def test_symbols_of_lines_are_said_where_there_are_any() -> None:
     for label, said in (("3*f_o1", True), ("BPFO", False)):
         lines = (LineChange(label=label, frequency_hz=323.7, change_db=30.0),)
         assert ("f_o, f_i, f_b, f_c: outer race" in where_table(Where(lines=lines))) is said
+
+
+def test_costs_are_told_in_words() -> None:
+    whole = provenance(report(provenance={"cost": {"core_s": 70.1, "until_atlas_core_s": 0.8}, "seed": 0}))
+    assert "processor seconds: 70.1; of them until the atlas was there: 0.8" in whole and "core s" not in whole
