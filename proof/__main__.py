@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import sys
 from collections.abc import Sequence
-from dataclasses import asdict
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, replace
+from functools import partial
 from pathlib import Path
 
 from tqdm import tqdm
@@ -20,7 +23,7 @@ from proof.plan import Case
 from proof.run import Engine, run_case
 from proof.score.one import Score, score
 from proof.score.rates import summary
-from proof.score.stored import OtherRun, together
+from proof.score.stored import OtherRun, compared, together
 from proof.score.table import table
 from proof.seal import broken, seals_of, write_manifest
 from proof.visible import measure, told
@@ -60,6 +63,7 @@ def parser() -> argparse.ArgumentParser:
             command.add_argument("--fresh", action="store_true", help="run again what is stored")
             command.add_argument("--atlas", type=Path, default=ROOT / ".cache" / "proof" / "atlas")
             command.add_argument("--jobs", type=int, help="processes that simulate an atlas")
+            command.add_argument("--processes", type=int, default=os.cpu_count(), help="cases that run at once")
         if name == "visible":
             command.add_argument("--jobs", type=int, default=2, help="processes")
         if name == "score":
@@ -109,8 +113,26 @@ def seal(given: argparse.Namespace) -> None:
 def run(given: argparse.Namespace) -> None:
     """Run the engine."""
     engine = Engine(budget=given.budget, atlas=given.atlas, jobs=given.jobs)
-    for case in tqdm(chosen(given), desc="engine"):
-        run_case(engine, _folder(given, "data") / case.name, _folder(given, "reports"), fresh=given.fresh)
+    first, rest = parted(chosen(given))
+    with tqdm(total=len(first) + len(rest), desc="engine") as bar, ThreadPoolExecutor(given.processes) as pool:
+
+        def one(engine: Engine, case: Case) -> None:
+            run_case(engine, _folder(given, "data") / case.name, _folder(given, "reports"), fresh=given.fresh)
+            bar.update()
+
+        for case in first:
+            one(engine, case)
+        list(pool.map(partial(one, replace(engine, jobs=1)), rest))
+
+
+def parted(cases: Sequence[Case]) -> tuple[list[Case], list[Case]]:
+    """The first case that needs an atlas, for each, and those that find theirs there: these can run at once."""
+    first: dict[tuple[object, ...], str] = {}
+    for case in cases:
+        own = case.name if case.group == "misset" else ""
+        first.setdefault((case.machine, own, case.torque_nm, frozenset(case.speeds_hz)), case.name)
+    names = set(first.values())
+    return [c for c in cases if c.name in names], [c for c in cases if c.name not in names]
 
 
 def kinematics(given: argparse.Namespace) -> None:
@@ -162,6 +184,8 @@ def score_all(given: argparse.Namespace) -> None:
             raise SystemExit(str(error)) from error
     document = {"split": given.split, "engine": engines[0], **summary(scores), "scores": [asdict(s) for s in scores]}
     sys.stderr.write(table(scores))
+    if not given.keep and path.exists():
+        sys.stderr.write("\n".join(compared(path, engines[0], scores)) + "\n")
     if given.keep:
         path.parent.mkdir(exist_ok=True)
         path.write_text(json.dumps(document, sort_keys=True, indent=1) + "\n", encoding="utf-8")

@@ -33,3 +33,36 @@ def together(path: Path, split: str, engine: str, scores: Sequence[Score]) -> li
         one = Score(**values)
         found[one.name] = one
     return [found[name] for name in sorted(found)]
+
+
+LIKE = 0.02
+"""By which numbers may differ between machines."""
+NOT_ASKED = ("core_seconds",)
+
+
+def compared(path: Path, engine: str, scores: Sequence[Score]) -> list[str]:
+    """How scores stand to those of the summary at `path`: a line that counts, and one for each case that differs."""
+    document = json.loads(path.read_text(encoding="utf-8"))
+    stored = {row["name"]: row for row in document["scores"]}
+    both = [s for s in scores if s.name in stored]
+    unlike = {s.name: differing for s in both if (differing := _differing(s, stored[s.name]))}
+    same = "the same engine" if document["engine"] == engine else f"engine {document['engine']}, here {engine}"
+    head = f"{len(both) - len(unlike)} of {len(both)} as stored in {path.name} ({same})"
+    return [head, *(f"{name} is not: {', '.join(words)}" for name, words in unlike.items())]
+
+
+def _differing(score: Score, stored: dict[str, Any]) -> list[str]:
+    words = []
+    for field in fields(Score):
+        now, was = getattr(score, field.name), stored.get(field.name)
+        if isinstance(was, list):
+            was = tuple(was)
+        if field.name not in NOT_ASKED and field.name in stored and not _alike(now, was):
+            words.append(f"{field.name} {was} was stored, now {now}")
+    return words
+
+
+def _alike(now: object, was: object) -> bool:
+    if isinstance(now, float) and isinstance(was, float | int) and not isinstance(was, bool):
+        return abs(now - was) <= LIKE * max(abs(was), LIKE)
+    return now == was

@@ -34,6 +34,9 @@ LEAST_PERIOD = 0.03
 """Height of the peak at the period (1 at lag 0) without which a second event would not be seen either."""
 FIRST_SHARE, LAST_SHARE = 0.03, 0.45
 """Lags looked at, share of the period: nearer is ringing, at half lie second defects."""
+SURE_SHARE = 0.25
+"""Of the period, up to which a second event is the far edge: a ring that a deep pit threw off its balls falls back
+later (of a simulated pit of 1 mm after 0.39 of it), and spalls that long are rare."""
 BANDS = ((0.02, 0.24), (0.05, 0.5), (0.01, 0.49), (0.24, 0.48))
 """Of the sampling rate."""
 EXTREME = 0.999
@@ -53,8 +56,9 @@ class Extent:
 
 
 def spall_extent(evidence: Evidence, test: Observation, ties: Ties) -> Extent | None:
-    """Extent of an outer or inner spall; None for other families, where the record cannot resolve anything, and where
-    its channel is cut off: what stands at the limit has lost the heights of both events."""
+    """Extent of an outer or inner spall; None for other families, where the record cannot resolve anything, where its
+    channel is cut off (what stands at the limit has lost the heights of both events), and where the second event may be
+    a rebound."""
     family = evidence.family
     if family.kind not in ("outer", "inner") or family.site not in ties.races or _cut_off(test, evidence.channel):
         return None
@@ -75,6 +79,8 @@ def spall_extent(evidence: Evidence, test: Observation, ties: Ties) -> Extent | 
     if lag is None:
         high = degrees_per_s * first / STRIKE_RANGE[0]
         return Extent(degrees=high / 2, low_deg=0.0, high_deg=high, lag_s=first, resolved=False)
+    if lag > SURE_SHARE * period:
+        return None
     angle = degrees_per_s * lag
     return Extent(
         degrees=angle / STRIKE,

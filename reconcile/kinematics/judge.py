@@ -110,7 +110,7 @@ class Candidate:
     @property
     def deep(self) -> bool:
         """Whether it is as deep as a defect of its own makes it."""
-        return self.depth >= ALONE_DEPTH or not any(c.growth_db is not None for c in self.contrasts)
+        return self.deepest >= ALONE_DEPTH
 
     @property
     def risen(self) -> bool:

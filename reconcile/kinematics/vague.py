@@ -115,6 +115,9 @@ def nothing_report(
     louder = loudest(tests, baselines)
     if louder is not None:
         return _louder(louder, lines, old)
+    quieter = _quieter_db(tests, baselines)
+    if quieter is not None:
+        return _quieter(quieter, lines, old)
     return Report(
         verdict="nothing_missing",
         sentence=f"No family of lines is firmer {against}; changes of level may be load, speed or mounting, or an "
@@ -128,6 +131,18 @@ def nothing_report(
 
 def loudest(tests: Sequence[Observation], baselines: Sequence[Observation]) -> tuple[str, float] | None:
     """Channel and growth, dB, of the one whose level has grown most, where that is more than load and mounting do."""
+    most = max(_grown_db(tests, baselines), key=lambda one: one[1], default=None)
+    return most if most is not None and most[1] > LOUDER_DB else None
+
+
+def _quieter_db(tests: Sequence[Observation], baselines: Sequence[Observation]) -> float | None:
+    """By how many decibels the channel that fell least fell, where all fell by more than load and mounting do."""
+    least = max((db for _, db in _grown_db(tests, baselines)), default=0.0)
+    return -least if least < -LOUDER_DB else None
+
+
+def _grown_db(tests: Sequence[Observation], baselines: Sequence[Observation]) -> list[tuple[str, float]]:
+    """Growth of the level of each channel of each test over the nearest baseline, dB."""
     found = []
     for test in tests:
         base = matched(test, baselines)
@@ -137,8 +152,20 @@ def loudest(tests: Sequence[Observation], baselines: Sequence[Observation]) -> t
             now, before = (float(np.std(x.recording.series(name).samples)) for x in (test, base))
             if now > 0.0 and before > 0.0:
                 found.append((name, 20.0 * float(np.log10(now / before))))
-    most = max(found, key=lambda one: one[1], default=None)
-    return most if most is not None and most[1] > LOUDER_DB else None
+    return found
+
+
+def _quieter(fallen_db: float, lines: tuple[LineChange, ...], old: Sequence[Candidate]) -> Report:
+    """No machine that has got worse: more likely is that the baseline is not the sound one."""
+    return Report(
+        verdict="not_decidable",
+        sentence=f"Every channel is {fallen_db:.0f} dB quieter than in the baseline, or more, and no family of lines "
+        "is firmer: test and baseline may be exchanged; load, speed or mounting seldom do so much." + _in_both(old),
+        level="kinematics",
+        where=Where(lines=lines),
+        undecidable=(f"what was {fallen_db:.0f} dB louder when the baseline was recorded",),
+        next_experiment=NextExperiment(sentence="Check which recording is of the sound machine."),
+    )
 
 
 def _louder(most: tuple[str, float], lines: tuple[LineChange, ...], old: Sequence[Candidate]) -> Report:
