@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.extent import Extent, as_severity, spall_extent
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.heldout import held_out
-from reconcile.kinematics.judge import DEFECTS, Candidate
 from reconcile.kinematics.measured import measured_lines
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.sites import decided, places

@@ -61,6 +61,8 @@ class Evidence:
     channel_z: dict[str, float]
     deepest: float = 0.0
     """The largest depth over all bands of the channel that hear it."""
+    deepest_hz: tuple[float, float] = (0.0, 0.0)
+    """That band."""
     kurtosis: float = 0.0
     """The largest excess kurtosis of those bands: impacts reach far beyond what noise does whose strength varies."""
     others: tuple[Evidence, ...] = ()
@@ -252,6 +254,8 @@ class _Firmest:
         """`least`: score from which a band hears it."""
         e = self.envelopes
         hear = np.flatnonzero(self.z >= least)
+        depths = [comb_depth(e, int(b), family, self.order) for b in hear]
+        deepest = int(hear[int(np.argmax(depths))]) if depths else self.band
         return Evidence(
             family=family,
             z=self.top,
@@ -259,12 +263,18 @@ class _Firmest:
             slip=self.order / family.order - 1,
             order=self.order,
             channel=e.channel,
-            band_hz=(float(e.bands_hz[self.band, 0]), float(e.bands_hz[self.band, 1])),
+            band_hz=_band(e, self.band),
             depth=comb_depth(e, self.band, family, self.order),
             channel_z=channel_z,
-            deepest=max((comb_depth(e, int(b), family, self.order) for b in hear), default=0.0),
+            deepest=max(depths, default=0.0),
+            deepest_hz=_band(e, deepest),
             kurtosis=float(np.max(e.kurtosis[hear], initial=0.0)),
         )
+
+
+def _band(envelopes: Envelopes, band: int) -> tuple[float, float]:
+    low, high = envelopes.bands_hz[band]
+    return float(low), float(high)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from reconcile.kinematics.answer import TERMS, lines_of
-from reconcile.kinematics.judge import Candidate
+from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.shafts import Impulsiveness
 from reconcile.kinematics.vague import loudest

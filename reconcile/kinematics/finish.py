@@ -8,7 +8,7 @@ from dataclasses import replace
 from reconcile.faults import measurement_faults, with_faults
 from reconcile.gate import Gate
 from reconcile.gate.spoiled import doubts, fault_sentence, remarks
-from reconcile.kinematics.judge import Candidate
+from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.picture import envelope_picture, of_the_answer
 from reconcile.verdict import NOT_JUDGED, Report

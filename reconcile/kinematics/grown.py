@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from reconcile.kinematics.candidate import ALONE_DEPTH, Candidate
 from reconcile.kinematics.extent import Extent, spall_extent
 from reconcile.kinematics.families import Ties
-from reconcile.kinematics.judge import ALONE_DEPTH, Candidate
 from reconcile.kinematics.observe import Observation
 
 RATIO = 1.3

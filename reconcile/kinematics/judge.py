@@ -3,40 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
+from reconcile.kinematics.candidate import DEFECTS, LEAST_Z, Candidate
 from reconcile.kinematics.chances import fisher, holm
-from reconcile.kinematics.contrast import Contrast, contrast
+from reconcile.kinematics.contrast import contrast
 from reconcile.kinematics.envelopes import Envelopes
 from reconcile.kinematics.evidence import CERTAIN_Z, Evidence, family_evidence
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.observe import Observation
 
-LEVEL = 0.01
-GROWTH_DB = 6.0
-"""Depth of modulation must have doubled, and by more than two standard errors."""
-ERRORS = 2.0
-LEAST_DEPTH = 0.15
-ALONE_DEPTH = 0.5
-"""Depth that sound bearings do not show (0.34 was the most seen): asked for where there is no baseline, and of a
-defect that is named: shallower ones have risen, but a damaged ball raises the lines of both races as well."""
 CALM = 0.004
 """Acceleration over the shaft's speed, m/s^2 per Hz (10 mg at 25 Hz), below which a machine is so quiet that the balls
 of a sound bearing are all there is to hear: those of a simulated rig are as deep as 0.9, at 5 mg with the sensor's
 noise. Sound motors measured have 70 mg."""
-STRIKES = 2.0
-"""Excess kurtosis that a defect brings to a band that hears it in so quiet a machine: seeded races have 2.9 and more,
-balls that pass 1.1."""
-TURN_ALONE_DEPTH = 1.0
-"""Sound shafts modulate too; only impacts reach this."""
 TURN_DEPTH = 0.3
 """Of impacts once a turn against a baseline: runout modulates a sound gearbox under 1.6 times the load by 0.22, a tooth
 that strikes by 0.37 and more."""
-LEAST_Z = 5.0
-"""Robust standard deviations of the controls that a named family stands above them, whatever its tail says."""
 HEARD_Z = 4.5
 """Deviations from which a family's lines are kept from the orders it is held against, where nothing but these lines is
 known: sound bearings stay below 3, struck inner races reach 5 where the controls hear their sidebands."""
@@ -55,91 +41,6 @@ ONE_LINE = 0.004
 """Measured orders nearer than this are of one line: jitter and the search's grid move them by 0.2 %."""
 LIKE_SHARE = 0.7
 """Of the score of the firmest reading of a line that another reading of it must have."""
-DEFECTS = ("outer", "inner", "ball")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Candidate:
-    """A family over all test recordings. `chance` is Fisher's combination after Holm over all families."""
-
-    family: Family
-    evidence: tuple[Evidence, ...]
-    contrasts: tuple[Contrast, ...]
-    chance: float
-    calm: tuple[bool, ...] = ()
-    """Of each test, whether it is quieter than machines with a defect are."""
-    centred: bool = True
-    """Whether no sideband of it is deeper than the line itself, where that was asked."""
-
-    @property
-    def strongest(self) -> int:
-        """Index of the test recording that shows it best."""
-        return int(np.argmax([e.z for e in self.evidence]))
-
-    @property
-    def z(self) -> float:
-        """Root mean square of the (positive) scores."""
-        return float(np.sqrt(np.mean([max(e.z, 0.0) ** 2 for e in self.evidence])))
-
-    @property
-    def best(self) -> Evidence:
-        """Evidence of the recording that shows it best."""
-        return self.evidence[self.strongest]
-
-    @property
-    def growth_db(self) -> float | None:
-        """Median growth of depth over the baselines."""
-        values = [c.growth_db for c in self.contrasts if c.growth_db is not None]
-        return float(np.median(values)) if values else None
-
-    @property
-    def based(self) -> bool:
-        """Whether a baseline heard it in the same channels and bands."""
-        return all(c.growth_db is not None for c in self.contrasts)
-
-    @property
-    def present(self) -> bool:
-        """Whether its lines are there at all, in a sound machine or not."""
-        return self.chance < LEVEL and self.z > LEAST_Z and self.centred
-
-    @property
-    def depth(self) -> float:
-        """Median over the tests."""
-        return float(np.median([c.depth for c in self.contrasts]))
-
-    @property
-    def deep(self) -> bool:
-        """Whether it is as deep as a defect of its own makes it."""
-        return self.deepest >= ALONE_DEPTH
-
-    @property
-    def risen(self) -> bool:
-        """Whether it is more than a baseline (or, without one, than a sound machine) shows."""
-        votes = [
-            self._alone(i)
-            if c.growth_db is None
-            else c.depth >= LEAST_DEPTH and c.growth_db > max(GROWTH_DB, ERRORS * c.error_db)
-            for i, c in enumerate(self.contrasts)
-        ]
-        return 2 * sum(votes) > len(votes)
-
-    def _alone(self, i: int) -> bool:
-        """Whether test `i` shows by itself what no sound machine does: lines as deep as a defect makes them in a band
-        that hears them, of a quiet machine blows too."""
-        if self.family.kind == "turn":
-            return self.contrasts[i].depth >= TURN_ALONE_DEPTH
-        e = self.evidence[i]
-        strikes = max([e.kurtosis, *(one.kurtosis for one in e.others)])
-        return self._deepest(i) >= ALONE_DEPTH and not (self.calm[i : i + 1] == (True,) and strikes < STRIKES)
-
-    def _deepest(self, i: int) -> float:
-        e = self.evidence[i]
-        return max([self.contrasts[i].depth, e.deepest, *(one.deepest for one in e.others)])
-
-    @property
-    def deepest(self) -> float:
-        """Median over the tests of the largest depth that a band has."""
-        return float(np.median([self._deepest(i) for i in range(len(self.evidence))]))
 
 
 Beside = Callable[[tuple[Candidate, ...]], tuple[Candidate, ...]]
@@ -243,13 +144,20 @@ def centred(one: Candidate, tests: Sequence[Observation], ties: Ties) -> bool:
     """Whether the first line of a family is as deep as what stands beside it at the distance of its sidebands or of a
     turn. Blows are stronger or weaker as load and cage have it, never negative: so the mean of their strength, the line
     itself, exceeds what modulates it. A line with deeper ones beside it is itself a sideband of a stranger."""
-    e = tests[one.strongest].channel(one.best.channel)
+    return all(_centred(one.family, where, order, tests[one.strongest], ties) for where, order in one.read_in)
+
+
+def _centred(
+    family: Family, where: tuple[str, tuple[float, float]], own_order: float, test: Observation, ties: Ties
+) -> bool:
+    """The same in one band of a channel."""
+    e = test.channel(where[0])
     assert e is not None
-    band = int(np.argmin(np.abs(e.bands_hz - np.array(one.best.band_hz)).sum(axis=1)))
-    own = _depth_at(e, band, one.best.order)
+    band = int(np.argmin(np.abs(e.bands_hz - np.array(where[1])).sum(axis=1)))
+    own = _depth_at(e, band, own_order)
     turns = tuple(ties.shafts.values())
-    for distance in {one.family.spacing, *turns} - {0.0}:
-        for order in (one.best.order - distance, one.best.order + distance):
+    for distance in {family.spacing, *turns} - {0.0}:
+        for order in (own_order - distance, own_order + distance):
             of_a_turn = any(abs(order - round(order / t) * t) < NEXT_BINS * e.order_step for t in turns)
             if order > NEXT_BINS * e.order_step and not of_a_turn and _depth_at(e, band, order) * CENTRE > own:
                 return False

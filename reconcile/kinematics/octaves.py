@@ -13,10 +13,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.contrast import band_turns
 from reconcile.kinematics.envelopes import order_depth
 from reconcile.kinematics.evidence import Evidence
-from reconcile.kinematics.judge import Candidate
 from reconcile.kinematics.observe import Observation
 from reconcile.speed.excess import power_over_floor
 from signals.series import FloatArray

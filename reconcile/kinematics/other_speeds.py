@@ -13,10 +13,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reconcile.kinematics.candidate import DEFECTS, LEAST_Z
 from reconcile.kinematics.envelopes import Envelopes
 from reconcile.kinematics.evidence import LEAST_SPREAD, family_evidence, logs, scores, without
 from reconcile.kinematics.families import Family, Ties
-from reconcile.kinematics.judge import DEFECTS, HEARD_Z, LEAST_Z
+from reconcile.kinematics.judge import HEARD_Z
 from reconcile.kinematics.observe import MOST_DOUBT, Observation
 from signals.series import FloatArray
 

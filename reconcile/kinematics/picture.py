@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from reconcile.kinematics.answer import SYMBOLS
+from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.contrast import band_turns
 from reconcile.kinematics.envelopes import order_depth
 from reconcile.kinematics.families import Family
-from reconcile.kinematics.judge import Candidate
 from reconcile.kinematics.observe import Observation
 from reconcile.verdict import Cause
 

@@ -14,6 +14,7 @@ from reconcile.gate.spoiled import GONE, without_spoiled
 from reconcile.gate.whole import whole_stretches
 from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.apart import with_speeds
+from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.doubted import against_rivals, factor_of, restated, unconfirmed
 from reconcile.kinematics.elsewhere import left_out, told_elsewhere, turned_elsewhere, without
 from reconcile.kinematics.extent import Extent
@@ -23,7 +24,7 @@ from reconcile.kinematics.finish import fault_report, finished, refused_report
 from reconcile.kinematics.foreign import BESIDE_DB, foreign_comb
 from reconcile.kinematics.gears import gear_evidence
 from reconcile.kinematics.grown import grown_defect, old_defects
-from reconcile.kinematics.judge import DEFECTS, HEARD_Z, TURN_DEPTH, Candidate, named
+from reconcile.kinematics.judge import HEARD_Z, TURN_DEPTH, named
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.other_speeds import by_baseline, nominees
 from reconcile.kinematics.remarks import remarked, with_rest

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from reconcile.kinematics.candidate import DEFECTS, LEAST_Z, Candidate
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.gears import GearEvidence, gear_evidence
-from reconcile.kinematics.judge import DEFECTS, LEAST_Z, SECOND_SHARE, Candidate, named, one_line, same
+from reconcile.kinematics.judge import SECOND_SHARE, named, one_line, same
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.series import ShaftSeries
 from reconcile.kinematics.shafts import ShaftChange

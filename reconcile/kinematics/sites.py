@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.families import Family, Ties
-from reconcile.kinematics.judge import Candidate, like_spacing, same
+from reconcile.kinematics.judge import like_spacing, same
 from reconcile.kinematics.observe import Observation
 from reconcile.verdict import PlaceWeight
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from reconcile.kinematics.answer import lines_of
+from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.foreign import Foreign
-from reconcile.kinematics.judge import Candidate
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.series import ShaftSeries
 from reconcile.kinematics.shafts import Impulsiveness, ShaftChange

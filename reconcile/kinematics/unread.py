@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from reconcile.kinematics.answer import PARTS
-from reconcile.kinematics.judge import DEFECTS, Candidate
+from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.other_speeds import SPAN
 from reconcile.verdict import Cause, NextExperiment, Report

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from reconcile.kinematics.answer import lines_of
+from reconcile.kinematics.candidate import ALONE_DEPTH, DEFECTS, Candidate
 from reconcile.kinematics.foreign import Foreign
 from reconcile.kinematics.gears import NEAR_DB, GearEvidence, of_own_lines
-from reconcile.kinematics.judge import ALONE_DEPTH, DEFECTS, Candidate
 from reconcile.kinematics.lines import matched
 from reconcile.kinematics.measured import measured_lines
 from reconcile.kinematics.observe import Observation

@@ -13,9 +13,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.envelopes import envelopes
 from reconcile.kinematics.families import Family, Ties, ties
-from reconcile.kinematics.judge import DEFECTS, Candidate, candidates, same
+from reconcile.kinematics.judge import candidates, same
 from reconcile.kinematics.observe import Observation, reach_of
 from reconcile.kinematics.spec import of_machine
 from reconcile.machine.alone import Rise

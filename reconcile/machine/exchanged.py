@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from reconcile.kinematics.candidate import DEFECTS
 from reconcile.kinematics.families import ties
-from reconcile.kinematics.judge import DEFECTS, candidates
+from reconcile.kinematics.judge import candidates
 from reconcile.kinematics.spec import of_machine
 from reconcile.machine.direct import impulsive, observed_as, reachable
 from reconcile.machine.setting import Setting

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.families import Family, Ties
-from reconcile.kinematics.judge import DEFECTS, SECOND_LEVEL, Candidate, candidates, same
+from reconcile.kinematics.judge import SECOND_LEVEL, candidates, same
 from reconcile.kinematics.observe import Observation
 from sim.core.spec import MachineSpec
 from sim.terms import REGISTRY

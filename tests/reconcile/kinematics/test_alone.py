@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from reconcile.kinematics.candidate import ALONE_DEPTH, STRIKES
 from reconcile.kinematics.families import ties
-from reconcile.kinematics.judge import ALONE_DEPTH, CALM, STRIKES, candidates
+from reconcile.kinematics.judge import CALM, candidates
 from reconcile.kinematics.observe import observe
 from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, sound, train
 

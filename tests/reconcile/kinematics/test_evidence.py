@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from reconcile.kinematics.chances import fisher, holm
 from reconcile.kinematics.combs import Stretch, Train, comb_power, fitted, predicted
 from reconcile.kinematics.envelopes import Envelopes, envelopes
 from reconcile.kinematics.evidence import family_evidence, logs
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.gears import gear_evidence
-from reconcile.kinematics.judge import HEARD_Z, fisher, holm
+from reconcile.kinematics.judge import HEARD_Z
 from reconcile.kinematics.observe import observe
 from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, sound, train
 

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.families import ties
-from reconcile.kinematics.judge import Candidate, candidates
+from reconcile.kinematics.judge import candidates
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.octaves import octave_of
 from signals.recording import Tacho
