@@ -31,7 +31,7 @@ def defect_report(
     rng: np.random.Generator,
 ) -> Report:
     """One or two bearing defects that stand."""
-    weights = [places(c, tests, ties) for c in chosen]
+    weights = [places(c, tests, ties, baselines) for c in chosen]
     sizes = [_size(c, tests, ties) for c in chosen]
     one_site = all(decided(w) for w in weights)
     causes = tuple(
