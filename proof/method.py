@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 SECTIONS = {
+    "entire": "No version of the engine had met these before their run; one engine ran all of them. Two ran at once on "
+    "the two threads of one core, beside other work, which core-seconds show.",
     "fresh": "No version of the engine had met these before their run.",
     "third": "No version of the engine had met these before their run; all at the target condition.",
     "repeat": "The same 36, all of which had been looked at: t008, t016, t030 and t032 have each set a rule.",
@@ -122,14 +124,18 @@ and "beats the black box"; sizes, their intervals and placebos are counted where
 right only if nothing else is named. Intervals are Wilson's, 90 %. The target condition: 3 sensors, 20 dB, 3 speeds, a
 baseline.
 
-**No single version of the engine ran all cases.** Each section below is one version, named by the hash of its source;
+## One engine
+
+{one_engine}
+
+## All earlier first runs together
+
+**No single version of the engine ran these.** Each section below is one version, named by the hash of its source;
 the first runs taken together are those of {versions}. Of a run its scores are kept, not the reports. `make proof` with
 the `SPLIT` and `CASES` that a section names makes its recordings and labels again, checks the seals and runs the engine
 at hand, which has learnt from these cases since and may answer otherwise: the figures of a section cannot be had again
 without the source of that day (`python -c "from proof.engine_id import engine_id; print(engine_id())"` tells which is
 at hand). Without `CASES` it runs the whole split, replaces the stored summary of that name and writes this page.
-
-## All first runs together
 
 Each case once, when no engine had met it, with the engine of its day. Look-alikes have one sensor, so the target is
 held against those at all conditions. Core-seconds hold the atlases where a machine is met for the first time.
@@ -166,8 +172,9 @@ as the set of both, which are the same force (t014, u009, a006; read off once).
   the baseline, with an exponential tail beyond; only a measured force (level `driven`) has a bootstrap. How often sound
   machines alarm is known from the nulls above alone: for 8/300 at least 99 without a single alarm are needed (90 %
   interval). "Not decidable" is no alarm by the scores ({undecided} of these nulls got it).
-* **Not run as first runs**: mis-set machine files and cases without a baseline ("Alone" are runs again). Conditions
-  other than the target have {elsewhere} of {n_first} first runs, too few for the curves that were planned.
+* **Not run as first runs before `entire`**: mis-set machine files and cases without a baseline ("Alone" are runs
+  again). Conditions other than the target have {elsewhere} of {n_first} earlier first runs, too few for the curves that
+  were planned.
 * **Parallel misalignment**: the force is stiffness times offset, and only the product can be found. The generator's
   stiffness is the term's default, which the engine does not know; a right offset is owed to its draws about it.
 * **A loose pedestal's lift** is zero in one form of the plan and within 2 µm in the other; the engine seeks at zero.

@@ -14,6 +14,7 @@ mpl.use("Agg")
 import matplotlib.pyplot as plt
 
 from proof.method import METHOD, SECTIONS
+from proof.one_engine import one_engine
 from proof.others import cases_of
 from proof.plan import COUNTS, FIRST, OTHERS
 from proof.score.one import Score
@@ -47,6 +48,7 @@ def write_page(docs: Path, results: Path) -> Path:
     parts = [
         METHOD.format(
             **said_of(results),
+            one_engine=one_engine(results),
             rules=rules,
             laws=laws,
             crossing=laws * 4 * 27,

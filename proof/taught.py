@@ -144,5 +144,13 @@ RULES = (
         ),
         "b007, an unbalance 2.5 times too large that had swallowed a loose fit; since told beside it, one of three",
     ),
+    (
+        "beside what does not strike a second must add 30",
+        "e038 and e068, a profile error and a loose pedestal, named with seconds that are not there (24 and 28)",
+    ),
+    (
+        "without a baseline no physics is told as unknown",
+        "q002, q015 and q023 of eight sound machines, run again on their tests alone",
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""

@@ -23,6 +23,8 @@ MATERIAL_SHARE = 0.01
 LEAST_SHARE = 0.002
 """Of the channel's power that new hum must hold to explain anything."""
 TOLERANCE = 0.002
+SUPPLY, FINE = 0.0012, 0.25
+"""By which a supply's frequency may be off (clocks of recorders with it), and a line's place in bins."""
 PULLS, EVEN = np.array([2.0, 4.0]), 0.04
 """Multiples of a supply that a motor's pull makes, and by which a line may miss one."""
 
@@ -73,7 +75,7 @@ def hum_lines(recording: Recording, channel: str, expected_hz: FloatArray) -> li
     spectrum = amplitude_spectrum(series)
     best: list[tuple[float, float]] = []
     for mains in MAINS_HZ:
-        lines = []
+        rows: list[tuple[int, float, float, float]] = []
         for k in HARMONICS:
             reach = max(1, int(np.ceil(TOLERANCE * mains * k / resolution)))
             middle = round(mains * k / resolution)
@@ -87,12 +89,34 @@ def hum_lines(recording: Recording, channel: str, expected_hz: FloatArray) -> li
                 and excess[peak] >= excess[peak - 1 : peak + 2].max()
                 and not own
             ):
-                lines.append((hz, float(spectrum.values[peak])))
+                fine = (peak + _between(excess[peak - 1 : peak + 2])) * resolution
+                rows.append((k, hz, fine, float(spectrum.values[peak])))
+        lines = _of_one_supply(rows, mains, resolution)
         # hum without its fundamental or the magnetic pull at twice is some machine's line that happens to be there
         strong = any(abs(hz - mains * k) <= TOLERANCE * mains * k + resolution for hz, _ in lines for k in (1, 2))
         if strong and sum(a for _, a in lines) > sum(a for _, a in best):
             best = lines
     return best
+
+
+def _between(power: FloatArray) -> float:
+    """Where between three bins the top of a line is: the vertex of the parabola through their logarithms."""
+    low, top, high = np.log(np.maximum(power, 1e-300))
+    bend = low - 2 * top + high
+    return float(np.clip((low - high) / (2 * bend), -0.5, 0.5)) if bend < 0 else 0.0
+
+
+def _of_one_supply(
+    rows: Sequence[tuple[int, float, float, float]], mains_hz: float, resolution_hz: float
+) -> list[tuple[float, float]]:
+    """(Hz, amplitude) of those lines (number, Hz of the bin, Hz, amplitude) that are multiples of one frequency which a
+    supply may have: the highest tells it best. The second turn of a motor at 29.9 Hz is near 60 Hz, but no supply's."""
+    fine = FINE * resolution_hz
+    near = [r for r in rows if abs(r[2] - r[0] * mains_hz) <= SUPPLY * r[0] * mains_hz + fine]
+    if not near:
+        return []
+    top, _, hz, _ = near[-1]
+    return [(f, a) for k, f, exact, a in near if abs(exact - k * hz / top) <= fine * (1 + k / top)]
 
 
 def without_hum(recording: Recording, expected_hz: FloatArray) -> Recording:

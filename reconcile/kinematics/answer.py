@@ -20,6 +20,8 @@ PARTS = {"outer": "the outer race", "inner": "the inner race", "ball": "a ball"}
 SYMBOLS = {"outer": "BPFO", "inner": "BPFI", "ball": "2 BSF", "cage": "FTF", "turn": "shaft"}
 BOUND = "width_below_m"
 """Key of the values of a cause of which only an upper bound of its length is known: a bound is no size."""
+ALIKE = " if both its edges strike alike"
+"""A ball that sinks in slowly is not heard at the near edge: then only the far one strikes, however long the way."""
 NO_SIZE = "how large the defect is: a size can't be given from these lines without a model of the machine"
 
 
@@ -141,7 +143,7 @@ def _phrase(candidate: Candidate, weights: Sequence[PlaceWeight], extent: Extent
     if extent is None:
         return text
     if not extent.resolved:
-        return f"{text}; it covers {_less_than(extent, _bound_m(candidate, extent, ties))}"
+        return f"{text}; it covers {_less_than(extent, _bound_m(candidate, extent, ties))}{ALIKE}"
     span = f"{extent.low_deg:.1f} to {extent.high_deg:.1f}"
     return f"{text}; entry and exit say {extent.degrees:.1f} degrees of the race ({span})"
 
@@ -180,7 +182,7 @@ def _undecided(
     if any(extent is None for extent, _ in sizes):
         found.append(NO_SIZE)
     found += [
-        f"how large the defect is: {_less_than(x, _bound_m(c, x, ties))}, but entry and exit are not told apart"
+        f"how large the defect is: {_less_than(x, _bound_m(c, x, ties))}{ALIKE}, but entry and exit are not told apart"
         for c, (x, _) in zip(chosen, sizes, strict=True)
         if x is not None and not x.resolved
     ]

@@ -55,6 +55,22 @@ class Envelopes:
     angle_rad: FloatArray
     """(n,) of the reference shaft, as given."""
 
+    def band(self, number: int) -> tuple[float, float]:
+        """Its edges, Hz."""
+        low, high = self.bands_hz[number]
+        return float(low), float(high)
+
+    def flatness(self, number: int, order: float) -> float:
+        """Mean power of the third and higher multiples of an order in a band over that of the first two; 0 where three
+        are out of reach."""
+        row = self.depth[number]
+        top = int((row.size - 2) * self.order_step / order)
+        if top < 3:
+            return 0.0
+        place = self.place(np.asarray(np.arange(1, top + 1) * order, dtype=np.float64))
+        power = np.max(np.stack([row[np.clip(place + k, 0, row.size - 1)] for k in (-1, 0, 1)]), axis=0) ** 2
+        return float(np.mean(power[2:]) / max(float(np.mean(power[:2])), 1e-300))
+
     def place(self, orders: FloatArray) -> np.ndarray[tuple[int, ...], np.dtype[np.int64]]:
         """Nearest bins."""
         return np.asarray(np.clip(np.rint(orders / self.order_step), 0, self.excess.shape[1] - 1), dtype=np.int64)

@@ -65,6 +65,9 @@ class Evidence:
     """That band."""
     kurtosis: float = 0.0
     """The largest excess kurtosis of those bands: impacts reach far beyond what noise does whose strength varies."""
+    flatness: float = 0.0
+    """Mean power of its third and higher lines over that of its first two, in the deepest band: of blows they are
+    alike, of what swells smoothly they fall off."""
     others: tuple[Evidence, ...] = ()
     """The same of each other channel, the firmest first."""
 
@@ -263,18 +266,14 @@ class _Firmest:
             slip=self.order / family.order - 1,
             order=self.order,
             channel=e.channel,
-            band_hz=_band(e, self.band),
+            band_hz=e.band(self.band),
             depth=comb_depth(e, self.band, family, self.order),
             channel_z=channel_z,
             deepest=max(depths, default=0.0),
-            deepest_hz=_band(e, deepest),
+            deepest_hz=e.band(deepest),
+            flatness=e.flatness(deepest, self.order),
             kurtosis=float(np.max(e.kurtosis[hear], initial=0.0)),
         )
-
-
-def _band(envelopes: Envelopes, band: int) -> tuple[float, float]:
-    low, high = envelopes.bands_hz[band]
-    return float(low), float(high)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -70,17 +70,19 @@ def _row(c: Candidate) -> dict[str, object]:
     }
 
 
-def fault_report(gate: Gate) -> Report:
-    """The measurement is at fault."""
+def fault_report(gate: Gate, rest: Report | None = None) -> Report:
+    """The measurement is at fault; `rest`: what the recordings say apart from that, where they can be judged."""
     assert gate.fault is not None
-    return Report(
-        verdict="measurement_fault",
-        sentence=fault_sentence(gate.fault)
-        + (" Apart from it these kinematics show nothing missing." if gate.usable else ""),
-        level="kinematics",
-        fault=gate.fault,
-        undecidable=() if gate.usable else NOT_JUDGED,
-    )
+    said = fault_sentence(gate.fault)
+    if rest is None:
+        return Report(
+            verdict="measurement_fault", sentence=said, level="kinematics", fault=gate.fault, undecidable=NOT_JUDGED
+        )
+    if rest.verdict == "nothing_missing":
+        said = f"{said} Apart from it these kinematics show nothing missing."
+        return Report(verdict="measurement_fault", sentence=said, level="kinematics", fault=gate.fault)
+    said = f"{said} Apart from it: {rest.sentence}"
+    return replace(rest, verdict="measurement_fault", sentence=said, fault=gate.fault)
 
 
 def refused_report(error: SpecError) -> Report:

@@ -16,18 +16,14 @@ from reconcile.kinematics.evidence import CERTAIN_Z, Evidence, family_evidence
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.observe import Observation
 
-CALM = 0.004
-"""Acceleration over the shaft's speed, m/s^2 per Hz (10 mg at 25 Hz), below which a machine is so quiet that the balls
-of a sound bearing are all there is to hear: those of a simulated rig are as deep as 0.9, at 5 mg with the sensor's
-noise. Sound motors measured have 70 mg."""
 TURN_DEPTH = 0.3
 """Of impacts once a turn against a baseline: runout modulates a sound gearbox under 1.6 times the load by 0.22, a tooth
 that strikes by 0.37 and more."""
 HEARD_Z = 4.5
 """Deviations from which a family's lines are kept from the orders it is held against, where nothing but these lines is
 known: sound bearings stay below 3, struck inner races reach 5 where the controls hear their sidebands."""
-SECOND_SHARE = 0.5
-"""Of the first family's score, for a second one to be named beside it."""
+SECOND_SHARE, SECOND_ALONE = 0.5, 0.7
+"""Of the first family's score, for a second one to be named beside it: with a baseline, and without."""
 SECOND_LEVEL = 1e-3
 SAME_ORDER = 0.5
 """Families nearer than this share of the slip are one to the data."""
@@ -70,7 +66,6 @@ def candidates(
             taken = [(c.family, c.evidence[i].order) for c in explained]
             found.append(family_evidence(t.channels, ties, f, t.doubt, rng, taken, lean, certain_z))
         rows.append((f, tuple(found)))
-    quiet = tuple(_calm(t) for t in tests)
     chances = holm([fisher([e.chance for e in found]) for _, found in rows])
 
     def heard(f: Family, found: tuple[Evidence, ...], chance: float) -> Candidate:
@@ -80,7 +75,6 @@ def candidates(
             evidence=found,
             contrasts=tuple(contrast(e, t, baselines, ties) for e, t in pairs),
             chance=chance,
-            calm=quiet,
         )
 
     result = []
@@ -89,14 +83,6 @@ def candidates(
         elsewhere = (heard(f, e, len(rows) * fisher([one.chance for one in e])) for e in in_other_channels(first))
         result.append(next((c for c in elsewhere if c.based and c.present and c.risen), first))
     return tuple(sorted(result, key=lambda c: (not (c.present and c.risen), -c.z)))
-
-
-def _calm(test: Observation) -> bool:
-    """Whether no channel of a recording in known units has the acceleration that a machine with a defect has."""
-    channels = test.recording.channels
-    if any(c.quantity != "acceleration" or c.unit != "m/s^2" for c in channels):
-        return False
-    return max(float(np.std(test.recording.series(c.name).samples)) for c in channels) < CALM * test.speed.speed_hz
 
 
 def in_other_channels(first: Candidate) -> Iterator[tuple[Evidence, ...]]:
@@ -133,7 +119,7 @@ def named(
             and c.risen
             and c.deep
             and c.chance < SECOND_LEVEL
-            and c.z > SECOND_SHARE * first.z
+            and c.z > (SECOND_SHARE if baselines else SECOND_ALONE) * first.z
         ),
         None,
     )

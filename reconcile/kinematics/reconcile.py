@@ -16,6 +16,7 @@ from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.apart import with_speeds
 from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.doubted import against_rivals, factor_of, restated, unconfirmed
+from reconcile.kinematics.either import other_kind, with_other_kind
 from reconcile.kinematics.elsewhere import left_out, told_elsewhere, turned_elsewhere, without
 from reconcile.kinematics.extent import Extent
 from reconcile.kinematics.faint import impulsive_report, shallow_report
@@ -44,6 +45,7 @@ from signals.recording import Recording
 from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
 
+FEW_TURNS = 20.0
 STANDS_OUT_DB = 10.0
 """By which one multiple of a shaft must have grown more than the middle of many to be the answer alone."""
 
@@ -134,7 +136,7 @@ def _reconciled(
     report = replace(report, where=replace(report.where, limits=(*report.where.limits, *told, *whole.told)))
     quiet = report.verdict in ("nothing_missing", "not_decidable") and EXCHANGED not in report.sentence
     if quiet and gate.fault is not None:
-        report = fault_report(gate)
+        report = fault_report(gate, report)
     return finished(report, gate, seen, every, past)
 
 
@@ -160,9 +162,10 @@ def _judged(
     series = shaft_series(tests, baselines, tie)
     grown = tuple(c for c in changes if c.grown)
     if chosen:
-        report = with_rest(
-            defect_report(chosen, tests, baselines, tie, np.random.default_rng(seed)), gears, grown, tests, series
-        )
+        told = defect_report(chosen, tests, baselines, tie, np.random.default_rng(seed))
+        rival = other_kind(chosen[0], every) if len(chosen) == 1 else None
+        told = told if rival is None else with_other_kind(told, chosen[0], rival)
+        report = with_rest(told, gears, grown, tests, series)
     elif (growth := grown_defect(old_defects(every), tests, baselines, tie)) is not None:
         report = _regrown(growth, tests, baselines, tie, seed)
     elif gears and gears[0].grown:
@@ -226,6 +229,8 @@ def _other_speeds(
     """Factors of the speed at which other parts are as firm; None where pulses, lines or a baseline tell the speed."""
     if not unconfirmed(tests) or by_baseline(tests, baselines):
         return None
+    if min(t.recording.duration_s * t.speed.speed_hz for t in tests) < FEW_TURNS:
+        return []  # so short a record has lines of some part at some speed
     return [n.factor for n in nominees(tests, tie, here.z - 2 * ALIKE_Z, seed)]
 
 
@@ -260,7 +265,7 @@ def _without_a_part(
 ) -> Report:
     """Impacts of a turn, of a foreign order, of no order; shaft lines; nothing."""
     risen = [c for c in every if c.family.kind in DEFECTS and c.present and c.risen]
-    if risen:
+    if risen and baselines:
         return shallow_report(risen, every, tests, baselines)
     heard = [*(c.family.key for c in every if c.z > HEARD_Z), *(m[0] for m in tie.meshes)]
     turns = (c for c in every if c.family.kind == "turn" and c.present and c.risen and c.depth >= TURN_DEPTH)

@@ -205,13 +205,18 @@ def _without_baseline(
         keys = ", ".join(c.family.key for c in faint)
         said.append(f"Lines of {keys} are there but shallow, as sound bearings show them too")
         undecidable.append("whether shallow lines are a young defect or the bearing as made")
-    if deep:
-        keys = ", ".join(c.family.key for c in deep)
+    struck = [c for c in deep if any(c.strikes(i) for i in range(len(c.evidence)))]
+    smooth = [c for c in deep if c not in struck]
+    if smooth:
+        keys = ", ".join(c.family.key for c in smooth)
         said.append(
-            f"Lines of {keys} are deep, but nothing strikes: balls that pass in a sound bearing make such where little "
-            "else is heard"
+            f"Lines of {keys} are deep, but nothing strikes: balls that pass in a sound bearing may make such too"
         )
         undecidable.append("whether lines without blows are a defect or the bearing as made")
+    if struck:
+        keys = ", ".join(c.family.key for c in struck)
+        said.append(f"Lines of {keys} are there, no deeper than other blows of the machine may leave them")
+        undecidable.append(f"whether lines of {keys} are a defect's or what other blows leave there")
     if knocking:
         shafts = " and of ".join(c.family.site for c in knocking)
         said.append(f"Impacts once a turn of {shafts} are there, as sound gears, couplings and keys make them too")

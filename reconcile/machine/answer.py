@@ -12,7 +12,8 @@ from reconcile.atlas.places import sensor_sites
 from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.machine.causes import ranked_causes
-from reconcile.machine.decide import Decision, decide
+from reconcile.machine.decide import UNMEASURED, Decision
+from reconcile.machine.decided import decided
 from reconcile.machine.elsewhere import by_forecast
 from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
 from reconcile.machine.limits import limits
@@ -100,7 +101,7 @@ def answer(
     """The report of a machine-level reconciliation; `unknown`: what stage 6 says where no known effect is adequate;
     `pairs`: what was tried beside the best effect."""
     observed = setting.changes.observed
-    decision = decide(found.screen, views=len(setting.channels) * len(setting.data))
+    decision = decided(setting, found)
     watched = watch_list(setting.machine)
     layout = _layout(watched, setting)
     weights = of_one_part(merged_weights(found.screen), found.screen.struck)
@@ -287,6 +288,8 @@ def _held(
 
 
 def _next(setting: Setting, decision: Decision, lead: float) -> NextExperiment | None:
+    if decision.reasons == (UNMEASURED,):
+        return NextExperiment(sentence="Record the machine in a sound state as a baseline.")
     heard = sensor_sites(setting.machine, setting.simulated)
     return next_experiment(decision.chosen, lead, len(setting.data), heard)
 

@@ -11,10 +11,10 @@ from reconcile.machine.library import Catalogued
 from reconcile.machine.second import strikes
 from reconcile.machine.setting import Found, Setting
 
-LEAST_GAIN = 20.0
+LEAST_GAIN = 30.0
 """Log likelihood that a second must add as simulated, beyond what the first gains by being moved as often. Features are
-not independent, so this counts several times what evidence does. Right seconds of the proof add 28 and more, wrong ones
-up to 16 (docs/decisions/reconcile-leftover.md)."""
+not independent, so this counts several times what evidence does. Right seconds of the proof add 30 and more, but for
+one 28, wrong ones up to 28 (docs/decisions/reconcile-leftover.md)."""
 BESIDE_PIT = 12.0
 """What it must add by the teeth's own lines, a fifth of the features: a right one adds 12.8, wrong ones up to 7.3."""
 TEMPER = 4.0

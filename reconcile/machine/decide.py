@@ -85,6 +85,9 @@ class Decision:
     reasons: tuple[str, ...]
 
 
+UNMEASURED = "without a baseline it cannot be told whether that is missing physics or an error of the machine file"
+
+
 def leaves_lines(rest: Rest) -> bool:
     """Whether an effect is not what changed the single lines; one that was fitted to the lines of one view must not
     leave those of the other, to which it was not fitted, either."""
@@ -133,8 +136,17 @@ def remarkable(screen: Screen) -> bool:
     return min(screen.p_any, screen.p_best, screen.p_direct) <= CLOSER_P
 
 
-def decide(screen: Screen, *, views: int, strange: float = STRANGE) -> Decision:
-    """Nothing missing, one name, a set, or none of the known. `views`: sensors times operating points."""
+def decide(screen: Screen, *, views: int, strange: float = STRANGE, measured: bool = True) -> Decision:
+    """Nothing missing, one name, a set, or none of the known. `views`: sensors times operating points; `measured`:
+    whether there is a baseline. Without one a machine whose file is a little wrong differs as much from every machine
+    of the kind as an effect that no library has: of eight concealed sound machines three did."""
+    found = _decided(screen, views=views, strange=strange)
+    if measured or found.word != "unknown_physics":
+        return found
+    return replace(found, word="not_decidable", reasons=(UNMEASURED,))
+
+
+def _decided(screen: Screen, *, views: int, strange: float) -> Decision:
     p = chance(screen)
     if p > DETECT_P:
         reason = f"a healthy machine of this kind shows as much with p = {p:.2g}"

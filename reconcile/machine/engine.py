@@ -22,7 +22,8 @@ from reconcile.machine.answer import answer, fault_answer, provenance
 from reconcile.machine.assimilate import assimilated
 from reconcile.machine.beaten import with_beaten
 from reconcile.machine.budget import QUICK, Budget
-from reconcile.machine.decide import Decision, decide, leaves_lines, remarkable, tempered, unmeasured
+from reconcile.machine.decide import leaves_lines, remarkable, tempered, unmeasured
+from reconcile.machine.decided import decided
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.drive import on_drive
 from reconcile.machine.elsewhere import with_place
@@ -229,12 +230,8 @@ def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, prog
     return _Looks(setting=closer, found=found, fit=fit, atlas=atlas, lines=seen, pairs=pairs)
 
 
-def _decided(setting: Setting, found: Found) -> Decision:
-    return decide(found.screen, views=len(setting.channels) * len(setting.data))
-
-
 def _paired(setting: Setting, found: Found, atlas: Catalogued, budget: Budget, meter: Meter) -> Pairs | None:
-    decision = _decided(setting, found)
+    decision = decided(setting, found)
     if second_effect(setting, found, decision) is not None:
         return None
     first = decision.chosen[0] if decision.chosen else ""
@@ -245,7 +242,7 @@ def _paired(setting: Setting, found: Found, atlas: Catalogued, budget: Budget, m
 
 
 def _force(setting: Setting, found: Found, pairs: Pairs | None, budget: Budget, meter: Meter) -> Unknown | None:
-    decision, _ = named_pair(_decided(setting, found), None, pairs)
+    decision, _ = named_pair(decided(setting, found), None, pairs)
     return unknown_force(setting, found, budget.supports, meter) if decision.word == "unknown_physics" else None
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from reconcile.machine.decide import Decision
+from reconcile.machine.decide import UNMEASURED, Decision
 from reconcile.machine.proved import NO_NEARER
 from reconcile.observe.observation import PointData
 from reconcile.report.markup import figure_text
@@ -87,6 +87,12 @@ def sentence(decision: Decision, severity: Severity | None, held: HeldOut | None
     if decision.reasons[0] == NO_NEARER:
         best = title(decision.chosen[0]).lower()
         return f"The change is unusual (p {_chance(decision.p)}), but {NO_NEARER} ({best}): nothing is named."
+    if decision.reasons[0] == UNMEASURED:
+        best = title(decision.chosen[0]).lower()
+        return (
+            f"The recordings differ from machines of this kind (p {_chance(decision.p)}) in a way that no known effect "
+            f"explains, but {UNMEASURED}; nearest is {best}."
+        )
     listed = ", or ".join(title(c).lower() for c in decision.chosen[:LISTED])
     rest = "" if len(decision.chosen) <= LISTED else f" and {len(decision.chosen) - LISTED} more"
     return f"Something is missing (p {_chance(decision.p)}), but {decision.reasons[0]}: {listed}{rest}."

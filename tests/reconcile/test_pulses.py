@@ -68,3 +68,14 @@ def test_a_run_up_may_state_any_speed_it_has() -> None:
     slow = replace(one, operating=Operating(shaft="shaft", speed_hz=12.0))
     with pytest.raises(SpecError):
         check_pulses(given([slow], []))
+
+
+@pytest.mark.parametrize(("per_turn", "refuses"), [(11, True), (10, False)])
+def test_pulses_miscounted_by_less_than_a_tenth_are_told_by_the_lines(per_turn: int, refuses: bool) -> None:
+    one = turning(30.0, stated=30.0, pulses=300.0, per_turn=per_turn)
+    if not refuses:
+        return check_pulses(given([one], []))
+    with pytest.raises(SpecError, match=r"pulses_per_revolution 10 would fit"):
+        check_pulses(given([one], []))
+    label = turning(27.3, stated=30.0, pulses=300.0, per_turn=11)
+    return check_pulses(given([label], []))  # the label is wrong, as its lines say

@@ -62,7 +62,7 @@ def test_lines_of_a_neighbour_take_a_name_but_are_no_fault_where_the_label_has_a
     rng = np.random.default_rng(6)
     t = np.arange(N) / RATE_HZ
     row = 0.3 * rng.standard_normal(N) + 0.05 * np.sin(2 * np.pi * SPEED_HZ * t) + shaft_lines(rng, 1.31 * SPEED_HZ)
-    report = reconcile_kinematics(SPEC, [recorded(row + train(rng, OUTER, 1.0))], [], seed=3)
+    report = reconcile_kinematics(SPEC, [recorded(row + train(rng, OUTER, 2.0))], [], seed=3)
     assert report.verdict == "ambiguous" and not any(c.named for c in report.causes)
     assert ("outer_spall", "drive_end") in {(c.term, c.site) for c in report.causes}
     assert f"{1.31 * SPEED_HZ:.4g} Hz" in report.sentence and "not decided" in report.sentence

@@ -1,0 +1,12 @@
+"""The decision on what was found."""
+
+from __future__ import annotations
+
+from reconcile.machine.decide import Decision, decide
+from reconcile.machine.setting import Found, Setting
+
+
+def decided(setting: Setting, found: Found) -> Decision:
+    """By all views of the recordings, and whether there is a baseline."""
+    views = len(setting.channels) * len(setting.data)
+    return decide(found.screen, views=views, measured=setting.changes.with_baseline)
