@@ -146,15 +146,14 @@ def test_a_second_of_the_set_itself_is_no_other_first(simulated: Asked) -> None:
 
 
 def alike(second: str, behind: float = left_pairs.LEAD + 1.0) -> Callable[..., Pair]:
-    """Whatever is fitted is the right second, called so; all others are as far behind."""
+    """Whatever is fitted is the right second, called so, and enough; all others are as far behind."""
     made = left_pairs._fitted
 
     def one(asked, name, rows):  # type: ignore[no-untyped-def]
         right = made(asked, second, list(asked.every.library.groups[second]))
         assert right is not None
-        return replace(
-            right, beside=replace(right.beside, names=(name,)), gain=right.gain - (0.0 if name == second else behind)
-        )
+        gain = right.gain + LEAST_GAIN - (0.0 if name == second else behind)
+        return replace(right, beside=replace(right.beside, names=(name,)), gain=gain)
 
     return one
 

@@ -31,7 +31,7 @@ def test_beside_a_sure_pit_the_teeth_tell(
 ) -> None:
     chosen = (first,) if first else ()
     decision = Decision(word=word, chosen=chosen, p=1e-6, reasons=())  # type: ignore[arg-type]
-    monkeypatch.setattr(engine, "_decided", lambda *_: decision)
+    monkeypatch.setattr(engine, "decided", lambda *_: decision)
     monkeypatch.setattr(engine, "second_effect", lambda *_: None)
     monkeypatch.setattr(engine, "teeth_tell", lambda *_: tell)
     monkeypatch.setattr(engine, "best_left_pair", lambda *_: "left")

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.integrate import quad
 
 from sim.core.spec import TermSpec
 from sim.presets import preset
@@ -34,18 +33,15 @@ def test_circular_orbits_give_the_closed_forms(ratio):
     assert fx == pytest.approx(DAMPING * 1e-2 * 4.0 / np.pi * ratio / (1.0 - ratio**2) ** 2, rel=allowed, abs=1e-12)
 
 
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(400)
+
+
 def written_anew(u, v):
-    """Force of the pressure where the film is squeezed, by adaptive quadrature over the circle."""
-    scale = 2.0 / np.pi * DAMPING * FILM_M**3
-    ahead = np.arctan2(v[1], v[0])
-
-    def push(angle, axis):
-        n = np.array([np.cos(angle), np.sin(angle)])
-        squeezed = max(float(n @ v), 0.0)
-        return scale * squeezed * n[axis] / (FILM_M - float(n @ u)) ** 3
-
-    corners = [ahead - 0.5 * np.pi, ahead + 0.5 * np.pi]
-    return np.array([quad(push, *corners, args=(axis,), epsabs=1e-10, epsrel=1e-10, limit=400)[0] for axis in (0, 1)])
+    """Force of the pressure where the film is squeezed: over half the circle, where it is smooth, by Gauss's rule."""
+    angle = np.arctan2(v[1], v[0]) + 0.5 * np.pi * NODES
+    n = np.array([np.cos(angle), np.sin(angle)])
+    push = 2.0 / np.pi * DAMPING * FILM_M**3 * np.maximum(v @ n, 0.0) / (FILM_M - u @ n) ** 3
+    return 0.5 * np.pi * (n * push) @ WEIGHTS
 
 
 @settings(max_examples=30, deadline=None)
