@@ -50,6 +50,8 @@ class Screen:
     """Effects that strike at the lines of one part each, where impacts come at those of several."""
     likelihoods: Mapping[str, float] = field(default_factory=dict)
     """Log likelihood over no change, feature by feature, of effects that were fitted together with the machine."""
+    heard: Mapping[str, float] = field(default_factory=dict)
+    """Log evidence, counted above already, against places that share their lines, by which sensor hears which band."""
     unmoved: float | None = None
     """Largest evidence of a pattern before machines were fitted to what was observed; none where none were."""
 

@@ -32,6 +32,7 @@ from reconcile.machine.faintest import faintest_seen
 from reconcile.machine.foreign import with_foreign
 from reconcile.machine.gate_orders import gate_orders
 from reconcile.machine.grown import with_grown
+from reconcile.machine.injected import placed_by_hearing
 from reconcile.machine.left_pairs import best_left_pair
 from reconcile.machine.leftover import likelihoods
 from reconcile.machine.library import Catalogued
@@ -157,7 +158,8 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = with_foreign(with_exchanged(report, setting, channels), setting, channels)
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
-    report = with_mistaken(with_beaten(with_grown(report, machine)), looks.setting, looks.by_families, channels)
+    report = with_beaten(with_grown(report, machine))
+    report = with_mistaken(report, looks.setting, looks.by_families, channels, looks.found.screen.heard)
     report = with_misfit(report, looks.fit, machine)
     report = with_strange(report, strange(machine, alike, channels, gate.findings), machine, setting.direct.evidence)
     return as_named(with_short(with_limits(with_unconfirmed(report, machine, alike), apart), alike, gate.findings))
@@ -225,6 +227,8 @@ def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, prog
         screen = replace(screen, likelihoods=likelihoods(closer, found))
     fit = told(local) if local is not None else {}
     found = replace(found, screen=screen)
+    if based and local is not None:
+        found = replace(found, screen=placed_by_hearing(closer, found, meter))
     progress(0.89, "two effects together")
     pairs = _paired(closer, found, atlas.known, budget, meter)
     return _Looks(setting=closer, found=found, fit=fit, atlas=atlas, lines=seen, pairs=pairs)

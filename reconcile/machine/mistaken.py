@@ -6,9 +6,10 @@ that raises all bands of a small rig leaves nothing alone; but with its channels
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
+from types import MappingProxyType
 
 import numpy as np
 
@@ -62,11 +63,17 @@ class Fit:
     misfit: float
 
 
-def with_mistaken(report: Report, setting: Setting, view: Fitted, channels: Sequence[Channel]) -> Report:
+def with_mistaken(
+    report: Report,
+    setting: Setting,
+    view: Fitted,
+    channels: Sequence[Channel],
+    heard: Mapping[str, float] = MappingProxyType({}),
+) -> Report:
     """The report; a fault of the measurement where nothing known explains the tests as they are and something does
     once they are put right, and no name where a doubted one, or one at either of two places, fits better so. `view`:
-    all candidates by families."""
-    doubted = beaten(report) or beside_twin(report)
+    all candidates by families; `heard`: `Screen.heard`."""
+    doubted = beaten(report) or beside_twin(report, heard)
     based = all(one.baseline is not None for one in setting.data)
     if not based or not (doubted or report.verdict == "unknown_physics"):
         return report
@@ -82,14 +89,15 @@ def with_mistaken(report: Report, setting: Setting, view: Fitted, channels: Sequ
     return _doubted(report, one, best, channels) if doubted else _mistaken(report, one, best, channels)
 
 
-def beside_twin(report: Report) -> bool:
-    """Whether one effect is named and the same elsewhere is less than a name's lead behind: then which sensor hears it
-    louder decides the place."""
+def beside_twin(report: Report, heard: Mapping[str, float] = MappingProxyType({})) -> bool:
+    """Whether one effect is named and the same elsewhere is less than a name's lead behind, but for what is `heard`:
+    then which sensor hears it louder decides the place."""
     named = [c for c in report.causes if c.named]
     if len(named) != 1:
         return False
-    twins = [c.score for c in report.causes if c.term == named[0].term and c.site != named[0].site]
-    return bool(twins) and named[0].score - max(twins) < LEAST_EVIDENCE
+    twins = [c for c in report.causes if c.term == named[0].term and c.site != named[0].site]
+    scores = [c.score + heard.get(f"{c.term}@{c.site}", 0.0) for c in twins]
+    return bool(scores) and named[0].score - max(scores) < LEAST_EVIDENCE
 
 
 def corrections(channels: Sequence[Channel]) -> Iterator[Correction]:

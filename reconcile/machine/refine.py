@@ -54,6 +54,12 @@ def _near(term: TermSpec, rng: np.random.Generator) -> TermSpec:
     return term.model_copy(update={"parameters": values})
 
 
+def near_draws(leaders: Sequence[TermSpec], count: int, rng: np.random.Generator) -> list[TermSpec]:
+    """The leaders and further terms about them in turn, `count` in all."""
+    further = (_near(leaders[k % len(leaders)], rng) for k in range(count - len(leaders)))
+    return [*leaders, *further][:count]
+
+
 def best_draws(fitted: Fitted, known: Catalogued, name: str, observed: FloatArray, count: int = 3) -> list[TermSpec]:
     """The draws of one effect nearest to what was observed."""
     squared = fitted.paths.distances(fitted.place(observed))

@@ -59,6 +59,7 @@ WORDS = {
     "lines_explained": "share of the single lines' change explained",
     "families_explained": "share of the change of families of lines explained",
     "fitted_with_the_machine": "fitted together with the machine",
+    "heard_less_likely": "log evidence against places by which sensor hears which band",
     "simulated_forms": "forms simulated",
     "level_change_db": "levels changed by, dB",
     "left_of_it_db": "left of it, dB",

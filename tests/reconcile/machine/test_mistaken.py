@@ -63,7 +63,14 @@ def told(monkeypatch: pytest.MonkeyPatch):  # type: ignore[no-untyped-def]
     monkeypatch.setattr(mistaken, "observed_only", lambda data, *_: 10 * np.log10(data[0].test.line[:, 0]))
     monkeypatch.setattr(mistaken, "quantile_of_misfit", lambda view, left, _: view.misfit if left < 20.0 else 1.0)
 
-    def ask(report: Report, level: np.ndarray, *, view: View | None = None, based: bool = True) -> Report:
+    def ask(
+        report: Report,
+        level: np.ndarray,
+        *,
+        view: View | None = None,
+        based: bool = True,
+        heard: dict[str, float] | None = None,
+    ) -> Report:
         @dataclass
         class Data:
             test: Statistics
@@ -71,7 +78,7 @@ def told(monkeypatch: pytest.MonkeyPatch):  # type: ignore[no-untyped-def]
 
         data = (Data(statistics(level), statistics(TRUE) if based else None),)
         setting = SimpleNamespace(data=data, seen_through=(), plan=None)
-        return with_mistaken(report, setting, view or View(), CHANNELS)  # type: ignore[arg-type]
+        return with_mistaken(report, setting, view or View(), CHANNELS, heard or {})  # type: ignore[arg-type]
 
     return ask
 
@@ -105,6 +112,8 @@ def test_a_name_that_hardly_leads_its_twin_is_none_where_sensors_exchanged_fit_b
     found = told(near, TRUE[::-1])
     assert (found.verdict, found.fault is not None) == (("ambiguous", True) if heard else ("explained", False))
     assert told(near, TRUE) is near, "as it is it fits"
+    by_hearing = told(near, TRUE[::-1], heard={"outer_spall@drive_end": behind - 1.0})
+    assert by_hearing.verdict == "ambiguous", "which sensor hears which band is exchanged with the sensors"
     assert told(replace(near, causes=(CAUSE, other)), TRUE[::-1]).verdict == "explained", "no twin is near"
 
 

@@ -13,7 +13,7 @@ from reconcile.atlas.candidates import size_parameter, size_range
 from reconcile.atlas.plan import AtlasPlan
 from reconcile.calibrate.uncertain import Offsets
 from reconcile.machine import search
-from reconcile.machine.refine import LARGER, NEAR_ANGLE_RAD, SMALLER, refined_plan, spread_plan
+from reconcile.machine.refine import LARGER, NEAR_ANGLE_RAD, SMALLER, near_draws, refined_plan, spread_plan
 from reconcile.machine.search import MOSTLY_SEEN, SPREAD, spread_out
 from sim.core.spec import TermSpec
 from sim.presets import preset
@@ -34,6 +34,15 @@ def pit(width_m: float, angle: float = -1.8) -> TermSpec:
 def plan() -> AtlasPlan:
     rest = tuple(Offsets(values=np.zeros(1)) for _ in range(8))
     return AtlasPlan(machine=preset("paper"), numbers=(), offsets=rest, twins=rest, draws=(), seed=3)
+
+
+def test_leaders_come_first_and_further_draws_stand_about_them() -> None:
+    leaders = [pit(5e-4), pit(8e-4)]
+    drawn = near_draws(leaders, 6, np.random.default_rng(2))
+    assert drawn[:2] == leaders and len(drawn) == 6 and near_draws(leaders, 1, np.random.default_rng(2)) == leaders[:1]
+    for k, term in enumerate(drawn[2:]):
+        ratio = term.parameters["width"] / leaders[k % 2].parameters["width"]
+        assert ratio != 1.0 and 0.2 < ratio < 5.0
 
 
 def test_sizes_are_spread_about_the_best_and_the_rest_stays_near(plan: AtlasPlan) -> None:

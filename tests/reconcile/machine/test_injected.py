@@ -1,0 +1,177 @@
+"""Bearings with the same lines: the one whose defect, added to the baseline, is heard as the test is."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy import fft
+
+from reconcile.atlas.plan import AtlasPlan, Draw, Point, with_tooth_pairs
+from reconcile.atlas.run import run_members
+from reconcile.calibrate.chain import band_centres_hz
+from reconcile.calibrate.uncertain import Offsets
+from reconcile.judge.screen import Screen
+from reconcile.machine import injected
+from reconcile.machine.injected import MOST, PER, SIZES_DB, apart, counted, twins
+from reconcile.machine.meter import Meter
+from reconcile.observe.impact_bands import Rate, Standing, density, envelope_power, standing
+from reconcile.observe.steady import Steady
+from sim.core.response import Response
+from sim.core.spec import TermSpec
+from sim.presets import preset
+
+NAMES = ("outer_spall@bearing3", "outer_spall@bearing4", "inner_spall@bearing3", "unbalance@gear")
+RATE_HZ, COUNT = 20480.0, 20480
+PASSES = Rate(hz=78.0, spacing_hz=30.0, sidebands=0)
+
+
+def screen(direct: tuple[float, ...], evidence: tuple[float, ...] = (27.2, 27.6, 3.0, 5.0)) -> Screen:
+    log = np.array(evidence) - max(evidence)
+    return Screen(
+        names=NAMES,
+        evidence=np.array(evidence),
+        direct=np.array(direct),
+        weights=np.exp(log) / np.exp(log).sum(),
+        by=np.zeros(4, dtype=int),
+        p_any=0.5,
+        strongest=2.0,
+        p_best=1e-3,
+        p_direct=1e-6,
+        misfit=0.5,
+        length=10.0,
+    )
+
+
+def test_places_that_share_lines_are_rivals() -> None:
+    assert twins(SimpleNamespace(screen=screen((25.0, 25.0, -20.0, 0.0)))) == NAMES[1::-1]  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("direct", [(25.0, 12.0, 0.0, 0.0), (4.9, 4.9, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)])
+def test_no_rivals_where_impacts_tell_or_are_not_sure(direct: tuple[float, ...]) -> None:
+    found = twins(SimpleNamespace(screen=screen(direct)))  # type: ignore[arg-type]
+    assert len(found) < 2
+
+
+def test_what_is_heard_counts_against_the_place_farther_off() -> None:
+    before = screen((25.0, 25.0, -20.0, 0.0))
+    after = counted(before, {NAMES[0]: 11.4, NAMES[1]: 9.4})
+    assert after.evidence - before.evidence == pytest.approx([-2.0 * PER, 0.0, 0.0, 0.0])
+    assert after.direct - before.direct == pytest.approx([-2.0 * PER, 0.0, 0.0, 0.0])
+    assert after.weights.sum() == pytest.approx(1.0) and after.weights[1] > 0.95 > before.weights[1]
+    assert after.pattern == pytest.approx(before.pattern), "the levels say what they said"
+    assert after.heard == pytest.approx({NAMES[0]: 2.0 * PER, NAMES[1]: 0.0})
+    far = counted(before, {NAMES[0]: 90.0, NAMES[1]: 9.4})
+    assert before.evidence[0] - far.evidence[0] == pytest.approx(MOST)
+
+
+def test_the_distance_is_bounded_and_small_below_the_noise() -> None:
+    quiet = Standing(level=np.zeros((2, 3)), error=np.ones((2, 3)))
+    assert apart(quiet, np.zeros((2, 3))) == 0.0
+    assert apart(quiet, np.full((2, 3), 60.0)) == pytest.approx(6 * 9.0)
+    loud = Standing(level=np.full((2, 3), 20.0), error=np.ones((2, 3)))
+    assert apart(loud, np.full((2, 3), 22.0)) < apart(quiet, np.full((2, 3), 2.0)), "paths are known to some decibels"
+
+
+def blows(seed: int, *sizes: tuple[float, float]) -> np.ndarray:
+    """Per channel, (carrier in Hz, size): motion without noise, (C, n)."""
+    rng = np.random.default_rng(seed)
+    since = (np.arange(COUNT) / RATE_HZ + rng.uniform(0, 0.01)) % (1.0 / PASSES.hz)
+    return np.array([size * np.exp(-since / 1e-3) * np.sin(2 * np.pi * hz * since) for hz, size in sizes])
+
+
+def base(test: np.ndarray, baseline: np.ndarray) -> injected._Base:
+    hz = np.fft.rfftfreq(COUNT, 1 / RATE_HZ)
+    over = np.array([1 / np.sqrt(np.interp(hz, *density(row, RATE_HZ))) for row in baseline])
+    now = [envelope_power(fft.rfft(x) * o, COUNT, RATE_HZ) for x, o in zip(test, over, strict=True)]
+    white = np.array([fft.rfft(x) * o for x, o in zip(baseline, over, strict=True)])
+    return injected._Base(
+        white=white, factor=over, count=COUNT, rate_hz=RATE_HZ, test=standing(now, COUNT / RATE_HZ, PASSES)
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("louder", [0.3, 1.0, 3.0])
+def test_the_place_whose_sensor_rings_high_is_told_from_the_one_next_to_it_at_any_size(louder: float) -> None:
+    own, through = ((1200.0, 4.0), (4500.0, 4.0)), ((1200.0, 4.0), (1200.0, 2.0))
+    rng = np.random.default_rng(3)
+    before, noise = rng.normal(size=(2, COUNT)), rng.normal(size=(2, COUNT))
+    for struck, other in ((own, through), (through, own)):
+        at = base(noise + blows(7, *struck), before)
+        near = injected._off(at, louder * blows(8, *struck), PASSES)
+        far = injected._off(at, louder * blows(8, *other), PASSES)
+        assert near.shape == SIZES_DB.shape and near.min() < far.min() - 5.0
+
+
+def test_what_adds_nothing_is_no_place() -> None:
+    rng = np.random.default_rng(3)
+    at = base(rng.normal(size=(1, COUNT)), rng.normal(size=(1, COUNT)))
+    assert np.all(np.isinf(injected._off(at, None, PASSES)))
+
+
+def test_a_motion_at_the_simulations_rate_is_read_at_the_recordings() -> None:
+    rng = np.random.default_rng(3)
+    at = injected._Base(
+        white=np.zeros((1, 1)),
+        factor=np.ones((1, 1)),
+        count=12000,
+        rate_hz=12800.0,
+        test=Standing(level=rng.normal(size=(1, 1)), error=np.ones((1, 1))),
+    )
+    tone = np.sin(2 * np.pi * 1000.0 * np.arange(COUNT) / RATE_HZ)
+    found = np.abs(injected._on_grid(tone, at))
+    assert found.size == 6001 and np.argmax(found) * 12800.0 / 12000 == pytest.approx(1000.0, abs=1.1)
+    assert found.max() == pytest.approx(6000.0, rel=0.4)
+
+
+SITES, SENSORS = ("bearing3", "bearing4"), tuple(f"bearing{k}.outer.y.acceleration" for k in (1, 2, 3))
+
+
+def pit(site: str, width_m: float) -> TermSpec:
+    load = -np.pi / 2 + 0.35  # where the teeth press the gear's shaft
+    return TermSpec(term="outer_spall", site=site, parameters={"width": width_m, "depth": 5e-5, "angle": load})
+
+
+def recorded(plan: AtlasPlan, term: TermSpec | None, seed: int) -> Steady:
+    """One second of the machine with white noise 20 dB below, as sensors hear it."""
+    (response,) = run_members([plan.member(Draw(pair=0, term=term), Point(speed_hz=30.0))], SENSORS)
+    assert isinstance(response, Response)
+    clean = np.asarray(response.signals[:, -COUNT:])
+    noise = np.random.default_rng(seed).normal(size=clean.shape) * 0.1 * clean.std(axis=1, keepdims=True)
+    return Steady(samples=clean + noise, rate_hz=RATE_HZ, speed_hz=30.0, estimate=None)  # type: ignore[arg-type]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("struck", SITES)
+def test_a_bearing_without_a_sensor_is_told_from_the_next_one_with_it(
+    struck: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rest = tuple(Offsets(values=np.zeros(0)) for _ in range(2))
+    machine = with_tooth_pairs(preset("paper"))
+    plan = AtlasPlan(machine=machine, numbers=(), offsets=rest, twins=rest, draws=(), seed=3)
+    point = SimpleNamespace(
+        point=Point(speed_hz=30.0),
+        baseline="there",
+        spectra=(recorded(plan, pit(struck, 1.2e-3), 1), recorded(plan, None, 2)),
+    )
+    gain = SimpleNamespace(chain=SimpleNamespace(gain_db=np.zeros((3, band_centres_hz().size))))
+    setting = SimpleNamespace(
+        machine=machine, plan=plan, data=(point,), simulated=SENSORS, seen_through=(gain,), seed=1,
+        changes=SimpleNamespace(observed=np.zeros(1)),
+    )  # fmt: skip
+    monkeypatch.setattr(injected, "LEADERS", 2)
+    monkeypatch.setattr(injected, "DRAWS", 2)
+    monkeypatch.setattr(
+        injected, "best_draws", lambda _f, _k, name, *_: [pit(name.split("@")[1], w) for w in (8e-4, 2e-3)]
+    )
+    names = [f"outer_spall@{site}" for site in SITES]
+    found = SimpleNamespace(screen=screen((25.0, 25.0, 0.0, 0.0)), fitted=None, known=None)
+    off = injected.distances(setting, found, names, Meter(map))  # type: ignore[arg-type]
+    other = next(s for s in SITES if s != struck)
+    assert off[f"outer_spall@{other}"] > off[f"outer_spall@{struck}"] + 2.0
+    monkeypatch.setattr(injected, "distances", lambda *_: off)
+    after = injected.placed_by_hearing(setting, found, Meter(map))  # type: ignore[arg-type]
+    assert after.names[int(np.argmax(after.evidence))] == f"outer_spall@{struck}" and after.weights.max() > 0.9
+    unbased = SimpleNamespace(**{**vars(setting), "data": (SimpleNamespace(**{**vars(point), "baseline": None}),)})
+    assert injected.placed_by_hearing(unbased, found, Meter(map)) is found.screen  # type: ignore[arg-type]
