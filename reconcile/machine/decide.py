@@ -20,6 +20,7 @@ from reconcile.machine.weigh import (
     of_the_place,
 )
 from reconcile.report.action import PLACE_OPEN
+from reconcile.report.words import percent
 from reconcile.verdict import Word
 
 DETECT_P = 0.01
@@ -258,7 +259,7 @@ def _misfit(screen: Screen, alone: bool) -> str:
     if leaves_lines(screen.rest):
         left = max(screen.rest.unmet, screen.rest.elsewhere)
         return f"the best known effect leaves {left:.1f} times as much of the single lines' change as it should"
-    share = "all" if screen.misfit >= 0.995 else f"{screen.misfit:.0%} of"
+    share = "all" if screen.misfit >= 0.995 else f"{percent(screen.misfit)} of"
     return f"the best known effect fits worse than {share} simulated ones do"
 
 

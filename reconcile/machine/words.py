@@ -9,6 +9,7 @@ from reconcile.machine.decide import UNMEASURED, Decision
 from reconcile.machine.proved import NO_NEARER
 from reconcile.observe.observation import PointData
 from reconcile.report.markup import figure_text
+from reconcile.report.words import percent
 from reconcile.verdict import EstimatedForce, HeldOut, NextExperiment, Severity, operating_point
 from sim.terms import REGISTRY
 
@@ -62,13 +63,13 @@ def together(held: HeldOut) -> str:
     """What two effects do."""
     if held.gain <= 0.0:
         return "Together they bring the spectra no nearer on data not fitted."
-    return f"Together they take {held.gain:.0%} off the distance of spectra on data not fitted."
+    return f"Together they take {percent(held.gain)} off the distance of spectra on data not fitted."
 
 
 def _gain(held: HeldOut) -> str:
     if held.gain <= 0.0:
         return "; on data it was not fitted to it brings the spectra no nearer"
-    return f"; it takes {held.gain:.0%} off the distance of spectra on data it was not fitted to"
+    return f"; it takes {percent(held.gain)} off the distance of spectra on data it was not fitted to"
 
 
 def _chance(p: float) -> str:

@@ -199,7 +199,7 @@ def test_sentences_say_what_where_and_how_large() -> None:
         placebo=0.0,
     )
     text = sentence(decide(screen([20.0]), views=9), size, held)
-    assert "bearing1" in text and "1.5 mm" in text and "67%" in text
+    assert "bearing1" in text and "1.5 mm" in text and "67 %" in text
     assert sentence(decide(screen([20.0], p_any=1.0, p_best=1.0, strongest=0.0), views=9), None, None).startswith(
         "Nothing"
     )

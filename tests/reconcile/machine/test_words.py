@@ -30,7 +30,7 @@ def test_nothing_is_said_of_nothing() -> None:
 @pytest.mark.parametrize(
     ("gain", "one", "two"),
     [
-        (0.42, "it takes 42% off the distance", "Together they take 42% off"),
+        (0.42, "it takes 42 % off the distance", "Together they take 42 % off"),
         (-0.14, "it brings the spectra no nearer", "Together they bring the spectra no nearer"),
     ],
 )
