@@ -64,7 +64,7 @@ def test_the_gain_is_said_of_what_it_was_held_out_with(together: bool) -> None:
     _, text, _ = _told(SimpleNamespace(), decision, gate, causes, held, other, None)  # type: ignore[arg-type]
     first, second = text.split(" Beside it: ")
     assert first.startswith("Unbalance at pinion") and second.startswith("Rub at gear")
-    assert ("25%" in second) == together and ("25%" in first) == (not together)
+    assert ("25 %" in second) == together and ("25 %" in first) == (not together)
     assert ("Together they take" in second) == together
 
 
