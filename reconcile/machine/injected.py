@@ -45,6 +45,8 @@ MODEL_DB, FLOOR_DB = 3.0, 1.0
 """Errors of the path and of the pit's form, where impacts stand out, and of any level."""
 MOST_OFF = 9.0
 """Of a squared deviation: one resonance that the model has elsewhere must not decide."""
+AUDIBLE_DB = 8.0
+"""Over control rates, that a draw must reach in one band at the largest size."""
 PER = 1.5
 """Log evidence a unit of half the squared distance. Draws of one place, taken for what was observed, lead the other
 place by 2.5 to 14, 6.5 on the mean; concealed pits lie a third to a half as far ahead, as their form is another."""
@@ -205,16 +207,20 @@ def _difference(one: Response | SidebandError, other: Response | SidebandError) 
 
 
 def _off(base: _Base, motion: FloatArray | None, rate: Rate) -> FloatArray:
-    """Squared distance of what would be heard from the test, (sizes,); infinite where there is no motion."""
+    """Squared distance of what would be heard from the test, (sizes,); infinite where nothing is heard at any size: a
+    pit of the outer race that no loaded ball meets says nothing of its bearing."""
+    silent = np.full(SIZES_DB.size, np.inf)
     if motion is None:
-        return np.full(SIZES_DB.size, np.inf)
+        return silent
     added = base.factor * np.array([_on_grid(row, base) for row in motion])
-    off = []
+    off, loudest = [], 0.0
     for size_db in SIZES_DB:
         sum_of = base.white + 10.0 ** (size_db / 20.0) * added
         bands = [envelope_power(row, base.count, base.rate_hz) for row in sum_of]
-        off.append(apart(base.test, standing(bands, base.count / base.rate_hz, rate).level))
-    return np.array(off)
+        level = standing(bands, base.count / base.rate_hz, rate).level
+        loudest = max(loudest, float(level.max()))
+        off.append(apart(base.test, level))
+    return np.array(off) if loudest >= AUDIBLE_DB else silent
 
 
 def apart(test: Standing, level: FloatArray) -> float:

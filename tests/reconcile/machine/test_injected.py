@@ -108,6 +108,8 @@ def test_what_adds_nothing_is_no_place() -> None:
     rng = np.random.default_rng(3)
     at = base(rng.normal(size=(1, COUNT)), rng.normal(size=(1, COUNT)))
     assert np.all(np.isinf(injected._off(at, None, PASSES)))
+    assert np.all(np.isinf(injected._off(at, 1e-6 * blows(8, (1200.0, 4.0)), PASSES))), "nobody would hear it"
+    assert np.all(np.isfinite(injected._off(at, blows(8, (1200.0, 4.0)), PASSES)))
 
 
 def test_a_motion_at_the_simulations_rate_is_read_at_the_recordings() -> None:
