@@ -164,7 +164,7 @@ def reconcile_recordings(
     check_channels(tests, baselines)
     check_repeated(tests, baselines)
     if isinstance(machine, KinematicSpec):
-        check_pulses(given(tests, baselines))
+        check_pulses(given(tests, baselines), machine)
     level: Level = "kinematics" if isinstance(machine, KinematicSpec) else "machine"
     silent = (*unstated(given(tests, baselines)), *exchanged(given(tests, baselines)))
     if isinstance(machine, MachineSpec):

@@ -7,10 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from reconcile.kinematics.families import ties
+from reconcile.kinematics.spec import KinematicSpec
 from reconcile.speed import estimate_speed
 from reconcile.speed.estimate import ENOUGH, SEARCH
 from reconcile.stated import Given
-from signals.recording import Recording
+from signals.recording import Operating, Recording
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
 
@@ -23,23 +25,48 @@ MISCOUNTED = 0.03
 """Difference from which pulses may be miscounted, where another whole number of them fits the label and the lines."""
 
 
-def check_pulses(several: Sequence[Given]) -> None:
+def check_pulses(several: Sequence[Given], machine: KinematicSpec | None = None) -> None:
     """SpecError for pulses more than a tenth off the stated speed, all along, whose speed lines do not confirm.
 
     Labels are wrong by some per cent, and there pulses are right, unless another whole number of them a turn fits the
     label and lines of the shaft confirm that. Further off one of both is wrong. The pulses stand where lines of the
-    shaft are at their speed and none at the stated one.
+    shaft are at their speed and none at the stated one. With a `machine`, pulses of another shaft than the stated one
+    are held against what that makes of it; where none is stated, against the machine's own, which a drive may leave:
+    there they are refused only where another whole number a turn fits.
     """
     problems = []
     for one in several:
         field = one.field("tacho.pulses_per_revolution")
-        far = contradiction(one.recording, field, SEARCH, all_along=True)
-        if far is not None and not _by_lines(one.recording):
-            problems.append(far)
-        elif far is None and (near := contradiction(one.recording, field, MISCOUNTED)) is not None:
-            problems += [near] if "would fit" in str(near.allowed) and _miscounted(one.recording) else []
+        held, said, ratio = _of_one_shaft(one.recording, machine)
+        far = contradiction(held, field, SEARCH, all_along=True, said=said)
+        fits = far is not None and "would fit" in str(far.allowed)
+        if far is not None and not _by_lines(held, ratio):
+            problems += [far] if fits or one.recording.operating is not None else []
+        elif far is None and (near := contradiction(held, field, MISCOUNTED, said=said)) is not None:
+            problems += [near] if "would fit" in str(near.allowed) and _miscounted(held) else []
     if problems:
         raise SpecError(problems)
+
+
+def _of_one_shaft(recording: Recording, machine: KinematicSpec | None) -> tuple[Recording, str, float]:
+    """The recording with a speed of the shaft that the pulses are of, as far as it can be told, who says it, and how
+    many times as fast as the shaft whose speed is known that shaft turns."""
+    operating, tacho, plain = recording.operating, recording.tacho, "are stated"
+    if tacho is None or machine is None or (operating is not None and operating.shaft == tacho.shaft):
+        return recording, plain, 1.0
+    known = {s.name: s.speed_hz for s in machine.shafts}
+    shaft = operating.shaft if operating else next((n for n in (tacho.shaft, *known) if known.get(n)), None)
+    hz = operating.speed_hz if operating else known.get(shaft or "")
+    if shaft is None or hz is None:
+        return recording, plain, 1.0
+    try:
+        ratio = ties(machine, shaft).shafts[tacho.shaft]
+    except (SpecError, KeyError):
+        return recording, plain, 1.0  # told where the shafts are tied
+    said = "are in the machine file"
+    if shaft != tacho.shaft:
+        said = f"of {tacho.shaft} go with the {hz:.4g} Hz {'stated' if operating else 'in the machine file'} of {shaft}"
+    return replace(recording, operating=Operating(shaft=tacho.shaft, speed_hz=hz * ratio)), said, ratio
 
 
 def _miscounted(recording: Recording) -> bool:
@@ -60,10 +87,15 @@ def _mean_hz(times: FloatArray, per_turn: int) -> float:
 
 
 def contradiction(
-    recording: Recording, field: str, within: float = SAME_SPEED, *, all_along: bool = False
+    recording: Recording,
+    field: str,
+    within: float = SAME_SPEED,
+    *,
+    all_along: bool = False,
+    said: str = "are stated",
 ) -> Problem | None:
     """What is wrong where the mean speed by the pulses of the stated shaft is further than `within` from the stated
-    one, `all_along`: where the speed at every time is; None elsewhere."""
+    one, `all_along`: where the speed at every time is; None elsewhere. `said`: who says the latter."""
     operating, tacho = recording.operating, recording.tacho
     if operating is None or tacho is None or tacho.shaft != operating.shaft or tacho.pulse_times_s.size < 2:
         return None
@@ -74,7 +106,7 @@ def contradiction(
         return None
     return Problem(
         field=field,
-        message=f"its pulses make {hz:.4g} Hz, but {stated:.4g} Hz are stated",
+        message=f"its pulses make {hz:.4g} Hz, but {stated:.4g} Hz {said}",
         given=per_turn,
         allowed=f"pulses and speed_hz within {within:.0%} of each other{_would_fit(hz, stated, per_turn)}",
     )
@@ -104,15 +136,16 @@ def _would_fit(hz: float, stated: float, per_turn: int) -> str:
     return f" (pulses_per_revolution {whole} would fit)"
 
 
-def _by_lines(recording: Recording) -> bool:
-    """Whether lines of the shaft stand at the speed of the pulses, and none at the stated speed."""
+def _by_lines(recording: Recording, ratio: float) -> bool:
+    """Whether lines of a shaft stand at the speed of the pulses, and none at the stated speed: of the one that turns
+    1 / `ratio` times as fast as that of the pulses."""
     operating, tacho = recording.operating, recording.tacho
     assert operating is not None and tacho is not None
-    hz = _mean_hz(tacho.pulse_times_s, tacho.pulses_per_revolution)
+    hz, stated = _mean_hz(tacho.pulse_times_s, tacho.pulses_per_revolution) / ratio, operating.speed_hz / ratio
     bare = replace(recording, tacho=None)
     try:
         at_pulses = estimate_speed(bare, shaft=operating.shaft, stated_hz=hz).confidence
-        at_stated = estimate_speed(bare, shaft=operating.shaft, stated_hz=operating.speed_hz).confidence
+        at_stated = estimate_speed(bare, shaft=operating.shaft, stated_hz=stated).confidence
     except SpecError:
         return False
     return at_pulses >= ENOUGH > at_stated

@@ -27,6 +27,7 @@ Kind = Literal[
     "too_short",
     "speed_mismatch",
     "noiseless",
+    "spikes",
 ]
 FAULTS: tuple[Kind, ...] = (
     "not_finite",

@@ -15,6 +15,7 @@ from reconcile.gate.levels import pairs
 from reconcile.gate.mains import hum_findings, without_hum
 from reconcile.gate.noiseless import noiseless, told, with_floor
 from reconcile.gate.samples import repaired, sample_findings
+from reconcile.gate.spikes import spike_findings, without_spikes
 from reconcile.gate.timing import length_findings, speed_findings, tacho_findings
 from reconcile.gate.tones import tone_findings
 from reconcile.speed import SpeedEstimate, estimate_speed
@@ -58,8 +59,10 @@ def inspect_measurement(
     clean: list[Recording] = []
     usable = True
     for recording, label in zip(raw, labels, strict=True):
-        found += sample_findings(recording, label)
-        fixed, lost = repaired(recording)
+        found += spike_findings(recording, label)
+        alone = without_spikes(recording)
+        found += sample_findings(alone, label)
+        fixed, lost = repaired(alone)
         usable &= len(lost) < len(recording.names)
         clean.append(fixed)
     if not usable:

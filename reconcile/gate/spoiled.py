@@ -45,7 +45,7 @@ def fault_sentence(fault: SensorFault) -> str:
     return text
 
 
-REMARKS = ("speed_mismatch", "too_short")
+REMARKS = ("speed_mismatch", "too_short", "spikes")
 
 
 def doubts(gate: Gate) -> tuple[str, ...]:
@@ -63,7 +63,11 @@ def doubts(gate: Gate) -> tuple[str, ...]:
 
 
 def remarks(gate: Gate) -> tuple[str, ...]:
-    """What the gate found of speed and length, which is no fault of a sensor: limits of any answer."""
-    told = [f"{f.recording}: {f.detail}" for f in gate.findings if f.kind in REMARKS and not f.fault]
+    """What the gate found of speed, length and single samples, which is no fault: limits of any answer."""
+    told = [
+        f"{' of '.join(x for x in (f.channel, f.recording) if x)}: {f.detail}"
+        for f in gate.findings
+        if f.kind in REMARKS and not f.fault
+    ]
     more = (f"and {len(told) - MOST_TOLD} more of the kind",) if len(told) > MOST_TOLD else ()
     return (*told[:MOST_TOLD], *more)

@@ -40,6 +40,8 @@ class Candidate:
     chance: float
     centred: bool = True
     """Whether no sideband of it is deeper than the line itself, where that was asked."""
+    driven: bool = False
+    """Whether its lines are those of blows that keep step with a shaft (`reconcile.kinematics.in_step`)."""
 
     @property
     def strongest(self) -> int:
@@ -81,7 +83,7 @@ class Candidate:
     @property
     def present(self) -> bool:
         """Whether its lines are there at all, in a sound machine or not."""
-        return self.chance < LEVEL and self.z > LEAST_Z and self.centred
+        return self.chance < LEVEL and self.z > LEAST_Z and self.centred and not self.driven
 
     @property
     def depth(self) -> float:

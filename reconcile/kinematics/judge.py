@@ -14,6 +14,7 @@ from reconcile.kinematics.contrast import contrast
 from reconcile.kinematics.envelopes import Envelopes
 from reconcile.kinematics.evidence import CERTAIN_Z, Evidence, family_evidence
 from reconcile.kinematics.families import Family, Ties
+from reconcile.kinematics.in_step import of_blows
 from reconcile.kinematics.observe import Observation
 
 TURN_DEPTH = 0.3
@@ -104,7 +105,7 @@ def named(
 ) -> tuple[tuple[Candidate, ...], tuple[Candidate, ...]]:
     """(bearing defects that stand, at most two; all candidates)."""
     found = candidates(tests, baselines, ties, seed, certain_z=HEARD_Z)
-    every = tuple(replace(c, centred=c.family.kind not in DEFECTS or centred(c, tests, ties)) for c in found)
+    every = tuple(_asked(c, tests, ties) for c in found)
     beside = partial(candidates, tests, baselines, ties, seed, certain_z=HEARD_Z)
     firm = (c for c in every if c.family.kind in DEFECTS and c.present and c.risen and c.deep)
     first = next((c for c in firm if not of_the_turn(c, every, tests, beside)), None)
@@ -120,10 +121,18 @@ def named(
             and c.deep
             and c.chance < SECOND_LEVEL
             and c.z > (SECOND_SHARE if baselines else SECOND_ALONE) * first.z
+            and of_blows(c, tests, ties) is None
         ),
         None,
     )
     return ((first,) if second is None else (first, second)), every
+
+
+def _asked(one: Candidate, tests: Sequence[Observation], ties: Ties) -> Candidate:
+    """The candidate, which knows whether its line is one of its own, and no blows' that keep step with a shaft."""
+    if one.family.kind in DEFECTS:
+        one = replace(one, centred=centred(one, tests, ties))
+    return replace(one, driven=True) if one.present and of_blows(one, tests, ties) is not None else one
 
 
 def centred(one: Candidate, tests: Sequence[Observation], ties: Ties) -> bool:

@@ -25,6 +25,7 @@ from reconcile.kinematics.finish import fault_report, finished, refused_report
 from reconcile.kinematics.foreign import BESIDE_DB, foreign_comb
 from reconcile.kinematics.gears import gear_evidence
 from reconcile.kinematics.grown import grown_defect, old_defects
+from reconcile.kinematics.in_step import new_blows
 from reconcile.kinematics.judge import HEARD_Z, TURN_DEPTH, named
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.other_speeds import by_baseline, nominees
@@ -34,7 +35,14 @@ from reconcile.kinematics.shafts import ShaftChange, grown_impacts, shaft_change
 from reconcile.kinematics.slow import slow_turn
 from reconcile.kinematics.spec import KinematicSpec, of_machine
 from reconcile.kinematics.teeth import other_teeth, told_with, with_teeth
-from reconcile.kinematics.turning import series_report, shaft_report, slow_report, turn_report
+from reconcile.kinematics.turning import (
+    driven_report,
+    series_report,
+    shaft_report,
+    slow_report,
+    turn_report,
+    with_driven,
+)
 from reconcile.kinematics.unread import ALIKE_Z, Judged
 from reconcile.kinematics.vague import foreign_report, gear_report, nothing_report
 from reconcile.origin import origin
@@ -278,13 +286,16 @@ def _without_a_part(
     foreign = foreign_comb(tests[0], baselines, tie, seed, heard=heard)
     if foreign is not None:
         return foreign_report(foreign, tests, baselines)
-    impacts = _of_impacts(known, tie, tests, baselines, every, seed)
+    struck = new_blows(tests, baselines, tie)
+    driven = None if struck is None else driven_report(*struck, tests)
+    impacts = driven or _of_impacts(known, tie, tests, baselines, every, seed)
     if impacts is not None:
         return impacts
     stands_out = bool(series and grown) and grown[0].growth_db > series[0].middle_db + STANDS_OUT_DB
     if series or grown:
         return shaft_report(grown, tests) if stands_out or not series else series_report(series, grown, tests)
-    return nothing_report(every, old_defects(every), tests, baselines)
+    report = nothing_report(every, old_defects(every), tests, baselines)
+    return report if struck is None else with_driven(report, struck[0])
 
 
 def _of_impacts(

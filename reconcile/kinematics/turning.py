@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from reconcile.kinematics.answer import lines_of
 from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.foreign import Foreign
+from reconcile.kinematics.in_step import InStep
+from reconcile.kinematics.measured import measured_lines
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.series import ShaftSeries
 from reconcile.kinematics.shafts import Impulsiveness, ShaftChange
@@ -63,6 +66,47 @@ def turn_report(
             "how large: a size can't be given without a model",
         ),
         next_experiment=NextExperiment(sentence=_next_of_turn(tests, foreign)),
+    )
+
+
+DRIVEN = "pistons, vanes, blades, lobes or the jaws of a coupling"
+
+
+def driven_report(found: InStep, growth_db: float | None, tests: Sequence[Observation]) -> Report | None:
+    """Blows several times a turn that keep step with a shaft and that the baseline has not; None without one."""
+    if growth_db is None:
+        return None
+    low, high = found.band_hz
+    wanted = [(f"{k * found.number} x {found.shaft}", k * found.order) for k in (1, 2, 3)]
+    return Report(
+        verdict="unknown_physics",
+        sentence=f"Impacts {found.number} times a turn of {found.shaft} in {low:.0f}-{high:.0f} Hz of {found.channel}, "
+        f"{growth_db:.0f} dB deeper than in the baseline, keep step with it: no bearing does, what a shaft drives "
+        f"does ({DRIVEN}); the specification has no such part.",
+        level="kinematics",
+        where=Where(
+            sites=(PlaceWeight(site=found.shaft, weight=1.0),),
+            lines=measured_lines(wanted, found.channel, found.band_hz, tests[0], (), found.shaft),
+        ),
+        undecidable=(f"which part strikes {found.number} times a turn of {found.shaft}",),
+        next_experiment=NextExperiment(
+            sentence=f"Look for what {found.shaft} drives {found.number} times a turn; record it without that load."
+        ),
+    )
+
+
+def with_driven(report: Report, found: InStep) -> Report:
+    """The report of recordings without a baseline, with the blows that keep step with a shaft."""
+    text = f"impacts {found.number} times a turn of {found.shaft} ({DRIVEN})"
+    note = (
+        f"whether {text} are as strong as they should be: they keep step with it, no bearing's, and without a baseline"
+    )
+    said = f"{text[0].upper()}{text[1:]} keep step with it: they are no bearing's."
+    quiet = report.verdict == "nothing_missing"
+    return replace(
+        report,
+        sentence=f"{report.sentence} {said}" if quiet else report.sentence,
+        undecidable=(*report.undecidable, f"{note} nothing tells"),
     )
 
 

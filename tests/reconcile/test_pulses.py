@@ -79,3 +79,52 @@ def test_pulses_miscounted_by_less_than_a_tenth_are_told_by_the_lines(per_turn: 
         check_pulses(given([one], []))
     label = turning(27.3, stated=30.0, pulses=300.0, per_turn=11)
     return check_pulses(given([label], []))  # the label is wrong, as its lines say
+
+
+GEARED = read_kinematic_spec(
+    {
+        "kinematics": {
+            "shafts": [{"name": "shaft", "speed_hz": 30.0}, {"name": "slow"}],
+            "bearings": [{"name": "bearing1", "shaft": "shaft", "catalogue": "6205"}],
+            "gears": [{"name": "a", "shaft": "shaft", "teeth": 20}, {"name": "b", "shaft": "slow", "teeth": 60}],
+            "meshes": [{"name": "m", "gears": ["a", "b"]}],
+        }
+    }
+)
+
+
+def of_slow(pulses: float, per_turn: int = 1, *, stated: bool = True) -> Recording:
+    """A shaft at 30 Hz; `pulses` a second that are said to be of a shaft a third as fast."""
+    one = turning(30.0, stated=30.0, pulses=pulses, per_turn=per_turn)
+    assert one.tacho is not None
+    tacho = replace(one.tacho, shaft="slow")
+    return replace(one, tacho=tacho, operating=one.operating if stated else None)
+
+
+def test_pulses_of_another_shaft_are_held_against_what_the_teeth_make_of_the_stated_speed() -> None:
+    for right in (of_slow(10.0), of_slow(40.0, 4), of_slow(10.2)):
+        check_pulses(given([right], []), GEARED)
+    with pytest.raises(SpecError, match=r"make 20 Hz, but 10 Hz of slow go with the 30 Hz stated of shaft.*\b2 would"):
+        reconcile_recordings(GEARED, [of_slow(20.0)])
+    with pytest.raises(SpecError, match="make 30 Hz, but 10 Hz of slow"):
+        check_pulses(given([of_slow(30.0)], []), GEARED)  # lines at 30 Hz are the stated shaft's
+
+
+def test_without_a_stated_speed_pulses_are_held_against_the_machines_own_but_a_drive_may_leave_it() -> None:
+    def bare(pulses: float) -> Recording:
+        return replace(turning(30.0, stated=30.0, pulses=pulses, lines=False), operating=None)
+
+    with pytest.raises(SpecError, match=r"make 60 Hz, but 30 Hz are in the machine file.*\b2 would fit"):
+        check_pulses(given([bare(60.0)], []), SPEC)
+    with pytest.raises(
+        SpecError, match=r"make 30 Hz, but 10 Hz of slow go with the 30 Hz in the machine file of shaft"
+    ):
+        check_pulses(given([of_slow(30.0, stated=False)], []), GEARED)
+    for free in (bare(30.0), bare(23.0), bare(41.0)):
+        check_pulses(given([free], []), SPEC)
+        check_pulses(given([free], []))
+
+
+def test_shafts_that_nothing_ties_are_not_compared() -> None:
+    apart = GEARED.model_copy(update={"meshes": []})
+    check_pulses(given([of_slow(20.0)], []), apart)
