@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from textwrap import wrap
 
@@ -17,6 +17,8 @@ from proof.whole import by_law, read, together
 
 COMMIT = "8e8edc1"
 """Whose engine ran them."""
+LATER = "hearing"
+"""Section of those that a later engine met first."""
 
 
 def one_engine(results: Path) -> str:
@@ -25,14 +27,21 @@ def one_engine(results: Path) -> str:
     if not scores:
         return "None of its cases are stored."
     engine = json.loads((results / f"{SPLIT}.json").read_text(encoding="utf-8"))["engine"]
-    left = sorted({c.name for c in entire()} - {s.name for s in scores})
+    later = {s.name for s in read(results / f"{LATER}.json")}
+    left = sorted({c.name for c in entire()} - {s.name for s in scores} - later)
     said = (
         f"{len(scores)} of its {sum(GROUPS.values())} cases are run, all by engine `{engine}` (commit {COMMIT}), which "
-        f"had met none of them and was not changed between them. {_left(left)}"
+        f"had met none of them and was not changed between them. {_later(later)}{_left(left)}"
         f"`git checkout {COMMIT} && make proof` makes these figures again; a later engine's answers are held against "
         f"them case by case by `make proof CASES=...`."
     )
     return "\n".join([*wrap(said, WIDTH), "", together(scores), "", *by_law(scores), "", *wrap(lips(scores), WIDTH)])
+
+
+def _later(names: Collection[str]) -> str:
+    if not names:
+        return ""
+    return f'{len(names)} more were first met by a later engine ("{LATER.capitalize()}" below). '
 
 
 def _left(names: Sequence[str]) -> str:

@@ -45,15 +45,16 @@ def fault_sentence(fault: SensorFault) -> str:
     return text
 
 
-REMARKS = ("speed_mismatch", "too_short", "spikes")
+FILLED = ("not_finite", "spikes")
+REMARKS = ("speed_mismatch", "too_short")
 
 
 def doubts(gate: Gate) -> tuple[str, ...]:
-    """What is wrong with the measurement, as limits of an answer that is about the machine; holes that were bridged
-    too, though they are no fault."""
+    """What is wrong with the measurement, as limits of an answer that is about the machine; samples that were
+    filled too, though they are no fault."""
     told = []
     heard = gate.tests[0].names if gate.tests else ()
-    for found in (f for f in gate.findings if f.fault or f.kind == "not_finite"):
+    for found in (f for f in gate.findings if f.fault or f.kind in FILLED):
         where = " of ".join(part for part in (found.channel, found.recording) if part)
         maybe = " (or what the machine does there)" if found.kind in HEARD else ""
         gone = "; the channel was left out" if found.channel and found.channel not in heard else ""
@@ -63,11 +64,7 @@ def doubts(gate: Gate) -> tuple[str, ...]:
 
 
 def remarks(gate: Gate) -> tuple[str, ...]:
-    """What the gate found of speed, length and single samples, which is no fault: limits of any answer."""
-    told = [
-        f"{' of '.join(x for x in (f.channel, f.recording) if x)}: {f.detail}"
-        for f in gate.findings
-        if f.kind in REMARKS and not f.fault
-    ]
+    """What the gate found of speed and length, which is no fault of a sensor: limits of any answer."""
+    told = [f"{f.recording}: {f.detail}" for f in gate.findings if f.kind in REMARKS and not f.fault]
     more = (f"and {len(told) - MOST_TOLD} more of the kind",) if len(told) > MOST_TOLD else ()
     return (*told[:MOST_TOLD], *more)

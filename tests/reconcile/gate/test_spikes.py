@@ -9,7 +9,7 @@ import pytest
 
 from reconcile.gate import inspect_measurement
 from reconcile.gate.spikes import spike_findings, spikes, without_spikes
-from reconcile.gate.spoiled import remarks
+from reconcile.gate.spoiled import doubts
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from signals.recording import Recording
 from tests.strategies.impulses import N, recorded, sound, train
@@ -58,7 +58,7 @@ def test_one_is_told_as_one_and_many_are_how_the_signal_is() -> None:
 def test_the_gate_says_so_and_finds_no_fault_in_it() -> None:
     gate = inspect_measurement([], [spiked(sound(2))], orders=(3.58,))
     assert gate.fault is None and [f.kind for f in gate.findings] == ["spikes"]
-    assert remarks(gate)[0].startswith("a0 of test 1: 3 single samples")
+    assert doubts(gate)[0].startswith("a0 of test 1: spikes, 3 single samples")
     assert float(np.max(np.abs(gate.tests[0].samples))) < 10.0
 
 
