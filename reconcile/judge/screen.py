@@ -58,7 +58,22 @@ class Screen:
     @property
     def pattern(self) -> float:
         """Largest evidence of a pattern alone that nobody has fitted a machine to."""
-        return float((self.evidence - self.direct).max()) if self.unmoved is None else self.unmoved
+        return float(self.patterns.max()) if self.unmoved is None else self.unmoved
+
+    @property
+    def against(self) -> FloatArray:
+        """What is `heard` against each effect's place, (effects,)."""
+        return np.array([self.heard.get(name, 0.0) for name in self.names])
+
+    @property
+    def patterns(self) -> FloatArray:
+        """Evidence of the patterns alone, (effects,): without impacts, and without what tells their place."""
+        return np.asarray(self.evidence + self.against - self.direct)
+
+    @property
+    def located(self) -> FloatArray:
+        """Evidence of impacts with what tells their place, (effects,)."""
+        return np.asarray(self.direct - self.against)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -127,6 +142,14 @@ def judge(
         rest=_rest(views[: 1 + KINDS], observed, best, int(by[int(np.argmax(evidence))])),
         p_lines=_of_lines(views[1:], looks[1:]),
     )
+
+
+def of_best(screen: Screen, views: Sequence[Fitted], observed: FloatArray) -> Screen:
+    """The screen with what its best effect leaves, where that has become another."""
+    best = int(np.argmax(screen.evidence))
+    speaks = int(screen.by[best])
+    rest = _rest(views[: 1 + KINDS], observed, screen.names[best], speaks)
+    return replace(screen, rest=rest, misfit=looked(views[speaks], observed).misfit)
 
 
 def _rest(views: Sequence[Fitted], observed: FloatArray, best: str, speaks: int) -> Rest:

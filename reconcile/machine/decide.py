@@ -178,7 +178,11 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
         reason = "the change is too faint to tell one effect from another"
         return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(reason,))
     struck = float(screen.direct[screen.names.index(chosen[0])])
-    alone = evidence[chosen[0]] - struck < LEAST_EVIDENCE and screen.strongest > GREAT and not screen.struck
+    alone = (
+        screen.patterns[screen.names.index(chosen[0])] < LEAST_EVIDENCE
+        and screen.strongest > GREAT
+        and not screen.struck
+    )
     if weak or alone or (inadequate and struck < STRUCK):
         here = () if weak or alone else of_the_place(screen)
         if here:
@@ -210,7 +214,7 @@ def beside_impacts(screen: Screen, chosen: tuple[str, ...]) -> tuple[str, ...]:
         return chosen
     if screen.evidence.max() - screen.evidence[screen.names.index(resting[0])] > AS_GOOD:
         return chosen
-    pattern = screen.evidence - screen.direct
+    pattern = screen.patterns
     weights = np.exp(pattern - pattern.max())
     own = credible_set(merged_weights(replace(screen, weights=weights / weights.sum())))
     return own if own == (resting[0],) else chosen
@@ -244,7 +248,7 @@ def _only_impacts(screen: Screen) -> bool:
 def _by_impacts(screen: Screen, weights: dict[str, float], p: float) -> Decision:
     """All effects that strike so, where nothing but the impacts tells: how well a machine can be fitted to what is
     within the usual does not choose among them."""
-    struck = {name: float(screen.direct[screen.names.index(name)]) for name in weights}
+    struck = {name: float(screen.located[screen.names.index(name)]) for name in weights}
     chosen = tuple(name for name, value in struck.items() if value > max(struck.values()) - LEAST_EVIDENCE)
     if len(chosen) == 1:
         return Decision(word="explained", chosen=chosen, p=p, reasons=())

@@ -96,8 +96,8 @@ def beside_twin(report: Report, heard: Mapping[str, float] = MappingProxyType({}
     if len(named) != 1:
         return False
     twins = [c for c in report.causes if c.term == named[0].term and c.site != named[0].site]
-    scores = [c.score + heard.get(f"{c.term}@{c.site}", 0.0) for c in twins]
-    return bool(scores) and named[0].score - max(scores) < LEAST_EVIDENCE
+    own, *scores = [c.score + heard.get(f"{c.term}@{c.site}", 0.0) for c in (named[0], *twins)]
+    return bool(scores) and own - max(scores) < LEAST_EVIDENCE
 
 
 def corrections(channels: Sequence[Channel]) -> Iterator[Correction]:

@@ -120,14 +120,21 @@ def _beside_in(view: Fitted, left: FloatArray) -> Beside | None:
 def struck_parts(setting: Setting, found: Found, first: str) -> list[Mapping[str, float]]:
     """Effects, with their log evidence, that strike at each part which is not the first one's, the firmest part first:
     where impacts come at the lines of several parts, or where they are sure and the first strikes nowhere."""
-    parts = [part for part in setting.direct.struck if first not in part]
+    parts = [_heard(part, found) for part in setting.direct.struck if first not in part]
     if strikes(first):
         return parts if len(parts) < len(setting.direct.struck) else []
-    shown = dict(zip(found.screen.names, map(float, found.screen.direct), strict=True))
-    firmest = max(shown.values())
-    if parts or firmest < STRUCK:
+    if parts or found.screen.direct.max() < STRUCK:
         return parts
+    shown = dict(zip(found.screen.names, map(float, found.screen.located), strict=True))
+    firmest = max(shown.values())
     return [{name: value for name, value in shown.items() if value > firmest - LEAST_EVIDENCE}]
+
+
+def _heard(part: Mapping[str, float], found: Found) -> Mapping[str, float]:
+    """The effects that strike at a part's lines, less what is heard against their places; none that it rules out."""
+    against = found.screen.heard
+    left = {name: value - against.get(name, 0.0) for name, value in part.items()}
+    return {n: v for n, v in left.items() if not against.get(n, 0.0) or v > max(left.values()) - LEAST_EVIDENCE}
 
 
 def struck_too(setting: Setting, found: Found, first: str) -> Beside | None:

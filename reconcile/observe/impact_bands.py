@@ -39,9 +39,13 @@ class Rate:
     spacing_hz: float
     sidebands: int
 
-    def lines_hz(self, rates_hz: FloatArray) -> FloatArray:
-        """Lines (rates, lines) for rates near this one."""
-        multiples = np.arange(1, LINES + 1)[None, :] * rates_hz[:, None]
+    def multiples(self, reach_hz: float) -> int:
+        """How many multiples lie below `reach_hz` with all sidebands, at all control rates too."""
+        return int(np.clip((reach_hz - self.sidebands * self.spacing_hz) / (CONTROLS[1] * self.hz), 0, LINES))
+
+    def lines_hz(self, rates_hz: FloatArray, count: int = LINES) -> FloatArray:
+        """Lines (rates, lines) of `count` multiples for rates near this one."""
+        multiples = np.arange(1, count + 1)[None, :] * rates_hz[:, None]
         around = np.arange(-self.sidebands, self.sidebands + 1) * self.spacing_hz
         return np.asarray((multiples[:, :, None] + around).reshape(rates_hz.size, -1))
 
@@ -89,20 +93,26 @@ def envelope_power(white: ComplexArray, count: int, rate_hz: float) -> list[Floa
 
 def standing(channels: Sequence[Sequence[FloatArray]], seconds: float, rate: Rate) -> Standing:
     """Of `channels`, each the powers of all bands over `seconds`, at the rate near the stated one that stands out most
-    in all of them."""
+    in all of them. A band too narrow for a multiple of it says nothing: level and error 0."""
     count = max(1, int(np.ceil(REACH * rate.hz * LINES * seconds / STEP)))
     tried = rate.hz * (1.0 + REACH * np.arange(-count, count + 1) / count)
     low, high, many = CONTROLS
     shares = np.linspace(low, high, many)
     control = rate.hz * shares[np.abs(shares - 1.0) > NEAR]
-    usual = np.array([[_sums(band, seconds, rate.lines_hz(control)) for band in one] for one in channels])
-    middle = np.median(usual, axis=2)
-    own = np.array([[_sums(band, seconds, rate.lines_hz(tried)) for band in one] for one in channels])
-    ratio = np.log(np.maximum(own / middle[..., None], 1e-12))
+    shape = len(channels), len(channels[0])
+    ratio, error = np.zeros((*shape, tried.size)), np.zeros(shape)
+    for place in np.ndindex(shape):
+        power = channels[place[0]][place[1]]
+        multiples = rate.multiples((power.size - 3) / seconds)
+        if multiples < 1:
+            continue
+        usual = _sums(power, seconds, rate.lines_hz(control, multiples))
+        middle = float(np.median(usual))
+        ratio[place] = np.log(_sums(power, seconds, rate.lines_hz(tried, multiples)) / middle)
+        error[place] = np.log(usual / middle).std()
     best = int(np.argmax(np.clip(ratio, 0.0, None).sum(axis=(0, 1))))
     to_db = 10.0 / np.log(10.0)
-    scatter = np.log(np.maximum(usual / middle[..., None], 1e-12)).std(axis=2)
-    return Standing(level=np.asarray(to_db * ratio[..., best]), error=np.asarray(to_db * scatter))
+    return Standing(level=np.asarray(to_db * ratio[..., best]), error=np.asarray(to_db * error))
 
 
 def _sums(power: FloatArray, seconds: float, lines_hz: FloatArray) -> FloatArray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -44,23 +45,33 @@ def screen(direct: tuple[float, ...], evidence: tuple[float, ...] = (27.2, 27.6,
     )
 
 
+def told_twins(direct: tuple[float, ...]) -> list[tuple[str, ...]]:
+    return twins(SimpleNamespace(screen=screen(direct)), preset("paper"))  # type: ignore[arg-type]
+
+
 def test_places_that_share_lines_are_rivals() -> None:
-    assert twins(SimpleNamespace(screen=screen((25.0, 25.0, -20.0, 0.0)))) == NAMES[1::-1]  # type: ignore[arg-type]
+    assert told_twins((25.0, 25.0, -20.0, 0.0)) == [NAMES[1::-1]]
 
 
 @pytest.mark.parametrize("direct", [(25.0, 12.0, 0.0, 0.0), (4.9, 4.9, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)])
 def test_no_rivals_where_impacts_tell_or_are_not_sure(direct: tuple[float, ...]) -> None:
-    found = twins(SimpleNamespace(screen=screen(direct)))  # type: ignore[arg-type]
-    assert len(found) < 2
+    assert told_twins(direct) == []
+
+
+def test_bearings_with_other_lines_are_none() -> None:
+    names = ("outer_spall@bearing1", "outer_spall@bearing4")  # on shafts of other speeds
+    seen = replace(screen((25.0, 25.0, 0.0, 0.0)), names=(*names, *NAMES[2:]))
+    assert twins(SimpleNamespace(screen=seen), preset("paper")) == []  # type: ignore[arg-type]
 
 
 def test_what_is_heard_counts_against_the_place_farther_off() -> None:
     before = screen((25.0, 25.0, -20.0, 0.0))
     after = counted(before, {NAMES[0]: 11.4, NAMES[1]: 9.4})
     assert after.evidence - before.evidence == pytest.approx([-2.0 * PER, 0.0, 0.0, 0.0])
-    assert after.direct - before.direct == pytest.approx([-2.0 * PER, 0.0, 0.0, 0.0])
+    assert after.located - before.direct == pytest.approx([-2.0 * PER, 0.0, 0.0, 0.0])
+    assert np.array_equal(after.direct, before.direct), "whether there are impacts is another question"
     assert after.weights.sum() == pytest.approx(1.0) and after.weights[1] > 0.95 > before.weights[1]
-    assert after.pattern == pytest.approx(before.pattern), "the levels say what they said"
+    assert after.patterns == pytest.approx(before.evidence - before.direct), "the levels say what they said"
     assert after.heard == pytest.approx({NAMES[0]: 2.0 * PER, NAMES[1]: 0.0})
     far = counted(before, {NAMES[0]: 90.0, NAMES[1]: 9.4})
     assert before.evidence[0] - far.evidence[0] == pytest.approx(MOST)
@@ -86,9 +97,9 @@ def base(test: np.ndarray, baseline: np.ndarray) -> injected._Base:
     over = np.array([1 / np.sqrt(np.interp(hz, *density(row, RATE_HZ))) for row in baseline])
     now = [envelope_power(fft.rfft(x) * o, COUNT, RATE_HZ) for x, o in zip(test, over, strict=True)]
     white = np.array([fft.rfft(x) * o for x, o in zip(baseline, over, strict=True)])
-    return injected._Base(
-        white=white, factor=over, count=COUNT, rate_hz=RATE_HZ, test=standing(now, COUNT / RATE_HZ, PASSES)
-    )
+    alone = standing([envelope_power(row, COUNT, RATE_HZ) for row in white], COUNT / RATE_HZ, PASSES)
+    seen = standing(now, COUNT / RATE_HZ, PASSES)
+    return injected._Base(white=white, factor=over, count=COUNT, rate_hz=RATE_HZ, test=seen, alone=alone)
 
 
 @pytest.mark.slow
@@ -99,27 +110,36 @@ def test_the_place_whose_sensor_rings_high_is_told_from_the_one_next_to_it_at_an
     before, noise = rng.normal(size=(2, COUNT)), rng.normal(size=(2, COUNT))
     for struck, other in ((own, through), (through, own)):
         at = base(noise + blows(7, *struck), before)
-        near = injected._off(at, louder * blows(8, *struck), PASSES)
-        far = injected._off(at, louder * blows(8, *other), PASSES)
-        assert near.shape == SIZES_DB.shape and near.min() < far.min() - 5.0
+        near, heard = injected._off(at, louder * blows(8, *struck), PASSES)
+        far, _ = injected._off(at, louder * blows(8, *other), PASSES)
+        assert near.shape == SIZES_DB.shape and heard and at.out and near.min() < far.min() - 5.0
 
 
 def test_what_adds_nothing_is_no_place() -> None:
     rng = np.random.default_rng(3)
     at = base(rng.normal(size=(1, COUNT)), rng.normal(size=(1, COUNT)))
-    assert np.all(np.isinf(injected._off(at, None, PASSES)))
-    assert np.all(np.isinf(injected._off(at, 1e-6 * blows(8, (1200.0, 4.0)), PASSES))), "nobody would hear it"
-    assert np.all(np.isfinite(injected._off(at, blows(8, (1200.0, 4.0)), PASSES)))
+    assert not at.out, "nothing is heard in the test"
+    squared, heard = injected._off(at, None, PASSES)
+    assert np.all(np.isinf(squared)) and not heard
+    assert not injected._off(at, 1e-6 * blows(8, (1200.0, 4.0)), PASSES)[1], "nobody would hear it"
+    assert injected._off(at, blows(8, (1200.0, 4.0)), PASSES)[1]
+
+
+def test_of_draws_that_nobody_hears_none_is_the_nearest() -> None:
+    near = injected._Off(squared=np.array([[1.0, 2.0], [8.0, 6.0]]), heard=np.array([False, True]))
+    far = injected._Off(squared=np.array([[1.0, 2.0], [4.0, 8.0]]), heard=np.array([False, False]))
+    assert injected._nearest([near, far]) == pytest.approx(3.0)
+    assert injected._nearest([far]) == np.inf
 
 
 def test_a_motion_at_the_simulations_rate_is_read_at_the_recordings() -> None:
-    rng = np.random.default_rng(3)
     at = injected._Base(
         white=np.zeros((1, 1)),
         factor=np.ones((1, 1)),
         count=12000,
         rate_hz=12800.0,
-        test=Standing(level=rng.normal(size=(1, 1)), error=np.ones((1, 1))),
+        test=(none := Standing(level=np.zeros((1, 1)), error=np.ones((1, 1)))),
+        alone=none,
     )
     tone = np.sin(2 * np.pi * 1000.0 * np.arange(COUNT) / RATE_HZ)
     found = np.abs(injected._on_grid(tone, at))
@@ -168,11 +188,12 @@ def test_a_bearing_without_a_sensor_is_told_from_the_next_one_with_it(
         injected, "best_draws", lambda _f, _k, name, *_: [pit(name.split("@")[1], w) for w in (8e-4, 2e-3)]
     )
     names = [f"outer_spall@{site}" for site in SITES]
-    found = SimpleNamespace(screen=screen((25.0, 25.0, 0.0, 0.0)), fitted=None, known=None)
+    found = SimpleNamespace(screen=screen((25.0, 25.0, 0.0, 0.0)), fitted=None, known=None, views=(), led={})
     off = injected.distances(setting, found, names, Meter(map))  # type: ignore[arg-type]
     other = next(s for s in SITES if s != struck)
     assert off[f"outer_spall@{other}"] > off[f"outer_spall@{struck}"] + 2.0
     monkeypatch.setattr(injected, "distances", lambda *_: off)
+    monkeypatch.setattr(injected, "of_best", lambda one, *_: one)
     after = injected.placed_by_hearing(setting, found, Meter(map))  # type: ignore[arg-type]
     assert after.names[int(np.argmax(after.evidence))] == f"outer_spall@{struck}" and after.weights.max() > 0.9
     unbased = SimpleNamespace(**{**vars(setting), "data": (SimpleNamespace(**{**vars(point), "baseline": None}),)})
