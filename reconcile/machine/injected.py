@@ -13,8 +13,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from scipy import fft
-from scipy.signal import resample
 
 from reconcile.atlas.plan import AtlasPlan, Draw, Point, simulated_at
 from reconcile.atlas.run import RATE_HZ, SETTLE_S, SPAN_S, run_members
@@ -286,5 +286,5 @@ def apart(test: Standing, level: FloatArray) -> float:
 
 def _on_grid(motion: FloatArray, base: _Base) -> ComplexArray:
     """Transform (n // 2 + 1,) of a simulated channel as that of the baseline's samples."""
-    again = np.asarray(resample(motion, max(round(motion.size * base.rate_hz / RATE_HZ), base.count)))
+    again = np.asarray(scipy.signal.resample(motion, max(round(motion.size * base.rate_hz / RATE_HZ), base.count)))
     return np.asarray(fft.rfft(again[: base.count]))
