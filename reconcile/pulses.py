@@ -9,6 +9,7 @@ import numpy as np
 
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.spec import KinematicSpec
+from reconcile.report.words import percent
 from reconcile.speed import estimate_speed
 from reconcile.speed.estimate import ENOUGH, SEARCH
 from reconcile.stated import Given
@@ -19,6 +20,7 @@ from sim.core.errors import Problem, SpecError
 SAME_SPEED = 0.05
 """Relative difference up to which pulses and statement may be of one speed: labels are that wrong."""
 MOST_PER_REVOLUTION = 10_000
+MILLISECONDS = 1000.0
 NEAR_WHOLE = 0.03
 """By which a number of pulses per revolution that would fit may miss a whole one."""
 MISCOUNTED = 0.03
@@ -104,11 +106,19 @@ def contradiction(
     slow, fast = _range_hz(times, per_turn) if all_along else (hz, hz)
     if min(slow, hz) / stated <= 1.0 + within and max(fast, hz) / stated >= 1.0 - within:
         return None
+    message = f"its pulses make {hz:.4g} Hz, but {stated:.4g} Hz {said}"
+    if abs(MILLISECONDS * hz / stated - 1.0) <= SAME_SPEED:
+        return Problem(
+            field=field.replace("pulses_per_revolution", "pulse_times_s"),
+            message=f"{message}: the times look like milliseconds",
+            given=f"{times[0]:.6g} to {times[-1]:.6g}",
+            allowed="times in seconds",
+        )
     return Problem(
         field=field,
-        message=f"its pulses make {hz:.4g} Hz, but {stated:.4g} Hz {said}",
+        message=message,
         given=per_turn,
-        allowed=f"pulses and speed_hz within {within:.0%} of each other{_would_fit(hz, stated, per_turn)}",
+        allowed=f"pulses and speed_hz within {percent(within)} of each other{_would_fit(hz, stated, per_turn)}",
     )
 
 

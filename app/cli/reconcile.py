@@ -22,7 +22,7 @@ from app.cli.choice import machine_document, read_machine
 from app.cli.files import check_folder, local_path
 from app.cli.parameters import read_parameters
 from app.cli.processes import processes
-from jobs.reconciliations.machine import read_form
+from jobs.reconciliations.machine import bare_kinematics, read_form
 from reconcile.entry import reconcile_recordings
 from reconcile.kinematics import KinematicSpec
 from reconcile.machine.budget import BUDGETS
@@ -40,10 +40,6 @@ from store.atlas import AtlasFolder, default_atlas_folder
 
 MOST_FOREIGN = 5
 """A flat document with more reference names than this is a parameter file."""
-
-
-KINEMATIC_KEYS = {"name", "shafts", "bearings", "gears", "meshes"}
-"""A machine that can be simulated has more."""
 
 
 def whole(text: str) -> int:
@@ -101,7 +97,7 @@ def _machine(path: Path) -> MachineSpec | KinematicSpec:
     if "parameters" in document or len(set(document) & set(KEYS)) > MOST_FOREIGN:
         with about(str(path)):
             return read_parameters(path).machine
-    if "shafts" in document and set(document) <= KINEMATIC_KEYS:
+    if bare_kinematics(document):
         message = "looks like kinematics without their key"
         raise SpecError(
             Problem(field=str(path), message=message, given=", ".join(document), allowed='{"kinematics": {...}}')

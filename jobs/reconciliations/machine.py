@@ -25,6 +25,7 @@ MOST_FOREIGN = 5
 """A flat document with more reference names than this is a parameter file."""
 _SECTIONS = ("parameters", "bearings", "tolerance", "name", "notes")
 _KINEMATICS = "kinematics"
+_KINEMATIC_KEYS = {"name", "shafts", "bearings", "gears", "meshes"}
 
 
 def read_known(form: object, engine: Engine) -> Known:
@@ -42,7 +43,17 @@ def read_form(form: object) -> Known:
     assert isinstance(form, Mapping)
     if _KINEMATICS in form:
         return told_behind_slips(_read, form)
+    if bare_kinematics(form):
+        message = "looks like kinematics without their key"
+        raise SpecError(
+            Problem(field="machine", message=message, given=", ".join(form), allowed='{"kinematics": {...}}')
+        )
     return _from_parameters(form) if _is_parameters(form) else told_behind_slips(_spec, form)
+
+
+def bare_kinematics(form: Mapping[str, object]) -> bool:
+    """Whether an object is what belongs under the key `kinematics`: shafts, and nothing that a model needs beside."""
+    return "shafts" in form and set(form) <= _KINEMATIC_KEYS
 
 
 def stored_form(known: Known) -> dict[str, object]:

@@ -42,11 +42,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     seeds = range(given.first, given.first + given.count)
     engine, rows, wrong = Engine(), Counter[tuple[str, str, str]](), []
     for kind, seed in tqdm([(kind, seed) for kind in KINDS for seed in seeds], desc="made", disable=None):
-        what, report = answered(engine, kind, seed, with_baseline=not given.alone)
+        what, report, refused = answered(engine, kind, seed, with_baseline=not given.alone)
         found = worth(what, report)
         rows[kind, what.word, found] += 1
         if found in ANSWERS[2:] and not (found == "quiet" and what.word in ("nothing", "load")):
-            said = "no report" if report is None else report["sentence"]
+            said = refused if report is None else report["sentence"]
             wrong.append(f"* {kind} {seed}, {what.word} {what.site} ({what.strength:.2g}), {found}: {said}")
     text = page(rows, wrong, given.first, given.count, alone=given.alone)
     sys.stdout.write(text)
@@ -63,8 +63,10 @@ def made(kind: str, seed: int) -> tuple[Rig, Hidden, FloatArray, FloatArray]:
     return built, what, heard(built, Hidden(word="nothing"), rng), heard(built, what, rng)
 
 
-def answered(engine: Engine, kind: str, seed: int, *, with_baseline: bool) -> tuple[Hidden, Mapping[str, Any] | None]:
-    """What is hidden in a case, and the report on it; None where there is none."""
+def answered(
+    engine: Engine, kind: str, seed: int, *, with_baseline: bool
+) -> tuple[Hidden, Mapping[str, Any] | None, str]:
+    """What is hidden in a case, the report on it, None where there is none, and then why."""
     built, what, baseline, test = made(kind, seed)
     with tempfile.TemporaryDirectory(prefix="made-") as temporary:
         folder = Path(temporary)
@@ -74,11 +76,13 @@ def answered(engine: Engine, kind: str, seed: int, *, with_baseline: bool) -> tu
             _write(folder, "baseline_1", built, baseline, "baseline")
         command = engine.call(folder / "machine.json", folder, folder / "out")
         try:
-            subprocess.run(command, capture_output=True, timeout=engine.timeout_s, check=False)
+            done = subprocess.run(command, capture_output=True, text=True, timeout=engine.timeout_s, check=False)
         except subprocess.TimeoutExpired:
-            return what, None
+            return what, None, f"no answer within {engine.timeout_s:.0f} s"
         stored = folder / "out" / "report.json"
-        return what, json.loads(stored.read_text(encoding="utf-8")) if stored.exists() else None
+        if stored.exists():
+            return what, json.loads(stored.read_text(encoding="utf-8")), ""
+        return what, None, (done.stderr.strip().splitlines() or ["no report"])[-1]
 
 
 def _write(folder: Path, stem: str, built: Rig, samples: FloatArray, condition: str) -> None:

@@ -100,6 +100,12 @@ class Rig:
         return {"kinematics": {"shafts": shafts, "bearings": bearings, "gears": gears, "meshes": meshes}}
 
 
+def bearing(k: int, shaft: int, *, balls: int, ratio: float) -> Bearing:
+    """The bearing with no more balls than its pitch circle has room for, a hundredth of it between them."""
+    most = int(0.99 * np.pi / np.arcsin(ratio))
+    return Bearing(name=f"bearing{k}", shaft=shaft, balls=min(balls, most), ratio=ratio)
+
+
 def rig(kind: str, rng: np.random.Generator) -> Rig:
     """A motor with two bearings, or a gearbox of one or two stages with one a shaft."""
     geared = kind == "gearbox"
@@ -111,9 +117,7 @@ def rig(kind: str, rng: np.random.Generator) -> Rig:
     sensors = int(rng.integers(1 + geared, 4))
     places = range(stages + 1) if geared else (0, 0)
     bearings = tuple(
-        Bearing(
-            name=f"bearing{k}", shaft=shaft, balls=int(rng.integers(7, 13)), ratio=round(rng.uniform(0.16, 0.26), 4)
-        )
+        bearing(k, shaft, balls=int(rng.integers(7, 13)), ratio=round(rng.uniform(0.16, 0.26), 4))
         for k, shaft in enumerate(places, 1)
     )
     modes = np.stack(

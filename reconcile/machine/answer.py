@@ -110,7 +110,7 @@ def answer(
     both = other.together if other is not None else None
     pair = pairs.best if pairs is not None and pairs.best is not None and other is pairs.best.beside else None
     held = _held(setting, found, decision, layout, unknown, other, pair) if decision.chosen else None
-    decision = by_forecast(decision, held)
+    decision, unknown = _forecast(decision, held, unknown)
     struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
     ranked = ranked_causes(found, decision, weights, observed, other, struck, sizes_of(pairs)) if missing else ()
     causes = with_forms(ranked, found.screen)
@@ -148,6 +148,12 @@ def answer(
         pictures=_pictures(setting, layout, fitted, where, ranking(setting, found, named) if missing else []),
         provenance=provenance(setting.seed, len(setting.plan.draws), meter, cost),
     )
+
+
+def _forecast(decision: Decision, held: HeldOut | None, unknown: Unknown | None) -> tuple[Decision, Unknown | None]:
+    """The decision by held-out data, and what no known effect explains, if that is still the answer."""
+    decision = by_forecast(decision, held)
+    return decision, unknown if decision.word == "unknown_physics" else None
 
 
 def _pictures(

@@ -72,6 +72,9 @@ ALIKE = {"bent_shaft", "unbalance"}
 """An unbalance u and a bow u/m of one body are the same force on its bearings at every speed."""
 GREAT = 25.0
 """Deviations of the most changed group that impacts of a known effect do not bring without its pattern."""
+UNMATCHED = "impacts come at a known frequency, but the rest of the change is not what such an effect brings"
+NO_PATTERN = "the change is none that a known effect brings"
+FEW_UNDECIDED = "so few sensors and operating points do not tell whether a known effect changed that, or none"
 FAINT = 14.0
 """Deviations of the most changed group below which a change that no effect explains may be too faint to tell."""
 
@@ -174,15 +177,15 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
         chosen = apart
     evidence = {name: float(screen.evidence[screen.names.index(name)]) for name in chosen}
     weak = evidence[chosen[0]] < LEAST_EVIDENCE
-    if weak and screen.strongest < FAINT and screen.p_lines > CLEAR_P:
-        reason = "the change is too faint to tell one effect from another"
-        return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(reason,))
     struck = float(screen.direct[screen.names.index(chosen[0])])
     alone = (
         screen.patterns[screen.names.index(chosen[0])] < LEAST_EVIDENCE
         and screen.strongest > GREAT
         and not screen.struck
     )
+    open_why = _too_little(screen, inadequate, views) if weak else None
+    if open_why is not None:
+        return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(open_why,))
     if weak or alone or (inadequate and struck < STRUCK):
         here = () if weak or alone else of_the_place(screen)
         if here:
@@ -190,7 +193,9 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
                 f"no one effect at {here[0].split('@')[1]} explains all of the change, and none elsewhere comes near"
             )
             return Decision(word="ambiguous", chosen=here[:MOST_NAMED], p=p, reasons=(reason,))
-        return Decision(word="unknown_physics", chosen=chosen[:3], p=p, reasons=(_misfit(screen, alone and not weak),))
+        return Decision(
+            word="unknown_physics", chosen=chosen[:3], p=p, reasons=(_misfit(screen, strange, weak, alone),)
+        )
     likely = likelier(screen, chosen) if views > FEW_VIEWS else chosen
     led, chosen = len(likely) < len(chosen), likely
     if len(chosen) == 1:
@@ -202,6 +207,13 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
         few = (FEW_REASON,) if views <= FEW_VIEWS and len(credible_set(weights)) < len(chosen) else ()
         return Decision(word="ambiguous", chosen=chosen, p=p, reasons=(_why(chosen), *few))
     return Decision(word="not_decidable", chosen=chosen, p=p, reasons=(f"{len(chosen)} effects look alike",))
+
+
+def _too_little(screen: Screen, inadequate: bool, views: int) -> str | None:
+    """Why a change without a pattern is no unknown effect's either, if it need not be one's."""
+    if screen.strongest < FAINT and screen.p_lines > CLEAR_P:
+        return "the change is too faint to tell one effect from another"
+    return FEW_UNDECIDED if not inadequate and views <= FEW_VIEWS else None
 
 
 def beside_impacts(screen: Screen, chosen: tuple[str, ...]) -> tuple[str, ...]:
@@ -257,12 +269,14 @@ def _by_impacts(screen: Screen, weights: dict[str, float], p: float) -> Decision
     return Decision(word=word, chosen=chosen, p=p, reasons=(reason,))
 
 
-def _misfit(screen: Screen, alone: bool) -> str:
-    if alone:
-        return "impacts come at a known frequency, but the rest of the change is not what such an effect brings"
+def _misfit(screen: Screen, strange: float, weak: bool, alone: bool) -> str:
+    if alone and not weak:
+        return UNMATCHED
     if leaves_lines(screen.rest):
         left = max(screen.rest.unmet, screen.rest.elsewhere)
         return f"the best known effect leaves {left:.1f} times as much of the single lines' change as it should"
+    if screen.misfit <= strange:
+        return NO_PATTERN
     share = "all" if screen.misfit >= 0.995 else f"{percent(screen.misfit)} of"
     return f"the best known effect fits worse than {share} simulated ones do"
 

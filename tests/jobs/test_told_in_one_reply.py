@@ -35,6 +35,11 @@ def test_a_misspelt_key_hides_neither_what_is_under_it_nor_the_rules_between_par
     assert drawing["berings"][0]["shaft"] == "z" and "bearings" not in drawing, "the request is left as it is"
 
 
+def test_kinematics_without_their_key_are_told_so_and_not_as_a_model_with_much_missing() -> None:
+    (told,) = refused({"name": "pump", "shafts": [{"name": "s"}], "bearings": [BEARING]}).values()
+    assert told.field == "machine" and "without their key" in told.message and "kinematics" in str(told.allowed)
+
+
 def test_a_wrong_value_beside_a_misspelt_key_is_told() -> None:
     told = refused({"kinematics": {"shafts": [{"name": "s", "speed_hz": -1}], "berings": [BEARING]}})
     assert set(told) == {"machine.kinematics.berings", "machine.kinematics.shafts.0.speed_hz"}

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from proof.made.__main__ import ANSWERS, made, page, worth
-from proof.made.rigs import KINDS
+from proof.made.rigs import KINDS, bearing
 from proof.made.signals import Hidden
 from reconcile.kinematics import read_kinematic_spec
 
@@ -33,6 +33,16 @@ def test_drawings_can_be_read_and_records_are_whole(seed: int) -> None:
         assert len(spec.meshes) == len(rig.teeth) and len(spec.bearings) == len(rig.bearings)
         assert baseline.shape == test.shape == (rig.sensors, int(rig.rate_hz * rig.seconds))
         assert np.isfinite(test).all() and np.std(test, axis=1).min() > 0.0
+
+
+@pytest.mark.parametrize("ratio", np.linspace(0.16, 0.26, 21))
+def test_every_bearing_that_may_be_drawn_can_be_built(ratio: float) -> None:
+    for balls in range(7, 13):
+        drawn = bearing(1, 0, balls=balls, ratio=round(float(ratio), 4))
+        shafts = [{"name": "rotor", "speed_hz": 30.0}]
+        given = [{"name": drawn.name, "shaft": "rotor", "balls": drawn.balls, "diameter_ratio": drawn.ratio}]
+        read_kinematic_spec({"kinematics": {"shafts": shafts, "bearings": given}})
+        assert drawn.balls == balls or (drawn.balls == balls - 1 and ratio > 0.25)
 
 
 @pytest.mark.slow

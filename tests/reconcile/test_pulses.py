@@ -47,6 +47,17 @@ def test_a_miscounted_number_of_pulses_is_refused_with_the_one_that_fits(per_tur
     assert "(pulses_per_revolution 1 would fit)" in str(problem.allowed)
 
 
+def test_times_in_milliseconds_are_told_as_such() -> None:
+    one = turning(30.0, stated=30.0)
+    assert one.tacho is not None
+    late = replace(one, tacho=replace(one.tacho, pulse_times_s=1000.0 * one.tacho.pulse_times_s))
+    with pytest.raises(SpecError, match="the times look like milliseconds") as caught:
+        reconcile_recordings(SPEC, [late])
+    (problem,) = caught.value.problems
+    assert (problem.field, problem.allowed) == ("t.json: tacho.pulse_times_s", "times in seconds")
+    assert str(problem.given).startswith("10 to 18")
+
+
 def test_pulses_win_where_the_lines_of_the_shaft_are_at_their_speed() -> None:
     check_pulses(given([turning(30.0, stated=22.5)], []))
     with pytest.raises(SpecError, match=r"make 40 Hz, but 30 Hz are stated"):

@@ -9,23 +9,20 @@ import pytest
 
 from reconcile.atlas.places import sensor_sites
 from reconcile.judge.adequacy import Rest
-from reconcile.judge.screen import Screen
-from reconcile.machine.decide import GLARING, STRANGE, chance, decide, remarkable, tempered, unmeasured
+from reconcile.machine.decide import (
+    GLARING,
+    STRANGE,
+    chance,
+    decide,
+    remarkable,
+    tempered,
+    unmeasured,
+)
 from reconcile.machine.weigh import MOST_NAMED, credible_set, exclusive, merged_weights, plausible, variants
 from reconcile.machine.words import next_experiment, sentence, title
 from reconcile.verdict import HeldOut, Severity
 from sim import presets
-
-NAMES = (
-    "outer_spall@bearing1",
-    "outer_spall@bearing3",
-    "inner_spall@bearing1",
-    "tooth_crack@pinion",
-    "unbalance@pinion",
-    "unbalance@gear",
-    "rub@pinion",
-    "bent_shaft@pinion",
-)
+from tests.reconcile.machine.screens import NAMES, screen, struck
 
 
 def test_a_known_place_goes_before_an_unknown_effect() -> None:
@@ -55,20 +52,6 @@ def test_what_strikes_at_another_part_is_no_rival() -> None:
     assert decide(rivals, views=9).chosen == NAMES[:2], "bearings with the same lines stay rivals"
     none = replace(screen([1.0, 2.0, 3.0, 4.0, 20.0, 19.5]), struck=apart.struck)
     assert decide(none, views=9).chosen == NAMES[4:6], "the likeliest strikes nowhere"
-
-
-def screen(evidence: list[float], names: tuple[str, ...] = NAMES, **how: object) -> Screen:
-    values = np.array(evidence + [-5.0] * (len(names) - len(evidence)))
-    weights = np.exp(values - values.max())
-    usual = {"p_any": 0.002, "strongest": 40.0, "p_best": 0.002, "p_direct": 1.0, "misfit": 0.4, "length": 90.0}
-    return Screen(
-        names=names,
-        evidence=values,
-        direct=np.zeros(len(names)),
-        weights=weights / weights.sum(),
-        by=np.zeros(len(names), dtype=int),
-        **{**usual, **how},  # type: ignore[arg-type]
-    )
 
 
 def test_one_effect_far_ahead_is_named() -> None:
@@ -229,29 +212,9 @@ def test_a_sound_machine_is_told_the_chance_that_decided() -> None:
     assert told.word == "nothing_missing" and told.p == pytest.approx(0.012) and "0.012" in told.reasons[0]
 
 
-def test_few_views_do_not_exclude_what_explains_half_as_much() -> None:
-    one = screen([20.0, 11.0, 3.0])
-    assert decide(one, views=9).word == "explained"
-    few = decide(one, views=1)
-    assert few.word == "ambiguous" and len(few.chosen) == 2
-    assert "so few sensors" in few.reasons[1], "weights alone would have named one"
-    assert len(decide(screen([20.0, 19.8, 3.0]), views=1).reasons) == 1
-
-
-@pytest.mark.parametrize(("strongest", "word"), [(10.0, "not_decidable"), (30.0, "unknown_physics")])
-def test_a_change_without_a_pattern_is_faint_or_unknown(strongest: float, word: str) -> None:
-    assert decide(screen([1.0, 0.5], strongest=strongest, misfit=0.5), views=9).word == word
-
-
 def test_a_closer_look_is_taken_only_where_something_is_unusual() -> None:
     assert not remarkable(screen([1.0], p_any=0.3, p_best=0.25))
     assert remarkable(screen([1.0], p_any=0.01, p_best=0.5)) and remarkable(screen([1.0], p_any=0.5, p_best=0.01))
-
-
-def struck(evidence: list[float], direct: list[float], **how: object) -> Screen:
-    made = screen(evidence, **how)
-    shown = np.array(direct + [0.0] * (len(NAMES) - len(direct)))
-    return replace(made, direct=shown)
 
 
 def test_impacts_without_the_change_they_bring_are_unknown_physics() -> None:
@@ -299,12 +262,6 @@ def test_sure_impacts_are_named_though_something_else_is_left() -> None:
     found = decide(made, views=9)
     assert found.word == "explained" and "left" in found.reasons[0]
     assert decide(struck([30.0, 5.0], [2.0], misfit=1.0), views=9).word == "unknown_physics"
-
-
-def test_few_views_exclude_what_does_not_strike() -> None:
-    evidence, views = [30.0, 5.0, 20.0], 1
-    assert decide(screen(evidence), views=views).word == "ambiguous"
-    assert decide(struck(evidence, [20.0]), views=views).chosen == NAMES[:1]
 
 
 def test_what_is_far_behind_is_not_simulated_again() -> None:

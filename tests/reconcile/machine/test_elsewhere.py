@@ -7,8 +7,16 @@ from dataclasses import replace
 
 import pytest
 
-from reconcile.machine.decide import Decision
-from reconcile.machine.elsewhere import BY_FORECAST, CLEARLY, CLEARLY_LATER, LEAST_GAIN, by_forecast, with_place
+from reconcile.machine.decide import NO_PATTERN, UNMATCHED, Decision
+from reconcile.machine.elsewhere import (
+    BY_FORECAST,
+    CLEARLY,
+    CLEARLY_LATER,
+    LEAST_GAIN,
+    MOST_OF_IT,
+    by_forecast,
+    with_place,
+)
 from reconcile.machine.heldout import LATER, MANY
 from reconcile.report.action import PLACE_OPEN, to_do
 from reconcile.verdict import Cause, HeldOut, Placebo, PlaceWeight, Report, Where
@@ -122,4 +130,34 @@ def test_held_out_data_name_the_place_that_alone_forecasts_them() -> None:
     ],
 )  # fmt: skip
 def test_and_stay_silent_where_they_do_not(decision: Decision, held: HeldOut | None) -> None:
+    assert by_forecast(decision, held) is decision
+
+
+LONE = Decision(word="unknown_physics", chosen=PLACES[:1], p=1e-4, reasons=(UNMATCHED,))
+
+
+def test_a_forecast_of_nearly_all_of_it_stands_for_a_pattern_that_no_draw_came_near() -> None:
+    for decision in (LONE, replace(LONE, chosen=PLACES)):
+        found = by_forecast(decision, FAR)
+        assert (found.word, found.chosen, found.reasons) == ("explained", PLACES[:1], ())
+
+
+@pytest.mark.parametrize(
+    ("decision", "held"),
+    [
+        (replace(LONE, reasons=(NO_PATTERN,)), FAR),
+        (replace(LONE, chosen=(*PLACES, "outer_spall@bearing4")), FAR),
+        (LONE, None),
+        (LONE, replace(FAR, effects=PLACES)),
+        (LONE, replace(FAR, gain_low=0.99 * MOST_OF_IT * 0.8, black_box=0.0)),
+        (LONE, replace(FAR, gain_low=float("nan"))),
+        (LONE, replace(FAR, black_box=0.79 - 0.5 * CLEARLY)),
+        (LONE, replace(FAR, black_box=None)),
+        (LONE, replace(FAR, ceiling=None)),
+        (LONE, replace(FAR, placebos=(replace(FARTHER, gain=0.79 - 0.5 * CLEARLY),))),
+        (LONE, replace(FAR, placebos=(replace(FARTHER, gain=0.79 - 0.9 * CLEARLY_LATER),), held=f"{LATER}: 30 Hz")),
+        (LONE, replace(FAR, placebos=(replace(FARTHER, draws=MANY - 1),))),
+    ],
+)  # fmt: skip
+def test_and_nothing_less_does(decision: Decision, held: HeldOut | None) -> None:
     assert by_forecast(decision, held) is decision
