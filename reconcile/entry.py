@@ -31,7 +31,7 @@ from reconcile.stated import (
 from reconcile.told import about, sent_as
 from reconcile.unsteady import unsteady
 from reconcile.verdict import Level, Report
-from signals.recording import Operating, Recording
+from signals.recording import Channel, Operating, Recording
 from sim.assembly.assemble import BUILT_IN
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec
@@ -82,14 +82,26 @@ def check_channels(tests: Sequence[Recording], baselines: Sequence[Recording]) -
 
 
 def _form(one: Recording) -> tuple[object, ...]:
-    named = tuple((c.location, c.axis, c.quantity, c.unit) for c in one.channels)
-    return (round(one.sampling_rate_hz, 3), *named)
+    return (round(one.sampling_rate_hz, 3), *map(_of_channel, one.channels))
+
+
+def _of_channel(channel: Channel) -> tuple[str, ...]:
+    """What must agree of two channels."""
+    return (channel.location or "", channel.axis or "", channel.quantity, channel.unit)
 
 
 def _unlike(usual: Given, other: Given, sure: bool) -> Iterator[Problem]:
     """What differs between two recordings, the first of them the usual one where that is `sure`."""
+    here, there = [[_of_channel(c) for c in one.recording.channels] for one in (usual, other)]
+    if here != there and sorted(here) == sorted(there):
+        mine, theirs = (", ".join(one.recording.names) for one in (usual, other))
+        yield replace(
+            _differs(usual, other, "channels", mine, theirs, sure=True),
+            message=f"are the usual ones ({usual.field('channels')}) in another order",
+        )
+        return
     for c, (a, b) in enumerate(zip(usual.recording.channels, other.recording.channels, strict=False)):
-        if (a.location, a.axis, a.quantity, a.unit) != (b.location, b.axis, b.quantity, b.unit):
+        if _of_channel(a) != _of_channel(b):
             said = [f"{x.location} {x.axis} {x.quantity} {x.unit}" for x in (a, b)]
             yield _differs(usual, other, f"channels[{c}]", said[0], said[1], sure)
     mine, theirs = usual.recording, other.recording

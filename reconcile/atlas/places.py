@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from sim.core.errors import Problem, SpecError
+from sim.core.near import did_you_mean
 from sim.core.response import Channel
 from sim.core.spec import MachineSpec
 
@@ -51,7 +52,7 @@ def simulated_channels(machine: MachineSpec, channels: Sequence[Channel]) -> tup
     problems = [
         Problem(
             field=f"channels.{c.name}.location",
-            message=_not_heard(machine, c),
+            message=_not_heard(machine, c, known),
             given=c.location or "",
             allowed=", ".join(known) or "none: no part of this machine moves along x or y",
         )
@@ -63,11 +64,11 @@ def simulated_channels(machine: MachineSpec, channels: Sequence[Channel]) -> tup
     return tuple(name for name in found if name is not None)
 
 
-def _not_heard(machine: MachineSpec, channel: Channel) -> str:
+def _not_heard(machine: MachineSpec, channel: Channel, known: Sequence[str]) -> str:
     """Why no simulated acceleration stands for the channel."""
     if (channel.location or "").split(".")[0] in {g.name for g in machine.gears}:
         return "only turns in this machine: a sensor needs a part that moves along x or y"
-    return "is not a place of this machine"
+    return f"is not a place of this machine{did_you_mean(channel.location or '', known)}"
 
 
 def standard_channels(machine: MachineSpec, wanted: Sequence[str]) -> tuple[str, ...]:

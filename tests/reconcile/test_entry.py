@@ -93,6 +93,15 @@ def test_of_two_that_differ_neither_is_called_wrong() -> None:
         check_channels([two], [rest])
 
 
+def test_channels_in_another_order_are_told_once() -> None:
+    here = recording(channel(), channel("bearing2"))
+    there = replace(recording(channel("bearing2"), channel()), label="rest.json")
+    with pytest.raises(SpecError) as refused:
+        check_channels([here], [there])
+    (problem,) = refused.value.problems
+    assert problem.field == "rest.json: channels" and "in another order" in problem.message
+
+
 def test_matching_recordings_pass_whatever_their_names_and_lengths() -> None:
     renamed = replace(channel(), name="anything")
     check_channels([recording()], [recording(renamed, seconds=2.0)])

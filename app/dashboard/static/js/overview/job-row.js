@@ -57,7 +57,10 @@ export function jobRow(refresh) {
 }
 
 function settingsText({ kind, request }) {
-  if (kind === "reconciliation") return `${request.recordings.length} recordings reconciled, ${request.budget}, seed ${request.seed}`;
+  if (kind === "reconciliation") {
+    const several = request.recordings.length === 1 ? "" : "s";
+    return `${request.recordings.length} recording${several} reconciled, ${request.budget}, seed ${request.seed}`;
+  }
   if (kind === "dataset") return `dataset of ${plainNumber(request.rows)} rows, ${request.format}, seed ${request.seed}`;
   return `${quantity(request.duration_s, "s")} at ${quantity(request.sampling_rate_hz, "Hz")}, seed ${request.seed}`;
 }
