@@ -14,6 +14,7 @@ PACKAGES = ("reconcile", "signals", "sim")
 LEVELS = {
     "machine": ("reconcile.machine.engine", "reconcile.unsteady"),
     "kinematics": ("reconcile.kinematics.reconcile", "reconcile.unsteady"),
+    "driven": ("reconcile.driven.engine",),
 }
 """Where the engine of each level begins; what the entry refuses is no verdict."""
 WHOLE = "sim"
@@ -21,8 +22,11 @@ WHOLE = "sim"
 PAGES = "reconcile/report/"
 
 
+Level = Literal["machine", "kinematics", "driven"]
+
+
 @cache
-def engine_id(level: Literal["machine", "kinematics"] = "machine", root: Path = ROOT) -> str:
+def engine_id(level: Level = "machine", root: Path = ROOT) -> str:
     """Twelve hex digits over the names and bytes of all modules that a level's engine imports, reports' pages left
     out."""
     found = hashlib.sha256()
@@ -33,7 +37,7 @@ def engine_id(level: Literal["machine", "kinematics"] = "machine", root: Path = 
     return found.hexdigest()[:12]
 
 
-def modules(level: Literal["machine", "kinematics"], root: Path = ROOT) -> set[Path]:
+def modules(level: Level, root: Path = ROOT) -> set[Path]:
     """Files of the modules that the engine of a level imports, directly or not, and all that simulates."""
     found: set[Path] = set((root / WHOLE).rglob("*.py"))
     left = [path for start in LEVELS[level] for path in _files(start, root)]

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from proof.engine_id import engine_id
 from proof.real import driven, tables
 from proof.real.call import Answer
 from proof.real.tables import Row
 
 HEAD = """# Real recordings
 
-Made by `make proof-real` (it needs the recordings, which are not part of the project; a few minutes on one core, no
-comparison may take longer than {limit:.0f} s). All comparisons that the recordings' catalogue offers are run. The
+Made by `make proof-real`, engines `{kinematics}` (level `kinematics`) and `{driven}` (`driven`). It needs the
+recordings, which are not part of the project; a few minutes on one core, no comparison longer than {limit:.0f} s. All comparisons that the recordings' catalogue offers are run. The
 engine sees anonymised copies, the speed as the source states it, bearing sizes and teeth. It was tuned on `hit_sm_mfs`;
 decision rules were changed once after the other rigs had been seen (a depth of modulation is asked of a name, shaft
 lines must be among the strongest, loose mounts are judged in the bands that changed), so those rows are not blind. The
@@ -45,7 +46,7 @@ times that amplitude."""
 def page(rows: Sequence[Row], systems: Sequence[tuple[driven.System, Answer]], limit_s: float) -> str:
     """All tables; `limit_s`: the longest that a comparison may take."""
     parts = [
-        [HEAD.format(limit=limit_s)],
+        [HEAD.format(limit=limit_s, kinematics=engine_id("kinematics"), driven=engine_id("driven"))],
         tables.summary(rows),
         ["## Names"],
         tables.names(rows),
