@@ -12,14 +12,15 @@ from proof.real.tables import Row
 HEAD = """# Real recordings
 
 Made by `make proof-real`, engines `{kinematics}` (level `kinematics`) and `{driven}` (`driven`). It needs the
-recordings, which are not part of the project; a few minutes on one core, no comparison longer than {limit:.0f} s. All comparisons that the recordings' catalogue offers are run. The
-engine sees anonymised copies, the speed as the source states it, bearing sizes and teeth. It was tuned on `hit_sm_mfs`;
-decision rules were changed once after the other rigs had been seen (a depth of modulation is asked of a name, shaft
-lines must be among the strongest, loose mounts are judged in the bands that changed), so those rows are not blind. The
-rule for speeds that nothing confirms was made on `cwru` with labels made wrong, that for knocks without a baseline on
-`openei_gear`; neither changed an answer below. That a bearing which the file lacks is listed among what strikes once a
-turn was left out until `motor_acoustic` had been seen, and makes that row undecided instead of wrong. How many
-multiples of a shaft make a series was chosen with `openei_gear` and `hit_sm_mfs` in view; it names nothing below.
+recordings, which are not part of the project; a few minutes on one core, no comparison longer than {limit:.0f} s. All
+comparisons that the recordings' catalogue offers are run. The engine sees anonymised copies, the speed as the source
+states it, bearing sizes and teeth. It was tuned on `hit_sm_mfs`; decision rules were changed once after the other
+rigs had been seen (a depth of modulation is asked of a name, shaft lines must be among the strongest, loose mounts
+are judged in the bands that changed), so those rows are not blind. The rule for speeds that nothing confirms was made
+on `cwru` with labels made wrong, that for knocks without a baseline on `openei_gear`; neither changed an answer
+below. That a bearing which the file lacks is listed among what strikes once a turn was left out until
+`motor_acoustic` had been seen, and makes that row undecided instead of wrong. How many multiples of a shaft make a
+series was chosen with `openei_gear` and `hit_sm_mfs` in view; it names nothing below.
 
 To name a race by its lines is within reach of a plain envelope detector. What a report says beyond that is below:
 place, size, the path that carried it, what it leaves unexplained, and whether it predicts data it has not seen."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -21,7 +22,8 @@ needs_recordings = pytest.mark.skipif(not ENTRIES, reason="the recordings are no
 
 def test_the_page_is_the_commands() -> None:
     text = PAGE.read_text(encoding="utf-8")
-    assert text.startswith(page.HEAD.format(limit=TIMEOUT_S))
+    ids = re.findall(r"`([0-9a-f]{12})`", text.partition("recordings, which")[0])
+    assert text.startswith(page.HEAD.format(limit=TIMEOUT_S, kinematics=ids[0], driven=ids[1]))
     assert all(part in text for part in (page.SITES, page.PATHS, page.GAINS, page.DRIVEN, page.RIVALS))
     missed = [line.partition(" (")[0].removeprefix("- ") for line in text.splitlines() if "(wrong)" in line]
     assert set(missed) <= set(WHY)
