@@ -94,9 +94,9 @@ def _unlike(usual: Given, other: Given, sure: bool) -> Iterator[Problem]:
     """What differs between two recordings, the first of them the usual one where that is `sure`."""
     here, there = [[_of_channel(c) for c in one.recording.channels] for one in (usual, other)]
     if here != there and sorted(here) == sorted(there):
-        mine, theirs = (", ".join(one.recording.names) for one in (usual, other))
+        names = [", ".join(one.recording.names) for one in (usual, other)]
         yield replace(
-            _differs(usual, other, "channels", mine, theirs, sure=True),
+            _differs(usual, other, "channels", *names, sure=True),
             message=f"are the usual ones ({usual.field('channels')}) in another order",
         )
         return
