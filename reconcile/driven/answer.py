@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from reconcile.driven.ceiling import Ceiling, ceilings
+from reconcile.driven.channels import FloatArray
 from reconcile.driven.forced import ALPHA, Analysis
 from reconcile.driven.judge import TOO_FEW, Judgement, judge
 from reconcile.driven.machine import driven_site, mass_kg, revised, term_key, weighed
@@ -22,8 +23,10 @@ from reconcile.verdict import (
     Severity,
     Where,
 )
+from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
 
+NO_MACHINE = "the numbers that fit are none of a mass on a spring that can be simulated"
 DIVERGED = "; the free run with the law diverges, errors and gain are bounds"
 
 
@@ -47,15 +50,21 @@ def _saturation(found: Analysis) -> tuple[str, ...]:
     return tuple(c.words(data[0].answer_channel.unit) for c in longest.values())
 
 
+def _undecided(found: Analysis, judgement: Judgement, linear: str, site: str) -> str:
+    if judgement.reasons == (TOO_FEW,):
+        said = f"A linear model of {site} leaves {linear} of the output, and {TOO_FEW}"
+        return "; ".join([said, *_saturation(found)]) + "."
+    if judgement.reasons[0].startswith(NO_MACHINE):
+        return f"Nothing is said of {site}: {judgement.reasons[0]}."
+    return f"The output does not follow the input: the best linear model of {site} leaves {linear} of it."
+
+
 def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
     linear = f"{100 * found.fitted_nrmse:.2g} %"
     if judgement.verdict == "nothing_missing":
         return f"A linear model of {site} explains the recording up to noise (free-run error {linear})."
-    if judgement.reasons == (TOO_FEW,):
-        said = f"A linear model of {site} leaves {linear} of the output, and {TOO_FEW}"
-        return "; ".join([said, *_saturation(found)]) + "."
     if judgement.verdict == "not_decidable":
-        return f"The output does not follow the input: the best linear model of {site} leaves {linear} of it."
+        return _undecided(found, judgement, linear, site)
     if not found.final.model.laws or judgement.reasons:
         said = f"A force on {site} is missing from the linear model, and no stable law describes it"
         flown = [f"the free run on {v.held} with {_law_words(found)} diverges" for v in found.validations if v.diverged]
@@ -187,11 +196,25 @@ def _next(judgement: Judgement) -> NextExperiment | None:
     return None
 
 
+def _revised(
+    spec: MachineSpec, found: Analysis, judgement: Judgement, drive: FloatArray
+) -> tuple[Mapping[str, object] | None, Judgement]:
+    """The machine with the fitted numbers; where they make none, nothing is decided."""
+    if judgement.verdict == "not_decidable":
+        return None, judgement
+    try:
+        return revised(spec, found.published, found.held_run.data, drive).model_dump(mode="json"), judgement
+    except SpecError as error:
+        why = f"{NO_MACHINE}: {error.problems[0]}"
+        return None, Judgement(verdict="not_decidable", reasons=(why,), rivals=())
+
+
 def answer(spec: MachineSpec, found: Analysis, *, seed: int, provenance: Mapping[str, object]) -> Report:
     """Everything the interface asks for."""
     data, judgement, site = found.held_run.data, judge(found), driven_site(spec)
     mass = mass_kg(found.final.model, data, site)
     shown, freed, name = shown_stretch(found), freed_force(found, mass, seed), site.body.name
+    machine, judgement = _revised(spec, found, judgement, shown.drive)
     limits = ("One degree of freedom: a force between the mass and the ground is the only place.",)
     nothing = judgement.verdict in ("nothing_missing", "not_decidable")
     return Report(
@@ -204,9 +227,7 @@ def answer(spec: MachineSpec, found: Analysis, *, seed: int, provenance: Mapping
         force=_force(found, freed, judgement, name, mass),
         undecidable=_undecidable(found, judgement, data.assumed, data.calibrated),
         next_experiment=_next(judgement),
-        machine=None
-        if judgement.verdict == "not_decidable"
-        else revised(spec, found.published, data, shown.drive).model_dump(mode="json"),
+        machine=machine,
         stages=_stages(found, data.assumed),
         pictures=pictures(found, shown, freed),
         provenance={**provenance, "output_offset": found.published.output_offset},

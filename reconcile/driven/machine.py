@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from pydantic import ValidationError
+
 from reconcile.driven.channels import Driven, FloatArray
 from reconcile.driven.model import Model
 from reconcile.force_law.library import Law
+from signals.validation import problem_of
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import BodySpec, CustomLaw, ForceLoad, MachineSpec, MeasuredLoad, TermSpec
 from sim.terms import REGISTRY
@@ -107,4 +110,7 @@ def revised(spec: MachineSpec, model: Model, data: Driven, drive: FloatArray) ->
             found = TermSpec(term=OWN_LAW, site=body.name, parameters={"law": float(len(laws))})
         terms.append(found)
     update = {"bodies": [body], "loads": loads, "terms": terms, "custom_laws": laws}
-    return MachineSpec.model_validate(spec.model_copy(update=update).model_dump(mode="json"))
+    try:
+        return MachineSpec.model_validate(spec.model_copy(update=update).model_dump(mode="json"))
+    except ValidationError as error:
+        raise SpecError([problem_of(e, "machine", MachineSpec) for e in error.errors()]) from None
