@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 from reconcile.driven.ceiling import Ceiling, ceilings
 from reconcile.driven.channels import FloatArray
-from reconcile.driven.forced import ALPHA, Analysis
-from reconcile.driven.judge import TOO_FEW, Judgement, judge
+from reconcile.driven.forced import ALPHA, Analysis, Validation
+from reconcile.driven.judge import BRANCHES, TOO_FEW, Judgement, judge
 from reconcile.driven.machine import driven_site, mass_kg, revised, term_key, weighed
 from reconcile.driven.model import LINEAR
 from reconcile.driven.nominate import Trial, score_nats
@@ -27,6 +27,7 @@ from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
 
 NO_MACHINE = "the numbers that fit are none of a mass on a spring that can be simulated"
+LED_RUN = "NRMSE of a run led by the output"
 DIVERGED = "; the free run with the law diverges, errors and gain are bounds"
 
 
@@ -56,6 +57,8 @@ def _undecided(found: Analysis, judgement: Judgement, linear: str, site: str) ->
         return "; ".join([said, *_saturation(found)]) + "."
     if judgement.reasons[0].startswith(NO_MACHINE):
         return f"Nothing is said of {site}: {judgement.reasons[0]}."
+    if judgement.reasons[0] == BRANCHES:
+        return f"A force on {site} is missing from the linear model, perhaps {_law_words(found)}; {BRANCHES}."
     return f"The output does not follow the input: the best linear model of {site} leaves {linear} of it."
 
 
@@ -70,7 +73,9 @@ def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
         flown = [f"the free run on {v.held} with {_law_words(found)} diverges" for v in found.validations if v.diverged]
         return "; ".join([said, *flown[:1], *_saturation(found)]) + "."
     v = found.validations[0]
-    gained = f"free-run error on {v.held} falls from {100 * v.before:.2g} % to {100 * v.after:.2g} %"
+    gained = (
+        f"{'led' if v.led else 'free'}-run error on {v.held} falls from {100 * v.before:.2g} % to {100 * v.after:.2g} %"
+    )
     if judgement.rivals:
         names = " or ".join([found.final.model.laws[0].words, *(t.laws[0].words for t in judgement.rivals)])
         return f"A force on {site} is missing: {names}; {gained}."
@@ -120,10 +125,21 @@ def _held_out(found: Analysis) -> HeldOut | None:
         return None
     v = found.validations[0]
     return HeldOut(
-        metric="free-run NRMSE", unit="1", before=v.before, after=v.after, gain=v.gain[0], gain_low=v.gain[1],
+        metric=LED_RUN if v.led else "free-run NRMSE", unit="1", before=v.before, after=v.after, gain=v.gain[0],
+        gain_low=v.gain[1],
         gain_high=v.gain[2], retuned=v.retuned, black_box=v.black_box, placebo=v.placebo,
         held=f"{v.held}, fitted on {v.fitted_on}; it goes farther than what was fitted{DIVERGED if v.diverged else ''}",
     )  # fmt: skip
+
+
+def _not_freely(v: Validation) -> str:
+    """What a led run does not say."""
+    left = 100 * (v.free or 0.0)
+    return (
+        f"Not predictable freely here: on {v.held} a free run with numbers from {v.fitted_on} leaves {left:.2g} % of "
+        f"the output, for it takes another branch of the motion; led by the output, which it forgets within two "
+        f"periods, it leaves {100 * v.after:.2g} % (a linear model {100 * v.before:.2g} %)."
+    )
 
 
 def _force(found: Analysis, freed: Freed, judgement: Judgement, site: str, mass: float) -> EstimatedForce | None:
@@ -155,14 +171,17 @@ def _stages(found: Analysis, assumed: str) -> tuple[Mapping[str, object], ...]:
          "p": found.missing.p_value},
         {"stage": "locate", "latent_force_law": found.found.text, "share_on_left_out_blocks": found.found.share,
          "exponent_of_latent_force": [found.exponent.value, found.exponent.low, found.exponent.high]},
-        {"stage": "nominate", "share_of_the_latent_force": ranked, "tried": found.found.tried},
+        {"stage": "nominate", "share_of_the_latent_force": ranked, "tried": found.found.tried,
+         "left_out_again": [law.words for law in found.dropped]},
     ]  # fmt: skip
     if found.power is not None:
         free = [found.power.value, found.power.low, found.power.high]
         stages.append({"stage": "fit", "exponent_by_free_run": free})
     if left is not None:
         stages.append({"stage": "adequacy", "share_of_the_error_still_explained": left.statistic, "p": left.p_value})
-    stages += [{"stage": "validate", **vars(v)} for v in found.validations]
+    for v in found.validations:
+        said = {k: value for k, value in vars(v).items() if v.led or k not in ("led", "free")}
+        stages.append({"stage": "validate", **said})
     return tuple(stages)
 
 
@@ -181,12 +200,16 @@ def _undecidable(found: Analysis, judgement: Judgement, assumed: str, calibrated
     said += _saturation(found)
     if judgement.verdict == "not_decidable":
         said += judgement.reasons
+    if judgement.verdict == "unknown_physics":
+        said.append(f"No law is named: {'; '.join(judgement.reasons)}.")
     return (*said, assumed) if assumed else tuple(said)
 
 
 def _next(judgement: Judgement) -> NextExperiment | None:
     if judgement.reasons == (TOO_FEW,):
         return NextExperiment(sentence="Record ten times as long, over the same band and amplitude.")
+    if judgement.reasons[:1] == (BRANCHES,):
+        return NextExperiment(sentence="Drive with half the amplitude, where the motion keeps to one branch.")
     if judgement.verdict == "not_decidable":
         text = "Check which channel is the force and which the motion, the cables, and that both were recorded at once."
         return NextExperiment(sentence=text)
@@ -215,7 +238,8 @@ def answer(spec: MachineSpec, found: Analysis, *, seed: int, provenance: Mapping
     mass = mass_kg(found.final.model, data, site)
     shown, freed, name = shown_stretch(found), freed_force(found, mass, seed), site.body.name
     machine, judgement = _revised(spec, found, judgement, shown.drive)
-    limits = ("One degree of freedom: a force between the mass and the ground is the only place.",)
+    only = "One degree of freedom: a force between the mass and the ground is the only place."
+    limits = (only, *(_not_freely(v) for v in found.validations if v.led))
     nothing = judgement.verdict in ("nothing_missing", "not_decidable")
     return Report(
         verdict=judgement.verdict,

@@ -6,11 +6,12 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 
+from reconcile.driven.analysis import analyse
 from reconcile.driven.answer import answer
 from reconcile.driven.channels import Driven, driven_of
 from reconcile.driven.direction import directed
 from reconcile.driven.faulty import UNIT_NOT_KNOWN, beside, fault_report, held_against
-from reconcile.driven.forced import Analysis, analyse
+from reconcile.driven.forced import Analysis
 from reconcile.driven.judge import ROUGH
 from reconcile.driven.machine import driven_site
 from reconcile.driven.measured import LEAST_KEPT

@@ -13,14 +13,15 @@ from scipy.special import stdtrit
 
 from reconcile.driven.channels import Driven, FloatArray
 from reconcile.driven.model import LINEAR, Model, Run, errors
+from reconcile.driven.motion import moved
 from reconcile.force_law.library import FRICTION, GAPPED, PUSHING, UNANCHORED, Law, mirrored
 from reconcile.force_law.samples import even_blocks
 
 BLOCKS = 24
 INTERVAL = float(stdtrit(BLOCKS - 1, 0.95))
 """Standard errors of a 90 % interval, their size known from as many blocks."""
-GAIN, OUTPUT_OFFSET = 2, 4
-"""Indices of the gain and of the output's offset among the parameters."""
+GAIN, OFFSET, OUTPUT_OFFSET = 2, 3, 4
+"""Indices of the gain, and of the offsets of force and output, among the parameters."""
 SPEEDS = 3.0
 """Factor by which the speed at which friction is full may differ from where it starts: it is not seen well."""
 LED = 0.1
@@ -101,15 +102,12 @@ def first_guess(data: Driven) -> Model:
     return Model(stiffness=stiffness, damping=damping, gain=gain)
 
 
-def _scales(model: Model, run: Run) -> FloatArray:
-    """Steps of the parameters that move the output by about its own size."""
-    size = float(run.data.answer.std()) or 1.0
-    omega = math.sqrt(abs(model.stiffness)) or 1.0
+def _scales(model: Model, run: Run, x: FloatArray, v: FloatArray) -> FloatArray:
+    """Steps of the parameters that move the output by about its own size; the motion (n,) is `x` with its rate `v`."""
+    size, omega = float(x.std()) or 1.0, math.sqrt(abs(model.stiffness)) or 1.0
     force = model.stiffness * size
-    z = run.data.answer - run.data.answer.mean()
-    v = np.gradient(z, run.data.step_s)
-    laws = [0.1 * force / (float(np.std(law.values(z, v))) or 1.0) for law in model.laws]
-    return np.array([0.01 * model.stiffness, 0.01 * omega, 0.1 * abs(model.gain), 0.1 * force, 0.1 * size, *laws])
+    laws = [0.1 * force / (float(np.std(law.values(x - x.mean(), v))) or 1.0) for law in model.laws]
+    return np.array([0.01 * model.stiffness, 0.01 * omega, 0.1 * abs(model.gain), 0.1 * force, 0.1 * run.spread, *laws])
 
 
 def _shaped(start: Model) -> list[int]:
@@ -117,10 +115,12 @@ def _shaped(start: Model) -> list[int]:
     return [k for k, law in enumerate(start.laws) if law.key in GAPPED or law.key == FRICTION.key]
 
 
-def _free(start: Model) -> list[int]:
-    """Parameters that data decide: without a law that knows where zero is, the two offsets cannot be told apart."""
+def _free(start: Model, order: int) -> list[int]:
+    """Parameters that data decide. Without a law that knows where zero is, a displacement does not tell the two offsets
+    apart, and its derivatives do not tell the force's: left free it wanders by many times the motion."""
     anchored = any(law.key not in UNANCHORED for law in start.laws)
-    return [i for i in range(start.vector().size) if anchored or i != OUTPUT_OFFSET]
+    untold = OUTPUT_OFFSET if order == 0 else OFFSET
+    return [i for i in range(start.vector().size) if anchored or i != untold]
 
 
 def _ends(law: Law, low: float, high: float) -> tuple[float, float]:
@@ -132,9 +132,8 @@ def _ends(law: Law, low: float, high: float) -> tuple[float, float]:
     return (-high, -low) if law.key.endswith("below") else (low, high)
 
 
-def _bounds(start: Model, run: Run, free: Sequence[int], shaped: Sequence[int]) -> tuple[FloatArray, FloatArray]:
-    """Damping and stiffness stay positive, contacts push, shapes keep within their ends."""
-    z = run.compared - start.output_offset
+def _bounds(start: Model, x: FloatArray, free: Sequence[int], shaped: Sequence[int]) -> tuple[FloatArray, FloatArray]:
+    """Damping and stiffness stay positive, contacts push, shapes keep within their ends along the motion `x`."""
     size = len(free) + len(shaped)
     least, most = np.full(size, -np.inf), np.full(size, np.inf)
     least[:2] = 0.0
@@ -142,7 +141,7 @@ def _bounds(start: Model, run: Run, free: Sequence[int], shaped: Sequence[int]) 
         if i >= LINEAR and start.laws[i - LINEAR].key in PUSHING:
             least[j] = 0.0
     for j, k in enumerate(shaped, start=len(free)):
-        least[j], most[j] = _ends(start.laws[k], float(z.min()), float(z.max()))
+        least[j], most[j] = _ends(start.laws[k], float(x.min()), float(x.max()))
     return least, most
 
 
@@ -153,26 +152,27 @@ def _shape_step(law: Law, size: float) -> float:
 def descend(start: Model, runs: Sequence[Run]) -> Fitted:
     """Least squares on the error of one or several stretches, from a start; gaps of laws are free like their sizes."""
     run, first = runs[0], start.vector()
-    free, shaped = _free(start), _shaped(start)
-    size = float(run.data.answer.std()) or 1.0
-    steps = np.concatenate([_scales(start, run)[free], [_shape_step(start.laws[k], size) for k in shaped]])
+    free, shaped = _free(start, run.data.order), _shaped(start)
+    x, v = moved(start, run)
+    gap = float(x.std()) or 1.0
+    steps = np.concatenate([_scales(start, run, x, v)[free], [_shape_step(start.laws[k], gap) for k in shaped]])
 
-    def model_of(x: FloatArray) -> Model:
+    def model_of(values: FloatArray) -> Model:
         vector, laws = first.copy(), list(start.laws)
-        vector[free] = (x * steps)[: len(free)]
+        vector[free] = (values * steps)[: len(free)]
         for j, k in enumerate(shaped, start=len(free)):
-            laws[k] = replace(laws[k], shape=float(x[j] * steps[j]))
+            laws[k] = replace(laws[k], shape=float(values[j] * steps[j]))
         return replace(start.of(vector), laws=tuple(laws))
 
-    def residual(x: FloatArray) -> FloatArray:
-        model = model_of(x)
-        return np.concatenate([errors(model, r) for r in runs]) / size
+    def residual(values: FloatArray) -> FloatArray:
+        model = model_of(values)
+        return np.concatenate([errors(model, r) for r in runs]) / run.spread
 
-    least, most = _bounds(start, run, free, shaped)
-    x0 = np.concatenate([first[free], [start.laws[k].shape for k in shaped]]) / steps
-    x0 = np.clip(x0, least / steps + 1e-9, most / steps - 1e-9)
+    least, most = _bounds(start, x[run.skip :], free, shaped)
+    begin = np.concatenate([first[free], [start.laws[k].shape for k in shaped]]) / steps
+    begin = np.clip(begin, least / steps + 1e-9, most / steps - 1e-9)
     bounds = (least / steps, most / steps)
-    solution = least_squares(residual, x0, bounds=bounds, x_scale="jac", max_nfev=40, xtol=1e-10, ftol=1e-10)
+    solution = least_squares(residual, begin, bounds=bounds, x_scale="jac", max_nfev=40, xtol=1e-10, ftol=1e-10)
     found = model_of(solution.x)
     covariance = np.zeros((first.size, first.size))
     inner = block_covariance(np.asarray(solution.jac), solution.fun) * np.outer(steps, steps)

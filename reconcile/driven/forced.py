@@ -1,24 +1,22 @@
-"""Force in, motion out: calibrate, test, locate, nominate, validate; each step's result in one place."""
+"""Force in, motion out: calibrated, validated; the result of each step in one place."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from reconcile.driven.channels import FloatArray
-from reconcile.driven.doubt import doubted
-from reconcile.driven.fit import Fitted, best_fit, first_guess, fit
-from reconcile.driven.latent import latent_force
-from reconcile.driven.missing import Missing, anything_missing
-from reconcile.driven.model import Model, Run, bounded, diverges, errors, nrmse, ready, simulated
-from reconcile.driven.nominate import Nominated, PowerFit, free_power, nominate, squares_in_blocks
+from reconcile.driven.fit import Fitted, first_guess, fit
+from reconcile.driven.missing import Missing
+from reconcile.driven.model import Model, Run, diverges, errors, nrmse, ready
+from reconcile.driven.nominate import Nominated, PowerFit, squares_in_blocks
 from reconcile.driven.rivals import black_box, black_box_error, placebo_errors
-from reconcile.driven.split import Part, order_of_use, stretches
-from reconcile.force_law.exponent import Exponent, odd_exponent
+from reconcile.driven.split import Part, stretches
+from reconcile.force_law.exponent import Exponent
+from reconcile.force_law.library import Law
 from reconcile.force_law.samples import ForceSamples
-from reconcile.force_law.search import SearchResult, search
+from reconcile.force_law.search import SearchResult
 
 ALPHA = 0.01
 RESAMPLES = 1000
@@ -43,6 +41,10 @@ class Validation:
     """1 - what the laws leave / what the placebo leaves, with its 90 % interval over resampled blocks."""
     diverged: bool
     """The free run with the laws flew off: `after` and `gain` are then at their bounds."""
+    led: bool = False
+    """All errors are of runs that the measured output leads: the free run is at the mercy of the numbers."""
+    free: float | None = None
+    """What the laws leave in a free run, where `after` is led."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,6 +67,8 @@ class Analysis:
     held_before: FloatArray
     held_after: FloatArray
     """Simulated output on the first held-out part, (n,)."""
+    dropped: tuple[Law, ...] = ()
+    """Laws that were nominated and left out again: the part held out did not ask for them."""
 
     @property
     def published(self) -> Model:
@@ -84,13 +88,16 @@ def _fraction(error: FloatArray, before: FloatArray) -> float:
     return 1.0 - float(np.sqrt(np.mean(error**2) / np.mean(before**2)))
 
 
-def validate(linear: Fitted, final: Fitted, run: Run, held: Run, names: tuple[str, str], seed: int) -> Validation:
-    """Score on a part that no fit saw, with the rivals."""
+def validate(
+    linear: Fitted, final: Fitted, run: Run, held: Run, names: tuple[str, str], seed: int, *, led: float = 0.0
+) -> Validation:
+    """Score on a part that no fit saw, with the rivals; `led`: share of the frequency at which all runs are led."""
     rng = np.random.default_rng([seed, 7])
-    before, after = errors(linear.model, held), errors(final.model, held)
-    retuned = fit(linear.model, held)
+    shown = replace(held, led=led)
+    before, after = errors(linear.model, shown), errors(final.model, shown)
+    retuned = fit(linear.model, shown)
     box = black_box(run.data, final.model.vector().size)
-    placebo = min(placebo_errors(linear.model, final.model.laws, run, held, rng), key=lambda e: float(np.mean(e**2)))
+    placebo = min(placebo_errors(linear.model, final.model.laws, run, shown, rng), key=lambda e: float(np.mean(e**2)))
     squares = [squares_in_blocks(e) for e in (before, after, placebo)]
     return Validation(
         fitted_on=names[0],
@@ -103,6 +110,8 @@ def validate(linear: Fitted, final: Fitted, run: Run, held: Run, names: tuple[st
         placebo=_fraction(placebo, before),
         over_placebo=gain_interval(squares[2], squares[1], rng),
         diverged=diverges(final.model, held),
+        led=led > 0.0,
+        free=nrmse(errors(final.model, held), held.compared) if led else None,
     )
 
 
@@ -122,55 +131,3 @@ def calibrate(part: Part, *, quiet: bool = False) -> Calibrated:
     rough = fit(start, ready(first, start.memory_s))
     run, other = ready(first, rough.model.memory_s), ready(second, rough.model.memory_s)
     return Calibrated(run=run, other=other, linear=fit(rough.model, run))
-
-
-def _reverse(parts: Sequence[Part], final: Model, names: tuple[str, str], seed: int) -> tuple[Validation, Fitted]:
-    """The named structure fitted on the part that was held out, scored on the one that was fitted; and that fit."""
-    by_name = {p.name: p for p in parts}
-    fit_part, held_part = by_name[names[1]], by_name[names[0]]
-    found = calibrate(fit_part)
-    base, quiet = found.linear.model, calibrate(fit_part, quiet=True).linear.model
-    none = (0.0,) * len(final.laws)
-    starts = [model.with_laws(final.laws, none) for model in (base, quiet)]
-    again = best_fit(starts, found.run, stretches=(found.other,))
-    held = ready(held_part.data, found.linear.model.memory_s)
-    return validate(found.linear, again, found.run, held, (names[1], names[0]), seed), again
-
-
-def analyse(parts: Sequence[Part], seed: int) -> Analysis:
-    """All steps; the parts are recordings or consecutive stretches of one."""
-    rng = np.random.default_rng([seed, 1])
-    fit_part, held_part = order_of_use(parts)
-    start = calibrate(fit_part)
-    run, linear = start.run, start.linear
-    missing = anything_missing(linear.model, run, linear.error, rng)
-    latent = latent_force(linear.model, run, linear.error)
-    found = search(latent)
-    exponent = odd_exponent(latent, rng)
-    nominated = nominate(linear, found, run, start.other) if missing.p_value < ALPHA else None
-    chosen = nominated.chosen.fitted.model if nominated is not None else linear.model
-    final = fit(chosen, run, stretches=(start.other,)) if chosen.laws else linear
-    held = ready(held_part.data, linear.model.memory_s)
-    names = (fit_part.name, held_part.name)
-    validations: tuple[Validation, ...] = ()
-    if chosen.laws:
-        backward, again = _reverse(parts, final.model, names, seed)
-        final = doubted(final, (run, start.other), again)
-        validations = (validate(linear, final, run, held, names, seed), backward)
-    return Analysis(
-        linear=linear,
-        fitted_nrmse=nrmse(linear.error, run.compared),
-        missing=missing,
-        left=anything_missing(final.model, run, errors(final.model, run), rng) if chosen.laws else None,
-        latent=latent,
-        found=found,
-        exponent=exponent,
-        nominated=nominated,
-        final=final,
-        power=free_power(linear.model, chosen.laws, run) if chosen.laws else None,
-        validations=validations,
-        fitted_run=run,
-        held_run=held,
-        held_before=simulated(linear.model, held),
-        held_after=bounded(simulated(final.model, held), held),
-    )

@@ -10,6 +10,7 @@ import numpy as np
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.model import Model, Run
+from reconcile.driven.motion import LOWEST
 from reconcile.force_law.samples import ForceSamples, even_blocks
 
 FLOOR_QUANTILE = 0.1
@@ -44,7 +45,8 @@ def latent_force(model: Model, run: Run, error: FloatArray) -> ForceSamples:
     power = _smooth(np.abs(spectrum) ** 2)
     noise = float(np.quantile(power, FLOOR_QUANTILE))
     size = np.abs(response) ** 2
-    strong = power > 10.0 * noise
+    low = (omega < LOWEST * np.sqrt(model.stiffness)) & (order > 0)
+    strong = (power > 10.0 * noise) & ~low
     level = float(np.max((power[strong] - noise) / np.maximum(size[strong], 1e-300))) if np.any(strong) else noise
     force = np.fft.irfft(-np.conj(response) * spectrum * level / (size * level + noise), n)
     measured = (run.compared - model.output_offset) * window
@@ -52,7 +54,6 @@ def latent_force(model: Model, run: Run, error: FloatArray) -> ForceSamples:
     kept = _smooth(np.abs(answer) ** 2)
     weight = np.clip(1.0 - noise / np.maximum(kept, 1e-300), 0.0, 1.0)
     if order:
-        low = omega < 0.5 * np.sqrt(model.stiffness)
         turned = np.where(low, 1.0, turned)
         weight = np.where(low, 0.0, weight)
     x = answer / turned * weight

@@ -11,6 +11,7 @@ import numpy as np
 from reconcile.driven.channels import Driven, FloatArray
 from reconcile.driven.fit import fit
 from reconcile.driven.model import Model, Run, answer_to, counted, errors
+from reconcile.driven.motion import moved
 from reconcile.force_law.library import CUBIC_DRAG, DRAG, Law
 from reconcile.force_law.samples import IntArray
 from sim.core.compiled import jit
@@ -89,8 +90,7 @@ def placebo_errors(
     """
     wrong = CUBIC_DRAG if any(law.key == DRAG.key for law in laws) else DRAG
     fitted = fit(linear.with_laws((wrong,), (0.0,)), run)
-    x = (other.data.answer - linear.output_offset).copy()
-    v = np.gradient(x, other.data.step_s)
+    x, v = moved(linear, other)
     base = errors(linear, other)
     force = np.sum([law.values(x, v) / (float(np.std(law.values(x, v))) or 1.0) for law in laws], axis=0)
     shifted = np.roll(force, int(rng.integers(x.size // 4, 3 * x.size // 4)))

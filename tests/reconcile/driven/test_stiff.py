@@ -8,10 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from reconcile.driven.analysis import analyse
 from reconcile.driven.answer import answer
 from reconcile.driven.channels import driven_of
 from reconcile.driven.fit import Doubts, descend, fit
-from reconcile.driven.forced import Analysis, Validation, analyse
+from reconcile.driven.forced import Analysis, Validation
 from reconcile.driven.judge import _no_better_than_placebo, judge
 from reconcile.driven.model import RUNAWAY, Model, diverges, errors, nrmse, ready, simulated
 from reconcile.driven.split import parts_of
@@ -87,6 +88,9 @@ def test_a_placebo_counts_by_what_it_leaves() -> None:
     assert not _no_better_than_placebo(validation(0.2, 0.04))
     assert _no_better_than_placebo(validation(0.2, 0.08))
     assert _no_better_than_placebo(validation(0.5, 0.4))
+    assert _no_better_than_placebo(validation(0.94, 0.82))
+    assert not _no_better_than_placebo(validation(0.94, 0.82), noise=True)
+    assert _no_better_than_placebo(validation(0.94, 0.9), noise=True)
     assert _no_better_than_placebo(validation(0.2, 0.0, spread=0.3))
 
 
