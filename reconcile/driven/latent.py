@@ -48,7 +48,7 @@ def latent_force(model: Model, run: Run, error: FloatArray) -> ForceSamples:
     low = (omega < LOWEST * np.sqrt(model.stiffness)) & (order > 0)
     strong = (power > 10.0 * noise) & ~low
     level = float(np.max((power[strong] - noise) / np.maximum(size[strong], 1e-300))) if np.any(strong) else noise
-    force = np.fft.irfft(-np.conj(response) * spectrum * level / (size * level + noise), n)
+    force = np.fft.irfft(-np.conj(response) * spectrum * level / np.maximum(size * level + noise, 1e-300), n)
     measured = (run.compared - model.output_offset) * window
     answer = np.fft.rfft(measured)
     kept = _smooth(np.abs(answer) ** 2)
