@@ -26,7 +26,9 @@ UNRELATED = 0.9
 nothing more explains it then says nothing of the machine."""
 ROUGH, BLIND = 0.05, 0.05
 """Share of the output that a linear model leaves, and of that error's power what chance explains, from which on
-"nothing missing" would be too much said: of 450 samples of a red error eight laws explain 11 % by chance."""
+"nothing missing" would be too much said: of 450 samples of a red error eight laws explain 11 % by chance. A law that
+leaves as much, and not as noise, is not named: hysteresis and a spring like a sine were called square springs where 12
+and 18 % were left, the right laws leave 0.5 to 2.8 %."""
 NOT_ALL = "what the laws leave is not noise"
 BRANCHES = (
     "the free run is at the mercy of the numbers: led by the output it follows, free it leaves for another branch of "
@@ -73,7 +75,8 @@ def _reasons(found: Analysis) -> tuple[str, ...]:
             failed.append(f"{where}: the free run with the law diverges")
     noise = found.left is not None and found.left.p_value >= ALPHA and found.left.null_95 < BLIND
     failed += _no_better_than_placebo(found.validations[0], noise) if found.validations else ()
-    if (found.dropped or led(found)) and found.left is not None and found.left.p_value < ALPHA:
+    rough = bool(found.validations) and found.validations[0].after > ROUGH
+    if (rough or found.dropped or led(found)) and found.left is not None and found.left.p_value < ALPHA:
         failed.append(NOT_ALL)
     return tuple(failed)
 
