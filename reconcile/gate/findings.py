@@ -28,12 +28,16 @@ Kind = Literal[
     "speed_mismatch",
     "noiseless",
     "spikes",
+    "copied",
+    "noise",
 ]
 FAULTS: tuple[Kind, ...] = (
     "not_finite",
     "silence",
     "stuck",
     "dropouts",
+    "noise",
+    "copied",
     "clipped",
     "irregular_time",
     "swapped_channels",

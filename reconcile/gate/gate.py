@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from reconcile.gate.alias import alias_findings
 from reconcile.gate.compare import compared, swap_order
+from reconcile.gate.copied import copy_findings
 from reconcile.gate.filtered import below_the_corner, filter_findings
 from reconcile.gate.findings import Finding, Gate, worst
 from reconcile.gate.levels import pairs
@@ -71,7 +72,16 @@ def inspect_measurement(
         return Gate(
             findings=shown, baselines=tuple(clean[:cut]), tests=tuple(clean[cut:]), fault=worst(shown), usable=False
         )
+    copied = copy_findings(clean[len(baselines) :], clean[: len(baselines)], labels[len(baselines) :])
+    found += copied
+    clean = _without({f.channel for f in copied if f.fault}, clean)
     return _analysed(clean, labels, len(baselines), found, orders, mesh_orders, lowest_order, seed)
+
+
+def _without(channels: Collection[str], recordings: Sequence[Recording]) -> list[Recording]:
+    """The recordings without these channels."""
+    kept = [[name for name in r.names if name not in channels] for r in recordings]
+    return [r.select(channels=names) for r, names in zip(recordings, kept, strict=True)] if channels else [*recordings]
 
 
 def _analysed(

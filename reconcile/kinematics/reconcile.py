@@ -9,7 +9,6 @@ from functools import partial
 
 import numpy as np
 
-from reconcile.gate import inspect_measurement
 from reconcile.gate.spoiled import GONE, without_spoiled
 from reconcile.gate.whole import whole_stretches
 from reconcile.kinematics.answer import defect_report
@@ -23,6 +22,7 @@ from reconcile.kinematics.faint import impulsive_report, shallow_report
 from reconcile.kinematics.families import Ties, ties
 from reconcile.kinematics.finish import fault_report, finished, refused_report
 from reconcile.kinematics.foreign import BESIDE_DB, foreign_comb
+from reconcile.kinematics.gated import gated
 from reconcile.kinematics.gears import gear_evidence
 from reconcile.kinematics.grown import grown_defect, old_defects
 from reconcile.kinematics.in_step import new_blows
@@ -43,6 +43,7 @@ from reconcile.kinematics.turning import (
     turn_report,
     with_driven,
 )
+from reconcile.kinematics.unheard import with_lost
 from reconcile.kinematics.unread import ALIKE_Z, Judged
 from reconcile.kinematics.vague import foreign_report, gear_report, nothing_report
 from reconcile.origin import origin
@@ -101,14 +102,7 @@ def _reconciled(
     known = of_machine(spec) if isinstance(spec, MachineSpec) else spec
     operating = tests[0].operating if tests else None
     tie = ties(known, operating.shaft if operating else None)
-    gate = inspect_measurement(
-        baselines,
-        tests,
-        orders=tuple(f.order for f in tie.families if f.kind != "turn"),
-        mesh_orders=tie.mesh_orders,
-        lowest_order=tie.lowest_order,
-        seed=seed,
-    )
+    gate = gated(tests, baselines, tie, seed)
     if not gate.usable:
         return finished(fault_report(gate), gate, (), ())
     stated = {s.name: s.speed_hz for s in known.shafts}[tie.reference]
@@ -125,7 +119,7 @@ def _reconciled(
     wrong = None if corrected else other_teeth(known, tie.reference, (*seen, *past))
     if wrong is not None:
         return told_with(_reconciled(with_teeth(known, wrong), tests, baselines, seed, _silent, True), wrong)
-    gate, seen, past = without(gate, seen, past, whole.lost)
+    gate, seen, past = without(gate, seen, past, with_lost(gate, whole.lost))
     far = turned_elsewhere((*seen, *past), tie, seed)
     gate, seen, past, told = left_out(gate, seen, past, far)
     progress(LINES, "lines of bearings, teeth and shafts")

@@ -17,6 +17,7 @@ from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import without_spoiled
 from reconcile.judge.changes import lenses, observed_changes
 from reconcile.judge.space import Fitted
+from reconcile.kinematics.unheard import with_unheard
 from reconcile.machine.alone import rise_over_sound
 from reconcile.machine.answer import answer, fault_answer, provenance
 from reconcile.machine.assimilate import assimilated
@@ -252,8 +253,10 @@ def _force(setting: Setting, found: Found, pairs: Pairs | None, budget: Budget, 
 
 def _gate(machine: MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording], seed: int) -> Gate:
     own = gate_orders(machine)
-    return inspect_measurement(
-        baselines, tests, orders=own.other_meshes, mesh_orders=own.teeth, lowest_order=own.lowest, seed=seed
+    return with_unheard(
+        inspect_measurement(
+            baselines, tests, orders=own.other_meshes, mesh_orders=own.teeth, lowest_order=own.lowest, seed=seed
+        )
     )
 
 

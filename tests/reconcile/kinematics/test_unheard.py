@@ -1,0 +1,89 @@
+"""Tests of noise alone, where the baseline is a machine's, are no answer about the machine."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reconcile.gate import Gate
+from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from reconcile.kinematics.unheard import LEAST_SAMPLES, line_strength, with_lost, with_unheard
+from signals.recording import Operating, Recording
+from signals.series import FloatArray
+from sim.core.response import Channel
+
+RATE_HZ, N = 12_000.0, 36_000
+
+
+def noise(seed: int) -> FloatArray:
+    return np.asarray(np.random.default_rng(seed).standard_normal(N))
+
+
+def heard(seed: int, size: float = 0.3) -> FloatArray:
+    return noise(seed) + size * np.sin(2 * np.pi * 73.0 * np.arange(N) / RATE_HZ)
+
+
+def recording(*rows: FloatArray) -> Recording:
+    channels = tuple(
+        Channel(name=f"a{k}", quantity="acceleration", unit="m/s^2", location="", axis="y") for k in range(len(rows))
+    )
+    operating = Operating(shaft="shaft", speed_hz=24.33)
+    return Recording(sampling_rate_hz=RATE_HZ, channels=channels, samples=np.stack(rows), operating=operating)
+
+
+def gated(tests: list[Recording], baselines: list[Recording]) -> Gate:
+    found = Gate(findings=(), baselines=tuple(baselines), tests=tuple(tests), fault=None, usable=True)
+    return with_unheard(found)
+
+
+BASE = recording(heard(1), heard(2))
+
+
+@pytest.mark.slow
+def test_noise_alone_is_not_usable() -> None:
+    gate = gated([recording(30.0 * noise(3), 20.0 * noise(4))], [BASE])
+    assert not gate.usable
+    assert gate.fault is not None
+    assert gate.fault.kind == "noise"
+    assert {f.channel for f in gate.findings} == {"a0", "a1"}
+
+
+@pytest.mark.slow
+def test_one_deaf_channel_and_one_deaf_test_are_told() -> None:
+    gate = gated([recording(heard(3), noise(4)), recording(noise(5), noise(6)), BASE], [BASE])
+    assert gate.usable
+    assert [(f.recording, f.channel) for f in gate.findings] == [("test 1", "a1"), ("test 2", "a0"), ("test 2", "a1")]
+    assert with_lost(gate, frozenset()) == {"test 2"}
+    assert with_lost(gate, frozenset({"test 1", "test 3"})) == {"test 1", "test 3"}  # something must be left
+
+
+@pytest.mark.parametrize(
+    ("tests", "bases"),
+    [
+        ([recording(heard(3), heard(4))], [BASE]),
+        ([recording(noise(3), noise(4))], [recording(noise(5), noise(6))]),
+        ([recording(noise(3), noise(4))], []),
+        ([recording(noise(3)[: LEAST_SAMPLES // 2])], [recording(heard(1))]),
+    ],
+    ids=["heard", "deaf before", "no baseline", "short"],
+)
+def test_nothing_is_told(tests: list[Recording], bases: list[Recording]) -> None:
+    gate = gated(tests, bases)
+    assert gate.usable
+    assert gate.findings == ()
+
+
+def test_a_line_of_the_envelope_is_one() -> None:
+    carried = noise(3) * (1.0 + 0.5 * np.sin(2 * np.pi * 31.0 * np.arange(N) / RATE_HZ))
+    assert line_strength(carried, RATE_HZ) > 1.0 > line_strength(noise(3), RATE_HZ)
+
+
+@pytest.mark.slow
+def test_the_report_is_a_fault_of_the_measurement() -> None:
+    spec = read_kinematic_spec({"kinematics": {"shafts": [{"name": "shaft"}]}})
+    for test, word in ((recording(30.0 * noise(3), 20.0 * noise(4)), "measurement_fault"), (BASE, "nothing_missing")):
+        report = reconcile_kinematics(spec, [replace(test)], [BASE], seed=0)
+        assert report.verdict == word
+        assert (report.fault is not None and report.fault.kind == "noise") is (word == "measurement_fault")
