@@ -18,7 +18,7 @@ from reconcile.gate.levels import Pair
 from reconcile.gate.lines import FLOOR_SHARE, LEAST_LINES, common_unit_gains, denied
 from reconcile.gate.loose import LEVEL_DB, QUIET_DB, loose_findings
 from reconcile.gate.robust import robust_swap_order, robust_unit_gain
-from reconcile.gate.units import even_unit_gain, possible, unit_finding, unit_of
+from reconcile.gate.units import edge_unit_gain, even_unit_gain, lowest_share, possible, unit_finding, unit_of
 from signals.recording import Recording
 from signals.series import FloatArray
 
@@ -47,7 +47,7 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
     quantities = [channel.quantity for channel in pairs[0].channels]
     lines = [np.concatenate([p.lines_db[c] for p in pairs]) for c in range(len(names))]
     floors = [float(np.percentile(_all_bands(change, c), FLOOR_SHARE)) for c in range(len(names))]
-    common = common_unit_gains(lines, floors, quantities)
+    common, edge = common_unit_gains(lines, floors, quantities), edge_unit_gain(change, quantities)
     for c, name in enumerate(names):
         gain, roughly = _gain(change, c), even_unit_gain(change, c, quantities)
         beside = _gain_beside(change, lines, c) if gain is None else None
@@ -55,6 +55,8 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
         unit_gain = roughly if roughly is not None else robust_unit_gain(pairs, c)
         by_lines = unit_gain is None and common[c] is not None
         unit_gain = common[c] if by_lines else unit_gain
+        by_edge = unit_gain is None and edge is not None
+        unit_gain = edge if by_edge else unit_gain
         likely = gain if gain is not None else unit_gain
         if likely is not None and denied(likely, lines[c]):
             continue
@@ -65,6 +67,7 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
             unit = unit_of(unit_gain, np.inf, possible(quantities[c]))
             told = by_lines and lines[c].size >= LEAST_LINES
             seen, what = (lines[c], "strong lines") if told else (_all_bands(change, c), "bands")
+            seen, what = (lowest_share(change, c), "bands that rose least") if by_edge else (seen, what)
             found.append(unit_finding(unit_gain, str(unit), name, seen, what))
         elif len(names) > 1:
             found += loose_findings(pairs, change, c, name)

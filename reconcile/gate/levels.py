@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reconcile.gate.lines import line_changes
+from reconcile.gate.steps import step_of
 from signals.recording import Recording
 from signals.series import FloatArray, IntArray, Series
 from signals.spectra.amplitude import power_spectral_density
@@ -115,6 +116,9 @@ class Pair:
     """(channels, wide bands) dB by which the mean over the quiet moments grew."""
     lines_db: tuple[FloatArray, ...]
     """Growth of the baseline's strong lines, of each channel those it has."""
+    steps_test: tuple[float, ...] = ()
+    """Of the values of each channel, its unit; 0 where they have none; empty where nobody looked."""
+    steps_baseline: tuple[float, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -159,6 +163,8 @@ def pairs(
                 baseline=np.stack([np.stack([x.mean_db[b], x.floor_db[b]]) for x in then]),
                 **_quiets(now, then),
                 lines_db=tuple(line_changes(test.series(c.name), base.series(c.name)) for c in channels),
+                steps_test=tuple(step_of(test.series(c.name).samples) for c in channels),
+                steps_baseline=tuple(step_of(base.series(c.name).samples) for c in channels),
                 impacts=np.stack([x.kurtosis[a] - y.kurtosis[b] for x, y in zip(now, then, strict=True)]),
             )
         )

@@ -14,6 +14,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from reconcile.gate.levels import Pair
+from reconcile.gate.steps import exchanged_steps
 from reconcile.gate.units import possible
 from signals.series import BoolArray, FloatArray
 
@@ -114,10 +115,12 @@ def robust_swap_order(pairs: Sequence[Pair], foreign: BoolArray) -> tuple[int, .
     heard = _with_bands(pairs)
     if n < 2 or not heard:
         return same
-    fit = np.array([[np.mean([_fit(p, i, j) for p in heard]) for j in range(n)] for i in range(n)])
+    fit = np.array([[np.mean([fit_of(p, i, j) for p in heard]) for j in range(n)] for i in range(n)])
     rows, columns = linear_sum_assignment(np.where(foreign, -1e6, fit), maximize=True)
     moved = [(i, j) for i, j in zip(rows, columns, strict=True) if i != j]
     better = [fit[i, j] - fit[i, i] for i, j in moved]
+    if len(moved) == 2 and float(np.mean(better)) > 0.0 and _by_steps(heard, int(moved[0][0]), int(moved[0][1])):
+        return tuple(int(j) for j in columns)
     if not moved or float(np.mean(better)) < CLEARLY or min(better) < 0.0:
         return same
     if float(np.mean([fit[i, j] for i, j in moved])) < FITS:
@@ -125,10 +128,21 @@ def robust_swap_order(pairs: Sequence[Pair], foreign: BoolArray) -> tuple[int, .
     return tuple(int(j) for j in columns)
 
 
-def _fit(p: Pair, i: int, j: int) -> float:
-    """Mean log likelihood of a band that channel `i` of the test is channel `j` of the baseline."""
+def _by_steps(heard: Sequence[Pair], i: int, j: int) -> bool:
+    """Whether two channels have each other's steps in all tests: their electronics are exchanged, at least."""
+    if any(len(p.steps_test) <= max(i, j) for p in heard):
+        return False
+    told = [
+        exchanged_steps((p.steps_test[i], p.steps_test[j]), (p.steps_baseline[i], p.steps_baseline[j])) for p in heard
+    ]
+    return all(told)
+
+
+def fit_of(p: Pair, i: int, j: int) -> float:
+    """Mean log likelihood of a band that channel `i` of the test is channel `j` of the baseline: of its quiet moments,
+    where the records are long enough, and of its floor."""
     quiet, floor = p.quiet_test[i] - p.quiet_baseline[j], p.test[i, 1] - p.baseline[j, 1]
-    return 0.5 * (_likelihood(quiet) + _likelihood(floor))
+    return _likelihood(floor) if quiet.size < LEAST_BANDS else 0.5 * (_likelihood(quiet) + _likelihood(floor))
 
 
 def _likelihood(change: FloatArray) -> float:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from reconcile.kinematics.candidate import DEFECTS, Candidate
+from reconcile.kinematics.carried import carried, shared, told_exchanged, told_open
 from reconcile.kinematics.extent import Extent, as_severity, spall_extent
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.heldout import held_out
@@ -22,6 +23,8 @@ BOUND = "width_below_m"
 """Key of the values of a cause of which only an upper bound of its length is known: a bound is no size."""
 ALIKE = " if both its edges strike alike"
 """A ball that sinks in slowly is not heard at the near edge: then only the far one strikes, however long the way."""
+WHOSE = NextExperiment(sentence="Look which sensor is which channel.")
+HANGS = " The place hangs on which sensor is which."
 NO_SIZE = "how large the defect is: a size can't be given from these lines without a model of the machine"
 
 
@@ -34,6 +37,10 @@ def defect_report(
 ) -> Report:
     """One or two bearing defects that stand."""
     weights = [places(c, tests, ties, baselines) for c in chosen]
+    words = [carried(w, tests, baselines) for w in weights]
+    opened = [told_open(w) for w, word in zip(weights, words, strict=True) if word == "open"]
+    opened += [told_exchanged(w) for w, word in zip(weights, words, strict=True) if word == "exchanged"]
+    weights = [shared(w) if word == "exchanged" else w for w, word in zip(weights, words, strict=True)]
     sizes = [_size(c, tests, ties) for c in chosen]
     one_site = all(decided(w) for w in weights)
     causes = tuple(
@@ -42,11 +49,11 @@ def defect_report(
         for cause in _causes(c, w, s[1], one_site, _bound_m(c, s[0], ties))
     )
     held = _held(chosen[0], sizes[0][0], tests, baselines, ties, rng)
-    undecidable = tuple(_undecided(chosen, weights, sizes, baselines, ties))
+    undecidable = (*_undecided(chosen, weights, sizes, baselines, ties), *opened)
     what = " and ".join(_phrase(c, w, s[0], ties) for c, w, s in zip(chosen, weights, sizes, strict=True))
     return Report(
         verdict="explained" if one_site else "ambiguous",
-        sentence=f"{what}.",
+        sentence=f"{what}.{HANGS}" if "open" in words else f"{what}.",
         level="kinematics",
         where=Where(
             sites=_merged(weights),
@@ -56,7 +63,7 @@ def defect_report(
         causes=causes,
         held_out=held,
         undecidable=undecidable,
-        next_experiment=_next(one_site, sizes, baselines),
+        next_experiment=WHOSE if "exchanged" in words else _next(one_site, sizes, baselines),
     )
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from reconcile.gate import Gate, inspect_measurement
 from reconcile.gate.lines import common_unit_gains
-from reconcile.gate.units import even_unit_gain, unit_of
+from reconcile.gate.units import edge_unit_gain, even_unit_gain, lowest_share, unit_of
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from signals.recording import Recording
 from tests.reconcile.gate.test_gate import BASELINES, SPEEDS_HZ, machine, trials
@@ -158,3 +158,30 @@ def test_an_unbalance_that_grew_tenfold_is_no_unit(factor: float) -> None:
 
     gate = inspect_measurement([rotor(k, 1.0) for k in (1, 2, 3)], [rotor(k, factor) for k in (4, 5, 6)])
     assert not [f for f in gate.findings if f.kind == "unit_mismatch"] and gate.fault is None
+
+
+def pitted(gain_db: float, *, seed: int = 0, share: float = 1.0) -> list[np.ndarray]:
+    """Changes, dB, (2 channels, mean and floor, bands): a pit raised most bands of the first and half of the second."""
+    rng = np.random.default_rng(seed)
+    rise = np.stack([np.clip(60 * rng.random((2, 40)) - 12, 0, None), np.clip(60 * rng.random((2, 40)) - 30, 0, None)])
+    return [gain_db + share * rise + 0.5 * rng.standard_normal(rise.shape)]
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("gain_db", [-19.83, 19.83])
+def test_the_lower_edge_beside_a_pit_tells_a_unit(gain_db: float, seed: int) -> None:
+    found = edge_unit_gain(pitted(gain_db, seed=seed), ACCELERATIONS[:2])
+    assert found == pytest.approx(gain_db, abs=0.01)
+    assert np.max(lowest_share(pitted(gain_db, seed=seed), 1)) < gain_db + 2.0
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_no_edge_at_a_ratio_is_no_unit(seed: int) -> None:
+    one = pitted(-19.83, seed=seed)
+    assert edge_unit_gain(pitted(0.0, seed=seed), ACCELERATIONS[:2]) is None
+    assert edge_unit_gain(pitted(-12.0, seed=seed), ACCELERATIONS[:2]) is None
+    assert edge_unit_gain([d[:1] for d in one], ACCELERATIONS[:1]) is None  # alone
+    assert edge_unit_gain(one, ["acceleration", "velocity"]) is None
+    assert edge_unit_gain([d + np.array([0.0, 19.83])[:, None, None] for d in one], ACCELERATIONS[:2]) is None
+    exchanged = [-d for d in pitted(0.0, seed=seed)]  # the baseline has the pit: no edge below
+    assert edge_unit_gain(exchanged, ACCELERATIONS[:2]) is None
