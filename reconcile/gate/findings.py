@@ -30,12 +30,14 @@ Kind = Literal[
     "spikes",
     "copied",
     "noise",
+    "repeated",
 ]
 FAULTS: tuple[Kind, ...] = (
     "not_finite",
     "silence",
     "stuck",
     "dropouts",
+    "repeated",
     "noise",
     "copied",
     "clipped",

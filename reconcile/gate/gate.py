@@ -13,6 +13,7 @@ from reconcile.gate.copied import copy_findings
 from reconcile.gate.filtered import below_the_corner, filter_findings
 from reconcile.gate.findings import Finding, Gate, worst
 from reconcile.gate.levels import pairs
+from reconcile.gate.loops import loop_findings
 from reconcile.gate.mains import hum_findings, without_hum
 from reconcile.gate.noiseless import noiseless, told, with_floor
 from reconcile.gate.samples import repaired, sample_findings
@@ -63,9 +64,13 @@ def inspect_measurement(
         found += spike_findings(recording, label)
         alone = without_spikes(recording)
         found += sample_findings(alone, label)
+        looped = loop_findings(recording, label)
+        found += looped
         fixed, lost = repaired(alone)
-        usable &= len(lost) < len(recording.names)
-        clean.append(fixed)
+        gone = {*lost, *(f.channel for f in looped)}
+        usable &= len(gone) < len(recording.names)
+        kept = [name for name in fixed.names if name not in gone]
+        clean.append(fixed.select(channels=kept) if kept and len(kept) < len(fixed.names) else fixed)
     if not usable:
         cut = len(baselines)
         shown = _only_new(found)

@@ -8,13 +8,16 @@ from reconcile.gate.findings import Gate, Kind
 from reconcile.verdict import SensorFault
 
 SPOILING: frozenset[Kind] = frozenset(
-    ("not_finite", "silence", "stuck", "dropouts", "noise", "copied", "clipped", "mains_hum", "alias", "gain_change")
+    (
+        *("not_finite", "silence", "stuck", "dropouts", "repeated", "noise", "copied"),
+        *("clipped", "mains_hum", "alias", "gain_change"),
+    )
 )
 """What mending leaves traces of that the features see: gaps filled, lines cut out, tops cut off. A swap is undone
 exactly; what looks like a loose sensor may be the machine, so that channel stays, with its transfer undone."""
 
 
-GONE: frozenset[Kind] = frozenset(("not_finite", "silence", "stuck", "dropouts", "noise", "copied"))
+GONE: frozenset[Kind] = frozenset(("not_finite", "silence", "stuck", "dropouts", "repeated", "noise", "copied"))
 """Of these the signal was not there: what is computed from it is no machine's."""
 
 

@@ -12,6 +12,7 @@ MENDED = {
     "swapped_channels": ("put the channels of the tests in their right order (here {at})", ASKED),
     "speed_mismatch": ("correct the speed that the description states, or give a tacho,", BEFORE),
     "gain_change": ("check range and sensitivity of {at}", AGAIN),
+    "repeated": ("check the recorder's buffer (here {at})", AGAIN),
     "copied": ("check which sensor each channel of the tests is of (here {at})", AGAIN),
     "filter_change": ("set the filter of {at} as it was", AGAIN),
     "clipped": ("set a larger range at {at}", AGAIN),
