@@ -31,6 +31,7 @@ Kind = Literal[
     "copied",
     "noise",
     "repeated",
+    "breaks",
 ]
 FAULTS: tuple[Kind, ...] = (
     "not_finite",

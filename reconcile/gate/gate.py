@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from reconcile.gate.alias import alias_findings
+from reconcile.gate.breaks import break_findings
 from reconcile.gate.compare import compared, swap_order
 from reconcile.gate.copied import copy_findings
 from reconcile.gate.filtered import below_the_corner, filter_findings
@@ -65,7 +66,7 @@ def inspect_measurement(
         alone = without_spikes(recording)
         found += sample_findings(alone, label)
         looped = loop_findings(recording, label)
-        found += looped
+        found += (*looped, *(() if looped else break_findings(alone, label)))
         fixed, lost = repaired(alone)
         gone = {*lost, *(f.channel for f in looped)}
         usable &= len(gone) < len(recording.names)

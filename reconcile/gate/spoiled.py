@@ -49,7 +49,7 @@ def fault_sentence(fault: SensorFault) -> str:
 
 
 FILLED = ("not_finite", "spikes")
-REMARKS = ("speed_mismatch", "too_short", "copied")
+REMARKS = ("speed_mismatch", "too_short", "copied", "breaks")
 
 
 def doubts(gate: Gate) -> tuple[str, ...]:
