@@ -31,9 +31,10 @@ from reconcile.stated import (
 from reconcile.told import about, sent_as
 from reconcile.unsteady import unsteady
 from reconcile.verdict import Level, Report
-from signals.recording import Channel, Operating, Recording
+from signals.recording import Operating, Recording
 from sim.assembly.assemble import BUILT_IN
 from sim.core.errors import Problem, SpecError
+from sim.core.response import Channel
 from sim.core.spec import MachineSpec
 
 MOST_RECORDINGS = 24
@@ -96,7 +97,7 @@ def _unlike(usual: Given, other: Given, sure: bool) -> Iterator[Problem]:
     if here != there and sorted(here) == sorted(there):
         names = [", ".join(one.recording.names) for one in (usual, other)]
         yield replace(
-            _differs(usual, other, "channels", *names, sure=True),
+            _differs(usual, other, "channels", names[0], names[1], sure=True),
             message=f"are the usual ones ({usual.field('channels')}) in another order",
         )
         return
