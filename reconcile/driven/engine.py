@@ -16,7 +16,9 @@ from reconcile.driven.judge import ROUGH
 from reconcile.driven.machine import driven_site
 from reconcile.driven.measured import LEAST_KEPT
 from reconcile.driven.model import share_kept
+from reconcile.driven.noise import noise_of
 from reconcile.driven.prescribed.answer import reconcile_prescribed
+from reconcile.driven.rest import beside_tones, settled
 from reconcile.driven.split import parts_of
 from reconcile.driven.spoiled import Mended, mended, proved, sensor_fault, with_bad
 from reconcile.gate.findings import Finding
@@ -119,6 +121,10 @@ def reconcile_driven(
         else:
             found = analyse(parts_of(held.data), seed)
             report = answer(spec, found, seed=seed, provenance=provenance)
+            noise = noise_of(found.linear.model, found.fitted_run, found.linear.error, held.rested)
+            report = beside_tones(
+                settled(report, found, noise, site.body.name), held.tones, held.data[0], site.body.name
+            )
             report = replace(report, where=replace(report.where, limits=(*report.where.limits, *held.remarks)))
             shown = proved(findings, held.data, found.published, left_over(report, found) < ROUGH)
             if share_kept(found.fitted_run) < LEAST_KEPT and shown:

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from reconcile.driven.added import Added, Tone, without_added
+from reconcile.driven.added import faults as added_faults
 from reconcile.driven.channels import Driven
 from reconcile.driven.machine import Site
 from reconcile.driven.measured import Look, against_file, exchanged, look, remarks, scaled, swap_fault
+from reconcile.driven.step import stepped
 from reconcile.faults import with_faults
 from reconcile.gate.spoiled import fault_sentence
 from reconcile.verdict import NextExperiment, Report, SensorFault
@@ -27,13 +30,18 @@ class Held:
     faults: list[SensorFault]
     remarks: tuple[str, ...]
     undecided: bool
+    rested: tuple[Look, ...] = ()
+    """The baselines."""
+    tones: tuple[tuple[str, Tone], ...] = ()
+    """Lines of forces that were not measured, with their recording; they are taken off."""
 
 
 def held_against(tests: Sequence[Driven], baselines: Sequence[Driven], site: Site) -> Held:
     """Channels exchanged, then units: against the first baseline, else the machine file, else the first test."""
     faults, undecided = list[SensorFault](), False
-    looks = [_unswapped(look(d), f"test {i}", faults) for i, d in enumerate(tests, 1)]
-    rested = [_unswapped(look(d), f"baseline {i}", []) for i, d in enumerate(baselines, 1)]
+    heard = [_straight(d, f"test {i}", faults) for i, d in enumerate(tests, 1)]
+    looks = [one.look for one in heard]
+    rested = [_straight(d, f"baseline {i}", []).look for i, d in enumerate(baselines, 1)]
     for i, one in enumerate(looks):
         if rested:
             found, against = scaled(one, rested[0]), "baseline 1"
@@ -47,12 +55,26 @@ def held_against(tests: Sequence[Driven], baselines: Sequence[Driven], site: Sit
         undecided |= found.drives is None or against == "test 1"
         looks[i] = replace(one, data=found.undone(one.data))
     said = () if faults else remarks(looks, site)
-    return Held(data=[one.data for one in looks], faults=faults, remarks=said, undecided=undecided)
+    return Held(
+        data=[one.data for one in looks], faults=faults, remarks=said, undecided=undecided, rested=tuple(rested),
+        tones=tuple((f"test {i}", tone) for i, one in enumerate(heard, 1) for tone in one.tones),
+    )  # fmt: skip
+
+
+def _straight(data: Driven, recording: str, faults: list[SensorFault]) -> Added:
+    """The look with force and motion as they are, in step, and without what was added to the motion."""
+    one = _unswapped(look(data), recording, faults)
+    found = without_added(one)
+    faults.extend(added_faults(found, one.data, recording))
+    return found
 
 
 def _unswapped(one: Look, recording: str, faults: list[SensorFault]) -> Look:
-    """The look with force and motion as they are; a swap is added to `faults`."""
-    other = exchanged(one)
+    """The look with force and motion as they are, and in step; what was wrong is added to `faults`."""
+    other, shifted = exchanged(one), stepped(one, recording)
+    if shifted is not None and (other is None or shifted[0].left <= other.left):
+        faults.append(shifted[1])
+        return shifted[0]
     if other is None:
         return one
     faults.append(swap_fault(one, other, recording))

@@ -44,7 +44,7 @@ def displaced(model: Model, run: Run) -> FloatArray:
     return answer_to(model, model.gain * run.data.drive + model.offset, run.data.step_s, 0)
 
 
-def _sensitivities(model: Model, run: Run, x: FloatArray) -> FloatArray:
+def sensitivities(model: Model, run: Run, x: FloatArray) -> FloatArray:
     """What changes of the linear parameters do to the output, (n - skip, 5), along a displacement x (n,)."""
     causes = (x, np.gradient(x, run.data.step_s), run.data.drive, np.ones(x.size))
     found = [answer_to(model, c, run.data.step_s, run.data.order)[run.skip :] for c in causes]
@@ -134,4 +134,4 @@ def score_test(
 def anything_missing(model: Model, run: Run, error: FloatArray, rng: np.random.Generator) -> Missing:
     """Test the error (n - skip,) that a fitted model left on a stretch."""
     x = displaced(model, run)
-    return score_test(error, _sensitivities(model, run, x), _signals(model, run, x), rng, run.kept)
+    return score_test(error, sensitivities(model, run, x), _signals(model, run, x), rng, run.kept)

@@ -1,0 +1,123 @@
+"""What stays unexplained where no law is named: nothing is missing only if noise that is known apart explains it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from reconcile.driven.added import Tone, tone_words
+from reconcile.driven.channels import Driven, FloatArray
+from reconcile.driven.forced import Analysis
+from reconcile.driven.judge import ROUGH
+from reconcile.driven.noise import Noise, power_lines
+from reconcile.verdict import NextExperiment, PlaceWeight, Report
+
+MOST_BEYOND = 0.3
+"""Share of the error's power that no noise accounts for, from which it is no noise."""
+OVER_BASELINE, LEAST = 2.0, 0.01
+"""What is left over what a baseline leaves, and at least of the output, from which it is no noise."""
+BAND = 0.1
+"""Share of the error's power outside of the band that is told, at either end."""
+
+
+def unexplained(noise: Noise) -> bool:
+    """Whether too much is left for noise."""
+    if noise.beyond < MOST_BEYOND:
+        return False
+    return noise.unexplained > ROUGH or grown(noise)
+
+
+def grown(noise: Noise) -> bool:
+    """Whether clearly more is left than of a baseline."""
+    rested = noise.baseline
+    return rested is not None and noise.left > max(OVER_BASELINE * rested, LEAST)
+
+
+def band_hz(error: FloatArray, step_s: float) -> tuple[float, float]:
+    """Where most of an error's power stands."""
+    total = np.cumsum(power_lines(error))
+    low, high = np.searchsorted(total, [BAND * total[-1], (1.0 - BAND) * total[-1]])
+    hz = 1.0 / (error.size * step_s)
+    return float(low * hz), float(high * hz)
+
+
+def known_words(noise: Noise) -> str:
+    """What tells of noise, and how much."""
+    said = [f"as much noise within the band as beside it leaves {_share(noise.motion)}"]
+    if noise.force > 0.1 * noise.known:
+        said.append(f"noise on the force {_share(noise.force)}")
+    if noise.baseline is not None:
+        said.append(f"the baseline leaves {_share(noise.baseline)}")
+    return ", ".join(said)
+
+
+def _share(part: float) -> str:
+    return f"{100 * part:.2g} %"
+
+
+def settled(report: Report, found: Analysis, noise: Noise, site: str) -> Report:
+    """The report of a linear model that nothing adds to, with what it leaves held against the noise."""
+    if report.verdict != "nothing_missing":
+        return report
+    if not unexplained(noise):
+        return _noisy(report, noise)
+    low, high = band_hz(found.linear.error, found.fitted_run.data.step_s)
+    left = f"A linear model of {site} leaves {_share(noise.left)} of the output, mostly from {low:.3g} to {high:.3g} Hz"
+    new = grown(noise)
+    said = f"{left}, and that is more than noise ({known_words(noise)}); no law that is tried explains it."
+    asked = (
+        "Record with the force off: what moves then is noise or another force. If nothing does, the machine changes "
+        "with time or has more than one resonance: record twice with the same force, and at half of it."
+    )
+    return replace(
+        report,
+        verdict="unknown_physics" if new else "not_decidable",
+        sentence=said,
+        where=replace(report.where, sites=(PlaceWeight(site=site, weight=1.0),) if new else ()),
+        machine=report.machine if new else None,
+        undecidable=(
+            *report.undecidable,
+            *(() if new else ("whether a force is missing or the noise has this spectrum",)),
+        ),
+        next_experiment=NextExperiment(sentence=asked),
+    )
+
+
+def _noisy(report: Report, noise: Noise) -> Report:
+    """The limit that large noise sets to "nothing missing"."""
+    if noise.left < ROUGH:
+        return report
+    limit = (
+        f"Noise holds {_share(noise.left)} of the output ({known_words(noise)}): what would move the mass by clearly "
+        "less stays unseen."
+    )
+    return replace(report, where=replace(report.where, limits=(*report.where.limits, limit)))
+
+
+def beside_tones(report: Report, tones: Sequence[tuple[str, Tone]], data: Driven, site: str) -> Report:
+    """The report with lines that the measured force does not make, taken off before: the answer where all else is."""
+    if not tones:
+        return report
+    unit = data.answer_channel.unit
+    by_place: dict[str, str] = {}
+    for recording, tone in tones:
+        by_place.setdefault(f"{tone.hz:.3g}", f"{tone_words(tone, unit)} in {recording}")
+    told = ", ".join(by_place.values())
+    said = f"A force that was not measured acts on {site}, or a line is on its motion alone: {told}"
+    open_one = f"whether the line is a force on {site} or the sensor's alone: with the force off both stay"
+    if report.verdict not in ("nothing_missing", "not_decidable"):
+        said = f"{said}; it is taken off before the rest."
+        return replace(report, undecidable=(*report.undecidable, said, open_one))
+    rest = "Apart from it the linear model explains the recordings up to noise."
+    return replace(
+        report,
+        verdict="unknown_physics",
+        sentence=f"{said}. {rest if report.verdict == 'nothing_missing' else report.sentence}",
+        where=replace(report.where, sites=(PlaceWeight(site=site, weight=1.0),)),
+        undecidable=(*report.undecidable, open_one),
+        next_experiment=NextExperiment(
+            sentence="Look for a machine that runs at this frequency and record with it off, or measure its force too."
+        ),
+    )
