@@ -123,7 +123,7 @@ def reconcile_driven(
             report = answer(spec, found, seed=seed, provenance=provenance)
             noise = noise_of(found.linear.model, found.fitted_run, found.linear.error, held.rested)
             report = beside_tones(
-                settled(report, found, noise, site.body.name), held.tones, held.data[0], site.body.name
+                settled(report, found, noise, site.body.name, seed), held.tones, held.data[0], site.body.name
             )
             report = replace(report, where=replace(report.where, limits=(*report.where.limits, *held.remarks)))
             shown = proved(findings, held.data, found.published, left_over(report, found) < ROUGH)

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.measured import Look
@@ -73,8 +74,8 @@ def smoothed(power: FloatArray) -> FloatArray:
     return np.convolve(np.pad(power, half, mode="edge"), np.ones(SMOOTHING) / SMOOTHING, mode="valid")
 
 
-def response(model: Model, omega: FloatArray, order: int) -> FloatArray:
-    """Motion over force of the linear part, (n,), complex."""
+def response(model: Model, omega: FloatArray, order: int) -> NDArray[np.complex128]:
+    """Motion over force of the linear part, (n,)."""
     below = model.stiffness - omega**2 + 1j * omega * model.damping
     return np.asarray(model.gain * (1j * omega) ** order / below)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from reconcile.driven.added import Tone, tone_words
 from reconcile.driven.channels import Driven, FloatArray
 from reconcile.driven.forced import Analysis
 from reconcile.driven.judge import ROUGH
+from reconcile.driven.linear import Told, found_out
 from reconcile.driven.noise import Noise, power_lines
 from reconcile.verdict import NextExperiment, PlaceWeight, Report
 
@@ -18,6 +19,9 @@ MOST_BEYOND = 0.3
 """Share of the error's power that no noise accounts for, from which it is no noise."""
 OVER_BASELINE, LEAST = 2.0, 0.01
 """What is left over what a baseline leaves, and at least of the output, from which it is no noise."""
+LEAST_SHARE, LEAST_SHARE_BESIDE = 0.5, 0.7
+"""Share of what is beyond the noise that a variation or a second resonance must explain to be told; the second where
+smooth laws see a force that none of them describes."""
 BAND = 0.1
 """Share of the error's power outside of the band that is told, at either end."""
 
@@ -57,30 +61,53 @@ def _share(part: float) -> str:
     return f"{100 * part:.2g} %"
 
 
-def settled(report: Report, found: Analysis, noise: Noise, site: str) -> Report:
-    """The report of a linear model that nothing adds to, with what it leaves held against the noise."""
-    if report.verdict != "nothing_missing":
+def settled(report: Report, found: Analysis, noise: Noise, site: str, seed: int) -> Report:
+    """The report of a linear model that no law adds to, with what it leaves held against the noise."""
+    report = replace(report, stages=(*report.stages, {"stage": "noise", **asdict(noise), "beyond": noise.beyond}))
+    nothing = report.verdict == "nothing_missing"
+    if not nothing and (report.verdict != "unknown_physics" or found.final.model.laws):
         return report
-    if not unexplained(noise):
-        return _noisy(report, noise)
+    if noise.beyond >= MOST_BEYOND and noise.left > LEAST:
+        told = found_out(found, noise, seed, LEAST_SHARE if nothing else LEAST_SHARE_BESIDE)
+        if told is not None:
+            return _told(report, told, site)
+    if not nothing:
+        return report
+    return _open(report, found, noise, site) if unexplained(noise) else _noisy(report, noise)
+
+
+def _told(report: Report, told: Told, site: str) -> Report:
+    """The report with what explains it."""
+    return replace(
+        report,
+        verdict="unknown_physics",
+        sentence=told.sentence.format(site=site),
+        where=replace(report.where, sites=(PlaceWeight(site=site, weight=1.0),)),
+        held_out=told.held_out or report.held_out,
+        undecidable=(*report.undecidable, *told.undecidable),
+        next_experiment=NextExperiment(sentence=told.asked),
+        stages=(*report.stages, told.stage),
+    )
+
+
+def _open(report: Report, found: Analysis, noise: Noise, site: str) -> Report:
+    """The report of a linear model that leaves more than noise, and nothing tells what."""
     low, high = band_hz(found.linear.error, found.fitted_run.data.step_s)
     left = f"A linear model of {site} leaves {_share(noise.left)} of the output, mostly from {low:.3g} to {high:.3g} Hz"
     new = grown(noise)
     said = f"{left}, and that is more than noise ({known_words(noise)}); no law that is tried explains it."
     asked = (
-        "Record with the force off: what moves then is noise or another force. If nothing does, the machine changes "
-        "with time or has more than one resonance: record twice with the same force, and at half of it."
+        "Record with the force off: what moves then is noise or another force. If nothing does, record twice with the "
+        "same force and once with half of it: what does not repeat is no law of the motion."
     )
+    open_one = () if new else ("whether a force is missing or the noise has this spectrum",)
     return replace(
         report,
         verdict="unknown_physics" if new else "not_decidable",
         sentence=said,
         where=replace(report.where, sites=(PlaceWeight(site=site, weight=1.0),) if new else ()),
         machine=report.machine if new else None,
-        undecidable=(
-            *report.undecidable,
-            *(() if new else ("whether a force is missing or the noise has this spectrum",)),
-        ),
+        undecidable=(*report.undecidable, *open_one),
         next_experiment=NextExperiment(sentence=asked),
     )
 

@@ -80,10 +80,10 @@ def _delay(seen: Responded, one: Look) -> float:
     strongest = 2.0 * math.pi / float(seen.omega[np.argmax(np.abs(seen.ratio) * np.sqrt(seen.pushed))])
     order, step = one.data.order, min(period, strongest) / A_PERIOD
     found = 0.0
-    tried = np.arange(-PERIODS * A_PERIOD, PERIODS * A_PERIOD + 1) * step
+    tried = np.asarray(np.arange(-PERIODS * A_PERIOD, PERIODS * A_PERIOD + 1) * step, dtype=np.float64)
     for width in (step, step / 8.0, step / 64.0):
         found = float(min(tried, key=lambda x: seen.left(order, float(x))))
-        tried = found + width * np.arange(-8, 9) / 8.0
+        tried = np.asarray(found + width * np.arange(-8, 9) / 8.0)
     return found
 
 

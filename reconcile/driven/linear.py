@@ -1,0 +1,95 @@
+"""What a linear model of one mass may lack without any law being missing: that it varies, or a second resonance."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from reconcile.driven.forced import Analysis, gain_interval
+from reconcile.driven.model import nrmse
+from reconcile.driven.noise import Noise
+from reconcile.driven.nominate import squares_in_blocks
+from reconcile.driven.second import Second, second
+from reconcile.driven.varying import ALPHA, Varying, varying
+from reconcile.verdict import HeldOut
+
+WORDS = {
+    "stiffness": "The stiffness of {site} varies while it is recorded",
+    "damping": "The damping of {site} varies while it is recorded",
+    "force_gain": "The force on {site} over what its channel shows varies while it is recorded",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Told:
+    """What was found, for the report; `{site}` in the sentence is the body."""
+
+    sentence: str
+    undecidable: tuple[str, ...]
+    asked: str
+    stage: Mapping[str, object]
+    held_out: HeldOut | None = None
+
+
+def found_out(found: Analysis, noise: Noise, seed: int, least: float) -> Told | None:
+    """The better of a variation and a second resonance, if it explains the `least` share of what is beyond noise."""
+    run, held, model = found.fitted_run, found.held_run, found.linear.model
+    rng = np.random.default_rng([seed, 23])
+    one = varying(model, run, found.linear.error, rng)
+    two = second(model, run, held)
+    varies = one.p_value <= ALPHA and one.share >= least * noise.beyond
+    resounds = min(two.share, two.follows / noise.beyond) >= least * noise.beyond
+    if varies and (not resounds or one.share > two.share):
+        return _varying(found, one)
+    return _second(found, two, noise, rng) if resounds else None
+
+
+def _varying(found: Analysis, one: Varying) -> Told:
+    data = found.fitted_run.data
+    seconds = data.answer.size * data.step_s
+    how = f"by {100 * one.size:.2g} % either way at {one.hz:.4g} Hz"
+    if one.hz == 0.0:
+        how = f"it drifts by some {100 * one.size:.2g} % within {seconds:.3g} s"
+    said = (
+        f"{WORDS[one.kind]}: {how}. That explains {100 * one.share:.2g} % of what a linear model leaves "
+        f"({100 * found.fitted_nrmse:.2g} % of the output); no law of the motion does."
+    )
+    return Told(
+        sentence=said,
+        undecidable=("what makes it vary: nothing that turns, heats or wears beside the mass was recorded",),
+        asked="Record speed, position or temperature of what moves beside it too: what has this course makes it vary."
+        if one.hz
+        else "Record longer, with the temperature: whether it goes on, comes back or settles tells wear from warmth.",
+        stage={"stage": "varies", **asdict(one)},
+    )
+
+
+def _second(found: Analysis, two: Second, noise: Noise, rng: np.random.Generator) -> Told:
+    before, after = (nrmse(x, found.held_run.compared) for x in (two.before, two.after))
+    gain, low, high = gain_interval(squares_in_blocks(two.before), squares_in_blocks(two.after), rng)
+    held = "the part that was held out" if not found.validations else found.validations[0].held
+    said = (
+        f"The motion of {{site}} follows the force linearly, but with a second resonance: beside {two.first_hz:.4g} Hz "
+        f"one at {two.second_hz:.4g} Hz (damping ratio {two.damping_ratio:.2g}). With both {100 * after:.2g} % of the "
+        f"output is left on {held}, with one {100 * before:.2g} %; a second mass on a spring is missing."
+    )
+    return Told(
+        sentence=said,
+        undecidable=("where the second mass hangs: one motion does not tell",),
+        asked="Measure the motion of the parts beside it and of what it stands on: where this line is strongest is it.",
+        stage={
+            "stage": "second_resonance",
+            "first_hz": two.first_hz,
+            "second_hz": two.second_hz,
+            "damping_ratio": two.damping_ratio,
+            "follows_the_force": two.follows,
+            "share": two.share,
+            "noise_known": noise.known,
+        },
+        held_out=HeldOut(
+            metric="free-run NRMSE", unit="1", before=before, after=after, gain=gain, gain_low=low, gain_high=high,
+            retuned=None, black_box=None, placebo=None, held=held,
+        ),
+    )  # fmt: skip

@@ -1,0 +1,146 @@
+"""Does the machine change while it is recorded? Stiffness, damping or gain that comes and goes, or drifts.
+
+A stiffness that varies by d(t) leaves what the linear model answers to -d(t) x. For all frequencies of d at once that
+is held against the error: the error's back projection times the motion, transformed (a periodogram of the variation).
+Its null distribution comes from errors with the same spectrum and random phases, put through the same search.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+from reconcile.driven.channels import FloatArray
+from reconcile.driven.missing import displaced, sensitivities
+from reconcile.driven.model import Model, Run, answer_to, counted
+
+RESAMPLES, ALPHA = 199, 0.01
+SLOWEST, FASTEST = 0.75, 2.5
+"""Turns of a variation over the stretch, at least, and its frequency over the natural one, at most."""
+FINER = 2
+"""Parts of the spacing of lines at which frequencies are tried."""
+KINDS = ("stiffness", "damping", "force_gain")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Varying:
+    """What varies, how fast (0 Hz: it drifts), by how much of itself, and its share of the error's power."""
+
+    kind: str
+    hz: float
+    size: float
+    """Amplitude, or change from the first to the last sample, over the mean."""
+    share: float
+    p_value: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Search:
+    """A stretch made ready: causes per unit of each kind, (n,), the transfer to the motion, and what retuning does."""
+
+    model: Model
+    run: Run
+    causes: tuple[FloatArray, ...]
+    held: FloatArray
+
+    def through(self, cause: FloatArray) -> FloatArray:
+        """Motion that a force per unit mass makes, where it counts."""
+        found = answer_to(self.model, cause, self.run.data.step_s, self.run.data.order)
+        return counted(found[self.run.skip :], self.run)
+
+    def free(self, columns: FloatArray) -> FloatArray:
+        """Columns without what retuning explains."""
+        return np.asarray(columns - self.held @ (self.held.T @ columns))
+
+
+def _ready(model: Model, run: Run) -> Search:
+    x = run.data.answer - model.output_offset if run.data.order == 0 else displaced(model, run)
+    v = np.gradient(x, run.data.step_s)
+    held, sizes, _ = np.linalg.svd(_unit(sensitivities(model, run, displaced(model, run))), full_matrices=False)
+    causes = (-model.stiffness * x, -model.damping * v, model.gain * (run.data.drive - run.data.drive.mean()))
+    return Search(model=model, run=run, causes=causes, held=np.asarray(held[:, sizes > 1e-9 * sizes[0]]))
+
+
+def _unit(columns: FloatArray) -> FloatArray:
+    size = np.linalg.norm(columns, axis=0)
+    return np.asarray(columns / np.where(size > 0, size, 1.0))
+
+
+class _Scan:
+    """Share of an error that a variation of one kind explains, at every frequency."""
+
+    def __init__(self, found: Search, cause: FloatArray) -> None:
+        run, model = found.run, found.model
+        n = cause.size
+        self.size, self.skip, self.cause = 2 * n, run.skip, cause
+        omega = 2.0 * np.pi * np.fft.rfftfreq(self.size, run.data.step_s)
+        below = model.stiffness - omega**2 + 1j * omega * model.damping
+        self.back = np.conj((1j * omega) ** run.data.order / below)
+        gain = np.abs(np.concatenate([self.back, self.back[-2:0:-1]])) ** 2
+        power = np.abs(np.fft.fft(cause, self.size)) ** 2
+        mixed = np.fft.ifft(np.fft.fft(gain) * np.fft.fft(power)).real / self.size
+        lines = np.fft.rfftfreq(self.size, run.data.step_s)
+        own = math.sqrt(model.stiffness) / (2.0 * math.pi)
+        self.tried = (lines > SLOWEST / (n * run.data.step_s)) & (lines < FASTEST * own)
+        self.hz = lines[self.tried]
+        self.norm = mixed[: lines.size][self.tried]
+
+    def shares(self, error: FloatArray) -> FloatArray:
+        """(frequencies,)."""
+        padded = np.concatenate([np.zeros(self.skip), error])
+        back = np.fft.irfft(np.fft.rfft(padded, self.size) * self.back, self.size)[: self.cause.size]
+        met = np.abs(np.fft.rfft(back * self.cause, self.size)[self.tried]) ** 2
+        return np.asarray(2.0 * met / np.maximum(self.norm * float(error @ error), 1e-300))
+
+
+def _share(found: Search, cause: FloatArray, shapes: FloatArray, error: FloatArray) -> tuple[float, FloatArray]:
+    """Share of an error, free of retuning, that a cause times shapes (n, k) explains, and their sizes (k,)."""
+    columns = found.free(np.column_stack([found.through(cause * shape) for shape in shapes.T]))
+    size = np.linalg.norm(columns, axis=0)
+    sizes = np.asarray(np.linalg.lstsq(columns / size, error, rcond=None)[0] / size)
+    left = error - columns @ sizes
+    return 1.0 - float(left @ left) / max(float(error @ error), 1e-300), sizes
+
+
+def _wave(hz: float, n: int, step_s: float) -> FloatArray:
+    t = np.arange(n) * step_s
+    return np.column_stack([np.cos(2.0 * math.pi * hz * t), np.sin(2.0 * math.pi * hz * t)])
+
+
+def _periodic(found: Search, scan: _Scan, error: FloatArray) -> tuple[float, float, FloatArray]:
+    """Share, frequency in Hz, and sizes of the best wave."""
+    n, step = scan.cause.size, found.run.data.step_s
+    hz, spacing = float(scan.hz[np.argmax(scan.shares(error))]), float(scan.hz[1] - scan.hz[0])
+
+    def left(at: float) -> float:
+        return -_share(found, scan.cause, _wave(at, n, step), error)[0]
+
+    near = scipy.optimize.minimize_scalar(left, bounds=(hz - spacing, hz + spacing), method="bounded")
+    share, sizes = _share(found, scan.cause, _wave(float(near.x), n, step), error)
+    return share, float(near.x), sizes
+
+
+def varying(model: Model, run: Run, error: FloatArray, rng: np.random.Generator) -> Varying:
+    """The variation that explains most of an error (n - skip,)."""
+    found = _ready(model, run)
+    error = found.free(error)
+    n = run.data.answer.size
+    slow = np.column_stack([np.linspace(-0.5, 0.5, n), np.linspace(-1.0, 1.0, n) ** 2])
+    scans = [_Scan(found, cause) for cause in found.causes]
+    best: list[tuple[float, float, FloatArray, int]] = []
+    for k, (scan, cause) in enumerate(zip(scans, found.causes, strict=True)):
+        share, sizes = _share(found, cause, slow, error)
+        best.append((share, 0.0, sizes, k))
+        best.append((*_periodic(found, scan, error), k))
+    share, hz, sizes, kind = max(best, key=lambda b: b[0])
+    null = []
+    lines = np.abs(np.fft.rfft(error))
+    for _ in range(RESAMPLES):
+        turned = np.fft.irfft(lines * np.exp(2j * np.pi * rng.uniform(size=lines.size)), error.size)
+        null.append(max(float(scan.shares(turned).max()) for scan in scans))
+    size = abs(float(sizes[0])) if hz == 0.0 else math.hypot(*(float(s) for s in sizes))
+    p = (1 + sum(value >= share for value in null)) / (RESAMPLES + 1)
+    return Varying(kind=KINDS[kind], hz=hz, size=size, share=share, p_value=p)
