@@ -7,13 +7,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from reconcile.driven.analysis import analyse
+from reconcile.driven.another import beside_baseline
 from reconcile.driven.answer import answer
 from reconcile.driven.channels import Driven, driven_of
 from reconcile.driven.direction import directed
-from reconcile.driven.faulty import UNIT_NOT_KNOWN, beside, fault_report, held_against
+from reconcile.driven.faulty import UNIT_NOT_KNOWN, Held, beside, fault_report, held_against
 from reconcile.driven.forced import Analysis
 from reconcile.driven.judge import ROUGH
-from reconcile.driven.machine import driven_site
+from reconcile.driven.machine import Site, driven_site
 from reconcile.driven.measured import LEAST_KEPT
 from reconcile.driven.model import share_kept
 from reconcile.driven.noise import noise_of
@@ -120,11 +121,7 @@ def reconcile_driven(
             report = fault_report(held.faults, UNIT_NOT_KNOWN)
         else:
             found = analyse(parts_of(held.data), seed)
-            report = answer(spec, found, seed=seed, provenance=provenance)
-            noise = noise_of(found.linear.model, found.fitted_run, found.linear.error, held.rested)
-            report = beside_tones(
-                settled(report, found, noise, site.body.name, seed), held.tones, held.data[0], site.body.name
-            )
+            report = _held_up(answer(spec, found, seed=seed, provenance=provenance), found, held, site, seed)
             report = replace(report, where=replace(report.where, limits=(*report.where.limits, *held.remarks)))
             shown = proved(findings, held.data, found.published, left_over(report, found) < ROUGH)
             if share_kept(found.fitted_run) < LEAST_KEPT and shown:
@@ -134,6 +131,14 @@ def reconcile_driven(
     return replace(
         report, provenance={**origin(seed, time.process_time() - started), **provenance, **report.provenance}
     )
+
+
+def _held_up(report: Report, found: Analysis, held: Held, site: Site, seed: int) -> Report:
+    """The report held against the noise, the baselines, and lines of forces that were not measured."""
+    noise = noise_of(found.linear.model, found.fitted_run, found.linear.error, held.rested)
+    report = settled(report, found, noise, site.body.name, seed)
+    report = beside_baseline(report, found, held.looks, held.rested, site, seed)
+    return beside_tones(report, held.tones, held.data[0], site.body.name)
 
 
 def left_over(report: Report, found: Analysis) -> float:

@@ -30,8 +30,9 @@ class Held:
     faults: list[SensorFault]
     remarks: tuple[str, ...]
     undecided: bool
+    looks: tuple[Look, ...] = ()
     rested: tuple[Look, ...] = ()
-    """The baselines."""
+    """The models that tests and baselines fit, of what was put right."""
     tones: tuple[tuple[str, Tone], ...] = ()
     """Lines of forces that were not measured, with their recording; they are taken off."""
 
@@ -56,9 +57,14 @@ def held_against(tests: Sequence[Driven], baselines: Sequence[Driven], site: Sit
         looks[i] = replace(one, data=found.undone(one.data))
     said = () if faults else remarks(looks, site)
     return Held(
-        data=[one.data for one in looks], faults=faults, remarks=said, undecided=undecided, rested=tuple(rested),
+        data=[one.data for one in looks],
+        faults=faults,
+        remarks=said,
+        undecided=undecided,
+        looks=tuple(looks),
+        rested=tuple(rested),
         tones=tuple((f"test {i}", tone) for i, one in enumerate(heard, 1) for tone in one.tones),
-    )  # fmt: skip
+    )
 
 
 def _straight(data: Driven, recording: str, faults: list[SensorFault]) -> Added:
