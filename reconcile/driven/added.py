@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -30,13 +31,19 @@ ONE_TONE, HARMONIC = 0.5, 3
 """Share of the force's power in a line and `HARMONIC` beside it from which it is a sine; harmonics are its own then."""
 LEAKS = 1e-4
 """Power of a line over the strongest below which it may be that one's leakage."""
-NARROW = 10.0
+NARROW = 4.0
 """Lines a resonance must be wide: a narrower one is a line itself."""
+LEAST_TURNS = 8
+"""Of a line within the stretch: slower ones are a zero that wanders."""
+LEAST_OF_ALL = 0.1
+"""Amplitude over the strongest line's from which a line is told."""
 MULTIPLES = range(1, 8)
 DRIFT_BLOCKS, DRIFT_SHARE, DRIFT_POWER = 20, 0.8, 0.3
 """Blocks whose means a parabola in time must explain to this share, and what it must hold of the error's power: of
 noise it explains a tenth, of 1e5 draws none a half."""
 ROUNDS = 2
+SAME_PLACE = 0.03
+"""Over the frequency: lines nearer than that are told as one."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,11 +89,11 @@ def _places(error: FloatArray, drive: FloatArray, model: Model, step_s: float) -
     power, driven = power_lines(error), power_lines(drive)
     out = power > STANDS * _beside(power)
     out &= (driven < DRIVEN * _beside(driven)) & (_harmonics(driven) == 0.0)
-    out[:2] = False
+    out[:LEAST_TURNS] = False
     width = model.damping / (2.0 * math.pi) * error.size * step_s
     if width < NARROW:
         own = math.sqrt(model.stiffness) / (2.0 * math.pi) * error.size * step_s
-        out &= np.abs(np.arange(out.size) - own) > 2.0 * NARROW
+        out &= np.abs(np.arange(out.size) - own) > NARROW
     order = [int(k) for k in np.argsort(-power) if out[k]]
     kept: list[int] = []
     for k in order:
@@ -175,10 +182,20 @@ def without_added(one: Look) -> Added:
             hum=(*found.hum, *(tones if hum else ())),
             drift=found.drift + float(np.ptp(course)) / (float(after.data.answer.std()) or 1.0),
         )
-    return found
+    return replace(found, tones=distinct(found.tones), hum=distinct(found.hum))
 
 
-def is_hum(tones: list[Tone], duration_s: float) -> bool:
+def distinct(tones: Sequence[Tone]) -> tuple[Tone, ...]:
+    """Lines that are told: the strongest at a place, and none that another's removal may have left."""
+    found: list[Tone] = []
+    for tone in sorted(tones, key=lambda t: -t.motion):
+        apart = all(abs(tone.hz / other.hz - 1.0) > SAME_PLACE for other in found)
+        if not found or (apart and tone.motion > LEAST_OF_ALL * found[0].motion):
+            found.append(tone)
+    return tuple(found)
+
+
+def is_hum(tones: Sequence[Tone], duration_s: float) -> bool:
     """Whether all lines are multiples of one supply's frequency, an odd one among them: a motor pulls at even ones."""
     for supply in MAINS_HZ:
         near = [round(tone.hz / supply) for tone in tones]

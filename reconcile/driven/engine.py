@@ -138,7 +138,7 @@ def _held_up(report: Report, found: Analysis, held: Held, site: Site, seed: int)
     noise = noise_of(found.linear.model, found.fitted_run, found.linear.error, held.rested)
     report = settled(report, found, noise, site.body.name, seed)
     report = beside_baseline(report, found, held.looks, held.rested, site, seed)
-    return beside_tones(report, held.tones, held.data[0], site.body.name)
+    return beside_tones(report, held.tones, held.data[0], site.body.name, noise)
 
 
 def left_over(report: Report, found: Analysis) -> float:

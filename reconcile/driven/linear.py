@@ -15,6 +15,8 @@ from reconcile.driven.second import Second, second
 from reconcile.driven.varying import ALPHA, Varying, varying
 from reconcile.verdict import HeldOut
 
+MOST_BEYOND = 0.3
+"""Share of the error's power that no noise accounts for, from which it is no noise."""
 WORDS = {
     "stiffness": "The stiffness of {site} varies while it is recorded",
     "damping": "The damping of {site} varies while it is recorded",
@@ -34,16 +36,19 @@ class Told:
 
 
 def found_out(found: Analysis, noise: Noise, seed: int, least: float) -> Told | None:
-    """The better of a variation and a second resonance, if it explains the `least` share of what is beyond noise."""
+    """The better of a variation and a second resonance, if it explains the `least` share of what is beyond noise.
+
+    What follows the force is no noise, wherever it stands.
+    """
     run, held, model = found.fitted_run, found.held_run, found.linear.model
     rng = np.random.default_rng([seed, 23])
-    one = varying(model, run, found.linear.error, rng)
     two = second(model, run, held)
-    varies = one.p_value <= ALPHA and one.share >= least * noise.beyond
-    resounds = min(two.share, two.follows / noise.beyond) >= least * noise.beyond
-    if varies and (not resounds or one.share > two.share):
+    resounds = two is not None and two.share >= least * max(two.follows, noise.beyond)
+    one = varying(model, run, found.linear.error, rng) if noise.beyond >= MOST_BEYOND else None
+    varies = one is not None and one.p_value <= ALPHA and one.share >= least * noise.beyond
+    if one is not None and varies and (two is None or not resounds or one.share > two.share):
         return _varying(found, one)
-    return _second(found, two, noise, rng) if resounds else None
+    return _second(found, two, noise, rng) if two is not None and resounds else None
 
 
 def _varying(found: Analysis, one: Varying) -> Told:

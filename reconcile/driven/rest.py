@@ -7,21 +7,21 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
-from reconcile.driven.added import Tone, tone_words
+from reconcile.driven.added import Tone, distinct, tone_words
 from reconcile.driven.channels import Driven, FloatArray
 from reconcile.driven.forced import Analysis
 from reconcile.driven.judge import ROUGH
-from reconcile.driven.linear import Told, found_out
+from reconcile.driven.linear import MOST_BEYOND, Told, found_out
 from reconcile.driven.noise import Noise, power_lines
 from reconcile.verdict import NextExperiment, PlaceWeight, Report
 
-MOST_BEYOND = 0.3
-"""Share of the error's power that no noise accounts for, from which it is no noise."""
 OVER_BASELINE, LEAST = 2.0, 0.01
 """What is left over what a baseline leaves, and at least of the output, from which it is no noise."""
 LEAST_SHARE, LEAST_SHARE_BESIDE = 0.5, 0.7
 """Share of what is beyond the noise that a variation or a second resonance must explain to be told; the second where
 smooth laws see a force that none of them describes."""
+OTHERS = ("varies", "second_resonance")
+"""Stages of what was found instead of noise."""
 BAND = 0.1
 """Share of the error's power outside of the band that is told, at either end."""
 
@@ -67,7 +67,7 @@ def settled(report: Report, found: Analysis, noise: Noise, site: str, seed: int)
     nothing = report.verdict == "nothing_missing"
     if not nothing and (report.verdict != "unknown_physics" or found.final.model.laws):
         return report
-    if noise.beyond >= MOST_BEYOND and noise.left > LEAST:
+    if noise.left > LEAST:
         told = found_out(found, noise, seed, LEAST_SHARE if nothing else LEAST_SHARE_BESIDE)
         if told is not None:
             return _told(report, told, site)
@@ -123,18 +123,19 @@ def _noisy(report: Report, noise: Noise) -> Report:
     return replace(report, where=replace(report.where, limits=(*report.where.limits, limit)))
 
 
-def beside_tones(report: Report, tones: Sequence[tuple[str, Tone]], data: Driven, site: str) -> Report:
-    """The report with lines that the measured force does not make, taken off before: the answer where all else is."""
+def beside_tones(report: Report, tones: Sequence[tuple[str, Tone]], data: Driven, site: str, noise: Noise) -> Report:
+    """The report with lines that the measured force does not make, taken off before: the answer unless a cause is
+    told, or more is left than they make."""
     if not tones:
         return report
     unit = data.answer_channel.unit
-    by_place: dict[str, str] = {}
-    for recording, tone in tones:
-        by_place.setdefault(f"{tone.hz:.3g}", f"{tone_words(tone, unit)} in {recording}")
-    told = ", ".join(by_place.values())
+    named = {tone: recording for recording, tone in reversed(tones)}
+    kept = distinct(list(named))
+    told = ", ".join(f"{tone_words(tone, unit)} in {named[tone]}" for tone in kept)
     said = f"A force that was not measured acts on {site}, or a line is on its motion alone: {told}"
     open_one = f"whether the line is a force on {site} or the sensor's alone: with the force off both stay"
-    if report.verdict not in ("nothing_missing", "not_decidable"):
+    told_else = any(c.named for c in report.causes) or any(s.get("stage") in OTHERS for s in report.stages)
+    if told_else or max(tone.share for tone in kept) < noise.left:
         said = f"{said}; it is taken off before the rest."
         return replace(report, undecidable=(*report.undecidable, said, open_one))
     rest = "Apart from it the linear model explains the recordings up to noise."
