@@ -20,8 +20,8 @@ from reconcile.driven.model import Model, Run, answer_to, counted
 RESAMPLES, ALPHA = 199, 0.01
 SLOWEST, FASTEST = 0.75, 2.5
 """Turns of a variation over the stretch, at least, and its frequency over the natural one, at most."""
-FINER = 2
-"""Parts of the spacing of lines at which frequencies are tried."""
+A_TURN, ALIKE = 1.5, 0.8
+"""Turns under which a wave is no other than a drift that explains as much of what it does."""
 KINDS = ("stiffness", "damping", "force_gain")
 
 
@@ -118,7 +118,8 @@ def _periodic(found: Search, scan: _Scan, error: FloatArray) -> tuple[float, flo
     def left(at: float) -> float:
         return -_share(found, scan.cause, _wave(at, n, step), error)[0]
 
-    near = scipy.optimize.minimize_scalar(left, bounds=(hz - spacing, hz + spacing), method="bounded")
+    ends = (max(hz - spacing, SLOWEST / (n * step)), hz + spacing)
+    near = scipy.optimize.minimize_scalar(left, bounds=ends, method="bounded")
     share, sizes = _share(found, scan.cause, _wave(float(near.x), n, step), error)
     return share, float(near.x), sizes
 
@@ -136,6 +137,9 @@ def varying(model: Model, run: Run, error: FloatArray, rng: np.random.Generator)
         best.append((share, 0.0, sizes, k))
         best.append((*_periodic(found, scan, error), k))
     share, hz, sizes, kind = max(best, key=lambda b: b[0])
+    if hz * n * run.data.step_s < A_TURN:
+        drifts = [b for b in best if b[1] == 0.0 and b[0] > ALIKE * share]
+        share, hz, sizes, kind = max(drifts, key=lambda b: b[0], default=(share, hz, sizes, kind))
     null = []
     lines = np.abs(np.fft.rfft(error))
     for _ in range(RESAMPLES):
