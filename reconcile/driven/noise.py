@@ -25,6 +25,9 @@ be, else the quietest count."""
 FLOOR_QUANTILE, FLOOR_SHARE, EVEN = 0.1, 0.1, 2.0
 """Of the force's lines, those that are its noise; over the mean line above which they are its drive; and half of all
 lines must be as even as this: a drive that fades with frequency has no floor."""
+SPREADS = 2.0
+"""Standard deviations by which the power of noise through the oscillator may exceed its mean: of a narrow resonance few
+draws make it (its noise bandwidth, a quarter of the damping rate, times the duration)."""
 BESIDE = 16
 """Part of the band from which the noise on either side of a line is taken."""
 MEDIAN = 0.69
@@ -41,7 +44,7 @@ class Noise:
     motion: float
     """Noise on the motion."""
     force: float
-    """Noise on the force, through the oscillator."""
+    """Noise on the force, through the oscillator, at most."""
     baseline: float | None
     """What is left of the baselines by their own models, at most; None: there are none that a linear model fits."""
 
@@ -84,7 +87,9 @@ def _floor_of_force(drive: FloatArray) -> float:
     """Mean square a line of a noise on the force; 0 where it cannot be told from what drives."""
     power = smoothed(power_lines(drive))
     floor, middle = np.quantile(power, (FLOOR_QUANTILE, 0.5))
-    return float(floor) if floor < FLOOR_SHARE * power.mean() and middle < EVEN * floor else 0.0
+    if floor > FLOOR_SHARE * power.mean() or middle > EVEN * floor:
+        return 0.0
+    return float(np.mean(power[power < EVEN * floor]))
 
 
 def _noise_of_motion(error: FloatArray, answered: FloatArray) -> float:
@@ -117,7 +122,8 @@ def noise_of(model: Model, run: Run, error: FloatArray, baselines: Sequence[Look
     drive, answered = run.data.drive[run.skip :], simulated(model, run)[run.skip :]
     omega = np.asarray(2.0 * np.pi * np.fft.rfftfreq(drive.size, run.data.step_s), dtype=np.float64)
     through = float(np.sum(np.abs(response(model, omega[1:], run.data.order)) ** 2))
-    force = math.sqrt(_floor_of_force(drive) * through)
+    scatter = SPREADS / math.sqrt(max(model.damping / 4.0 * drive.size * run.data.step_s, 1.0))
+    force = math.sqrt(_floor_of_force(drive) * through * (1.0 + scatter))
     motion = math.sqrt(_noise_of_motion(error, answered))
     rested = [max(b.left, b.left * float(b.data.answer.std()) / spread) for b in baselines if b.left < 1.0]
     return Noise(

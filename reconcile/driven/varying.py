@@ -8,6 +8,7 @@ Its null distribution comes from errors with the same spectrum and random phases
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,8 @@ from reconcile.driven.missing import displaced, sensitivities
 from reconcile.driven.model import Model, Run, answer_to, counted
 
 RESAMPLES, ALPHA = 199, 0.01
+REFINED = 1.2
+"""By which the share may grow between the frequencies that are tried, which errors without a cause are held to."""
 SLOWEST, FASTEST = 0.75, 2.5
 """Turns of a variation over the stretch, at least, and its frequency over the natural one, at most."""
 A_TURN, ALIKE = 1.5, 0.8
@@ -105,6 +108,21 @@ def _share(found: Search, cause: FloatArray, shapes: FloatArray, error: FloatArr
     return 1.0 - float(left @ left) / max(float(error @ error), 1e-300), sizes
 
 
+def _span(found: Search, cause: FloatArray, shapes: FloatArray) -> FloatArray:
+    """Orthonormal columns of what a cause times shapes (n, k) does, free of retuning."""
+    columns = found.free(np.column_stack([found.through(cause * shape) for shape in shapes.T]))
+    return np.asarray(np.linalg.qr(_unit(columns))[0])
+
+
+def _by_chance(found: Search, scans: Sequence[_Scan], drifts: Sequence[FloatArray], error: FloatArray) -> float:
+    """Share that the same search explains of an error without a cause."""
+    best = max(scans, key=lambda scan: float(scan.shares(error).max()))
+    hz = float(best.hz[np.argmax(best.shares(error))])
+    wave = _wave(hz, best.cause.size, found.run.data.step_s)
+    spans = [*drifts, _span(found, best.cause, wave)]
+    return max(float(np.sum((span.T @ error) ** 2)) for span in spans) / max(float(error @ error), 1e-300)
+
+
 def _wave(hz: float, n: int, step_s: float) -> FloatArray:
     t = np.arange(n) * step_s
     return np.column_stack([np.cos(2.0 * math.pi * hz * t), np.sin(2.0 * math.pi * hz * t)])
@@ -142,9 +160,10 @@ def varying(model: Model, run: Run, error: FloatArray, rng: np.random.Generator)
         share, hz, sizes, kind = max(drifts, key=lambda b: b[0], default=(share, hz, sizes, kind))
     null = []
     lines = np.abs(np.fft.rfft(error))
+    slow_spans = [_span(found, cause, slow) for cause in found.causes]
     for _ in range(RESAMPLES):
-        turned = np.fft.irfft(lines * np.exp(2j * np.pi * rng.uniform(size=lines.size)), error.size)
-        null.append(max(float(scan.shares(turned).max()) for scan in scans))
+        drawn = np.fft.irfft(lines * np.exp(2j * np.pi * rng.uniform(size=lines.size)), error.size)
+        null.append(_by_chance(found, scans, slow_spans, found.free(drawn)))
     size = abs(float(sizes[0])) if hz == 0.0 else math.hypot(*(float(s) for s in sizes))
-    p = (1 + sum(value >= share for value in null)) / (RESAMPLES + 1)
+    p = (1 + sum(value >= share / REFINED for value in null)) / (RESAMPLES + 1)
     return Varying(kind=KINDS[kind], hz=hz, size=size, share=share, p_value=p)
