@@ -6,6 +6,7 @@ import time
 from collections.abc import Sequence
 
 from reconcile.origin import origin
+from reconcile.shares import percent
 from reconcile.speed.run_up import WINDOW_S, speed_change
 from reconcile.verdict import Level, NextExperiment, Report
 from signals.recording import Recording
@@ -39,4 +40,4 @@ def unsteady(tests: Sequence[Recording], baselines: Sequence[Recording], level: 
 
 def _told(name: str, change: float, one: Recording) -> str:
     within = f"{WINDOW_S:g} s of " if one.duration_s > WINDOW_S else ""
-    return f"{'rises' if change > 0 else 'falls'} by about {abs(change):.0%} during {within}{name}"
+    return f"{'rises' if change > 0 else 'falls'} by about {percent(abs(change), 0)} during {within}{name}"

@@ -8,6 +8,7 @@ import numpy as np
 
 from reconcile.gate.findings import Finding
 from reconcile.gate.sines import without_sines
+from reconcile.shares import percent
 from reconcile.speed.excess import line_excess
 from signals.recording import Recording
 from signals.series import FloatArray
@@ -52,7 +53,7 @@ def hum_findings(
                 kind="mains_hum",
                 channel=name,
                 recording=label,
-                detail=f"lines at {places} Hz hold {share:.1%} of the power{change}",
+                detail=f"lines at {places} Hz hold {percent(share)} of the power{change}",
                 severity=float(min(1.0, share)),
                 where=f"{lines[0][0]:.5g} Hz and multiples",
                 fault=fault,

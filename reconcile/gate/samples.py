@@ -8,6 +8,7 @@ import numpy as np
 
 from reconcile.gate.bridge import MOST_SAMPLES, bridged, holes
 from reconcile.gate.findings import Finding, Kind
+from reconcile.shares import percent
 from signals.checks import Finding as Defect
 from signals.checks import inspect
 from signals.recording import Recording
@@ -152,7 +153,7 @@ def _absences(samples: FloatArray, recording: Recording, name: str, label: str) 
         return []
     start = float(np.flatnonzero(quiet)[0] * length / recording.sampling_rate_hz + recording.start_s)
     share = float(np.mean(quiet))
-    detail = f"the signal is away for {share:.2%} of the time"
+    detail = f"the signal is away for {percent(share, 2)} of the time"
     where = f"first at {start:.6g} s"
     return [
         Finding(

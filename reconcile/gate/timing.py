@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from reconcile.gate.findings import Finding
+from reconcile.shares import percent, signed_percent
 from reconcile.speed import SpeedEstimate
 from signals.recording import Recording
 from signals.series import FloatArray
@@ -67,7 +68,7 @@ def tacho_findings(recording: Recording, label: str) -> tuple[Finding, ...]:
     if jitter < max(JITTER, 2 * quantum) and missed == 0:
         return ()
     count = f"{missed} of {steps.size} intervals are of missed or doubled pulses, " if missed else ""
-    detail = f"{count}each pulse is off by {jitter:.2%} of its interval (RMS)"
+    detail = f"{count}each pulse is off by {percent(jitter, 2)} of its interval (RMS)"
     first = f"first at {pulses[int(np.flatnonzero(wrong)[0])]:.6g} s" if missed else ""
     return (
         Finding(
@@ -101,6 +102,6 @@ def speed_findings(speed: SpeedEstimate, label: str) -> tuple[Finding, ...]:
     if speed.mismatch is None or speed.method == "stated" or abs(speed.mismatch) <= SPEED_TOLERANCE:
         return ()
     detail = f"{speed.shaft} turned at {speed.speed_hz:.4g} Hz ({speed.low_hz:.5g} to {speed.high_hz:.5g}), "
-    detail += f"{speed.mismatch:+.1%} from the stated {speed.stated_hz:.4g} Hz"
+    detail += f"{signed_percent(speed.mismatch)} from the stated {speed.stated_hz:.4g} Hz"
     severity = float(min(1.0, abs(speed.mismatch) / 0.1))
     return (Finding(kind="speed_mismatch", channel="", recording=label, detail=detail, severity=severity),)

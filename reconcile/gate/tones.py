@@ -16,6 +16,7 @@ import numpy as np
 from reconcile.gate.findings import Finding
 from reconcile.gate.mains import GROWN_DB, LEAST_SHARE, MATERIAL_SHARE, power_at
 from reconcile.gate.sines import without_sines
+from reconcile.shares import percent
 from reconcile.speed.excess import line_excess
 from signals.recording import Recording
 from signals.series import FloatArray
@@ -166,7 +167,7 @@ def _told(
         return None
     detail = f"narrow lines at {', '.join(f'{hz:.5g}' for hz in tones)} Hz stay there at every speed"
     detail += f", with lines at fixed orders beside them ({len(beside)})" if beside else ""
-    detail += f" and hold {share:.1%} of the power or more"
+    detail += f" and hold {percent(share)} of the power or more"
     detail += "" if grown is None else f", {grown:+.0f} dB against the baseline"
     detail += ": not this machine's motion, but a drive's switching, another machine or the recorder"
     return Finding(

@@ -14,6 +14,7 @@ import numpy as np
 from reconcile.gate.findings import Gate
 from reconcile.gate.samples import away
 from reconcile.gate.spoiled import GONE
+from reconcile.shares import percent
 from reconcile.verdict import SensorFault
 from signals.checks import held
 from signals.recording import Recording
@@ -140,7 +141,7 @@ def _told(label: str, one: Recording, part: _Part | None, mask: BoolArray) -> li
     share = float(np.max(np.mean(mask, axis=1)))
     if part is not None and part.stop - part.first == mask.shape[1]:
         return []
-    what = f"{label}: {share:.0%} of the samples were held, zero or away"
+    what = f"{label}: {percent(share, 0)} of the samples were held, zero or away"
     if part is None:
         return [f"{what}, and no whole stretch is long enough to be read"]
     rate = one.sampling_rate_hz

@@ -14,6 +14,7 @@ from reconcile.kinematics.heldout import held_out
 from reconcile.kinematics.measured import measured_lines
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.sites import decided, places
+from reconcile.shares import signed_percent
 from reconcile.verdict import Cause, HeldOut, LineChange, NextExperiment, PlaceWeight, Report, Severity, Where
 
 TERMS = {"outer": "outer_spall", "inner": "inner_spall", "ball": "ball_spall"}
@@ -141,10 +142,10 @@ def _held(
 def _phrase(candidate: Candidate, weights: Sequence[PlaceWeight], extent: Extent | None, ties: Ties) -> str:
     kind, e = candidate.family.kind, candidate.best
     where = weights[0].site if decided(weights) else "one of " + ", ".join(w.site for w in weights)
-    text = (
-        f"A local defect on {PARTS[kind]} of {where}: {SYMBOLS[kind]} at order {e.order:.4g} ({e.slip:+.1%} from the "
+    text = f"A local defect on {PARTS[kind]} of {where}: {SYMBOLS[kind]} at order {e.order:.4g} ("
+    text += (
+        f"{signed_percent(e.slip)} from the drawing) modulates {e.band_hz[0]:.0f}-{e.band_hz[1]:.0f} Hz of {e.channel}"
     )
-    text += f"drawing) modulates {e.band_hz[0]:.0f}-{e.band_hz[1]:.0f} Hz of {e.channel}"
     growth = candidate.growth_db
     text += f", {growth:.0f} dB deeper than in the baseline" if growth is not None else ""
     if extent is None:

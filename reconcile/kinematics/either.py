@@ -11,6 +11,7 @@ from reconcile.kinematics.answer import PARTS, TERMS
 from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.judge import LIKE_SHARE, ONE_LINE
 from reconcile.kinematics.sites import DECIDED, USUAL_SLIP
+from reconcile.shares import signed_percent
 from reconcile.verdict import Cause, Report
 
 REASON = "another part of the bearing makes the same lines within slip"
@@ -48,7 +49,8 @@ def with_other_kind(report: Report, first: Candidate, rival: Candidate) -> Repor
         values={"slip": rival.best.slip, "depth": rival.best.depth, "chance": rival.chance},
     )
     own = [replace(c, score=c.score * weight, named=False, reasons=(*c.reasons, REASON)) for c in report.causes]
-    or_else = f"{PARTS[kind]} of {rival.family.site} ({rival.best.slip:+.1%} from the drawing) makes the same lines"
+    off = signed_percent(rival.best.slip)
+    or_else = f"{PARTS[kind]} of {rival.family.site} ({off} from the drawing) makes the same lines"
     return replace(
         report,
         verdict="ambiguous",

@@ -62,7 +62,7 @@ def test_a_wrong_speed_is_told_and_the_teeth_stay() -> None:
     """At this speed 23 teeth are 25 at the stated one."""
     report = said(TRUE, turned_hz=SPEED_HZ * 25 / TRUE)
     assert "machine file" not in report.sentence
-    assert any("turned at 27.17 Hz" in text and "+8.7%" in text for text in report.where.limits)
+    assert any("turned at 27.17 Hz" in text and "+8.7 %" in text for text in report.where.limits)
 
 
 @pytest.mark.slow
