@@ -38,7 +38,7 @@ def _sensor_too(report: Report) -> str:
     """What is to be mended where a fault of the measurement stands beside the answer."""
     if report.fault is None or report.verdict == "measurement_fault" or _perhaps_all(report):
         return ""
-    said = to_mend(report.fault, beside=True)
+    said = to_mend(report.fault, beside=True, several=report.measurement_faults)
     return f" {said[0].upper()}{said[1:]}"
 
 
@@ -68,7 +68,8 @@ def _nothing(report: Report) -> str:
 
 
 def _measurement(report: Report) -> str:
-    return to_mend(report.fault) if report.fault is not None else "check the sensors and record again."
+    told = report.measurement_faults
+    return to_mend(report.fault, several=told) if report.fault is not None else "check the sensors and record again."
 
 
 def _explained(report: Report) -> str:
@@ -92,7 +93,7 @@ def _unknown(report: Report) -> str:
 
 def _several(report: Report) -> str:
     if report.fault is not None and _perhaps_all(report):
-        return to_mend(report.fault)
+        return to_mend(report.fault, several=report.measurement_faults)
     kinds, sites = undecided(report)
     if len(kinds) == 1 and len(sites) > 1:
         return f"plan to inspect {' and '.join(sites)}: one of them has it."

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from reconcile.verdict import SensorFault
 
 AGAIN = "and record again before judging the machine"
@@ -32,14 +34,23 @@ ALSO_ON = "; also on "
 USUAL = ("check sensor and cable of {at}", AGAIN)
 
 
-def to_mend(fault: SensorFault, *, beside: bool = False) -> str:
-    """A clause with its full stop, which begins small; `beside` another answer what follows is not said."""
+def to_mend(fault: SensorFault, *, beside: bool = False, several: Sequence[SensorFault] = ()) -> str:
+    """A clause with its full stop, which begins small; `beside` another answer what follows is not said. `several`:
+    all faults, of which those of this kind are mended alike."""
     what, then = MENDED.get(fault.kind, USUAL)
-    what = what.format(at=_channels(fault) or "all channels")
+    what = what.format(at=_channels(fault, several) or "all channels")
     return f"{what.rstrip(',')}." if beside or not then else f"{what} {then}."
 
 
-def _channels(fault: SensorFault) -> str:
-    """The channel, with the others that the detail names."""
-    others = fault.detail.partition(ALSO_ON)[2]
-    return f"{fault.channel} and {others}" if others and fault.channel else fault.channel
+def channels(fault: SensorFault, several: Sequence[SensorFault] = ()) -> list[str]:
+    """The channel, the others that the detail names, and those with the same fault."""
+    if not fault.channel:
+        return []
+    told = fault.detail.partition(ALSO_ON)[2]
+    alike = [f.channel for f in several if f.kind == fault.kind and f.channel]
+    return list(dict.fromkeys([fault.channel, *(told.split(", ") if told else ()), *alike]))
+
+
+def _channels(fault: SensorFault, several: Sequence[SensorFault]) -> str:
+    *many, last = channels(fault, several) or [""]
+    return f"{', '.join(many)} and {last}" if many else last

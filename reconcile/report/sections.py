@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from reconcile.report.action import to_do, undecided
 from reconcile.report.markup import Markup, escaped, figure_text, tag
+from reconcile.report.mending import channels
 from reconcile.report.words import (
     FORMS,
     LEFT_OVER,
@@ -107,7 +108,8 @@ def head(report: Report) -> Markup:
     tiles = []
     named = [c for c in report.causes if c.named]
     if report.fault is not None:
-        tiles.append(_tile(report.fault.kind.replace("_", " "), f"on {report.fault.channel or 'the measurement'}"))
+        where = ", ".join(channels(report.fault, report.measurement_faults)) or "the measurement"
+        tiles.append(_tile(report.fault.kind.replace("_", " "), f"on {where}"))
     if report.where.sites:
         best = max(report.where.sites, key=lambda s: s.weight)
         tiles.append(_place(report, best))

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from reconcile.gate.findings import FAULTS
 from reconcile.report.action import to_do
 from reconcile.report.mending import MENDED, to_mend
+from reconcile.report.sections import head
 from reconcile.verdict import Report, SensorFault
 
 
@@ -36,3 +39,16 @@ def test_all_exchanged_channels_are_asked_for() -> None:
     detail = "all tests: looks like the baseline's free, not like its own; also on free"
     told = to_mend(SensorFault(kind="swapped_channels", channel="drive", detail=detail))
     assert "(here drive and free)" in told
+
+
+def test_all_channels_with_one_fault_are_asked_for_and_shown() -> None:
+    """Beside an answer each channel has a fault of its own."""
+    faults = tuple(SensorFault(kind=kind, channel=c) for kind, c in (("unit_mismatch", "de"), ("unit_mismatch", "fe")))
+    other = SensorFault(kind="clipped", channel="xe")
+    report = Report(
+        verdict="explained", sentence="", level="kinematics", fault=faults[0], measurement_faults=(*faults, other)
+    )
+    assert "stated for de and fe." in to_do(report)
+    assert "on de, fe<" in head(report) and "xe" not in head(report)
+    for verdict in ("measurement_fault", "ambiguous"):
+        assert "stated for de and fe" in to_do(replace(report, verdict=verdict))
