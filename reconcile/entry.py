@@ -12,6 +12,7 @@ from reconcile.atlas.keep import Keeper
 from reconcile.atlas.places import simulated_channels
 from reconcile.driven import reconcile_driven
 from reconcile.kinematics import KinematicSpec, reconcile_kinematics
+from reconcile.kinematics.whose_speed import check_whose_speeds
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.engine import Progress, reconcile_machine
 from reconcile.pulses import check_pulses
@@ -177,6 +178,7 @@ def reconcile_recordings(
     check_channels(tests, baselines)
     check_repeated(tests, baselines)
     if isinstance(machine, KinematicSpec):
+        check_whose_speeds(machine, given(tests, baselines))
         check_pulses(given(tests, baselines), machine)
     level: Level = "kinematics" if isinstance(machine, KinematicSpec) else "machine"
     silent = (*unstated(given(tests, baselines)), *exchanged(given(tests, baselines)))

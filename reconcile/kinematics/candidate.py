@@ -106,6 +106,11 @@ class Candidate:
         ]
         return 2 * sum(votes) > len(votes)
 
+    @property
+    def by_itself(self) -> bool:
+        """Whether every recording shows by itself what no sound machine does."""
+        return all(self._alone(i) for i in range(len(self.evidence)))
+
     def _alone(self, i: int) -> bool:
         """Whether test `i` shows by itself what no sound machine does: blows, with lines as deep as a defect makes
         them."""

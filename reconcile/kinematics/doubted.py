@@ -18,6 +18,8 @@ from reconcile.kinematics.unread import Judged, at_either, speed_unread
 from reconcile.verdict import NextExperiment, Report
 from signals.recording import Operating, Recording
 
+TACHO = "Record with a tacho, or read the speed once with a strobe."
+RATE_TOO = " Look up the sampling rate first where the file does not hold it."
 CLEAR_Z = 3.0
 """Robust deviations by which the bearing's lines must be firmer at one speed to decide for it: scores of one defect
 scatter by about one from record to record."""
@@ -27,6 +29,9 @@ FAR = 0.06
 """Relative difference of a stated speed from the machine file's beyond which the search for lines does not reach it."""
 WORDS = {2.0: "twice the stated speed", 0.5: "half the stated speed"}
 USUAL = "the speed of the machine file"
+RATES = {2.0: "half", 0.5: "twice"}
+"""What the sampling rate would be over the stated one, if that is what is wrong: a file that does not hold its rate is
+read as if it had been sampled as the description says, and everything moves with it."""
 
 
 def factor_of(seen: Observation, ties: Ties) -> float | None:
@@ -121,7 +126,8 @@ def doubted(
     if by_bearing and first.speed.method != "stated":
         fits = f"the bearing's lines stand as they do at {other:.4g} Hz"
     note = f"whether {shaft} turns at {speed:.4g} Hz as stated or at {other:.4g} Hz: {fits}"
-    undecidable = (note, *stated.report.undecidable)
+    rate = f"the sampling rate is {RATES[factor]} the one stated" if factor in RATES else ""
+    undecidable = (f"{note}, or {rate}" if rate else note, *stated.report.undecidable)
     if rival is None and by_bearing:
         rival = replace(stated, every=())  # its lines tell, though the recordings can't carry the parts at that speed
     if rival is None or max(stated.z, rival.z) == 0.0:
@@ -134,8 +140,8 @@ def doubted(
         shown,
         verdict="ambiguous",
         sentence=f"The speed is not decided: {whose} fit {other:.4g} Hz, {WORDS.get(factor, USUAL)}, {how} than "
-        f"{speed:.4g} Hz as stated. At {at:.4g} Hz: {shown.sentence}",
+        f"{speed:.4g} Hz as stated{f'; or {rate}' if rate else ''}. At {at:.4g} Hz: {shown.sentence}",
         causes=at_either((stated, speed), (rival, other)),
         undecidable=undecidable,
-        next_experiment=NextExperiment(sentence="Record with a tacho, or read the speed once with a strobe."),
+        next_experiment=NextExperiment(sentence=f"{TACHO}{RATE_TOO if rate else ''}"),
     )

@@ -9,8 +9,10 @@ from reconcile.faults import measurement_faults, with_faults
 from reconcile.gate import Gate
 from reconcile.gate.spoiled import doubts, fault_sentence, remarks
 from reconcile.kinematics.candidate import Candidate
+from reconcile.kinematics.labels import label_faults
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.picture import envelope_picture, of_the_answer
+from reconcile.kinematics.slowest import short_limits, without_short
 from reconcile.verdict import NOT_JUDGED, Report
 from sim.core.errors import SpecError
 
@@ -45,13 +47,12 @@ def finished(
         {"name": "families", "table": [_row(c) for c in every]},
     ]
     if report.verdict != "measurement_fault":
-        report = replace(
-            report, where=replace(report.where, limits=(*report.where.limits, *remarks(gate), *doubts(gate)))
-        )
+        said = (*remarks(without_short(gate)), *doubts(gate), *short_limits(gate, report))
+        report = replace(report, where=replace(report.where, limits=(*report.where.limits, *said)))
     pictures = envelope_picture(of_the_answer(every, report.causes), tests, baselines)
     causes = tuple(replace(c, score_unit=SCORE_UNITS.get(c.score_unit, c.score_unit)) for c in report.causes)
     report = replace(report, causes=causes, stages=tuple(stages), pictures=pictures)
-    return with_faults(report, measurement_faults(gate))
+    return with_faults(report, (*measurement_faults(gate), *label_faults(report, (*tests, *baselines))))
 
 
 def _row(c: Candidate) -> dict[str, object]:

@@ -33,6 +33,7 @@ from reconcile.kinematics.remarks import remarked, with_rest
 from reconcile.kinematics.series import ShaftSeries, shaft_series
 from reconcile.kinematics.shafts import ShaftChange, grown_impacts, shaft_changes
 from reconcile.kinematics.slow import slow_turn
+from reconcile.kinematics.slowest import with_slowest
 from reconcile.kinematics.spec import KinematicSpec, of_machine
 from reconcile.kinematics.teeth import other_teeth, told_with, with_teeth
 from reconcile.kinematics.turning import (
@@ -46,6 +47,7 @@ from reconcile.kinematics.turning import (
 from reconcile.kinematics.unheard import with_lost
 from reconcile.kinematics.unread import ALIKE_Z, Judged
 from reconcile.kinematics.vague import foreign_report, gear_report, nothing_report
+from reconcile.kinematics.whose_speed import of_one_shaft, usual_speeds
 from reconcile.origin import origin
 from reconcile.report.action import EXCHANGED
 from reconcile.told import about
@@ -102,10 +104,11 @@ def _reconciled(
     known = of_machine(spec) if isinstance(spec, MachineSpec) else spec
     operating = tests[0].operating if tests else None
     tie = ties(known, operating.shaft if operating else None)
-    gate = gated(tests, baselines, tie, seed)
+    tests, baselines = of_one_shaft(tests, tie), of_one_shaft(baselines, tie)
+    gate = with_slowest(gated(tests, baselines, tie, seed), tie)
     if not gate.usable:
         return finished(fault_report(gate), gate, (), ())
-    stated = {s.name: s.speed_hz for s in known.shafts}[tie.reference]
+    stated = usual_speeds(known).get(tie.reference)
     whole = whole_stretches(without_spoiled(gate, GONE), tests, baselines, stated)
     gate = whole.gate
     if not gate.usable:
@@ -233,7 +236,7 @@ def _other_speeds(
         return None
     if min(t.recording.duration_s * t.speed.speed_hz for t in tests) < FEW_TURNS:
         return []  # so short a record has lines of some part at some speed
-    return [n.factor for n in nominees(tests, tie, here.z - 2 * ALIKE_Z, seed)]
+    return [n.factor for n in nominees(tests, tie, max(here.z, here.heard_z) - 2 * ALIKE_Z, seed)]
 
 
 def _allows(seen: Observation, tie: Ties, factor: float, firmly: bool) -> bool:

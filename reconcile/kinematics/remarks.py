@@ -12,9 +12,14 @@ from reconcile.kinematics.judge import SECOND_SHARE, named, one_line, same
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.series import ShaftSeries
 from reconcile.kinematics.shafts import ShaftChange
-from reconcile.verdict import LineChange, Report
+from reconcile.kinematics.vague import BEFORE_TOO, IN_BOTH
+from reconcile.report.action import EXCHANGED
+from reconcile.verdict import LineChange, NextExperiment, Report
 from sim.terms import REGISTRY
 
+WHICH = NextExperiment(sentence="Check which recording is of the sound machine.")
+CHANGED = ("ambiguous", "unknown_physics")
+RACES = ("outer", "inner")
 SAME_SPEED = 0.015
 """Relative difference of a baseline's speed up to which depths of modulation are compared without a word."""
 
@@ -27,17 +32,19 @@ def remarked(
     every: Sequence[Candidate],
     seed: int,
 ) -> Report:
-    """The report with these remarks: what may be a second defect is undecidable, the rest are limits."""
+    """The report with these remarks: what may be a second defect is undecidable, the rest are limits. A baseline with
+    lines that the tests have not makes no machine sound."""
     limits = [*_speeds_differ(tests, baselines)]
-    sentence = report.sentence
     if report.verdict == "nothing_missing":
         limits += _unconfirmed(tests)
-        deeper = _deeper_before(tie, tests, baselines, seed)
-        limits += deeper
-        sentence = " ".join([sentence, *(f"But {text}." for text in deeper)])
+    deeper = _deeper_before(report, tie, tests, baselines, every, seed)
+    limits += deeper
+    said = [*deeper, *_in_both_too(report, every)]
+    if deeper and report.verdict == "nothing_missing":
+        report = replace(report, verdict="not_decidable", next_experiment=WHICH)
     return replace(
         report,
-        sentence=sentence,
+        sentence=" ".join([report.sentence, *(f"But {text}." for text in said)]),
         undecidable=(*report.undecidable, *_risen_too(report, every)),
         where=replace(report.where, limits=(*report.where.limits, *limits)),
     )
@@ -84,16 +91,47 @@ def _unconfirmed(tests: Sequence[Observation]) -> list[str]:
     ]
 
 
-def _deeper_before(tie: Ties, tests: Sequence[Observation], baselines: Sequence[Observation], seed: int) -> list[str]:
-    """A defect of the baseline that the tests have not."""
-    if not baselines:
+def _in_both_too(report: Report, every: Sequence[Candidate]) -> list[str]:
+    """Races that are deep in the tests and no deeper than in the baseline, where the answer does not tell them yet."""
+    if report.verdict not in CHANGED or IN_BOTH in report.sentence:
         return []
-    chosen, _ = named(baselines, tests, tie, seed)
+    old = [c for c in every if c.family.kind in RACES and c.present and c.based and not c.risen and c.deep]
+    keys = [c.family.key for c in old if c.family.key not in report.sentence]
+    return [f"{', '.join(keys)} {'are' if len(keys) > 1 else 'is'} {IN_BOTH}: {BEFORE_TOO}"] if keys else []
+
+
+def _deeper_before(
+    report: Report,
+    tie: Ties,
+    tests: Sequence[Observation],
+    baselines: Sequence[Observation],
+    every: Sequence[Candidate],
+    seed: int,
+) -> list[str]:
+    """A defect of the baseline that the tests have not; beside another answer also one that is told by itself, though
+    the tests are noisy enough there to hide how much less they have."""
+    if not baselines or report.verdict == "measurement_fault":
+        return []
+    chosen, own = named(baselines, tests, tie, seed)
+    here = {c.family.key for c in every if c.present}
+    alone = [c for c in own if c.family.kind in RACES and c.present and c.by_itself and c.family.key not in here]
+    more = [*chosen, *(c for c in alone if c not in chosen and report.verdict != "nothing_missing")]
+    less = [(c.family.key, c.growth_db) for c in more if not _told(c, report, every)]
     gears = [f"{g.gear}'s turn around {g.mesh}" for g in gear_evidence(baselines, tests, tie) if g.grown]
-    return [
-        f"the baseline has deep lines of {what} that the tests have not; exchanged, or a part replaced"
-        for what in [*(c.family.key for c in chosen), *gears][:1]
+    rows = [
+        *(f"{key} that the tests have not{'' if db is None else f', or {db:.0f} dB less'}" for key, db in less),
+        *(f"{gear} that the tests have not" for gear in gears if report.verdict == "nothing_missing"),
     ]
+    return [f"the baseline has deep lines of {row}; {EXCHANGED}" for row in rows[:1]]
+
+
+def _told(one: Candidate, report: Report, every: Sequence[Candidate]) -> bool:
+    """Whether the answer speaks of this part, or of one with the same lines."""
+    kind = one.family.kind
+    if any(_is(one.family, x.term, x.site) for x in report.causes):
+        return True
+    spoken = [c.family for c in every if any(_is(c.family, x.term, x.site) for x in report.causes)]
+    return any(kind == f.kind and same(one.family, f) for f in spoken)
 
 
 def _speeds_differ(tests: Sequence[Observation], baselines: Sequence[Observation]) -> list[str]:

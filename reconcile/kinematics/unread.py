@@ -13,6 +13,7 @@ from reconcile.kinematics.answer import PARTS
 from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.other_speeds import SPAN
+from reconcile.shares import percent
 from reconcile.verdict import Cause, NextExperiment, Report
 
 ALIKE_Z = 1.5
@@ -20,6 +21,8 @@ ALIKE_Z = 1.5
 and by the choice of the controls, their difference by the root of two times that."""
 BEHIND_Z = 3.0
 """Of the firmest: another part this far behind it is not told."""
+SAME_LINES = 0.01
+"""Relative difference of rates that are those of one train of impacts."""
 TACHO = NextExperiment(sentence="Record with a tacho, or read the speed once with a strobe.")
 
 
@@ -42,6 +45,21 @@ class Judged:
         return max(standing, key=lambda c: c.z, default=None)
 
     @property
+    def heard_z(self) -> float:
+        """Score of the firmest bearing family that is there, as deep in the baseline, else 0."""
+        return max((c.z for c in self._old), default=0.0)
+
+    def hears(self, other: Judged, factor: float) -> bool:
+        """Whether such a family has the impacts that stand firmest at `factor` times the speed."""
+        return other.firmest is not None and any(
+            abs(c.best.order / (other.firmest.best.order * factor) - 1.0) < SAME_LINES for c in self._old
+        )
+
+    @property
+    def _old(self) -> list[Candidate]:
+        return [c for c in self.every if c.family.kind in DEFECTS and c.present and not c.risen and c.based]
+
+    @property
     def part(self) -> str:
         """`the outer race of drive_end`, or `no part`."""
         c = self.firmest
@@ -52,10 +70,17 @@ def speed_unread(stated: Judged, others: Sequence[tuple[Judged, float]], first: 
     """The report at the stated speed, held against those at other speeds (with that speed, Hz).
 
     It stands where they are other parts' and less firm, with the remark that the speed is not confirmed; else the
-    verdict is ambiguous, or, where another speed explains what the stated one does not, that is said.
+    verdict is ambiguous, or, where another speed explains what the stated one does not, that is said. A part that
+    makes these impacts at the stated speed, or is as firm there, needs no other speed, though the baseline has it too.
     """
     shaft, speed = first.speed.shaft, first.speed.speed_hz
-    as_well = [(one, hz) for one, hz in others if one.z > max(stated.z - ALIKE_Z, 0.0) and one.part != stated.part]
+    as_well = [
+        (one, hz)
+        for one, hz in others
+        if one.z > max(stated.z - ALIKE_Z, stated.heard_z, 0.0)
+        and one.part != stated.part
+        and not stated.hears(one, hz / speed)
+    ]
     if not as_well:
         return _unconfirmed(stated, shaft, speed)
     top = max(one.z for one, _ in as_well)
@@ -89,7 +114,7 @@ def _unconfirmed(stated: Judged, shaft: str, speed_hz: float) -> Report:
         return stated.report
     note = f"whether {shaft} turns at {speed_hz:.4g} Hz as stated: no line confirms it"
     if stated.z > 0:
-        note += f"; no speed that is {SPAN:.0%} off explains the impacts as well by another part"
+        note += f"; no speed that is {percent(SPAN, 0)} off explains the impacts as well by another part"
     return replace(stated.report, undecidable=(*stated.report.undecidable, note))
 
 

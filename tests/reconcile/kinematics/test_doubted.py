@@ -38,6 +38,9 @@ def test_a_defect_at_a_speed_wrong_by_two_is_not_named(term: str, factor: float)
     assert not any(c.named for c in report.causes)
     assert "whether shaft turns" in report.undecidable[0]
     assert report.next_experiment is not None and "tacho" in report.next_experiment.sentence
+    rate = {0.5: "half", 2.0: "twice"}[factor]  # a file read as twice as fast turns twice as fast
+    assert f"or the sampling rate is {rate} the one stated" in report.sentence and rate in report.undecidable[0]
+    assert "Look up the sampling rate first" in report.next_experiment.sentence
     speed = next(s for s in report.stages if s["name"] == "speed")
     assert speed["found"]["test 1"]["rival_hz"] == pytest.approx(SPEED_HZ, rel=1e-3)  # type: ignore[index]
 

@@ -10,6 +10,7 @@ import pytest
 
 from reconcile.kinematics import faint, read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.vague import LOUDER_DB
+from reconcile.report.action import to_do
 from tests.strategies.impulses import recorded, sound, train
 
 DRAWING = {
@@ -80,3 +81,13 @@ def test_a_doubtful_sensor_does_not_hide_that_the_baseline_shows_more(exchanged:
     report = reconcile_kinematics(read_kinematic_spec({"kinematics": DRAWING}), [quiet], [base], seed=0)
     assert ("exchanged, or a part replaced" in report.sentence) is exchanged, report.sentence
     assert (report.verdict == "measurement_fault") is not exchanged
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("share", "told"), [(1 / 40, True), (1.0, False)])
+def test_a_scale_is_told_beside_exchanged_recordings(share: float, told: bool) -> None:
+    """Samples of a wav file are shares of its full scale."""
+    spec = read_kinematic_spec({"kinematics": DRAWING})
+    report = reconcile_kinematics(spec, [recorded(share * sound(2))], [recorded(sound(1))], seed=0)
+    assert ("a unit, sensitivity or scale" in report.sentence) is told, report.sentence
+    assert ("scale (a wav file" in to_do(report)) is told

@@ -36,12 +36,20 @@ def turning(speed_hz: float, method: str) -> SimpleNamespace:
     return SimpleNamespace(speed=SimpleNamespace(shaft="shaft", speed_hz=speed_hz, method=method))
 
 
-def judged(kind: Kind, site: str, z: float, verdict: str = "explained") -> Judged:
+def judged(kind: Kind, site: str, z: float, verdict: str = "explained", order: float = OUTER) -> Judged:
     family = Family(kind=kind, site=site, order=OUTER, spacing=0.0, sidebands=0, slip=0.025)
-    one = SimpleNamespace(family=family, z=z, present=True, risen=True, deep=True)
+    best = SimpleNamespace(order=order)
+    one = SimpleNamespace(family=family, z=z, best=best, present=True, risen=True, based=True, deep=True)
     cause = Cause(term=f"{kind}_spall", site=site, score=z, named=True)
     report = Report(verdict=verdict, sentence=f"{kind} of {site}.", level="kinematics", causes=(cause,))  # type: ignore[arg-type]
     return Judged(report=report, every=(one,))  # type: ignore[arg-type]
+
+
+def in_both(z: float, order: float = OUTER) -> Judged:
+    """Impacts of no part have risen; those of a race are there as in the baseline."""
+    one = judged("outer", "drive_end", z, order=order).every[0]
+    one.risen = False  # type: ignore[misc]
+    return Judged(report=NOTHING.report, every=(one,))
 
 
 NOTHING = Judged(report=Report(verdict="unknown_physics", sentence="Foreign.", level="kinematics"), every=())
@@ -130,3 +138,13 @@ def test_what_only_another_speed_explains_is_said() -> None:
     quiet = told(NOTHING)
     assert quiet.verdict == "unknown_physics" and "no line confirms it" in quiet.undecidable[-1]
     assert at_either((NOTHING, 30.0)) == ()
+
+
+def test_a_race_that_the_baseline_has_too_needs_no_other_speed() -> None:
+    """The same impacts are another part's at 35 Hz, and weaker ones at 27 Hz; firmer ones of another rate are told."""
+    same = judged("inner", "fan_end", 25.0, order=OUTER * 30.0 / 35.0), 35.0
+    weaker = judged("ball", "fan_end", 15.0, order=4.4), 27.0
+    report = told(in_both(20.0), same, weaker)
+    assert report.verdict == "unknown_physics" and "no line confirms it" in report.undecidable[-1]
+    assert told(in_both(20.0), (judged("ball", "fan_end", 25.0, order=4.4), 27.0)).verdict == "ambiguous"
+    assert told(in_both(10.0, order=2.0), weaker).verdict == "ambiguous"

@@ -10,6 +10,7 @@ import pytest
 from reconcile.kinematics import remarks
 from reconcile.kinematics.families import Family, Kind
 from reconcile.kinematics.remarks import remarked
+from reconcile.report.action import to_do
 from reconcile.verdict import Cause, Report
 
 
@@ -21,8 +22,16 @@ def seen(hz: float, method: str = "harmonics") -> SimpleNamespace:
     return SimpleNamespace(speed=SimpleNamespace(speed_hz=hz, method=method))
 
 
-def candidate(kind: Kind, order: float, z: float, *, risen: bool = True) -> SimpleNamespace:
-    return SimpleNamespace(family=family(kind, order), z=z, risen=risen, growth_db=19.0)
+def candidate(kind: Kind, order: float, z: float, *, risen: bool = True, **how: bool) -> SimpleNamespace:
+    rest = {"present": True, "based": True, "deep": True, "by_itself": True} | how
+    return SimpleNamespace(family=family(kind, order), z=z, risen=risen, growth_db=19.0, **rest)
+
+
+@pytest.fixture(autouse=True)
+def sound(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A baseline of a sound machine."""
+    monkeypatch.setattr(remarks, "named", lambda *_: ((), ()))
+    monkeypatch.setattr(remarks, "gear_evidence", lambda *_: ())
 
 
 OUTER, INNER = candidate("outer", 3.585, 12.6), candidate("inner", 5.415, 14.5)
@@ -63,8 +72,38 @@ def test_a_baseline_with_a_defect_that_the_tests_have_not(monkeypatch: pytest.Mo
     monkeypatch.setattr(remarks, "named", lambda *_: ((OUTER,), ()))
     monkeypatch.setattr(remarks, "gear_evidence", lambda *_: ())
     report = told(NOTHING, baselines=[seen(30.0)])
-    assert "drive_end.outer" in report.sentence and "exchanged" in report.where.limits[-1]
-    assert told(NOTHING).sentence == "Nothing."
+    assert "drive_end.outer that the tests have not, or 19 dB less" in report.sentence
+    assert "exchanged" in report.where.limits[-1]
+    assert report.verdict == "not_decidable" and report.next_experiment is not None
+    assert "which recording is of the sound machine" in report.next_experiment.sentence
+    assert to_do(report).startswith("check which recording is which")
+    assert told(NOTHING).sentence == "Nothing." and told(NOTHING).verdict == "nothing_missing"
+
+
+def test_a_name_stands_beside_what_the_baseline_has_and_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its lines may be hidden in the tests, so that they are hardly deeper before."""
+    monkeypatch.setattr(remarks, "named", lambda *_: ((), (INNER,)))
+    report = told(NAMED, baselines=[seen(30.0)], every=[OUTER])
+    assert report.verdict == "explained" and "deep lines of drive_end.inner that the tests have not" in report.sentence
+    assert "check which recording is which" in to_do(report)
+    for quiet in ({"by_itself": False}, {"present": False}):
+        monkeypatch.setattr(remarks, "named", lambda *_, how=quiet: ((), (candidate("inner", 5.415, 9.0, **how),)))
+        assert told(NAMED, baselines=[seen(30.0)], every=[OUTER]).sentence == NAMED.sentence
+
+
+def test_the_named_part_is_not_told_of_the_baseline_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(remarks, "named", lambda *_: ((), (OUTER,)))
+    assert told(NAMED, baselines=[seen(30.0)], every=[OUTER]).sentence == NAMED.sentence
+    assert told(NAMED, baselines=[seen(30.0)], every=[INNER]).sentence == NAMED.sentence
+
+
+def test_a_race_that_is_deep_in_both_is_told_beside_what_changed() -> None:
+    changed = replace(NAMED, verdict="ambiguous", sentence="Impacts once a turn.", causes=())
+    old = candidate("inner", 5.415, 20.2, risen=False)
+    assert "drive_end.inner is deep in both" in told(changed, every=[old]).sentence
+    for how in ({"deep": False}, {"present": False}, {"based": False}):
+        assert told(changed, every=[candidate("inner", 5.415, 20.2, risen=False, **how)]).sentence == changed.sentence
+    assert told(NAMED, every=[old]).sentence == NAMED.sentence
 
 
 def test_a_baseline_with_a_tooth_that_the_tests_have_whole(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,0 +1,56 @@
+"""Of a short recording the part is told whose lines it is short for, and only where it plays a role."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from reconcile.gate.findings import Finding, Gate
+from reconcile.gate.timing import length_findings
+from reconcile.kinematics import read_kinematic_spec
+from reconcile.kinematics.families import ties
+from reconcile.kinematics.slowest import short_limits, with_slowest, without_short
+from reconcile.verdict import Cause, Report
+from tests.strategies.impulses import SPEED_HZ, N, recorded, sound
+
+TIE = ties(
+    read_kinematic_spec(
+        {
+            "kinematics": {
+                "shafts": [{"name": "input", "speed_hz": SPEED_HZ}, {"name": "output", "speed_hz": SPEED_HZ / 3}],
+                "bearings": [
+                    {"name": "drive_end", "shaft": "input", "catalogue": "6205"},
+                    {"name": "out_near", "shaft": "output", "catalogue": "6205"},
+                ],
+            }
+        }
+    )
+)
+REPORT = Report(verdict="nothing_missing", sentence="Nothing.", level="kinematics")
+OTHER = Finding(kind="clipped", channel="a0", recording="test 1", detail="cut off", severity=0.5, fault=True)
+
+
+def gate() -> Gate:
+    one = recorded(sound(1)[: N // 8])
+    short = length_findings(one, "test 1", SPEED_HZ, TIE.lowest_order)
+    assert short
+    found = Gate(findings=(OTHER, *short), baselines=(), tests=(one,), fault=None, usable=True)
+    return with_slowest(found, TIE)
+
+
+def named(site: str) -> Report:
+    cause = Cause(term="outer_spall", site=site, score=9.0, named=True)
+    return replace(REPORT, verdict="explained", causes=(cause, replace(cause, site="x", named=False)))
+
+
+def test_the_part_is_told() -> None:
+    (said,) = short_limits(gate(), REPORT)
+    assert "turns of the cage of out_near (order 0.133)" in said and said.startswith("test 1: ")
+
+
+def test_it_is_left_out_beside_another_parts_name() -> None:
+    assert short_limits(gate(), named("drive_end")) == ()
+    assert len(short_limits(gate(), named("out_near"))) == 1
+
+
+def test_the_rest_of_the_gate_stays() -> None:
+    assert without_short(gate()).findings == (OTHER,)
