@@ -91,7 +91,7 @@ LOUDER_DB = 15.0
 """Growth of a channel's level from which a machine is not called sound: of the real controls (docs/proof-real.md) a
 gear under full load against none is 3 dB louder."""
 IN_BOTH = "deep in both"
-SCALE = "a unit, sensitivity or scale (a wav file holds shares of its full scale)"
+SCALE = "unit, sensitivity or scale (a wav file holds shares of its full scale)"
 BEFORE_TOO = "a defect of the baseline too, or how this bearing sounds when it is sound"
 FULLER = (
     "Describe the whole machine (masses, stiffnesses, loads): looseness, clearances and shapes show in levels only."
@@ -163,12 +163,14 @@ def _quieter(fallen_db: float, lines: tuple[LineChange, ...], old: Sequence[Cand
     return Report(
         verdict="not_decidable",
         sentence=f"Every channel is {fallen_db:.0f} dB quieter than in the baseline, or more, and no family of lines "
-        f"is firmer: test and baseline may be exchanged, or {SCALE} is wrong; load, speed or mounting seldom do so "
+        f"is firmer: test and baseline may be exchanged, or a {SCALE} is wrong; load, speed or mounting seldom do so "
         "much." + _in_both(old),
         level="kinematics",
         where=Where(lines=lines),
         undecidable=(f"what was {fallen_db:.0f} dB louder when the baseline was recorded",),
-        next_experiment=NextExperiment(sentence=f"Check which recording is of the sound machine, and {SCALE}."),
+        next_experiment=NextExperiment(
+            sentence=f"Check which recording is of the sound machine, and every channel's {SCALE}."
+        ),
     )
 
 
