@@ -69,7 +69,7 @@ def test_the_longest_whole_stretch_is_read() -> None:
     (left,) = found.gate.tests
     assert np.array_equal(left.samples[0], x[4000:7200]) and left.start_s == pytest.approx(2.0)
     assert found.gate.usable and found.gate.baselines[0].samples.shape[1] == 8000
-    assert found.told == ("test 1: 40% of the samples were held, zero or away: only 2 to 3.6 s of a0 were read",)
+    assert found.told == ("test 1: 40 % of the samples were held, zero or away: only 2 to 3.6 s of a0 were read",)
 
 
 def test_what_is_left_must_hold_enough_turns() -> None:
@@ -77,7 +77,7 @@ def test_what_is_left_must_hold_enough_turns() -> None:
     found = cut([made(x)])
     assert not found.gate.usable and found.gate.fault is not None and found.lost == {"test 1"}
     assert (found.gate.fault.kind, found.gate.fault.channel) == ("stuck", "a0")
-    assert "50% of the samples" in found.gate.fault.detail and "no whole stretch" in found.gate.fault.detail
+    assert "50 % of the samples" in found.gate.fault.detail and "no whole stretch" in found.gate.fault.detail
     long = stuck(row(1), (0.0, 0.65))
     for speed_hz, usable in ((LEAST_TURNS / 1.3, True), (LEAST_TURNS / 1.5, False)):
         assert cut([made(long, speed_hz=speed_hz)]).gate.usable == usable
@@ -110,7 +110,7 @@ def test_a_sensor_stuck_for_most_of_the_recording_names_nothing(baseline: bool) 
         spoiled = recorded(stuck(x, *((a, a + 0.61 / 40) for a in edges)))
         report = reconcile_kinematics(SPEC, [spoiled], past, seed=3)
         assert report.verdict == "measurement_fault" and report.fault is not None and report.causes == ()
-        assert (report.fault.kind, report.fault.channel) == ("stuck", "a0") and "61%" in report.sentence
+        assert (report.fault.kind, report.fault.channel) == ("stuck", "a0") and "61 %" in report.sentence
 
 
 @pytest.mark.slow
@@ -118,7 +118,7 @@ def test_a_pit_is_named_by_what_is_left_and_the_gap_is_told() -> None:
     pit = sound(2) + train(np.random.default_rng(4), 3.5848, 1.5)
     report = reconcile_kinematics(SPEC, [recorded(stuck(pit, (0.3, 0.7)))], [recorded(sound(1))], seed=3)
     assert (report.verdict, report.causes[0].term) == ("explained", "outer_spall")
-    assert any("40% of the samples were held" in text and "were read" in text for text in report.where.limits)
+    assert any("40 % of the samples were held" in text and "were read" in text for text in report.where.limits)
     quiet = reconcile_kinematics(SPEC, [recorded(stuck(sound(5), (0.3, 0.7)))], [recorded(sound(1))], seed=3)
     assert quiet.verdict == "measurement_fault" and quiet.fault is not None and quiet.fault.kind == "stuck"
     both = recorded([stuck(sound(5), (0.3, 0.7)), pit])
