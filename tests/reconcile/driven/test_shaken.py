@@ -41,8 +41,9 @@ def jumping() -> Analysis:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("unit", ["g", "m/s^2"])
-@pytest.mark.parametrize("key", ["cubic", "drag", "dry_friction", "stops"])
+@pytest.mark.parametrize(
+    ("key", "unit"), [("cubic", "m/s^2"), ("drag", "m/s^2"), ("dry_friction", "g"), ("stops", "g")]
+)
 def test_an_accelerometer_tells_the_law(key: str, unit: str) -> None:
     report = reconcile_driven(OWN, pair(key, unit, seed=1 + len(unit)), seed=0)
     first, size = report.causes[0], LAWS[key][0]
