@@ -92,16 +92,11 @@ def _machine(path: Path) -> MachineSpec | KinematicSpec:
         message = "describes a recording, not a machine"
         allowed = f"a machine file, or a preset: {', '.join(presets.names())}"
         raise SpecError(Problem(field=f"--machine {path}", message=message, allowed=allowed))
-    if "kinematics" in document:
+    if "kinematics" in document or bare_kinematics(document):
         return _kinematics(path, document)
     if "parameters" in document or len(set(document) & set(KEYS)) > MOST_FOREIGN:
         with about(str(path)):
             return read_parameters(path).machine
-    if bare_kinematics(document):
-        message = "looks like kinematics without their key"
-        raise SpecError(
-            Problem(field=str(path), message=message, given=", ".join(document), allowed='{"kinematics": {...}}')
-        )
     return read_machine(path)
 
 
@@ -110,7 +105,10 @@ def _kinematics(path: Path, document: Mapping[str, object]) -> MachineSpec | Kin
     try:
         return read_form(document)
     except SpecError as error:
-        several = [replace(p, field=f"{path}: {p.field.removeprefix('machine.')}") for p in error.problems]
+        fields = [p.field.removeprefix("machine").removeprefix(".") for p in error.problems]
+        several = [
+            replace(p, field=f"{path}: {f}" if f else str(path)) for p, f in zip(error.problems, fields, strict=True)
+        ]
         raise SpecError(several) from error
 
 
