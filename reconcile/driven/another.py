@@ -13,6 +13,7 @@ from reconcile.driven.machine import Site
 from reconcile.driven.measured import Look
 from reconcile.driven.model import errors, nrmse
 from reconcile.driven.nominate import score_nats, squares_in_blocks
+from reconcile.driven.pictures import redrawn
 from reconcile.verdict import Cause, HeldOut, NextExperiment, PlaceWeight, Report, Severity
 
 ONE_FACTOR_OPEN = "whether mass and spring changed alike, or the sensitivity of force or motion: both look the same"
@@ -57,7 +58,7 @@ def _answer(
             term=c.key,
             site=name,
             score=score,
-            severity=Severity(name=c.name, value=c.after.value, unit=c.unit, low=c.after.low, high=c.after.high),
+            severity=Severity(name=c.words, value=c.after.value, unit=c.unit, low=c.after.low, high=c.after.high),
             named=not open_one,
             reasons=(ONE_FACTOR_OPEN,) if open_one else (f"{c.words}: other than in the baseline",),
             values={"baseline": c.before.value, "test": c.after.value},
@@ -76,6 +77,7 @@ def _answer(
         ),
         undecidable=(*report.undecidable, *((ONE_FACTOR_OPEN,) if open_one else ())),
         next_experiment=WEIGH if open_one else None,
+        pictures=redrawn(report.pictures, found, before, after),
     )  # fmt: skip
 
 

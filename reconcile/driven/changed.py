@@ -24,7 +24,6 @@ and 20 % on the force, damping ratios of 0.005 to 0.3) the farthest were 2.2, 2.
 changes with the motion's size on most machines."""
 ONE_FACTOR = 0.02
 """Within which mass and stiffness have changed by one factor, as another sensitivity makes it look."""
-WORDS = {"stiffness": "stiffness", "damping": "damping", "mass": "mass"}
 PER_MASS = {"stiffness": "1/s^2", "damping": "1/s"}
 
 
@@ -118,9 +117,9 @@ def _change(key: str, now: Sequence[Number], then: Sequence[Number], weighs: boo
     }
     name, unit = names[key]
     if not weighs:
-        words, unit = f"{WORDS[key]} over mass", PER_MASS[key]
+        words, unit = f"{key} over mass", PER_MASS[key]
         return Change(key=key, name=f"{key}_over_mass", words=words, unit=unit, before=before, after=after)
-    return Change(key=key, name=name, words=WORDS[key], unit=unit, before=before, after=after)
+    return Change(key=key, name=name, words=key, unit=unit, before=before, after=after)
 
 
 def _joined(several: Sequence[Number]) -> Number:

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
+from reconcile.driven.channels import FloatArray
 from reconcile.driven.forced import Analysis, gain_interval
 from reconcile.driven.model import nrmse
 from reconcile.driven.noise import Noise
@@ -33,6 +34,8 @@ class Told:
     asked: str
     stage: Mapping[str, object]
     held_out: HeldOut | None = None
+    left: tuple[FloatArray, FloatArray] | None = None
+    """What one and two resonances leave of the held-out part, (n - skip,) each, to be drawn."""
 
 
 def found_out(found: Analysis, noise: Noise, seed: int, least: float) -> Told | None:
@@ -97,4 +100,5 @@ def _second(found: Analysis, two: Second, noise: Noise, rng: np.random.Generator
             metric="free-run NRMSE", unit="1", before=before, after=after, gain=gain, gain_low=low, gain_high=high,
             retuned=None, black_box=None, placebo=None, held=held,
         ),
+        left=(two.before, two.after),
     )  # fmt: skip

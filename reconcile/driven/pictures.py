@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +10,7 @@ import scipy
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.forced import Analysis
-from reconcile.driven.model import Model, bounded, ready, simulated
+from reconcile.driven.model import Model, Run, bounded, ready, simulated
 from reconcile.driven.nominate import score_nats
 from reconcile.driven.split import strongest
 from reconcile.force_law.picture import Curve, curve, surface
@@ -31,12 +32,21 @@ class Shown:
     after: FloatArray
 
 
+def _shown(run: Run) -> tuple[int, int]:
+    """First sample after the warm-up, and count, of the liveliest stretch."""
+    count = min(SHOWN, run.data.answer.size - run.skip)
+    return strongest(run.data.answer[run.skip :], count), count
+
+
+def _times(run: Run, count: int) -> FloatArray:
+    return np.asarray(np.arange(run.skip, run.skip + count) * run.data.step_s, dtype=np.float64)
+
+
 def shown_stretch(found: Analysis) -> Shown:
     """The liveliest `SHOWN` samples of the held-out part, with a warm-up so that a run from rest is the same there."""
     data = found.held_run.data
     warm = found.held_run.skip
-    count = min(SHOWN, data.answer.size - warm)
-    first = strongest(data.answer[warm:], count)
+    first, count = _shown(found.held_run)
     part = data.part(first, first + warm + count)
     run = ready(part, 0.0)
 
@@ -45,7 +55,7 @@ def shown_stretch(found: Analysis) -> Shown:
 
     return Shown(
         drive=part.drive,
-        time_s=np.asarray(np.arange(warm, warm + count) * data.step_s, dtype=np.float64),
+        time_s=_times(found.held_run, count),
         observed=part.answer[warm:],
         before=run_of(found.linear.model),
         after=run_of(found.published),
@@ -90,23 +100,63 @@ def freed_force(found: Analysis, mass_kg: float, seed: int) -> Freed:
     return Freed(samples=free, over=over, fitted=mass_kg * fitted if model.laws else None, rate=rate)
 
 
-def _spectra(found: Analysis) -> dict[str, object]:
+def _spectra(found: Analysis, before: FloatArray, after: FloatArray) -> dict[str, object]:
+    """Of what was measured and of two simulated outputs of the held-out part, (n - skip,) each."""
     run = found.held_run
     rate = 1.0 / run.data.step_s
     n = min(2048, run.compared.size)
 
     def level(values: FloatArray) -> FloatArray:
-        power = scipy.signal.welch(values[run.skip :], rate, nperseg=n)[1]
+        power = scipy.signal.welch(values, rate, nperseg=n)[1]
         return np.asarray(10.0 * np.log10(np.maximum(power, 10.0 ** (FLOOR_DB / 10.0))))
 
     frequency = np.fft.rfftfreq(n, 1.0 / rate)
     return {
         "channel": f"{run.data.answer_channel.name}, held-out part",
         "frequency_hz": frequency,
-        "observed_db": level(run.data.answer),
-        "before_db": level(found.held_before),
-        "after_db": level(found.held_after),
+        "observed_db": level(run.compared),
+        "before_db": level(before),
+        "after_db": level(after),
     }
+
+
+def _traces(shown: Shown, unit: str) -> list[dict[str, object]]:
+    return [
+        {
+            "title": "Held-out stretch, free run",
+            "unit": unit,
+            "time_s": shown.time_s,
+            "observed": shown.observed,
+            "before": shown.before,
+            "after": shown.after,
+        },
+        {
+            "title": "Error of the free run",
+            "unit": unit,
+            "time_s": shown.time_s,
+            "observed": np.full(shown.observed.size, np.nan),
+            "before": shown.observed - shown.before,
+            "after": shown.observed - shown.after,
+        },
+    ]
+
+
+def redrawn(
+    drawn: Mapping[str, object], found: Analysis, before: FloatArray, after: FloatArray
+) -> Mapping[str, object]:
+    """The pictures with what two other models leave of the held-out part, (n - skip,) each, in stretch and spectrum."""
+    run = found.held_run
+    first, count = _shown(run)
+    stretch = slice(first, first + count)
+    shown = Shown(
+        drive=run.data.drive[run.skip :][stretch],
+        time_s=_times(run, count),
+        observed=run.compared[stretch],
+        before=(run.compared - before)[stretch],
+        after=(run.compared - after)[stretch],
+    )
+    spectra = _spectra(found, run.compared - before, run.compared - after)
+    return {**drawn, "traces": _traces(shown, run.data.answer_channel.unit), "spectra": [spectra]}
 
 
 def _ranking(found: Analysis) -> list[dict[str, object]]:
@@ -124,30 +174,14 @@ def _ranking(found: Analysis) -> list[dict[str, object]]:
 
 def pictures(found: Analysis, shown: Shown, freed: Freed) -> dict[str, object]:
     """All pictures of the analysis."""
-    unit = found.held_run.data.answer_channel.unit
+    run = found.held_run
+    unit = run.data.answer_channel.unit
     x_label = "velocity" if freed.rate else "displacement"
     over = freed.over
     plane = surface(freed.samples)
     return {
-        "traces": [
-            {
-                "title": "Held-out stretch, free run",
-                "unit": unit,
-                "time_s": shown.time_s,
-                "observed": shown.observed,
-                "before": shown.before,
-                "after": shown.after,
-            },
-            {
-                "title": "Error of the free run",
-                "unit": unit,
-                "time_s": shown.time_s,
-                "observed": np.full(shown.observed.size, np.nan),
-                "before": shown.observed - shown.before,
-                "after": shown.observed - shown.after,
-            },
-        ],
-        "spectra": [_spectra(found)],
+        "traces": _traces(shown, unit),
+        "spectra": [_spectra(found, found.held_before[run.skip :], found.held_after[run.skip :])],
         "ranking": _ranking(found),
         "law": {
             "x_label": f"{x_label}, {unit}{'/s' if freed.rate else ''}",

@@ -13,6 +13,7 @@ from reconcile.driven.forced import Analysis
 from reconcile.driven.judge import ROUGH
 from reconcile.driven.linear import MOST_BEYOND, Told, found_out
 from reconcile.driven.noise import Noise, power_lines
+from reconcile.driven.pictures import redrawn
 from reconcile.verdict import NextExperiment, PlaceWeight, Report
 
 OVER_BASELINE, LEAST = 2.0, 0.01
@@ -70,14 +71,15 @@ def settled(report: Report, found: Analysis, noise: Noise, site: str, seed: int)
     if noise.left > LEAST:
         told = found_out(found, noise, seed, LEAST_SHARE if nothing else LEAST_SHARE_BESIDE)
         if told is not None:
-            return _told(report, told, site)
+            return _told(report, found, told, site)
     if not nothing:
         return report
     return _open(report, found, noise, site) if unexplained(noise) else _noisy(report, noise)
 
 
-def _told(report: Report, told: Told, site: str) -> Report:
+def _told(report: Report, found: Analysis, told: Told, site: str) -> Report:
     """The report with what explains it."""
+    drawn = report.pictures if told.left is None else redrawn(report.pictures, found, *told.left)
     return replace(
         report,
         verdict="unknown_physics",
@@ -87,6 +89,7 @@ def _told(report: Report, told: Told, site: str) -> Report:
         undecidable=(*report.undecidable, *told.undecidable),
         next_experiment=NextExperiment(sentence=told.asked),
         stages=(*report.stages, told.stage),
+        pictures=drawn,
     )
 
 

@@ -29,6 +29,8 @@ FORMS = (
     "“or” names another form of the same effect: a law for the same part that excludes it there, so that at most one "
     "of them is true; their evidence counts together, under the strongest."
 )
+MOST_DIGITS = 6
+
 PART_LEFT = "a part of the change is left"
 """How the reason begins that an effect is named with, although it does not bring all of the change."""
 LEFT_OVER = (
@@ -66,8 +68,11 @@ def distance(value: float, unit: str) -> str:
 
 
 def sizes(found: Severity) -> tuple[str, str, str]:
-    """Value and ends of the interval, to two figures: the sentence has no more, and no size is known better."""
-    value, low, high = (figure_text(v, found.unit, digits=2) for v in (found.value, found.low, found.high))
+    """Value and ends of the interval, to two figures as in the sentence, or as many as part the ends."""
+    for digits in range(2, MOST_DIGITS + 1):
+        value, low, high = (figure_text(v, found.unit, digits=digits) for v in (found.value, found.low, found.high))
+        if low != high or found.low == found.high:
+            break
     return value, low, high
 
 

@@ -44,6 +44,12 @@ def stage(report: Report, name: str) -> dict[str, object]:
     return next(dict(s) for s in report.stages if s.get("stage") == name)
 
 
+def drawn(report: Report, which: str) -> float:
+    """Root mean square of the error curve of the held-out stretch."""
+    (error,) = [dict(t) for t in report.pictures["traces"] if "Error" in t["title"]]  # type: ignore[attr-defined]
+    return float(np.sqrt(np.mean(np.square(error[which]))))
+
+
 @pytest.mark.slow
 def test_a_sound_oscillator_has_nothing_missing(sound: list[Recording], baseline: Recording) -> None:
     report = reconcile_driven(SPEC, sound, [baseline])
@@ -141,15 +147,16 @@ def test_a_second_resonance_is_told_with_its_frequency(baseline: Recording, nois
     assert sorted([found["first_hz"], found["second_hz"]]) == pytest.approx(own, rel=0.01)
     assert report.held_out is not None
     assert report.held_out.gain_low > 0.1
+    assert drawn(report, "after") < drawn(report, "before"), "the curves are of one and of two resonances"
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("numbers", "name"),
     [
-        ((MASS, 0.85 * STIFFNESS, DAMPING), "stiffness_y_n_per_m"),
-        ((1.1 * MASS, STIFFNESS, DAMPING), "mass_kg"),
-        ((MASS, STIFFNESS, 1.4 * DAMPING), "damping_y_ns_per_m"),
+        ((MASS, 0.85 * STIFFNESS, DAMPING), "stiffness"),
+        ((1.1 * MASS, STIFFNESS, DAMPING), "mass"),
+        ((MASS, STIFFNESS, 1.4 * DAMPING), "damping"),
     ],
 )
 def test_a_change_against_the_baseline_is_an_explained_one(
@@ -161,10 +168,11 @@ def test_a_change_against_the_baseline_is_an_explained_one(
     assert cause.named
     assert cause.severity is not None
     assert cause.severity.name == name
-    truth = {"mass_kg": numbers[0], "stiffness_y_n_per_m": numbers[1], "damping_y_ns_per_m": numbers[2]}[name]
+    truth = {"mass": numbers[0], "stiffness": numbers[1], "damping": numbers[2]}[name]
     assert cause.severity.low < truth < cause.severity.high
     assert report.held_out is not None
     assert report.held_out.after < 0.02 < report.held_out.before
+    assert drawn(report, "before") > 3.0 * drawn(report, "after"), "the curves are the baseline's and its own"
     assert report.where.sites[0].site == "mass"
     assert page(report).startswith("<!doctype html>")
     assert strict_json(report)

@@ -14,6 +14,7 @@ import pytest
 from reconcile.report import page, strict_json, write_report
 from reconcile.report.markup import figure_text, tag
 from reconcile.report.plot import MOST_POINTS, Frame, thinned, ticks
+from reconcile.report.words import sizes
 from reconcile.verdict import (
     AngleWindow,
     Cause,
@@ -252,6 +253,12 @@ def test_what_the_revised_machine_leaves_and_the_sensors_paths_are_told() -> Non
     assert "script" not in parser.seen and parser.text.count("gain, dB") == 2
     without = replace(full_report(), stages=(), pictures={})
     assert "Simulated, it leaves" not in page(without) and "Paths to the sensors" not in page(without)
+
+
+def test_an_interval_has_as_many_figures_as_part_its_ends() -> None:
+    size = Severity(name="stiffness", value=70005.0, unit="N/m", low=69838.0, high=70173.0)
+    assert sizes(size) == ("70 kN/m", "69.8 kN/m", "70.2 kN/m")
+    assert sizes(replace(size, low=6.1e4, high=8.2e4)) == ("70 kN/m", "61 kN/m", "82 kN/m")
 
 
 def test_a_size_of_which_only_a_bound_is_known_is_told_as_a_bound() -> None:
