@@ -90,6 +90,8 @@ def _read(path: Path, bounds: Bounds, layout: Layout, names: Sequence[str]) -> M
 def _by_delimiter(
     path: Path, bounds: Bounds, layout: Layout, stream: io.BufferedReader, wanted: Sequence[int]
 ) -> list[FloatArray]:
+    """Waits at the end until Arrow, which reads ahead in a thread of its own, has let go of the stream: a thread that
+    is in Python code when the interpreter ends aborts the process."""
     held = sys.getrefcount(stream)
     try:
         return _parsed(path, bounds, layout, stream, wanted)
@@ -97,16 +99,10 @@ def _by_delimiter(
         clear_frames(error.__traceback__)  # they hold the reader
         raise
     finally:
-        _released(stream, held)
-
-
-def _released(stream: io.BufferedReader, held: int) -> None:
-    """Waits until Arrow, which reads ahead in a thread of its own, has let go of the stream: a thread that is in Python
-    code when the interpreter ends aborts the process."""
-    for _ in range(RELEASE_TRIES):
-        if sys.getrefcount(stream) <= held:
-            return
-        time.sleep(RELEASE_S)
+        for _ in range(RELEASE_TRIES):  # counted here as above: the parameter of a function would be one more
+            if sys.getrefcount(stream) <= held:
+                break
+            time.sleep(RELEASE_S)
 
 
 def _parsed(

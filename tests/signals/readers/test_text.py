@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import gzip
 import io
-import sys
+import time
+import weakref
 from pathlib import Path
 
 import numpy as np
@@ -124,15 +125,22 @@ def test_blanks_are_bounded_too(tmp_path) -> None:
 
 @pytest.mark.parametrize("word", ["0.5", "oops"])
 def test_no_thread_reads_on_when_the_file_is_done(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, word: str) -> None:
-    """A thread of Arrow's that still reads when the interpreter ends aborts the process."""
-    left: list[tuple[int, int]] = []
-    released = text._released
+    """A thread of Arrow's that still reads when the interpreter ends aborts the process; it is waited for no longer."""
+    opened: list[weakref.ref[io.BufferedReader]] = []
+    waits: list[float] = []
 
-    def noted(stream: io.BufferedReader, held: int) -> None:
-        released(stream, held + 1)  # this frame has it too
-        left.append((sys.getrefcount(stream), held + 1))
+    def noted(path: Path, bounds: Bounds) -> io.BufferedReader:
+        stream = opener(path, bounds)
+        opened.append(weakref.ref(stream))
+        return stream
 
-    monkeypatch.setattr(text, "_released", noted)
+    def waited(seconds: float) -> None:
+        waits.append(seconds)
+        sleep(seconds)
+
+    opener, sleep = text._stream, time.sleep
+    monkeypatch.setattr(text, "_stream", noted)
+    monkeypatch.setattr(text.time, "sleep", waited)
     rows = [f"{i},1.0" for i in range(400_000)]
     rows[200_000] = f"{word},1.0"
     path = written(tmp_path, "a,b\n" + "\n".join(rows) + "\n")
@@ -141,4 +149,5 @@ def test_no_thread_reads_on_when_the_file_is_done(tmp_path: Path, monkeypatch: p
             columns(path)
     else:
         assert len(columns(path)["a"]) == len(rows)
-    assert left and all(now <= held for now, held in left)
+    assert opened and all(one() is None for one in opened)
+    assert len(waits) < text.RELEASE_TRIES
