@@ -140,11 +140,12 @@ class StoreFull(StoreAway):
 
 
 class UnknownArtefact(JobError):
-    """The result has no such part; `known` lists what it has."""
+    """The result has no such part; `known` lists what it has, `why` says what it would take."""
 
-    def __init__(self, kind: str, name: str, known: Sequence[str]) -> None:
+    def __init__(self, kind: str, name: str, known: Sequence[str], why: str = "") -> None:
         self.kind, self.name, self.known = kind, name, tuple(known)
-        super().__init__(f"the result has no {kind} {name!r}; it has: {', '.join(self.known) or 'none'}")
+        said = f"the result has no {kind} {name!r}; it has: {', '.join(self.known) or 'none'}"
+        super().__init__(f"{said}; {why}" if why else said)
 
 
 class RecordingRefused(JobError):

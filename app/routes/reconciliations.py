@@ -31,6 +31,11 @@ PAGE_POLICY = (
 )
 """The page has its style and pictures inside and no scripts; it may be shown within the dashboard."""
 
+NO_MACHINE = (
+    "a machine is revised where a machine was given as a model and its physics was found to lack something that can "
+    "be simulated; `links.machine` of the reconciliation says whether there is one"
+)
+
 
 class ReconciliationLinks(Reply):
     """Where to go from here."""
@@ -140,7 +145,7 @@ def report_page(job_id: JobId, request: Request, state: State) -> Response:
 @router.get(f"{ADDRESS}/{{job_id}}/machine", responses=ERRORS)
 def machine(job_id: JobId, request: Request, state: State) -> Response:
     """The revised machine specification; `POST /v1/simulations` takes it as `machine`."""
-    return _file(state, job_id, request, f"{MACHINE}.json", "application/json")
+    return _file(state, job_id, request, f"{MACHINE}.json", "application/json", why=NO_MACHINE)
 
 
 @router.delete(f"{ADDRESS}/{{job_id}}", status_code=204, responses=problems(401, 404, 409, 410, 503))
@@ -152,12 +157,12 @@ def delete_reconciliation(job_id: JobId, state: State) -> Response:
     return Response(status_code=204)
 
 
-def _file(state: AppState, job_id: str, request: Request, name: str, media_type: str) -> Response:
+def _file(state: AppState, job_id: str, request: Request, name: str, media_type: str, *, why: str = "") -> Response:
     _record(state, job_id)
     found: Stored = stored(state, job_id)
     files = dict(found.files())
     if name not in files:
-        raise UnknownArtefact("file", name, tuple(files))
+        raise UnknownArtefact("file", name, tuple(files), why)
     etag = f'"{files[name].sha256}"'
     known = not_modified(request, etag)
     if known is not None:
