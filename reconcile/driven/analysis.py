@@ -8,8 +8,10 @@ import numpy as np
 
 from reconcile.driven.forced import ALPHA, Analysis, calibrate
 from reconcile.driven.latent import latent_force
+from reconcile.driven.measured import Look
 from reconcile.driven.missing import anything_missing
 from reconcile.driven.model import bounded, errors, nrmse, ready, simulated
+from reconcile.driven.noise import noise_of
 from reconcile.driven.nominate import free_power, nominate
 from reconcile.driven.settle import Case, Settled, renominated, settle
 from reconcile.driven.split import Part, order_of_use
@@ -17,8 +19,8 @@ from reconcile.force_law.exponent import odd_exponent
 from reconcile.force_law.search import search
 
 
-def analyse(parts: Sequence[Part], seed: int) -> Analysis:
-    """All steps; the parts are recordings or consecutive stretches of one."""
+def analyse(parts: Sequence[Part], seed: int, rested: Sequence[Look] = ()) -> Analysis:
+    """All steps; the parts are recordings or consecutive stretches of one. `rested`: the baselines' linear models."""
     rng = np.random.default_rng([seed, 1])
     fit_part, held_part = order_of_use(parts)
     start = calibrate(fit_part)
@@ -52,5 +54,6 @@ def analyse(parts: Sequence[Part], seed: int) -> Analysis:
         held_run=held,
         held_before=simulated(linear.model, held),
         held_after=bounded(simulated(final.model, held), held),
+        beyond_noise=noise_of(final.model, run, errors(final.model, run), rested).unexplained if laws else 0.0,
         dropped=settled.dropped,
     )

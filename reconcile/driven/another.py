@@ -8,16 +8,22 @@ from dataclasses import replace
 import numpy as np
 
 from reconcile.driven.changed import Change, changes, one_factor
-from reconcile.driven.forced import Analysis, gain_interval
+from reconcile.driven.forced import ALPHA, Analysis, calibrate, gain_interval
+from reconcile.driven.judge import ROUGH
 from reconcile.driven.machine import Site
 from reconcile.driven.measured import Look
+from reconcile.driven.missing import anything_missing
 from reconcile.driven.model import errors, nrmse
 from reconcile.driven.nominate import score_nats, squares_in_blocks
 from reconcile.driven.pictures import redrawn
+from reconcile.driven.split import Part
 from reconcile.verdict import Cause, HeldOut, NextExperiment, PlaceWeight, Report, Severity
 
 ONE_FACTOR_OPEN = "whether mass and spring changed alike, or the sensitivity of force or motion: both look the same"
 WEIGH = NextExperiment(sentence="Check force and motion with a known mass or spring.")
+
+LESS_SOUND = 3.0
+"""How many times more than of the tests a linear model leaves of a baseline that shows more than they do."""
 
 
 def beside_baseline(
@@ -27,6 +33,10 @@ def beside_baseline(
     quiet = report.verdict == "nothing_missing"
     if not baselines or not (quiet or report.verdict == "explained"):
         return report
+    if quiet:
+        worst = max(baselines, key=lambda one: one.left)
+        if worst.left > max(LESS_SOUND * found.fitted_nrmse, ROUGH) and _lacks(worst, seed):
+            return _turned(report, worst.left, found.fitted_nrmse, site.body.name)
     changed = changes(tests, baselines, site, None if quiet else found.final)
     stage = {"stage": "baseline", "changed": {c.name: [c.before.value, c.after.value] for c in changed}}
     report = replace(report, stages=(*report.stages, stage))
@@ -37,6 +47,31 @@ def beside_baseline(
         said = f"Beside the law the oscillator is not the baseline's: {told}."
         return replace(report, undecidable=(*report.undecidable, said))
     return _answer(report, found, baselines[0], changed, told, site, seed)
+
+
+def _lacks(one: Look, seed: int) -> bool:
+    """Whether a law of the motion explains of a recording what a linear model leaves: noise it does not."""
+    start = calibrate(Part(name="", data=one.data))
+    rng = np.random.default_rng([seed, 31])
+    return anything_missing(start.linear.model, start.run, start.linear.error, rng).p_value < ALPHA
+
+
+def _turned(report: Report, baseline: float, test: float, name: str) -> Report:
+    """Nothing is said where the baseline shows a force beyond linear that the tests do not have."""
+    said = (
+        f"Not decidable: a linear model of {name} leaves {_percent(baseline)} of the baseline, in which a "
+        f"force beyond linear is missing, and {_percent(test)} of the tests: they may be exchanged, or a part replaced."
+    )
+    return replace(
+        report,
+        verdict="not_decidable",
+        sentence=said,
+        machine=None,
+        undecidable=(*report.undecidable, "which of the recordings are of the sound machine"),
+        next_experiment=NextExperiment(
+            sentence="Check which recording is which; reconcile the baseline as a test to see what it shows."
+        ),
+    )
 
 
 def _answer(

@@ -12,7 +12,7 @@ from reconcile.driven.machine import driven_site, mass_kg, revised, term_key, we
 from reconcile.driven.model import LINEAR
 from reconcile.driven.nominate import Trial, score_nats
 from reconcile.driven.pictures import Freed, freed_force, pictures, shown_stretch
-from reconcile.force_law.library import Law, mirrored
+from reconcile.force_law.library import GAPPED, Law, mirrored
 from reconcile.verdict import (
     Cause,
     EstimatedForce,
@@ -28,6 +28,10 @@ from sim.core.spec import MachineSpec
 
 NO_MACHINE = "the numbers that fit are none of a mass on a spring that can be simulated"
 LED_RUN = "NRMSE of a run led by the output"
+NEAREST = 0.5
+"""Least gain, by the low end of its interval, of a law that is told though it is not named."""
+MIDDLE = 0.05
+"""Distance of the middle of stops from the channel's zero, over their gap, that is worth a word."""
 DIVERGED = "; the free run with the law diverges, errors and gain are bounds"
 
 
@@ -38,7 +42,25 @@ def _law_words(found: Analysis) -> str:
     if found.power is not None:
         p = found.power
         said += f"; the exponent of the odd part left free is {p.value:.2f} (90 %: {p.low:.2f} to {p.high:.2f})"
-    return said
+    return said + _aside(found)
+
+
+def _aside(found: Analysis) -> str:
+    """Where stops stand, counted from the channel's zero, if their middle is not there."""
+    model, data = found.final.model, found.held_run.data
+    gaps = [law.shape for law in model.laws if law.key == "stops"]
+    if data.order or not gaps or abs(model.output_offset) < MIDDLE * gaps[0]:
+        return ""
+    ends, unit = (model.output_offset + gaps[0], model.output_offset - gaps[0]), data.answer_channel.unit
+    return f", of the channel's zero at {ends[0]:.3g} and {ends[1]:.3g} {unit}"
+
+
+def _from_rest(found: Analysis) -> tuple[str, ...]:
+    """What a derivative of the motion does not tell of a gap."""
+    laws = found.final.model.laws
+    if not found.held_run.data.order or not any(law.key in GAPPED for law in laws):
+        return ()
+    return ("A gap is counted from where the mass rests: only its displacement would tell a constant force beside it.",)
 
 
 def _saturation(found: Analysis) -> tuple[str, ...]:
@@ -62,6 +84,17 @@ def _undecided(found: Analysis, judgement: Judgement, linear: str, site: str) ->
     return f"The output does not follow the input: the best linear model of {site} leaves {linear} of it."
 
 
+def _nearest(found: Analysis) -> tuple[str, ...]:
+    """The law that comes nearest, where it is worth a word although it may not be named."""
+    if not found.final.model.laws or not found.validations:
+        return ()
+    v = found.validations[0]
+    if v.diverged or v.gain[1] < NEAREST:
+        return ()
+    left = f"{100 * v.after:.2g} % instead of {100 * v.before:.2g} %"
+    return (f"the nearest that was tried, {_law_words(found)}, leaves {left} on {v.held}",)
+
+
 def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
     linear = f"{100 * found.fitted_nrmse:.2g} %"
     if judgement.verdict == "nothing_missing":
@@ -71,7 +104,7 @@ def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
     if not found.final.model.laws or judgement.reasons:
         said = f"A force on {site} is missing from the linear model, and no stable law describes it"
         flown = [f"the free run on {v.held} with {_law_words(found)} diverges" for v in found.validations if v.diverged]
-        return "; ".join([said, *flown[:1], *_saturation(found)]) + "."
+        return "; ".join([said, *flown[:1], *_nearest(found), *_saturation(found)]) + "."
     v = found.validations[0]
     gained = (
         f"{'led' if v.led else 'free'}-run error on {v.held} falls from {100 * v.before:.2g} % to {100 * v.after:.2g} %"
@@ -239,7 +272,7 @@ def answer(spec: MachineSpec, found: Analysis, *, seed: int, provenance: Mapping
     shown, freed, name = shown_stretch(found), freed_force(found, mass, seed), site.body.name
     machine, judgement = _revised(spec, found, judgement, shown.drive)
     only = "One degree of freedom: a force between the mass and the ground is the only place."
-    limits = (only, *(_not_freely(v) for v in found.validations if v.led))
+    limits = (only, *_from_rest(found), *(_not_freely(v) for v in found.validations if v.led))
     nothing = judgement.verdict in ("nothing_missing", "not_decidable")
     return Report(
         verdict=judgement.verdict,

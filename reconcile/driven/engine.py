@@ -120,7 +120,7 @@ def reconcile_driven(
         if held.undecided:
             report = fault_report(held.faults, UNIT_NOT_KNOWN)
         else:
-            found = analyse(parts_of(held.data), seed)
+            found = analyse(parts_of(held.data), seed, held.rested)
             report = _held_up(answer(spec, found, seed=seed, provenance=provenance), found, held, site, seed)
             report = replace(report, where=replace(report.where, limits=(*report.where.limits, *held.remarks)))
             shown = proved(findings, held.data, found.published, left_over(report, found) < ROUGH)

@@ -54,7 +54,7 @@ def held_against(tests: Sequence[Driven], baselines: Sequence[Driven], site: Sit
             continue
         faults.append(found.fault(one.data, f"test {i + 1}", against))
         undecided |= found.drives is None or against == "test 1"
-        looks[i] = replace(one, data=found.undone(one.data))
+        looks[i] = look(found.undone(one.data))
     said = () if faults else remarks(looks, site)
     return Held(
         data=[one.data for one in looks],

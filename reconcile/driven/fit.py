@@ -188,9 +188,9 @@ def fit(start: Model, run: Run, *, stretches: Sequence[Run] = ()) -> Fitted:
     """
     runs = (run, *stretches)
     if not start.laws or run.data.order > 1:
-        return _pushing(descend(start, runs), runs)
+        return _from_rest(_pushing(descend(start, runs), runs), run.data.order)
     led = descend(start, [replace(r, led=LED) for r in runs])
-    return _pushing(descend(led.model, runs), runs)
+    return _from_rest(_pushing(descend(led.model, runs), runs), run.data.order)
 
 
 def total_square(model: Model, runs: Sequence[Run]) -> float:
@@ -212,6 +212,23 @@ def _pushing(found: Fitted, runs: Sequence[Run]) -> Fitted:
             model, stiffness=model.stiffness + c, offset=model.offset + c * turn, laws=laws, coefficients=sizes
         )
     return found if model is found.model else descend(model, runs)
+
+
+def _from_rest(found: Fitted, order: int) -> Fitted:
+    """The same motion with gaps counted from where the mass rests, where only a derivative of it was measured: there a
+    constant force and a gap of one side go into one another, and the force is taken to be none."""
+    model = found.model
+    sided = {"above": -1.0, "below": 1.0}
+    ways = [sided.get(law.key.rpartition("_")[2], 0.0) if law.key in GAPPED else 0.0 for law in model.laws]
+    if order == 0 or not any(ways) or model.stiffness <= 0.0 or any(law.key not in UNANCHORED for law in model.laws):
+        return found
+    if any(law.key in GAPPED and way == 0.0 for law, way in zip(model.laws, ways, strict=True)):
+        return found  # stops on both sides know their middle
+    aside = model.offset / model.stiffness
+    laws = tuple(
+        replace(law, shape=law.shape + way * aside) if way else law for law, way in zip(model.laws, ways, strict=True)
+    )
+    return replace(found, model=replace(model, offset=0.0, laws=laws))
 
 
 def best_fit(starts: Sequence[Model], run: Run, *, stretches: Sequence[Run] = ()) -> Fitted:

@@ -76,7 +76,9 @@ def _reasons(found: Analysis) -> tuple[str, ...]:
     noise = found.left is not None and found.left.p_value >= ALPHA and found.left.null_95 < BLIND
     failed += _no_better_than_placebo(found.validations[0], noise) if found.validations else ()
     rough = bool(found.validations) and found.validations[0].after > ROUGH
-    if (rough or found.dropped or led(found)) and found.left is not None and found.left.p_value < ALPHA:
+    seen = found.left is not None and found.left.p_value < ALPHA
+    beyond = rough and not led(found) and found.beyond_noise > ROUGH
+    if ((rough or found.dropped or led(found)) and seen) or beyond:
         failed.append(NOT_ALL)
     return tuple(failed)
 

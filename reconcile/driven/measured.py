@@ -32,6 +32,14 @@ SAME_FREQUENCY, SAME_FREQUENCY_FILE = 0.05, 0.1
 """Within which two recordings, or a recording and the machine file, are of one oscillator."""
 OTHER_GAIN = 1.3
 """Ratio of two recordings' gains from which on one of them is wrong: the fit of one is good to some per cent."""
+SPRING_APART = 1.5
+"""Ratio of frequencies within which another mass or spring is no answer to a mass that is off by a unit: both would
+have to be off by that unit."""
+FAR = 20.0
+"""Least ratio of units that is told of a machine file's mass where the frequency is another: files are rough."""
+LAWFUL, LAWFUL_OFF = 100.0, 3.0
+"""Least ratio of units that is told where a linear model does not carry a recording, and by how much gains and levels
+may then miss it."""
 LEVEL_SHARE = 0.35
 """Of the change, in logarithms, that a channel's own level may have changed by to be the one that is right."""
 FITS = 0.5
@@ -76,9 +84,7 @@ class Scaled:
         names = (data.drive_channel.name, data.answer_channel.name)
         channel = "" if self.drives is None else names[0 if self.drives else 1]
         whose = f"{channel} is" if channel else f"{names[1]} over {names[0]} is"
-        detail = (
-            f"{recording}: by {against}, of one frequency, {whose} {self.factor:.4g} times too large ({self.words})"
-        )
+        detail = f"{recording}: by {against} {whose} {self.factor:.4g} times too large ({self.words})"
         kind = "unit_mismatch" if self.unit else "gain_change"
         return SensorFault(kind=kind, channel=channel, detail=detail, recordings=(recording,))
 
@@ -124,22 +130,44 @@ def swap_fault(one: Look, other: Look, recording: str) -> SensorFault:
 
 def scaled(one: Look, reference: Look) -> Scaled | None:
     """What the numbers of a recording are wrong by against another of the same oscillator, or None."""
-    if max(one.left, reference.left) > FITS or abs(one.frequency_hz / reference.frequency_hz - 1.0) > SAME_FREQUENCY:
-        return None
+    apart = one.frequency_hz / reference.frequency_hz
     gain = abs(one.model.gain / reference.model.gain) if reference.model.gain else 1.0
     if gain == 0.0 or abs(math.log(gain)) < math.log(OTHER_GAIN):
         return None
     pushed = math.log(float(one.data.drive.std()) / float(reference.data.drive.std()))
     moved = math.log(float(one.data.answer.std()) / float(reference.data.answer.std()))
     drives = None if min(abs(pushed), abs(moved)) > LEVEL_SHARE * abs(math.log(gain)) else abs(moved) < abs(pushed)
-    return _scaled(one.data, gain, drives)
+    if max(one.left, reference.left) > FITS:
+        return _by_level(one.data, math.log(gain), pushed, moved)
+    found = _scaled(one.data, gain, drives)
+    if abs(apart - 1.0) <= SAME_FREQUENCY:
+        return found
+    return found if found.unit and abs(math.log(apart)) < math.log(SPRING_APART) else None
 
 
-def _scaled(data: Driven, gain: float, drives: bool | None) -> Scaled | None:
-    """From a ratio of gains, motion over force. Which channel is not known: the factor of the motion is told."""
+def _by_level(data: Driven, gain: float, pushed: float, moved: float) -> Scaled | None:
+    """A large ratio of units that gains and levels agree about, in logarithms, where a linear model fits neither of
+    them well."""
+    near, drives = math.log(LAWFUL_OFF), abs(moved) < abs(pushed)
+    if min(abs(pushed), abs(moved)) > near or abs(gain - (moved - pushed)) > near:
+        return None
+    for words, ratio in _ratios(data, drives).items():
+        if ratio >= LAWFUL and abs(abs(moved - pushed) - math.log(ratio)) < near:
+            larger = ratio if (pushed if drives else moved) > 0.0 else 1.0 / ratio
+            return Scaled(factor=larger, drives=drives, words=words, unit=True)
+    return None
+
+
+def _ratios(data: Driven, drives: bool | None) -> dict[str, float]:
+    """Ratios of units by their words; `drives` None: of both channels."""
     force = FORCE_RATIOS if data.drive_channel.quantity in ("force", "torque") else OTHER_RATIOS
     motion = MOTION_RATIOS.get(data.answer_channel.quantity, OTHER_RATIOS)
-    possible = {**(force if drives is not False else {}), **(motion if drives is not True else {})}
+    return {**(force if drives is not False else {}), **(motion if drives is not True else {})}
+
+
+def _scaled(data: Driven, gain: float, drives: bool | None) -> Scaled:
+    """From a ratio of gains, motion over force. Which channel is not known: the factor of the motion is told."""
+    possible = _ratios(data, drives)
     near = [words for words, ratio in possible.items() if abs(abs(math.log(gain)) - math.log(ratio)) < NEAR_UNIT]
     if not near:
         return Scaled(factor=1.0 / gain if drives else gain, drives=drives, words="no ratio of units", unit=False)
@@ -153,9 +181,10 @@ def against_file(one: Look, site: Site) -> Scaled | None:
     mass, frequency = of_file(site)
     if not weighed(one.model, one.data) or one.left > FITS or frequency is None:
         return None
-    if abs(one.frequency_hz / frequency - 1.0) > SAME_FREQUENCY_FILE:
+    gain, apart = one.model.gain * mass, one.frequency_hz / frequency
+    far = abs(math.log(gain)) > math.log(FAR) and abs(math.log(apart)) < math.log(SPRING_APART)
+    if abs(apart - 1.0) > SAME_FREQUENCY_FILE and not far:
         return None
-    gain = one.model.gain * mass
     pushed = float(one.data.drive.std()) / mass
     moved = float(one.data.answer.std()) * (2.0 * math.pi * one.frequency_hz) ** (2 - one.data.order)
     too_much = [pushed > MOST_M_PER_S2, moved > MOST_M_PER_S2]

@@ -86,6 +86,7 @@ def _told(report: Report, found: Analysis, told: Told, site: str) -> Report:
         sentence=told.sentence.format(site=site),
         where=replace(report.where, sites=(PlaceWeight(site=site, weight=1.0),)),
         held_out=told.held_out or report.held_out,
+        machine=None,
         undecidable=(*report.undecidable, *told.undecidable),
         next_experiment=NextExperiment(sentence=told.asked),
         stages=(*report.stages, told.stage),

@@ -29,6 +29,9 @@ STARTS = 4
 APART = 0.05
 """Least distance of two places, over the frequency."""
 START_DAMPING = 0.02
+MOST_DAMPING = 0.25
+"""Damping ratio from which a second resonance is no line of a mass on a spring: what it explains may be anything smooth
+in frequency, as the force of a damper whose other end moves."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -104,6 +107,9 @@ def second(model: Model, run: Run, held: Run) -> Second | None:
     ).x
     best = _polished(best, run)
     parts = sorted((best[:3], best[3:]), key=lambda p: abs(math.exp(float(p[0])) - math.sqrt(model.stiffness)))
+    (first, _, _), (further, ratio, _) = parts
+    if abs(float(first - further)) < APART or abs(float(ratio)) > MOST_DAMPING:
+        return None
     before = errors(model, held)
     after = _left(best, held)
     return Second(

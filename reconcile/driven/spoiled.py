@@ -104,7 +104,8 @@ def proved(findings: Sequence[Finding], several: Sequence[Driven], model: Model,
             if one.channel == data.drive_channel.name and one.kind == "clipped":
                 wrong = not explained
             elif one.channel in (data.drive_channel.name, data.answer_channel.name):
-                wrong = one.kind == "not_finite" or _still_while_driven(one, data) or _worse(data, model)
+                still = _still_while_driven(one, data) and not (explained and _foretold(data, model))
+                wrong = one.kind == "not_finite" or still or _worse(data, model)
             else:
                 continue
             if wrong:
@@ -119,6 +120,15 @@ def _still_while_driven(found: Finding, data: Driven) -> bool:
         return False
     acting = data.drive[data.bad_answer] - np.median(data.drive)
     return bool(np.sqrt(np.mean(acting**2)) > ACTING * data.drive.std())
+
+
+def _foretold(data: Driven, model: Model) -> bool:
+    """Whether the fitted model is no farther off at the spoiled samples than elsewhere: friction holds it there too."""
+    bad = data.bad_answer
+    if bad is None or not np.any(bad) or np.all(bad):
+        return False
+    error = data.answer - simulated(model, ready(data, model.memory_s))
+    return float(np.mean(error[bad] ** 2)) < WORSE * float(np.mean(error[~bad] ** 2))
 
 
 def _worse(data: Driven, model: Model) -> bool:
