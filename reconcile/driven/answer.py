@@ -175,9 +175,7 @@ def _not_freely(v: Validation) -> str:
     )
 
 
-def _force(found: Analysis, freed: Freed, judgement: Judgement, site: str, mass: float) -> EstimatedForce | None:
-    if judgement.verdict in ("nothing_missing", "not_decidable"):
-        return None
+def _force(found: Analysis, freed: Freed, judgement: Judgement, site: str, mass: float) -> EstimatedForce:
     over, model = freed.over, found.final.model
     argument = "velocity_m_per_s" if freed.rate else "displacement_m"
     samples = {argument: over.argument, "force_n": over.force_n, "low_n": over.low_n, "high_n": over.high_n}
@@ -269,11 +267,12 @@ def answer(spec: MachineSpec, found: Analysis, *, seed: int, provenance: Mapping
     """Everything the interface asks for."""
     data, judgement, site = found.held_run.data, judge(found), driven_site(spec)
     mass = mass_kg(found.final.model, data, site)
-    shown, freed, name = shown_stretch(found), freed_force(found, mass, seed), site.body.name
+    shown, name = shown_stretch(found), site.body.name
     machine, judgement = _revised(spec, found, judgement, shown.drive)
     only = "One degree of freedom: a force between the mass and the ground is the only place."
     limits = (only, *_from_rest(found), *(_not_freely(v) for v in found.validations if v.led))
     nothing = judgement.verdict in ("nothing_missing", "not_decidable")
+    freed = None if nothing else freed_force(found, mass, seed)
     return Report(
         verdict=judgement.verdict,
         sentence=_sentence(found, judgement, name),
@@ -281,7 +280,7 @@ def answer(spec: MachineSpec, found: Analysis, *, seed: int, provenance: Mapping
         where=Where(sites=() if nothing else (PlaceWeight(site=name, weight=1.0),), limits=limits),
         causes=_causes(found, judgement, name, mass),
         held_out=_held_out(found),
-        force=_force(found, freed, judgement, name, mass),
+        force=None if freed is None else _force(found, freed, judgement, name, mass),
         undecidable=_undecidable(found, judgement, data.assumed, data.calibrated),
         next_experiment=_next(judgement),
         machine=machine,

@@ -172,19 +172,36 @@ def _ranking(found: Analysis) -> list[dict[str, object]]:
     return rows
 
 
-def pictures(found: Analysis, shown: Shown, freed: Freed) -> dict[str, object]:
-    """All pictures of the analysis."""
+def motion_units(unit: str, order: int) -> tuple[str, str]:
+    """Units of displacement and velocity where the output measures the `order`-th derivative in `unit`: `m/s^2`, 2 ->
+    `m`, `m/s`; of a unit that is none over time the seconds are told."""
+    rate = ("", "/s", "/s^2")[order]
+    if unit.endswith(rate):
+        plain = unit.removesuffix(rate)
+        return plain, f"{plain}/s"
+    return (f"{unit} s", unit) if order == 1 else (f"{unit} s^2", f"{unit} s")
+
+
+def pictures(found: Analysis, shown: Shown, freed: Freed | None) -> dict[str, object]:
+    """All pictures of the analysis; without a force (`freed` is None) those of it are left out."""
     run = found.held_run
-    unit = run.data.answer_channel.unit
-    x_label = "velocity" if freed.rate else "displacement"
+    drawn: dict[str, object] = {
+        "traces": _traces(shown, run.data.answer_channel.unit),
+        "spectra": [_spectra(found, found.held_before[run.skip :], found.held_after[run.skip :])],
+        "ranking": _ranking(found),
+    }
+    return drawn if freed is None else drawn | force_pictures(freed, run.data.answer_channel.unit, run.data.order)
+
+
+def force_pictures(freed: Freed, unit: str, order: int) -> dict[str, dict[str, object]]:
+    """The force over one argument, and over displacement and velocity."""
+    displacement, velocity = motion_units(unit, order)
+    labels = f"displacement, {displacement}", f"velocity, {velocity}"
     over = freed.over
     plane = surface(freed.samples)
     return {
-        "traces": _traces(shown, unit),
-        "spectra": [_spectra(found, found.held_before[run.skip :], found.held_after[run.skip :])],
-        "ranking": _ranking(found),
         "law": {
-            "x_label": f"{x_label}, {unit}{'/s' if freed.rate else ''}",
+            "x_label": labels[freed.rate],
             "y_label": "force beyond linear, N",
             "x": over.argument,
             "force": over.force_n,
@@ -193,8 +210,8 @@ def pictures(found: Analysis, shown: Shown, freed: Freed) -> dict[str, object]:
             "fitted": freed.fitted,
         },
         "force_map": {
-            "x_label": f"displacement, {unit}",
-            "y_label": f"velocity, {unit}/s",
+            "x_label": labels[0],
+            "y_label": labels[1],
             "value_label": "N",
             "x": plane.displacement_m,
             "y": plane.velocity_m_per_s,

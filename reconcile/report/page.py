@@ -107,9 +107,12 @@ def _changes(report: Report) -> Markup:
 
 
 def _held_out(report: Report) -> Markup:
-    panels = [Markup(tag("h3", text(p.get("title"))) + trace(p)) for p in several(report.pictures, "traces")]
-    key = _key("predicted without it", "predicted with it") if panels else Markup("")
-    found = report.held_out
+    found, drawn = report.held_out, several(report.pictures, "traces")
+    added = found is not None or any(p.get("before") != p.get("after") for p in drawn)
+    names = ("predicted without it", "predicted with it") if added else ("predicted by the model", None)
+    kept = drawn if added else [{k: v for k, v in p.items() if k != "after"} for p in drawn]
+    panels = [Markup(tag("h3", text(p.get("title"))) + trace(p)) for p in kept]
+    key = _key(*names) if panels else Markup("")
     bars = Markup("")
     if found is not None:
         best = report.causes[0] if report.causes and report.verdict in ("explained", "ambiguous") else None
@@ -117,13 +120,14 @@ def _held_out(report: Report) -> Markup:
         if len(found.effects) > 1:
             subject = " and ".join(cause(c) for c in report.causes[:2])
         bars = Markup(distances(found, subject) + gains(found, subject))
-    return section(
-        "Improvement on data never fitted", held_out_words(found), bars, told(held_out_table(found)), key, *panels
-    )
+    title = "Measured and predicted" if found is None else "Improvement on data never fitted"
+    return section(title, held_out_words(found), bars, told(held_out_table(found)), key, *panels)
 
 
 def _force(report: Report) -> Markup:
     found = report.force
+    if report.level == "driven" and (found is None or report.verdict == "measurement_fault"):
+        return Markup("")  # what is left of a linear model is noise then, or the fault
     drawn = [law(p) for p in several(report.pictures, "law")]
     if found is not None and not drawn and (own := from_force(found)) is not None:
         drawn = [law(own)]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from reconcile.report.markup import Markup, figure_text, tag
+from reconcile.report.markup import PREFIXED, PREFIXES, Markup, figure_text, tag
 
 LEFT, RIGHT, TOP, BOTTOM = 62.0, 14.0, 12.0, 40.0
 MOST_POINTS = 1600
@@ -41,11 +41,15 @@ def decades(low: float, high: float) -> list[float]:
 
 
 def scaled(low: float, high: float, label: str) -> tuple[float, str]:
-    """Factor for tick figures and the label that says so: powers of 1000 where figures would be tiny or huge."""
+    """Factor for tick figures and the label that says so where figures would be tiny or huge: a prefix of the unit that
+    the label ends with (`displacement, m` -> `displacement, mm`), else a power of 1000."""
     most = max(abs(low), abs(high))
     if most == 0 or 0.05 <= most < 1e5:
         return 1.0, label
     power = 3 * math.floor(math.log10(most) / 3)
+    before, comma, unit = label.rpartition(", ")
+    if unit in PREFIXED and power in PREFIXES:
+        return 10.0**-power, f"{before}{comma}{PREFIXES[power]}{unit}"
     raised = "".join("⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".index(c)] for c in str(power))
     return 10.0**-power, f"{label} × 10{raised}"
 

@@ -16,6 +16,8 @@ from reconcile.verdict import AngleWindow
 
 MOST_CELLS = 6000
 LEGEND_STEPS = 21
+LETTER = 7.0
+"""Width of a letter of the legend, pixels."""
 SHADES = 24
 """Steps of the colour to either side."""
 NAMES, LONGEST_NAME = 215.0, 30
@@ -58,9 +60,11 @@ def _legend(frame: Frame, limit: float, label: str) -> Markup:
         tag("rect", x=left + k * cell, y=0.0, width=cell + 0.5, height=7.0, fill=diverging(s))
         for k, s in enumerate(shares)
     ]
-    ends = tag("text", f"-{figure_text(limit)}", x=left - 4, y=8, css="tick end")
+    lowest = f"-{figure_text(limit)}"
+    ends = tag("text", lowest, x=left - 4, y=8, css="tick end")
     more = tag("text", figure_text(limit), x=left + width + 4, y=8, css="tick")
-    return Markup("".join([*cells, ends, more, tag("text", label, x=left - 50, y=8, css="tick end")]))
+    before = left - 4 - LETTER * (len(lowest) + 1)
+    return Markup("".join([*cells, ends, more, tag("text", label, x=before, y=8, css="tick end")]))
 
 
 def _cells(frame: Frame, x: Sequence[float], y: Sequence[float], table: Sequence[Sequence[float]], limit: float) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
@@ -12,8 +13,10 @@ import numpy as np
 import pytest
 
 from reconcile.report import page, strict_json, write_report
+from reconcile.report.figures.maps import force_map
 from reconcile.report.markup import figure_text, tag
-from reconcile.report.plot import MOST_POINTS, Frame, thinned, ticks
+from reconcile.report.plot import MOST_POINTS, Frame, scaled, thinned, ticks
+from reconcile.report.strict import Plain
 from reconcile.report.words import sizes
 from reconcile.verdict import (
     AngleWindow,
@@ -175,6 +178,28 @@ def test_the_places_of_two_named_effects_are_both_said() -> None:
     second = replace(first, term="unbalance", site="gear", named=True)
     drawn = page(replace(report, verdict="explained", causes=(replace(first, named=True), second)))
     assert f"<b>{first.site} and gear</b>" in drawn and "most likely place" not in drawn
+
+
+def test_a_force_is_drawn_of_a_driven_model_where_the_answer_has_one() -> None:
+    driven = replace(full_report(), level="driven")
+    assert "<h2>Estimated force</h2>" in page(driven)
+    for bare in (replace(driven, force=None), replace(driven, verdict="measurement_fault")):
+        assert "<h2>Estimated force</h2>" not in page(bare)
+
+
+def test_the_ends_of_a_colour_bar_leave_its_label_room() -> None:
+    picture: dict[str, Plain] = {"x_label": "x", "y_label": "y", "value_label": "N", "x": [0.0, 1.0], "y": [0.0, 1.0]}
+    for most, letters in ((3.62e-11, 9), (2.0, 2)):
+        drawn = force_map({**picture, "value": [[most, 0.0], [-most, most]]})
+        low, label = (float(re.findall(rf'x="([0-9.]+)" y="8"[^>]*>{said}', drawn)[0]) for said in ("-", "force, N"))
+        assert low - label > 6.0 * letters
+
+
+def test_an_axis_has_the_prefix_of_its_unit() -> None:
+    assert scaled(-2e-3, 1e-3, "displacement, m") == (pytest.approx(1e3), "displacement, mm")
+    assert scaled(0.0, 3e-6, "m/s") == (pytest.approx(1e6), "µm/s")
+    assert scaled(0.0, 3e-6, "uncalibrated")[1] == "uncalibrated × 10⁻⁶"
+    assert scaled(0.0, 0.3, "displacement, m") == (1.0, "displacement, m")
 
 
 def test_a_report_without_anything_still_makes_a_page() -> None:
