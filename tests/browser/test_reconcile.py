@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -75,6 +76,30 @@ def test_a_recording_is_sent_chosen_and_reconciled(browser: Browser, service: Se
     listed = browser.text("[aria-label=Reconciliations] tr[data-status=successful]")
     assert "explained" in listed and "outer spall at bearing 1" in listed, "the list tells what was found"
     assert browser.run("return document.documentElement.scrollWidth") <= 360
+
+
+def test_a_baseline_is_chosen_by_hand_and_a_refusal_names_its_file(
+    browser: Browser, service: Service, tmp_path: Path
+) -> None:
+    browser.open(service.page("/reconcile"))
+    now, rested = recorded(sound(3)), replace(recorded(sound(4)), sampling_rate_hz=12345.0)
+    for name, made, more in (("now.npz", now, {}), ("rested.npz", rested, {"condition": "baseline"})):
+        (tmp_path / name).write_bytes(encode(made, "npz"))
+        description = {"description": json.dumps(describe(made) | more)}
+        with (tmp_path / name).open("rb") as file:
+            service.client.post("/v1/recordings", data=description, files={"file": (name, file)}).raise_for_status()
+    row = "[...document.querySelectorAll('tr[data-recording][data-status=ready]')].find((r) => r.innerText.includes("
+    for name in ("now.npz", "rested.npz"):
+        eventually(lambda name=name: browser.run(f"return !!{row}'{name}'))"), what=name)
+    assert browser.run(f"return {row}'rested.npz')).querySelector('select').value") == "", "nothing is chosen by itself"
+    assert "described as a baseline" in browser.run(f"return {row}'rested.npz')).innerText")
+    browser.run(f"{row}'now.npz')).querySelector('select').value = 'recordings'")
+    browser.run(f"{row}'rested.npz')).querySelector('select').value = 'baselines'")
+    browser.run(FILL, "#machine-json", json.dumps(MACHINE))
+    browser.click("[aria-label='Start a reconciliation'] button[type=submit]")
+    said = browser.text("[aria-label='Start a reconciliation'] .problem-fields")
+    assert "rested.npz (baselines.0): sampling_rate_hz" in said, said
+    assert all("422" in told for told in browser.complaints()), "the refusal was asked for"
 
 
 def test_the_list_begins_with_what_was_asked_for_last(browser: Browser, service: Service) -> None:

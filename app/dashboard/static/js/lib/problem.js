@@ -9,6 +9,17 @@ const NAMES = {
   "operating.speed_hz": "Shaft speed", gap: "Clearance gap", max_points: "Points",
 };
 
+/** The field's name on screen; one within another is told after it: `sound.csv (baselines.0): sampling_rate_hz`. */
+function nameOf(field, names) {
+  const within = Object.keys(names).filter((key) => key.includes(".") && field.startsWith(`${key}.`)).at(0);
+  return names[field] ?? (within ? `${names[within]}: ${field.slice(within.length + 1)}` : title(field));
+}
+
+/** A message with what it calls by its place named as on screen. */
+function spoken(message, names) {
+  return message.replace(/\b(?:recordings|baselines)\.\d+/g, (place) => names[place] ?? place);
+}
+
 function title(field) {
   const last = field.replace(/^set\./, "").replace(/^terms\.\d+\.parameters\./, "");
   return NAMES[last] ?? NAMES[last.split(".").at(-1)] ?? field;
@@ -33,7 +44,7 @@ function fieldItem(told, names, shownAs) {
   if (error.given !== null && error.given !== undefined) facts.push(["given", `${shown(error.given)} ${units}`]);
   if (error.allowed) facts.push(["allowed", `${error.allowed} ${units}`]);
   return h("li", {},
-    h("div", {}, h("strong", {}, names[error.field] ?? title(error.field)), ` ${error.message}`),
+    h("div", {}, h("strong", {}, nameOf(error.field, names)), ` ${spoken(error.message, names)}`),
     h("dl", {}, facts.map(([name, text]) => h("div", {}, h("dt", {}, name), h("dd", {}, text.trim()))),
       h("div", {}, h("dt", {}, "field"), h("dd", {}, error.field))));
 }

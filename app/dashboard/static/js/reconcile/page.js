@@ -7,7 +7,7 @@ import { uploadCard } from "/js/reconcile/upload.js";
 
 export function reconcilePage(main) {
   const recordings = recordingsCard();
-  const start = startCard(recordings.chosen);
+  const start = startCard(recordings.chosen, recordings.label);
   main.append(
     h("h1", {}, "Reconcile recordings with a machine"),
     h("p", { class: "muted" }, "Where recordings and machine differ, which physics was left out, and how much better it fits with it."),

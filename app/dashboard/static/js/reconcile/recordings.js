@@ -46,8 +46,9 @@ export function recordingsCard() {
   }
 
   const chosen = (use) => [...rows].filter(([, row]) => row.use() === use).map(([id]) => id);
+  const label = (id) => rows.get(id)?.label() ?? id.slice(0, 8);
   refresh();
-  return { element, refresh, chosen, stop: () => { stopped = true; clearTimeout(timer); } };
+  return { element, refresh, chosen, label, stop: () => { stopped = true; clearTimeout(timer); } };
 }
 
 function recordingRow() {
@@ -55,6 +56,7 @@ function recordingRow() {
   const cells = { file: h("td"), state: h("td"), contents: h("td", { class: "small" }), point: h("td", { class: "small num" }), quality: h("td", { class: "small" }), sent: h("td", { class: "small num" }) };
   const element = h("tr", {}, h("td", {}, use), Object.values(cells));
   let seen = "";
+  let label = "";
 
   function update(found) {
     element.dataset.recording = found.id;
@@ -64,8 +66,9 @@ function recordingRow() {
     cells.sent.textContent = ago(found.created_at);
     if (seen === found.status) return;
     seen = found.status;
-    if (found.status === "ready" && found.description.condition === "baseline") use.value = "baselines";
-    replace(cells.file, h("strong", {}, found.file.name), h("div", { class: "muted small" }, found.id.slice(0, 8)));
+    label = found.file.name;
+    const described = found.description.condition === "baseline" ? ", described as a baseline" : "";
+    replace(cells.file, h("strong", {}, found.file.name), h("div", { class: "muted small" }, `${found.id.slice(0, 8)}${described}`));
     replace(cells.state, h("span", { class: "pill", dataset: { tone: TONES[found.status] } }, found.status));
     const point = found.description.operating;
     cells.point.textContent = point ? `${point.shaft} ${quantity(point.speed_hz, "Hz")}${point.torque_nm ? `, ${number(point.torque_nm)} N·m` : ""}` : "–";
@@ -78,5 +81,5 @@ function recordingRow() {
     const kinds = [...new Set(report.findings.map((finding) => finding.kind.replace(/_/g, " ")))];
     replace(cells.quality, h("span", { class: "pill", dataset: { tone: kinds.length ? "warn" : "ok" } }, kinds.join(", ") || "no defects in the data"));
   }
-  return { element, update, use: () => (use.disabled ? "" : use.value) };
+  return { element, update, label: () => label, use: () => (use.disabled ? "" : use.value) };
 }

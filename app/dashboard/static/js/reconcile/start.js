@@ -12,8 +12,8 @@ const NAMED = 2;
 const NAMES = { recordings: "Recordings to explain", baselines: "Baselines", machine: "Machine" };
 const EXAMPLE = JSON.stringify({ kinematics: { shafts: [{ name: "input" }], bearings: [{ name: "bearing1", shaft: "input", catalogue: "6205" }] } }, null, 1);
 
-/** `chosen(use)` gives the ids of the recordings marked so. */
-export function startCard(chosen) {
+/** `chosen(use)` gives the ids of the recordings marked so, `label(id)` the name of one's file. */
+export function startCard(chosen, label) {
   const preset = select([["", "pasted JSON"]], "", { id: "machine-preset", onchange: () => { pasted.parentElement.hidden = preset.value !== ""; } });
   const pasted = h("textarea", { id: "machine-json", rows: "9", spellcheck: "false", value: EXAMPLE });
   const seed = h("input", { type: "number", id: "reconcile-seed", min: "0", step: "1", value: "0" });
@@ -22,6 +22,9 @@ export function startCard(chosen) {
   let budget = "quick";
   reference("/v1/presets").then(({ presets }) => preset.append(...presets.map((p) => h("option", { value: p.name }, p.title))))
     .catch(() => { /* the banner says that the server does not answer */ });
+
+  /** What a refusal calls `recordings.0`, by the file that stands there. */
+  const places = (use) => Object.fromEntries(chosen(use).map((id, place) => [`${use}.${place}`, `${label(id)} (${use}.${place})`]));
 
   async function start(event) {
     event.preventDefault();
@@ -33,7 +36,7 @@ export function startCard(chosen) {
       const job = await (await request("/v1/reconciliations", { method: "POST", body, headers: { "X-Submitter": submitter() } })).json();
       location.hash = `#/reconcile/${job.id}`;
     } catch (error) {
-      replace(notice, problemBox(error, NAMES));
+      replace(notice, problemBox(error, { ...NAMES, ...places("recordings"), ...places("baselines") }));
     } finally {
       button.disabled = false;
     }
