@@ -24,6 +24,7 @@ from reconcile.kinematics import KinematicSpec
 from reconcile.machine.budget import BUDGETS
 from reconcile.machine.meter import Timed
 from reconcile.report import page, strict_json
+from reconcile.report.words import cause_key
 from reconcile.verdict import Report
 from sim.core.errors import Cancelled, SpecError
 from sim.version import PHYSICS_VERSION
@@ -144,6 +145,6 @@ def _kept(
     )
     table = put_file(artefacts, f"{prefix}/manifest.json", [json_bytes(manifest.model_dump(mode="json"))])
     size = table.bytes + sum(entry.bytes for entry in files.values())
-    causes = tuple(f"{cause.term}@{cause.site}" for cause in report.causes if cause.named)
+    causes = tuple(cause_key(cause) for cause in report.causes if cause.named)
     answer = Answer(verdict=report.verdict, causes=causes)
     return ResultRef(attempt=attempt, size_bytes=size, sha256=table.sha256, expires_at=expires_at, answer=answer)

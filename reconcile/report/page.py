@@ -17,6 +17,7 @@ from reconcile.report.figures.path import path
 from reconcile.report.figures.sketch import sketch
 from reconcile.report.figures.spectrum import in_third_octaves
 from reconcile.report.figures.traces import trace
+from reconcile.report.held import held_out_table, held_out_words
 from reconcile.report.markup import Markup, figure_text, tag
 from reconcile.report.panels import spectra, turns
 from reconcile.report.pictures import numbers, several, text
@@ -26,8 +27,6 @@ from reconcile.report.sections import (
     causes_table,
     fault,
     head,
-    held_out_table,
-    held_out_words,
     section,
     simulated,
     told,
@@ -37,7 +36,7 @@ from reconcile.report.sections import (
 from reconcile.report.steps import stages
 from reconcile.report.strict import plain
 from reconcile.report.style import STYLE
-from reconcile.report.words import cause
+from reconcile.report.words import LAWS, cause
 from reconcile.verdict import Report
 
 
@@ -54,6 +53,14 @@ def _where(report: Report) -> Markup:
     return section("Where", drawing, told(sites, where_table(report.where)))
 
 
+def _reference(report: Report) -> str:
+    """What the spectra are held against."""
+    modes = {stage.get("mode") for stage in report.stages}
+    if report.level == "driven" or "B" in modes:
+        return "the model"
+    return "the baseline" if "A" in modes else "the baseline, or the model where there is none"
+
+
 def _spectra(report: Report) -> Markup:
     drawn = several(report.pictures, "spectra")
     if not drawn:
@@ -61,7 +68,7 @@ def _spectra(report: Report) -> Markup:
     thirds = all(in_third_octaves(numbers(p.get("frequency_hz"))) for p in drawn)
     title = "Third-octave spectra" if thirds else "Spectra"
     note = tag("p", THIRDS, css="muted") if thirds else Markup("")
-    reference = "the baseline, or the model where there is none"
+    reference = _reference(report)
     if report.verdict == "nothing_missing" or all(p.get("after_db") == p.get("before_db") for p in drawn):
         # nothing is added to the reference
         bare = [{k: v for k, v in p.items() if k != "after_db"} for p in drawn]
@@ -135,7 +142,11 @@ def _force(report: Report) -> Markup:
     if found is None:
         return section("Estimated force", *drawn, *maps)
     said = f"At {found.site}: " + (f"law {found.law}." if found.law else "no stable law.")
-    terms = bullets(f"{name}: {figure_text(value, digits=4)}" for name, value in found.coefficients.items())
+    units = {c.severity.name: c.severity.unit for c in report.causes if c.severity is not None}
+    terms = bullets(
+        f"{LAWS.get(name, name.replace('_', ' '))}: {figure_text(value, units.get(name, ''), digits=4)}"
+        for name, value in found.coefficients.items()
+    )
     work = Markup("")
     if found.work_per_cycle_j is not None:
         work = tag("p", f"Work per cycle {figure_text(found.work_per_cycle_j)} J.", css="muted")

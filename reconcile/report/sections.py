@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
@@ -17,28 +16,19 @@ from reconcile.report.words import (
     VERDICT,
     cause,
     compared,
-    distance,
     forms,
-    gain,
+    gains,
     leaves_a_part,
     percent,
-    reached,
-    readable,
     severity,
+    size_name,
     sizes,
-    strongest_placebo,
+    tidied,
 )
-from reconcile.verdict import Cause, HeldOut, Level, LineChange, PlaceWeight, Report, Where, operating_point
+from reconcile.verdict import Cause, Level, LineChange, PlaceWeight, Report, Where, operating_point
 
 MOST_LINES = 20
 MOST_PLACES = 3
-BARS = (
-    "Line through a bar's end: 90 % interval. Retuned: the model's own numbers moved instead. Black box: a correction "
-    "with as many free numbers and no physics. Placebos: other effects and places in the effect's stead, the middle "
-    "and the strongest of them. An effect that is there should beat all. Expected of a perfect model: what drift "
-    "between the recordings and noise usually leave even to it; where this machine drifted less than others of its "
-    "kind, more than that is reached."
-)
 SYMBOLS = (
     "f_o, f_i, f_b, f_c: outer race, inner race, ball and cage of a bearing; f_r: a shaft; f_m: a mesh; numbered in "
     "the order of the machine file. 3*f_i1-2*f_r1 is a sideband. Bearings that roll alike share their lines."
@@ -69,15 +59,16 @@ def bullets(items: Iterable[object]) -> Markup:
 
 
 def table(heads: Sequence[str], rows: Sequence[Sequence[object]], marked: Sequence[bool] = ()) -> Markup:
-    """A table; columns whose cells are numbers already formatted stay left, as names do."""
+    """A table; columns whose cells are numbers already formatted stay left, as names do. On a narrow screen its rows
+    stand as blocks, each cell after its head."""
     if not rows:
         return Markup("")
     flags = marked or [False] * len(rows)
     body = [
-        tag("tr", *(tag("td", c) for c in row), css="named" if flag else None)
-        for row, flag in zip(rows, flags, strict=True)
+        tag("tr", *(tag("td", c, data_head=h or None) for h, c in zip(heads, row, strict=True)), css=css)
+        for row, css in zip(rows, ("named" if flag else None for flag in flags), strict=True)
     ]
-    return tag("div", tag("table", tag("tr", *(tag("th", h) for h in heads)), *body), css="scroll")
+    return tag("div", tag("table", tag("tr", *(tag("th", h) for h in heads), css="heads"), *body), css="scroll")
 
 
 def _tile(value: str, label: str) -> Markup:
@@ -120,13 +111,10 @@ def head(report: Report) -> Markup:
                 size, ends = f"at most {high}", "an upper bound"
             else:
                 ends = f"90 %: {low} to {high}"
-            tiles.append(_tile(size, f"{c.severity.name} of {cause(c)}, {ends}"))
+            tiles.append(_tile(size, f"{' of '.join(filter(None, (size_name(c), cause(c))))}, {ends}"))
     if report.held_out is not None:
-        tiles.append(
-            _tile(
-                percent(report.held_out.gain), f"less {report.held_out.metric.replace('_', ' ')} on data never fitted"
-            )
-        )
+        metric = report.held_out.metric.replace("_", " ")
+        tiles.append(_tile(gains(report.held_out)[0], f"less {metric} on data never fitted"))
     return tag(
         "header",
         tag("span", word, css=f"badge {tone}"),
@@ -148,7 +136,7 @@ def fault(report: Report) -> Markup:
             f.kind.replace("_", " "),
             f.channel or "–",
             ", ".join(f.recordings) or "–",
-            f.detail,
+            tidied(f.detail),
             "; ".join(
                 words for words, holds in (("left out", f.left_out), ("or the machine's own", f.doubtful)) if holds
             )
@@ -212,7 +200,7 @@ def causes_table(causes: Sequence[Cause], level: Level) -> Markup:
         (
             Markup(escaped(cause(c)) + (tag("div", forms(c), css="forms") if c.forms else "")),
             f"{c.score:.3g}",
-            "–" if c.severity is None else severity(c.severity),
+            severity(c) or "–",
             "yes" if c.named else "no",
             *(["; ".join(why)] if any(own) else []),
         )
@@ -226,58 +214,6 @@ def causes_table(causes: Sequence[Cause], level: Level) -> Markup:
     return Markup(
         left + why + table(heads, rows, [c.named for c in causes]) + "".join(tag("p", n, css="muted") for n in notes)
     )
-
-
-def held_out_table(found: HeldOut | None) -> Markup:
-    """Figures of the validation against the rivals."""
-    if found is None:
-        return Markup("")
-    rows = [
-        ("without it", distance(found.before, found.unit), "–"),
-        ("with it", distance(found.after, found.unit), gain(found)),
-        ("retuned parameters only", "", percent(found.retuned)),
-        ("black box with as many parameters", "", percent(found.black_box)),
-        ("placebo: the middle of all", "", percent(found.placebo)),
-    ]
-    best = strongest_placebo(found)
-    if best is not None:
-        rows.append((f"strongest placebo: {readable(f'{best.term}@{best.site}')}", "", percent(best.gain)))
-    expected = reached(found)
-    if expected is not None:
-        rows.append(("expected of a perfect model: drift and noise stay", "", percent(expected)))
-    metric = found.metric.replace("_", " ")
-    marked = [False, True, *[False] * (len(rows) - 2)]
-    return Markup(tag("p", f"Measure: {metric}.") + table(("model", metric, "gain over without it"), rows, marked))
-
-
-def held_out_words(found: HeldOut | None) -> Markup:
-    """What was held out, and how to read the bars."""
-    if found is None:
-        return Markup("")
-    held = tag("p", f"Held out: {found.held}.") if found.held else Markup("")
-    if not math.isfinite(found.gain_low):
-        sure = Markup("")
-    elif found.gain_low > 0.0:
-        sure = tag("p", "The whole interval is above zero: the model does foretell such data better with it.")
-    else:
-        sure = tag("p", "The interval reaches zero: on data never fitted it is not sure that it helps.", css="note")
-    return Markup(held + sure + _unbeaten(found) + tag("p", BARS, css="muted"))
-
-
-def _unbeaten(found: HeldOut) -> Markup:
-    """Which rivals the effect does not beat by more than its interval."""
-    rivals = {"retuned parameters": found.retuned, "the black box": found.black_box}
-    best = strongest_placebo(found)
-    if best is not None:
-        rivals[f"the strongest placebo, {readable(f'{best.term}@{best.site}')}"] = best.gain
-    elif found.placebo is not None:
-        rivals["the placebo"] = found.placebo
-    near = {n: g for n, g in rivals.items() if g is not None and math.isfinite(g) and g >= found.gain_low}
-    if not near or not math.isfinite(found.gain_low):
-        return Markup("")
-    named = ", ".join(f"{name} ({percent(value)})" for name, value in near.items())
-    text = f"Not beaten by more than the interval: {named}. What it gains is no proof that it is this effect."
-    return tag("p", text, css="note")
 
 
 def simulated(report: Report) -> str:

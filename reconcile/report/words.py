@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 
 from reconcile.report.markup import figure_text
@@ -29,7 +30,26 @@ FORMS = (
     "“or” names another form of the same effect: a law for the same part that excludes it there, so that at most one "
     "of them is true; their evidence counts together, under the strongest."
 )
-MOST_DIGITS = 6
+MOST_DIGITS, MOST_PLACES = 6, 2
+OWN_LAW = "custom_force"
+LAWS = {
+    "quadratic": "even stiffness",
+    "cubic": "odd stiffness, cubic",
+    "quintic": "odd stiffness, fifth power",
+    "odd_square": "odd stiffness, square",
+    "odd_power": "odd stiffness",
+    "root": "square root",
+    "contact_above": "one-sided spring",
+    "contact_below": "one-sided spring",
+    "hertz_above": "one-sided Hertz contact",
+    "hertz_below": "one-sided Hertz contact",
+    "stops": "stops on both sides",
+    "dry_friction": "dry friction",
+    "drag": "quadratic damping",
+    "cubic_drag": "cubic damping",
+    "van_der_pol": "damping that grows with the swing",
+}
+"""Words of the laws by the names of their coefficients (`reconcile.force_law.library`)."""
 
 PART_LEFT = "a part of the change is left"
 """How the reason begins that an effect is named with, although it does not bring all of the change."""
@@ -76,22 +96,66 @@ def sizes(found: Severity) -> tuple[str, str, str]:
     return value, low, high
 
 
-def severity(found: Severity) -> str:
-    """`gap 12 µm (90 %: 10 µm to 14 µm)`, or `width at most 2 mm` where a bound is all that is known."""
-    value, low, high = sizes(found)
-    if found.low == 0.0:
-        return f"{found.name} at most {high} (90 %)"
-    return f"{found.name} {value} (90 %: {low} to {high})"
+def severity(found: Cause) -> str:
+    """`gap 12 µm (90 %: 10 µm to 14 µm)`, or `width at most 2 mm` where a bound is all that is known; nothing where no
+    size is. A size that is called as the effect is has no name of its own."""
+    if found.severity is None:
+        return ""
+    value, low, high = sizes(found.severity)
+    said = f"at most {high} (90 %)" if found.severity.low == 0.0 else f"{value} (90 %: {low} to {high})"
+    return f"{size_name(found)} {said}".strip()
+
+
+def effect(found: Cause) -> str:
+    """The effect in words: `fit clearance`, or of a law of force its own words, `stops on both sides`."""
+    size = "" if found.severity is None else found.severity.name
+    return LAWS[size] if found.term == OWN_LAW and size in LAWS else found.term.replace("_", " ")
+
+
+def size_name(found: Cause) -> str:
+    """What the size is: `gap`; nothing where that says no more than the effect's name."""
+    size = "" if found.severity is None else found.severity.name
+    return "" if size in LAWS or size == found.term else size.replace("_", " ")
 
 
 def cause(found: Cause) -> str:
-    """Term and site."""
-    return f"{found.term.replace('_', ' ')} at {found.site}" if found.site else found.term.replace("_", " ")
+    """Effect and site."""
+    return f"{effect(found)} at {found.site}" if found.site else effect(found)
+
+
+def cause_key(found: Cause) -> str:
+    """`outer_spall@bearing1`; of a law of force that is no effect of its own the law, `stops@mass`."""
+    size = "" if found.severity is None else found.severity.name
+    return f"{size if found.term == OWN_LAW and size in LAWS else found.term}@{found.site}"
+
+
+def known(share: float | None) -> bool:
+    """Whether a share is there to be told."""
+    return share is not None and math.isfinite(share)
+
+
+def gains(found: HeldOut) -> tuple[str, str, str]:
+    """Gain and ends of its interval in per cent: whole ones, or to as many places as part the ends."""
+    values = (found.gain, found.gain_low, found.gain_high)
+    if not all(math.isfinite(v) for v in values):
+        return percent(values[0]), percent(values[1]), percent(values[2])
+    for places in range(MOST_PLACES + 1):
+        value, low, high = (f"{100 * v:.{places}f} %" for v in values)
+        if low != high or found.gain_low == found.gain_high:
+            break
+    return value, low, high
 
 
 def gain(found: HeldOut) -> str:
     """`31 % (90 %: 25 % to 36 %)`."""
-    return f"{percent(found.gain)} (90 %: {percent(found.gain_low)} to {percent(found.gain_high)})"
+    value, low, high = gains(found)
+    return f"{value} (90 %: {low} to {high})"
+
+
+def tidied(detail: str) -> str:
+    """What was seen of a fault, with shares to three figures and one stretch as one."""
+    shares = re.sub(r"\b(\d+\.\d+) ?%", lambda m: f"{figure_text(float(m[1]))} %", detail)
+    return re.sub(r"\b1 stretches, the first at", "one stretch,", shares)
 
 
 def compared(report: Report) -> str:

@@ -10,7 +10,7 @@ from itertools import pairwise
 from reconcile.report.figures.colour import diverging
 from reconcile.report.markup import Markup, figure_text, tag
 from reconcile.report.pictures import numbers, rows, text
-from reconcile.report.plot import BOTTOM, LEFT, TOP, Frame
+from reconcile.report.plot import BOTTOM, LEFT, TOP, Frame, fitting
 from reconcile.report.strict import Plain
 from reconcile.verdict import AngleWindow
 
@@ -20,8 +20,8 @@ LETTER = 7.0
 """Width of a letter of the legend, pixels."""
 SHADES = 24
 """Steps of the colour to either side."""
-NAMES, LONGEST_NAME = 215.0, 30
-"""Room for the names of rows, pixels and characters."""
+NAMES = 215.0
+"""Room for the names of rows, pixels."""
 QUARTERS = tuple(45.0 * k for k in range(9))
 
 
@@ -57,14 +57,14 @@ def _legend(frame: Frame, limit: float, label: str) -> Markup:
     cell = width / LEGEND_STEPS
     shares = [2.0 * k / (LEGEND_STEPS - 1) - 1.0 for k in range(LEGEND_STEPS)]
     cells = [
-        tag("rect", x=left + k * cell, y=0.0, width=cell + 0.5, height=7.0, fill=diverging(s))
+        tag("rect", x=left + k * cell, y=2.0, width=cell + 0.5, height=7.0, fill=diverging(s))
         for k, s in enumerate(shares)
     ]
     lowest = f"-{figure_text(limit)}"
-    ends = tag("text", lowest, x=left - 4, y=8, css="tick end")
-    more = tag("text", figure_text(limit), x=left + width + 4, y=8, css="tick")
+    ends = tag("text", lowest, x=left - 4, y=10, css="tick end")
+    more = tag("text", figure_text(limit), x=left + width + 4, y=10, css="tick")
     before = left - 4 - LETTER * (len(lowest) + 1)
-    return Markup("".join([*cells, ends, more, tag("text", label, x=before, y=8, css="tick end")]))
+    return Markup("".join([*cells, ends, more, tag("text", label, x=before, y=10, css="tick end")]))
 
 
 def _cells(frame: Frame, x: Sequence[float], y: Sequence[float], table: Sequence[Sequence[float]], limit: float) -> str:
@@ -87,7 +87,7 @@ def _cells(frame: Frame, x: Sequence[float], y: Sequence[float], table: Sequence
 def _row_names(frame: Frame, names: Sequence[str]) -> Markup:
     parts = []
     for i, name in enumerate(names):
-        shown = name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 1]}…"
+        shown = fitting(name, frame.left - 10)
         at = frame.py(i + 1.0) + 4
         parts.append(tag("text", shown, tag("title", name), x=frame.left - 6, y=at, css="tick end"))
     return Markup("".join(parts))

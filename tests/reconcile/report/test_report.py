@@ -191,7 +191,7 @@ def test_the_ends_of_a_colour_bar_leave_its_label_room() -> None:
     picture: dict[str, Plain] = {"x_label": "x", "y_label": "y", "value_label": "N", "x": [0.0, 1.0], "y": [0.0, 1.0]}
     for most, letters in ((3.62e-11, 9), (2.0, 2)):
         drawn = force_map({**picture, "value": [[most, 0.0], [-most, most]]})
-        low, label = (float(re.findall(rf'x="([0-9.]+)" y="8"[^>]*>{said}', drawn)[0]) for said in ("-", "force, N"))
+        low, label = (float(re.findall(rf'x="([0-9.]+)" y="10"[^>]*>{said}', drawn)[0]) for said in ("-", "force, N"))
         assert low - label > 6.0 * letters
 
 

@@ -42,7 +42,7 @@ def report(verdict: Word = "explained", **more: object) -> Report:
 
 def rows(markup: str) -> list[list[str]]:
     return [
-        [re.sub("<[^>]+>", "", cell) for cell in re.findall("<t[hd]>(.*?)</t[hd]>", row)]
+        [re.sub("<[^>]+>", "", cell) for cell in re.findall("<t[hd][^>]*>(.*?)</t[hd]>", row)]
         for row in re.findall("<tr.*?</tr>", markup)
     ]
 

@@ -38,7 +38,7 @@ function superscript(exponent) {
 /** Unit symbols as printed: `m/s^2` -> `m/s²`. */
 export function unit(text) {
   if (!text || text === "1") return "";
-  return text.replace(/\^2/g, "²").replace(/\^1\.5/g, "¹·⁵").replace(/\*/g, "·").replace(/\bum\b/, "µm").replace(/\bdeg\b/, "°");
+  return text.replace(/\^(\d)(?:\.(\d))?/g, (whole, digit, tenth) => superscript(digit) + (tenth ? `·${superscript(tenth)}` : "")).replace(/\*/g, "·").replace(/\bum\b/, "µm").replace(/\bdeg\b/, "°");
 }
 
 /** The factor and unit in which values up to `size` read well: 2e-5 m -> [1e6, "µm"]. */

@@ -2,6 +2,7 @@
 
 import { h } from "/js/lib/dom.js";
 import { partName } from "/js/lib/format.js";
+import { listedName } from "/js/lib/laws.js";
 
 const TONES = { accepted: "", running: "run", successful: "ok", failed: "bad", dismissed: "warn" };
 
@@ -20,6 +21,6 @@ export function verdictPill(verdict) {
 /** The verdict of a reconciliation with the causes it names; of any other job, and before there is one, how it stands. */
 export function outcome(job) {
   if (!job.answer) return [statusPill(job)];
-  const causes = job.answer.causes.map((cause) => cause.split("@")).map(([term, site]) => `${words(term)} at ${partName(site)}`);
+  const causes = job.answer.causes.map((cause) => cause.split("@")).map(([term, site]) => `${listedName(term)} at ${partName(site)}`);
   return [verdictPill(job.answer.verdict), causes.length ? h("span", { class: "small answer-causes" }, ` ${causes.join(", ")}`) : null];
 }

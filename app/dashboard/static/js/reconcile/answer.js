@@ -3,6 +3,7 @@
 import { apiKey, download } from "/js/lib/api.js";
 import { h, icon } from "/js/lib/dom.js";
 import { number, partName, quantity, unit } from "/js/lib/format.js";
+import { LAWS, effectName, sizeName } from "/js/lib/laws.js";
 import { toastProblem } from "/js/lib/problem.js";
 import { verdictPill } from "/js/lib/status.js";
 
@@ -11,11 +12,13 @@ const FORMS = "“or” names another form of the same effect: a law for the sam
 const isRest = (reason) => reason.startsWith("a part of the change is left");
 const words = (text) => text.replace(/_/g, " ");
 /** Rounded as the report's page has it: a gain to a tenth of a per cent would say more than is known. */
+const [MOST_DIGITS, MOST_PLACES] = [6, 2];
+const SAYS_NOTHING = "the part that was held out";
 const percent = (share) => (share === null || share === undefined ? "–" : `${Math.round(100 * share)} %`);
 const distance = (value, of) => (!of || of === "1" ? `${number(100 * value, 2)} %` : `${number(value, 3)} ${unit(of)}`);
 
 export function answer({ id, report, links }) {
-  return h("div", { class: "result-body" }, verdict(report), where(report.where), causes(report.causes), heldOut(report.held_out), force(report.force),
+  return h("div", { class: "result-body" }, verdict(report), where(report.where), causes(report.causes), heldOut(report.held_out), force(report),
     limits(report), next(report.next_experiment), files(id, links), links.page && !apiKey() ? picture(links.page) : null);
 }
 
@@ -32,7 +35,12 @@ function verdict(report) {
     h("p", { class: "reconcile-sentence" }, report.sentence),
     sent.length ? h("p", { class: "muted small" }, [provenance.machine, ...sent].filter(Boolean).join("; ")) : null,
     report.to_do ? h("p", {}, h("b", {}, "What to do: "), report.to_do) : null,
-    fault ? h("p", { class: "muted" }, `${words(fault.kind)}, channel ${fault.channel}. ${fault.detail}`) : null);
+    fault ? h("p", { class: "muted" }, `${words(fault.kind)}${fault.channel ? `, channel ${fault.channel}` : ""}. ${tidied(fault.detail)}`) : null);
+}
+
+/** Shares to three figures, and one stretch as one, as the report's page has them. */
+function tidied(detail) {
+  return detail.replace(/\b(\d+\.\d+) ?%/g, (whole, share) => `${Number(Number(share).toPrecision(3))} %`).replace(/\b1 stretches, the first at/g, "one stretch,");
 }
 
 function where({ sites, lines, angle_window: angle, limits: told }) {
@@ -72,40 +80,58 @@ function causes(list) {
     left ? h("p", { class: "reconcile-note" }, LEFT_OVER) : null,
     told.length ? h("p", {}, `${list.some((cause) => cause.named) ? "For most of them" : "Why none is named"}: ${told.join("; ")}.`) : null,
     table("Causes", ["Effect", "At", "Severity (90 %)", "Score", "Named"], list.map((cause) =>
-      [effect(cause), partName(cause.site), severity(cause.severity), number(cause.score, 3), `${cause.named ? "yes" : "no"}${why(cause) && `: ${why(cause)}`}`])),
+      [effect(cause), partName(cause.site), severity(cause), number(cause.score, 3), `${cause.named ? "yes" : "no"}${why(cause) && `: ${why(cause)}`}`])),
     list.some((cause) => Object.keys(cause.forms ?? {}).length) ? h("p", { class: "muted small" }, FORMS) : null);
 }
 
-function effect({ term, forms }) {
+function effect(cause) {
+  const { forms } = cause;
   const others = Object.entries(forms ?? {}).map(([name, score]) => `${words(name)} (${number(score, 3)})`);
-  return [words(term), others.length ? h("div", { class: "muted small" }, `or: ${others.join(", ")}`) : null];
+  return [effectName(cause), others.length ? h("div", { class: "muted small" }, `or: ${others.join(", ")}`) : null];
 }
 
-function severity(found) {
+function severity(cause) {
+  const found = cause.severity;
   if (!found) return "–";
-  if (found.low === 0) return `${words(found.name)} at most ${size(found.high, found.unit)}`;
-  return `${words(found.name)} ${size(found.value, found.unit)} (${size(found.low, found.unit)} to ${size(found.high, found.unit)})`;
+  const [value, low, high] = sizes(found);
+  return `${sizeName(cause)} ${found.low === 0 ? `at most ${high}` : `${value} (${low} to ${high})`}`.trim();
 }
 
-/** To two figures, or the whole number that has more of them: as the sentence and the page say it. */
-function size(value, of) {
-  return quantity(value, of, 2, true);
+/** To two figures, or the whole number that has more of them, as the sentence and the page say it; to as many as part the ends. */
+function sizes(found) {
+  for (let digits = 2; ; digits += 1) {
+    const told = [found.value, found.low, found.high].map((value) => quantity(value, found.unit, digits, true));
+    if (told[1] !== told[2] || found.low === found.high || digits === MOST_DIGITS) return told;
+  }
+}
+
+/** Gain and ends of its interval: whole per cent, or to as many places as part the ends. */
+function gains({ gain, gain_low: low, gain_high: high }) {
+  const values = [gain, low, high];
+  if (values.some((share) => share === null || share === undefined)) return values.map(percent);
+  for (let places = 0; ; places += 1) {
+    const told = values.map((share) => `${(100 * share).toFixed(places)} %`);
+    if (told[1] !== told[2] || low === high || places === MOST_PLACES) return told;
+  }
 }
 
 function heldOut(found) {
   if (!found) return null;
+  const [gain, low, high] = gains(found);
+  const rivals = [["Gain by retuning alone", found.retuned], ["Gain of a black box", found.black_box], ["Gain of a placebo", found.placebo]];
   const rows = [["Before", distance(found.before, found.unit)], ["After", distance(found.after, found.unit)],
-    ["Gain (90 %)", `${percent(found.gain)} (${percent(found.gain_low)} to ${percent(found.gain_high)})`],
-    ["Gain by retuning alone", percent(found.retuned)], ["Gain of a black box", percent(found.black_box)], ["Gain of a placebo", percent(found.placebo)]];
+    ["Gain (90 %)", `${gain} (${low} to ${high})`],
+    ...rivals.filter(([, share]) => share !== null && share !== undefined).map(([name, share]) => [name, percent(share)])];
   if (found.ceiling != null) rows.push(["Gain of a perfect model (drift and noise stay)", percent(found.ceiling)]);
-  return card("Improvement on data never fitted", "held-out", h("p", { class: "muted" }, `${words(found.metric)}${found.held ? `; held out: ${found.held}` : ""}`),
+  return card("Improvement on data never fitted", "held-out", h("p", { class: "muted" }, `${words(found.metric)}${found.held && found.held !== SAYS_NOTHING ? `; held out: ${found.held}` : ""}`),
     table("Held-out data", ["", ""], rows));
 }
 
-function force(found) {
-  if (!found) return null;
+function force({ force: found, causes: list, verdict: told }) {
+  if (!found || told === "measurement_fault") return null;
+  const units = Object.fromEntries(list.filter((cause) => cause.severity).map(({ severity: { name, unit: of } }) => [name, of]));
   return card("Estimated force", "force", h("p", {}, `At ${partName(found.site)}: ${found.law ? `law ${found.law}` : "no stable law"}.`),
-    bullets(Object.entries(found.coefficients).map(([name, value]) => `${name}: ${number(value)}`)));
+    bullets(Object.entries(found.coefficients).map(([name, value]) => `${LAWS[name] ?? words(name)}: ${units[name] ? quantity(value, units[name]) : number(value)}`)));
 }
 
 function limits({ undecidable }) {
@@ -132,9 +158,9 @@ function picture(path) {
 }
 
 function table(label, heads, rows) {
-  return h("div", { class: "table-wrap" }, h("table", { "aria-label": label },
+  return h("div", { class: "table-wrap" }, h("table", { "aria-label": label, class: heads.some(Boolean) ? "stacks" : "" },
     heads.some(Boolean) ? h("thead", {}, h("tr", {}, heads.map((head) => h("th", { scope: "col" }, head)))) : null,
-    h("tbody", {}, rows.map((cells) => h("tr", {}, cells.map((cell) => h("td", {}, cell)))))));
+    h("tbody", {}, rows.map((cells) => h("tr", {}, cells.map((cell, place) => h("td", { dataset: { head: heads[place] } }, cell)))))));
 }
 
 function bullets(list) {
