@@ -38,7 +38,9 @@ async def _ours(request: Request, error: Exception) -> Response:
     assert isinstance(error, SidebandError)
     # Reading has no body: what is wrong was in the query.
     location = "query" if request.method in ("GET", "HEAD") else "body"
-    if isinstance(error, UnknownName | UnknownArtefact) and error.name in request.path_params.values():
+    if isinstance(error, UnknownName | UnknownArtefact) and (
+        error.name in request.path_params.values() or not (location == "body" or request.url.query)
+    ):
         location = "path"
     return problems.response(problems.told(error, location), request.url.path)
 

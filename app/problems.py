@@ -133,7 +133,12 @@ def _of_state(error: SidebandError) -> Sequence[FieldError]:
             "an id of the list",
         )
     elif isinstance(error, errors.JobGone):
-        field, message, given, allowed = "job_id", f"is {error.why}", error.job_id, "the id of a result that is kept"
+        field, message, given, allowed = (
+            "job_id",
+            f"is {error.why}",
+            error.job_id,
+            f"the id of a {error.kind} that is kept",
+        )
     else:
         return ()
     return [FieldError(field=field, location="path", message=message, given=given, allowed=allowed)]

@@ -42,11 +42,12 @@ class UnknownJob(JobError):
 
 
 class JobGone(JobError):
-    """The job's result is not kept any more; submitting the request again starts a new attempt."""
+    """The job's result is not kept any more; submitting the request again starts a new attempt. `kind`: what it was."""
 
-    def __init__(self, job_id: str, why: str) -> None:
-        self.job_id, self.why = job_id, why
-        super().__init__(f"the result of job {job_id} is {why}; submit the request again for a new attempt")
+    def __init__(self, job_id: str, why: str, kind: str = "result") -> None:
+        self.job_id, self.why, self.kind = job_id, why, kind
+        told = f"the result of job {job_id} is {why}; submit the request again for a new attempt"
+        super().__init__(told if kind == "result" else f"the {kind} {job_id} is {why}; send it again to have it back")
 
 
 class ResultNotReady(JobError):

@@ -212,7 +212,7 @@ _KINDS: Mapping[str, Callable[[Bench, Reporter, str, int], ResultRef]] = {
 
 
 _WRONG: Mapping[type[BaseException], tuple[str, str]] = {
-    RecordingRefused: ("refused", "change the fields named, or send a sound file"),
+    RecordingRefused: ("refused", "change the fields named, or send a file that is whole"),
     DatasetRefused: ("not-makeable", "change what is named, then submit again"),
     NotReconcilable: ("not-reconcilable", "change the fields named, or choose other recordings"),
 }

@@ -166,5 +166,5 @@ def _record(state: AppState, job_id: str) -> JobRecord:
     if record.kind != RECORDING:
         raise UnknownJob(job_id)
     if record.gone is not None:
-        raise JobGone(job_id, record.gone)
+        raise JobGone(job_id, record.gone, RECORDING)
     return record

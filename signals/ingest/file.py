@@ -35,15 +35,27 @@ def load_description(path: Path) -> Description:
         if path.stat().st_size > DESCRIPTION_BYTES:
             allowed = f"<= {DESCRIPTION_BYTES}"
             raise SpecError(Problem(field=path.name, message="is too large", allowed=allowed, unit="bytes"))
-        return read_description(strict(path.read_text(encoding="utf-8-sig"), path.name))
+        text = path.read_text(encoding="utf-8-sig")
+        if _is_data(path) and not text.lstrip().startswith("{"):
+            raise _data_given(path)
+        return read_description(strict(text, path.name))
     except OSError as error:
         reason = (error.strerror or "is away").lower()
         raise SpecError(Problem(field=str(path), message=f"cannot be read: {reason}")) from error
     except UnicodeDecodeError as error:
-        data = suffix_of(path) in FORMATS and suffix_of(path) != ".json"
-        message = "holds data: give its description, which stands beside it" if data else "is not text in UTF-8"
-        allowed = f"{path.stem}.json" if data else ""
-        raise SpecError(Problem(field=path.name, message=message, allowed=allowed)) from error
+        if _is_data(path):
+            raise _data_given(path) from error
+        raise SpecError(Problem(field=path.name, message="is not text in UTF-8")) from error
+
+
+def _is_data(path: Path) -> bool:
+    """Whether the name is that of a data file."""
+    return suffix_of(path) in FORMATS and suffix_of(path) != ".json"
+
+
+def _data_given(path: Path) -> SpecError:
+    message = "holds data: give its description (JSON), which stands beside it"
+    return SpecError(Problem(field=path.name, message=message, allowed=f"{path.stem}.json"))
 
 
 def data_file(path: Path, description: Description) -> Path:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import gzip
 import io
+import re
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -29,6 +30,8 @@ from signals.series import FloatArray
 HEAD_BYTES = 2**16
 _BLOCK_BYTES = 2**22
 RELEASE_TRIES, RELEASE_S = 1000, 0.001
+_COLUMN, _ROW = re.compile(r"In CSV column #(\d+): "), re.compile(r"Row #(\d+): ")
+"""How Arrow tells a place: columns from 0, rows from 1."""
 _EMPTY = ["", "NA", "N/A", "#N/A", "null", "NULL", "None"]
 
 
@@ -83,8 +86,35 @@ def _read(path: Path, bounds: Bounds, layout: Layout, names: Sequence[str]) -> M
     wanted = [layout.names.index(name) for name in names]
     with told(path), _stream(path, bounds) as stream:
         read = _by_blanks if layout.delimiter == BLANKS else _by_delimiter
-        columns = read(path, bounds, layout, stream, wanted)
+        try:
+            columns = read(path, bounds, layout, stream, wanted)
+        except pa.ArrowInvalid as error:
+            raise refused(path, _placed(path, bounds, layout, str(error).splitlines()[0][:300])) from None
     return dict(zip(names, columns, strict=True))
+
+
+def _placed(path: Path, bounds: Bounds, layout: Layout, reason: str) -> str:
+    """What Arrow says, with the column by its name and the line as an editor counts it."""
+    row, column = _ROW.search(reason), _COLUMN.match(reason)
+    named = column and int(column[1]) < len(layout.names)
+    line = _line_of(path, bounds, layout, int(row[1])) if row else 0
+    places = [
+        *([f"column {layout.names[int(column[1])]}"] if column and named else []),
+        *([f"line {line}"] if line else []),
+    ]
+    rest = _ROW.sub("", _COLUMN.sub("", reason)).removeprefix("CSV parse error: ")
+    return ": ".join([", ".join(places), rest.replace("CSV conversion error to double: ", "")] if places else [rest])
+
+
+def _line_of(path: Path, bounds: Bounds, layout: Layout, row: int) -> int:
+    """The line of a row as Arrow counts them: lines above the numbers too, empty ones among these not; 0: none."""
+    seen = layout.first_row
+    with _stream(path, bounds) as stream:
+        for number, line in enumerate(stream, start=1):
+            seen += number > layout.first_row and bool(line.rstrip(b"\r\n"))
+            if seen == row:
+                return number
+    return 0
 
 
 def _by_delimiter(

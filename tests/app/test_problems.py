@@ -28,6 +28,7 @@ LATE = Problem(field="baselines.0", message="is still being read (accepted)", gi
         (IllegalTransition("no", given="running", allowed="failed"), 409, "status", "running", "failed"),
         (UnknownJob("x"), 404, "job_id", "x", "an id of the list"),
         (JobGone("x", "deleted"), 410, "job_id", "x", "the id of a result that is kept"),
+        (JobGone("x", "deleted", "recording"), 410, "job_id", "x", "the id of a recording that is kept"),
         (QueueFull(5, 5, retry_after_s=30), 429, "waiting", 5, "< 5"),
         (PlannersBusy(2, retry_after_s=5), 429, "planning", 2, "< 2"),
     ],

@@ -116,7 +116,8 @@ def test_a_deleted_recording_is_gone_and_can_be_sent_again(client: httpx.Client,
     content, about = npz(x=X[:500]), {**ABOUT, "notes": "to be deleted"}
     first = settled(client, send(client, content, about=about))
     assert client.delete(first["links"]["self"]).status_code == 204
-    assert problem(client.get(first["links"]["self"]), 410)
+    gone = problem(client.get(first["links"]["self"]), 410)
+    assert gone["detail"] == f"the recording {first['id']} is deleted; send it again to have it back"
     assert not list((parts.folder / "artefacts" / first["id"]).glob("**/*.*"))
     again = settled(client, send(client, content, about=about))
     assert (again["id"], again["status"]) == (first["id"], "ready")
@@ -185,7 +186,7 @@ def test_broken_files_are_refused_with_reason_and_place(
     found = settled(client, send(client, content(), name, about))
     assert found["status"] == "refused" and found["report"] is None
     (error,) = found["refusal"]["errors"]
-    assert error["field"] == field
+    assert error["field"] == field and "a file that is whole" in found["refusal"]["advice"]
     assert any(word in error["message"] for word in reason.split("|"))
     assert not list((parts.folder / "artefacts" / found["id"]).glob("**/*.*")), "what was refused is let go of"
     assert problem(client.get(f"/v1/recordings/{found['id']}/signals"), 409)

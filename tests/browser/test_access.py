@@ -94,6 +94,10 @@ def test_a_server_with_keys_asks_for_one(browser: Browser, tmp_path: Path) -> No
     try:
         app = parts.app(api_keys={sha256(b"open sesame").hexdigest(): "ali"}, static_folder=static)
         with LiveServer(app) as client:
+            browser.open(f"{client.base_url}/#/reconcile")
+            eventually(
+                lambda: "once an API key is given" in browser.text("[aria-label=Recordings]"), what="why there is none"
+            )
             browser.open(f"{client.base_url}/#/")
             browser.type("#key-field", "open sesame")
             browser.click("#key-form button")

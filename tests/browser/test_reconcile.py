@@ -102,6 +102,37 @@ def test_a_baseline_is_chosen_by_hand_and_a_refusal_names_its_file(
     assert all("422" in told for told in browser.complaints()), "the refusal was asked for"
 
 
+def test_what_is_wrong_is_said_in_the_words_of_the_page(browser: Browser, service: Service, tmp_path: Path) -> None:
+    browser.open(service.page("/reconcile"))
+    (tmp_path / "a.csv").write_text("a\n1\n", encoding="utf-8")
+    browser.type("#upload-file", str(tmp_path / "a.csv"))
+    browser.run(FILL, "#upload-description", json.dumps({"sampling_rate_hz": 20000}))
+    browser.click("[aria-label='Send a recording'] button[type=submit]")
+    said = browser.text("[aria-label='Send a recording'] .problem-fields")
+    assert "Channels" in said and "Outputs" not in said
+    browser.open(service.page(f"/reconcile/{'0' * 32}"))
+    away = browser.text(".message")
+    assert "Not found" in away and "no job has the id" in away and "must change" not in away
+    assert all("422" in told or "404" in told for told in browser.complaints()), "the refusals were asked for"
+
+
+def test_sizes_and_laws_have_their_words_and_units(browser: Browser, service: Service) -> None:
+    browser.open(service.page("/reconcile"))
+    names = browser.run(
+        "return import('/js/lib/laws.js').then((m) => ["
+        " m.effectName({ term: 'custom_force', severity: { name: 'stops' } }),"
+        " m.sizeName({ term: 'custom_force', severity: { name: 'stops' } }), m.listedName('odd_square'),"
+        " m.effectName({ term: 'inner_spall', severity: null }),"
+        " m.sizeName({ term: 'inner_spall', severity: { name: 'width' } })])"
+    )
+    assert names == ["stops on both sides", "", "odd stiffness, square", "inner spall", "width"]
+    units = browser.run("return import('/js/lib/format.js').then((m) => ['N/m^3', 'N/m^0.5', 'm/s^2'].map(m.unit))")
+    assert units == ["N/m³", "N/m⁰·⁵", "m/s²"]
+    browser.size(400)
+    last = browser.run("return [...document.querySelectorAll('.top-bar nav a')].at(-1).getBoundingClientRect().right")
+    assert last <= 400, "the menu is whole"
+
+
 def test_the_list_begins_with_what_was_asked_for_last(browser: Browser, service: Service) -> None:
     browser.open(service.page("/reconcile"))
     times = [f"2026-03-01T08:{minute:02}:00.5Z" for minute in (3, 50, *range(4, 30))]

@@ -253,6 +253,9 @@ def test_what_was_given_in_place_of_a_description_or_a_machine_is_said(
 
     assert '{"kinematics": {...}}' in said(bare, good)
     assert "holds data: give its description" in said(known, tmp_path / "data.npz")
+    (tmp_path / "table.csv").write_text("a,b\n1,2\n", encoding="utf-8")
+    told = said(known, tmp_path / "table.csv")
+    assert "holds data: give its description (JSON)" in told and "table.json" in told and "strict JSON" not in told
     assert "strange.xlsx" in said(known, strange)
 
 

@@ -98,6 +98,21 @@ def test_what_is_broken_is_refused_with_its_place(tmp_path, text: str, reason: s
     assert caught.value.problems[0].field == "r.csv"
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("a,b\n" + "1,2\n" * 499 + "3,hello\n", "column b, line 501: invalid value 'hello'"),
+        ("# made by hand\n\na,b\nm,s\n1,2\n\n\n3,hello\n", "column b, line 8: invalid value 'hello'"),
+        ("1,2\n3,hello\n", "column 1, line 2: invalid value 'hello'"),
+        ("a,b\n1,2\n\n3,4,5\n", "line 4: Expected 2 columns, got 3"),
+    ],
+)
+def test_a_wrong_cell_is_told_by_its_column_and_its_line_of_the_file(tmp_path, text: str, said: str) -> None:
+    with pytest.raises(SpecError) as caught:
+        columns(written(tmp_path, text))
+    assert caught.value.problems[0].message.startswith(f"cannot be read: {said}")
+
+
 @pytest.mark.slow
 def test_a_gzip_bomb_ends_at_the_bound(tmp_path) -> None:
     path = tmp_path / "bomb.csv.gz"

@@ -25,6 +25,8 @@ function title(field) {
   return NAMES[last] ?? NAMES[last.split(".").at(-1)] ?? field;
 }
 
+const AWAY = { 404: "Not found", 410: "No longer kept" };
+
 function shown(value) {
   if (typeof value === "number") return number(value, 6);
   return typeof value === "string" ? value : JSON.stringify(value);
@@ -52,10 +54,12 @@ function fieldItem(told, names, shownAs) {
 /** A problem as a message box. `names` may give fields the names they have on screen, `shownAs` the factor and unit. */
 export function problemBox(error, names = {}, shownAs = {}) {
   const problem = error instanceof ApiProblem ? error.document : { title: "Error", detail: String(error.message ?? error) };
-  const count = (problem.errors ?? []).length;
+  // Of an address that leads nowhere no value on the page is to be changed.
+  const away = AWAY[problem.status];
+  const count = away ? 0 : (problem.errors ?? []).length;
   const heading = count === 1 ? "One value must change" : count > 1 ? `${count} values must change` : problem.title;
   return h("div", { class: "message", role: "alert", tabindex: "-1", dataset: { tone: "bad", type: problem.type ?? "" } },
-    h("p", { class: "message-title" }, heading),
+    h("p", { class: "message-title" }, away ?? heading),
     count ? null : h("p", {}, problem.detail),
     count ? h("ul", { class: "problem-fields" }, problem.errors.map((item) => fieldItem(item, names, shownAs))) : null);
 }

@@ -27,7 +27,7 @@ export function recordingsCard() {
     try {
       if (!document.hidden) wait = await load();
     } catch (error) {
-      if (error.status !== 401) replace(notice, h("div", { class: "card-body" }, problemBox(error)));
+      replace(notice, error.status === 401 ? h("p", { class: "empty" }, "Recordings are shown once an API key is given.") : h("div", { class: "card-body" }, problemBox(error)));
     }
     if (!stopped) timer = setTimeout(refresh, wait);
   }

@@ -11,6 +11,8 @@ const EXAMPLE = JSON.stringify({
   condition: "unknown",
 }, null, 1);
 
+const NAMES = { channels: "Channels", file: "Data", description: "Description" };
+
 /** `sent()` is called after every recording that was taken. */
 export function uploadCard(sent) {
   const description = h("textarea", { id: "upload-description", rows: "9", spellcheck: "false", value: EXAMPLE });
@@ -34,7 +36,7 @@ export function uploadCard(sent) {
       data.value = "";
       sent();
     } catch (error) {
-      replace(notice, problemBox(error));
+      replace(notice, problemBox(error, NAMES));
     } finally {
       button.disabled = false;
     }
