@@ -36,7 +36,7 @@ from reconcile.report.sections import (
 from reconcile.report.steps import stages
 from reconcile.report.strict import plain
 from reconcile.report.style import STYLE
-from reconcile.report.words import LAWS, cause
+from reconcile.report.words import LAWS, cause, changed_or_added
 from reconcile.verdict import Report
 
 
@@ -123,7 +123,7 @@ def _held_out(report: Report) -> Markup:
     bars = Markup("")
     if found is not None:
         best = report.causes[0] if report.causes and report.verdict in ("explained", "ambiguous") else None
-        subject = "what was found" if best is None else cause(best)
+        subject = "what was found" if best is None else changed_or_added(best)
         if len(found.effects) > 1:
             subject = " and ".join(cause(c) for c in report.causes[:2])
         bars = Markup(distances(found, subject) + gains(found, subject))

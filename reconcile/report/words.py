@@ -123,6 +123,12 @@ def cause(found: Cause) -> str:
     return f"{effect(found)} at {found.site}" if found.site else effect(found)
 
 
+def changed_or_added(found: Cause) -> str:
+    """What is with the model where it does better: the effect, or the change of a number that the machine has."""
+    is_number = found.severity is not None and found.severity.name == found.term
+    return f"the change of {cause(found)}" if is_number else cause(found)
+
+
 def cause_key(found: Cause) -> str:
     """`outer_spall@bearing1`; of a law of force that is no effect of its own the law, `stops@mass`."""
     size = "" if found.severity is None else found.severity.name

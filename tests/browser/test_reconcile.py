@@ -73,6 +73,11 @@ def test_a_recording_is_sent_chosen_and_reconciled(browser: Browser, service: Se
     _fits_a_phone(browser, service, pictures)
     browser.size(360)
     browser.open(service.page("/reconcile"))
+    browser.find("[aria-label=Reconciliations] tr[data-status=successful]")
+    cut = browser.run(
+        "return [...document.querySelectorAll('.table-wrap')].filter((e) => e.scrollWidth > e.clientWidth + 1).length"
+    )
+    assert cut == 0, "rows of tables stand as blocks on a phone"
     listed = browser.text("[aria-label=Reconciliations] tr[data-status=successful]")
     assert "explained" in listed and "outer spall at bearing 1" in listed, "the list tells what was found"
     assert browser.run("return document.documentElement.scrollWidth") <= 360

@@ -60,6 +60,13 @@ def test_an_effect_and_its_size_are_called_once(term: str, size: str, said: str,
     assert f"{tile} of {said}, 90 %" in text if tile else f"4 N{said}, 90 %: 3 N to 5 N" in text
 
 
+def test_a_changed_number_is_told_as_a_change() -> None:
+    size = Severity(name="stiffness", value=1.15e5, unit="N/m", low=1.13e5, high=1.17e5)
+    text = told(driven(replace(STOPS, term="stiffness", severity=size), held_out=BARE))
+    assert "without the change of stiffness at mass" in text
+    assert "without stops on both sides at mass" in told(driven(STOPS, held_out=BARE))
+
+
 def test_the_list_tells_a_law_by_its_name() -> None:
     assert cause_key(STOPS) == "stops@mass"
     assert cause_key(replace(STOPS, term="outer_spall", site="bearing1")) == "outer_spall@bearing1"

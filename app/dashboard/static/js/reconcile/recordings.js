@@ -8,6 +8,7 @@ import { problemBox } from "/js/lib/problem.js";
 const BUSY_MS = 800;
 const IDLE_MS = 5000;
 const TONES = { accepted: "run", ready: "ok", refused: "bad", failed: "bad", dismissed: "warn" };
+const HEADS = ["Use", "File", "State", "Contents", "Operating point", "Quality", "Sent"];
 const USES = [["", "not used"], ["recordings", "to explain"], ["baselines", "baseline"]];
 
 export function recordingsCard() {
@@ -16,8 +17,8 @@ export function recordingsCard() {
   const notice = h("div");
   const element = h("section", { class: "card", "aria-label": "Recordings" },
     h("div", { class: "card-head" }, h("h2", {}, "Recordings")), notice,
-    h("div", { class: "table-wrap" }, h("table", { class: "recordings-table", "aria-label": "Recordings" },
-      h("thead", {}, h("tr", {}, ["Use", "File", "State", "Contents", "Operating point", "Quality", "Sent"].map((name) => h("th", { scope: "col" }, name)))), body)));
+    h("div", { class: "table-wrap" }, h("table", { class: "recordings-table stacks", "aria-label": "Recordings" },
+      h("thead", {}, h("tr", {}, HEADS.map((name) => h("th", { scope: "col" }, name)))), body)));
   let timer = 0;
   let stopped = false;
 
@@ -54,6 +55,7 @@ export function recordingsCard() {
 function recordingRow() {
   const use = select(USES, "", { class: "small" });
   const cells = { file: h("td"), state: h("td"), contents: h("td", { class: "small" }), point: h("td", { class: "small num" }), quality: h("td", { class: "small" }), sent: h("td", { class: "small num" }) };
+  Object.values(cells).forEach((cell, place) => { cell.dataset.head = HEADS[place + 1]; });
   const element = h("tr", {}, h("td", {}, use), Object.values(cells));
   let seen = "";
   let label = "";

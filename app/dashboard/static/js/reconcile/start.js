@@ -8,6 +8,7 @@ import { outcome } from "/js/lib/status.js";
 
 const LIST_MS = 3000;
 const SHOWN = 20;
+const HEADS = ["Machine", "Outcome", "Recordings", "Budget", "Asked for"];
 const NAMED = 2;
 const NAMES = { recordings: "Recordings to explain", baselines: "Baselines", machine: "Machine" };
 const EXAMPLE = JSON.stringify({ kinematics: { shafts: [{ name: "input" }], bearings: [{ name: "bearing1", shaft: "input", catalogue: "6205" }] } }, null, 1);
@@ -67,8 +68,8 @@ function listCard() {
   const body = h("tbody");
   const element = h("section", { class: "card", hidden: true, "aria-label": "Reconciliations" },
     h("div", { class: "card-head" }, h("h2", {}, "Reconciliations")),
-    h("div", { class: "table-wrap" }, h("table", { "aria-label": "Reconciliations" },
-      h("thead", {}, h("tr", {}, ["Machine", "Outcome", "Recordings", "Budget", "Asked for"].map((name) => h("th", { scope: "col" }, name)))), body)));
+    h("div", { class: "table-wrap" }, h("table", { "aria-label": "Reconciliations", class: "stacks" },
+      h("thead", {}, h("tr", {}, HEADS.map((name) => h("th", { scope: "col" }, name)))), body)));
   let timer = 0;
   let shown = "";
 
@@ -100,10 +101,10 @@ function row(job, files) {
   const against = request.baselines.length ? ` against ${named(request.baselines, files)}` : ", no baseline";
   return h("tr", { dataset: { job: job.id, status: job.status } },
     h("td", {}, h("a", { href: `#/reconcile/${job.id}` }, request.preset ?? request.machine)),
-    h("td", {}, outcome(job), job.status === "running" ? h("span", { class: "muted small" }, ` ${job.progress.stage}`) : null),
-    h("td", { class: "small" }, `${named(request.recordings, files)}${against}`),
-    h("td", { class: "small" }, request.budget),
-    h("td", { class: "small num" }, ago(job.accepted_at)));
+    h("td", { dataset: { head: HEADS[1] } }, outcome(job), job.status === "running" ? h("span", { class: "muted small" }, ` ${job.progress.stage}`) : null),
+    h("td", { class: "small", dataset: { head: HEADS[2] } }, `${named(request.recordings, files)}${against}`),
+    h("td", { class: "small", dataset: { head: HEADS[3] } }, request.budget),
+    h("td", { class: "small num", dataset: { head: HEADS[4] } }, ago(job.accepted_at)));
 }
 
 /** The first files by name, and how many more; one that is gone by its id. */
