@@ -36,7 +36,7 @@ from reconcile.report.sections import (
 from reconcile.report.steps import stages
 from reconcile.report.strict import plain
 from reconcile.report.style import STYLE
-from reconcile.report.words import LAWS, cause, changed_or_added
+from reconcile.report.words import LAWS, cause, changed_or_added, tidied
 from reconcile.verdict import Report
 
 
@@ -203,7 +203,7 @@ def page(report: Report) -> str:
         "head",
         tag("meta", charset="utf-8"),
         tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
-        tag("title", f"Reconciliation: {report.sentence}"),
+        tag("title", f"Reconciliation: {tidied(report.sentence)}"),
         tag("style", Markup(STYLE)),
     )
     return (

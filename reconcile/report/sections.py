@@ -118,7 +118,7 @@ def head(report: Report) -> Markup:
     return tag(
         "header",
         tag("span", word, css=f"badge {tone}"),
-        tag("h1", report.sentence),
+        tag("h1", tidied(report.sentence)),
         tag("p", f"{compared(report)} {LEVEL[report.level]}.", css="muted"),
         tag("p", tag("b", "What to do: "), to_do(report)),
         tag("div", *tiles, css="tiles") if tiles else None,

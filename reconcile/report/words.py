@@ -160,7 +160,7 @@ def gain(found: HeldOut) -> str:
 
 def tidied(detail: str) -> str:
     """What was seen of a fault, with shares to three figures and one stretch as one."""
-    shares = re.sub(r"\b(\d+\.\d+) ?%", lambda m: f"{figure_text(float(m[1]))} %", detail)
+    shares = re.sub(r"\b(\d+\.\d{3})%", lambda m: f"{figure_text(float(m[1]))} %", detail)
     return re.sub(r"\b1 stretches, the first at", "one stretch,", shares)
 
 

@@ -101,6 +101,8 @@ def test_what_was_seen_of_a_fault_reads_well() -> None:
     assert tidied("cut off: 2.125% of the samples; 3 stretches, the first at 1 to 2 s") == (
         "cut off: 2.12 % of the samples; 3 stretches, the first at 1 to 2 s"
     )
+    assert tidied("the error falls from 12.345 % to 0.26 %") == "the error falls from 12.345 % to 0.26 %"
+    assert "100 % of" in told(driven(STOPS, sentence="held (100.000% of the samples)"))
 
 
 @pytest.mark.parametrize(("mode", "said"), [("A", "the baseline"), ("B", "the model")])

@@ -32,7 +32,7 @@ function verdict(report) {
   const sent = Object.entries(provenance?.sent_as ?? {}).map(([name, label]) => `${name}: ${label}`);
   return h("section", { class: "card card-body reconcile-form", id: "answer-verdict", "aria-label": "Verdict" },
     h("div", {}, verdictPill(report.verdict)),
-    h("p", { class: "reconcile-sentence" }, report.sentence),
+    h("p", { class: "reconcile-sentence" }, tidied(report.sentence)),
     sent.length ? h("p", { class: "muted small" }, [provenance.machine, ...sent].filter(Boolean).join("; ")) : null,
     report.to_do ? h("p", {}, h("b", {}, "What to do: "), report.to_do) : null,
     fault ? h("p", { class: "muted" }, `${words(fault.kind)}${fault.channel ? `, channel ${fault.channel}` : ""}. ${tidied(fault.detail)}`) : null);
@@ -40,7 +40,7 @@ function verdict(report) {
 
 /** Shares to three figures, and one stretch as one, as the report's page has them. */
 function tidied(detail) {
-  return detail.replace(/\b(\d+\.\d+) ?%/g, (whole, share) => `${Number(Number(share).toPrecision(3))} %`).replace(/\b1 stretches, the first at/g, "one stretch,");
+  return detail.replace(/\b(\d+\.\d{3})%/g, (whole, share) => `${Number(Number(share).toPrecision(3))} %`).replace(/\b1 stretches, the first at/g, "one stretch,");
 }
 
 function where({ sites, lines, angle_window: angle, limits: told }) {
