@@ -12,7 +12,7 @@ from reconcile.verdict import HeldOut
 INTERVAL = "Line through a bar's end: 90 % interval."
 RETUNED = "Retuned: the model's own numbers moved instead."
 BLACK_BOX = "Black box: a correction with as many free numbers and no physics."
-PLACEBOS = "Placebos: other effects and places in the effect's stead, the middle and the strongest of them."
+PLACEBOS = "Placebos: other effects and places in the effect's stead, the middle {strongest}of them."
 BEATS = "An effect that is there should beat all."
 PERFECT = (
     "Expected of a perfect model: what drift between the recordings and noise usually leave even to it; where this "
@@ -63,7 +63,9 @@ def held_out_words(found: HeldOut | None) -> Markup:
 
 def _how_to_read(found: HeldOut) -> Markup:
     """What the bars are, of those that are drawn."""
-    rivals = ((RETUNED, found.retuned), (BLACK_BOX, found.black_box), (PLACEBOS, found.placebo))
+    strongest = "" if strongest_placebo(found) is None else "and the strongest "
+    placebos = PLACEBOS.format(strongest=strongest)
+    rivals = ((RETUNED, found.retuned), (BLACK_BOX, found.black_box), (placebos, found.placebo))
     shown = [words for words, share in rivals if known(share)]
     parts = [*([INTERVAL] if math.isfinite(found.gain_low) else []), *shown, *([BEATS] if shown else [])]
     parts += [PERFECT] if reached(found) is not None else []

@@ -14,6 +14,8 @@ from reconcile.report.pictures import number, text
 from reconcile.report.strict import Plain
 
 WIDTH, LANE, MARGIN = 720.0, 116.0, 70.0
+SLIM, FEW = 360.0, 2
+"""Width of a sketch of so many parts a lane: it fits a phone."""
 RING = 36.0
 """Around what is located: clear of its name below."""
 GROUND = ""
@@ -92,11 +94,13 @@ def sketch(machine: Mapping[str, Plain], weights: Mapping[str, float]) -> Markup
         return Markup("")
     parts: list[Markup] = []
     places: dict[str, tuple[float, float]] = {}
+    slim = all(len(lane.parts) <= FEW for lane in lanes)
+    width = SLIM if slim else WIDTH
     for row, lane in enumerate(lanes):
         y = LANE * (row + 0.5)
-        step = (WIDTH - 2 * MARGIN) / max(len(lane.parts), 1)
+        step = (width - 2 * MARGIN) / max(len(lane.parts), 1)
         if lane.name:
-            parts.append(tag("line", x1=24, x2=WIDTH - 24, y1=y, y2=y, css="shaft"))
+            parts.append(tag("line", x1=24, x2=width - 24, y1=y, y2=y, css="shaft"))
             parts.append(tag("text", lane.name, x=26, y=y - 8, css="shaft-name"))
             places[lane.name] = (40.0, y)
         for i, (kind, name) in enumerate(lane.parts):
@@ -105,8 +109,9 @@ def sketch(machine: Mapping[str, Plain], weights: Mapping[str, float]) -> Markup
             parts += _body(kind, x, y) + ([] if lane.name else [_spring(x, y)])
             parts += _place(name, x, y, weights, -38.0 if kind == "gear" else 54.0 if not lane.name else 50.0)
     parts += _meshes(machine, places, weights)
-    box = f"0 0 {WIDTH:g} {LANE * len(lanes):g}"
-    return tag("svg", tag("title", "Machine and located place"), *parts, viewBox=box, role="img", css="plot sketch")
+    box = f"0 0 {width:g} {LANE * len(lanes):g}"
+    css = f"plot sketch{' slim' if slim else ''}"
+    return tag("svg", tag("title", "Machine and located place"), *parts, viewBox=box, role="img", css=css)
 
 
 def _meshes(

@@ -14,6 +14,7 @@ import pytest
 
 from reconcile.report import page, strict_json, write_report
 from reconcile.report.figures.maps import force_map
+from reconcile.report.figures.sketch import sketch
 from reconcile.report.markup import figure_text, tag
 from reconcile.report.plot import MOST_POINTS, Frame, scaled, thinned, ticks
 from reconcile.report.strict import Plain
@@ -225,6 +226,13 @@ def test_an_earlier_report_survives_a_failed_one(tmp_path: Path) -> None:
     with pytest.raises(KeyError):
         write_report(broken, tmp_path)
     assert there.read_text() == before
+
+
+def test_a_sketch_of_few_parts_fits_a_phone() -> None:
+    one = sketch({"bodies": [{"name": "mass"}]}, {"mass": 1.0})
+    assert 'viewBox="0 0 360 116"' in one and "plot sketch slim" in one
+    many = sketch({"bodies": [{"name": f"m{k}"} for k in range(4)]}, {})
+    assert 'viewBox="0 0 720 116"' in many and "slim" not in many
 
 
 def test_located_parts_stand_out_in_the_sketch() -> None:

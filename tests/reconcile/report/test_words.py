@@ -15,7 +15,7 @@ from reconcile.report.figures.bars import NARROW, WIDE, ranking
 from reconcile.report.figures.gains import gains as gain_bars
 from reconcile.report.plot import RIGHT, fitting, text_width
 from reconcile.report.words import LAWS, cause, cause_key, gain, gains, severity, size_name, tidied
-from reconcile.verdict import Cause, EstimatedForce, HeldOut, Report, Severity
+from reconcile.verdict import Cause, EstimatedForce, HeldOut, Placebo, Report, Severity
 from tests.reconcile.report.test_reader import HELD, told
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -90,6 +90,9 @@ def test_only_what_is_drawn_is_explained() -> None:
     assert "Line through a bar's end" in bare and "Held out:" not in bare and "Held out: each" in full
     assert "retuned parameters only" not in bare and "retuned parameters only" in full
     assert bare.split("gain over")[1].count("–") == 1, "of the model without it"
+    assert "the middle of them" in full
+    best = (Placebo(term="rub", site="fan", gain=0.1, draws=9),)
+    assert "the middle and the strongest of them" in told(driven(STOPS, held_out=replace(HELD, placebos=best)))
     half = told(driven(STOPS, held_out=replace(BARE, retuned=0.1)))
     assert "Retuned" in half and "Black box" not in half
 
