@@ -13,41 +13,30 @@ from reconcile.gate.spoiled import GONE, without_spoiled
 from reconcile.gate.whole import whole_stretches
 from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.apart import with_speeds
-from reconcile.kinematics.candidate import DEFECTS, Candidate
+from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.doubted import against_rivals, factor_of, restated, unconfirmed
 from reconcile.kinematics.either import other_kind, with_other_kind
 from reconcile.kinematics.elsewhere import left_out, told_elsewhere, turned_elsewhere, without
 from reconcile.kinematics.extent import Extent
-from reconcile.kinematics.faint import impulsive_report, shallow_report
 from reconcile.kinematics.families import Ties, ties
 from reconcile.kinematics.finish import fault_report, finished, refused_report
-from reconcile.kinematics.foreign import BESIDE_DB, foreign_comb
 from reconcile.kinematics.gated import gated
 from reconcile.kinematics.gears import gear_evidence
 from reconcile.kinematics.grown import grown_defect, old_defects
-from reconcile.kinematics.in_step import new_blows
-from reconcile.kinematics.judge import HEARD_Z, TURN_DEPTH, named
+from reconcile.kinematics.mains import electric, named_but_supply, told_beside
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.other_speeds import by_baseline, nominees
 from reconcile.kinematics.remarks import remarked, with_rest
-from reconcile.kinematics.series import ShaftSeries, shaft_series
-from reconcile.kinematics.shafts import ShaftChange, grown_impacts, shaft_changes
-from reconcile.kinematics.slow import slow_turn
+from reconcile.kinematics.series import shaft_series
+from reconcile.kinematics.shafts import shaft_changes
 from reconcile.kinematics.slowest import with_slowest
 from reconcile.kinematics.spec import KinematicSpec, of_machine
 from reconcile.kinematics.teeth import other_teeth, told_with, with_teeth
-from reconcile.kinematics.turning import (
-    driven_report,
-    series_report,
-    shaft_report,
-    slow_report,
-    turn_report,
-    with_driven,
-)
 from reconcile.kinematics.unheard import with_lost
 from reconcile.kinematics.unread import ALIKE_Z, Judged
-from reconcile.kinematics.vague import foreign_report, gear_report, nothing_report
+from reconcile.kinematics.vague import gear_report
 from reconcile.kinematics.whose_speed import of_one_shaft, usual_speeds
+from reconcile.kinematics.without_part import without_a_part
 from reconcile.origin import origin
 from reconcile.report.action import EXCHANGED
 from reconcile.told import about
@@ -57,8 +46,6 @@ from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
 
 FEW_TURNS = 20.0
-STANDS_OUT_DB = 10.0
-"""By which one multiple of a shaft must have grown more than the middle of many to be the answer alone."""
 
 
 Progress = Callable[[float, str], None]
@@ -161,7 +148,7 @@ def _judged(
     known: KinematicSpec, tie: Ties, tests: list[Observation], baselines: list[Observation], seed: int
 ) -> tuple[Report, tuple[Candidate, ...]]:
     """The first answer that stands: bearing defects, teeth, impacts of a turn, a foreign order, impacts, shafts."""
-    chosen, every = named(tests, baselines, tie, seed)
+    chosen, every, supply = named_but_supply(tests, baselines, tie, seed)
     gears = gear_evidence(tests, baselines, tie)
     changes = shaft_changes(tests, baselines, tie)
     series = shaft_series(tests, baselines, tie)
@@ -176,14 +163,14 @@ def _judged(
     elif gears and gears[0].grown:
         report = gear_report(gears, tests)
     else:
-        report = _without_a_part(known, tie, tests, baselines, every, grown, seed, series)
+        report = without_a_part(known, tie, tests, baselines, every, supply, grown, seed, series)
     rare = [f"{c.multiple:g} x {c.shaft} grew by {c.growth_db:.0f} dB in {c.label}" for c in changes if c.seldom]
     rare += [f"sidebands of {g.shaft} around {g.mesh} by {g.growth_db:.0f} dB in {g.label}" for g in gears if g.seldom]
     if rare:
         report = replace(
             report, undecidable=(*report.undecidable, f"at fewer than half of the speeds: {', '.join(rare)}")
         )
-    return report, every
+    return told_beside(report, electric(supply, False)), every
 
 
 def _at_rival(
@@ -256,58 +243,3 @@ def _regrown(
     was = f"{before.degrees:.1f}" if before.resolved else f"less than {before.high_deg:.1f}"
     sentence = f"{report.sentence} The baseline has this defect too; it grew from {was} to {now.degrees:.1f} degrees."
     return replace(report, sentence=sentence)
-
-
-def _without_a_part(
-    known: KinematicSpec,
-    tie: Ties,
-    tests: list[Observation],
-    baselines: list[Observation],
-    every: Sequence[Candidate],
-    grown: Sequence[ShaftChange],
-    seed: int,
-    series: Sequence[ShaftSeries],
-) -> Report:
-    """Impacts of a turn, of a foreign order, of no order; shaft lines; nothing."""
-    risen = [c for c in every if c.family.kind in DEFECTS and c.present and c.risen]
-    if risen and baselines:
-        return shallow_report(risen, every, tests, baselines)
-    heard = [*(c.family.key for c in every if c.z > HEARD_Z), *(m[0] for m in tie.meshes)]
-    turns = (c for c in every if c.family.kind == "turn" and c.present and c.risen and c.depth >= TURN_DEPTH)
-    turn = next(turns, None)
-    if turn is not None and baselines:
-        carried = [b.name for b in known.bearings if b.shaft == turn.family.site]
-        stranger = foreign_comb(tests[0], baselines, tie, seed, heard=heard, least_db=BESIDE_DB)
-        line = next((c for c in grown if c.multiple == 1.0 and c.shaft == turn.family.site), None)
-        return turn_report(turn, tie, tests, baselines, carried, foreign=stranger, line=line)
-    foreign = foreign_comb(tests[0], baselines, tie, seed, heard=heard)
-    if foreign is not None:
-        return foreign_report(foreign, tests, baselines)
-    struck = new_blows(tests, baselines, tie)
-    driven = None if struck is None else driven_report(*struck, tests)
-    impacts = driven or _of_impacts(known, tie, tests, baselines, every, seed)
-    if impacts is not None:
-        return impacts
-    stands_out = bool(series and grown) and grown[0].growth_db > series[0].middle_db + STANDS_OUT_DB
-    if series or grown:
-        return shaft_report(grown, tests) if stands_out or not series else series_report(series, grown, tests)
-    report = nothing_report(every, old_defects(every), tests, baselines)
-    return report if struck is None else with_driven(report, struck[0])
-
-
-def _of_impacts(
-    known: KinematicSpec,
-    tie: Ties,
-    tests: list[Observation],
-    baselines: list[Observation],
-    every: Sequence[Candidate],
-    seed: int,
-) -> Report | None:
-    """Impacts without lines: at one angle of a shaft that turned seldom, or of a ball."""
-    impacts = grown_impacts(tests, baselines)
-    if impacts is None:
-        return None
-    slow = slow_turn(tests, impacts, tie, seed)
-    if slow is not None:
-        return slow_report(slow, impacts, tie, [b.name for b in known.bearings if b.shaft == slow.shaft])
-    return impulsive_report(impacts, every, [b.name for b in known.bearings]) if known.bearings else None
