@@ -24,6 +24,7 @@ from reconcile.kinematics.gated import gated
 from reconcile.kinematics.gears import gear_evidence
 from reconcile.kinematics.grown import grown_defect, old_defects
 from reconcile.kinematics.mains import electric, named_but_supply, told_beside
+from reconcile.kinematics.new_lines import with_new_lines
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.other_speeds import by_baseline, nominees
 from reconcile.kinematics.remarks import remarked, with_rest
@@ -127,6 +128,7 @@ def _reconciled(
         report = remarked(report, tie, seen, past, every, seed)
     report = replace(report, where=replace(report.where, limits=(*report.where.limits, *told, *whole.told)))
     quiet = report.verdict in ("nothing_missing", "not_decidable") and EXCHANGED not in report.sentence
+    report = with_new_lines(report, gate, seen, past, tie)
     if quiet and gate.fault is not None:
         report = fault_report(gate, report)
     return finished(report, gate, seen, every, past)

@@ -90,6 +90,7 @@ def foreign_report(found: Foreign, tests: Sequence[Observation], baselines: Sequ
 LOUDER_DB = 15.0
 """Growth of a channel's level from which a machine is not called sound: of the real controls (docs/proof-real.md) a
 gear under full load against none is 3 dB louder."""
+LOUDER = "louder than in the baseline, and no family of lines"
 IN_BOTH = "deep in both"
 SCALE = "unit, sensitivity or scale (a wav file holds shares of its full scale)"
 BEFORE_TOO = "a defect of the baseline too, or how this bearing sounds when it is sound"
@@ -179,7 +180,7 @@ def _louder(most: tuple[str, float], lines: tuple[LineChange, ...], old: Sequenc
     channel, growth = most
     return Report(
         verdict="not_decidable",
-        sentence=f"{channel} is {growth:.0f} dB louder than in the baseline, and no family of lines of the "
+        sentence=f"{channel} is {growth:.0f} dB {LOUDER} of the "
         "specification is firmer: load, speed or mounting seldom do so much; a bearing or gear of other numbers "
         "strikes at other orders, and some effects only a machine that can be simulated tells." + _in_both(old),
         level="kinematics",
