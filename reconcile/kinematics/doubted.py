@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.observe import Observation
-from reconcile.kinematics.octaves import octave_of
+from reconcile.kinematics.octaves import octave_of, odd_lines
 from reconcile.kinematics.unread import Judged, at_either, speed_unread
 from reconcile.verdict import NextExperiment, Report
 from signals.recording import Operating, Recording
@@ -80,6 +80,7 @@ def against_rivals(
     if doubt is None and not others and stated.report.verdict in ("nothing_missing", "not_decidable"):
         return stated.report
     octave = None if stated.firmest is None else octave_of(stated.firmest, stated.every, seen)
+    octave = None if octave == 2.0 and odd_lines(seen) else octave
     if octave is not None:
         first = next(t for t in seen if t.speed.method != "tacho")
         return doubted(stated, at(octave, True), first, octave, by_bearing=True)

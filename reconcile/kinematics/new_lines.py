@@ -111,6 +111,10 @@ def new_lines_report(report: Report, found: Sequence[NewLine], ties: Ties) -> Re
     )
 
 
+def _one_line(a: float, b: float, step: float) -> bool:
+    return abs(a - b) < max(AROUND * b, OFF_BINS * step)
+
+
 def _multiple(ratio: float) -> bool:
     return abs(ratio / round(ratio) - 1.0) < SAME
 
@@ -139,7 +143,7 @@ def _of_channel(test: Observation, base: Observation, name: str, ties: Ties) -> 
     rows: list[NewLine] = []
     for place in np.argsort(-np.where(hidden, 0.0, power))[:PEAKS]:
         hz = float(place * step)
-        if hidden[place] or len(rows) == MOST or any(abs(hz / one.hz - 1.0) < AROUND for one in rows):
+        if hidden[place] or len(rows) == MOST or any(_one_line(hz, one.hz, step) for one in rows):
             continue
         own, around = (_within(over, hz, step, width) for width in (WIDTH, AROUND))
         places = (hz, hz / speed * base.speed.speed_hz)

@@ -17,6 +17,7 @@ from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.contrast import band_turns
 from reconcile.kinematics.envelopes import order_depth
 from reconcile.kinematics.evidence import Evidence
+from reconcile.kinematics.lines import CLEAR_DB, order_lines
 from reconcile.kinematics.observe import Observation
 from reconcile.speed.excess import power_over_floor
 from signals.series import FloatArray
@@ -36,6 +37,8 @@ WIDTH = 0.002
 TAKEN = 0.01
 """Nearer than this share to a line of another part that is there, a line between is that part's."""
 HARMONICS = (1.0, 2.0, 3.0)
+ODD, LEAST_ODD = (1.0, 3.0, 5.0), 2
+"""Multiples of the shaft of which so many must be clear lines."""
 
 
 def octave_of(candidate: Candidate, every: Sequence[Candidate], tests: Sequence[Observation]) -> float | None:
@@ -45,6 +48,25 @@ def octave_of(candidate: Candidate, every: Sequence[Candidate], tests: Sequence[
     others = [c for c in every if c is not candidate and c.present]
     found = [_octave(e, t, others, i) for i, (e, t) in enumerate(zip(candidate.evidence, tests, strict=True))]
     return next((f for f in (0.5, 2.0) if 2 * sum(x == f for x in found) > len(found)), None)
+
+
+def odd_lines(tests: Sequence[Observation]) -> bool:
+    """Whether the shaft has lines at odd multiples of the speed in most of the tests: it does not turn twice as fast,
+    and the race is struck twice a ball pass, as by both edges of a long spall."""
+    return 2 * sum(_has_odd_lines(t) for t in tests) > len(tests)
+
+
+def _has_odd_lines(test: Observation) -> bool:
+    if test.speed.method != "harmonics" or test.speed.rival_hz is not None:
+        return False
+    for channel in test.recording.names:
+        lines = order_lines(test, channel)
+        if lines is None:
+            continue
+        level, floor = lines.at(np.array(ODD))
+        if np.sum(level - floor >= CLEAR_DB) >= LEAST_ODD:
+            return True
+    return False
 
 
 def _octave(e: Evidence, test: Observation, others: Sequence[Candidate], number: int) -> float | None:
