@@ -151,15 +151,15 @@ def _pair_lag(
     prominence = dict(zip(places.tolist(), facts["prominences"].tolist(), strict=True))
     best: tuple[float, float] | None = None
     for place, height in prominence.items():
-        lag = float(lags[place])
-        if height < least or not first <= lag <= LAST_SHARE * period:
+        at = float(lags[place])
+        if height < least or not first <= at <= LAST_SHARE * period:
             continue
-        mates = [p for p in prominence if abs(lags[p] - (period - lag)) < max(0.02 * period, 3 * step)]
+        mates = [p for p in prominence if abs(lags[p] - (period - at)) < max(0.02 * period, 3 * step)]
         if not mates:
             continue
         score = height + max(prominence[p] for p in mates)
         if best is None or score > best[0]:
-            best = (score, lag)
+            best = (score, at)
     lag = None if best is None else best[1]
     own = (period,) if lag is None else (lag, period - lag, period)
     later = [p for p, height in prominence.items() if height >= least and SURE_SHARE * period < lags[p] < period]

@@ -14,30 +14,39 @@ from reconcile.verdict import Cause, NextExperiment, PlaceWeight, Report, Where
 NO_SIZE = "a size can't be given without a model"
 LONGER = "Record ten times as long, or under more load: lines of a race deepen."
 NO_ORDER = "impulsiveness grew, but no order stands out"
+LEAST, HINTED_Z = 0.4, 3.0
+"""Score of what is only possible, and of a ball's own order from which it is likelier: orders of no part stay below."""
+LIKELY = "a damaged ball, which strikes only when its spot meets a race, is likely; play or a rub can't be ruled out"
+OPEN = "a damaged ball, play, a rub, or knocks from outside (a press, a tool, what it works on) are alike at this level"
+MANY_TURNS = "Record ten times as long: cage sidebands of a ball fault need many turns."
+WHICH, WHETHER = "which part strikes", "whether a part strikes or something outside"
+STOP = "Record without the process and its neighbours."
 
 
 def impulsive_report(found: Impulsiveness, every: Sequence[Candidate], bearings: Sequence[str]) -> Report:
     """More impulsive than the baseline, but at no order: ball faults strike irregularly as the ball turns."""
     ball = {c.family.site: c.z for c in every if c.family.kind == "ball"}
-    score = {b: max(ball.get(b, 0.0), 0.5) for b in bearings}
+    heard = max((ball.get(b, 0.0) for b in bearings), default=0.0) >= HINTED_Z
+    score = {b: max(ball.get(b, 0.0), LEAST) if heard else LEAST for b in bearings}
     total = sum(score.values()) or 1.0
     causes = [Cause(term="ball_spall", site=b, score=s, reasons=(NO_ORDER,)) for b, s in score.items()]
-    causes += [Cause(term="radial_clearance", site=b, score=0.4, reasons=(NO_ORDER,)) for b in bearings]
+    causes += [Cause(term="radial_clearance", site=b, score=LEAST, reasons=(NO_ORDER,)) for b in bearings]
+    which = LIKELY if heard else OPEN
     return Report(
         verdict="ambiguous",
         sentence=f"{found.band_hz[0]:.0f}-{found.band_hz[1]:.0f} Hz of {found.channel} became impulsive (excess "
-        f"kurtosis {found.before or 0:.1f} to {found.now:.1f}) without keeping to the order of any race: a damaged "
-        "ball, which strikes only when its spot meets a race, is likely; play or a rub can't be ruled out.",
+        f"kurtosis {found.before or 0:.1f} to {found.now:.1f}) without keeping to the order of any race: {which}.",
         level="kinematics",
         where=Where(
             sites=tuple(PlaceWeight(site=b, weight=s / total) for b, s in score.items()),
             limits=("impacts without an order say when, not where",),
         ),
         causes=tuple(sorted(causes, key=lambda c: -c.score)),
-        undecidable=("which part strikes", "how large: a size can't be given without a model"),
-        next_experiment=NextExperiment(
-            sentence="Record ten times as long: cage sidebands of a ball fault need many turns."
+        undecidable=(
+            "which part strikes" if heard else "whether a part strikes or something outside",
+            "how large: a size can't be given without a model",
         ),
+        next_experiment=NextExperiment(sentence=MANY_TURNS if heard else f"{STOP} {MANY_TURNS}"),
     )
 
 

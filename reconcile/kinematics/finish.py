@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from reconcile.faults import measurement_faults, with_faults
 from reconcile.gate import Gate
-from reconcile.gate.spoiled import doubts, fault_sentence, remarks
+from reconcile.gate.spoiled import GONE, doubts, fault_sentence, remarks
 from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.labels import label_faults
 from reconcile.kinematics.observe import Observation
@@ -80,10 +80,21 @@ def fault_report(gate: Gate, rest: Report | None = None) -> Report:
             verdict="measurement_fault", sentence=said, level="kinematics", fault=gate.fault, undecidable=NOT_JUDGED
         )
     if rest.verdict == "nothing_missing":
-        said = f"{said} Apart from it these kinematics show nothing missing."
-        return Report(verdict="measurement_fault", sentence=said, level="kinematics", fault=gate.fault)
+        deaf = _left_out(gate)
+        what = f"what {' and '.join(deaf)} would hear is not judged" if deaf else ""
+        said = f"{said} Apart from it these kinematics show nothing missing{f', but {what}' if deaf else ''}."
+        open_ones = (what,) if deaf else ()
+        return Report(
+            verdict="measurement_fault", sentence=said, level="kinematics", fault=gate.fault, undecidable=open_ones
+        )
     said = f"{said} Apart from it: {rest.sentence}"
     return replace(rest, verdict="measurement_fault", sentence=said, fault=gate.fault)
+
+
+def _left_out(gate: Gate) -> list[str]:
+    """Channels that were away, so that the rest alone was heard."""
+    gone = (f.channel for f in gate.findings if f.fault and f.kind in GONE)
+    return sorted({name for name in gone if name and name not in gate.tests[0].names})
 
 
 def refused_report(error: SpecError) -> Report:

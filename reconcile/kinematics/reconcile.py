@@ -9,7 +9,6 @@ from functools import partial
 
 import numpy as np
 
-from reconcile.gate.spoiled import GONE, without_spoiled
 from reconcile.gate.whole import whole_stretches
 from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.apart import with_speeds
@@ -22,6 +21,7 @@ from reconcile.kinematics.families import Ties, ties
 from reconcile.kinematics.finish import fault_report, finished, refused_report
 from reconcile.kinematics.gated import gated
 from reconcile.kinematics.gears import gear_evidence
+from reconcile.kinematics.good_runs import heard_gate
 from reconcile.kinematics.grown import grown_defect, old_defects
 from reconcile.kinematics.mains import electric, named_but_supply, told_beside
 from reconcile.kinematics.new_lines import with_new_lines
@@ -93,11 +93,13 @@ def _reconciled(
     operating = tests[0].operating if tests else None
     tie = ties(known, operating.shaft if operating else None)
     tests, baselines = of_one_shaft(tests, tie), of_one_shaft(baselines, tie)
-    gate = with_slowest(gated(tests, baselines, tie, seed), tie)
+    stated = usual_speeds(known).get(tie.reference)
+    gate, whole_tests, whole_baselines, cut = heard_gate(
+        tests, baselines, lambda now, past: with_slowest(gated(now, past, tie, seed), tie), stated
+    )
     if not gate.usable:
         return finished(fault_report(gate), gate, (), ())
-    stated = usual_speeds(known).get(tie.reference)
-    whole = whole_stretches(without_spoiled(gate, GONE), tests, baselines, stated)
+    whole = whole_stretches(gate, whole_tests, whole_baselines, stated)
     gate = whole.gate
     if not gate.usable:
         return finished(fault_report(gate), gate, (), ())
@@ -126,7 +128,7 @@ def _reconciled(
     progress(HELD_OUT, "held-out data")
     if report.verdict != "measurement_fault":
         report = remarked(report, tie, seen, past, every, seed)
-    report = replace(report, where=replace(report.where, limits=(*report.where.limits, *told, *whole.told)))
+    report = replace(report, where=replace(report.where, limits=(*report.where.limits, *told, *cut, *whole.told)))
     quiet = report.verdict in ("nothing_missing", "not_decidable") and EXCHANGED not in report.sentence
     report = with_new_lines(report, gate, seen, past, tie)
     if quiet and gate.fault is not None:

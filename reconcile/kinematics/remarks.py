@@ -12,12 +12,19 @@ from reconcile.kinematics.judge import SECOND_SHARE, named, one_line, same
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.series import ShaftSeries
 from reconcile.kinematics.shafts import ShaftChange
+from reconcile.kinematics.unheard import line_strength
 from reconcile.kinematics.vague import BEFORE_TOO, IN_BOTH
 from reconcile.report.action import EXCHANGED
 from reconcile.verdict import LineChange, NextExperiment, Report
 from sim.terms import REGISTRY
 
 WHICH = NextExperiment(sentence="Check which recording is of the sound machine.")
+UNHEARD = (
+    "Nothing stands out of noise on any channel, no line of the spectrum nor of the envelope: the machine was not "
+    "heard, so nothing can be said of it."
+)
+WHAT = "anything about the machine: no line of it was heard"
+LISTEN = NextExperiment(sentence="Check the sensors, their range and their mounting, and that the machine turned.")
 CHANGED = ("ambiguous", "unknown_physics")
 RACES = ("outer", "inner")
 SAME_SPEED = 0.015
@@ -34,6 +41,8 @@ def remarked(
 ) -> Report:
     """The report with these remarks: what may be a second defect is undecidable, the rest are limits. A baseline with
     lines that the tests have not makes no machine sound."""
+    if report.verdict == "nothing_missing" and not baselines and not any(_heard(t) for t in tests):
+        return replace(report, verdict="not_decidable", sentence=UNHEARD, undecidable=(WHAT,), next_experiment=LISTEN)
     limits = [*_speeds_differ(tests, baselines)]
     if report.verdict == "nothing_missing":
         limits += _unconfirmed(tests)
@@ -48,6 +57,14 @@ def remarked(
         undecidable=(*report.undecidable, *_risen_too(report, every)),
         where=replace(report.where, limits=(*report.where.limits, *limits)),
     )
+
+
+def _heard(test: Observation) -> bool:
+    """Whether any channel that hears the machine, no force that drives it, holds a line."""
+    channels = test.recording.channels
+    moved = [c.name for c in channels if c.quantity != "force"] or [c.name for c in channels]
+    rate = test.recording.sampling_rate_hz
+    return any(line_strength(test.recording.series(name).samples, rate) >= 1.0 for name in moved)
 
 
 def _risen_too(report: Report, every: Sequence[Candidate]) -> list[str]:
