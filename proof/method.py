@@ -5,9 +5,9 @@ from __future__ import annotations
 SECTIONS = {
     "entire": "No version of the engine had met these before their run; one engine ran all of them. Two ran at once on "
     "the two threads of one core, beside other work, which core-seconds show.",
-    "hearing": "No version of the engine had met these before their run: the other cases of `entire` without atlases of "
-    "their own, all run by one later engine (commit ece7897), which was not changed between them. Other work shared the "
-    "machine, which core-seconds show.",
+    "hearing": "No version of the engine had met these before their run: the other cases of `entire` without atlases "
+    "of their own, all run by one later engine (commit ece7897), which was not changed between them. Other work shared "
+    "the machine, which core-seconds show.",
     "fresh": "No version of the engine had met these before their run.",
     "third": "No version of the engine had met these before their run; all at the target condition.",
     "repeat": "The same 36, all of which had been looked at: t008, t016, t030 and t032 have each set a rule.",
