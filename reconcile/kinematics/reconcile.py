@@ -27,7 +27,7 @@ from reconcile.kinematics.mains import electric, named_but_supply, told_beside
 from reconcile.kinematics.new_lines import with_new_lines
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.other_speeds import by_baseline, nominees
-from reconcile.kinematics.remarks import remarked, with_rest
+from reconcile.kinematics.remarks import if_heard, remarked, with_rest
 from reconcile.kinematics.series import shaft_series
 from reconcile.kinematics.shafts import shaft_changes
 from reconcile.kinematics.slowest import with_slowest
@@ -127,7 +127,7 @@ def _reconciled(
         report = with_speeds(report, seen, past)
     progress(HELD_OUT, "held-out data")
     if report.verdict != "measurement_fault":
-        report = remarked(report, tie, seen, past, every, seed)
+        report = if_heard(remarked(report, tie, seen, past, every, seed), seen, past)
     report = replace(report, where=replace(report.where, limits=(*report.where.limits, *told, *cut, *whole.told)))
     quiet = report.verdict in ("nothing_missing", "not_decidable") and EXCHANGED not in report.sentence
     report = with_new_lines(report, gate, seen, past, tie)

@@ -41,8 +41,6 @@ def remarked(
 ) -> Report:
     """The report with these remarks: what may be a second defect is undecidable, the rest are limits. A baseline with
     lines that the tests have not makes no machine sound."""
-    if report.verdict == "nothing_missing" and not baselines and not any(_heard(t) for t in tests):
-        return replace(report, verdict="not_decidable", sentence=UNHEARD, undecidable=(WHAT,), next_experiment=LISTEN)
     limits = [*_speeds_differ(tests, baselines)]
     if report.verdict == "nothing_missing":
         limits += _unconfirmed(tests)
@@ -57,6 +55,13 @@ def remarked(
         undecidable=(*report.undecidable, *_risen_too(report, every)),
         where=replace(report.where, limits=(*report.where.limits, *limits)),
     )
+
+
+def if_heard(report: Report, tests: Sequence[Observation], baselines: Sequence[Observation]) -> Report:
+    """The report; of a machine that no channel heard, where no baseline says what there is to hear, no sound one."""
+    if report.verdict != "nothing_missing" or baselines or any(_heard(t) for t in tests):
+        return report
+    return replace(report, verdict="not_decidable", sentence=UNHEARD, undecidable=(WHAT,), next_experiment=LISTEN)
 
 
 def _heard(test: Observation) -> bool:

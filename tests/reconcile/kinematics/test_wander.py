@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
-from reconcile.kinematics import reconcile as module
+from reconcile.kinematics import without_part as module
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.gears import GearEvidence, gear_evidence
 from reconcile.kinematics.lines import at_half_of_speeds
@@ -153,5 +153,5 @@ def test_shallow_impacts_of_a_turn_are_runout_under_load(
     )
     monkeypatch.setattr(module, "turn_report", lambda *_, **__: "a turn")
     rows = [seen(gearbox(seed, 24.0), 24.0, f"{word} 1") for seed, word in ((2, "test"), (1, "baseline"))]
-    found = module._without_a_part(SPEC, TIE, rows[:1], rows[1:], [turn], [], 0, None)  # type: ignore[list-item]
+    found = module.without_a_part(SPEC, TIE, rows[:1], rows[1:], [turn], (), [], 0, None)  # type: ignore[list-item]
     assert (found == "a turn") is told  # type: ignore[comparison-overlap]
