@@ -40,7 +40,7 @@ later (of a simulated pit of 1 mm after 0.39 of it), and spalls that long are ra
 APART = 0.08
 """Of the period, further than which from the pair's own peaks and the period another one is a strike of its own: of
 equal strikes many a ball pass, as fluting makes them, of an edge half way to the next ball. Two strikes 8 mm apart of
-16 have it at 0.48, a washboard three; pits of four measured rigs whose size is told none."""
+16 have it at 0.48, a washboard three; pits of three measured rigs whose size is told none."""
 BANDS = ((0.02, 0.24), (0.05, 0.5), (0.01, 0.49), (0.24, 0.48))
 """Of the sampling rate."""
 EXTREME = 0.999

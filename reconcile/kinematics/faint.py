@@ -15,7 +15,8 @@ NO_SIZE = "a size can't be given without a model"
 LONGER = "Record ten times as long, or under more load: lines of a race deepen."
 NO_ORDER = "impulsiveness grew, but no order stands out"
 LEAST, HINTED_Z = 0.4, 3.0
-"""Score of what is only possible, and of a ball's own order from which it is likelier: orders of no part stay below."""
+"""Score of what is only possible, and of a ball's own order from which it is likelier: made knocks at no order
+reach 1.5."""
 LIKELY = "a damaged ball, which strikes only when its spot meets a race, is likely; play or a rub can't be ruled out"
 OPEN = "a damaged ball, play, a rub, or knocks from outside (a press, a tool, what it works on) are alike at this level"
 MANY_TURNS = "Record ten times as long: cage sidebands of a ball fault need many turns."

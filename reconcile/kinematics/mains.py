@@ -29,7 +29,7 @@ SUPPLIES_HZ = (50.0, 60.0)
 MULTIPLES = 6
 """Six pulses a period are the most that common rectifiers make."""
 SUPPLY = 0.001
-"""Share by which a supply may be off. The lines of twelve measured defects of four rigs lie 1.2 % and more away from
+"""Share by which a supply may be off. The lines of eleven measured defects of three rigs lie 1.2 % and more away from
 the nearest multiple, made electric impacts 0.02 % at most."""
 SEARCHED = 0.003
 """Share of a rate within which its line is looked for: the order as found is that of the comb's bins."""

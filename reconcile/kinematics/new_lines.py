@@ -23,8 +23,9 @@ from signals.series import BoolArray, FloatArray
 from signals.spectra.amplitude import amplitude_spectrum
 
 GROWTH_DB, SHARE = 20.0, 0.1
-"""Over the baseline, and of the channel's power. Of 14 pairs of measured sound recordings of one speed (a gearbox at
-four loads, a rig with eight sensors) and ten halves, the most that such a line grew is 3 dB, at 1 % of the power."""
+"""Over the baseline, and of the channel's power. The made whirl, belt and tone grew by 34 to 53 dB. Of measured sound
+recordings (two of a rig with eight sensors, halves of eleven of six rigs) no such line grew by more than 0.6 dB; in a
+gearbox at four loads none is off the multiples of its slow shaft."""
 CLEAR_DB = 15.0
 WIDTH, BASE_WIDTH = 0.002, 0.004
 """Half widths of a line, share of its frequency, now and in the baseline."""
