@@ -6,14 +6,30 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.ndimage import median_filter
 from scipy.optimize import minimize_scalar
 
-from reconcile.driven.channels import Driven, FloatArray
+from reconcile.driven.channels import FloatArray
 from reconcile.driven.missing import Missing, score_test
-from reconcile.driven.nominate import squares_in_blocks
+from reconcile.driven.noise import power_lines
+from reconcile.driven.nominate import LEAST_GAIN, leads, squares_in_blocks
 from reconcile.driven.prescribed.fitting import Resisting, fit_resistance
-from reconcile.driven.prescribed.resistance import DRAG, NONE, STRUCTURES, Motion, path_force
+from reconcile.driven.prescribed.motion import motion_of
+from reconcile.driven.prescribed.resistance import (
+    CUBIC,
+    DRAG,
+    HOLDS,
+    LINEAR,
+    NONE,
+    PLAY,
+    STRUCTURES,
+    Motion,
+    Structure,
+    path_force,
+)
 from reconcile.driven.prescribed.reversals import Travel, backlash_travel
+from reconcile.driven.prescribed.rich import Rich, drift, rich
+from reconcile.driven.prescribed.soft import Widths, allowed_widths
 from reconcile.driven.split import Part, order_of_use
 
 START = 0.15
@@ -23,6 +39,12 @@ CHOOSING = 0.4
 ALIKE = 0.25
 """Friction levels that differ by more do not transfer: one number is then taken from the held-out run."""
 FRACTIONS = (0.05, 0.15, 0.4)
+LEAST_DRIFT = 0.05
+"""Way of a zero that wanders, over the force's standard deviation, from which it is taken off and told."""
+LINES_BESIDE = 32
+"""Lines on either side by whose median the noise between the lines of an error is told."""
+MEDIAN = 0.69
+"""Of lines of noise, over their mean."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,6 +54,8 @@ class Setup:
     name: str
     motion: Motion
     force: FloatArray
+    drift: float = 0.0
+    """Way of its zero that was taken off, over the force's standard deviation."""
 
     @property
     def skip(self) -> int:
@@ -44,14 +68,18 @@ class Setup:
 
 
 def setup(part: Part) -> Setup:
-    """Motion and force of a part."""
-    return Setup(name=part.name, motion=motion_of(part.data), force=part.data.answer)
+    """Motion and force of a part, without a zero that wanders."""
+    run = Setup(name=part.name, motion=motion_of(part.data), force=part.data.answer)
+    course = drift(run.motion, run.force, run.skip)
+    way = 0.0 if course is None else float(np.ptp(course)) / (float(run.force.std()) or 1.0)
+    return replace(run, force=run.force - course, drift=way) if course is not None and way > LEAST_DRIFT else run
 
 
-def motion_of(data: Driven) -> Motion:
-    """Displacement from its mean, with its rate by central differences."""
-    x = data.drive - float(np.median(data.drive))
-    return Motion(displacement=x, velocity=np.gradient(x, data.step_s), step_s=data.step_s)
+def beyond_noise(error: FloatArray) -> float:
+    """Share of an error's power that stands in lines: noise has as much between them."""
+    power = power_lines(error)
+    between = median_filter(power, 2 * LINES_BESIDE + 1, mode="nearest") / MEDIAN
+    return max(1.0 - float(between.sum() / max(float(power.sum()), 1e-300)), 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,7 +116,17 @@ class Findings:
     held: Setup
     linear: Resisting
     trials: tuple[tuple[Resisting, FloatArray], ...]
-    """Structures with their squared error in blocks of the choosing stretch, the best first."""
+    """Structures with their squared error in blocks of the choosing stretch, the chosen first, then the best."""
+    as_good: tuple[Structure, ...]
+    """Structures that the best does not lead, the chosen among them."""
+    rival: Structure | None
+    """One of them that is no wider form of the chosen one, and that the runs held out do not part from it either."""
+    rich: Rich
+    """Of the fitted run."""
+    beyond: float
+    """Share of the linear error's power that no noise has, as `beyond_noise` says."""
+    widths: Widths | None
+    """Play that a soft start of the friction allows, where play was chosen."""
     linear_squares: FloatArray
     chosen: Resisting
     missing: Missing
@@ -163,7 +201,9 @@ def outcome(fitted: Setup, held: Setup, linear: Resisting, chosen: Resisting, rn
     boxed = _products(held.motion, scale)[:, kept] @ solution
     levelled, level = _levelled(chosen, held)
     plain, adapted = chosen.on(held.motion), levelled.on(held.motion)
-    wrong = fit_resistance(DRAG, fitted.motion, fitted.force, fitted.skip).on(held.motion)
+    wrong = fit_resistance(CUBIC if chosen.structure == DRAG else DRAG, fitted.motion, fitted.force, fitted.skip).on(
+        held.motion
+    )
     shifted = np.roll(plain, int(rng.integers(held.force.size // 4, 3 * held.force.size // 4)))
     line = linear.on(held.motion)
     told_line, told_box = _scaled(held, line), _scaled(held, boxed)
@@ -188,11 +228,44 @@ def outcome(fitted: Setup, held: Setup, linear: Resisting, chosen: Resisting, rn
     )
 
 
+def _as_good(trials: Sequence[tuple[Resisting, FloatArray]]) -> tuple[Structure, ...]:
+    """Structures that the best does not lead, or not by what is worth another number; the simplest first."""
+    _, best = min(trials, key=lambda pair: float(pair[1].mean()))
+    worth = float(best.mean()) / (1.0 - LEAST_GAIN)
+    return tuple(t.structure for t, squares in trials if float(squares.mean()) <= worth or not leads(squares, best))
+
+
+def _rival(
+    as_good: Sequence[Structure], chosen: Resisting, back: Resisting, runs: tuple[Setup, Setup]
+) -> Structure | None:
+    """A structure as good as the chosen one on the stretch kept for choosing and on both runs, each held out once."""
+    fitted, held = runs
+
+    def squares(on_fitted: Resisting, on_held: Resisting) -> FloatArray:
+        errors = (held.force - on_fitted.on(held.motion), fitted.force - on_held.on(fitted.motion))
+        sizes = [float(r.force.std()) or 1.0 for r in (held, fitted)]
+        return np.concatenate([squares_in_blocks(e / s) for e, s in zip(errors, sizes, strict=True)])
+
+    ours = squares(chosen, back)
+    for other in as_good:
+        if other != chosen.structure and chosen.structure.key not in HOLDS.get(other.key, ()):
+            theirs = [fit_resistance(other, r.motion, r.force, r.skip) for r in runs]
+            if not leads(squares(theirs[0], theirs[1]), ours):
+                return other
+    return None
+
+
+def _in_order(fitted: Setup, held: Setup) -> tuple[Setup, Setup, Rich]:
+    """The run that is fitted shows what is missing: one that does not reach it cannot tell its law."""
+    ours, other = (rich(r.motion, r.force, r.skip, int((1.0 - CHOOSING) * r.force.size)) for r in (fitted, held))
+    return (held, fitted, other) if other.foretells and not ours.foretells else (fitted, held, ours)
+
+
 def investigate(parts: Sequence[Part], seed: int) -> Findings:
     """All steps."""
     rng = np.random.default_rng([seed, 3])
     fit_part, held_part = order_of_use(parts)
-    fitted, held = setup(fit_part), setup(held_part)
+    fitted, held, told = _in_order(setup(fit_part), setup(held_part))
     cut = int((1.0 - CHOOSING) * fitted.force.size)
     first = fitted.part(0, cut)
 
@@ -200,27 +273,45 @@ def investigate(parts: Sequence[Part], seed: int) -> Findings:
         return squares_in_blocks((fitted.force - found.on(fitted.motion))[cut:])
 
     tried = [fit_resistance(s, first.motion, first.force, first.skip) for s in STRUCTURES]
-    trials = sorted(((t, squares(t)) for t in tried), key=lambda pair: float(pair[1].mean()))
+    scored = [(t, squares(t)) for t in tried]
+    as_good = _as_good(scored)
+    trials = sorted(scored, key=lambda pair: (pair[0].structure != as_good[0], float(pair[1].mean())))
     early = fit_resistance(NONE, first.motion, first.force, first.skip)
     linear = fit_resistance(NONE, fitted.motion, fitted.force, fitted.skip)
-    chosen = fit_resistance(trials[0][0].structure, fitted.motion, fitted.force, fitted.skip)
+    chosen = fit_resistance(as_good[0], fitted.motion, fitted.force, fitted.skip)
     skip = fitted.skip
     x, v = fitted.motion.displacement[skip:], fitted.motion.velocity[skip:]
     retuning = np.column_stack([x, v, np.ones(x.size)])
     missing = score_test(linear.error[skip:], retuning, _causes(fitted.motion)[skip:], rng)
     back_linear = fit_resistance(NONE, held.motion, held.force, held.skip)
     back = fit_resistance(chosen.structure, held.motion, held.force, held.skip)
+    widths = None
+    if chosen.structure == PLAY:
+        widths = allowed_widths(fitted.motion, fitted.force, skip, chosen.values["asymmetry"])
     return Findings(
         fitted=fitted,
         held=held,
         linear=linear,
         trials=tuple(trials),
+        as_good=as_good,
+        rival=_rival(as_good, chosen, back, (fitted, held)),
+        rich=told,
+        beyond=beyond_noise(linear.error[skip:]),
+        widths=widths,
         linear_squares=squares(early),
         chosen=chosen,
         missing=missing,
-        travel=backlash_travel(fitted.motion, fitted.force, rng),
+        travel=_travel(fitted, chosen, rng),
         outcomes=(
             outcome(fitted, held, linear, chosen, rng),
             outcome(held, fitted, back_linear, back, rng),
         ),
     )
+
+
+def _travel(run: Setup, chosen: Resisting, rng: np.random.Generator) -> Travel | None:
+    """Travel after reversals, of the force without what the law has beside its path; None where it has no path."""
+    if "elastic" not in chosen.values:
+        return None
+    beside = replace(chosen, structure=NONE, values={k: chosen.values[k] for k in LINEAR})
+    return backlash_travel(run.motion, run.force - beside.on(run.motion), rng)

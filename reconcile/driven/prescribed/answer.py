@@ -3,26 +3,48 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from reconcile.driven.faulty import beside
 from reconcile.driven.forced import ALPHA, gain_interval
 from reconcile.driven.machine import OWN_LAW, Site, driven_site
-from reconcile.driven.nominate import leads, score_nats
+from reconcile.driven.nominate import LEAST_GAIN, leads, score_nats
 from reconcile.driven.prescribed.analysis import Findings, Outcome, investigate
 from reconcile.driven.prescribed.fitting import Resisting
 from reconcile.driven.prescribed.machine import Built, built
 from reconcile.driven.prescribed.pictures import SHOWN_CYCLES_S, force_samples, pictures
-from reconcile.driven.prescribed.resistance import ELASTIC, PLAY, UNITS, travel_to
+from reconcile.driven.prescribed.resistance import GRADUAL, UNITS, travel_to
 from reconcile.driven.prescribed.reversals import SHARE
 from reconcile.driven.split import Part
-from reconcile.verdict import Cause, EstimatedForce, HeldOut, NextExperiment, PlaceWeight, Report, Severity, Where, Word
+from reconcile.verdict import (
+    Cause,
+    EstimatedForce,
+    HeldOut,
+    NextExperiment,
+    PlaceWeight,
+    Report,
+    SensorFault,
+    Severity,
+    Where,
+    Word,
+)
 from sim.core.spec import MachineSpec
 from sim.terms import REGISTRY
 
 PARTS_OF_A_PATH = {"backlash": "backlash", "friction": "coulomb_friction", "cubic": "cubic_support"}
 """Registered effects by the parameter that is their size."""
-SIZES = ("backlash", "friction", "drag", "cubic")
+SIZES = ("backlash", "friction", "drag", "cubic", "contact", "gap_up", "gap_down")
+WORTH = 0.15
+"""Low end of the gain on the run held out, from which a law is worth a name: of made spring-dampers that were once
+taken for friction it was at most 0.07, of laws that are there 0.5 and more."""
+NEAR = 3.0
+"""A law leaves at most so many times what all signals together leave: made play and friction 1 to 2.4, a measured brake
+0.4 to 0.8, friction that falls with speed taken for dry friction 4.9, one that sets in gradually taken for play 3.8."""
+LEAST_LEFT, LINES = 0.02, 0.5
+"""Share of the force that the linear model leaves, and share of it in lines, from which it is not noise."""
+QUIET = ("nothing_missing", "not_decidable")
 
 
 def _term(parameter: str) -> str:
@@ -30,8 +52,16 @@ def _term(parameter: str) -> str:
     return key if REGISTRY.get(key) is not None else OWN_LAW
 
 
-def _severity(found: Resisting, name: str) -> Severity:
-    low, high = found.intervals[name]
+def _interval(found: Findings, shown: Resisting, name: str) -> tuple[float, float]:
+    """90 % of the fit; of play also what a soft start of the friction allows."""
+    low, high = shown.intervals[name]
+    if name == "backlash" and found.widths is not None and shown is found.chosen:
+        return min(low, found.widths.low_m), max(high, found.widths.high_m)
+    return low, high
+
+
+def _severity(whole: Findings, found: Resisting, name: str) -> Severity:
+    low, high = _interval(whole, found, name)
     return Severity(name=name, value=found.values[name], unit=UNITS[name], low=low, high=high)
 
 
@@ -52,12 +82,23 @@ def _held_out(o: Outcome, seed: int) -> HeldOut:
     )  # fmt: skip
 
 
-def _reasons(found: Findings) -> tuple[str, ...]:
+def _times_left(found: Findings) -> float:
+    """What the chosen law leaves on the stretch kept for choosing, over what all signals leave there."""
+    return float(np.sqrt(found.trials[0][1].mean())) / max(found.rich.left, 1e-300)
+
+
+def _reasons(found: Findings, gain_low: float) -> tuple[str, ...]:
     best = found.chosen.structure
-    ends = {name: found.chosen.intervals[name] for name in SIZES if name in found.chosen.values}
+    ends = {name: _interval(found, found.chosen, name) for name in SIZES if name in found.chosen.values}
     failed = [f"the interval of {name} includes zero" for name, (low, high) in ends.items() if low <= 0 <= high]
     if not leads(found.linear_squares, found.trials[0][1]):
         failed.append(f"{best.words} is not better than a spring and damper on the stretch kept for choosing")
+    if _times_left(found) > NEAR:
+        failed.append(f"{best.words} leaves {_times_left(found):.1f} times what can be foretold from the motion")
+    if best == GRADUAL:
+        failed.append(f"{best.words} is a picture of the hysteresis, no mechanism")
+    if gain_low < WORTH:
+        failed.append(f"on {found.outcomes[0].held} the error falls by less than {100 * WORTH:.0f} % (90 %)")
     for o in found.outcomes:
         before, after, _, placebo = _used(o)
         if after >= min(before, o.retuned, placebo):
@@ -65,31 +106,57 @@ def _reasons(found: Findings) -> tuple[str, ...]:
     return tuple(failed)
 
 
+def _something(found: Findings) -> bool:
+    """Whether the motion foretells more of the force than a spring and damper do, by all signals or by a law."""
+    best = found.trials[0][1]
+    gain = 1.0 - float(best.mean() / max(float(found.linear_squares.mean()), 1e-300))
+    return found.rich.foretells or (leads(found.linear_squares, best) and gain > LEAST_GAIN)
+
+
+def _left(found: Findings) -> float:
+    """Share of the force that the linear model leaves on the fitted run."""
+    run = found.fitted
+    return float(found.linear.error[run.skip :].std() / max(float(run.force[run.skip :].std()), 1e-300))
+
+
+def _is_noise(found: Findings) -> bool:
+    """Whether what the linear model leaves may be noise: no lines stand in it, and no cause of the test tells it."""
+    told = found.missing.p_value < ALPHA and found.missing.statistic > LEAST_GAIN
+    return not told and (_left(found) < LEAST_LEFT or found.beyond < LINES)
+
+
 def _verdict(found: Findings, reasons: Sequence[str]) -> Word:
-    if found.missing.p_value >= ALPHA:
-        return "nothing_missing"
+    if not _something(found):
+        return "nothing_missing" if _is_noise(found) else "not_decidable"
     if reasons:
         return "unknown_physics"
-    if not leads(found.trials[1][1], found.trials[0][1]):
-        return "ambiguous"
-    return (
-        "explained"
-        if found.chosen.structure.key in (PLAY.key, ELASTIC.key, "dry_friction", "cubic")
-        else "unknown_physics"
-    )
+    return "explained" if found.rival is None else "ambiguous"
 
 
-def _sentence(found: Findings, verdict: Word, site: str) -> str:
+def _sentence(found: Findings, verdict: Word, reasons: Sequence[str], site: str) -> str:
     values, words = found.chosen.values, found.chosen.structure.words
     if verdict == "nothing_missing":
         return f"A spring and damper explain the force on {site} up to noise."
-    if verdict == "ambiguous":
-        return f"The force on {site} has a part that is {words} or {found.trials[1][0].structure.words}."
+    if verdict == "not_decidable":
+        return (
+            f"A spring and damper leave {100 * _left(found):.0f} % of the force on {site}: more than its noise, and "
+            "nothing that the motion foretells."
+        )
+    if verdict == "ambiguous" and found.rival is not None:
+        return f"The force on {site} has a part that is {words} or {found.rival.words}."
+    if verdict == "unknown_physics":
+        o = found.outcomes[0]
+        before, after, _, _ = _used(o)
+        return (
+            f"The force on {site} is more than a spring and damper, and no law that was tried is sure. Nearest comes "
+            f"{words} (error on {o.held} {100 * after:.0f} %, with spring and damper {100 * before:.0f} %), but "
+            f"{reasons[0]}."
+        )
     o = found.outcomes[0]
     before, after, _, _ = _used(o)
     said = f"What is missing at {site} is {words}"
     if "backlash" in values:
-        low, high = (1e3 * x for x in found.chosen.intervals["backlash"])
+        low, high = (1e3 * x for x in _interval(found, found.chosen, "backlash"))
         said += f": {1e3 * values['backlash']:.1f} mm of play (90 %: {low:.1f} to {high:.1f})"
     if found.travel is not None:
         t = found.travel
@@ -112,8 +179,8 @@ def _causes(found: Findings, verdict: Word, reasons: tuple[str, ...], site: str)
             why = reasons if best and reasons else (trial.structure.words,)
             causes.append(
                 Cause(
-                    term=_term(name), site=site, score=score, severity=_severity(shown, name), named=named and best,
-                    reasons=why, values=dict(shown.values),
+                    term=_term(name), site=site, score=score, severity=_severity(found, shown, name),
+                    named=named and best, reasons=why, values=dict(shown.values),
                 )
             )  # fmt: skip
     return tuple(causes)
@@ -123,8 +190,10 @@ def _stages(found: Findings) -> tuple[Mapping[str, object], ...]:
     stages: list[Mapping[str, object]] = [
         {"stage": "calibrate", **{k: found.linear.values[k] for k in ("stiffness", "damping", "offset")}},
         {"stage": "is_anything_missing", "statistic": found.missing.statistic, "null_95": found.missing.null_95,
-         "p": found.missing.p_value},
+         "p": found.missing.p_value, "foretold": found.rich.gain, "in_lines": found.beyond,
+         "linear_leaves": _left(found), "nothing_foretells_n": found.rich.left},
         {"stage": "nominate", **{t.structure.words: float(s.mean() ** 0.5) for t, s in found.trials}},
+        {"stage": "soft_start", **({} if found.widths is None else vars(found.widths))},
         {"stage": "fit", **found.chosen.values, "travel_of_the_model_m": _model_travel(found.chosen)},
     ]  # fmt: skip
     if found.travel is not None:
@@ -152,7 +221,7 @@ def _undecidable(found: Findings) -> tuple[str, ...]:
 
 
 def _force(found: Findings, verdict: Word, site: str) -> EstimatedForce | None:
-    if verdict == "nothing_missing":
+    if verdict in QUIET:
         return None
     samples = force_samples(found)
     run = found.fitted
@@ -178,19 +247,20 @@ def reconcile_prescribed(
     """All steps and the report."""
     site = driven_site(spec)
     found = investigate(parts, seed)
-    reasons = _reasons(found)
+    held_out = _held_out(found.outcomes[0], seed)
+    reasons = _reasons(found, held_out.gain_low)
     verdict = _verdict(found, reasons)
     name = site.body.name
     machine = _built(spec, site, found)
     limits = ("The whole resistance is measured in one place: where along its path the play sits cannot be told.",)
-    something = verdict != "nothing_missing"
-    return Report(
+    something = verdict not in QUIET
+    report = Report(
         verdict=verdict,
-        sentence=_sentence(found, verdict, name),
+        sentence=_sentence(found, verdict, reasons, name),
         level="driven",
         where=Where(sites=(PlaceWeight(site=name, weight=1.0),) if something else (), limits=limits),
         causes=_causes(found, verdict, reasons, name) if something else (),
-        held_out=_held_out(found.outcomes[0], seed) if something else None,
+        held_out=held_out if something else None,
         force=_force(found, verdict, name),
         undecidable=(*(_undecidable(found) if something else ()), *((assumed,) if assumed else ())),
         next_experiment=NextExperiment(
@@ -203,3 +273,21 @@ def reconcile_prescribed(
         pictures=pictures(found),
         provenance={**provenance, "force_channels": machine.channels, "longest_step_s": machine.longest_step_s},
     )
+    return _beside_drift(report, found, parts)
+
+
+def _beside_drift(report: Report, found: Findings, parts: Sequence[Part]) -> Report:
+    """The report with zeros of the force that wander."""
+    faults = []
+    for k, part in enumerate(parts):
+        run = next((r for r in (found.fitted, found.held) if r.name == part.name), None)
+        if run is None or run.drift == 0.0:
+            continue
+        test = f"test {k + 1}" if part.name.startswith("recording") else "test 1"
+        detail = f"{test}: its zero wanders by {run.drift:.2g} of the force's standard deviation"
+        channel = part.data.answer_channel.name
+        faults.append(SensorFault(kind="drift", channel=channel, detail=detail, recordings=(test,)))
+    if not faults:
+        return report
+    told = beside(report, faults)
+    return replace(told, stages=({"stage": "drift", "found": [f.detail for f in faults]}, *report.stages))

@@ -12,12 +12,20 @@ from scipy.optimize import least_squares
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.fit import INTERVAL, block_covariance
-from reconcile.driven.prescribed.resistance import LINEAR, Motion, Structure, resistance
+from reconcile.driven.prescribed.resistance import DRY, GRADUAL, LINEAR, STOPS, Motion, Structure, resistance
 
-POSITIVE = frozenset({"friction", "elastic", "backlash", "slack"})
+POSITIVE = frozenset({"friction", "elastic", "backlash", "slack", "contact", "gap_up", "gap_down", *GRADUAL.names[1:]})
 MOST_LEAN = 0.5
 PLAYS = (0.05, 0.2, 0.4)
 """Starts of the play, as shares of the motion's amplitude."""
+GAPS = (0.2, 0.5, 0.8)
+"""Starts of the gaps before stops, over the amplitude."""
+SPEEDS = (0.02, 0.2)
+"""Starts of the speed at which dry friction is developed, over the fastest."""
+REACHES = (0.5, 1.5)
+"""Starts of the longest stretch of a friction that sets in gradually, over the amplitude."""
+BOUNDS = {"elastic": (1e-4, np.inf), "asymmetry": (-MOST_LEAN, MOST_LEAN), "speed": (1e-3, 1.0), "reach": (0.05, 2.5)}
+"""In units of the scales."""
 ELASTICS = (5.0, 20.0)
 """Starts of the spring: friction over this share of the amplitude."""
 
@@ -43,6 +51,8 @@ def _scales(names: tuple[str, ...], motion: Motion, force: FloatArray) -> FloatA
     known = {
         "stiffness": size / x, "damping": size / v, "offset": size, "friction": size, "elastic": size / x,
         "asymmetry": 1.0, "backlash": x, "slack": size / x, "drag": size / v**2, "cubic": size / x**3,
+        "speed": v, "contact": size / x, "gap_up": x, "gap_down": x, "reach": x,
+        **dict.fromkeys(GRADUAL.names[1:], size),
     }  # fmt: skip
     return np.array([known[name] for name in names])
 
@@ -52,6 +62,12 @@ def _starts(structure: Structure) -> list[dict[str, float]]:
     plain = dict.fromkeys((*LINEAR, *structure.names), 0.0)
     if "friction" in plain:
         plain["friction"] = 1.0
+    if structure.key == DRY.key:
+        return [plain | {"speed": s} for s in SPEEDS]
+    if structure.key == STOPS.key:
+        return [plain | {"contact": 1.0, "gap_up": g, "gap_down": g} for g in GAPS]
+    if structure.key == GRADUAL.key:
+        return [dict.fromkeys(plain, 0.2) | {"reach": r} for r in REACHES]
     if "elastic" not in plain:
         return [plain]
     plays = PLAYS if "backlash" in plain else (0.0,)
@@ -63,9 +79,8 @@ def fit_resistance(structure: Structure, motion: Motion, force: FloatArray, skip
     names = (*LINEAR, *structure.names)
     scale = _scales(names, motion, force)
     size = float(np.std(force)) or 1.0
-    low = np.array([1e-4 if n == "elastic" else 0.0 if n in POSITIVE else -np.inf for n in names])
-    low = np.where(np.array(names) == "asymmetry", -MOST_LEAN, low)
-    high = np.where(np.array(names) == "asymmetry", MOST_LEAN, np.inf)
+    ends = [BOUNDS.get(n, (0.0 if n in POSITIVE else -np.inf, np.inf)) for n in names]
+    low, high = np.array(ends).T
 
     def residual(p: FloatArray) -> FloatArray:
         values = dict(zip(names, (p * scale).tolist(), strict=True))
@@ -82,12 +97,12 @@ def fit_resistance(structure: Structure, motion: Motion, force: FloatArray, skip
     assert best is not None
     values = dict(zip(names, (best.x * scale).tolist(), strict=True))
     spread = np.sqrt(np.maximum(np.diag(block_covariance(np.asarray(best.jac), best.fun)), 0.0)) * scale
-    ends = {
+    intervals = {
         n: (values[n] - INTERVAL * float(s), values[n] + INTERVAL * float(s))
         for n, s in zip(names, spread, strict=True)
     }
     return Resisting(
-        structure=structure, values=values, intervals=ends, error=force - resistance(structure, values, motion)
+        structure=structure, values=values, intervals=intervals, error=force - resistance(structure, values, motion)
     )
 
 

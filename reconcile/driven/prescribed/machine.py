@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.machine import Site, registered
 from reconcile.driven.prescribed.fitting import Resisting
-from reconcile.driven.prescribed.resistance import CUBIC, DRAG, DRY, DRY_SPEED_SHARE, Motion
+from reconcile.driven.prescribed.resistance import CUBIC, DRAG, DRY, STOPS, Motion, paths
 from reconcile.force_law.library import FRICTION
 from sim.core.spec import BodySpec, CustomLaw, ForceLoad, MachineSpec, MeasuredLoad, TermSpec
 
@@ -19,6 +20,10 @@ DRIVER = 2e3
 SLIDER_HZ = 250.0
 """Natural frequency of the slider on its spring: far above the motion, so that its inertia does not count."""
 SLIDER_DAMPING = 0.15
+DRY_SPEED_SHARE = 0.02
+"""Speed at which a slider's friction is developed, as a share of the fastest motion's."""
+LEAST_PATH = 1e-3
+"""Friction of a path over that of all, below which it is left out."""
 HOLD = 1e-6
 """Spring that keeps the slider's place known, over its own."""
 STEP_SHARE = 0.4
@@ -39,21 +44,24 @@ def _number(value: float) -> str:
     return f"{value:.9g}" if value >= 0 else f"({value:.9g})"
 
 
-def _direct(found: Resisting, fastest: float) -> str:
+def _direct(found: Resisting) -> str:
     """What acts between the body and the ground without memory."""
     v = found.values
     text = f"{_number(v['stiffness'])}*x+{_number(v['damping'])}*v+{_number(v['offset'])}"
     extra = {
-        DRY.key: f"+{_number(v.get('friction', 0.0))}*max(min(v/{DRY_SPEED_SHARE * fastest:.9g},1),-1)",
+        DRY.key: f"+{_number(v.get('friction', 0.0))}*max(min(v/{v.get('speed', 1.0):.9g},1),-1)",
+        STOPS.key: (
+            f"+{_number(v.get('contact', 0.0))}"
+            f"*(max(x-{_number(v.get('gap_up', 0.0))},0)+min(x+{_number(v.get('gap_down', 0.0))},0))"
+        ),
         DRAG.key: f"+{_number(v.get('drag', 0.0))}*v*abs(v)",
         CUBIC.key: f"+{_number(v.get('cubic', 0.0))}*x^3",
     }
     return text + extra.get(found.structure.key, "")
 
 
-def _path(found: Resisting, damping: float) -> str:
+def _path(v: Mapping[str, float], damping: float) -> str:
     """Play and spring between the body and the slider."""
-    v = found.values
     half = 0.5 * v.get("backlash", 0.0)
     elastic = _number(v["elastic"])
     text = f"{elastic}*(max(x-{half:.9g},0)+min(x+{half:.9g},0))+{damping:.9g}*v"
@@ -71,13 +79,12 @@ class _Slider:
     longest_step_s: float
 
 
-def _slider(found: Resisting, axis: str, fastest: float) -> _Slider:
+def _slider(v: Mapping[str, float], name: str, axis: str, fastest: float) -> _Slider:
     """Dry friction as the registered effect (solved within the step) where it is there and allows this force."""
-    v = found.values
     mass = max(v["elastic"] / (2 * math.pi * SLIDER_HZ) ** 2, 1e-6)
     spring = {f"stiffness_{axis}_n_per_m": HOLD * v["elastic"]}
     speed = DRY_SPEED_SHARE * fastest
-    body = BodySpec.model_validate({"name": SLIDER, "mass_kg": mass, "axes": axis, **spring})
+    body = BodySpec.model_validate({"name": name, "mass_kg": mass, "axes": axis, **spring})
     term = registered(replace(FRICTION, shape=speed), v["friction"], Site(body=body, axis=axis))
     stopping = mass * speed / max(v["friction"], 1e-12)
     return _Slider(
@@ -93,25 +100,30 @@ def built(site: Site, spec: MachineSpec, found: Resisting, motion: Motion, displ
     """Machine whose body follows `displacement` (n,) m, and what to add up for the force."""
     fastest = float(np.max(np.abs(motion.velocity)))
     axis, name = site.axis, site.body.name
-    with_slider = "elastic" in found.values
-    stiff = DRIVER * max(found.values.get("elastic", 0.0), abs(found.values["stiffness"]), 1.0)
+    acting = paths(found.values)
+    acting = [p for p in acting if p["friction"] > LEAST_PATH * sum(q["friction"] for q in acting)]
+    stiff = DRIVER * max(sum(p["elastic"] for p in acting), abs(found.values["stiffness"]), 1.0)
     mount = {f"stiffness_{axis}_n_per_m": stiff, f"damping_{axis}_ns_per_m": math.sqrt(stiff * site.body.mass_kg)}
     bodies = [BodySpec.model_validate({"name": name, "mass_kg": site.body.mass_kg, "axes": axis, **mount})]
-    laws = [CustomLaw(name="direct", dof=site.dof, expression=_direct(found, fastest))]
+    laws = [CustomLaw(name="direct", dof=site.dof, expression=_direct(found))]
     terms = [_own(name, 1)]
     loads: list[MeasuredLoad | ForceLoad] = []
     longest = math.inf
-    if with_slider:
-        slider = _slider(found, axis, fastest)
-        longest = slider.longest_step_s
-        damping = 2 * SLIDER_DAMPING * math.sqrt(found.values["elastic"] * slider.body.mass_kg)
-        other = f"{SLIDER}.{axis}"
+    for k, path in enumerate(acting):
+        number = "" if len(acting) == 1 else f"_{k + 1}"
+        slider = _slider(path, SLIDER + number, axis, fastest)
+        longest = min(longest, slider.longest_step_s)
+        damping = 2 * SLIDER_DAMPING * math.sqrt(path["elastic"] * slider.body.mass_kg)
+        other = f"{slider.body.name}.{axis}"
         bodies.append(slider.body)
-        laws.append(CustomLaw(name="path", dof=site.dof, against=other, expression=_path(found, damping)))
+        laws.append(CustomLaw(name=f"path{number}", dof=site.dof, against=other, expression=_path(path, damping)))
+        terms.append(_own(name, len(laws)))
         if slider.term is None:
-            laws.append(CustomLaw(name="friction", dof=other, expression=slider.formula))
-        terms += [_own(name, 2), slider.term or _own(SLIDER, 3)]
-        loads.append(ForceLoad.model_validate({"body": SLIDER, "axis": axis, "constant_n": slider.constant_n}))
+            laws.append(CustomLaw(name=f"friction{number}", dof=other, expression=slider.formula))
+        terms.append(slider.term or _own(slider.body.name, len(laws)))
+        loads.append(
+            ForceLoad.model_validate({"body": slider.body.name, "axis": axis, "constant_n": slider.constant_n})
+        )
     load = MeasuredLoad.model_validate(
         {
             "body": name, "axis": axis, "quantity": "displacement", "step_s": motion.step_s,
@@ -121,7 +133,7 @@ def built(site: Site, spec: MachineSpec, found: Resisting, motion: Motion, displ
     machine = MachineSpec(
         name=spec.name, notes=spec.notes, bodies=bodies, loads=[load, *loads], custom_laws=laws, terms=terms
     )
-    channels = (f"{name}.custom.direct.force", *((f"{name}.custom.path.force",) if with_slider else ()))
+    channels = tuple(f"{name}.custom.{law.name}.force" for law in laws if not law.name.startswith("friction"))
     return Built(machine=machine, channels=channels, longest_step_s=STEP_SHARE * longest)
 
 

@@ -8,6 +8,7 @@ play it is what the literature calls Jenkins' element.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,8 +17,8 @@ from reconcile.driven.channels import FloatArray
 from sim.core.compiled import jit
 
 LINEAR = ("stiffness", "damping", "offset")
-DRY_SPEED_SHARE = 0.02
-"""Speed at which dry friction is developed, as a share of the largest one."""
+GRADES = (1.0, 0.5, 0.25, 0.12, 0.05)
+"""Stretches at which the parts of a friction that sets in gradually slip, over the longest of them."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +31,8 @@ class Structure:
 
 
 NONE = Structure(key="linear", words="spring and damper", names=())
-DRY = Structure(key="dry_friction", words="dry friction", names=("friction",))
+DRY = Structure(key="dry_friction", words="dry friction", names=("friction", "speed"))
+"""`speed`: at which it is developed."""
 ELASTIC = Structure(
     key="elastic_friction", words="friction behind a spring", names=("friction", "elastic", "asymmetry")
 )
@@ -41,10 +43,23 @@ PLAY = Structure(
 )
 DRAG = Structure(key="drag", words="quadratic damping", names=("drag",))
 CUBIC = Structure(key="cubic", words="cubic stiffness", names=("cubic",))
-STRUCTURES = (DRY, ELASTIC, PLAY, DRAG, CUBIC)
+STOPS = Structure(key="stops", words="stops behind gaps", names=("contact", "gap_up", "gap_down"))
+GRADUAL = Structure(
+    key="gradual_friction",
+    words="friction that sets in gradually",
+    names=("reach", *(f"grade_{k}" for k in range(1, len(GRADES) + 1))),
+)
+"""Several sliders behind springs of their own (Iwan's model): tells the picture, not a mechanism."""
+STRUCTURES = (DRAG, CUBIC, DRY, ELASTIC, STOPS, PLAY, GRADUAL)
+"""The simplest first."""
+HOLDS = {
+    ELASTIC.key: (DRY.key,), PLAY.key: (DRY.key, ELASTIC.key, STOPS.key), GRADUAL.key: (DRY.key, ELASTIC.key),
+}  # fmt: skip
+"""Structures that another one holds as special cases, nearly or exactly."""
 UNITS = {
     "stiffness": "N/m", "damping": "N*s/m", "offset": "N", "friction": "N", "elastic": "N/m", "asymmetry": "1",
-    "backlash": "m", "slack": "N/m", "drag": "N/(m/s)^2", "cubic": "N/m^3",
+    "backlash": "m", "slack": "N/m", "drag": "N/(m/s)^2", "cubic": "N/m^3", "speed": "m/s", "contact": "N/m",
+    "gap_up": "m", "gap_down": "m", "reach": "m", **dict.fromkeys(GRADUAL.names[1:], "N"),
 }  # fmt: skip
 
 
@@ -85,19 +100,33 @@ def path_force(values: dict[str, float], motion: Motion) -> FloatArray:
     return out
 
 
+def paths(values: Mapping[str, float]) -> list[dict[str, float]]:
+    """The paths with memory of a resistance, each with its own friction, spring and play."""
+    if "elastic" in values:
+        return [dict(values)]
+    if "reach" not in values:
+        return []
+    forces = [(values[name], share) for name, share in zip(GRADUAL.names[1:], GRADES, strict=True)]
+    return [
+        {"friction": f, "elastic": f / (share * values["reach"]), "asymmetry": 0.0} for f, share in forces if f > 0.0
+    ]
+
+
 def resistance(structure: Structure, values: dict[str, float], motion: Motion) -> FloatArray:
     """Force that resists the motion, N, (n,)."""
     x, v = motion.displacement, motion.velocity
     force = values["stiffness"] * x + values["damping"] * v + values["offset"]
     if structure.key == DRY.key:
-        speed = DRY_SPEED_SHARE * float(np.max(np.abs(v)))
-        force = force + values["friction"] * np.clip(v / speed, -1.0, 1.0)
+        force = force + values["friction"] * np.clip(v / values["speed"], -1.0, 1.0)
     elif structure.key == DRAG.key:
         force = force + values["drag"] * v * np.abs(v)
     elif structure.key == CUBIC.key:
         force = force + values["cubic"] * x**3
-    elif structure.names:
-        force = force + path_force(values, motion)
+    elif structure.key == STOPS.key:
+        beyond = np.maximum(x - values["gap_up"], 0.0) + np.minimum(x + values["gap_down"], 0.0)
+        force = force + values["contact"] * beyond
+    for path in paths(values):
+        force = force + path_force(path, motion)
     return np.asarray(force)
 
 
