@@ -6,15 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.ndimage import median_filter
 from scipy.optimize import minimize_scalar
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.missing import Missing, score_test
-from reconcile.driven.noise import power_lines
 from reconcile.driven.nominate import LEAST_GAIN, leads, squares_in_blocks
 from reconcile.driven.prescribed.fitting import Resisting, fit_resistance
-from reconcile.driven.prescribed.motion import motion_of
 from reconcile.driven.prescribed.resistance import (
     CUBIC,
     DRAG,
@@ -28,58 +25,16 @@ from reconcile.driven.prescribed.resistance import (
     path_force,
 )
 from reconcile.driven.prescribed.reversals import Travel, backlash_travel
-from reconcile.driven.prescribed.rich import Rich, drift, rich
+from reconcile.driven.prescribed.rich import Rich
+from reconcile.driven.prescribed.runs import Setup, beyond_noise, setups
 from reconcile.driven.prescribed.soft import Widths, allowed_widths
 from reconcile.driven.split import Part, order_of_use
 
-START = 0.15
-"""Share of a run in which the memory's start is forgotten: a reversal or two of a run of several cycles."""
-CHOOSING = 0.4
-"""Share of the fitted run on which structures are compared."""
 ALIKE = 0.25
 """Friction levels that differ by more do not transfer: one number is then taken from the held-out run."""
 FRACTIONS = (0.05, 0.15, 0.4)
-LEAST_DRIFT = 0.05
-"""Way of a zero that wanders, over the force's standard deviation, from which it is taken off and told."""
-LINES_BESIDE = 32
-"""Lines on either side by whose median the noise between the lines of an error is told."""
-MEDIAN = 0.69
-"""Of lines of noise, over their mean."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Setup:
-    """A run: motion, force N, and the samples left for the start."""
-
-    name: str
-    motion: Motion
-    force: FloatArray
-    drift: float = 0.0
-    """Way of its zero that was taken off, over the force's standard deviation."""
-
-    @property
-    def skip(self) -> int:
-        """Samples at the start that do not count."""
-        return int(START * self.force.size)
-
-    def part(self, first: int, last: int) -> Setup:
-        """Samples first <= i < last."""
-        return Setup(name=self.name, motion=self.motion.part(first, last), force=self.force[first:last])
-
-
-def setup(part: Part) -> Setup:
-    """Motion and force of a part, without a zero that wanders."""
-    run = Setup(name=part.name, motion=motion_of(part.data), force=part.data.answer)
-    course = drift(run.motion, run.force, run.skip)
-    way = 0.0 if course is None else float(np.ptp(course)) / (float(run.force.std()) or 1.0)
-    return replace(run, force=run.force - course, drift=way) if course is not None and way > LEAST_DRIFT else run
-
-
-def beyond_noise(error: FloatArray) -> float:
-    """Share of an error's power that stands in lines: noise has as much between them."""
-    power = power_lines(error)
-    between = median_filter(power, 2 * LINES_BESIDE + 1, mode="nearest") / MEDIAN
-    return max(1.0 - float(between.sum() / max(float(power.sum()), 1e-300)), 0.0)
+WIDER = 0.2
+"""Fall of the mean square error on the runs held out from which a wider form of a law is a rival of its own."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -248,25 +203,22 @@ def _rival(
 
     ours = squares(chosen, back)
     for other in as_good:
-        if other != chosen.structure and chosen.structure.key not in HOLDS.get(other.key, ()):
-            theirs = [fit_resistance(other, r.motion, r.force, r.skip) for r in runs]
-            if not leads(squares(theirs[0], theirs[1]), ours):
-                return other
+        if other == chosen.structure:
+            continue
+        on_fitted, on_held = (fit_resistance(other, r.motion, r.force, r.skip) for r in runs)
+        theirs = squares(on_fitted, on_held)
+        wider = chosen.structure.key in HOLDS.get(other.key, ())
+        if not leads(theirs, ours) and not (wider and theirs.mean() > (1.0 - WIDER) * ours.mean()):
+            return other
     return None
-
-
-def _in_order(fitted: Setup, held: Setup) -> tuple[Setup, Setup, Rich]:
-    """The run that is fitted shows what is missing: one that does not reach it cannot tell its law."""
-    ours, other = (rich(r.motion, r.force, r.skip, int((1.0 - CHOOSING) * r.force.size)) for r in (fitted, held))
-    return (held, fitted, other) if other.foretells and not ours.foretells else (fitted, held, ours)
 
 
 def investigate(parts: Sequence[Part], seed: int) -> Findings:
     """All steps."""
     rng = np.random.default_rng([seed, 3])
     fit_part, held_part = order_of_use(parts)
-    fitted, held, told = _in_order(setup(fit_part), setup(held_part))
-    cut = int((1.0 - CHOOSING) * fitted.force.size)
+    fitted, held, told = setups(fit_part, held_part)
+    cut = fitted.cut
     first = fitted.part(0, cut)
 
     def squares(found: Resisting) -> FloatArray:

@@ -20,6 +20,8 @@ PLAYS = (0.05, 0.2, 0.4)
 """Starts of the play, as shares of the motion's amplitude."""
 GAPS = (0.2, 0.5, 0.8)
 """Starts of the gaps before stops, over the amplitude."""
+REACHED, NEVER = 0.98, 100.0
+"""A gap wider than this share of the way on its side was not seen to close: it is then put so many amplitudes away."""
 SPEEDS = (0.02, 0.2)
 """Starts of the speed at which dry friction is developed, over the fastest."""
 REACHES = (0.5, 1.5)
@@ -101,6 +103,12 @@ def fit_resistance(structure: Structure, motion: Motion, force: FloatArray, skip
         n: (values[n] - INTERVAL * float(s), values[n] + INTERVAL * float(s))
         for n, s in zip(names, spread, strict=True)
     }
+    if structure.key == STOPS.key:
+        x = motion.displacement[skip:]
+        for name, most in (("gap_up", float(x.max())), ("gap_down", -float(x.min()))):
+            if values[name] > REACHED * most:
+                values[name] = NEVER * float(np.max(np.abs(motion.displacement)))
+                intervals[name] = (values[name], values[name])
     return Resisting(
         structure=structure, values=values, intervals=intervals, error=force - resistance(structure, values, motion)
     )

@@ -49,11 +49,11 @@ def smooth(displacement: FloatArray, step_s: float) -> FloatArray:
     return np.asarray(kept[first : first + displacement.size])
 
 
-def motion_of(data: Driven) -> Motion:
-    """Displacement from its median, with its rate by central differences.
+def motion_of(data: Driven, zero: float) -> Motion:
+    """Displacement from `zero`, which is that of all runs: stops stand where they are; its rate by central differences.
 
     Noise on the displacement is left out where the motion has no part: 10 um of it on a sine of 1 Hz was a velocity of
     7 mm/s, and a plain spring and damper then looked like backlash.
     """
-    x = smooth(data.drive - float(np.median(data.drive)), data.step_s)
+    x = smooth(data.drive - zero, data.step_s)
     return Motion(displacement=x, velocity=np.gradient(x, data.step_s), step_s=data.step_s)
