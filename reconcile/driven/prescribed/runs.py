@@ -72,17 +72,19 @@ def setups(fit_part: Part, held_part: Part) -> tuple[Setup, Setup, Rich]:
     """Run to fit, run to hold out, and what the motion foretells of the force of the first.
 
     The run that is fitted shows what is missing: one that does not reach it cannot tell its law. A zero that wanders
-    is taken off only where the motion foretells nothing of either run beyond a spring and damper: slow friction makes
-    a force wander too.
+    is taken off only where the motion then foretells nothing beyond a spring and damper: slow friction makes a force
+    wander too.
     """
     zero = float(np.median(fit_part.data.drive))
     fitted, held = (
         Setup(name=p.name, motion=motion_of(p.data, zero), force=p.data.answer) for p in (fit_part, held_part)
     )
     told = [_told(r) for r in (fitted, held)]
-    if not any(t.foretells for t in told):
-        fitted, held = _steadied(fitted), _steadied(held)
-        told = [_told(r) for r in (fitted, held)]
+    steadied = [_steadied(r) for r in (fitted, held)]
+    if any(r.drift > 0.0 for r in steadied):
+        again = [_told(r) for r in steadied]
+        if not any(t.foretells for t in again):
+            (fitted, held), told = steadied, again
     if told[1].foretells and not told[0].foretells:
         return held, fitted, told[1]
     return fitted, held, told[0]

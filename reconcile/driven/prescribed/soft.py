@@ -75,7 +75,7 @@ def allowed_widths(motion: Motion, force: FloatArray, skip: int, lean: float) ->
         ]
     )
     near = np.array(WIDTHS)[left**2 <= ALLOWED * float(np.min(left**2))]
-    step = 0.5 * (WIDTHS[1] - WIDTHS[0])
+    step = WIDTHS[1] - WIDTHS[0]
     best = WIDTHS[int(np.argmin(left))]
     ends = (max(float(near[0]) - step, 0.0), float(near[-1]) + step)
     return Widths(best_m=best * size, low_m=ends[0] * size, high_m=ends[1] * size)
