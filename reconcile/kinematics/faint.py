@@ -44,7 +44,7 @@ def impulsive_report(found: Impulsiveness, every: Sequence[Candidate], bearings:
         ),
         causes=tuple(sorted(causes, key=lambda c: -c.score)),
         undecidable=(
-            "which part strikes" if heard else "whether a part strikes or something outside",
+            WHICH if heard else WHETHER,
             "how large: a size can't be given without a model",
         ),
         next_experiment=NextExperiment(sentence=MANY_TURNS if heard else f"{STOP} {MANY_TURNS}"),

@@ -40,7 +40,7 @@ GAPS, SEEN = ("gap_up", "gap_down"), 10.0
 """Gaps, and how many amplitudes wide one is no more."""
 WORTH = 0.15
 """Low end of the gain on the run held out, from which a law is worth a name: of made spring-dampers that were once
-taken for friction it was at most 0.07, of laws that are there 0.5 and more."""
+taken for friction it was at most 0.07, of laws that are there 0.39 and more."""
 NEAR = 3.0
 """A law leaves at most so many times what all signals together leave: made play and friction 1 to 2.4, a measured brake
 0.4 to 0.8, friction that falls with speed taken for dry friction 4.9, one that sets in gradually taken for play 3.8."""
