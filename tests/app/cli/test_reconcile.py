@@ -125,8 +125,8 @@ def test_a_report_is_written_for_kinematics_alone(tmp_path: Path, capsys: pytest
     code = main([*asked_for, "--atlas", str(tmp_path / "atlas")])
     told = capsys.readouterr()
     assert code == 0, told.err
-    assert told.out.startswith("nothing_missing: ")
-    assert json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))["verdict"] == "nothing_missing"
+    assert told.out.startswith("not_decidable: Nothing stands out of noise")
+    assert json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))["verdict"] == "not_decidable"
     assert (tmp_path / "out" / "report.html").stat().st_size > 1000
 
 
