@@ -13,6 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from reconcile.gate.combs import supply_comb, without_comb
 from reconcile.gate.findings import Finding
 from reconcile.gate.mains import GROWN_DB, LEAST_SHARE, MATERIAL_SHARE, power_at
 from reconcile.gate.sines import without_sines
@@ -99,10 +100,14 @@ def tone_findings(
         ]
         tones = fixed_tones(heard)
         beside = beside_tones(heard, tones) if tones else []
-        finding = _told(tests, labels[0], name, tones, beside, baselines)
+        comb = supply_comb(tones, heard[0].step_hz) if tones else None
+        finding = _told(tests, labels[0], name, tones, beside, baselines, comb)
         if finding is None:
             continue
         found.append(finding)
+        if comb is not None:
+            clean = [without_comb(one, name, comb) for one in clean]
+            continue
         clean = [without_sines(one, {name: tones}) for one in clean]
         clean = [
             without_sines(one, {name: [tone + o * h.speed_hz for tone, o in beside]}, block_s=BESIDE_BLOCK_S)
@@ -155,6 +160,7 @@ def _told(
     tones: Sequence[float],
     beside: Sequence[tuple[float, float]],
     baselines: Sequence[Recording],
+    comb: float | None,
 ) -> Finding | None:
     """The finding where the tones are new; what a baseline has as well is left to the comparison."""
     if not tones:
@@ -169,14 +175,17 @@ def _told(
     detail += f", with lines at fixed orders beside them ({len(beside)})" if beside else ""
     detail += f" and hold {percent(share)} of the power or more"
     detail += "" if grown is None else f", {grown:+.0f} dB against the baseline"
-    detail += ": not this machine's motion, but a drive's switching, another machine or the recorder"
+    if comb is None:
+        detail += ": not this machine's motion, but a drive's switching, another machine or the recorder"
+    else:
+        detail += f": multiples of {comb:.5g} Hz, so impulses at the supply's rate (a drive, a lamp, a welder)"
     return Finding(
         kind="fixed_tones",
         channel=name,
         recording=label,
         detail=detail,
         severity=float(min(1.0, share)),
-        where=", ".join(f"{hz:.5g} Hz" for hz in tones[:6]),
+        where=", ".join(f"{hz:.5g} Hz" for hz in tones[:6]) if comb is None else f"{comb:.5g} Hz and multiples",
         fault=True,
         tones_hz=tuple(tones),
     )

@@ -42,16 +42,17 @@ def ranked_causes(
         term, site = name.split("@")
         drawn = best_draws(found.view(name), found.known, name, observed, count=1)
         named = decision.word == "explained" and name == decision.chosen[0]
-        size = estimated_severity(found.view(name), found.known, name, observed)
+        alone = estimated_severity(found.view(name), found.known, name, observed)
+        size = _between(alone, together if named else None)
         causes.append(
             Cause(
                 term=term,
                 site=site,
                 score=told[name],
-                severity=_between(size, together if named else None),
+                severity=size,
                 named=named,
                 reasons=(ITS_IMPACTS,) if name in struck else _reasons(decision, name),
-                values=dict(drawn[0].parameters) if drawn else {},
+                values=_sized(drawn[0] if drawn else None, size),
             )
         )
     if other is not None:
@@ -94,26 +95,28 @@ def _beside(found: Found, other: Beside) -> Cause:
             severity=other.together.severity,
             named=True,
             reasons=(TOGETHER,),
-            values=dict(other.together.terms[0][1].parameters),
+            values=_sized(other.together.terms[0][1], other.together.severity),
         )
     drawn = best_draws(view, found.known, name, left, count=1)
+    size = estimated_severity(view, found.known, name, left)
     return Cause(
         term=term,
         site=site,
         score=float(other.evidence[0]),
-        severity=estimated_severity(view, found.known, name, left),
+        severity=size,
         named=True,
         reasons=(ITS_IMPACTS if strikes(name) else WHAT_IS_LEFT,),
-        values=dict(drawn[0].parameters) if drawn else {},
+        values=_sized(drawn[0] if drawn else None, size),
     )
+
+
+def _sized(drawn: TermSpec | None, size: Severity | None) -> Mapping[str, float]:
+    """Parameters of the nearest draw at the estimated size: a report says one size of an effect."""
+    values = {} if drawn is None else dict(drawn.parameters)
+    return values if size is None else {**values, size.name: size.value}
 
 
 def cause_terms(causes: Sequence[Cause]) -> tuple[TermSpec, ...]:
     """The named effects, or else the likeliest, at their estimated sizes."""
-    terms = []
-    for cause in [c for c in causes if c.named] or causes[:1]:
-        values = dict(cause.values)
-        if cause.severity is not None:
-            values[cause.severity.name] = cause.severity.value
-        terms.append(TermSpec(term=cause.term, site=cause.site, parameters=values))
-    return tuple(terms)
+    chosen = [c for c in causes if c.named] or causes[:1]
+    return tuple(TermSpec(term=c.term, site=c.site, parameters=dict(c.values)) for c in chosen)

@@ -130,3 +130,22 @@ def test_lines_of_a_pit_that_meet_by_chance_are_no_tones() -> None:
     for h in alone:
         h.excess[1234] = 1e4
     assert fixed_tones(alone) == pytest.approx([1234.0])
+
+
+def impulses(_turns: FloatArray, _hz: float, _rng: np.random.Generator) -> FloatArray:
+    """A hundred times a second, with a ring of the input's filter."""
+    since = np.mod(TIME - 0.003, 1 / 99.97)
+    return np.asarray(8 * np.exp(-1500 * since) * np.sin(2 * np.pi * 3200 * since))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("base", [nothing, None])
+def test_impulses_of_the_supply_are_told_and_taken_out_whole(base: Adds | None) -> None:
+    gate = told(impulses, base=base)
+    assert kinds(gate) >= {("fixed_tones", "a0"), ("fixed_tones", "a1")}
+    first = next(f for f in gate.findings if f.kind == "fixed_tones")
+    assert "99.97 Hz, so impulses at the supply's rate" in first.detail and first.where == "99.97 Hz and multiples"
+    for k, hz in enumerate(SPEEDS_HZ):
+        sound = recorded(hz, 10 + k, nothing)
+        left = gate.tests[k].samples[0] - sound.samples[0]
+        assert np.var(left) < 0.02 * np.var(impulses(TIME, hz, np.random.default_rng(0))), "most of it is gone"

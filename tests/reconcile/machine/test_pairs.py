@@ -224,6 +224,8 @@ def test_the_second_cause_has_its_own_size_and_the_forecast_both(simulated: list
     first, second = ranked_causes(found, EXPLAINED, weights, observed, pair.beside)[:2]
     assert (first.site, second.site) == ("gear", "pinion") and first.named and second.named
     assert second.reasons == (TOGETHER,) and second.severity == pair.beside.together.severity
+    for cause in (first, second):
+        assert cause.severity is not None and cause.values[cause.severity.name] == cause.severity.value, "one size"
     alone = ranked_causes(found, EXPLAINED, weights, observed, None, [WRONG])
     assert [f"{c.term}@{c.site}" for c in alone[:2]] == [EXPLAINED.chosen[0], WRONG]
     assert alone[1].reasons == (ITS_IMPACTS,) and not alone[1].named
