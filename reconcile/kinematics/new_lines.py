@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.ndimage import maximum_filter1d
 
 from reconcile.gate import Gate
 from reconcile.kinematics.families import Ties
@@ -31,8 +32,13 @@ WIDTH, BASE_WIDTH = 0.002, 0.004
 """Half widths of a line, share of its frequency, now and in the baseline."""
 NARROW, AROUND = 0.7, 0.03
 """Share of the power within `AROUND` of it that is the line's: what a speed that wanders smears is none."""
-OFF_SHAFT, OFF_BINS = 0.004, 4.0
-"""Nearer to a multiple of a shaft, share of the order, or bins, it is the shaft's."""
+OFF_SHAFT, OFF_BINS = 0.004, 1.2
+"""A line whose middle is nearer to a multiple of a shaft, share of the order, or bins, is the shaft's: an exact
+multiple lies within a third of a bin. With four bins two shafts left a third of all orders in records of two seconds.
+"""
+PEAK_BINS, FAMILY_BINS = 4, 4.0
+"""A line is the highest of so many bins on either side: what lies nearer to a higher one is its foot; nearer than that
+to a line of a bearing it may be the bearing's."""
 LOWEST_BINS = 6
 SAME = 0.01
 """Share by which lines of one train may miss a multiple of the lowest."""
@@ -62,7 +68,7 @@ def new_lines(tests: Sequence[Observation], baselines: Sequence[Observation], ti
     """The strongest ones of the first test that has any, where at least half of those with a baseline at their speed
     have; empty otherwise."""
     pairs = [(t, b) for t in tests if (b := matched(t, baselines)) is not None]
-    found = [rows for t, b in pairs if (rows := _of_test(t, b, ties))]
+    found = [rows for t, b in pairs if (rows := lines_of_test(t, b, ties))]
     return found[0] if found and 2 * len(found) >= len(pairs) else ()
 
 
@@ -92,7 +98,7 @@ def new_lines_report(report: Report, found: Sequence[NewLine], ties: Ties) -> Re
         verdict="unknown_physics",
         sentence=f"A line at {first.hz:.4g} Hz, {first.order:.3g} times the speed of {ties.reference}, is new on "
         f"{channels}{more}: {size} {strongest.channel}. No part of the specification makes it. "
-        f"{_words(first.order, ties)}",
+        f"{likely_cause(first.order, ties)}",
         where=Where(
             lines=tuple(
                 LineChange(
@@ -113,21 +119,23 @@ def new_lines_report(report: Report, found: Sequence[NewLine], ties: Ties) -> Re
 
 
 def _one_line(a: float, b: float, step: float) -> bool:
-    return abs(a - b) < max(AROUND * b, OFF_BINS * step)
+    return abs(a - b) < max(AROUND * b, PEAK_BINS * step)
 
 
 def _multiple(ratio: float) -> bool:
     return abs(ratio / round(ratio) - 1.0) < SAME
 
 
-def _words(order: float, ties: Ties) -> str:
+def likely_cause(order: float, ties: Ties) -> str:
+    """What makes lines at such an order of the reference shaft."""
     for shaft, ratio in ties.shafts.items():
         if WHIRL[0] <= order / ratio <= WHIRL[1]:
             return f"Whirl of a journal bearing, looseness or a rub of {shaft} make such a line below half its speed."
     return "A belt, another machine, a resonance or a tone of the electronics may."
 
 
-def _of_test(test: Observation, base: Observation, ties: Ties) -> tuple[NewLine, ...]:
+def lines_of_test(test: Observation, base: Observation, ties: Ties) -> tuple[NewLine, ...]:
+    """The new lines of one test against its baseline, of all channels that both have."""
     found: list[NewLine] = []
     for name in test.recording.names:
         if name in base.recording.names:
@@ -140,17 +148,17 @@ def _of_channel(test: Observation, base: Observation, name: str, ties: Ties) -> 
     speed = test.speed.speed_hz
     over = np.maximum(power - 2.0 * floor, 0.0)
     total = max(float(np.sum(power)), 1e-300)
-    hidden = _known(power.size, step, test, ties) | (power < floor * 10 ** (CLEAR_DB / 10))
+    peak = (power == maximum_filter1d(power, 2 * PEAK_BINS + 1)) & (power > floor * 10 ** (CLEAR_DB / 10))
+    peak &= ~_known(power.size, step, test, ties)
     rows: list[NewLine] = []
-    for place in np.argsort(-np.where(hidden, 0.0, power))[:PEAKS]:
-        hz = float(place * step)
-        if hidden[place] or len(rows) == MOST or any(_one_line(hz, one.hz, step) for one in rows):
+    for place in np.argsort(-np.where(peak, power, 0.0))[: min(PEAKS, int(peak.sum()))]:
+        hz = _middle(over, int(place)) * step
+        if len(rows) == MOST or any(_one_line(hz, one.hz, step) for one in rows) or _of_shaft(hz, step, test, ties):
             continue
         own, around = (_within(over, hz, step, width) for width in (WIDTH, AROUND))
         places = (hz, hz / speed * base.speed.speed_hz)
         had = max(*(_within(before, at, old_step, BASE_WIDTH) for at in places), 1e-300)
         growth = 10 * float(np.log10(max(own, 1e-300) / had))
-        hz = _middle(over, int(place)) * step
         if own >= SHARE * total and own >= NARROW * around and growth >= GROWTH_DB:
             rows.append(
                 NewLine(hz=hz, order=hz / speed, channel=name, growth_db=growth, share=own / total, speed_hz=speed)
@@ -165,14 +173,20 @@ def _spectrum(one: Observation, name: str) -> tuple[FloatArray, FloatArray, floa
     return power, running_median(power) / EXPONENTIAL_MEDIAN, spectrum.resolution_hz
 
 
+def _of_shaft(hz: float, step: float, test: Observation, ties: Ties) -> bool:
+    """Whether a line is a multiple of a shaft's speed, or half of it."""
+    order = hz / test.speed.speed_hz
+    near = max(OFF_BINS * step / test.speed.speed_hz, (OFF_SHAFT + test.doubt) * order)
+    ratios = ties.shafts.values()
+    return any(abs(order - round(order / r) * r) < near or abs(order - r / 2) < near for r in ratios)
+
+
 def _known(size: int, step: float, test: Observation, ties: Ties) -> BoolArray:
-    """Bins of multiples of a shaft (and of half its turn), of the supply, and of the first two lines of a bearing."""
+    """Bins of the supply's multiples, of the first two lines of a bearing, and those too low to be a line."""
     order = np.arange(size) * step / test.speed.speed_hz
-    near = np.maximum(OFF_BINS * step / test.speed.speed_hz, (OFF_SHAFT + test.doubt) * order)
+    near = np.maximum(FAMILY_BINS * step / test.speed.speed_hz, (OFF_SHAFT + test.doubt) * order)
     known = mains_bins(size, step) | (order < LOWEST)
     known[:LOWEST_BINS] = True
-    for ratio in ties.shafts.values():
-        known |= (np.abs(order - np.rint(order / ratio) * ratio) < near) | (np.abs(order - ratio / 2) < near)
     for family in ties.families:
         for k in (1, 2) if family.kind in ("outer", "inner", "ball") else ():
             known |= np.abs(order - k * family.order) < near + k * family.slip * family.order

@@ -9,6 +9,7 @@ from typing import Protocol
 from reconcile.gate.findings import Finding, Kind
 from reconcile.machine.direct import HEARD
 from reconcile.machine.own_knocks import own_knocks
+from reconcile.machine.own_line import own_line
 from reconcile.machine.own_order import own_order
 from reconcile.machine.own_time import own_time
 from reconcile.machine.second import strikes
@@ -73,14 +74,15 @@ class Strange(Protocol):
 def strange(
     machine: MachineSpec, data: Sequence[PointData], channels: Sequence[Channel], findings: Sequence[Finding]
 ) -> Strange | None:
-    """What the machine does by itself, what keeps its own time, knocks or else turns at an order of no part; None where
-    nothing does. `findings`: of the gate."""
+    """What the machine does by itself, what keeps its own time, knocks or else turns at an order of no part, or a
+    strong line that no part makes; None where there is nothing. `findings`: of the gate."""
     names = [c.name for c in channels]
     return (
         self_excited(machine, findings, channels)
         or own_time(machine, data, names)
         or own_knocks(data, channels)
         or own_order(machine, data, names)
+        or own_line(machine, data, channels)
     )
 
 

@@ -1,0 +1,72 @@
+"""A strong line of the signal itself that no part makes is told; modulated teeth and multiples of a shaft are not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reconcile.machine.own_line import OwnLine, own_line
+from reconcile.machine.strange import strange
+from reconcile.observe.observation import observe
+from reconcile.observe.watch import watch_list
+from signals.series import FloatArray
+from sim.core.spec import MachineSpec
+from sim.presets import preset
+from tests.reconcile.machine.teeth import CHANNELS, TIME, at_order, modulated, steady
+
+pytestmark = pytest.mark.slow
+SPEEDS_HZ = (22.5, 30.0, 39.0)
+Adds = Callable[[float], FloatArray]
+
+
+@pytest.fixture(scope="module")
+def machine() -> MachineSpec:
+    return preset("paper-lightly-damped")
+
+
+def turning(order: float, level: float = 0.6) -> Adds:
+    return lambda hz: level * np.sin(2 * np.pi * order * hz * TIME)
+
+
+def told(machine: MachineSpec, adds: Adds, *, only_hz: float | None = None, based: bool = True) -> OwnLine | None:
+    tests, baselines = [], []
+    for k, hz in enumerate(SPEEDS_HZ):
+        one = modulated(machine, hz, 10 + k, steady)
+        there = only_hz is None or hz == only_hz
+        tests.append(replace(one, samples=one.samples + (adds(hz) if there else 0.0)))
+        baselines.append(modulated(machine, hz, k, steady))
+    data = observe(machine, watch_list(machine), tests, baselines if based else [], seed=0)
+    found = own_line(machine, data, CHANNELS)
+    if found is not None:
+        assert strange(machine, data, CHANNELS, ()) == found, "nothing else tells it"
+    return found
+
+
+@pytest.mark.parametrize("order", [0.44, 1.75, 7.3])
+def test_a_line_of_its_own_is_told(machine: MachineSpec, order: float) -> None:
+    seen = told(machine, turning(order))
+    assert seen is not None
+    assert seen.strongest.order == pytest.approx(order, rel=0.02)
+    assert seen.speeds == (3, 3) and "at every speed" in seen.text
+    assert ("Whirl" in seen.follows) == (order == 0.44)
+    for line in seen.lines:
+        assert line.frequency_hz == pytest.approx(order * line.speed_hz, rel=0.02)
+
+
+@pytest.mark.parametrize("adds", [turning(2.0), turning(23 / 81), turning(0.5), steady, turning(1.75, level=0.02)])
+def test_what_a_shaft_makes_and_what_is_faint_is_none(machine: MachineSpec, adds: Adds) -> None:
+    assert told(machine, adds) is None
+
+
+def test_one_speed_of_three_and_no_baseline_are_not_enough(machine: MachineSpec) -> None:
+    assert told(machine, turning(1.75), only_hz=30.0) is None
+    assert told(machine, turning(1.75), based=False) is None
+
+
+def test_teeth_that_are_modulated_are_another_matter(machine: MachineSpec) -> None:
+    tests = [modulated(machine, hz, 10 + k, at_order(1.37, 0.1)) for k, hz in enumerate(SPEEDS_HZ)]
+    baselines = [modulated(machine, hz, k, steady) for k, hz in enumerate(SPEEDS_HZ)]
+    assert own_line(machine, observe(machine, watch_list(machine), tests, baselines, seed=0), CHANNELS) is None
