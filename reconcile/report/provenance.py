@@ -11,7 +11,7 @@ from reconcile.verdict import Report
 WORDS = {
     "core_s": "processor seconds",
     "until_atlas_core_s": "of them until the atlas was there",
-    "draws": "simulated machines",
+    "draws": "simulated machines of the kind, at each operating point",
     "sent_as": "recordings",
 }
 

@@ -51,7 +51,7 @@ WORDS = {
     "p_lines": "by single lines",
     "p_first": "by the pattern before a closer look",
     "candidates": "effects at their places",
-    "draws": "simulated machines",
+    "draws": "simulated machines with an effect",
     "misfit": "share of simulated known effects that fit better",
     "overdispersion": "scatter over what noise explains",
     "lines_left": "single lines left unexplained, over what is usual",
