@@ -51,8 +51,12 @@ class Watched:
     def stage(self, share: float, stage: str) -> None:
         """A stage of the engine begins; raises Cancelled."""
         self._share, self._stage = share, stage
-        left_s = (time.monotonic() - self._started_s) * (1.0 - share) / share if self._paced and share > 0.0 else None
-        self._tell(share, stage, left_s)
+        self._tell(share, stage, self._left_s(share, stage))
+
+    def _left_s(self, share: float, stage: str) -> float | None:
+        if self._paced:
+            return (time.monotonic() - self._started_s) * (1.0 - share) / share if share > 0.0 else None
+        return self._pace.left_s(stage, share) if share >= ATLAS_END else None
 
     def map(self, run: Callable[[Task], Any], tasks: Iterable[Task]) -> Iterator[Any]:
         """`map` that tells how far it is and ends with Cancelled between two tasks; with a lead other workers help."""

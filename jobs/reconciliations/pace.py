@@ -25,9 +25,10 @@ class Pace:
     _last: tuple[str, float, float] | None = field(default=None, repr=False)
 
     def left_s(self, stage: str, share: float) -> float | None:
-        """Seconds from a part of a stage on; none where too little was simulated, or the atlases are there."""
+        """Seconds from a part of a stage on; none where too little was simulated for its pace to say anything."""
         if share >= self.ends:
-            return None
+            after = (1.0 - share) / (1.0 - self.ends) * AFTERWARDS * (self.ends - self.begins)
+            return self.spent_s / self.made * after if self.made >= LEAST_MADE else None
         now = time.monotonic()
         if self._last is not None and self._last[0] == stage and share > self._last[1]:
             self.made += share - self._last[1]

@@ -66,4 +66,9 @@ def test_the_time_left_is_told_by_what_is_simulated_for_an_atlas_and_not_by_one_
     assert told[26][1] == pytest.approx(per_share * (0.6 - (0.35 + 0.25 * 24 / 50) + 0.5 / 3))
     watched.stage(0.7, "candidates on these machines")
     simulated(2)
-    assert [left for _, left in told[-3:]] == [None] * 3, "the atlases are there"
+    afterwards = [left for _, left in told[-3:]]
+    assert afterwards[:2] == pytest.approx([per_share * 0.75 * 0.5 / 3] * 2, rel=0.03), "by the pace of the atlases"
+    assert 0 < afterwards[2] < afterwards[1]
+    there = carry_out.Watched(reporter, 2)
+    there.stage(0.7, "candidates on these machines")
+    assert told[-1][1] is None, "both atlases were there: no pace is known"
