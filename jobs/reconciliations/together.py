@@ -14,6 +14,7 @@ from dataclasses import replace
 from jobs.reconciliations.machine import Known
 from jobs.validation import Findings
 from reconcile.atlas.places import simulated_channels
+from reconcile.driven.engine import check_rates
 from reconcile.entry import check_channels
 from reconcile.kinematics import KinematicSpec
 from reconcile.stated import (
@@ -41,10 +42,13 @@ def check_together(known: Known, tests: Sequence[Recording], baselines: Sequence
 
     The recordings are labelled by their place in the request (`baselines.0`); their samples are not looked at.
     """
-    if not isinstance(known, KinematicSpec) and not known.shafts:
-        return  # driven by a measured input: channels are matched by what they measure
-    several = given(tests, baselines)
     findings = Findings()
+    if not isinstance(known, KinematicSpec) and not known.shafts:
+        # Driven by a measured input: channels are matched by what they measure.
+        with findings.step():
+            check_rates(tests)
+        return _settle(findings)
+    several = given(tests, baselines)
     with findings.step():
         check_shafts([shaft.name for shaft in known.shafts], several)
     with findings.step():
@@ -55,6 +59,11 @@ def check_together(known: Known, tests: Sequence[Recording], baselines: Sequence
         _check_speeds(known, several)
     with findings.step():
         check_channels(tests, baselines)
+    return _settle(findings)
+
+
+def _settle(findings: Findings) -> None:
+    """SpecError with all that was found, by fields of the request."""
     try:
         findings.settle()
     except SpecError as error:

@@ -41,6 +41,7 @@ def _checked(spec: MachineSpec, recordings: Sequence[Recording]) -> list[Driven]
         )
     with about(recordings[0].label):
         first = directed(recordings[0], spec)
+    check_rates(recordings)
     rest = [_further(r, spec, first.prescribed) for r in recordings[1:]]
     found = [first, *rest]
     for i, (one, data) in enumerate(zip(recordings, found, strict=True)):
@@ -55,12 +56,22 @@ def _checked(spec: MachineSpec, recordings: Sequence[Recording]) -> list[Driven]
                     allowed=f"{least} samples",
                 )
             )
-        if abs(data.step_s / found[0].step_s - 1.0) > 1e-6:
-            first_place = place(recordings[0], "recording", 0, "sampling_rate_hz")
-            message = f"differs from {first_place}, which has {1.0 / found[0].step_s:g} Hz: either may be wrong"
-            where = place(one, "recording", i, "sampling_rate_hz")
-            raise SpecError(Problem(field=where, message=message, given=1.0 / data.step_s, allowed="the same in both"))
     return found
+
+
+def check_rates(tests: Sequence[Recording]) -> None:
+    """SpecError where the tests are not all sampled at one rate, by their descriptions; baselines may be at any."""
+    first, problems = tests[0], []
+    for i, one in enumerate(tests):
+        if abs(one.sampling_rate_hz / first.sampling_rate_hz - 1.0) > 1e-6:
+            usual = place(first, "recording", 0, "sampling_rate_hz")
+            message = f"differs from {usual}, which has {first.sampling_rate_hz:g} Hz: either may be wrong"
+            where = place(one, "recording", i, "sampling_rate_hz")
+            problems.append(
+                Problem(field=where, message=message, given=one.sampling_rate_hz, allowed="the same in both", unit="")
+            )
+    if problems:
+        raise SpecError(problems)
 
 
 def _further(recording: Recording, spec: MachineSpec, motion_drives: bool) -> Driven:

@@ -15,6 +15,7 @@ from jobs.status import Status
 from reconcile.entry import reconcile_recordings
 from signals.recording import Operating, Recording, Tacho
 from sim.core.errors import Problem, SpecError
+from sim.core.response import Channel
 from sim.presets.catalogue import preset
 from tests.service.reconciling import KINEMATICS, World, made
 
@@ -150,3 +151,20 @@ def test_no_job_is_made_of_what_cannot_go_together(tmp_path: Path) -> None:
         world.ask([test], baselines=[baseline])
     assert [p.field for p in refused.value.problems] == ["baselines.0.sampling_rate_hz"]
     assert world.ask([test], baselines=[world.recording(2)]).status is Status.ACCEPTED
+
+
+def driven(rate_hz: float) -> Recording:
+    channels = tuple(
+        Channel(name=q, quantity=q, unit=u, location="mass", axis="y")
+        for q, u in (("force", "N"), ("displacement", "m"))
+    )
+    return Recording(sampling_rate_hz=rate_hz, channels=channels, samples=np.zeros((2, 1)))
+
+
+def test_rates_of_a_driven_machine_are_told_before_there_is_a_job() -> None:
+    found = told([driven(2000.0), driven(2000.0), driven(1000.0)], [], preset("oscillator"))
+    assert list(found) == ["recordings.2.sampling_rate_hz"]
+    problem = found["recordings.2.sampling_rate_hz"]
+    assert (problem.given, problem.allowed) == (1000.0, "the same in both")
+    assert "recordings.0.sampling_rate_hz, which has 2000 Hz" in problem.message
+    assert told([driven(2000.0)], [driven(1000.0)], preset("oscillator")) == {}, "a baseline may be at another rate"
