@@ -69,7 +69,8 @@ def _words(fault: SensorFault) -> str:
 
 
 def _beside(sure: Sequence[SensorFault]) -> str:
-    named = [_words(f) + (" (left out)" if f.left_out else "") for f in sure[:MOST_NAMED]]
-    if len(sure) > MOST_NAMED:
-        named.append(f"{len(sure) - MOST_NAMED} more")
+    told = list(dict.fromkeys(_words(f) + (" (left out)" if f.left_out else "") for f in sure))
+    named = told[:MOST_NAMED]
+    if len(told) > MOST_NAMED:
+        named.append(f"{len(told) - MOST_NAMED} more")
     return f"Beside it the measurement is at fault: {', '.join(named)}."

@@ -19,6 +19,7 @@ from reconcile.driven.measured import LEAST_KEPT
 from reconcile.driven.model import share_kept
 from reconcile.driven.noise import noise_of
 from reconcile.driven.prescribed.answer import reconcile_prescribed
+from reconcile.driven.prescribed.faults import held_motions
 from reconcile.driven.rest import beside_tones, settled
 from reconcile.driven.split import parts_of
 from reconcile.driven.spoiled import Mended, mended, proved, sensor_fault, with_bad
@@ -123,9 +124,13 @@ def reconcile_driven(
     if gone:
         report = fault_report(gone, NOT_JUDGED)
     elif data[0].prescribed:
-        parts = parts_of(data)
-        report = reconcile_prescribed(spec, parts, seed=seed, provenance=provenance, assumed=data[0].assumed)
-        report = beside(report, [sensor_fault(f) for f in findings if _counts(f, data[0])])
+        shown = [sensor_fault(f) for f in findings if _counts(f, data[0])]
+        motions = held_motions(data, sound, shown)
+        report = (
+            fault_report(motions.faults, UNIT_NOT_KNOWN)
+            if motions.undecided
+            else reconcile_prescribed(spec, motions, seed=seed, provenance=provenance)
+        )
     else:
         held = held_against(data, sound, site)
         if held.undecided:

@@ -9,7 +9,19 @@ from reconcile.driven.added import Added, Tone, without_added
 from reconcile.driven.added import faults as added_faults
 from reconcile.driven.channels import Driven
 from reconcile.driven.machine import Site
-from reconcile.driven.measured import Look, against_file, exchanged, look, remarks, scaled, swap_fault
+from reconcile.driven.measured import (
+    Look,
+    against_file,
+    clock_fault,
+    clocked,
+    exchanged,
+    look,
+    remarks,
+    scaled,
+    swap_fault,
+    turned_against,
+    turned_fault,
+)
 from reconcile.driven.step import stepped
 from reconcile.faults import with_faults
 from reconcile.gate.spoiled import fault_sentence
@@ -55,6 +67,9 @@ def held_against(tests: Sequence[Driven], baselines: Sequence[Driven], site: Sit
         faults.append(found.fault(one.data, f"test {i + 1}", against))
         undecided |= found.drives is None or against == "test 1"
         looks[i] = look(found.undone(one.data))
+    looks, turned, unlike = _turned_and_clocked(looks, rested)
+    faults += turned
+    undecided |= unlike
     said = () if faults else remarks(looks, site)
     return Held(
         data=[one.data for one in looks],
@@ -65,6 +80,22 @@ def held_against(tests: Sequence[Driven], baselines: Sequence[Driven], site: Sit
         rested=tuple(rested),
         tones=tuple((f"test {i}", tone) for i, one in enumerate(heard, 1) for tone in one.tones),
     )
+
+
+def _turned_and_clocked(looks: Sequence[Look], rested: Sequence[Look]) -> tuple[list[Look], list[SensorFault], bool]:
+    """The tests with sign and sampling rate of the first baseline; whether their rates, put right, are then unlike."""
+    seen, faults = list(looks), list[SensorFault]()
+    for i, one in enumerate(seen if rested else ()):
+        name = f"test {i + 1}"
+        if turned_against(one, rested[0]):
+            faults.append(turned_fault(one.data, name, "baseline 1"))
+            seen[i] = look(replace(one.data, answer=-one.data.answer))
+        factor = clocked(one, rested[0])
+        if factor is not None:
+            faults.append(clock_fault(one.data, factor, name, "baseline 1"))
+            seen[i] = look(replace(seen[i].data, step_s=one.data.step_s * factor))
+    rates = {round(1e9 * one.data.step_s) for one in seen}
+    return seen, faults, len(rates) > 1
 
 
 def _straight(data: Driven, recording: str, faults: list[SensorFault]) -> Added:

@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from reconcile.driven.channels import Driven
+from reconcile.driven.channels import FORCES, Driven
 from reconcile.driven.forced import calibrate
 from reconcile.driven.judge import UNRELATED
 from reconcile.driven.machine import Site, weighed
@@ -42,6 +42,15 @@ LAWFUL, LAWFUL_OFF = 100.0, 3.0
 may then miss it."""
 LEVEL_SHARE = 0.35
 """Of the change, in logarithms, that a channel's own level may have changed by to be the one that is right."""
+CLOCKS = (2.0, 0.5)
+"""Factors by which a sampling rate is mistaken (one of two channels counted twice, every other sample dropped)."""
+CLOCK_OFF, CLOCK_GAIN, CLOCK_DAMPING = 0.02, 0.1, 0.25
+"""In logarithms, what frequency, gain and damping may then miss by: fits of one oscillator are within some per cent, of
+its damping within 15 %."""
+OPPOSITE = (
+    "The mass moves against its force, as if it were negative: the polarity of force or motion is reversed, and mass, "
+    "stiffness and laws have the sizes of the machine file's mass."
+)
 FITS = 0.5
 """Share of the output that a linear model may leave to be held against another."""
 REVERSED, REVERSED_UNRELATED = 0.6, 0.85
@@ -139,7 +148,7 @@ def scaled(one: Look, reference: Look) -> Scaled | None:
     drives = None if min(abs(pushed), abs(moved)) > LEVEL_SHARE * abs(math.log(gain)) else abs(moved) < abs(pushed)
     if max(one.left, reference.left) > FITS:
         return _by_level(one.data, math.log(gain), pushed, moved)
-    found = _scaled(one.data, gain, drives)
+    found = by_factor(one.data, gain, drives)
     if abs(apart - 1.0) <= SAME_FREQUENCY:
         return found
     return found if found.unit and abs(math.log(apart)) < math.log(SPRING_APART) else None
@@ -160,20 +169,67 @@ def _by_level(data: Driven, gain: float, pushed: float, moved: float) -> Scaled 
 
 def _ratios(data: Driven, drives: bool | None) -> dict[str, float]:
     """Ratios of units by their words; `drives` None: of both channels."""
-    force = FORCE_RATIOS if data.drive_channel.quantity in ("force", "torque") else OTHER_RATIOS
-    motion = MOTION_RATIOS.get(data.answer_channel.quantity, OTHER_RATIOS)
-    return {**(force if drives is not False else {}), **(motion if drives is not True else {})}
+    drive, answer = (_units(c.quantity) for c in (data.drive_channel, data.answer_channel))
+    return {**(drive if drives is not False else {}), **(answer if drives is not True else {})}
 
 
-def _scaled(data: Driven, gain: float, drives: bool | None) -> Scaled:
-    """From a ratio of gains, motion over force. Which channel is not known: the factor of the motion is told."""
-    possible = _ratios(data, drives)
-    near = [words for words, ratio in possible.items() if abs(abs(math.log(gain)) - math.log(ratio)) < NEAR_UNIT]
-    if not near:
+def _units(quantity: str) -> dict[str, float]:
+    return FORCE_RATIOS if quantity in FORCES else MOTION_RATIOS.get(quantity, OTHER_RATIOS)
+
+
+def by_factor(data: Driven, gain: float, drives: bool | None, off: float = NEAR_UNIT) -> Scaled:
+    """From a ratio of gains, output over input, missed by at most `off` in logarithms. Which channel is not known: the
+    factor of the output is told."""
+    far = {words: abs(abs(math.log(gain)) - math.log(ratio)) for words, ratio in _ratios(data, drives).items()}
+    least = min(far.values())
+    if least >= off:
         return Scaled(factor=1.0 / gain if drives else gain, drives=drives, words="no ratio of units", unit=False)
-    exact = possible[near[0]]
+    near = [words for words, x in far.items() if x < NEAR_UNIT or x == least]
+    exact = _ratios(data, drives)[near[0]]
     larger = exact if (gain > 1.0) != bool(drives) else 1.0 / exact
     return Scaled(factor=larger, drives=drives, words=" or ".join(near), unit=True)
+
+
+def turned_against(one: Look, reference: Look) -> bool:
+    """Whether force and motion have one sign in one recording, and opposite ones in the other."""
+    apart = abs(one.frequency_hz / reference.frequency_hz - 1.0)
+    turned = one.model.gain * reference.model.gain < 0.0
+    return turned and apart < SAME_FREQUENCY_FILE and max(one.left, reference.left) < FITS
+
+
+def turned_fault(data: Driven, recording: str, against: str) -> SensorFault:
+    """For the report: which of both channels is turned round no recording tells."""
+    drive, answer = data.drive_channel.name, data.answer_channel.name
+    detail = f"{recording}: by {against} {answer} or {drive} has the opposite sign"
+    return SensorFault(kind="polarity", channel="", detail=detail, recordings=(recording,))
+
+
+def clocked(one: Look, reference: Look) -> float | None:
+    """By how much too high the stated sampling rate is, against a recording of the same oscillator; None: it is not.
+
+    A rate wrong by r scales frequency and damping rate by r and the gain by r^(2 - order), which keeps stiffness (of a
+    displacement), damping (of a velocity) or mass (of an acceleration): no mass on another spring does all three.
+    """
+    if max(one.left, reference.left) > FITS or one.model.gain * reference.model.gain == 0.0:
+        return None
+    apart = one.frequency_hz / reference.frequency_hz
+    near = [r for r in CLOCKS if abs(math.log(apart / r)) < CLOCK_OFF]
+    if not near:
+        return None
+    damped = one.model.damping / max(reference.model.damping, 1e-300) / apart
+    gained = abs(one.model.gain / reference.model.gain) / apart ** (2 - one.data.order)
+    alike = abs(math.log(max(damped, 1e-300))) < CLOCK_DAMPING and abs(math.log(gained)) < CLOCK_GAIN
+    return near[0] if alike else None
+
+
+def clock_fault(data: Driven, factor: float, recording: str, against: str) -> SensorFault:
+    """For the report."""
+    stated = 1.0 / data.step_s
+    detail = (
+        f"{recording}: all frequencies and the damping rate are {factor:.4g} times those of {against}: the sampling "
+        f"rate is {stated / factor:g} Hz, not {stated:g} Hz, or {against} is in error"
+    )
+    return SensorFault(kind="sampling_rate", channel="", detail=detail, recordings=(recording,))
 
 
 def against_file(one: Look, site: Site) -> Scaled | None:
@@ -189,7 +245,7 @@ def against_file(one: Look, site: Site) -> Scaled | None:
     moved = float(one.data.answer.std()) * (2.0 * math.pi * one.frequency_hz) ** (2 - one.data.order)
     too_much = [pushed > MOST_M_PER_S2, moved > MOST_M_PER_S2]
     drives = too_much[0] if sum(too_much) == 1 else None
-    found = _scaled(one.data, gain, drives) if abs(math.log(gain)) > math.log(OTHER_GAIN) else None
+    found = by_factor(one.data, gain, drives) if abs(math.log(gain)) > math.log(OTHER_GAIN) else None
     return found if found is not None and found.unit else None
 
 
@@ -204,6 +260,8 @@ def remarks(several: Sequence[Look], site: Site) -> tuple[str, ...]:
     """Where the recordings tell another oscillator than the machine file has."""
     mass, frequency = of_file(site)
     one = several[0]
+    if one.data.calibrated and one.model.gain < 0.0 and one.left < FITS:
+        return (OPPOSITE,)
     if not weighed(one.model, one.data) or one.left > FITS or frequency is None:
         return ()
     here = (1.0 / one.model.gain, one.frequency_hz)

@@ -181,10 +181,12 @@ class PowerFit:
     high: float
 
 
-def free_power(base: Model, final: Model, run: Run) -> PowerFit | None:
+def free_power(base: Model, final: Model, run: Run, other: Run) -> PowerFit | None:
     """Replace the odd law of `final` by sgn z |z|^p and fit p with everything else; None without an odd law.
 
-    From the linear `base`; from `final` itself where no output can lead the run.
+    From the linear `base`; from `final` itself where no output can lead the run. The interval holds the scatter of
+    blocks and what the exponent moves by where a true one would stay (`reconcile.driven.doubt`): led, with straight
+    lines between the samples of the input, on the `other` stretch, and by the middle of the parabola alone.
     """
     laws = final.laws
     odd = [law for law in laws if law.key in ("cubic", "quintic", "odd_square")]
@@ -198,10 +200,12 @@ def free_power(base: Model, final: Model, run: Run) -> PowerFit | None:
     if found is None:
         return None
     value, error = found
-    if run.data.order < 2:
-        led = [descend(f.model, (replace(run, led=LED),)) for f in free]
-        again = _lowest(grid, [squares_in_blocks(f.error) for f in led])
+    for at in ([held_linear(run)], [other], *([[replace(run, led=LED)]] if run.data.order < 2 else [])):
+        again = _lowest(grid, [squares_in_blocks(descend(f.model, at).error) for f in free])
         error = math.hypot(error, again[0] - value if again is not None else 0.0)
+    middle = slice(1, grid.size - 1)
+    narrow = _lowest(grid[middle], [squares_in_blocks(f.error) for f in free[middle]])
+    error = math.hypot(error, narrow[0] - value if narrow is not None else 0.0)
     return PowerFit(value=value, low=value - INTERVAL * error, high=value + INTERVAL * error)
 
 

@@ -15,6 +15,8 @@ MENDED = {
     "speed_mismatch": ("correct the speed that the description states, or give a tacho,", BEFORE),
     "other_motion": ("correct the quantity that is stated for {at}", ASKED),
     "out_of_step": ("record {at} and the force by one clock and through equal filters, or correct the delay,", ASKED),
+    "polarity": ("turn force or motion round", ASKED),
+    "sampling_rate": ("correct the sampling rate that the description states", ASKED),
     "drift": ("check what {at} is fixed to, its supply and its warm-up", AGAIN),
     "gain_change": ("check range and sensitivity of {at}", AGAIN),
     "repeated": ("check the recorder's buffer (here {at})", AGAIN),

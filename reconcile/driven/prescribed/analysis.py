@@ -25,7 +25,7 @@ from reconcile.driven.prescribed.resistance import (
     path_force,
 )
 from reconcile.driven.prescribed.reversals import Travel, backlash_travel
-from reconcile.driven.prescribed.rich import Rich
+from reconcile.driven.prescribed.rich import Beside, Rich, beside_law
 from reconcile.driven.prescribed.runs import Setup, beyond_noise, setups
 from reconcile.driven.prescribed.soft import Widths, allowed_widths
 from reconcile.driven.split import Part, order_of_use
@@ -80,6 +80,8 @@ class Findings:
     """Of the fitted run."""
     beyond: float
     """Share of the linear error's power that no noise has, as `beyond_noise` says."""
+    besides: tuple[tuple[str, Beside], ...]
+    """What signals of the motion foretell of what the chosen law leaves, by the run."""
     widths: Widths | None
     """Play that a soft start of the friction allows, where play was chosen."""
     linear_squares: FloatArray
@@ -237,6 +239,11 @@ def investigate(parts: Sequence[Part], seed: int) -> Findings:
     missing = score_test(linear.error[skip:], retuning, _causes(fitted.motion)[skip:], rng)
     back_linear = fit_resistance(NONE, held.motion, held.force, held.skip)
     back = fit_resistance(chosen.structure, held.motion, held.force, held.skip)
+    outcomes = (
+        outcome(fitted, held, linear, chosen, rng),
+        outcome(held, fitted, back_linear, back, rng),
+    )
+    used = ((fitted, chosen), (held, outcomes[0].used))
     widths = None
     if chosen.structure == PLAY:
         widths = allowed_widths(fitted.motion, fitted.force, skip, chosen.values["asymmetry"])
@@ -249,15 +256,13 @@ def investigate(parts: Sequence[Part], seed: int) -> Findings:
         rival=_rival(as_good, chosen, back, (fitted, held)),
         rich=told,
         beyond=beyond_noise(linear.error[skip:]),
+        besides=tuple((r.name, beside_law(r.motion, r.force, law.on(r.motion), r.skip)) for r, law in used),
         widths=widths,
         linear_squares=squares(early),
         chosen=chosen,
         missing=missing,
         travel=_travel(fitted, chosen, rng),
-        outcomes=(
-            outcome(fitted, held, linear, chosen, rng),
-            outcome(held, fitted, back_linear, back, rng),
-        ),
+        outcomes=outcomes,
     )
 
 

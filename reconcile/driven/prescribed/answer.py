@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from reconcile.driven.faulty import beside
 from reconcile.driven.forced import ALPHA, gain_interval
+from reconcile.driven.judge import ROUGH
 from reconcile.driven.machine import OWN_LAW, Site, driven_site
 from reconcile.driven.nominate import LEAST_GAIN, leads, score_nats
 from reconcile.driven.prescribed.analysis import Findings, Outcome, investigate
+from reconcile.driven.prescribed.faults import HeldMotions, drifting
 from reconcile.driven.prescribed.fitting import Resisting
 from reconcile.driven.prescribed.machine import Built, built
 from reconcile.driven.prescribed.pictures import SHOWN_CYCLES_S, force_samples, pictures
 from reconcile.driven.prescribed.resistance import GRADUAL, UNITS, travel_to
 from reconcile.driven.prescribed.reversals import SHARE
-from reconcile.driven.split import Part
+from reconcile.driven.split import parts_of
 from reconcile.verdict import (
     Cause,
     EstimatedForce,
@@ -25,7 +26,6 @@ from reconcile.verdict import (
     NextExperiment,
     PlaceWeight,
     Report,
-    SensorFault,
     Severity,
     Where,
     Word,
@@ -44,6 +44,11 @@ taken for friction it was at most 0.07, of laws that are there 0.39 and more."""
 NEAR = 3.0
 """A law leaves at most so many times what all signals together leave: made play and friction 1 to 2.4, a measured brake
 0.4 to 0.8, friction that falls with speed taken for dry friction 4.9, one that sets in gradually taken for play 3.8."""
+FORETOLD = 0.5
+"""Share of what a law leaves, from which on it is no more than the nearest one where other signals of the motion
+foretell that and `ROUGH` of the force (read off once): laws that are there 0 to 0.34 (a measured brake), or, of play
+behind which friction sets in softly, 0.8 but 4 % of the force; friction behind a spring told for play 0.5 and 0.7,
+dry friction for one that falls with speed 0.8, of 10 to 22 % of the force."""
 LEAST_LEFT, LINES = 0.02, 0.5
 """Share of the force that the linear model leaves, and share of it in lines, from which it is not noise."""
 LEAST_TOLD, LEAST_MOTION = 1e-3, 0.7
@@ -109,6 +114,11 @@ def _reasons(found: Findings, gain_low: float) -> tuple[str, ...]:
         failed.append(f"{best.words} is not better than a spring and damper on the stretch kept for choosing")
     if _times_left(found) > NEAR:
         failed.append(f"{best.words} leaves {_times_left(found):.1f} times what can be foretold from the motion")
+    failed += [
+        f"other signals of the motion tell {100 * told.size:.0f} % of the force on {run} beside {best.words}"
+        for run, told in found.besides
+        if told.share > FORETOLD and told.size > ROUGH
+    ]
     if best == GRADUAL:
         failed.append(f"{best.words} is a picture of the hysteresis, no mechanism")
     if found.chosen.values.get("speed", 0.0) > SLOW * float(np.max(np.abs(found.fitted.motion.velocity))):
@@ -220,6 +230,7 @@ def _stages(found: Findings) -> tuple[Mapping[str, object], ...]:
          "p": found.missing.p_value, "foretold": found.rich.gain, "in_lines": found.beyond,
          "linear_leaves": _left(found), "nothing_foretells_n": found.rich.left},
         {"stage": "nominate", **{t.structure.words: float(s.mean() ** 0.5) for t, s in found.trials}},
+        {"stage": "beside_the_law", **{run: vars(told) for run, told in found.besides}},
         {"stage": "soft_start", **({} if found.widths is None else vars(found.widths))},
         {"stage": "fit", **found.chosen.values, "travel_of_the_model_m": _model_travel(found.chosen)},
     ]  # fmt: skip
@@ -269,27 +280,31 @@ def _built(spec: MachineSpec, site: Site, found: Findings) -> Built:
 
 
 def reconcile_prescribed(
-    spec: MachineSpec, parts: Sequence[Part], *, seed: int, provenance: Mapping[str, object], assumed: str = ""
+    spec: MachineSpec, held: HeldMotions, *, seed: int, provenance: Mapping[str, object]
 ) -> Report:
     """All steps and the report."""
     site = driven_site(spec)
+    data, parts = held.data[0], parts_of(held.data)
     found = investigate(parts, seed)
     held_out = _held_out(found.outcomes[0], seed)
     reasons = _reasons(found, held_out.gain_low)
     verdict = _verdict(found, reasons)
     name = site.body.name
     machine = _built(spec, site, found)
-    limits = ("The whole resistance is measured in one place: where along its path the play sits cannot be told.",)
+    limits = (
+        *held.remarks,
+        "The whole resistance is measured in one place: where along its path the play sits cannot be told.",
+    )
     something = verdict not in QUIET
     report = Report(
         verdict=verdict,
-        sentence=_sentence(found, verdict, reasons, name),
+        sentence=" ".join([_sentence(found, verdict, reasons, name), *held.remarks]),
         level="driven",
         where=Where(sites=(PlaceWeight(site=name, weight=1.0),) if something else (), limits=limits),
         causes=_causes(found, verdict, reasons, name) if something else (),
         held_out=held_out if something else None,
         force=_force(found, verdict, name),
-        undecidable=(*(_undecidable(found) if something else ()), *((assumed,) if assumed else ())),
+        undecidable=(*(_undecidable(found) if something else ()), *((data.assumed,) if data.assumed else ())),
         next_experiment=NextExperiment(
             sentence="Move it slowly, well below the play and then just beyond it: play and spring then part."
         )
@@ -300,21 +315,4 @@ def reconcile_prescribed(
         pictures=pictures(found),
         provenance={**provenance, "force_channels": machine.channels, "longest_step_s": machine.longest_step_s},
     )
-    return _beside_drift(report, found, parts)
-
-
-def _beside_drift(report: Report, found: Findings, parts: Sequence[Part]) -> Report:
-    """The report with zeros of the force that wander."""
-    faults = []
-    for k, part in enumerate(parts):
-        run = next((r for r in (found.fitted, found.held) if r.name == part.name), None)
-        if run is None or run.drift == 0.0:
-            continue
-        test = f"test {k + 1}" if part.name.startswith("recording") else "test 1"
-        detail = f"{test}: its zero wanders by {run.drift:.2g} of the force's standard deviation"
-        channel = part.data.answer_channel.name
-        faults.append(SensorFault(kind="drift", channel=channel, detail=detail, recordings=(test,)))
-    if not faults:
-        return report
-    told = beside(report, faults)
-    return replace(told, stages=({"stage": "drift", "found": [f.detail for f in faults]}, *report.stages))
+    return beside(report, [*held.faults, *drifting(found, parts)])

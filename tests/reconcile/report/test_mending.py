@@ -31,8 +31,8 @@ def test_a_description_is_corrected_and_nothing_is_recorded_anew() -> None:
     assert "record again before judging" in to_mend(SensorFault(kind="clipped", channel="a"))
 
 
-BESIDE_THE_GATE = {"speed_mismatch", "fixed_tones", "drift", "other_motion", "out_of_step"}
-"""Kinds that later stages tell; the last three where a force is measured (`reconcile.driven`)."""
+BESIDE_THE_GATE = {"speed_mismatch", "fixed_tones", "drift", "other_motion", "out_of_step", "polarity", "sampling_rate"}
+"""Kinds that later stages tell; the last five where a force is measured (`reconcile.driven`)."""
 
 
 def test_no_kind_is_told_that_nobody_finds() -> None:
