@@ -10,7 +10,7 @@ import numpy as np
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.fit import INTERVAL, LED, Fitted, best_fit, descend, fit
-from reconcile.driven.model import Model, Run, errors
+from reconcile.driven.model import Model, Run, errors, held_linear
 from reconcile.driven.motion import moved
 from reconcile.force_law.library import FREE_POWER, Law, mirrored
 from reconcile.force_law.samples import ForceSamples, block_sums, even_blocks

@@ -16,9 +16,9 @@ from reconcile.driven.forced import Analysis, calibrate
 from reconcile.driven.judge import BRANCHES, NOT_ALL, judge
 from reconcile.driven.latent import latent_force
 from reconcile.driven.missing import Missing
-from reconcile.driven.model import LINEAR, Model, ready, simulated
+from reconcile.driven.model import LINEAR, Model, Run, ready, simulated
 from reconcile.driven.motion import moved
-from reconcile.driven.nominate import Nominated, trial
+from reconcile.driven.nominate import Nominated, free_power, trial
 from reconcile.driven.settle import Case, faintest_first, renominated, sensitive, settle
 from reconcile.driven.split import order_of_use, parts_of
 from reconcile.force_law.library import CUBIC, DRAG, FRICTION, QUADRATIC
@@ -188,3 +188,17 @@ def test_why_no_law_is_named_is_said(jumping: Analysis) -> None:
     report = answer(OWN, found, seed=0, provenance={})
     assert report.verdict == "unknown_physics"
     assert any("No law is named" in said and "gain not above" in said for said in report.undecidable)
+
+
+@pytest.mark.slow
+def test_an_exponent_is_no_surer_than_two_stretches_agree_on() -> None:
+    def run_of(key: str) -> tuple[Model, Run]:
+        found = calibrate(parts_of([driven_of(r, OWN) for r in pair(key, "m", seed=1, n=4000)])[0])
+        return found.linear.model, found.run
+
+    linear, run = run_of("cubic")
+    final = fit(linear.with_laws((CUBIC,), (0.0,)), run).model
+    alike, other = (free_power(linear, final, run, o) for o in (run, run_of("stops")[1]))
+    assert alike is not None and other is not None
+    assert alike.value == other.value and alike.low < 3.0 < alike.high
+    assert other.high - other.low > 1.2 * (alike.high - alike.low)
