@@ -9,6 +9,7 @@ from dataclasses import replace
 from reconcile.driven.analysis import analyse
 from reconcile.driven.another import beside_baseline
 from reconcile.driven.answer import answer
+from reconcile.driven.base import from_base
 from reconcile.driven.channels import Driven, driven_of
 from reconcile.driven.direction import directed
 from reconcile.driven.faulty import UNIT_NOT_KNOWN, Held, beside, fault_report, held_against
@@ -99,8 +100,8 @@ def _read(
                 given, allowed = f"{theirs.quantity} {theirs.unit}", f"{mine.quantity} {mine.unit}"
                 raise SpecError(Problem(field=where, message=message, given=given, allowed=allowed))
     return (
-        [with_bad(d, m) for d, m in zip(data, several, strict=True)],
-        [with_bad(d, m) for d, m in zip(past, rested, strict=True)],
+        [from_base(with_bad(d, m)) for d, m in zip(data, several, strict=True)],
+        [from_base(with_bad(d, m)) for d, m in zip(past, rested, strict=True)],
         [*several, *rested],
     )
 
