@@ -140,7 +140,8 @@ def reconcile_driven(
             found = analyse(parts_of(held.data), seed, held.rested)
             report = _held_up(answer(spec, found, seed=seed, provenance=provenance), found, held, site, seed)
             report = replace(report, where=replace(report.where, limits=(*report.where.limits, *held.remarks)))
-            shown = proved(findings, held.data, found.published, left_over(report, found) < ROUGH)
+            missing = report.verdict == "unknown_physics"
+            shown = proved(findings, held.data, found.published, left_over(report, found) < ROUGH, missing)
             if share_kept(found.fitted_run) < LEAST_KEPT and shown:
                 report = fault_report([*held.faults, *shown], NOT_JUDGED)
             else:

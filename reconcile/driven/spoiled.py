@@ -92,24 +92,23 @@ def with_bad(data: Driven, found: Mended) -> Driven:
     )
 
 
-def proved(findings: Sequence[Finding], several: Sequence[Driven], model: Model, explained: bool) -> list[SensorFault]:
-    """Faults of input and output that the fitted model confirms; `explained`: what is left is small.
+def proved(
+    findings: Sequence[Finding], several: Sequence[Driven], model: Model, explained: bool, missing: bool = False
+) -> list[SensorFault]:
+    """Faults of input and output that the fitted model confirms; `explained`: what is left is small; `missing`:
+    a force is missing that no law describes.
 
     Where the channel was away the model must be off by much more than elsewhere; what is no number always counts. A
     force that stands at its ends is at fault only where nothing explains the motion that it made; a motion that does,
-    to the last digit, also there: the model that it is held against is then none.
+    to the last digit, where no law describes the force that is missing: the model that it is held against is then none.
     """
     found = []
     for i, data in enumerate(several, 1):
         for one in (f for f in findings if f.fault and f.recording == f"test {i}"):
-            if (
-                one.kind == "clipped"
-                and not explained
-                and one.channel in (data.drive_channel.name, data.answer_channel.name)
-            ):
+            if one.channel == data.drive_channel.name and one.kind == "clipped":
+                wrong = not explained
+            elif one.channel == data.answer_channel.name and one.kind == "clipped" and missing:
                 wrong = True
-            elif one.channel == data.drive_channel.name and one.kind == "clipped":
-                wrong = False
             elif one.channel in (data.drive_channel.name, data.answer_channel.name):
                 still = _still_while_driven(one, data) and not (explained and _foretold(data, model))
                 wrong = one.kind == "not_finite" or still or _worse(data, model)

@@ -135,6 +135,8 @@ def test_a_motion_cut_off_that_nothing_explains_is_at_fault(stiffening: Recordin
     read = mended(replace(stiffening, samples=samples), "test 1")
     given = with_bad(data(read.recording), read)
     model = Model(stiffness=W * W, damping=2 * DAMPING * W, gain=1 / MASS)
-    assert [f.kind for f in proved(read.findings, [given], model, False)] == ["clipped"]
+    assert [f.kind for f in proved(read.findings, [given], model, False, True)] == ["clipped"]
+    bad = Model(stiffness=0.1 * W * W, damping=2 * DAMPING * W, gain=1 / MASS)
+    assert not proved(read.findings, [given], bad, False), "a tank that overflows is cut off too"
     free = mended(stiffening, "test 1")
-    assert not proved(free.findings, [data(stiffening)], model, False)
+    assert not proved(free.findings, [data(stiffening)], model, False, True)
