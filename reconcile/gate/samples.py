@@ -85,13 +85,14 @@ def _of_defect(defect: Defect, label: str, n: int, samples: FloatArray) -> Findi
     """A constant channel is silent at zero and stuck anywhere else; of `samples` (n,), its channel's."""
     share = defect.samples / n
     first = defect.places[0]
-    where = f"{defect.count} stretches, the first at {first.start_s:.6g} to {first.stop_s:.6g} s"
+    several = "one stretch," if defect.count == 1 else f"{defect.count} stretches, the first at"
+    where = f"{several} {first.start_s:.6g} to {first.stop_s:.6g} s"
     kind = KIND[defect.kind]
     finite = np.isfinite(samples)
     if defect.kind == "constant" and samples[finite][0] != 0.0:
         kind = "stuck"
     always = defect.kind in ("not_finite", "constant", "dropout")
-    detail = f"{defect.message}: {share:.3%} of the samples"
+    detail = f"{defect.message}: {_share(share)} of the samples"
     mended = defect.kind == "not_finite" and _short(~finite)
     if mended:
         number = "1 sample is" if defect.samples == 1 else f"{defect.samples} samples are"
@@ -105,6 +106,11 @@ def _of_defect(defect: Defect, label: str, n: int, samples: FloatArray) -> Findi
         where=where,
         fault=not mended and (always or share > MATERIAL_SHARE),
     )
+
+
+def _share(share: float) -> str:
+    """`100 %`, `0.034 %`: three figures."""
+    return f"{np.format_float_positional(100 * share, precision=3, fractional=False, trim='-')} %"
 
 
 def away(samples: FloatArray, sampling_rate_hz: float) -> BoolArray:
@@ -182,7 +188,7 @@ def _piles(samples: FloatArray, name: str, label: str, unit: str) -> list[Findin
                 kind="clipped",
                 channel=name,
                 recording=label,
-                detail=f"{share:.3%} of the samples are piled up at the {end} end of the range",
+                detail=f"{_share(share)} of the samples are piled up at the {end} end of the range",
                 severity=min(1.0, 20 * share),
                 fault=True,
             )

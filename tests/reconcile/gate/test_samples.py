@@ -74,3 +74,17 @@ def test_infinite_samples_are_nowhere_taken_for_a_held_signal(value: object) -> 
     nothing = holed(value, slice(0, N))
     assert [(f.kind, f.fault) for f in sample_findings(nothing, "test 1")] == [("not_finite", True)]
     assert repaired(nothing)[1] == nothing.names[:1]
+
+
+def test_shares_and_stretches_are_said_as_the_reports_say_them() -> None:
+    held = row()
+    held[200:900] = held[200]
+    found = sample_findings(recorded(np.array([np.full(N, 3.3), held, row(2)])), "test 1")
+    assert [(f.kind, f.detail.split(": ")[-1]) for f in found] == [
+        ("stuck", "100 % of the samples"),
+        ("stuck", "0.7 % of the samples"),
+    ]
+    assert all(f.where.startswith("one stretch, ") for f in found)
+    held[5000:5900] = held[5000]
+    (two,) = sample_findings(recorded(np.array([held, row(2)])), "test 1")
+    assert two.where.startswith("2 stretches, the first at ") and two.detail.endswith(": 1.6 % of the samples")
