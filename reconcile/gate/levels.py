@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reconcile.gate.lines import line_changes
+from reconcile.gate.lines import StrongLines, strong_lines
 from reconcile.gate.steps import step_of
 from signals.recording import Recording
 from signals.series import FloatArray, IntArray, Series
@@ -114,8 +114,8 @@ class Pair:
     quiet_baseline: FloatArray
     crest_change: FloatArray
     """(channels, wide bands) dB by which the mean over the quiet moments grew."""
-    lines_db: tuple[FloatArray, ...]
-    """Growth of the baseline's strong lines, of each channel those it has."""
+    lines: tuple[StrongLines, ...]
+    """The baseline's strong lines and what became of them, of each channel those it has."""
     steps_test: tuple[float, ...] = ()
     """Of the values of each channel, its unit; 0 where they have none; empty where nobody looked."""
     steps_baseline: tuple[float, ...] = ()
@@ -124,6 +124,11 @@ class Pair:
     def names(self) -> tuple[str, ...]:
         """Of the channels."""
         return tuple(c.name for c in self.channels)
+
+    @property
+    def lines_db(self) -> tuple[FloatArray, ...]:
+        """Growth of the baseline's strong lines, of each channel those it has."""
+        return tuple(one.change_db for one in self.lines)
 
     @property
     def quiet_change(self) -> FloatArray:
@@ -162,7 +167,7 @@ def pairs(
                 test=np.stack([np.stack([x.mean_db[a], x.floor_db[a]]) for x in now]),
                 baseline=np.stack([np.stack([x.mean_db[b], x.floor_db[b]]) for x in then]),
                 **_quiets(now, then),
-                lines_db=tuple(line_changes(test.series(c.name), base.series(c.name)) for c in channels),
+                lines=tuple(strong_lines(test.series(c.name), base.series(c.name)) for c in channels),
                 steps_test=tuple(step_of(test.series(c.name).samples) for c in channels),
                 steps_baseline=tuple(step_of(base.series(c.name).samples) for c in channels),
                 impacts=np.stack([x.kurtosis[a] - y.kurtosis[b] for x, y in zip(now, then, strict=True)]),

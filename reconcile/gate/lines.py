@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -35,12 +36,27 @@ ALIKE = 2.0 / 3.0
 """Share of the channels that must agree, two at least: a fault may drown or raise the lines of one."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class StrongLines:
+    """The strongest lines of a baseline, (lines,): frequency, growth, and that of the noise under each."""
+
+    hz: FloatArray
+    change_db: FloatArray
+    floor_db: FloatArray
+
+
 def line_changes(test: Series, baseline: Series) -> FloatArray:
     """Growth, dB, of the baseline's strongest lines, (lines,): of the largest amplitude near each, so at least."""
-    excess, step = line_excess(baseline)
+    return strong_lines(test, baseline).change_db
+
+
+def strong_lines(test: Series, baseline: Series) -> StrongLines:
+    """The same with where they are and what the noise did there."""
+    (excess, step), (excess_now, step_now) = line_excess(baseline), line_excess(test)
     before, after = amplitude_spectrum(baseline).values, amplitude_spectrum(test)
     tiny = np.finfo(np.float64).tiny
-    found: list[float] = []
+    wider = 10 * float(np.log10(step_now / step))  # of bins, which hold as much more noise
+    found: list[tuple[float, float, float]] = []
     left = excess.copy()
     while len(found) < MOST_LINES and left.max(initial=0.0) >= STRONG:
         top = int(np.argmax(left))
@@ -50,8 +66,12 @@ def line_changes(test: Series, baseline: Series) -> FloatArray:
         low = int((hz - width) / after.resolution_hz) - REACH_BINS
         near = after.values[max(1, low) : int((hz + width) / after.resolution_hz) + REACH_BINS + 1]
         if near.size:
-            found.append(20 * float(np.log10((np.max(near) + tiny) / (before[top] + tiny))))
-    return np.array(found)
+            now = max(1, low) + int(np.argmax(near))
+            change = 20 * float(np.log10((np.max(near) + tiny) / (before[top] + tiny)))
+            over = 10 * float(np.log10((excess_now[min(now, excess_now.size - 1)] + tiny) / excess[top]))
+            found.append((hz, change, change - over - wider))
+    rows = np.array(found).reshape(-1, 3)
+    return StrongLines(hz=rows[:, 0], change_db=rows[:, 1], floor_db=rows[:, 2])
 
 
 def denied(gain_db: float, changes: FloatArray) -> bool:

@@ -14,6 +14,6 @@ from tests.reconcile.remembered import Once
 def levels_once() -> Iterator[None]:
     """Most tests hold new signals against the same baselines."""
     with pytest.MonkeyPatch.context() as patched:
-        for name in ("channel_levels", "line_changes"):
+        for name in ("channel_levels", "strong_lines"):
             patched.setattr(levels, name, Once(getattr(levels, name)))
         yield

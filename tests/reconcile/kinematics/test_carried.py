@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.gate.levels import Pair
+from reconcile.gate.lines import StrongLines
 from reconcile.kinematics import carried as room
 from reconcile.kinematics.carried import shared, told_open
 from reconcile.verdict import PlaceWeight
@@ -18,6 +19,7 @@ BANDS, WIDE = 40, 17
 CHANNELS = tuple(
     Channel(name=f"a{k}", quantity="acceleration", unit="m/s^2", location=f"b{k}", axis="y") for k in range(2)
 )
+NO_LINES = StrongLines(hz=np.zeros(0), change_db=np.zeros(0), floor_db=np.zeros(0))
 PLACES = (PlaceWeight(site="b0", weight=0.9), PlaceWeight(site="b1", weight=0.1))
 
 
@@ -42,7 +44,7 @@ def pair(apart: float, raised: float, seed: int = 0, steps: tuple[float, float] 
         quiet_test=near(wide + rise[:, :WIDE]),
         quiet_baseline=near(wide),
         crest_change=np.zeros((2, WIDE)),
-        lines_db=(np.zeros(0), np.zeros(0)),
+        lines=(NO_LINES, NO_LINES),
         steps_test=steps,
         steps_baseline=steps,
     )
