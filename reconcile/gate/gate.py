@@ -13,6 +13,7 @@ from reconcile.gate.compare import compared, swap_order
 from reconcile.gate.copied import copy_findings
 from reconcile.gate.filtered import below_the_corner, filter_findings
 from reconcile.gate.findings import Finding, Gate, worst
+from reconcile.gate.harmonic import harmonic_findings
 from reconcile.gate.levels import pairs
 from reconcile.gate.loops import loop_findings
 from reconcile.gate.mains import hum_findings, without_hum
@@ -120,6 +121,10 @@ def _analysed(
     clean = [without_hum(r, e) if label in hummed else r for r, e, label in zip(clean, expected, labels, strict=True)]
     bases, tests = clean[:cut], clean[cut:]
     if all(s is not None for s in speeds):
+        hums = {f.channel for f in found if f.kind == "mains_hum" and f.fault}
+        before = list(zip(bases, hertz[:cut], strict=True))
+        alone, tests = harmonic_findings(tests, labels[cut], hertz[cut:], expected[cut:], before, hums)
+        found += alone
         tones, tests = tone_findings(tests, labels[cut:], hertz[cut:], expected[cut:], bases)
         found += tones
         clean = [*bases, *tests]

@@ -69,8 +69,11 @@ def _pulls(lines_hz: Sequence[float]) -> bool:
     return any(bool(np.all(np.min(np.abs(found[:, None] / m - PULLS), axis=1) < EVEN)) for m in MAINS_HZ)
 
 
-def hum_lines(recording: Recording, channel: str, expected_hz: FloatArray) -> list[tuple[float, float]]:
-    """(frequency in Hz, peak amplitude) of the lines at multiples of one mains frequency that are not expected."""
+def hum_lines(
+    recording: Recording, channel: str, expected_hz: FloatArray, *, alone: bool = False
+) -> list[tuple[float, float]]:
+    """(frequency in Hz, peak amplitude) of the lines at multiples of one mains frequency that are not expected;
+    `alone`: without the first or second multiple too."""
     series = recording.series(channel)
     excess, resolution = line_excess(series)
     spectrum = amplitude_spectrum(series)
@@ -95,7 +98,7 @@ def hum_lines(recording: Recording, channel: str, expected_hz: FloatArray) -> li
         lines = _of_one_supply(rows, mains, resolution)
         # hum without its fundamental or the magnetic pull at twice is some machine's line that happens to be there
         strong = any(abs(hz - mains * k) <= TOLERANCE * mains * k + resolution for hz, _ in lines for k in (1, 2))
-        if strong and sum(a for _, a in lines) > sum(a for _, a in best):
+        if (strong or alone) and sum(a for _, a in lines) > sum(a for _, a in best):
             best = lines
     return best
 
