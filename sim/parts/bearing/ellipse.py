@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 from scipy.special import ellipe, ellipk
 
@@ -45,6 +46,7 @@ def curvature_difference(axis_ratio: float) -> float:
     return ((axis_ratio**2 + 1) * e - 2 * k) / (excess * e)
 
 
+@lru_cache(maxsize=256)
 def contact_ellipse(difference: float) -> ContactEllipse:
     """Contact ellipse of bodies with curvature difference F(rho) in [0, 1)."""
     top = curvature_difference(math.exp(LOG_RATIO_HIGH))
