@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -29,10 +30,11 @@ def compressed(matrices: Sequence[FloatArray]) -> tuple[IntArray, IntArray, Floa
 
     Lanes that share a matrix are told by its identity.
     """
-    used = np.logical_or.reduce([matrix != 0 for matrix in {id(m): m for m in matrices}.values()])
-    row, column = np.nonzero(used)
-    value = np.stack([matrix[row, column] for matrix in matrices], axis=-1)
-    pointer = np.concatenate([[0], np.cumsum(np.bincount(row, minlength=used.shape[0]))])
+    distinct = {id(m): m for m in matrices}
+    row, column = np.nonzero(np.logical_or.reduce([matrix != 0 for matrix in distinct.values()]))
+    taken = {key: matrix[row, column] for key, matrix in distinct.items()}
+    value = np.stack([taken[id(matrix)] for matrix in matrices], axis=-1)
+    pointer = np.concatenate([[0], np.cumsum(np.bincount(row, minlength=matrices[0].shape[0]))])
     return pointer.astype(np.int64), column.astype(np.int64), value
 
 
@@ -48,16 +50,46 @@ class Blocks:
     first: IntArray
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Packing:
+    """How one product is packed, its blocks counted from its own first column and value: `entry` (entries,) places of
+    the compressed values in the order in which a step reads them."""
+
+    block: IntArray
+    column: IntArray
+    entry: IntArray
+
+
 def _alike(pointer: IntArray, column: IntArray) -> list[list[int]]:
-    """Rows of one product, in blocks of `ROWS` that have entries in the same columns, or alone."""
+    """Rows of one product that have entries in the same columns."""
     groups: dict[bytes, list[int]] = {}
     for row, (start, end) in enumerate(pairwise(pointer.tolist())):
         groups.setdefault(column[start:end].tobytes(), []).append(row)
-    found = []
-    for rows in groups.values():
+    return list(groups.values())
+
+
+@lru_cache(maxsize=64)
+def _packing(pointers: bytes, columns: bytes) -> _Packing:
+    """Of rows with these entries, in blocks of `ROWS` of the same columns, or alone. Machines of one structure, and one
+    machine with other numbers, have the same."""
+    pointer, column = np.frombuffer(pointers, dtype=np.int64), np.frombuffer(columns, dtype=np.int64)
+    heads, taken, entries = [], [], []
+    at_column = at_value = 0
+    for rows in _alike(pointer, column):
+        start, count = pointer[rows], int(pointer[rows[0] + 1] - pointer[rows[0]])
         whole = len(rows) // ROWS * ROWS
-        found += [rows[k : k + ROWS] for k in range(0, whole, ROWS)] + [[row] for row in rows[whole:]]
-    return found
+        for size, first in ((ROWS, start[:whole]), (1, start[whole:])):
+            # (blocks, entries of a row, rows)
+            entries.append((first.reshape(-1, 1, size) + np.arange(count)[:, np.newaxis]).ravel())
+        for block in [*(rows[k : k + ROWS] for k in range(0, whole, ROWS)), *([row] for row in rows[whole:])]:
+            heads.append([*block, *[-1] * (ROWS - len(block)), at_column, at_column + count, at_value, 0])
+            taken.append(column[start[0] : start[0] + count])
+            at_column, at_value = at_column + count, at_value + count * len(block)
+    return _Packing(
+        block=np.array(heads, dtype=np.int64).reshape(-1, HEAD),
+        column=np.concatenate(taken),
+        entry=np.concatenate(entries),
+    )
 
 
 def blocks(products: Sequence[Sequence[FloatArray]]) -> Blocks:
@@ -66,16 +98,14 @@ def blocks(products: Sequence[Sequence[FloatArray]]) -> Blocks:
     at_column = at_value = 0
     for matrices in products:
         pointer, column, value = compressed(matrices)
-        for rows in _alike(pointer, column):
-            spans = [slice(pointer[row], pointer[row + 1]) for row in rows]
-            columns.append(column[spans[0]])
-            values.append(np.stack([value[span] for span in spans], axis=1).reshape(-1, value.shape[1]))
-            end = at_column + columns[-1].size
-            heads.append([*rows, *[-1] * (ROWS - len(rows)), at_column, end, at_value, 0])
-            at_column, at_value = end, at_value + values[-1].shape[0]
-        first.append(len(heads))
+        packing = _packing(pointer.tobytes(), column.tobytes())
+        heads.append(packing.block + np.array([*[0] * ROWS, at_column, at_column, at_value, 0]))
+        columns.append(packing.column)
+        values.append(value[packing.entry])
+        at_column, at_value = at_column + packing.column.size, at_value + packing.entry.size
+        first.append(first[-1] + len(packing.block))
     return Blocks(
-        block=np.array(heads, dtype=np.int64).reshape(-1, HEAD),
+        block=np.concatenate(heads),
         column=np.concatenate(columns),
         value=np.concatenate(values),
         first=np.array(first, dtype=np.int64),
