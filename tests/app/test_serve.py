@@ -23,7 +23,6 @@ from tests.service.parts import QUICK, eventually
 from tests.service.server import serve
 
 pytestmark = pytest.mark.slow
-SHARED = pytest.mark.xdist_group("served")
 
 
 @contextmanager
@@ -55,14 +54,6 @@ def gone(processes: list[psutil.Process]) -> bool:
     return not any(p.is_running() and p.status() != psutil.STATUS_ZOMBIE for p in processes)
 
 
-@pytest.fixture(scope="module")
-def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Path, httpx.Client]]:
-    """A service that the tests of its group leave running, and its folder."""
-    folder = tmp_path_factory.mktemp("running")
-    with serving(folder) as (_, client):
-        yield folder, client
-
-
 def stopped(server: Forked, client: httpx.Client, kind: signal.Signals, seed: int) -> tuple[str, str]:
     """A job that was running and one that was waiting when this signal came; no process is left."""
     running = submit(client, "sleep=60;deaf", seed=seed)
@@ -83,44 +74,69 @@ def kept(client: httpx.Client, running: str, waiting: str) -> None:
     eventually(lambda: status(client, waiting) == "successful")
 
 
-def test_stopping_ends_everything_and_keeps_the_jobs(tmp_path: Path) -> None:
-    with serving(tmp_path) as (server, client):
+def killed(server: Forked, client: httpx.Client) -> str:
+    """A job that was running when the server was killed; no process is left."""
+    job_id = submit(client, "sleep=2;deaf", seed=20)
+    eventually(lambda: status(client, job_id) == "running")
+    family = psutil.Process(server.pid).children(recursive=True)
+    server.kill()
+    server.wait()
+    eventually(lambda: gone(family), within_s=15)
+    return job_id
+
+
+@pytest.fixture(scope="module")
+def hurt(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """A folder whose services were stopped by SIGTERM, stopped by SIGINT and killed, and the job of the last: nothing
+    of the first two was left behind or lost."""
+    folder = tmp_path_factory.mktemp("hurt")
+    with serving(folder) as (server, client):
         first = stopped(server, client, signal.SIGTERM, seed=0)
-    with serving(tmp_path) as (server, client):
+    with serving(folder) as (server, client):
         kept(client, *first)
         second = stopped(server, client, signal.SIGINT, seed=10)
-    with serving(tmp_path) as (_, client):
+    with serving(folder) as (server, client):
         kept(client, *second)
+        return folder, killed(server, client)
 
 
-@SHARED
+@pytest.fixture(scope="module")
+def running(hurt: tuple[Path, str]) -> Iterator[tuple[Path, httpx.Client]]:
+    """The service after these, which the tests leave running, and its folder: to start one takes seconds of a core."""
+    folder, _ = hurt
+    with serving(folder) as (_, client):
+        yield folder, client
+
+
+def test_stopped_and_killed_servers_leave_nothing_behind_and_lose_nothing(
+    hurt: tuple[Path, str], running: tuple[Path, httpx.Client]
+) -> None:
+    _, job_id = hurt
+    _, client = running
+    eventually(lambda: status(client, job_id) == "successful", within_s=30)
+
+
+def busy(client: httpx.Client) -> list[psutil.Process]:
+    """Workers that say so and are there: those of a service that was killed are told until their lease ends."""
+    told = [w["pid"] for w in client.get("/v1/health").json()["workers"] if w["state"] == "busy"]
+    there = [psutil.Process(pid) for pid in told if psutil.pid_exists(pid)]
+    return [process for process in there if not gone([process])]
+
+
 def test_killed_worker_is_replaced_and_its_job_done(running: tuple[Path, httpx.Client]) -> None:
     _, client = running
-    job_id = submit(client, "sleep=2")
+    job_id = submit(client, "sleep=2", seed=30)
     eventually(lambda: status(client, job_id) == "running")
-    eventually(lambda: client.get("/v1/health").json()["workers"][0]["state"] == "busy")
-    psutil.Process(client.get("/v1/health").json()["workers"][0]["pid"]).kill()
+    eventually(lambda: len(busy(client)) == 1)
+    busy(client)[0].kill()
     eventually(lambda: status(client, job_id) == "successful")
     assert client.get(f"/v1/jobs/{job_id}").json()["attempt"] == 2
-
-
-def test_killed_server_leaves_nothing_behind_and_loses_nothing(tmp_path: Path) -> None:
-    with serving(tmp_path) as (server, client):
-        job_id = submit(client, "sleep=2;deaf")
-        eventually(lambda: status(client, job_id) == "running")
-        family = psutil.Process(server.pid).children(recursive=True)
-        server.kill()
-        server.wait()
-        eventually(lambda: gone(family), within_s=15)
-    with serving(tmp_path) as (_, client):
-        eventually(lambda: status(client, job_id) == "successful", within_s=30)
 
 
 def not_refused(_: Settings) -> FastAPI:
     raise AssertionError("a second server was about to serve")
 
 
-@SHARED
 def test_second_server_on_the_same_folder_or_port_is_refused(
     running: tuple[Path, httpx.Client], tmp_path: Path
 ) -> None:
