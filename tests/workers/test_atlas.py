@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import httpx
@@ -33,12 +32,12 @@ pytestmark = [pytest.mark.slow, pytest.mark.long]
 RATE_HZ = 20_480.0
 
 
-@pytest.fixture
-def service(tmp_path: Path) -> Iterator[Callable[[], Parts]]:
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[], Parts]]:
     opened: list[Parts] = []
 
     def one_more() -> Parts:
-        opened.append(open_parts(tmp_path / f"service{len(opened)}"))
+        opened.append(open_parts(tmp_path_factory.mktemp("service")))
         return opened[-1]
 
     yield one_more
@@ -92,27 +91,11 @@ def pieces(parts: Parts) -> list[JobRecord]:
     return catalogue.query(JobQuery(kind=PIECE, limit=200))[0]
 
 
-def test_two_workers_make_the_report_of_one(
+@pytest.fixture(scope="module")
+def left(
     service: Callable[[], Parts], recordings: tuple[Recording, Recording]
-) -> None:
-    both, single = service(), service()
-    for parts, names in ((both, ("w1", "w2")), (single, ("w1",))):
-        for name in names:
-            parts.start_worker(name, few.physics)
-    with LiveServer(app_of(both)) as client:
-        shared = report(client, asked(client, recordings))
-        listed = client.get("/v1/jobs").json()["jobs"]
-        assert {job["kind"] for job in listed} == {"reconciliation"}, "its parts are nobody else's business"
-    with LiveServer(app_of(single)) as client:
-        assert report(client, asked(client, recordings)) == shared
-    assert {piece.worker for piece in pieces(both)} == {"w1", "w2"}
-    assert {piece.worker for piece in pieces(single)} == {"w1"}
-    assert {piece.status for piece in pieces(both)} == {Status.SUCCESSFUL}
-
-
-def test_a_killed_leader_loses_its_piece_only(
-    service: Callable[[], Parts], recordings: tuple[Recording, Recording]
-) -> None:
+) -> tuple[dict[str, Any], list[JobRecord], set[str]]:
+    """A report whose leader was killed on the way, the pieces of its atlas, and which of them the leader had made."""
     parts = service()
     first = parts.start_worker("w1", few.physics)
     with LiveServer(app_of(parts)) as client:
@@ -122,7 +105,30 @@ def test_a_killed_leader_loses_its_piece_only(
         first.wait()
         made = {p.id for p in pieces(parts) if p.status is Status.SUCCESSFUL}
         parts.start_worker("w2", few.physics)
-        report(client, address)
-    attempts = {p.id: p.attempt for p in pieces(parts)}
+        return report(client, address), pieces(parts), made
+
+
+def test_two_workers_make_the_report_of_one(
+    service: Callable[[], Parts],
+    recordings: tuple[Recording, Recording],
+    left: tuple[dict[str, Any], list[JobRecord], set[str]],
+) -> None:
+    """Of one at a time: it leads and makes all pieces that are left, alone."""
+    alone, _, _ = left
+    both = service()
+    for name in ("w1", "w2"):
+        both.start_worker(name, few.physics)
+    with LiveServer(app_of(both)) as client:
+        assert report(client, asked(client, recordings)) == alone
+        listed = client.get("/v1/jobs").json()["jobs"]
+        assert {job["kind"] for job in listed} == {"reconciliation"}, "its parts are nobody else's business"
+    assert {piece.worker for piece in pieces(both)} == {"w1", "w2"}
+    assert {piece.status for piece in pieces(both)} == {Status.SUCCESSFUL}
+
+
+def test_a_killed_leader_loses_its_piece_only(left: tuple[dict[str, Any], list[JobRecord], set[str]]) -> None:
+    _, found, made = left
+    attempts = {p.id: p.attempt for p in found}
     assert {attempts[piece_id] for piece_id in made} == {1} and sorted(attempts.values())[-1] <= 2
     assert sum(attempt > 1 for attempt in attempts.values()) <= 1, "what was finished is used again"
+    assert {p.worker for p in found if p.id in made} == {"w1"} and {p.worker for p in found} == {"w1", "w2"}
