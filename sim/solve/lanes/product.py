@@ -73,7 +73,7 @@ def _packing(pointers: bytes, columns: bytes) -> _Packing:
     """Of rows with these entries, in blocks of `ROWS` of the same columns, or alone. Machines of one structure, and one
     machine with other numbers, have the same."""
     pointer, column = np.frombuffer(pointers, dtype=np.int64), np.frombuffer(columns, dtype=np.int64)
-    heads, taken, entries = [], [], []
+    heads, taken, entries = [], [np.empty(0, dtype=np.int64)], [np.empty(0, dtype=np.int64)]  # a product may be empty
     at_column = at_value = 0
     for rows in _alike(pointer, column):
         start, count = pointer[rows], int(pointer[rows[0] + 1] - pointer[rows[0]])
