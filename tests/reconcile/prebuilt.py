@@ -21,6 +21,7 @@ from reconcile.atlas.keep import ATLAS_VERSION, atlas_key
 from reconcile.atlas.places import simulated_channel, standard_channels
 from reconcile.atlas.plan import AtlasPlan, Point, atlas_plan, with_tooth_pairs
 from reconcile.calibrate.uncertain import uncertain_numbers
+from reconcile.machine.local import LANES
 from signals.series import FloatArray
 from sim.core.response import Channel
 from sim.core.spec import MachineSpec
@@ -150,8 +151,10 @@ def stale(now: Wanted) -> str | None:
 
 
 def deviation_db(now: Wanted, task: int) -> dict[str, float]:
-    """Median deviation of levels simulated today from the stored ones, for one task of the plan."""
+    """Median deviation of levels simulated today from the stored ones, for one task of the plan: as many of its
+    machines as vector lanes hold."""
     chosen = tasks(now.plan, now.point, now.channels)[task]
+    chosen = replace(chosen, draws=chosen.draws[:LANES])
     bank = Bank.from_bytes(now.bank.read_bytes()).at(chosen.draws, range(len(now.stored)))
     places = list(now.stored)
     today = run_task(chosen)

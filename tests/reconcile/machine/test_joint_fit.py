@@ -17,6 +17,7 @@ from sim.presets import preset
 from sim.solve.api import simulate
 from sim.solve.settings import Settings
 from tests.reconcile import prebuilt
+from tests.reconcile.few import BUDGET
 from tests.reconcile.machine.test_reconcile_machine import RATE_HZ, SETTLE_S
 from tests.reconcile.remembered import Simulated
 
@@ -68,7 +69,7 @@ def measured(machine: MachineSpec, speed_hz: float, seed: int) -> Recording:
 @pytest.mark.long
 @pytest.mark.xdist_group("reconcile-machine")
 def test_a_loose_seat_is_named_and_the_revised_machine_is_the_one_that_fits_with_it(
-    simulated: Simulated, tmp_path: Path
+    simulated: Simulated, tmp_path: Path, few_machines: None
 ) -> None:
     nominal = preset("paper-lightly-damped")
     numbers = uncertain_numbers(nominal)
@@ -80,6 +81,7 @@ def test_a_loose_seat_is_named_and_the_revised_machine_is_the_one_that_fits_with
         nominal,
         [measured(loose, hz, 610 + k) for k, hz in enumerate(SPEEDS_HZ)],
         [measured(real, hz, 600 + k) for k, hz in enumerate(SPEEDS_HZ)],
+        budget=BUDGET,
         keeper=prebuilt.kept(wanted(), tmp_path),
         mapper=simulated,
         nominated=NOMINATED,

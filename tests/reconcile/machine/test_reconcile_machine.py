@@ -27,6 +27,7 @@ from sim.presets import preset
 from sim.solve.api import simulate
 from sim.solve.settings import Settings
 from tests.reconcile import prebuilt
+from tests.reconcile.few import BUDGET
 from tests.reconcile.remembered import Simulated
 
 RATE_HZ = 20480.0
@@ -101,6 +102,7 @@ def test_a_hidden_spall_is_found(
     baseline: Recording,
     atlas: prebuilt.Kept,
     simulated: Simulated,
+    few_machines: None,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     placed: list[tuple[Report, tuple[object, ...]]] = []
@@ -120,6 +122,7 @@ def test_a_hidden_spall_is_found(
         nominal,
         [test],
         [baseline],
+        budget=BUDGET,
         keeper=atlas,
         mapper=simulated,
         nominated=NOMINATED,
@@ -181,7 +184,9 @@ def simulated_as_drawn(machine: MachineSpec, report: Report) -> None:
 
 @pytest.mark.slow
 @pytest.mark.xdist_group("reconcile-machine")
-def test_the_same_machine_again_misses_nothing(baseline: Recording, atlas: prebuilt.Kept, simulated: Simulated) -> None:
+def test_the_same_machine_again_misses_nothing(
+    baseline: Recording, atlas: prebuilt.Kept, simulated: Simulated, few_machines: None
+) -> None:
     nominal = preset("paper-lightly-damped")
     hiss = np.random.default_rng(3).normal(size=baseline.samples.shape) * 1e-3 * baseline.samples.std()
     again = replace(baseline, samples=baseline.samples + hiss)
