@@ -22,6 +22,7 @@ from tests.proof.prebuilt import wanted as wanted_of
 from tests.proof.remembered import Moved
 from tests.proof.small import CASES, NOMINATED, nominal_machine, read_case
 from tests.reconcile import prebuilt
+from tests.reconcile.few import BUDGET, few_machines
 from tests.reconcile.remembered import Simulated
 
 pytestmark = [pytest.mark.slow, pytest.mark.long, pytest.mark.xdist_group("proof-small")]
@@ -48,7 +49,7 @@ def atlas(wanted: prebuilt.Wanted, tmp_path_factory: pytest.TempPathFactory) -> 
 
 @pytest.fixture(scope="module", autouse=True)
 def moved() -> Iterator[None]:
-    with pytest.MonkeyPatch.context() as patched:
+    with few_machines(), pytest.MonkeyPatch.context() as patched:
         patched.setattr(made, "accelerations", Moved())
         yield
 
@@ -68,7 +69,9 @@ def answer(name: str, folder: Path, atlas: prebuilt.Kept, simulated: Simulated) 
     case = CASES[name]
     made.make(case, folder / "cases", folder / "truth")
     machine, tests, baselines = read_case(folder / "cases" / case.name)
-    report = reconcile_recordings(machine, tests, baselines, keeper=atlas, mapper=simulated, nominated=NOMINATED)
+    report = reconcile_recordings(
+        machine, tests, baselines, budget=BUDGET, keeper=atlas, mapper=simulated, nominated=NOMINATED
+    )
     truth = json.loads((folder / "truth" / f"{case.name}.json").read_text(encoding="utf-8"))
     return report, score(truth, json.loads(json.dumps(report.document())))
 

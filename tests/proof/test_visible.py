@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from proof import case as making
 from proof import visible
 from proof.plan import Case, Hiding, plan
 from proof.visible import Visible, measure, stored, told, visibility
+from tests.proof.remembered import Moved
 
 
 def case(value: float) -> Case:
@@ -19,6 +21,13 @@ def case(value: float) -> Case:
     found = next(c for c in plan("dev") if c.group == "single" and len(c.sensors) == 3)
     effect = Hiding(law="loose_seat", site="bearing1", value=value, variant=0)
     return replace(found, effects=(effect,), speeds_hz=(30.0,), snr_db=20.0)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def moved() -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(making, "accelerations", Moved())
+        yield
 
 
 @pytest.mark.slow
