@@ -138,7 +138,7 @@ def _no_numbers(x: np.ndarray) -> None:
 
 
 def _held(x: np.ndarray) -> None:
-    x[5000:5600] = x[5000]
+    x[3000:3600] = x[3000]
 
 
 def _silent(x: np.ndarray) -> None:
@@ -180,7 +180,7 @@ def test_a_law_is_found_beside_a_clipped_motion_and_not_beside_a_clipped_force(s
 @pytest.mark.slow
 def test_a_force_that_was_really_off_for_a_while_is_no_fault() -> None:
     """The pause is in the made force itself, so the motion dies away in it."""
-    one = recording(None, seed=5, noise=0.0)
+    one = recording(None, seed=5, n=9000, noise=0.0)
     force = one.samples[FORCE].copy()
     force[3000:3900] = 0.0
     t = np.arange(force.size) / RATE
