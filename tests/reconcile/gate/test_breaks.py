@@ -11,7 +11,7 @@ from reconcile.gate.breaks import break_findings, breaks
 from reconcile.gate.spoiled import remarks
 from signals.recording import Recording
 from signals.series import FloatArray
-from tests.strategies.impulses import recorded
+from tests.strategies.brief import recorded
 
 N = 48_000
 GAPS = (5_000, 9_100, 15_530, 17_250, 22_000, 26_310, 33_470, 41_200)

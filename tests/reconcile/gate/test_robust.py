@@ -19,7 +19,7 @@ from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from signals.recording import Recording
 from tests.reconcile.gate.test_gate import BASELINES, RATE_HZ, SPEEDS_HZ, machine
 from tests.reconcile.gate.test_units import GRAVITY, judged, scaled
-from tests.strategies.impulses import recorded, sound, train
+from tests.strategies.brief import recorded, sound, train
 
 UNIT_DB = 20 * np.log10(GRAVITY)
 DEFECTS = [0.0, 20.0, 60.0]

@@ -13,7 +13,7 @@ from reconcile.gate.units import edge_unit_gain, even_unit_gain, lowest_share, u
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from signals.recording import Recording
 from tests.reconcile.gate.test_gate import BASELINES, SPEEDS_HZ, machine, trials
-from tests.strategies.impulses import RATE_HZ, recorded, sound, train
+from tests.strategies.brief import RATE_HZ, recorded, sound, train
 
 GRAVITY = 9.80665
 SPEC = read_kinematic_spec(

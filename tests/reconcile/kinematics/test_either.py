@@ -7,7 +7,7 @@ import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.verdict import Report
-from tests.strategies.impulses import recorded, sound, train
+from tests.strategies.brief import recorded, sound, train
 
 pytestmark = pytest.mark.slow
 OUTER, BALL = 5.41, 5.25

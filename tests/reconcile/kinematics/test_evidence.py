@@ -16,7 +16,7 @@ from reconcile.kinematics.families import ties
 from reconcile.kinematics.gears import gear_evidence
 from reconcile.kinematics.judge import HEARD_Z
 from reconcile.kinematics.observe import observe
-from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, sound, train
+from tests.strategies.brief import RATE_HZ, SPEED_HZ, N, recorded, sound, train
 
 SPEC = read_kinematic_spec(
     {"kinematics": {"shafts": [{"name": "shaft"}], "bearings": [{"name": "b", "shaft": "shaft", "catalogue": "6205"}]}}

@@ -12,7 +12,7 @@ from reconcile.kinematics.observe import observe
 from reconcile.kinematics.octaves import odd_lines
 from reconcile.verdict import Report
 from signals.series import FloatArray
-from tests.strategies.impulses import SPEED_HZ, N, recorded, shaft_lines, sound, train
+from tests.strategies.brief import SPEED_HZ, N, recorded, shaft_lines, sound, train
 
 SPEC = read_kinematic_spec(
     {

@@ -11,7 +11,7 @@ import pytest
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.faint import impulsive_report
 from reconcile.kinematics.shafts import Impulsiveness
-from tests.strategies.impulses import N, recorded, sound
+from tests.strategies.brief import N, recorded, sound
 
 FOUND = Impulsiveness(channel="a0", now=9.0, before=0.0, band_hz=(2000.0, 4000.0), label="test 1")
 

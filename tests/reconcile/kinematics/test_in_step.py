@@ -15,7 +15,7 @@ from reconcile.kinematics.observe import Observation, observe
 from reconcile.verdict import Report
 from signals.recording import Recording, Tacho
 from signals.series import FloatArray
-from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded
+from tests.strategies.brief import RATE_HZ, SPEED_HZ, N, recorded
 
 WANDER = 0.001
 

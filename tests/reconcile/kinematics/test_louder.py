@@ -11,7 +11,7 @@ import pytest
 from reconcile.kinematics import faint, read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.vague import LOUDER_DB
 from reconcile.report.action import to_do
-from tests.strategies.impulses import recorded, sound, train
+from tests.strategies.brief import recorded, sound, train
 
 DRAWING = {
     "shafts": [{"name": "shaft", "speed_hz": 24.3}],

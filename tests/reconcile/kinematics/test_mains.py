@@ -13,7 +13,7 @@ from reconcile.kinematics.observe import observe
 from reconcile.verdict import Report
 from signals.recording import Recording
 from signals.series import FloatArray
-from tests.strategies.impulses import RATE_HZ, SECONDS, N, recorded, shaft_lines
+from tests.strategies.brief import RATE_HZ, SECONDS, N, recorded, shaft_lines
 
 SPEC = read_kinematic_spec(
     {

@@ -9,7 +9,7 @@ from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.measured import measured_lines
 from reconcile.kinematics.observe import Observation, observe
-from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, sound, train
+from tests.strategies.brief import RATE_HZ, SPEED_HZ, N, recorded, sound, train
 
 SHAFT = {"name": "shaft"}
 BEARING = {"name": "bearing1", "shaft": "shaft", "catalogue": "6205"}

@@ -14,7 +14,7 @@ from reconcile.kinematics.judge import candidates
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.octaves import octave_of
 from signals.recording import Tacho
-from tests.strategies.impulses import SECONDS, SPEED_HZ, N, recorded, train
+from tests.strategies.brief import SECONDS, SPEED_HZ, N, recorded, train
 
 SPEC = read_kinematic_spec(
     {

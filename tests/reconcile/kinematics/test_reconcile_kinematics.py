@@ -15,7 +15,7 @@ from reconcile.kinematics.families import Family
 from reconcile.kinematics.judge import nearest_drawing, of_the_turn, own_lines
 from reconcile.verdict import NOT_JUDGED
 from sim.core.errors import SpecError
-from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, shaft_lines, sound, train
+from tests.strategies.brief import RATE_HZ, SPEED_HZ, N, recorded, shaft_lines, sound, train
 
 SHAFT = {"name": "shaft"}
 BEARING = {"name": "bearing1", "shaft": "shaft", "catalogue": "6205"}

@@ -9,7 +9,7 @@ from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.series import ShaftSeries, shaft_series
-from tests.strategies.impulses import RATE_HZ, SPEED_HZ, N, recorded, sound
+from tests.strategies.brief import RATE_HZ, SPEED_HZ, N, recorded, sound
 
 SPEC = read_kinematic_spec(
     {

@@ -9,7 +9,7 @@ import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from signals.recording import Recording
-from tests.strategies.impulses import N, recorded, sound, train
+from tests.strategies.brief import N, recorded, sound, train
 
 pytestmark = pytest.mark.slow
 SPEC = read_kinematic_spec(

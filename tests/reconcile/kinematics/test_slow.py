@@ -8,7 +8,7 @@ from scipy.signal import fftconvolve
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.slow import agreement, folded
-from tests.strategies.impulses import RATE_HZ, recorded
+from tests.strategies.brief import RATE_HZ, recorded
 
 SPEED_HZ, SECONDS, TEETH, WHEEL = 20.0, 3.0, 18, 150
 SPEC = read_kinematic_spec(

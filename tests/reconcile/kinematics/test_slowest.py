@@ -10,7 +10,7 @@ from reconcile.kinematics import read_kinematic_spec
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.slowest import short_limits, with_slowest, without_short
 from reconcile.verdict import Cause, Report
-from tests.strategies.impulses import SPEED_HZ, N, recorded, sound
+from tests.strategies.brief import SPEED_HZ, N, recorded, sound
 
 TIE = ties(
     read_kinematic_spec(

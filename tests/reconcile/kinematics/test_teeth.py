@@ -8,7 +8,7 @@ import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.report.action import to_do
-from tests.strategies.impulses import RATE_HZ, recorded
+from tests.strategies.brief import RATE_HZ, recorded
 
 TRUE, WHEEL = 23, 57
 SPEED_HZ, SECONDS = 25.0, 4.0

@@ -14,7 +14,7 @@ from reconcile.kinematics.gears import GearEvidence, gear_evidence
 from reconcile.kinematics.lines import at_half_of_speeds
 from reconcile.kinematics.observe import observe
 from reconcile.kinematics.shafts import shaft_changes
-from tests.strategies.impulses import RATE_HZ, recorded
+from tests.strategies.brief import RATE_HZ, recorded
 
 TEETH, WHEEL = 23, 81
 SECONDS = 1.2

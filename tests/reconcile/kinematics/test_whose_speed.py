@@ -13,7 +13,7 @@ from reconcile.kinematics.whose_speed import check_whose_speeds, of_one_shaft, u
 from reconcile.stated import given
 from signals.recording import Operating, Tacho
 from sim.core.errors import SpecError
-from tests.strategies.impulses import RATE_HZ, recorded
+from tests.strategies.brief import RATE_HZ, recorded
 
 PINION, WHEEL = 21, 64
 SPEED_HZ, SECONDS = 24.52, 4.0
