@@ -24,6 +24,8 @@ LONGEST, SEGMENTS = 4096, 12
 LEAST_FOLLOWS = 0.15
 """Share of the error that must follow the force: it was 0.02 at most on made sound recordings with noise, 0.05 on those
 with a law of the motion, 0.3 and more on those with a second resonance."""
+FARTHEST = 30.0
+"""Logarithm of an angular frequency beyond which a fit that runs off is held."""
 STARTS = 4
 """Strongest places of the response at which a second resonance is begun."""
 APART = 0.05
@@ -69,7 +71,7 @@ def _both(x: FloatArray, omega: FloatArray, order: int) -> ComplexArray:
     """Response of two resonances: logarithm of angular frequency, damping ratio and gain of each."""
     total = np.zeros(omega.size, dtype=np.complex128)
     for own, ratio, gain in (x[:3], x[3:]):
-        w = math.exp(own)
+        w = math.exp(min(max(float(own), -FARTHEST), FARTHEST))  # a fit may run off
         total = total + gain * w * w / (w * w - omega**2 + 2j * ratio * w * omega)
     return np.asarray((1j * omega) ** order * total)
 
