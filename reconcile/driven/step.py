@@ -28,6 +28,8 @@ BESIDE_A_LAW = 0.05
 """Power that an averaged response leaves with the delay, over that without, from which a delay is believed though a
 linear model leaves as much as ever: beside a law, which hardly turns that response. Made oscillators with laws and a
 delay of 2 or 4 samples had at most 0.001, without a delay at least 0.2."""
+FOLLOWS = 0.5
+"""Share of the motion that must follow the force for that: of noise alone an eighth does, of as many segments."""
 PERIODS, A_PERIOD = 2.0, 24
 """Longest delay in natural periods, and delays that are tried in one."""
 DAMPED = 0.002
@@ -40,12 +42,14 @@ UNITS = {"displacement": "m", "velocity": "m/s", "acceleration": "m/s^2"}
 
 @dataclass(frozen=True, kw_only=True)
 class Responded:
-    """Lines of a frequency response: angular frequency, motion over force, its weight, power of the force."""
+    """Lines of a frequency response: angular frequency, motion over force, its weight, power of the force; share of the
+    motion's power that follows the force at these lines."""
 
     omega: FloatArray
     ratio: np.ndarray[tuple[int], np.dtype[np.complex128]]
     weight: FloatArray
     pushed: FloatArray
+    follows: float
 
     def left(self, order: int, delay_s: float) -> float:
         """Power of the motion that a mass on a spring leaves if the motion is of this order and comes so much late."""
@@ -75,7 +79,9 @@ def responded(data: Driven) -> Responded:
     coherence = np.abs(cross[1:]) ** 2 / np.maximum(pushed * moved, 1e-300)
     ratio = cross[1:] / np.maximum(pushed, 1e-300)
     weight = np.where(np.abs(cross[1:]) > 1e-3 * np.abs(cross[1:]).max(), coherence**2, 0.0)
-    return Responded(omega=2.0 * math.pi * frequency[1:], ratio=ratio, weight=weight, pushed=pushed * coherence)
+    follows = float(np.sum(coherence * moved) / max(float(moved.sum()), 1e-300))
+    omega = 2.0 * math.pi * frequency[1:]
+    return Responded(omega=omega, ratio=ratio, weight=weight, pushed=pushed * coherence, follows=follows)
 
 
 def _delay(seen: Responded, one: Look) -> float:
@@ -153,7 +159,8 @@ def stepped(one: Look, recording: str) -> tuple[Look, SensorFault] | None:
     best = min(looks, key=lambda x: x.left, default=one)
     if best.left <= BETTER * one.left:
         return best, _fault(one, best, closer, recording)
-    if late and seen.left(one.data.order, delay) < BESIDE_A_LAW * seen.left(one.data.order, 0.0):
+    least = BESIDE_A_LAW * seen.left(one.data.order, 0.0)
+    if late and seen.follows > FOLLOWS and seen.left(one.data.order, delay) < least:
         straight = look(in_step(one.data, delay))
         return straight, late_fault(straight.data, delay, recording)
     return None

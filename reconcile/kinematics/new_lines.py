@@ -1,7 +1,7 @@
-"""Strong lines of the signal itself that the baseline has not, and that no multiple of a shaft explains.
+"""Strong lines of the signal itself that the baseline has not, and that neither teeth nor a shaft's first turns make.
 
-Whirl of an oil film, a belt, a fan of the next machine, a resonance that is driven: envelopes and the shaft's multiples
-show none of them. What is told is the line, not its cause.
+Whirl of an oil film, a belt, a fan of the next machine, vanes that pass, a resonance that is driven: envelopes and a
+shaft's first three multiples show none of them. What is told is the line, and whose frequency it is, not its cause.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from reconcile.kinematics.vague import LOUDER
 from reconcile.shares import percent
 from reconcile.speed.excess import EXPONENTIAL_MEDIAN, mains_bins, running_median
 from reconcile.verdict import LineChange, NextExperiment, Report, Where
-from signals.series import BoolArray, FloatArray
+from signals.series import FloatArray
 from signals.spectra.amplitude import amplitude_spectrum
 
 GROWTH_DB, SHARE = 20.0, 0.1
@@ -36,9 +36,18 @@ OFF_SHAFT, OFF_BINS = 0.004, 1.2
 """A line whose middle is nearer to a multiple of a shaft, share of the order, or bins, is the shaft's: an exact
 multiple lies within a third of a bin. With four bins two shafts left a third of all orders in records of two seconds.
 """
-PEAK_BINS, FAMILY_BINS = 4, 4.0
-"""A line is the highest of so many bins on either side: what lies nearer to a higher one is its foot; nearer than that
-to a line of a bearing it may be the bearing's."""
+PEAK_BINS = 4
+"""A line is the highest of so many bins on either side: what lies nearer to a higher one is its foot."""
+FIRST = 3
+"""Multiples of a shaft up to which unbalance, misalignment and looseness are told by their own rule."""
+CROWDED = 0.25
+"""Share of a shaft's order from which on any line is near a multiple of it, which says nothing."""
+HALVES = 10.0
+"""Multiples of a shaft up to which half ones are looked at."""
+SIDEBANDS = 3
+"""Pairs of sidebands of a mesh that are the teeth's."""
+BEARING_MULTIPLES = 4
+NO_PART = "No part of the specification makes it."
 LOWEST_BINS = 6
 SAME = 0.01
 """Share by which lines of one train may miss a multiple of the lowest."""
@@ -48,13 +57,17 @@ MOST = 4
 PEAKS = 40
 WHIRL = (0.38, 0.49)
 """Times a shaft's speed at which a journal bearing whirls; looseness and rubs make subharmonics there too."""
+PARTS = {"outer": "the outer race", "inner": "the inner race", "ball": "the balls", "cage": "the cage"}
 TONAL = ("fixed_tones", "alias", "mains_hum")
 AGAIN = NextExperiment(sentence="Record at another speed: it tells whether the line moves with the shaft.")
 
 
 @dataclass(frozen=True, kw_only=True)
 class NewLine:
-    """A line of a channel: frequency, growth over the baseline, share of the channel's power."""
+    """A line of a channel: frequency, growth over the baseline, share of the channel's power.
+
+    `multiple`: of which shaft it is which whole or half multiple; `bearing`: whose frequency it is, in words.
+    """
 
     hz: float
     order: float
@@ -62,6 +75,23 @@ class NewLine:
     growth_db: float
     share: float
     speed_hz: float
+    multiple: tuple[str, float] | None = None
+    bearing: str = ""
+
+    @property
+    def made_by(self) -> str:
+        """What of the specification has this frequency, or what makes such a line, in a sentence."""
+        if self.bearing:
+            alike = (
+                "a wavy ring or balls that differ make such a line without impacts, another source there looks alike"
+            )
+            return f"It is at {self.bearing}: {alike}."
+        if self.multiple is None:
+            return NO_PART
+        shaft, number = self.multiple
+        whole = f"what has {number:.0f} vanes, blades, jaws or poles makes it, of which the specification names none"
+        half = "looseness or a rub makes half multiples"
+        return f"It is {number:g} times the speed of {shaft}: {whole if number.is_integer() else half}."
 
 
 def new_lines(tests: Sequence[Observation], baselines: Sequence[Observation], ties: Ties) -> tuple[NewLine, ...]:
@@ -93,12 +123,12 @@ def new_lines_report(report: Report, found: Sequence[NewLine], ties: Ties) -> Re
     further = sorted({round(one.hz, 1) for one in found if abs(one.hz / first.hz - 1.0) > OFF_SHAFT})
     more = f" (with it {', '.join(f'{hz:.4g}' for hz in further)} Hz)" if further else ""
     size = f"{strongest.growth_db:.0f} dB above the baseline, {percent(strongest.share, 0)} of the power of"
+    cause = f" {likely_cause(first.order, ties)}" if first.made_by == NO_PART else ""
     return replace(
         report,
-        verdict="unknown_physics",
+        verdict="not_decidable" if first.bearing else "unknown_physics",
         sentence=f"A line at {first.hz:.4g} Hz, {first.order:.3g} times the speed of {ties.reference}, is new on "
-        f"{channels}{more}: {size} {strongest.channel}. No part of the specification makes it. "
-        f"{likely_cause(first.order, ties)}",
+        f"{channels}{more}: {size} {strongest.channel}. {first.made_by}{cause}",
         where=Where(
             lines=tuple(
                 LineChange(
@@ -149,20 +179,22 @@ def _of_channel(test: Observation, base: Observation, name: str, ties: Ties) -> 
     over = np.maximum(power - 2.0 * floor, 0.0)
     total = max(float(np.sum(power)), 1e-300)
     peak = (power == maximum_filter1d(power, 2 * PEAK_BINS + 1)) & (power > floor * 10 ** (CLEAR_DB / 10))
-    peak &= ~_known(power.size, step, test, ties)
+    peak &= ~(mains_bins(power.size, step) | (np.arange(power.size) < max(LOWEST_BINS, LOWEST * speed / step)))
     rows: list[NewLine] = []
     for place in np.argsort(-np.where(peak, power, 0.0))[: min(PEAKS, int(peak.sum()))]:
         hz = _middle(over, int(place)) * step
-        if len(rows) == MOST or any(_one_line(hz, one.hz, step) for one in rows) or _of_shaft(hz, step, test, ties):
+        if len(rows) == MOST or any(_one_line(hz, one.hz, step) for one in rows):
             continue
         own, around = (_within(over, hz, step, width) for width in (WIDTH, AROUND))
         places = (hz, hz / speed * base.speed.speed_hz)
         had = max(*(_within(before, at, old_step, BASE_WIDTH) for at in places), 1e-300)
         growth = 10 * float(np.log10(max(own, 1e-300) / had))
-        if own >= SHARE * total and own >= NARROW * around and growth >= GROWTH_DB:
-            rows.append(
-                NewLine(hz=hz, order=hz / speed, channel=name, growth_db=growth, share=own / total, speed_hz=speed)
-            )
+        if own < SHARE * total or own < NARROW * around or growth < GROWTH_DB:
+            continue
+        whose = _whose(hz / speed, step / speed, test.doubt, ties)
+        if whose is not None:
+            line = NewLine(hz=hz, order=hz / speed, channel=name, growth_db=growth, share=own / total, speed_hz=speed)
+            rows.append(replace(line, multiple=whose[0], bearing=whose[1]))
     return rows
 
 
@@ -173,24 +205,38 @@ def _spectrum(one: Observation, name: str) -> tuple[FloatArray, FloatArray, floa
     return power, running_median(power) / EXPONENTIAL_MEDIAN, spectrum.resolution_hz
 
 
-def _of_shaft(hz: float, step: float, test: Observation, ties: Ties) -> bool:
-    """Whether a line is a multiple of a shaft's speed, or half of it."""
-    order = hz / test.speed.speed_hz
-    near = max(OFF_BINS * step / test.speed.speed_hz, (OFF_SHAFT + test.doubt) * order)
-    ratios = ties.shafts.values()
-    return any(abs(order - round(order / r) * r) < near or abs(order - r / 2) < near for r in ratios)
+def _whose(order: float, bin_order: float, doubt: float, ties: Ties) -> tuple[tuple[str, float] | None, str] | None:
+    """The whole multiple of a shaft that a line is, or whose frequency of a bearing it is; None for what other rules
+    tell: teeth with their sidebands, first turns of a shaft, and where any line is near a multiple."""
+    near = max(OFF_BINS * bin_order, (OFF_SHAFT + doubt) * order)
+    for mesh in ties.mesh_orders:
+        for ratio in ties.shafts.values():
+            away = abs(order - max(1, round(order / mesh)) * mesh) / ratio
+            if away < SIDEBANDS + 0.5 and abs(away - round(away)) * ratio < near:
+                return None
+    found: tuple[str, float] | None = None
+    for shaft, ratio in ties.shafts.items():
+        number = round(2.0 * order / ratio) / 2.0
+        if abs(order - number * ratio) >= near or (number > HALVES and not number.is_integer()):
+            continue
+        if (0 < number <= FIRST and (number.is_integer() or number < 1.0)) or near > CROWDED * ratio:
+            return None
+        found = found or (shaft, number)
+    return found, _bearing(order, near, ties) if found is None else ""
 
 
-def _known(size: int, step: float, test: Observation, ties: Ties) -> BoolArray:
-    """Bins of the supply's multiples, of the first two lines of a bearing, and those too low to be a line."""
-    order = np.arange(size) * step / test.speed.speed_hz
-    near = np.maximum(FAMILY_BINS * step / test.speed.speed_hz, (OFF_SHAFT + test.doubt) * order)
-    known = mains_bins(size, step) | (order < LOWEST)
-    known[:LOWEST_BINS] = True
-    for family in ties.families:
-        for k in (1, 2) if family.kind in ("outer", "inner", "ball") else ():
-            known |= np.abs(order - k * family.order) < near + k * family.slip * family.order
-    return np.asarray(known, dtype=np.bool_)
+def _bearing(order: float, near: float, ties: Ties) -> str:
+    """Whose frequency a line is nearest to."""
+    hits = [
+        (k, f)
+        for f in ties.families
+        for k in range(1, BEARING_MULTIPLES + 1)
+        if f.kind in PARTS and abs(order - k * f.order) < near + k * f.slip * f.order
+    ]
+    if not hits:
+        return ""
+    k, family = min(hits, key=lambda hit: abs(order / (hit[0] * hit[1].order) - 1.0))
+    return f"{'' if k == 1 else f'{k} times '}the frequency of {PARTS[family.kind]} of {family.site}"
 
 
 def _middle(power: FloatArray, place: int) -> float:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from reconcile.kinematics.families import Ties, ties
 from reconcile.kinematics.lines import matched
-from reconcile.kinematics.new_lines import SAME, NewLine, likely_cause, lines_of_test
+from reconcile.kinematics.new_lines import NO_PART, SAME, NewLine, likely_cause, lines_of_test
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.spec import of_machine
 from reconcile.machine.direct import DOUBT
@@ -32,7 +32,6 @@ class OwnLine:
     speeds: tuple[int, int]
     lines: tuple[LineChange, ...] = ()
 
-    beside = "no part of this machine's specification makes it"
     would_tell = NextExperiment(
         sentence="Record a run-up: it tells whether the line moves with the shaft, and look for what is not in the "
         "specification - an oil film, a fan, a belt, another machine."
@@ -42,9 +41,16 @@ class OwnLine:
     undecided = ()
 
     @property
+    def beside(self) -> str:
+        """What makes it, at the end of a sentence."""
+        told = self.strongest.made_by
+        return "no part of this machine's specification makes it" if told == NO_PART else told.rstrip(".")
+
+    @property
     def follows(self) -> str:
         """What makes such lines."""
-        return f"No part of the specification makes it. {likely_cause(self.strongest.order, self.tie)}"
+        cause = f" {likely_cause(self.strongest.order, self.tie)}" if self.strongest.multiple is None else ""
+        return f"{self.strongest.made_by}{cause}"
 
     @property
     def text(self) -> str:
@@ -81,11 +87,11 @@ def own_line(machine: MachineSpec, data: Sequence[PointData], channels: Sequence
             continue
         test, base = (_plain(s, f"{k}", channels) for s in (now, then))
         if matched(test, [base]) is not None:
-            found.append(lines_of_test(test, base, tie))
+            found.append(tuple(one for one in lines_of_test(test, base, tie) if not one.bearing))
     every = [one for rows in found for one in rows]
     if not every:
         return None
-    strongest = max(every, key=lambda one: one.share)
+    strongest = max(every, key=lambda one: (one.multiple is None, one.share))  # short records are near some multiple
     like = [[one for one in rows if abs(one.order / strongest.order - 1.0) < SAME] for rows in found]
     seen = sum(bool(rows) for rows in like)
     if 2 * seen < len(found):

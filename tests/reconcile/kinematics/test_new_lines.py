@@ -7,6 +7,8 @@ import pytest
 from scipy.ndimage import gaussian_filter1d
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from reconcile.kinematics.families import ties
+from reconcile.kinematics.new_lines import _whose
 from reconcile.verdict import Report
 from signals.recording import Recording
 from signals.series import FloatArray
@@ -82,3 +84,32 @@ def test_what_is_not_new_or_not_strong_is_none(test: Recording, base: Recording)
 @pytest.mark.slow
 def test_hum_is_left_to_the_gate() -> None:
     assert "is new on" not in told(made(15, hz=150.0), made(16)).sentence
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("order", "verdict", "words"),
+    [
+        (7.0, "unknown_physics", "7 times the speed of shaft: what has 7 vanes, blades, jaws or poles"),
+        (4.5, "unknown_physics", "4.5 times the speed of shaft: looseness or a rub"),
+        (0.396, "not_decidable", "at the frequency of the cage of bearing1"),
+        (3.57, "not_decidable", "at the frequency of the outer race of bearing1"),
+        (10.71, "not_decidable", "at 3 times the frequency of the outer race of bearing1"),
+    ],
+)
+def test_a_line_at_a_frequency_of_the_specification_says_whose_it_is(order: float, verdict: str, words: str) -> None:
+    report = told(made(7, {order: 1.5}), made(8))
+    assert report.verdict == verdict and words in report.sentence
+    assert "No part of the specification" not in report.sentence and "Whirl" not in report.sentence
+
+
+@pytest.mark.slow
+def test_lines_of_teeth_are_another_matter() -> None:
+    geared = {
+        "shafts": [{"name": "in"}, {"name": "out"}],
+        "gears": [{"name": "pinion", "shaft": "in", "teeth": 20}, {"name": "wheel", "shaft": "out", "teeth": 50}],
+        "meshes": [{"name": "mesh1", "gears": ["pinion", "wheel"]}],
+    }
+    tie = ties(read_kinematic_spec({"kinematics": geared}))
+    assert [_whose(order, 0.01, 1e-3, tie) for order in (20.0, 40.0, 19.0, 21.2, 2.0, 0.8)] == [None] * 6
+    assert _whose(9.0, 0.01, 1e-3, tie) == (("in", 9.0), "") and _whose(9.3, 0.01, 1e-3, tie) == (None, "")
