@@ -47,6 +47,7 @@ HALVES = 10.0
 SIDEBANDS = 3
 """Pairs of sidebands of a mesh that are the teeth's."""
 BEARING_MULTIPLES = 4
+WAVY = "a wavy ring or balls that differ"
 NO_PART = "No part of the specification makes it."
 LOWEST_BINS = 6
 SAME = 0.01
@@ -79,19 +80,26 @@ class NewLine:
     bearing: str = ""
 
     @property
+    def open(self) -> bool:
+        """Whether what is outside the specification may make it as well."""
+        return not self.bearing and (self.multiple is None or not self.multiple[1].is_integer())
+
+    @property
     def made_by(self) -> str:
         """What of the specification has this frequency, or what makes such a line, in a sentence."""
         if self.bearing:
-            alike = (
-                "a wavy ring or balls that differ make such a line without impacts, another source there looks alike"
+            what = "balls that differ or a cage out of balance" if "the cage" in self.bearing else WAVY
+            return (
+                f"It is at {self.bearing}: {what} make such a line without impacts, another source there looks alike."
             )
-            return f"It is at {self.bearing}: {alike}."
         if self.multiple is None:
             return NO_PART
         shaft, number = self.multiple
-        whole = f"what has {number:.0f} vanes, blades, jaws or poles makes it, of which the specification names none"
-        half = "looseness or a rub makes half multiples"
-        return f"It is {number:g} times the speed of {shaft}: {whole if number.is_integer() else half}."
+        if number.is_integer():
+            return (
+                f"What has {number:.0f} vanes, blades, jaws or poles on {shaft} makes it; the specification has none."
+            )
+        return f"Looseness or a rub makes such half multiples of the speed of {shaft}."
 
 
 def new_lines(tests: Sequence[Observation], baselines: Sequence[Observation], ties: Ties) -> tuple[NewLine, ...]:
@@ -123,7 +131,7 @@ def new_lines_report(report: Report, found: Sequence[NewLine], ties: Ties) -> Re
     further = sorted({round(one.hz, 1) for one in found if abs(one.hz / first.hz - 1.0) > OFF_SHAFT})
     more = f" (with it {', '.join(f'{hz:.4g}' for hz in further)} Hz)" if further else ""
     size = f"{strongest.growth_db:.0f} dB above the baseline, {percent(strongest.share, 0)} of the power of"
-    cause = f" {likely_cause(first.order, ties)}" if first.made_by == NO_PART else ""
+    cause = f" {likely_cause(first.order, ties)}" if first.open else ""
     return replace(
         report,
         verdict="not_decidable" if first.bearing else "unknown_physics",

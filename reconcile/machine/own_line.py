@@ -49,7 +49,7 @@ class OwnLine:
     @property
     def follows(self) -> str:
         """What makes such lines."""
-        cause = f" {likely_cause(self.strongest.order, self.tie)}" if self.strongest.multiple is None else ""
+        cause = f" {likely_cause(self.strongest.order, self.tie)}" if self.strongest.open else ""
         return f"{self.strongest.made_by}{cause}"
 
     @property

@@ -90,8 +90,8 @@ def test_hum_is_left_to_the_gate() -> None:
 @pytest.mark.parametrize(
     ("order", "verdict", "words"),
     [
-        (7.0, "unknown_physics", "7 times the speed of shaft: what has 7 vanes, blades, jaws or poles"),
-        (4.5, "unknown_physics", "4.5 times the speed of shaft: looseness or a rub"),
+        (7.0, "unknown_physics", "7 times the speed of shaft, is new on a0"),
+        (4.5, "unknown_physics", "Looseness or a rub makes such half multiples"),
         (0.396, "not_decidable", "at the frequency of the cage of bearing1"),
         (3.57, "not_decidable", "at the frequency of the outer race of bearing1"),
         (10.71, "not_decidable", "at 3 times the frequency of the outer race of bearing1"),

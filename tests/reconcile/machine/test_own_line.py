@@ -56,7 +56,15 @@ def test_a_line_of_its_own_is_told(machine: MachineSpec, order: float) -> None:
         assert line.frequency_hz == pytest.approx(order * line.speed_hz, rel=0.02)
 
 
-@pytest.mark.parametrize("adds", [turning(2.0), turning(23 / 81), turning(0.5), steady, turning(1.75, level=0.02)])
+def test_vanes_that_pass_are_told_as_a_multiple_of_the_shaft(machine: MachineSpec) -> None:
+    seen = told(machine, turning(7.0))
+    assert seen is not None and seen.strongest.multiple == ("input", 7.0)
+    assert "7 vanes" in seen.follows and "7 vanes" in seen.beside and "No part" not in seen.follows
+
+
+@pytest.mark.parametrize(
+    "adds", [turning(23.0), turning(2.0), turning(23 / 81), turning(0.5), steady, turning(1.75, level=0.02)]
+)
 def test_what_a_shaft_makes_and_what_is_faint_is_none(machine: MachineSpec, adds: Adds) -> None:
     assert told(machine, adds) is None
 
