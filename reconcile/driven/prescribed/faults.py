@@ -17,6 +17,7 @@ from reconcile.driven.measured import FITS, LEVEL_SHARE, OTHER_GAIN, Scaled, by_
 from reconcile.driven.prescribed.analysis import Findings
 from reconcile.driven.prescribed.fitting import fit_resistance
 from reconcile.driven.prescribed.motion import motion_of
+from reconcile.driven.prescribed.polarity import Signs, feeding_fault, signs
 from reconcile.driven.prescribed.resistance import NONE
 from reconcile.driven.prescribed.runs import START
 from reconcile.driven.split import Part
@@ -35,11 +36,12 @@ LEAST_SPAN_M, LEAST_FORCE_N = 1e-9, 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class Resists:
-    """A recording with the spring and damper that it fits: force over motion, signed, and the share this leaves."""
+    """A recording with the spring and damper that it fits: force over motion, share it leaves, what tells signs."""
 
     data: Driven
     gain: float
     left: float
+    signs: Signs
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,8 +61,9 @@ def resists(data: Driven) -> Resists:
     found = fit_resistance(NONE, motion, data.answer, skip)
     spread = float(data.answer[skip:].std()) or 1.0
     told = float((data.answer - found.error)[skip:].std()) / (float(data.drive[skip:].std()) or 1.0)
-    sign = math.copysign(1.0, found.values["stiffness"])
-    return Resists(data=data, gain=sign * told, left=float(found.error[skip:].std()) / spread)
+    return Resists(
+        data=data, gain=told, left=float(found.error[skip:].std()) / spread, signs=signs(motion, data.answer, found)
+    )
 
 
 def held_motions(
@@ -71,6 +74,7 @@ def held_motions(
     rested, data = [resists(d) for d in baselines[:1]], list[Driven]()
     first = resists(tests[0])
     reference, against = (rested[0], "baseline 1") if rested else (first, "test 1")
+    known = reference.signs.undone() if reference.signs.power < 0 else reference.signs
     for i, test in enumerate(tests):
         one, name, before = first if i == 0 else resists(test), f"test {i + 1}", len(faults)
         found = _scaled(one, reference)
@@ -79,21 +83,20 @@ def held_motions(
             faults.append(found.fault(one.data, name, against))
             factors.add(found.factor)
             undecided |= found.drives is None or len(factors) > 1
-        if _turned(one, reference):
-            faults.append(turned_fault(one.data, name, against))
-            straight = replace(straight, answer=-straight.answer)
         undecided |= not rested and len(faults) > before
+        turned = one.signs.turned(known if rested or i > 0 else None)
+        if turned:
+            fed = one.signs.power < 0
+            faults.append(feeding_fault(one.data, name) if fed else turned_fault(one.data, name, against))
+            straight = replace(straight, answer=-straight.answer)
+            undecided |= not rested and not fed
         data.append(straight)
     return HeldMotions(data=data, faults=[*faults, *shown], remarks=doubted_sizes(data), undecided=undecided)
 
 
-def _turned(one: Resists, reference: Resists) -> bool:
-    return one.gain * reference.gain < 0.0 and max(one.left, reference.left) < FITS
-
-
 def _scaled(one: Resists, reference: Resists) -> Scaled | None:
     """A ratio of units between the forces that two recordings take for a motion."""
-    gain = abs(one.gain / reference.gain) if reference.gain else 0.0
+    gain = one.gain / reference.gain if reference.gain else 0.0
     if gain == 0.0 or abs(math.log(gain)) < math.log(OTHER_GAIN):
         return None
     moved = math.log(float(one.data.drive.std()) / float(reference.data.drive.std()))
