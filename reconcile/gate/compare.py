@@ -15,7 +15,7 @@ from scipy.optimize import linear_sum_assignment
 
 from reconcile.gate.findings import Finding
 from reconcile.gate.levels import Pair
-from reconcile.gate.lines import FLOOR_SHARE, LEAST_LINES, common_unit_gains, denied
+from reconcile.gate.lines import FLOOR_SHARE, LEAST_LINES, common_unit_gains, denied, stayed
 from reconcile.gate.loose import LEVEL_DB, QUIET_DB, loose_findings
 from reconcile.gate.robust import robust_swap_order, robust_unit_gain
 from reconcile.gate.units import edge_unit_gain, even_unit_gain, lowest_share, possible, unit_finding, unit_of
@@ -47,6 +47,7 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
     quantities = [channel.quantity for channel in pairs[0].channels]
     lines = [np.concatenate([p.lines_db[c] for p in pairs]) for c in range(len(names))]
     floors = [float(np.percentile(_all_bands(change, c), FLOOR_SHARE)) for c in range(len(names))]
+    middles = [float(np.median(_all_bands(change, c))) for c in range(len(names))]
     common, edge = common_unit_gains(lines, floors, quantities), edge_unit_gain(change, quantities)
     for c, name in enumerate(names):
         gain, roughly = _gain(change, c), even_unit_gain(change, c, quantities)
@@ -59,6 +60,8 @@ def compared(pairs: Sequence[Pair], tests: Sequence[Recording]) -> tuple[Finding
         unit_gain = edge if by_edge else unit_gain
         likely = gain if gain is not None else unit_gain
         if likely is not None and denied(likely, lines[c]):
+            continue
+        if gain is not None and stayed(gain, c, lines, middles):
             continue
         if gain is not None:
             one = _gain_finding(gain, change, c, name, quantities)

@@ -22,6 +22,9 @@ LEAST_GAIN_DB = 10.0
 """From which on lines are asked: the load changes them by less."""
 SHARE = 0.5
 """Of a gain, that lines must have risen by."""
+LEAST_STAYED, KEPT_DB = 3, 1.5
+"""Strong lines of a channel that together deny any gain; by how much the bands of a channel that tells of the load may
+have changed."""
 LEAST_LINES = 5
 """Of a channel, over all pairs, that say what it did."""
 OFF_DB, SCATTER_DB = 4.0, 4.0
@@ -77,6 +80,22 @@ def strong_lines(test: Series, baseline: Series) -> StrongLines:
 def denied(gain_db: float, changes: FloatArray) -> bool:
     """Whether lines stayed so far behind a gain that something added noise instead. Without lines nothing is denied."""
     return gain_db >= LEAST_GAIN_DB and changes.size > 0 and float(np.median(changes)) < SHARE * gain_db
+
+
+def stayed(gain_db: float, c: int, lines_db: Sequence[FloatArray], bands_db: Sequence[float]) -> bool:
+    """Whether the strong lines of channel `c` stayed where all its bands changed by `gain_db`, of any size and sign:
+    then its noise changed (friction, another machine), not its gain. Few lines, or lines that scatter, say nothing.
+
+    `lines_db`: of each channel the changes of all pairs; `bands_db`: of each channel the median of all bands. Load
+    moves lines too: channels that kept their level tell by how much, where they have lines.
+    """
+    own = lines_db[c]
+    kept = [x for k, x in enumerate(lines_db) if k != c and abs(bands_db[k]) < KEPT_DB and x.size >= LEAST_STAYED]
+    load = float(np.median(np.concatenate(kept))) if kept else 0.0
+    if own.size < LEAST_STAYED:
+        return False
+    low, middle, high = np.percentile(own - load, [25, 50, 75]) / gain_db
+    return bool(middle < SHARE and abs(high - low) < SHARE)
 
 
 def common_unit_gains(
