@@ -101,10 +101,12 @@ def with_strange(report: Report, seen: Strange | None, machine: MachineSpec, hea
     if seen is None:
         return report
     electric = seen.electric and report.fault is not None and report.fault.kind in ELECTRIC
-    lines = (*seen.lines, *report.where.lines)
+    lines, plain = (*seen.lines, *report.where.lines), report
     report = replace(report, stages=(*report.stages, seen.stage))
     unheard = seen.strikes and _struck_unheard(report, heard)
     if not (_open(report) or electric or unheard):
+        if seen.stage["name"] == "own line":  # high multiples of what is named are such lines too
+            return plain
         limits = (*report.where.limits, f"beside this, {seen.text}: {seen.beside}")
         return replace(report, where=replace(report.where, lines=lines, limits=limits))
     sentence = f"Something is missing that no known effect explains: {seen.text}. {seen.follows}"
