@@ -208,7 +208,8 @@ def clocked(one: Look, reference: Look) -> float | None:
     """By how much too high the stated sampling rate is, against a recording of the same oscillator; None: it is not.
 
     A rate wrong by r scales frequency and damping rate by r and the gain by r^(2 - order), which keeps stiffness (of a
-    displacement), damping (of a velocity) or mass (of an acceleration): no mass on another spring does all three.
+    displacement), damping (of a velocity) or mass (of an acceleration). Only an oscillator of which the two other
+    numbers have changed by just these powers of two does the same; the fault says so.
     """
     if max(one.left, reference.left) > FITS or one.model.gain * reference.model.gain == 0.0:
         return None
@@ -227,7 +228,8 @@ def clock_fault(data: Driven, factor: float, recording: str, against: str) -> Se
     stated = 1.0 / data.step_s
     detail = (
         f"{recording}: all frequencies and the damping rate are {factor:.4g} times those of {against}: the sampling "
-        f"rate is {stated / factor:g} Hz, not {stated:g} Hz, or {against} is in error"
+        f"rate is {stated / factor:g} Hz, not {stated:g} Hz, or {against} is in error (mass, damping and stiffness "
+        "changed by just such powers of two would look alike)"
     )
     return SensorFault(kind="sampling_rate", channel="", detail=detail, recordings=(recording,))
 

@@ -16,6 +16,7 @@ from sim.core.response import Channel
 
 RATE = 500.0
 MASS, FREQUENCY, DAMPING = 2.0, 40.0, 0.05
+STIFFNESS = MASS * (2 * math.pi * FREQUENCY) ** 2
 
 
 def multisine(rng: np.random.Generator, n: int, size: float, highest: float = 120.0) -> np.ndarray:

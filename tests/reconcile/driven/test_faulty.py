@@ -20,32 +20,16 @@ from signals.recording import Recording
 from sim.core.errors import SpecError
 from sim.core.response import Channel
 from sim.presets import preset
-from tests.reconcile.driven.made import DAMPING, FREQUENCY, MASS, RATE, recording
+from tests.reconcile.driven.made import DAMPING, FREQUENCY, MASS, RATE, STIFFNESS, recording
 
 SPEC = preset("oscillator")
 W = 2 * np.pi * FREQUENCY
-STIFFNESS = MASS * W**2
 BODY = SPEC.bodies[0].model_copy(
     update={"mass_kg": MASS, "stiffness_y_n_per_m": STIFFNESS, "damping_y_ns_per_m": 2 * DAMPING * W * MASS}
 )
 OWN = SPEC.model_copy(update={"bodies": [BODY]})
 """The machine file of the made oscillator; SPEC is that of another one."""
 FORCE, MOTION = 0, 1
-
-
-@pytest.fixture(scope="module")
-def linear() -> Recording:
-    return recording(None, seed=3, noise=0.005)
-
-
-@pytest.fixture(scope="module")
-def sound() -> Recording:
-    return recording(None, seed=9, noise=0.005)
-
-
-@pytest.fixture(scope="module")
-def stiffening() -> Recording:
-    return recording(lambda x, _v: 0.3 * STIFFNESS * x**3 / 1e-6, seed=3, noise=0.005)
 
 
 def times(one: Recording, row: int, factor: float) -> Recording:

@@ -18,30 +18,14 @@ from reconcile.driven.spoiled import mended, proved, with_bad
 from reconcile.driven.step import BESIDE_A_LAW, responded, stepped
 from signals.recording import Recording
 from sim.presets import preset
-from tests.reconcile.driven.made import DAMPING, FREQUENCY, MASS, RATE, recording
+from tests.reconcile.driven.made import DAMPING, FREQUENCY, MASS, RATE
 
 pytestmark = pytest.mark.slow  # oscillators are integrated
 
 SPEC = preset("oscillator")
 SITE = driven_site(SPEC)
 W = 2 * np.pi * FREQUENCY
-STIFFNESS = MASS * W**2
 MOTION = 1
-
-
-@pytest.fixture(scope="module")
-def linear() -> Recording:
-    return recording(None, seed=3, noise=0.005)
-
-
-@pytest.fixture(scope="module")
-def sound() -> Recording:
-    return recording(None, seed=9, noise=0.005)
-
-
-@pytest.fixture(scope="module")
-def stiffening() -> Recording:
-    return recording(lambda x, _v: 0.3 * STIFFNESS * x**3 / 1e-6, seed=3, noise=0.005)
 
 
 def data(one: Recording) -> Driven:
