@@ -42,6 +42,7 @@ def inspect_measurement(
     *,
     orders: Sequence[float] = (),
     mesh_orders: Sequence[float] = (),
+    shaft_orders: Sequence[float] = (1.0,),
     lowest_order: float = 1.0,
     times: Sequence[Finding] = (),
     seed: int = 0,
@@ -49,8 +50,8 @@ def inspect_measurement(
     """Findings, cleaned recordings and the fault to answer with if nothing else is missing.
 
     `orders`: cycles per revolution of the operating shaft at which the machine has lines (bearings, other shafts);
-    `mesh_orders`: teeth of the gears on it; `lowest_order`: of what turns slowest (a cage); `times`: what
-    `time_stamp_findings` said where the files held time stamps.
+    `mesh_orders`: teeth of the gears on it; `shaft_orders`: turns of all shafts; `lowest_order`: of what turns
+    slowest (a cage); `times`: what `time_stamp_findings` said where the files held time stamps.
     """
     if not tests:
         raise SpecError(Problem(field="tests", message="needs at least one recording", given=0, allowed="1 or more"))
@@ -82,7 +83,7 @@ def inspect_measurement(
     copied = copy_findings(clean[len(baselines) :], clean[: len(baselines)], labels[len(baselines) :])
     found += copied
     clean = _without({f.channel for f in copied if f.fault}, clean)
-    return _analysed(clean, labels, len(baselines), found, orders, mesh_orders, lowest_order, seed)
+    return _analysed(clean, labels, len(baselines), found, orders, mesh_orders, shaft_orders, lowest_order, seed)
 
 
 def _without(channels: Collection[str], recordings: Sequence[Recording]) -> list[Recording]:
@@ -98,6 +99,7 @@ def _analysed(
     found: list[Finding],
     orders: Sequence[float],
     mesh_orders: Sequence[float],
+    shaft_orders: Sequence[float],
     lowest_order: float,
     seed: int,
 ) -> Gate:
@@ -113,17 +115,21 @@ def _analysed(
             found += length_findings(recording, label, speed.speed_hz, lowest_order)
             found += speed_findings(speed, label)
     expected = [_expected(hz if s else 0.0, orders, mesh_orders) for hz, s in zip(hertz, speeds, strict=True)]
+    halves = [_halves(hz if s else 0.0, shaft_orders) for hz, s in zip(hertz, speeds, strict=True)]
     for i, recording in enumerate(clean):
-        hum = hum_findings(recording, labels[i], expected[i], clean[:cut] if i >= cut else ())
+        hum = hum_findings(recording, labels[i], expected[i], clean[:cut] if i >= cut else (), halves[i])
         # hum of a baseline is subtracted and explains nothing that a test shows
         found += hum if i >= cut else tuple(replace(f, fault=False) for f in hum)
     hummed = {f.recording for f in found if f.kind == "mains_hum"}
-    clean = [without_hum(r, e) if label in hummed else r for r, e, label in zip(clean, expected, labels, strict=True)]
+    clean = [
+        without_hum(r, e, h) if label in hummed else r
+        for r, e, h, label in zip(clean, expected, halves, labels, strict=True)
+    ]
     bases, tests = clean[:cut], clean[cut:]
     if all(s is not None for s in speeds):
         hums = {f.channel for f in found if f.kind == "mains_hum" and f.fault}
         before = list(zip(bases, hertz[:cut], strict=True))
-        alone, tests = harmonic_findings(tests, labels[cut], hertz[cut:], expected[cut:], before, hums)
+        alone, tests = harmonic_findings(tests, labels[cut], hertz[cut:], expected[cut:], before, hums, halves[cut:])
         found += alone
         tones, tests = tone_findings(tests, labels[cut:], hertz[cut:], expected[cut:], bases)
         found += tones
@@ -165,6 +171,12 @@ def _expected(speed_hz: float, orders: Sequence[float], mesh_orders: Sequence[fl
         k * z + n for z in mesh_orders for k in range(1, MESH_HARMONICS + 1) for n in range(-SIDEBANDS, SIDEBANDS + 1)
     ]
     return np.asarray(sorted(set(lines)), dtype=np.float64) * speed_hz
+
+
+def _halves(speed_hz: float, shaft_orders: Sequence[float]) -> FloatArray:
+    """Half multiples of the shafts, shape (lines,), Hz: what something loose makes."""
+    odd = np.arange(SHAFT_HARMONICS) + 0.5
+    return np.outer(np.asarray(shaft_orders, dtype=np.float64), odd).ravel() * max(speed_hz, 0.0)
 
 
 def _only_new(found: Sequence[Finding]) -> tuple[Finding, ...]:

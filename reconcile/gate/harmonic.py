@@ -12,7 +12,7 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from reconcile.gate.findings import Finding
-from reconcile.gate.mains import MAINS_HZ, MATERIAL_SHARE, SUPPLY, TOLERANCE, hum_lines, power_at
+from reconcile.gate.mains import MAINS_HZ, MATERIAL_SHARE, SUPPLY, TOLERANCE, hum_lines, near_half, power_at
 from reconcile.gate.sines import without_sines
 from reconcile.gate.tones import Heard
 from reconcile.shares import percent
@@ -35,16 +35,17 @@ def harmonic_findings(
     expected_hz: Sequence[FloatArray],
     baselines: Sequence[tuple[Recording, float]],
     told: Collection[str] = (),
+    halves_hz: Sequence[FloatArray] = (),
 ) -> tuple[tuple[Finding, ...], list[Recording]]:
     """One `mains_hum` a channel, and the tests without the lines; `baselines`: with their speeds, Hz; `told`: the
-    channels whose hum is found. Nothing is claimed without a baseline: a line that was always there may be the
-    machine's."""
+    channels whose hum is found; `halves_hz`: half multiples of the shafts at each test, which alone are no hum.
+    Nothing is claimed without a baseline: a line that was always there may be the machine's."""
     found, clean = [], list(tests)
     for name in tests[0].names:
         before = [(one, hz) for one, hz in baselines if name in one.names]
         if name in told or not before or any(name not in one.names for one in tests):
             continue
-        lines = _new_lines(tests, name, speeds_hz, expected_hz, before)
+        lines = _new_lines(tests, name, speeds_hz, expected_hz, before, halves_hz)
         share = min((_share(one, name, lines) for one in tests), default=0.0) if lines else 0.0
         if share < MATERIAL_SHARE:
             continue
@@ -77,13 +78,15 @@ def _new_lines(
     speeds_hz: Sequence[float],
     expected_hz: Sequence[FloatArray],
     baselines: Sequence[tuple[Recording, float]],
+    halves_hz: Sequence[FloatArray],
 ) -> list[float]:
     """Odd multiples of one supply's frequency, Hz, that every test has as narrow lines and no baseline has."""
     heard = [
         Heard(*line_excess(one.series(name)), hz, own)
         for one, hz, own in zip(tests, speeds_hz, expected_hz, strict=True)
     ]
-    lines = []
+    lines: list[float] = []
+    loose: list[bool] = []
     for hz, _ in hum_lines(tests[0], name, expected_hz[0], alone=True):
         if not _odd(hz):
             continue
@@ -95,7 +98,8 @@ def _new_lines(
         had = max(power_at(b, name, [place]) for b, place in places)
         if own > had * 10 ** (GROWN_DB / 10):
             lines.append(hz)
-    return lines
+            loose.append(any(near_half(p, f, h.step_hz) for p, f, h in zip(at, halves_hz, heard, strict=False) if p))
+    return [] if all(loose) else lines
 
 
 def _odd(hz: float) -> bool:

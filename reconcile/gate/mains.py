@@ -26,17 +26,25 @@ LEAST_SHARE = 0.002
 TOLERANCE = 0.002
 SUPPLY, FINE = 0.0012, 0.25
 """By which a supply's frequency may be off (clocks of recorders with it), and a line's place in bins."""
+HALF_BINS = 1.2
+"""By which a line may miss a half multiple of a shaft's speed."""
+NONE_HZ: FloatArray = np.zeros(0)
 PULLS, EVEN = np.array([2.0, 4.0]), 0.04
 """Multiples of a supply that a motor's pull makes, and by which a line may miss one."""
 
 
 def hum_findings(
-    recording: Recording, label: str, expected_hz: FloatArray, baselines: Sequence[Recording]
+    recording: Recording,
+    label: str,
+    expected_hz: FloatArray,
+    baselines: Sequence[Recording],
+    halves_hz: FloatArray = NONE_HZ,
 ) -> tuple[Finding, ...]:
-    """One `mains_hum` a channel; `expected_hz` (lines,) are the machine's own lines near which nothing is claimed."""
+    """One `mains_hum` a channel; `expected_hz` (lines,) are the machine's own lines near which nothing is claimed,
+    `halves_hz` half multiples of its shafts, which alone are none."""
     found = []
     for name in recording.names:
-        lines = hum_lines(recording, name, expected_hz)
+        lines = hum_lines(recording, name, expected_hz, halves_hz)
         if not lines:
             continue
         power = sum(a**2 / 2 for _, a in lines)
@@ -70,10 +78,15 @@ def _pulls(lines_hz: Sequence[float]) -> bool:
 
 
 def hum_lines(
-    recording: Recording, channel: str, expected_hz: FloatArray, *, alone: bool = False
+    recording: Recording,
+    channel: str,
+    expected_hz: FloatArray,
+    halves_hz: FloatArray = NONE_HZ,
+    *,
+    alone: bool = False,
 ) -> list[tuple[float, float]]:
-    """(frequency in Hz, peak amplitude) of the lines at multiples of one mains frequency that are not expected;
-    `alone`: without the first or second multiple too."""
+    """(frequency in Hz, peak amplitude) of the lines at multiples of one mains frequency that are not expected, one at
+    least no half multiple of a shaft; `alone`: without the first or second multiple too."""
     series = recording.series(channel)
     excess, resolution = line_excess(series)
     spectrum = amplitude_spectrum(series)
@@ -98,9 +111,15 @@ def hum_lines(
         lines = _of_one_supply(rows, mains, resolution)
         # hum without its fundamental or the magnetic pull at twice is some machine's line that happens to be there
         strong = any(abs(hz - mains * k) <= TOLERANCE * mains * k + resolution for hz, _ in lines for k in (1, 2))
-        if (strong or alone) and sum(a for _, a in lines) > sum(a for _, a in best):
+        free = any(not near_half(hz, halves_hz, resolution) for hz, _ in lines)
+        if (strong or alone) and free and sum(a for _, a in lines) > sum(a for _, a in best):
             best = lines
     return best
+
+
+def near_half(hz: float, halves_hz: FloatArray, step_hz: float) -> bool:
+    """Whether a line is at a half multiple of a shaft: looseness and rub make 0.5, 1.5, 2.5 ... times its speed."""
+    return halves_hz.size > 0 and float(np.min(np.abs(halves_hz - hz))) < HALF_BINS * step_hz
 
 
 def _between(power: FloatArray) -> float:
@@ -123,9 +142,9 @@ def _of_one_supply(
     return [(f, a) for k, f, exact, a in near if abs(exact - k * hz / top) <= fine * (1 + k / top)]
 
 
-def without_hum(recording: Recording, expected_hz: FloatArray) -> Recording:
+def without_hum(recording: Recording, expected_hz: FloatArray, halves_hz: FloatArray = NONE_HZ) -> Recording:
     """The recording with sines at its hum lines (frequency refined on the data) fitted and subtracted."""
-    lines = {name: [hz for hz, _ in hum_lines(recording, name, expected_hz)] for name in recording.names}
+    lines = {name: [hz for hz, _ in hum_lines(recording, name, expected_hz, halves_hz)] for name in recording.names}
     return without_sines(recording, lines)
 
 

@@ -101,6 +101,9 @@ def tone_findings(
         tones = fixed_tones(heard)
         beside = beside_tones(heard, tones) if tones else []
         comb = supply_comb(tones, heard[0].step_hz) if tones else None
+        if comb is not None:  # a shaft's own strong lines may stand at some of them
+            tones = [hz for hz in tones if _new(tests, baselines, name, hz)]
+            comb = supply_comb(tones, heard[0].step_hz)
         finding = _told(tests, labels[0], name, tones, beside, baselines, comb)
         if finding is None:
             continue
@@ -118,20 +121,32 @@ def tone_findings(
 
 def fixed_tones(heard: Sequence[Heard]) -> list[float]:
     """Frequencies, Hz, of narrow lines that all tests have at one place and at least two speeds' own lines have not;
-    none where lines meet as often at places that the tests do not share, as in the forest that a pit brings."""
-    found = _staying(heard, 0)
-    chance = float(np.mean([len(_staying(heard, shift)) for shift in ELSEWHERE]))
+    none where lines meet as often at places that the tests do not share, as in the forest that a pit brings.
+
+    A shaft at 25 Hz has its own lines wherever a supply of 50 Hz has: what is free at one other speed only is taken
+    where it is a supply's comb."""
+    found = _more_than_chance(heard, apart=True)
+    if supply_comb(found, heard[0].step_hz) is None:
+        once = _more_than_chance(heard, apart=False)
+        return once if supply_comb(once, heard[0].step_hz) is not None else found
+    return found
+
+
+def _more_than_chance(heard: Sequence[Heard], *, apart: bool) -> list[float]:
+    found = _staying(heard, 0, apart=apart)
+    chance = float(np.mean([len(_staying(heard, shift, apart=apart)) for shift in ELSEWHERE]))
     return found if chance < RARE or len(found) > chance + 3.0 * chance**0.5 else []
 
 
-def _staying(heard: Sequence[Heard], shift: int) -> list[float]:
-    """The lines of the first test, Hz, that the others have so many bins away."""
+def _staying(heard: Sequence[Heard], shift: int, *, apart: bool = True) -> list[float]:
+    """The lines of the first test, Hz, that the others have so many bins away; `apart`: that are not the machine's
+    own at two speeds at least, else at one."""
     found = []
     for hz in heard[0].peaks(PRESENT_DB, narrow=True):
         at = [hz + (shift * h.step_hz if k else 0.0) for k, h in enumerate(heard)]
         places = [h.peak(place, STAY_BINS, PRESENT_DB, narrow=True) for h, place in zip(heard, at, strict=True)]
         free = [h.speed_hz for h, place in zip(heard, at, strict=True) if not h.own(place)]
-        if None not in places and free and max(free) > APART * min(free):
+        if None not in places and free and (not apart or max(free) > APART * min(free)):
             found.append(hz)
     return sorted(found)
 
@@ -151,6 +166,12 @@ def beside_tones(heard: Sequence[Heard], tones: Sequence[float]) -> list[tuple[f
         if None not in met and free and max(free) > APART * min(free):
             found.append((near, away))
     return found
+
+
+def _new(tests: Sequence[Recording], baselines: Sequence[Recording], name: str, hz: float) -> bool:
+    """Whether a tone is stronger in every test than in any baseline."""
+    before = [power_at(one, name, [hz]) for one in baselines if name in one.names]
+    return not before or min(power_at(one, name, [hz]) for one in tests) > max(before) * 10 ** (GROWN_DB / 10)
 
 
 def _told(

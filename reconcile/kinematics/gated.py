@@ -17,6 +17,7 @@ def gated(tests: Sequence[Recording], baselines: Sequence[Recording], tie: Ties,
         tests,
         orders=tuple(f.order for f in tie.families if f.kind != "turn"),
         mesh_orders=tie.mesh_orders,
+        shaft_orders=tuple(tie.shafts.values()),
         lowest_order=tie.lowest_order,
         seed=seed,
     )

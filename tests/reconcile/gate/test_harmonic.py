@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -65,3 +67,30 @@ def test_two_multiples_are_told_as_one_hum() -> None:
     gate = inspect_measurement([sound(1)], [sound(2, hz=150.0, also_hz=250.0)])
     assert told(gate) == [("mains_hum", "a0")]
     assert gate.fault is not None and "150, 250 Hz" in gate.fault.detail
+
+
+def loosened(one: Recording, speed_hz: float, count: int) -> Recording:
+    """The first sensor with lines at 0.5, 1.5 ... times the speed."""
+    rows = one.samples.copy()
+    rows[0] += sum(LINE * np.sin(2 * np.pi * (k + 0.5) * speed_hz * T + k) for k in range(count))
+    return replace(one, samples=rows)
+
+
+@pytest.mark.parametrize("speed", [150.0 / 6.5, 180.0 / 5.5, 20.0])
+def test_half_multiples_of_a_shaft_are_no_hum(speed: float) -> None:
+    loose = sound(2, speed_hz=speed)
+    loose = loosened(loose, speed, 12)
+    assert told(inspect_measurement([sound(1, speed_hz=speed)], [loose])) == []
+
+
+@pytest.mark.parametrize("speed", [150.0 / 6.5, 20.5, 24.3, 29.7])
+def test_hum_beside_half_multiples_is_told_where_others_are_none(speed: float) -> None:
+    loose = sound(2, speed_hz=speed, hz=150.0, also_hz=250.0)
+    loose = loosened(loose, speed, 6)
+    assert told(inspect_measurement([sound(1, speed_hz=speed)], [loose])) == [("mains_hum", "a0")]
+
+
+def test_half_multiples_of_another_shaft_are_no_hum() -> None:
+    base, test = sound(1), sound(2, hz=150.0)
+    own = 150.0 / 7.5 / SPEED_HZ
+    assert told(inspect_measurement([base], [test], shaft_orders=[1.0, own])) == []

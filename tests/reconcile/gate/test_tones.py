@@ -149,3 +149,33 @@ def test_impulses_of_the_supply_are_told_and_taken_out_whole(base: Adds | None) 
         sound = recorded(hz, 10 + k, nothing)
         left = gate.tests[k].samples[0] - sound.samples[0]
         assert np.var(left) < 0.02 * np.var(impulses(TIME, hz, np.random.default_rng(0))), "most of it is gone"
+
+
+def at_supply(speed_hz: float, seed: int, *, struck: bool, turns: int) -> Recording:
+    """A shaft whose multiples are strong, at a steady speed; `struck`: with impulses of the supply."""
+    rng = np.random.default_rng(seed)
+    x = sum(0.6 * np.sin(2 * np.pi * k * speed_hz * TIME + k + seed) for k in range(1, turns + 1))
+    x = x + 0.2 * rng.standard_normal(TIME.size)
+    x = x + 0.5 * impulses(TIME, speed_hz, rng) if struck else x
+    channel = Channel(name="a0", quantity="acceleration", unit="m/s^2", location="bearing1")
+    operating = Operating(shaft="input", speed_hz=speed_hz)
+    return Recording(sampling_rate_hz=RATE_HZ, channels=(channel,), samples=x[None], operating=operating)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("speeds", [(25.0, 31.0), (31.0, 25.0), (25.0, 30.0)])
+@pytest.mark.parametrize("struck", [True, False])
+def test_impulses_of_the_supply_at_a_shaft_of_half_its_rate(speeds: tuple[float, float], struck: bool) -> None:
+    base = [at_supply(hz, k, struck=False, turns=12) for k, hz in enumerate(speeds)]
+    tests = [at_supply(hz, k + 5, struck=struck, turns=12) for k, hz in enumerate(speeds)]
+    own = [np.arange(1, 21) * hz for hz in speeds]
+    found, _ = tone_findings(tests, ["test 1", "test 2"], speeds, own, base)
+    assert [f.where[:5] for f in found] == (["99.97"] if struck else [])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("speeds", [(25.0, 30.0), (25.0, 50.0), (30.0, 60.0), (20.0, 25.0), (25.0, 37.5), (24.7, 29.6)])
+def test_strong_multiples_of_shafts_at_a_supply_s_rates_are_no_tones(speeds: tuple[float, float]) -> None:
+    tests = [at_supply(hz, k, struck=False, turns=60) for k, hz in enumerate(speeds)]
+    own = [np.arange(1, 21) * hz for hz in speeds]
+    assert tone_findings(tests, ["test 1", "test 2"], speeds, own, [])[0] == ()
