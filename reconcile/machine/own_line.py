@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from reconcile.kinematics.families import Ties, ties
 from reconcile.kinematics.lines import matched
-from reconcile.kinematics.new_lines import NO_PART, SAME, NewLine, likely_cause, lines_of_test
+from reconcile.kinematics.new_lines import SAME, NewLine, likely_cause, lines_of_test
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.spec import of_machine
 from reconcile.machine.direct import DOUBT
@@ -32,6 +32,8 @@ class OwnLine:
     speeds: tuple[int, int]
     lines: tuple[LineChange, ...] = ()
 
+    beside = ""
+    """Beside another answer it is not told: high multiples of what is named are such lines too."""
     would_tell = NextExperiment(
         sentence="Record a run-up: it tells whether the line moves with the shaft, and look for what is not in the "
         "specification - an oil film, a fan, a belt, another machine."
@@ -39,12 +41,6 @@ class OwnLine:
     electric = False
     strikes = False
     undecided = ()
-
-    @property
-    def beside(self) -> str:
-        """What makes it, at the end of a sentence."""
-        told = self.strongest.made_by
-        return "no part of this machine's specification makes it" if told == NO_PART else told.rstrip(".")
 
     @property
     def follows(self) -> str:

@@ -49,7 +49,7 @@ class Strange(Protocol):
 
     @property
     def beside(self) -> str:
-        """The end of a sentence."""
+        """The end of a sentence; empty for what is said only as the answer."""
 
     @property
     def would_tell(self) -> NextExperiment:
@@ -101,12 +101,12 @@ def with_strange(report: Report, seen: Strange | None, machine: MachineSpec, hea
     if seen is None:
         return report
     electric = seen.electric and report.fault is not None and report.fault.kind in ELECTRIC
-    lines, plain = (*seen.lines, *report.where.lines), report
+    answers = _open(report) or electric or (seen.strikes and _struck_unheard(report, heard))
+    if not (answers or seen.beside):
+        return report
+    lines = (*seen.lines, *report.where.lines)
     report = replace(report, stages=(*report.stages, seen.stage))
-    unheard = seen.strikes and _struck_unheard(report, heard)
-    if not (_open(report) or electric or unheard):
-        if seen.stage["name"] == "own line":  # high multiples of what is named are such lines too
-            return plain
+    if not answers:
         limits = (*report.where.limits, f"beside this, {seen.text}: {seen.beside}")
         return replace(report, where=replace(report.where, lines=lines, limits=limits))
     sentence = f"Something is missing that no known effect explains: {seen.text}. {seen.follows}"

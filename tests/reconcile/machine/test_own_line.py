@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 
 from reconcile.machine.own_line import OwnLine, own_line
-from reconcile.machine.strange import strange
+from reconcile.machine.strange import strange, with_strange
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import watch_list
 from signals.series import FloatArray
 from sim.core.spec import MachineSpec
 from sim.presets import preset
 from tests.reconcile.machine.teeth import CHANNELS, TIME, at_order, modulated, steady
+from tests.reconcile.machine.test_strange import said
 
 pytestmark = pytest.mark.slow
 SPEEDS_HZ = (22.5, 30.0, 39.0)
@@ -59,7 +60,7 @@ def test_a_line_of_its_own_is_told(machine: MachineSpec, order: float) -> None:
 def test_vanes_that_pass_are_told_as_a_multiple_of_the_shaft(machine: MachineSpec) -> None:
     seen = told(machine, turning(7.0))
     assert seen is not None and seen.strongest.multiple == ("input", 7.0)
-    assert "7 vanes" in seen.follows and "7 vanes" in seen.beside and "No part" not in seen.follows
+    assert "7 vanes" in seen.follows and "No part" not in seen.follows
 
 
 @pytest.mark.parametrize(
@@ -67,6 +68,13 @@ def test_vanes_that_pass_are_told_as_a_multiple_of_the_shaft(machine: MachineSpe
 )
 def test_what_a_shaft_makes_and_what_is_faint_is_none(machine: MachineSpec, adds: Adds) -> None:
     assert told(machine, adds) is None
+
+
+def test_beside_a_name_it_is_not_told(machine: MachineSpec) -> None:
+    seen = told(machine, turning(7.3))
+    assert with_strange(said("explained"), seen, machine, {}) == said("explained"), "it may be a multiple of its lines"
+    report = with_strange(said("nothing_missing"), seen, machine, {})
+    assert report.verdict == "unknown_physics" and "7.3 times the speed of input" in report.sentence
 
 
 def test_one_speed_of_three_and_no_baseline_are_not_enough(machine: MachineSpec) -> None:
