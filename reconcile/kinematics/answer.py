@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from reconcile.kinematics.candidate import DEFECTS, Candidate
-from reconcile.kinematics.carried import carried, shared, told_exchanged, told_open
+from reconcile.kinematics.carried import carried, shared, told_exchanged, told_heard, told_open
 from reconcile.kinematics.extent import Extent, as_severity, spall_extent
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.heldout import held_out
@@ -24,6 +24,9 @@ BOUND = "width_below_m"
 """Key of the values of a cause of which only an upper bound of its length is known: a bound is no size."""
 ALIKE = " if both its edges strike alike"
 """A ball that sinks in slowly is not heard at the near edge: then only the far one strikes, however long the way."""
+NO_BASELINE, WITHOUT = "there is no baseline", "without a baseline"
+SOUND = NextExperiment(sentence="Record the machine in a sound state, or each bearing on its own.")
+SOUND_TOO = NextExperiment(sentence="Record the same machine in a sound state as a baseline.")
 WHOSE = NextExperiment(sentence="Look which sensor is which channel.")
 HANGS = " The place hangs on which sensor is which."
 NO_SIZE = "how large the defect is: a size can't be given from these lines without a model of the machine"
@@ -59,7 +62,9 @@ def defect_report(
         where=Where(
             sites=_merged(weights),
             lines=tuple(line for c in chosen for line in lines_of(c, tests, baselines)),
-            limits=() if one_site else ("bearings whose orders lie within slip of each other make the same lines",),
+            limits=told_heard(weights, words)
+            if one_site
+            else ("bearings whose orders lie within slip of each other make the same lines",),
         ),
         causes=causes,
         held_out=held,
@@ -197,7 +202,7 @@ def _undecided(
     if any(c.family.kind == "outer" for c in chosen):
         found.append("where on the outer ring it sits: a rate has no angle")
     if not baselines:
-        found.append("what of it was there before: there is no baseline")
+        found.append(f"what of it was there before: {NO_BASELINE}")
     return found
 
 
@@ -207,7 +212,7 @@ def _next(
     if not one_site:
         return NextExperiment(sentence="Record with one sensor on each of the bearings that share these lines.")
     if not baselines:
-        return NextExperiment(sentence="Record the machine in a sound state, or each bearing on its own.")
+        return SOUND
     if any(s[0] is None or not s[0].resolved for s in sizes):
         return NextExperiment(sentence="Record at half the speed: entry and exit of the defect move apart in time.")
     return None

@@ -19,6 +19,7 @@ from reconcile.gate.robust import fit_of
 from reconcile.gate.steps import exchanged_steps
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.sites import decided
+from reconcile.report.action import BY_LOUDNESS
 from reconcile.verdict import PlaceWeight
 from sim.core.response import Channel
 
@@ -70,6 +71,15 @@ def told_open(weights: Sequence[PlaceWeight]) -> str:
     return (
         f"whether it is {second} and not {first}, should their sensors be exchanged: only which of them hears it "
         "louder tells the place, and nothing that the defect leaves alone tells which sensor is which"
+    )
+
+
+def told_heard(several: Sequence[Sequence[PlaceWeight]], words: Sequence[Word | None]) -> tuple[str, ...]:
+    """The limit of places that hang on hearing: a baseline whose sensors are named as wrongly does not tell."""
+    return tuple(
+        f"{weights[0].site} and {weights[1].site} make the same lines, or some within slip: {BY_LOUDNESS}"
+        for weights, word in zip(several, words, strict=True)
+        if word in ("own", "open")
     )
 
 

@@ -14,7 +14,7 @@ from dataclasses import replace
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.octaves import octave_of, odd_lines
-from reconcile.kinematics.unread import Judged, at_either, speed_unread
+from reconcile.kinematics.unread import Judged, at_either, placed, speed_unread
 from reconcile.verdict import NextExperiment, Report
 from signals.recording import Operating, Recording
 
@@ -137,12 +137,14 @@ def doubted(
     shown, at = (rival.report, other) if nearer else (stated.report, speed)
     better = "better" if rival.z > stated.z + CLEAR_Z else "no worse"
     whose, how = (f"the lines of {shaft}", "no worse") if by_lines else ("bearing lines", better)
+    causes = at_either((stated, speed), (rival, other))
     return replace(
         shown,
         verdict="ambiguous",
         sentence=f"The speed is not decided: {whose} fit {other:.4g} Hz, {WORDS.get(factor, USUAL)}, {how} than "
         f"{speed:.4g} Hz as stated{f'; or {rate}' if rate else ''}. At {at:.4g} Hz: {shown.sentence}",
-        causes=at_either((stated, speed), (rival, other)),
+        where=placed(shown.where, causes),
+        causes=causes,
         undecidable=undecidable,
         next_experiment=NextExperiment(sentence=f"{TACHO}{RATE_TOO if rate else ''}"),
     )

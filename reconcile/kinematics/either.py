@@ -12,7 +12,7 @@ from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.judge import LIKE_SHARE, ONE_LINE
 from reconcile.kinematics.sites import DECIDED, USUAL_SLIP
 from reconcile.shares import signed_percent
-from reconcile.verdict import Cause, Report
+from reconcile.verdict import Cause, PlaceWeight, Report
 
 REASON = "another part of the bearing makes the same lines within slip"
 
@@ -48,6 +48,9 @@ def with_other_kind(report: Report, first: Candidate, rival: Candidate) -> Repor
         reasons=(REASON,),
         values={"slip": rival.best.slip, "depth": rival.best.depth, "chance": rival.chance},
     )
+    shares = {w.site: w.weight * weight for w in report.where.sites}
+    shares[rival.family.site] = shares.get(rival.family.site, 0.0) + 1.0 - weight
+    sites = [PlaceWeight(site=site, weight=share) for site, share in sorted(shares.items(), key=lambda w: -w[1])]
     own = [replace(c, score=c.score * weight, named=False, reasons=(*c.reasons, REASON)) for c in report.causes]
     off = signed_percent(rival.best.slip)
     or_else = f"{PARTS[kind]} of {rival.family.site} ({off} from the drawing) makes the same lines"
@@ -55,6 +58,7 @@ def with_other_kind(report: Report, first: Candidate, rival: Candidate) -> Repor
         report,
         verdict="ambiguous",
         sentence=f"{report.sentence} But {or_else}: which of both it is is not decided.",
+        where=replace(report.where, sites=tuple(sites)),
         causes=tuple(sorted((*own, further), key=lambda c: -c.score)),
         undecidable=(f"which part it is: {or_else}", *report.undecidable),
     )

@@ -14,8 +14,8 @@ from reconcile.gate import Gate
 from reconcile.kinematics.doubted import CLEAR_Z
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.observe import Observation
-from reconcile.kinematics.unread import Judged, at_either
-from reconcile.speed.elsewhere import Elsewhere, lines_elsewhere
+from reconcile.kinematics.unread import Judged, at_either, placed
+from reconcile.speed.elsewhere import Elsewhere, harmonics_of, lines_elsewhere, lines_near
 from reconcile.verdict import NextExperiment, Report, SensorFault
 
 HARDLY = 0.95
@@ -26,20 +26,45 @@ ADVICE = NextExperiment(
     sentence="Correct the speed that the description states, or give a tacho; if another machine makes these lines, "
     "record with it off."
 )
+SHARED = NextExperiment(
+    sentence="Correct the speed that the descriptions state, or give a tacho. Tests and baselines are wrong by one "
+    "factor: check whether it is the speed of another shaft, the ratios of the machine file, and the sampling rate."
+)
+ONE_FACTOR = 0.03
+"""Relative difference up to which labels are wrong by one factor."""
 
 
 def turned_elsewhere(several: Sequence[Observation], tie: Ties, seed: int) -> dict[str, Elsewhere]:
-    """By label, of the recordings whose stated speed nothing confirms, where their lines stand if that is clear."""
-    found = {}
+    """By label, of the recordings whose stated speed nothing confirms, where their lines stand if that is clear: by
+    themselves, or near the speed that the lines of another recording tell."""
+    others = [r for name, r in tie.shafts.items() if name != tie.reference]
+    found, rest = {}, []
     for one in several:
         speed = one.speed
         if speed.stated_hz is None or speed.method == "tacho" or (speed.method != "stated" and _sure(one)):
             continue
-        others = [r for name, r in tie.shafts.items() if name != tie.reference]
         far = lines_elsewhere(one.recording, speed.stated_hz, ratios=others, teeth=tie.mesh_orders, seed=seed)
         if far is not None and (speed.method == "stated" or not far.own):
             found[one.label] = far
+        else:
+            rest.append(one)
+    told = [_told_by(one, found.get(one.label)) for one in several]
+    for one in rest:
+        stated = one.speed.stated_hz or 0.0
+        places = [(f * stated if f else hz, harmonics) for f, hz, harmonics in told if harmonics]
+        near = lines_near(one.recording, stated, places, ratios=others) if places else None
+        if near is not None and (one.speed.method == "stated" or not near.own):
+            found[one.label] = near
     return found
+
+
+def _told_by(one: Observation, found: Elsewhere | None) -> tuple[float | None, float, tuple[int, ...]]:
+    """What a recording tells of the others: by which factor stated speeds are wrong, its speed where it is as stated,
+    and which harmonics of it are lines; none where it tells nothing."""
+    if found is not None and one.speed.stated_hz:
+        return found.speed_hz / one.speed.stated_hz, 0.0, () if found.own else found.harmonics
+    sure = one.speed.method != "stated" and _sure(one)
+    return None, one.speed.speed_hz, harmonics_of(one.recording, one.speed.speed_hz) if sure else ()
 
 
 def _sure(one: Observation) -> bool:
@@ -50,9 +75,10 @@ def left_out(
     gate: Gate, tests: Sequence[Observation], baselines: Sequence[Observation], far: Mapping[str, Elsewhere]
 ) -> tuple[Gate, list[Observation], list[Observation], tuple[str, ...]]:
     """Gate and recordings without those that surely turned elsewhere, and what is said of these; all of them where
-    every test is one."""
+    every test is one, or may be by one factor with them."""
     sure = {label for label, found in far.items() if not found.own}
-    if all(one.label in sure for one in tests):
+    known = [one for one in (*tests, *baselines) if one.label in far]
+    if all(one.label in sure for one in tests) or (all(one.label in far for one in tests) and _alike(known, far)):
         return gate, list(tests), list(baselines), ()
     told = tuple(
         f"{one.label} was left out: {_lines(one, far[one.label])}" for one in (*tests, *baselines) if one.label in sure
@@ -78,6 +104,7 @@ def told_elsewhere(
     tests: Sequence[Observation],
     far: Mapping[str, Elsewhere],
     at: Callable[[Mapping[str, float]], Judged | None],
+    baselines: Sequence[Observation] = (),
 ) -> Report | None:
     """The report where most tests have lines of a shaft far from their stated speed; None where they have not.
 
@@ -89,36 +116,47 @@ def told_elsewhere(
         return None
     first = here[0]
     hz = far[first.label].speed_hz
+    too = [one for one in baselines if one.label in far]
+    advice = SHARED if _alike([*here, *too], far) and too else ADVICE
     there = at({label: found.speed_hz for label, found in far.items()})
     told = "; ".join(f"{one.label}: {_lines(one, far[one.label])}" for one in here)
     note = f"whether {first.speed.shaft} turns at {first.speed.stated_hz:.4g} Hz as stated: {told}"
     found_there = "" if there is None else f" At {hz:.4g} Hz: {there.report.sentence}"
+    also = f" So it is with {'; '.join(f'{one.label}: {_lines(one, far[one.label])}' for one in too)}." if too else ""
     pairs = ((stated, first.speed.speed_hz), *(((there, hz),) if there is not None else ()))
     against = there is not None and stated.z > there.z + CLEAR_Z
     if not against and not any(far[one.label].own for one in here):
         return Report(
             verdict="measurement_fault",
-            sentence=f"The stated speed does not hold: {told}, and none is near that. Nothing is judged by it."
-            + found_there,
+            sentence=f"The stated speed does not hold: {told}, and none is near that.{also} Nothing is judged "
+            f"by it.{found_there}",
             level="kinematics",
             where=stated.report.where if there is None else there.report.where,
             causes=at_either(*pairs[1:]),
             fault=SensorFault(kind="speed_mismatch", channel="", detail=told),
             undecidable=(note, *(() if there is None else there.report.undecidable)),
-            next_experiment=ADVICE,
+            next_experiment=advice,
         )
     if stated.report.verdict in QUIET and (there is None or there.z == 0.0):
         return replace(stated.report, undecidable=(note, *stated.report.undecidable))
     nearer = there is not None and there.z > stated.z
     shown, at_hz = (there.report, hz) if there is not None and nearer else (stated.report, first.speed.speed_hz)
+    causes = at_either(*pairs)
     return replace(
         shown,
         verdict="ambiguous",
-        sentence=f"The speed is not decided: {told}. At {at_hz:.4g} Hz: {shown.sentence}",
-        causes=at_either(*pairs),
+        sentence=f"The speed is not decided: {told}.{also} At {at_hz:.4g} Hz: {shown.sentence}",
+        where=placed(shown.where, causes),
+        causes=causes,
         undecidable=(note, *shown.undecidable),
-        next_experiment=ADVICE,
+        next_experiment=advice,
     )
+
+
+def _alike(several: Sequence[Observation], far: Mapping[str, Elsewhere]) -> bool:
+    """Whether the labels of all these are wrong by one factor."""
+    factors = [far[one.label].speed_hz / one.speed.stated_hz for one in several if one.speed.stated_hz]
+    return bool(factors) and max(factors) / min(factors) <= 1.0 + ONE_FACTOR
 
 
 def _lines(one: Observation, found: Elsewhere) -> str:

@@ -16,6 +16,7 @@ from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.doubted import against_rivals, factor_of, restated, unconfirmed
 from reconcile.kinematics.either import other_kind, with_other_kind
 from reconcile.kinematics.elsewhere import left_out, told_elsewhere, turned_elsewhere, without
+from reconcile.kinematics.ends import with_ends
 from reconcile.kinematics.extent import Extent
 from reconcile.kinematics.families import Ties, ties
 from reconcile.kinematics.finish import fault_report, finished, refused_report
@@ -25,6 +26,7 @@ from reconcile.kinematics.good_runs import heard_gate
 from reconcile.kinematics.grown import grown_defect, old_defects
 from reconcile.kinematics.mains import electric, named_but_supply, told_beside
 from reconcile.kinematics.new_lines import with_new_lines
+from reconcile.kinematics.none_left import with_none_left
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.other_speeds import by_baseline, nominees
 from reconcile.kinematics.remarks import if_heard, remarked, with_rest
@@ -120,7 +122,7 @@ def _reconciled(
     progress(SPEEDS, "other speeds")
     recordings = (gate.tests, seen), (gate.baselines, past)
     here = Judged(report=first, every=every)
-    elsewhere = told_elsewhere(here, seen, far, partial(_at_speeds, known, tie, *recordings, seed))
+    elsewhere = told_elsewhere(here, seen, far, partial(_at_speeds, known, tie, *recordings, seed), past)
     at = partial(_at_rival, known, tie, *recordings, seed)
     report = elsewhere or against_rivals(here, seen, tie, at, stated, _other_speeds(here, seen, past, tie, seed))
     if report.sentence == first.sentence:  # else the speed is doubted already
@@ -128,6 +130,8 @@ def _reconciled(
     progress(HELD_OUT, "held-out data")
     if report.verdict != "measurement_fault":
         report = if_heard(remarked(report, tie, seen, past, every, seed), seen, past)
+    report = with_ends(report, gate, every, seen, past, tie)
+    report = with_none_left(report, given=bool(baselines), left=bool(past))
     report = replace(report, where=replace(report.where, limits=(*report.where.limits, *told, *cut, *whole.told)))
     quiet = report.verdict in ("nothing_missing", "not_decidable") and EXCHANGED not in report.sentence
     report = with_new_lines(report, gate, seen, past, tie)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from reconcile.kinematics.answer import lines_of
+from reconcile.kinematics.answer import WITHOUT, lines_of
 from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.foreign import Foreign
@@ -98,9 +98,7 @@ def driven_report(found: InStep, growth_db: float | None, tests: Sequence[Observ
 def with_driven(report: Report, found: InStep) -> Report:
     """The report of recordings without a baseline, with the blows that keep step with a shaft."""
     text = f"impacts {found.number} times a turn of {found.shaft} ({DRIVEN})"
-    note = (
-        f"whether {text} are as strong as they should be: they keep step with it, no bearing's, and without a baseline"
-    )
+    note = f"whether {text} are as strong as they should be: they keep step with it, no bearing's, and {WITHOUT}"
     said = f"{text[0].upper()}{text[1:]} keep step with it: they are no bearing's."
     quiet = report.verdict == "nothing_missing"
     return replace(

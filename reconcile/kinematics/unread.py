@@ -14,7 +14,7 @@ from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.other_speeds import SPAN
 from reconcile.shares import percent
-from reconcile.verdict import Cause, NextExperiment, Report
+from reconcile.verdict import Cause, NextExperiment, PlaceWeight, Report, Where
 
 ALIKE_Z = 1.5
 """Robust deviations that two scores must differ by to be told apart: each scatters by about one, from record to record
@@ -85,6 +85,7 @@ def speed_unread(stated: Judged, others: Sequence[tuple[Judged, float]], first: 
         return _unconfirmed(stated, shaft, speed)
     top = max(one.z for one, _ in as_well)
     told = sorted(((one, hz) for one, hz in as_well if one.z > top - BEHIND_Z), key=lambda r: -r[0].z)
+    causes = at_either((stated, speed), *told)
     shown, at = max(((stated, speed), *told), key=lambda r: r[0].z)
     parts = ", ".join(f"at {hz:.4g} Hz of {one.part} ({one.z:.0f} deviations)" for one, hz in told)
     own = f" ({stated.z:.0f} deviations)" if stated.z > 0 else ""
@@ -98,7 +99,8 @@ def speed_unread(stated: Judged, others: Sequence[tuple[Judged, float]], first: 
         sentence=f"The speed is not confirmed by any line, and the part hangs on it: at {speed:.4g} Hz as stated the "
         f"impacts are those of {stated.part}, {_listed(told)}; a tacho decides. At {at:.4g} Hz: "
         f"{shown.report.sentence}",
-        causes=at_either((stated, speed), *told),
+        where=placed(shown.report.where, causes),
+        causes=causes,
         undecidable=(note, *shown.report.undecidable),
         next_experiment=TACHO,
     )
@@ -116,6 +118,18 @@ def _unconfirmed(stated: Judged, shaft: str, speed_hz: float) -> Report:
     if stated.z > 0:
         note += f"; no speed that is {percent(SPAN, 0)} off explains the impacts as well by another part"
     return replace(stated.report, undecidable=(*stated.report.undecidable, note))
+
+
+def placed(where: Where, causes: Sequence[Cause]) -> Where:
+    """The place as all causes tell it, each by the score of its firmest: what is to be looked at follows them too."""
+    firmest: dict[str, float] = {}
+    for c in causes:
+        firmest[c.site] = max(firmest.get(c.site, 0.0), c.score)
+    total = sum(firmest.values())
+    if total <= 0.0:
+        return where
+    ranked = sorted(firmest.items(), key=lambda one: -one[1])
+    return replace(where, sites=tuple(PlaceWeight(site=site, weight=score / total) for site, score in ranked))
 
 
 def at_either(*judged: tuple[Judged, float]) -> tuple[Cause, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reconcile.kinematics.answer import lines_of
+from reconcile.kinematics.answer import NO_BASELINE, SOUND_TOO, WITHOUT, lines_of
 from reconcile.kinematics.candidate import ALONE_DEPTH, DEFECTS, Candidate
 from reconcile.kinematics.foreign import Foreign
 from reconcile.kinematics.gears import NEAR_DB, GearEvidence, of_own_lines
@@ -128,7 +128,7 @@ def nothing_report(
         "effect that only a machine that can be simulated tells." + _in_both(old),
         level="kinematics",
         where=Where(lines=lines),
-        undecidable=("changes of level",) if baselines else ("changes of level: there is no baseline",),
+        undecidable=("changes of level",) if baselines else (f"changes of level: {NO_BASELINE}",),
         next_experiment=NextExperiment(sentence=FULLER),
     )
 
@@ -235,9 +235,9 @@ def _without_baseline(
         lines = (*lines, *lines_of(c, tests, (), 1))
     return Report(
         verdict="not_decidable",
-        sentence=f"{'; '.join(said)}; without a baseline it can't be told whether anything is missing.",
+        sentence=f"{'; '.join(said)}; {WITHOUT} it can't be told whether anything is missing.",
         level="kinematics",
         where=Where(lines=lines),
         undecidable=tuple(undecidable),
-        next_experiment=NextExperiment(sentence="Record the same machine in a sound state as a baseline."),
+        next_experiment=SOUND_TOO,
     )

@@ -17,6 +17,10 @@ NO_FIT = "the machine file does not fit"
 """How the sentence says that the file is another machine's (`reconcile.machine.misfit`)."""
 NO_PART = "no part of the machine file has a line"
 """How the sentence says that something strikes which the file has not (`reconcile.machine.foreign`)."""
+LOUDEST = "loudest at the sensor of"
+"""How the sentence says that a named bearing's lines are heard at the other end (`reconcile.kinematics.ends`)."""
+BY_LOUDNESS = "only which sensor hears it louder tells the place"
+"""How the limits say so of bearings that make the same lines (`reconcile.kinematics.answer`)."""
 SET_SHARE = 0.5
 """Score over the best one's from which a cause is taken for one of an ambiguous set."""
 
@@ -28,7 +32,7 @@ def to_do(report: Report) -> str:
         return exchanged
     if EXCHANGED in report.sentence:
         return f"{ACTIONS[report.verdict](report)} Before that {exchanged}"
-    advice = f"{ACTIONS[report.verdict](report)}{_sensor_too(report)}"
+    advice = f"{ACTIONS[report.verdict](report)}{_sensor_too(report)}{_which_first(report)}"
     if report.next_experiment is None or report.verdict not in OPEN:
         return advice
     return f"{advice} {report.next_experiment.sentence}".strip()
@@ -40,6 +44,17 @@ def _sensor_too(report: Report) -> str:
         return ""
     said = to_mend(report.fault, beside=True, several=report.measurement_faults)
     return f" {said[0].upper()}{said[1:]}"
+
+
+def _which_first(report: Report) -> str:
+    """What the place hangs on, to be looked up before anything is opened."""
+    if report.verdict not in ("explained", "ambiguous"):
+        return ""
+    if LOUDEST in report.sentence:
+        return " Before that check which sensor is which channel, and the types of the bearings in the machine file."
+    if any(BY_LOUDNESS in limit for limit in report.where.limits):
+        return " Before that check which sensor is which channel: the place hangs on it."
+    return ""
 
 
 def _perhaps_all(report: Report) -> bool:

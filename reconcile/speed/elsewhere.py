@@ -10,7 +10,7 @@ for the stated speed is begun anew from speeds all along.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
@@ -44,6 +44,8 @@ WINDOWS = 15
 HALF_SURE, SURE = 0.8, 0.99
 """Confidence from which a window is searched again from what was found, and from which teeth are believed: of so many
 windows one in fifteen reaches 0.93 by chance."""
+NEAR = 0.03
+"""Relative difference from a speed that another recording tells, up to which a fundamental is looked for there."""
 MAINS_HZ, MAINS_SHARE = (50.0, 60.0), 0.01
 """A fundamental this near the mains' may be theirs."""
 
@@ -111,9 +113,42 @@ def lines_elsewhere(
         there = _followed(lines, speed).there
         return Elsewhere(speed_hz=speed, harmonics=tuple(there), by_teeth=True, own=False)
     firsts = _firsts(lines, stated_hz)
-    combs = [_followed(lines, hz) for hz in firsts if not _mains(hz) and not _known(hz / stated_hz, ratios)]
-    standing = [c for c in combs if _stands(lines, c, len(firsts), ratios)]
-    best = max(standing, key=lambda c: (len(c.there), sum(lines.log[i] for i in c.there.values())), default=None)
+    combs = [_followed(lines, hz) for hz in firsts]
+    return _best(lines, stated_hz, [c for c in combs if _stands(lines, c, len(firsts), ratios)], ratios)
+
+
+def lines_near(
+    recording: Recording, stated_hz: float, told: Sequence[tuple[float, Sequence[int]]], *, ratios: Sequence[float] = ()
+) -> Elsewhere | None:
+    """Where a shaft's lines are clear near a speed (Hz) that another recording of the machine tells by the harmonics
+    beside it, if it lies between half and 1.9 times `stated_hz`, but a tenth from it at least; else None.
+
+    The places are foretold, so the lines of a defect between them do not make chance of those that are met.
+    """
+    lines = _lines(recording, stated_hz)
+    combs = []
+    for hz, harmonics in told:
+        for first in (f for f in _firsts(lines, stated_hz) if abs(f / hz - 1.0) <= NEAR):
+            comb = _followed(lines, first)
+            met = set(harmonics) & set(comb.there)
+            of = [k for k in harmonics if k * first < lines.top_hz]
+            near = _below(lines, (max(of, default=0) + 0.5) * first)
+            alone = min(2 * NEAR * hz * np.sum(near.log >= CLEAR) / near.top_hz, 1.0)
+            chance = float(alone) * _chance(near, comb.speed_hz, len(met) - 1, len(of) - 1)
+            if _enough(lines, comb, ratios) and len(met) >= LEAST and chance < CHANCE:
+                combs.append(comb)
+    return _best(lines, stated_hz, combs, ratios)
+
+
+def harmonics_of(recording: Recording, speed_hz: float) -> tuple[int, ...]:
+    """Those of a shaft that turns at `speed_hz` which are clear lines."""
+    return tuple(_followed(_lines(recording, speed_hz), speed_hz).there)
+
+
+def _best(lines: Lines, stated_hz: float, combs: Sequence[Comb], ratios: Sequence[float]) -> Elsewhere | None:
+    """Of combs that stand the one that has most harmonics, those left out whose lines may be another's."""
+    combs = [c for c in combs if not _mains(c.speed_hz) and not _known(c.speed_hz / stated_hz, ratios)]
+    best = max(combs, key=lambda c: (len(c.there), sum(lines.log[i] for i in c.there.values())), default=None)
     if best is None:
         return None
     own = _own(lines, stated_hz, best.speed_hz, (1.0, *ratios))
@@ -189,15 +224,34 @@ def _followed(lines: Lines, first: float) -> Comb:
 
 def _stands(lines: Lines, comb: Comb, tried: int, ratios: Sequence[float]) -> bool:
     """Whether enough multiples are lines, more than lines that stand anywhere would give, none of a slower
-    fundamental. What may be the mains' counts, but not alone."""
+    fundamental."""
+    if not _enough(lines, comb, ratios):
+        return False
+    above = replace(lines, top_hz=comb.within * comb.speed_hz)
+    return tried * _chance(above, comb.speed_hz, len(comb.there) - 1, comb.within - 1) < CHANCE
+
+
+def _enough(lines: Lines, comb: Comb, ratios: Sequence[float]) -> bool:
+    """Whether enough multiples are lines, none of a slower fundamental. What may be the mains' counts, but not
+    alone."""
     own = sum(not lines.hum[i] for i in comb.there.values())
     if 1 not in comb.there or len(comb.there) < LEAST or own < 2 or not {2, 3} & set(comb.there):
         return False
-    above = lines.hz[(lines.log >= CLEAR) & (lines.hz > 1.01 * comb.speed_hz)]
+    return not _slower(lines, comb.speed_hz, ratios)
+
+
+def _chance(lines: Lines, speed_hz: float, met: int, of: int) -> float:
+    """That at least `met` of so many multiples above the first are lines, if lines stood anywhere up to the top."""
+    above = lines.hz[(lines.log >= CLEAR) & (lines.hz > 1.01 * speed_hz)]
     width = 2 * np.maximum(REACH * above, REACH_BINS * lines.step_hz)
-    covered = min(float(np.sum(width)) / max((comb.within - 1) * comb.speed_hz, lines.step_hz), 1.0)
-    chance = tried * float(scipy.stats.binom.sf(len(comb.there) - 2, comb.within - 1, covered))
-    return chance < CHANCE and not _slower(lines, comb.speed_hz, ratios)
+    covered = min(float(np.sum(width)) / max(lines.top_hz - speed_hz, lines.step_hz), 1.0)
+    return float(scipy.stats.binom.sf(met - 1, of, covered))
+
+
+def _below(lines: Lines, top_hz: float) -> Lines:
+    """Those below a frequency."""
+    kept = lines.hz < top_hz
+    return replace(lines, hz=lines.hz[kept], log=lines.log[kept], hum=lines.hum[kept], top_hz=min(lines.top_hz, top_hz))
 
 
 def _slower(lines: Lines, first: float, ratios: Sequence[float]) -> bool:
