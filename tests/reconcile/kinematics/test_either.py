@@ -26,6 +26,9 @@ def test_a_line_between_both_is_a_set_of_them() -> None:
     found = report(0.4 * OUTER + 0.6 * BALL)
     assert found.verdict == "ambiguous" and not any(c.named for c in found.causes)
     assert {(c.term, c.site) for c in found.causes} == {("outer_spall", "b1"), ("ball_spall", "b1")}
+    assert [s.site for s in found.where.sites] == ["b1"] and sum(s.weight for s in found.where.sites) == pytest.approx(
+        1
+    )
     assert "which part it is" in found.undecidable[0] and "not decided" in found.sentence
 
 

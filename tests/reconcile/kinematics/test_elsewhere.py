@@ -9,7 +9,7 @@ import pytest
 
 from reconcile.gate import Gate
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
-from reconcile.kinematics.elsewhere import left_out, told_elsewhere
+from reconcile.kinematics.elsewhere import SHARED, left_out, told_elsewhere
 from reconcile.kinematics.unread import Judged
 from reconcile.report.action import to_do
 from reconcile.speed.elsewhere import Elsewhere
@@ -132,5 +132,33 @@ def test_nothing_is_left_out_where_no_test_would_be_left() -> None:
     assert (alone[0], len(alone[1]), len(alone[2]), alone[3]) == (gate, 1, 1, ())
     kept = left_out(gate, [seen("test 1")], [seen("baseline 1")], {"baseline 1": far()})  # type: ignore[list-item]
     assert (kept[0].baselines, kept[2]) == ((), []) and kept[3][0].startswith("baseline 1 was left out")
+    alike = left_out(gate, [seen("test 1")], [seen("baseline 1")], {"test 1": far(own=True), "baseline 1": far()})  # type: ignore[list-item]
+    assert alike[0] == gate and alike[3] == (), "wrong by one factor, if the test is"
     unsure = left_out(gate, [seen("test 1")], [seen("baseline 1")], {"baseline 1": far(own=True)})  # type: ignore[list-item]
     assert unsure[0] == gate and unsure[3] == ()
+
+
+def test_a_label_that_is_wrong_in_the_baseline_too_is_told_of_both() -> None:
+    tests, past = [seen("test 1")], [seen("baseline 1")]
+    both = {"test 1": far(), "baseline 1": far()}
+    report = told_elsewhere(judged(9.0), tests, both, lambda _: judged(12.0), past)  # type: ignore[arg-type]
+    assert report is not None and report.verdict == "measurement_fault" and report.next_experiment == SHARED
+    assert "So it is with baseline 1: the lines of a shaft at 32 Hz" in report.sentence
+    alone = told_elsewhere(judged(9.0), tests, {"test 1": far()}, lambda _: judged(12.0), past)  # type: ignore[arg-type]
+    assert alone is not None and alone.next_experiment != SHARED and "So it is" not in alone.sentence
+
+
+@pytest.mark.slow
+def test_the_lines_of_a_baseline_lead_to_those_of_a_test_that_a_defect_hides() -> None:
+    """Beside the shaft's lines stand as many that belong to nothing: by itself the test tells no speed."""
+    stated, t = 1.4 * SPEED_HZ, np.arange(N) / RATE_HZ
+    rng = np.random.default_rng(8)
+    more = sum(0.2 * np.sin(2 * np.pi * f * t + f) for f in (17.9, 41.3, 57.7, 76.3, 79.1, 88.3, 104.9, 111.7, 131.3))
+    hidden = recorded(sound(2) + train(rng, 0.992 * OUTER, 1.0) + more, stated)
+    alone = reconcile_kinematics(SPEC, [hidden], [], seed=3)
+    assert alone.fault is None
+    for baseline in (made(False, 1.4, 1), made(False, 1.0, 1)):
+        report = reconcile_kinematics(SPEC, [hidden], [baseline], seed=3)
+        assert report.fault is not None and report.fault.kind == "speed_mismatch", report.sentence
+        assert f"At {SPEED_HZ:.4g} Hz: A local defect on the outer race of drive_end" in report.sentence
+        assert "there is no baseline" not in " ".join(report.undecidable)

@@ -125,6 +125,7 @@ def test_parts_as_firm_at_other_speeds_are_a_set() -> None:
         ("outer_spall", "fan_end", False),
         ("ball_spall", "fan_end", False),
     ]
+    assert [(w.site, round(w.weight, 3)) for w in report.where.sites] == [("drive_end", 0.513), ("fan_end", 0.487)]
     assert "only if it turns at 35 Hz" in report.causes[1].reasons
     assert "at 35 Hz of the outer race of fan_end and at 27 Hz of a ball of fan_end; a tacho" in report.sentence
     assert report.sentence.endswith("At 30 Hz: outer of drive_end.")

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.speed import estimate_speed
-from reconcile.speed.elsewhere import HIGHEST, LOWEST, lines_elsewhere
+from reconcile.speed.elsewhere import HIGHEST, LOWEST, harmonics_of, lines_elsewhere, lines_near
 from tests.reconcile.speed.test_speed import RATE_HZ, comb, recorded
 
 STATED_HZ = 25.0
@@ -109,3 +109,22 @@ def test_teeth_tell_without_a_line_of_the_shaft(factor: float) -> None:
 def test_the_range_is_half_to_nearly_twice_the_stated_speed() -> None:
     for factor in (0.9 * LOWEST, 1.05 * HIGHEST):
         assert found(*family(factor * STATED_HZ, 1, 2, 3)) is None
+
+
+OTHERS = (41.7, 55.3, 70.9, 83.1, 103.9, 117.7, 124.1, 137.3)
+"""Lines that a defect makes beside a shaft's."""
+
+
+def test_lines_that_another_recording_foretells_are_met_among_those_of_a_defect() -> None:
+    speed_hz, clean = 32.0, recorded(lines(*family(32.05, 1, 2, 3)), STATED_HZ)
+    told = (32.05, harmonics_of(clean, 32.05))
+    assert told[1] == (1, 2, 3)
+    struck = recorded(lines(*family(speed_hz, 1, 2, 3), *OTHERS), STATED_HZ)
+    assert lines_elsewhere(struck, STATED_HZ) is None
+    near = lines_near(struck, STATED_HZ, [told])
+    assert near is not None and near.harmonics == (1, 2, 3) and near.speed_hz == pytest.approx(speed_hz, rel=1e-3)
+    for hz, harmonics in ((34.0, (1, 2, 3)), (32.05, (1, 4, 5)), (32.05, (1, 2))):
+        assert lines_near(struck, STATED_HZ, [(hz, harmonics)]) is None, "not where or which they are said to be"
+    assert lines_near(recorded(lines(*OTHERS), STATED_HZ), STATED_HZ, [told]) is None
+    own = recorded(lines(*family(STATED_HZ, 1, 2, 3), *OTHERS), STATED_HZ)
+    assert lines_near(own, STATED_HZ, [(STATED_HZ, (1, 2, 3))]) is None, "the stated speed is none elsewhere"
