@@ -21,6 +21,11 @@ LOUDEST = "loudest at the sensor of"
 """How the sentence says that a named bearing's lines are heard at the other end (`reconcile.kinematics.ends`)."""
 BY_LOUDNESS = "only which sensor hears it louder tells the place"
 """How the limits say so of bearings that make the same lines (`reconcile.kinematics.answer`)."""
+ALL_WRONG = (
+    "Tests and baselines are wrong by one factor: check whether it is the speed of another shaft, the ratios of the "
+    "machine file, and the sampling rate."
+)
+"""How the next experiment says that all labels of speed are wrong alike (`reconcile.kinematics.elsewhere`)."""
 SET_SHARE = 0.5
 """Score over the best one's from which a cause is taken for one of an ambiguous set."""
 
@@ -47,7 +52,9 @@ def _sensor_too(report: Report) -> str:
 
 
 def _which_first(report: Report) -> str:
-    """What the place hangs on, to be looked up before anything is opened."""
+    """What the place, or a speed that is wrong in all recordings, hangs on: to be looked up first."""
+    if report.verdict == "measurement_fault" and report.next_experiment is not None:
+        return f" {ALL_WRONG}" if ALL_WRONG in report.next_experiment.sentence else ""
     if report.verdict not in ("explained", "ambiguous"):
         return ""
     if LOUDEST in report.sentence:

@@ -11,7 +11,7 @@ from reconcile.gate import Gate
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.elsewhere import SHARED, left_out, told_elsewhere
 from reconcile.kinematics.unread import Judged
-from reconcile.report.action import to_do
+from reconcile.report.action import ALL_WRONG, to_do
 from reconcile.speed.elsewhere import Elsewhere
 from reconcile.verdict import Cause, Report
 from tests.strategies.brief import RATE_HZ, SPEED_HZ, N, recorded, shaft_lines, sound, train
@@ -144,8 +144,14 @@ def test_a_label_that_is_wrong_in_the_baseline_too_is_told_of_both() -> None:
     report = told_elsewhere(judged(9.0), tests, both, lambda _: judged(12.0), past)  # type: ignore[arg-type]
     assert report is not None and report.verdict == "measurement_fault" and report.next_experiment == SHARED
     assert "So it is with baseline 1: the lines of a shaft at 32 Hz" in report.sentence
+    assert to_do(report).startswith("correct the speed") and to_do(report).endswith(ALL_WRONG)
     alone = told_elsewhere(judged(9.0), tests, {"test 1": far()}, lambda _: judged(12.0), past)  # type: ignore[arg-type]
-    assert alone is not None and alone.next_experiment != SHARED and "So it is" not in alone.sentence
+    assert (
+        alone is not None
+        and ALL_WRONG not in to_do(alone)
+        and alone.next_experiment != SHARED
+        and "So it is" not in alone.sentence
+    )
 
 
 @pytest.mark.slow
