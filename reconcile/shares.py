@@ -11,3 +11,11 @@ def percent(share: float, digits: int = 1) -> str:
 def signed_percent(share: float, digits: int = 1) -> str:
     """`+1.4 %`, `-0.3 %`, `0.0 %`."""
     return percent(share, digits) if round(share * 100, digits) == 0 else f"{share * 100:+.{digits}f} %"
+
+
+def two_digits(share: float) -> str:
+    """`1.4 %`, `0.29 %`, `3 %`, `137 %`: two digits, or all before the point, and never an exponent."""
+    value = 100 * share
+    if 1e-4 <= abs(value) < 99.5 or value == 0.0:
+        return f"{value:.2g} %"
+    return f"{value:.0f} %" if abs(value) >= 1.0 else f"{value:.6f}".rstrip("0").rstrip(".") + " %"

@@ -15,6 +15,7 @@ from reconcile.driven.measured import Look, look
 from reconcile.driven.model import Model, errors, ready
 from reconcile.driven.noise import power_lines, response
 from reconcile.gate.mains import MAINS_HZ, SUPPLY
+from reconcile.shares import two_digits
 from reconcile.verdict import SensorFault
 
 LEAST_LEFT = 0.015
@@ -216,7 +217,7 @@ def faults(found: Added, data: Driven, recording: str) -> list[SensorFault]:
         )
         said.append(SensorFault(kind="drift", channel=channel.name, detail=detail, recordings=(recording,)))
     if found.hum:
-        places = ", ".join(f"{tone.hz:.5g} Hz ({100 * tone.share:.2g} %)" for tone in found.hum)
+        places = ", ".join(f"{tone.hz:.5g} Hz ({two_digits(tone.share)})" for tone in found.hum)
         detail = f"{recording}: lines at {places} of the output, where the force has none"
         said.append(SensorFault(kind="mains_hum", channel=channel.name, detail=detail, recordings=(recording,)))
     return said
@@ -225,4 +226,4 @@ def faults(found: Added, data: Driven, recording: str) -> list[SensorFault]:
 def tone_words(tone: Tone, unit: str) -> str:
     """`31.3 Hz (0.12 mm, 46 % of the output; by a force of 20 N)`."""
     force = "" if tone.force_n is None else f"; a force of {tone.force_n:.3g} N does that"
-    return f"{tone.hz:.4g} Hz ({tone.motion:.3g} {unit}, {100 * tone.share:.2g} % of the output{force})"
+    return f"{tone.hz:.4g} Hz ({tone.motion:.3g} {unit}, {two_digits(tone.share)} of the output{force})"

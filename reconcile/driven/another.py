@@ -17,6 +17,7 @@ from reconcile.driven.model import errors, nrmse
 from reconcile.driven.nominate import score_nats, squares_in_blocks
 from reconcile.driven.pictures import redrawn
 from reconcile.driven.split import Part
+from reconcile.shares import two_digits
 from reconcile.verdict import Cause, HeldOut, NextExperiment, PlaceWeight, Report, Severity
 
 ONE_FACTOR_OPEN = "whether mass and spring changed alike, or the sensitivity of force or motion: both look the same"
@@ -59,8 +60,9 @@ def _lacks(one: Look, seed: int) -> bool:
 def _turned(report: Report, baseline: float, test: float, name: str) -> Report:
     """Nothing is said where the baseline shows a force beyond linear that the tests do not have."""
     said = (
-        f"Not decidable: a linear model of {name} leaves {_percent(baseline)} of the baseline, in which a "
-        f"force beyond linear is missing, and {_percent(test)} of the tests: they may be exchanged, or a part replaced."
+        f"Not decidable: a linear model of {name} leaves {two_digits(baseline)} of the baseline, in which "
+        f"a force beyond linear is missing, and {two_digits(test)} of the tests: they may be exchanged, or a part "
+        "replaced."
     )
     return replace(
         report,
@@ -86,7 +88,7 @@ def _answer(
     name = site.body.name
     said = (
         f"The oscillator is not the baseline's: {told}. With the baseline's numbers a linear model leaves "
-        f"{_percent(left[0])} of the part held out, with its own {_percent(left[1])}; nothing else is missing."
+        f"{two_digits(left[0])} of the part held out, with its own {two_digits(left[1])}; nothing else is missing."
     )
     causes = tuple(
         Cause(
@@ -114,7 +116,3 @@ def _answer(
         next_experiment=WEIGH if open_one else None,
         pictures=redrawn(report.pictures, found, before, after),
     )  # fmt: skip
-
-
-def _percent(share: float) -> str:
-    return f"{100 * share:.2g} %" if share < 0.995 else f"{100 * share:.0f} %"

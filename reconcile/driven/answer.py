@@ -13,6 +13,7 @@ from reconcile.driven.model import LINEAR
 from reconcile.driven.nominate import Trial, score_nats
 from reconcile.driven.pictures import Freed, freed_force, pictures, shown_stretch
 from reconcile.force_law.library import GAPPED, Law, mirrored
+from reconcile.shares import two_digits
 from reconcile.verdict import (
     Cause,
     EstimatedForce,
@@ -91,12 +92,12 @@ def _nearest(found: Analysis) -> tuple[str, ...]:
     v = found.validations[0]
     if v.diverged or v.gain[1] < NEAREST:
         return ()
-    left = f"{100 * v.after:.2g} % instead of {100 * v.before:.2g} %"
+    left = f"{two_digits(v.after)} instead of {two_digits(v.before)}"
     return (f"the nearest that was tried, {_law_words(found)}, leaves {left} on {v.held}",)
 
 
 def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
-    linear = f"{100 * found.fitted_nrmse:.2g} %"
+    linear = two_digits(found.fitted_nrmse)
     if judgement.verdict == "nothing_missing":
         return f"A linear model of {site} explains the recording up to noise (free-run error {linear})."
     if judgement.verdict == "not_decidable":
@@ -107,7 +108,7 @@ def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
         return "; ".join([said, *flown[:1], *_nearest(found), *_saturation(found)]) + "."
     v = found.validations[0]
     gained = (
-        f"{'led' if v.led else 'free'}-run error on {v.held} falls from {100 * v.before:.2g} % to {100 * v.after:.2g} %"
+        f"{'led' if v.led else 'free'}-run error on {v.held} falls from {two_digits(v.before)} to {two_digits(v.after)}"
     )
     if judgement.rivals:
         names = " or ".join([found.final.model.laws[0].words, *(t.laws[0].words for t in judgement.rivals)])
@@ -167,11 +168,11 @@ def _held_out(found: Analysis) -> HeldOut | None:
 
 def _not_freely(v: Validation) -> str:
     """What a led run does not say."""
-    left = 100 * (v.free or 0.0)
+    left = two_digits(v.free or 0.0)
     return (
-        f"Not predictable freely here: on {v.held} a free run with numbers from {v.fitted_on} leaves {left:.2g} % of "
+        f"Not predictable freely here: on {v.held} a free run with numbers from {v.fitted_on} leaves {left} of "
         f"the output, for it takes another branch of the motion; led by the output, which it forgets within two "
-        f"periods, it leaves {100 * v.after:.2g} % (a linear model {100 * v.before:.2g} %)."
+        f"periods, it leaves {two_digits(v.after)} (a linear model {two_digits(v.before)})."
     )
 
 

@@ -14,15 +14,18 @@ from reconcile.driven.channels import MOTIONS, Driven, FloatArray
 ASSUMED = "the input is the motion of the base: the mass is seen from there, its laws are of the relative motion"
 
 
+def is_base(data: Driven) -> bool:
+    """Whether both channels are motions of one quantity: of a base and of the mass on it."""
+    drive, answer = data.drive_channel, data.answer_channel
+    alike = (drive.quantity, drive.unit) == (answer.quantity, answer.unit)
+    return not data.prescribed and drive.quantity in MOTIONS and alike
+
+
 def from_base(data: Driven) -> Driven:
     """Relative motion under the base's acceleration, where both are motions of one quantity; else as it is."""
-    drive, answer = data.drive_channel, data.answer_channel
-    if (
-        data.prescribed
-        or drive.quantity not in MOTIONS
-        or (drive.quantity, drive.unit) != (answer.quantity, answer.unit)
-    ):
+    if not is_base(data):
         return data
+    drive = data.drive_channel
     bad = data.bad_answer
     if data.bad_drive is not None:
         bad = data.bad_drive if bad is None else data.bad_drive | bad
@@ -32,6 +35,7 @@ def from_base(data: Driven) -> Driven:
         answer=data.answer - data.drive,
         drive_channel=replace(drive, quantity="acceleration", unit="m/s^2"),
         bad_answer=bad,
+        moved=True,
         assumed="; ".join(text for text in (data.assumed, ASSUMED) if text),
     )
 

@@ -17,6 +17,7 @@ from reconcile.driven.fit import GAIN, Fitted, descend
 from reconcile.driven.machine import Site, weighed
 from reconcile.driven.measured import FITS, LEAST_KEPT, Look
 from reconcile.driven.model import ready, share_kept
+from reconcile.shares import two_digits
 
 LEAST = {"stiffness": 0.03, "damping": 0.15, "mass": 0.03}
 """Change over the baseline's value that is told. Of 60 pairs of sound made recordings (1 to 40 % noise on the motion, 5
@@ -55,7 +56,7 @@ class Change:
     def told(self) -> str:
         """`stiffness 70 000 N/m instead of 95 000 N/m (26 % lower; 90 %: ... to ...)`."""
         unit = f" {self.unit}" if self.unit else ""
-        way = f"{100 * abs(self.ratio - 1.0):.2g} % {'higher' if self.ratio > 1.0 else 'lower'}"
+        way = f"{two_digits(abs(self.ratio - 1.0))} {'higher' if self.ratio > 1.0 else 'lower'}"
         return (
             f"{self.words} {self.after.value:.5g}{unit} (90 %: {self.after.low:.5g} to {self.after.high:.5g}) instead "
             f"of {self.before.value:.5g}{unit} ({self.before.low:.5g} to {self.before.high:.5g}), {way}"

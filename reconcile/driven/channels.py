@@ -38,6 +38,8 @@ class Driven:
     bad_drive: BoolArray | None = None
     bad_answer: BoolArray | None = None
     """Samples (n,) at which a channel was away, held or cut off; None: nowhere."""
+    moved: bool = False
+    """The mass is seen from a base that is moved; both motions were held against each other before."""
 
     @property
     def order(self) -> int:

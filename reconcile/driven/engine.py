@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import replace
@@ -9,16 +10,16 @@ from dataclasses import replace
 from reconcile.driven.analysis import analyse
 from reconcile.driven.another import beside_baseline
 from reconcile.driven.answer import answer
-from reconcile.driven.base import from_base
 from reconcile.driven.channels import Driven, driven_of
 from reconcile.driven.direction import directed
 from reconcile.driven.faulty import UNIT_NOT_KNOWN, Held, beside, fault_report, held_against
 from reconcile.driven.forced import Analysis
 from reconcile.driven.judge import ROUGH
 from reconcile.driven.machine import Site, driven_site
-from reconcile.driven.measured import LEAST_KEPT
+from reconcile.driven.measured import LEAST_KEPT, of_file
 from reconcile.driven.model import share_kept
 from reconcile.driven.noise import noise_of
+from reconcile.driven.pair import Paired, paired, with_pairs
 from reconcile.driven.prescribed.answer import reconcile_prescribed
 from reconcile.driven.prescribed.faults import held_motions
 from reconcile.driven.rest import beside_tones, settled
@@ -83,7 +84,7 @@ def _further(recording: Recording, spec: MachineSpec, motion_drives: bool) -> Dr
 
 def _read(
     spec: MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording]
-) -> tuple[list[Driven], list[Driven], list[Mended]]:
+) -> tuple[list[Paired], list[Driven], list[Mended]]:
     """Input and output of tests and baselines, and what was wrong with their samples."""
     several = [mended(r, f"test {i}") for i, r in enumerate(tests, 1)]
     rested = [mended(r, f"baseline {i}") for i, r in enumerate(baselines, 1)]
@@ -99,11 +100,18 @@ def _read(
                 message = f"measures something else than {place(tests[0], 'recording', 0, f'channels.{mine.name}')}"
                 given, allowed = f"{theirs.quantity} {theirs.unit}", f"{mine.quantity} {mine.unit}"
                 raise SpecError(Problem(field=where, message=message, given=given, allowed=allowed))
+    own = _own(spec)
+    data, past = ([with_bad(d, m) for d, m in zip(x, y, strict=True)] for x, y in ((data, several), (past, rested)))
     return (
-        [from_base(with_bad(d, m)) for d, m in zip(data, several, strict=True)],
-        [from_base(with_bad(d, m)) for d, m in zip(past, rested, strict=True)],
+        [paired(d, own, f"test {i}", past) for i, d in enumerate(data, 1)],
+        [paired(d, own, f"baseline {i}").data for i, d in enumerate(past, 1)],
         [*several, *rested],
     )
+
+
+def _own(spec: MachineSpec) -> float:
+    """The machine file's natural angular frequency; that of 10 Hz where it has no spring."""
+    return 2.0 * math.pi * (of_file(driven_site(spec))[1] or 10.0)
 
 
 def reconcile_driven(
@@ -116,7 +124,8 @@ def reconcile_driven(
     """
     started = time.process_time()
     site = driven_site(spec)
-    data, past, read = _read(spec, tests, baselines)
+    pairs, past, read = _read(spec, tests, baselines)
+    data = [p.data for p in pairs]
     provenance: dict[str, object] = {"recordings": len(tests), "baselines": len(baselines)}
     lost = [m.hopeless((d.drive_channel.name, d.answer_channel.name)) for d, m in zip(data, read, strict=False)]
     gone = [fault for fault in lost if fault is not None]
@@ -133,7 +142,7 @@ def reconcile_driven(
             else reconcile_prescribed(spec, motions, seed=seed, provenance=provenance)
         )
     else:
-        held = held_against(data, sound, site)
+        held = with_pairs(held_against(data, sound, site), pairs)
         if held.undecided:
             report = fault_report(held.faults, UNIT_NOT_KNOWN)
         else:

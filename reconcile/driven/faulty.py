@@ -56,6 +56,8 @@ def held_against(tests: Sequence[Driven], baselines: Sequence[Driven], site: Sit
     looks = [one.look for one in heard]
     rested = [_straight(d, f"baseline {i}", []).look for i, d in enumerate(baselines, 1)]
     for i, one in enumerate(looks):
+        if one.data.moved:
+            continue
         if rested:
             found, against = scaled(one, rested[0]), "baseline 1"
         else:
@@ -87,7 +89,7 @@ def _turned_and_clocked(looks: Sequence[Look], rested: Sequence[Look]) -> tuple[
     seen, faults = list(looks), list[SensorFault]()
     for i, one in enumerate(seen if rested else ()):
         name = f"test {i + 1}"
-        if turned_against(one, rested[0]):
+        if not one.data.moved and turned_against(one, rested[0]):
             faults.append(turned_fault(one.data, name, "baseline 1"))
             seen[i] = look(replace(one.data, answer=-one.data.answer))
         factor = clocked(one, rested[0])
@@ -100,7 +102,7 @@ def _turned_and_clocked(looks: Sequence[Look], rested: Sequence[Look]) -> tuple[
 
 def _straight(data: Driven, recording: str, faults: list[SensorFault]) -> Added:
     """The look with force and motion as they are, in step, and without what was added to the motion."""
-    one = _unswapped(look(data), recording, faults)
+    one = look(data) if data.moved else _unswapped(look(data), recording, faults)
     found = without_added(one)
     faults.extend(added_faults(found, one.data, recording))
     return found

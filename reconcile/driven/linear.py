@@ -14,6 +14,7 @@ from reconcile.driven.noise import Noise
 from reconcile.driven.nominate import squares_in_blocks
 from reconcile.driven.second import Second, second
 from reconcile.driven.varying import ALPHA, Varying, varying
+from reconcile.shares import two_digits
 from reconcile.verdict import HeldOut
 
 MOST_BEYOND = 0.3
@@ -57,12 +58,12 @@ def found_out(found: Analysis, noise: Noise, seed: int, least: float) -> Told | 
 def _varying(found: Analysis, one: Varying) -> Told:
     data = found.fitted_run.data
     seconds = data.answer.size * data.step_s
-    how = f"by {100 * one.size:.2g} % either way at {one.hz:.4g} Hz"
+    how = f"by {two_digits(one.size)} either way at {one.hz:.4g} Hz"
     if one.hz == 0.0:
-        how = f"it drifts by some {100 * one.size:.2g} % within {seconds:.3g} s"
+        how = f"it drifts by some {two_digits(one.size)} within {seconds:.3g} s"
     said = (
-        f"{WORDS[one.kind]}: {how}. That explains {100 * one.share:.2g} % of what a linear model leaves "
-        f"({100 * found.fitted_nrmse:.2g} % of the output); no law of the motion does."
+        f"{WORDS[one.kind]}: {how}. That explains {two_digits(one.share)} of what a linear model leaves "
+        f"({two_digits(found.fitted_nrmse)} of the output); no law of the motion does."
     )
     return Told(
         sentence=said,
@@ -80,8 +81,8 @@ def _second(found: Analysis, two: Second, noise: Noise, rng: np.random.Generator
     held = "the part that was held out" if not found.validations else found.validations[0].held
     said = (
         f"The motion of {{site}} follows the force linearly, but with a second resonance: beside {two.first_hz:.4g} Hz "
-        f"one at {two.second_hz:.4g} Hz (damping ratio {two.damping_ratio:.2g}). With both {100 * after:.2g} % of the "
-        f"output is left on {held}, with one {100 * before:.2g} %; a second mass on a spring is missing."
+        f"one at {two.second_hz:.4g} Hz (damping ratio {two.damping_ratio:.2g}). With both {two_digits(after)} of the "
+        f"output is left on {held}, with one {two_digits(before)}; a second mass on a spring is missing."
     )
     return Told(
         sentence=said,

@@ -17,6 +17,7 @@ from reconcile.driven.judge import UNRELATED
 from reconcile.driven.machine import Site, weighed
 from reconcile.driven.model import Model, nrmse, share_kept
 from reconcile.driven.split import Part
+from reconcile.shares import two_digits
 from reconcile.verdict import SensorFault
 
 FORCE_RATIOS = {"kN against N": 1000.0, "kgf against N": 9.80665, "lbf against N": 4.44822}
@@ -131,8 +132,8 @@ def swap_fault(one: Look, other: Look, recording: str) -> SensorFault:
     """For the report."""
     drive, answer = one.data.drive_channel.name, one.data.answer_channel.name
     detail = (
-        f"{recording}: {answer} comes before {drive}; a linear model leaves {100 * one.left:.2g} % as described, "
-        f"{100 * other.left:.2g} % with {drive} and {answer} exchanged"
+        f"{recording}: {answer} comes before {drive}; a linear model leaves {two_digits(one.left)} as described, "
+        f"{two_digits(other.left)} with {drive} and {answer} exchanged"
     )
     return SensorFault(kind="swapped_channels", channel=drive, detail=detail, recordings=(recording,))
 

@@ -14,6 +14,7 @@ from reconcile.driven.judge import ROUGH
 from reconcile.driven.linear import MOST_BEYOND, Told, found_out
 from reconcile.driven.noise import Noise, power_lines
 from reconcile.driven.pictures import redrawn
+from reconcile.shares import two_digits
 from reconcile.verdict import NextExperiment, PlaceWeight, Report
 
 OVER_BASELINE, LEAST = 2.0, 0.01
@@ -50,16 +51,12 @@ def band_hz(error: FloatArray, step_s: float) -> tuple[float, float]:
 
 def known_words(noise: Noise) -> str:
     """What tells of noise, and how much."""
-    said = [f"as much noise within the band as beside it leaves {_share(noise.motion)}"]
+    said = [f"as much noise within the band as beside it leaves {two_digits(noise.motion)}"]
     if noise.force > 0.1 * noise.known:
-        said.append(f"noise on the force {_share(noise.force)}")
+        said.append(f"noise on the force {two_digits(noise.force)}")
     if noise.baseline is not None:
-        said.append(f"the baseline leaves {_share(noise.baseline)}")
+        said.append(f"the baseline leaves {two_digits(noise.baseline)}")
     return ", ".join(said)
-
-
-def _share(part: float) -> str:
-    return f"{100 * part:.2g} %"
 
 
 def settled(report: Report, found: Analysis, noise: Noise, site: str, seed: int) -> Report:
@@ -97,7 +94,8 @@ def _told(report: Report, found: Analysis, told: Told, site: str) -> Report:
 def _open(report: Report, found: Analysis, noise: Noise, site: str) -> Report:
     """The report of a linear model that leaves more than noise, and nothing tells what."""
     low, high = band_hz(found.linear.error, found.fitted_run.data.step_s)
-    left = f"A linear model of {site} leaves {_share(noise.left)} of the output, mostly from {low:.3g} to {high:.3g} Hz"
+    share = two_digits(noise.left)
+    left = f"A linear model of {site} leaves {share} of the output, mostly from {low:.3g} to {high:.3g} Hz"
     new = grown(noise)
     said = f"{left}, and that is more than noise ({known_words(noise)}); no law that is tried explains it."
     asked = (
@@ -121,8 +119,8 @@ def _noisy(report: Report, noise: Noise) -> Report:
     if noise.left < ROUGH:
         return report
     limit = (
-        f"Noise holds {_share(noise.left)} of the output ({known_words(noise)}): what would move the mass by clearly "
-        "less stays unseen."
+        f"Noise holds {two_digits(noise.left)} of the output ({known_words(noise)}): what would move the mass by "
+        "clearly less stays unseen."
     )
     return replace(report, where=replace(report.where, limits=(*report.where.limits, limit)))
 

@@ -17,6 +17,7 @@ from reconcile.driven.channels import MOTIONS, BoolArray, Driven, FloatArray
 from reconcile.driven.measured import Look, look
 from reconcile.driven.missing import displaced, sensitivities
 from reconcile.driven.model import counted, errors, ready, simulated
+from reconcile.shares import two_digits
 from reconcile.verdict import SensorFault
 
 LEAST_LEFT = 0.1
@@ -169,7 +170,7 @@ def stepped(one: Look, recording: str) -> tuple[Look, SensorFault] | None:
 
 def _fault(one: Look, best: Look, delay_s: float, recording: str) -> SensorFault:
     name, drive = one.data.answer_channel.name, one.data.drive_channel.name
-    left = f"a linear model leaves {100 * one.left:.2g} % as described, {100 * best.left:.2g} %"
+    left = f"a linear model leaves {two_digits(one.left)} as described, {two_digits(best.left)}"
     was, now = one.data.answer_channel.quantity, best.data.answer_channel.quantity
     if was != now:
         detail = f"{recording}: {name} is {_article(now)}, not {_article(was)}; {left} as {_article(now)}"
