@@ -38,6 +38,7 @@ def analyse(parts: Sequence[Part], seed: int, rested: Sequence[Look] = ()) -> An
         nominated = renominated(nominated, settled, case)
     final = settled.final
     laws = final.model.laws
+    noise = noise_of(final.model, run, errors(final.model, run), rested)
     return Analysis(
         linear=linear,
         fitted_nrmse=nrmse(linear.error, run.compared),
@@ -54,6 +55,7 @@ def analyse(parts: Sequence[Part], seed: int, rested: Sequence[Look] = ()) -> An
         held_run=held,
         held_before=simulated(linear.model, held),
         held_after=bounded(simulated(final.model, held), held),
-        beyond_noise=noise_of(final.model, run, errors(final.model, run), rested).unexplained if laws else 0.0,
+        beyond_noise=noise.unexplained if laws else 0.0,
+        laws_leave=noise.left if laws else 0.0,
         dropped=settled.dropped,
     )

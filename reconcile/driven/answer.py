@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from reconcile.driven.ceiling import Ceiling, ceilings
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.forced import ALPHA, Analysis, Validation
-from reconcile.driven.judge import BRANCHES, TOO_FEW, Judgement, judge
+from reconcile.driven.judge import BRANCHES, TOO_FEW, Judgement, judge, leaves_more
 from reconcile.driven.machine import driven_site, mass_kg, revised, term_key, weighed
 from reconcile.driven.model import LINEAR
 from reconcile.driven.nominate import Trial, score_nats
@@ -176,6 +176,14 @@ def _not_freely(v: Validation) -> str:
     )
 
 
+def _not_all(found: Analysis) -> tuple[str, ...]:
+    """That the laws do not hold on the part held out as where they were fitted."""
+    more = leaves_more(found)
+    if not more:
+        return ()
+    return (f"Not all of it: {more}; something else acts too where the motion goes farther, or a law of another form.",)
+
+
 def _force(found: Analysis, freed: Freed, judgement: Judgement, site: str, mass: float) -> EstimatedForce:
     over, model = freed.over, found.final.model
     argument = "velocity_m_per_s" if freed.rate else "displacement_m"
@@ -271,7 +279,7 @@ def answer(spec: MachineSpec, found: Analysis, *, seed: int, provenance: Mapping
     shown, name = shown_stretch(found), site.body.name
     machine, judgement = _revised(spec, found, judgement, shown.drive)
     only = "One degree of freedom: a force between the mass and the ground is the only place."
-    limits = (only, *_from_rest(found), *(_not_freely(v) for v in found.validations if v.led))
+    limits = (only, *_from_rest(found), *(_not_freely(v) for v in found.validations if v.led), *_not_all(found))
     nothing = judgement.verdict in ("nothing_missing", "not_decidable")
     freed = None if nothing else freed_force(found, mass, seed)
     return Report(

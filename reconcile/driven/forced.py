@@ -69,6 +69,8 @@ class Analysis:
     """Simulated output on the first held-out part, (n,)."""
     beyond_noise: float = 0.0
     """Share of the output that the laws leave on the fitted stretch and that no noise known apart accounts for."""
+    laws_leave: float = 0.0
+    """Share of the output that the laws leave on the fitted stretch."""
     dropped: tuple[Law, ...] = ()
     """Laws that were nominated and left out again: the part held out did not ask for them."""
 

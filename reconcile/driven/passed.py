@@ -25,6 +25,8 @@ FLOOR = 0.01
 """Share of the transfer below which a line is not held to be known: windows blur what is narrow."""
 PERIODS, A_PERIOD = 1.5, 16
 """Longest delay in natural periods, and delays that are tried in one."""
+FILE_OFF, TOP = 4.0, 4.0
+"""How much lower than the file's a natural frequency may be, and delays that are tried in a period of the top line."""
 TRIED, MOST = 3, 1e4
 """Starts that are fitted, and what a line counts at most before."""
 DAMPED = (1e-3, 3.0)
@@ -129,8 +131,10 @@ def _delays(seen: Transfer, own: float, delay: bool) -> FloatArray:
     """Delays to begin with, in samples."""
     if not delay:
         return np.zeros(1)
-    step = 2.0 * math.pi / own / seen.step_s / A_PERIOD
-    return np.asarray(step * np.arange(-PERIODS * A_PERIOD, PERIODS * A_PERIOD + 1), dtype=np.float64)
+    peak = float(seen.omega[np.argmax(np.abs(seen.ratio))])  # a delay leaves it where it is
+    longest = PERIODS / min(own, max(peak, own / FILE_OFF))
+    count = math.ceil(longest * max(A_PERIOD * own, TOP * float(seen.omega[-1])))
+    return np.asarray(2.0 * math.pi * longest / seen.step_s / count * np.arange(-count, count + 1), dtype=np.float64)
 
 
 def _starts(seen: Transfer, own: float, late: float, gain: bool) -> list[FloatArray]:
