@@ -7,13 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from reconcile.driven.forced import ALPHA, Analysis, calibrate
+from reconcile.driven.judge import ROUGH
 from reconcile.driven.latent import latent_force
 from reconcile.driven.measured import Look
 from reconcile.driven.missing import anything_missing
 from reconcile.driven.model import bounded, errors, nrmse, ready, simulated
 from reconcile.driven.noise import noise_of
 from reconcile.driven.nominate import free_power, nominate
-from reconcile.driven.settle import Case, Settled, renominated, settle
+from reconcile.driven.settle import Case, Settled, renominated, sensitive, settle
 from reconcile.driven.split import Part, order_of_use
 from reconcile.force_law.exponent import odd_exponent
 from reconcile.force_law.search import search
@@ -56,6 +57,7 @@ def analyse(parts: Sequence[Part], seed: int, rested: Sequence[Look] = ()) -> An
         held_before=simulated(linear.model, held),
         held_after=bounded(simulated(final.model, held), held),
         beyond_noise=noise.unexplained if laws else 0.0,
+        unsure=bool(laws and settled.validations) and settled.validations[0].after >= ROUGH and sensitive(final, held),
         laws_leave=noise.left if laws else 0.0,
         dropped=settled.dropped,
     )

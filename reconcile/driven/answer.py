@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from reconcile.driven.ceiling import Ceiling, ceilings
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.forced import ALPHA, Analysis, Validation
-from reconcile.driven.judge import BRANCHES, TOO_FEW, Judgement, judge, leaves_more
+from reconcile.driven.judge import BRANCHES, TOO_FEW, Judgement, judge, leaves_more, lost
 from reconcile.driven.machine import driven_site, mass_kg, revised, term_key, weighed
 from reconcile.driven.model import LINEAR
 from reconcile.driven.nominate import Trial, score_nats
@@ -113,7 +113,8 @@ def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
     if judgement.rivals:
         names = " or ".join([found.final.model.laws[0].words, *(t.laws[0].words for t in judgement.rivals)])
         return f"A force on {site} is missing: {names}; {gained}."
-    return f"What is missing at {site} is {_law_words(found)}; {gained}."
+    aside = f", not all of it: {leaves_more(found)}" if lost(found) else ""
+    return f"What is missing at {site} is {_law_words(found)}; {gained}{aside}."
 
 
 def _cause(found: Analysis, trial: Trial, index: int | None, site: str, mass: float, why: tuple[str, ...]) -> Cause:
@@ -181,7 +182,8 @@ def _not_all(found: Analysis) -> tuple[str, ...]:
     more = leaves_more(found)
     if not more:
         return ()
-    return (f"Not all of it: {more}; something else acts too where the motion goes farther, or a law of another form.",)
+    mercy = "the free run is at the mercy of its numbers there, or " if found.unsure else ""
+    return (f"Not all of it: {more}; {mercy}something else acts too, or a law of another form.",)
 
 
 def _force(found: Analysis, freed: Freed, judgement: Judgement, site: str, mass: float) -> EstimatedForce:

@@ -71,6 +71,8 @@ class Analysis:
     """Share of the output that the laws leave on the fitted stretch and that no noise known apart accounts for."""
     laws_leave: float = 0.0
     """Share of the output that the laws leave on the fitted stretch."""
+    unsure: bool = False
+    """The free run on the part held out is off by no more than what is known of the numbers lets it be."""
     dropped: tuple[Law, ...] = ()
     """Laws that were nominated and left out again: the part held out did not ask for them."""
 

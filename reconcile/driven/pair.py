@@ -119,7 +119,9 @@ def against(data: Driven, own: float) -> Against | None:
         straight = in_step(data, late)
     found = Against(data=straight, gain=chosen.gain, delay_s=late, swapped=swapped, alike=alike)
     sure = swapped or chosen.left <= SURE * fits[0].left
-    return found if sure or (alike and chosen is fits[0]) or _proved(found, data) else None
+    if sure or (chosen is not fits[0] and _proved(found, data)):
+        return found
+    return Against(data=data, gain=1.0, delay_s=0.0, swapped=False, alike=True) if alike else None
 
 
 def _fits(seen: Transfer, own: float) -> tuple[Passed, ...]:
