@@ -14,7 +14,7 @@ MENDED = {
     "swapped_channels": ("put the channels of the tests in their right order (here {at})", ASKED),
     "speed_mismatch": ("correct the speed that the description states, or give a tacho,", BEFORE),
     "other_motion": ("correct the quantity that is stated for {at}", ASKED),
-    "out_of_step": ("record {at} and what drives it by one clock and through equal filters, or correct the delay,", ASKED),
+    "out_of_step": ("record {at} and what drives it by one clock, through equal filters, or correct the delay,", ASKED),
     "polarity": ("turn one of both channels round", ASKED),
     "sampling_rate": ("correct the sampling rate that the description states", ASKED),
     "drift": ("check what {at} is fixed to, its supply and its warm-up", AGAIN),
