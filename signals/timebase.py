@@ -23,6 +23,7 @@ class TimeBase:
     repeated: int
     backward: int
     longest_step_s: float
+    median_step_s: float
     largest_jitter_s: float
     """Largest distance of a stamp from where a uniform clock would put it."""
     first_place: int | None
@@ -48,6 +49,7 @@ def read_time_base(times_s: FloatArray) -> TimeBase:
         repeated=int(np.sum(steps == 0)),
         backward=int(np.sum(steps < 0)),
         longest_step_s=float(np.max(steps)),
+        median_step_s=median,
         largest_jitter_s=float(np.max(np.abs(times - clock))),
         first_place=int(wrong[0]) + 1 if wrong.size else None,
     )
@@ -70,7 +72,7 @@ def irregular(base: TimeBase) -> SpecError:
             field="time",
             message=f"stamps are irregular from sample {base.first_place} on ({detail}); resample them first",
             given=f"mean {base.sampling_rate_hz:.6g} Hz",
-            allowed=f"steps within {JITTER_SHARE:.0%} of their median",
-            unit="s",
+            allowed=f"steps within {100 * JITTER_SHARE:g} % of their median, {base.median_step_s:.4g} s, or stamps "
+            "that are off a regular grid by no more than they are rounded",
         )
     )

@@ -11,12 +11,11 @@ import numpy as np
 from signals.ingest.calibrate import Scale, scales_of, unsensed
 from signals.ingest.description import Description, remarks
 from signals.ingest.pulses import tacho_of, tacho_wants
-from signals.ingest.stamps import RATE_TOLERANCE, TIME_NAMES, agree, check_regular, check_unasked, in_seconds, is_time
+from signals.ingest.stamps import RATE_TOLERANCE, TIME_NAMES, Stamps, agree, check_unasked, in_seconds, is_time
 from signals.readers.guard import load_carefully
 from signals.readers.limits import Bounds
 from signals.readers.load import Loaded, Loader, Stored, Want
 from signals.recording import Operating, Recording
-from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
 
 TIME = "time.column"
@@ -35,6 +34,7 @@ class Ingested:
 class _Clock:
     sampling_rate_hz: float
     start_s: float
+    remarks: tuple[str, ...]
 
 
 def parse(
@@ -103,7 +103,7 @@ def _recording(
         notes=description.notes,
         start_s=clock.start_s,
     )
-    said = (*remarks(description), *unsensed(description.channels))
+    said = (*remarks(description), *clock.remarks, *unsensed(description.channels))
     if description.tacho is None:
         return Ingested(recording=plain, remarks=said)
     by_name = dict(zip(plain.names, (s.samples for s in stored), strict=True))
@@ -136,27 +136,26 @@ def _clock(description: Description, loaded: Loaded, further: Mapping[str, Store
         agree(stated, rates[0], "sampling_rate_hz", "the rate that the file itself states")
     stamps = _stamps(description, loaded, further, stated or (rates[0] if rates else None))
     if stamps is not None:
-        times_s, rounded_s = stamps
-        base = check_regular(times_s, rounded_s)
         if "start_s" not in description.model_fields_set:
-            start_s = float(times_s[0])
+            start_s = stamps.first_s
         if stated is not None or rates:
             # both ends of the stretch may be off by what they were rounded to
-            tolerance = max(RATE_TOLERANCE, 2 * rounded_s / float(times_s[-1] - times_s[0]))
+            tolerance = max(RATE_TOLERANCE, 2 * stamps.rounded_s / stamps.span_s)
             source = "the mean rate of the time stamps"
-            agree(stated or rates[0], base.sampling_rate_hz, "sampling_rate_hz", source, tolerance)
-        rates.append(base.sampling_rate_hz)
+            agree(stated or rates[0], stamps.sampling_rate_hz, "sampling_rate_hz", source, tolerance)
+        rates.append(stamps.sampling_rate_hz)
     rate = stated or (rates[0] if rates else None)
     if rate is None:
         message = "is stated neither here nor in the file, and is never guessed"
         raise SpecError(Problem(field="sampling_rate_hz", message=message, allowed="> 0", unit="Hz"))
-    return _Clock(sampling_rate_hz=rate, start_s=start_s)
+    said = stamps.remarks if stamps is not None and stated is None else ()
+    return _Clock(sampling_rate_hz=rate, start_s=start_s, remarks=said)
 
 
 def _stamps(
     description: Description, loaded: Loaded, further: Mapping[str, Stored], rate_hz: float | None
-) -> tuple[FloatArray, float] | None:
-    """Time stamps in s and what they were rounded to; those of an unmentioned time column are only looked at."""
+) -> Stamps | None:
+    """What the time stamps say; those of an unmentioned time column are only looked at."""
     samples = loaded.wanted[0].samples.size
     if description.time is not None:
         return in_seconds(further[TIME].samples, description.time.unit, samples, "time.unit")

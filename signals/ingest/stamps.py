@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from signals.rounded import first_off_grid, regular_grid, resolution, roundings
 from signals.series import FloatArray
-from signals.timebase import TimeBase, irregular, read_time_base
+from signals.timebase import JITTER_SHARE, irregular, read_time_base
 from signals.units import UNITS, find_unit, unit_of
 from sim.core.errors import Problem, SpecError
 
@@ -15,13 +17,37 @@ TIME_NAMES = frozenset({"time", "time_s", "t", "t_s", "timestamp", "timestamps",
 """Columns of these names are looked at even when the description does not mention them."""
 RATE_TOLERANCE = 1e-3
 LEAST_WHOLE_HZ = 8.0
-MOST_DIGITS = 12
-COARSE_STEPS = 50
-"""Stamps rounded to more than this many steps say nothing about their regularity."""
 TIMES = {text: unit.factor for text, unit in UNITS.items() if unit.quantity == "time"}
 """Units of time and what they are in s."""
 UNASKED_TOLERANCE = 0.01
 """Of the rate, by which stamps in no stated unit may miss it: clocks drift less, and rates mistaken differ by more."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stamps:
+    """What regular stamps say: the first, s, what they span, s, their rate and what they were rounded to, s.
+
+    `said` is how they are written where that makes their steps scatter: the rate is then that of the grid fitted
+    through all of them.
+    """
+
+    first_s: float
+    span_s: float
+    sampling_rate_hz: float
+    rounded_s: float
+    said: str
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What a person should know of rounded stamps."""
+        if not self.said:
+            return ()
+        return (
+            (
+                f"time: stamps are rounded ({self.said}, {self.rounded_s:.2g} s at most), so single steps scatter: they "
+                f"lie on a regular grid of {self.sampling_rate_hz:.9g} Hz, fitted through all of them"
+            ),
+        )
 
 
 def is_time(unit: str) -> bool:
@@ -37,31 +63,41 @@ def seconds(stamps: FloatArray, unit: str, field: str) -> FloatArray:
     return stamps * unit_of(unit, field).factor
 
 
-def in_seconds(raw: FloatArray, unit: str, samples: int, field: str) -> tuple[FloatArray, float]:
-    """Stamps in s and what they were rounded to, s; there must be one a sample."""
+def in_seconds(raw: FloatArray, unit: str, samples: int, field: str) -> Stamps:
+    """Stamps in s, on a regular grid; there must be one a sample."""
     if raw.size != samples:
         message = "has another length than the channels"
         raise SpecError(Problem(field="time", message=message, given=raw.size, allowed=str(samples), unit="samples"))
-    return seconds(raw, unit, field), float(seconds(np.array([resolution(raw)]), unit, field)[0])
+    factor = float(seconds(np.array([1.0]), unit, field)[0])
+    return check_regular(raw, factor)
 
 
-def check_regular(times_s: FloatArray, resolution_s: float) -> TimeBase:
-    """The time base of stamps that lie on a uniform clock but for rounding to `resolution_s`; else SpecError."""
-    base = read_time_base(times_s)
-    step = 1 / base.sampling_rate_hz
-    rounding = min(1.01 * resolution_s, COARSE_STEPS * step)
-    if base.uniform or (base.backward == 0 and base.largest_jitter_s <= rounding):
-        return base
-    raise irregular(base)
-
-
-def resolution(stamps: FloatArray) -> float:
-    """The step to which stamps were rounded when they were printed, in their own unit; 0 when none is seen."""
-    scale = float(np.max(np.abs(stamps), initial=0.0))
-    for digits in range(MOST_DIGITS):
-        if np.allclose(np.round(stamps, digits), stamps, rtol=0, atol=4 * np.finfo(np.float64).eps * scale):
-            return float(10.0**-digits)
-    return 0.0
+def check_regular(raw: FloatArray, factor: float = 1.0) -> Stamps:
+    """Stamps `factor` times `raw` that lie on a regular grid but for how `raw` is written; else SpecError."""
+    base = read_time_base(raw * factor)
+    grid = regular_grid(raw)
+    if grid is not None:
+        found = Stamps(
+            first_s=float(raw[0]) * factor,
+            span_s=float(raw[-1] - raw[0]) * factor,
+            sampling_rate_hz=1 / (grid.step * factor),
+            rounded_s=grid.rounding * factor,
+            said=grid.said,
+        )
+        if grid.rounding * factor > JITTER_SHARE * base.median_step_s:
+            return found
+        return replace(found, sampling_rate_hz=base.sampling_rate_hz, said="")
+    if base.uniform:
+        return Stamps(
+            first_s=float(raw[0]) * factor,
+            span_s=float(raw[-1] - raw[0]) * factor,
+            sampling_rate_hz=base.sampling_rate_hz,
+            rounded_s=resolution(raw) * factor,
+            said="",
+        )
+    fine = all(np.max(way.steps) * factor <= JITTER_SHARE * base.median_step_s for way in roundings(raw))
+    place = None if fine else first_off_grid(raw)
+    raise irregular(base if place is None else replace(base, first_place=place))
 
 
 def check_unasked(stamps: FloatArray, name: str, rate_hz: float | None) -> None:
@@ -70,9 +106,9 @@ def check_unasked(stamps: FloatArray, name: str, rate_hz: float | None) -> None:
     SpecError where they are irregular, or where their steps are those of the rate in no unit of time. A column that
     steps by 1 may count samples.
     """
-    rounded = resolution(stamps)
-    per_unit = check_regular(stamps, rounded).sampling_rate_hz
-    tolerance = max(UNASKED_TOLERANCE, 2 * rounded / float(stamps[-1] - stamps[0]))
+    found_at = check_regular(stamps)
+    per_unit = found_at.sampling_rate_hz
+    tolerance = max(UNASKED_TOLERANCE, 2 * found_at.rounded_s / found_at.span_s)
     if rate_hz is None or abs(per_unit - 1.0) <= tolerance:
         return
     found = {unit: per_unit / factor for unit, factor in TIMES.items()}

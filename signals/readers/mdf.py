@@ -13,8 +13,8 @@ from asammdf import MDF
 
 from signals.readers.contents import AnyArray, Contents, Entry, numeric, refused, told
 from signals.readers.limits import Bounds
-
-JITTER_SHARE = 0.01
+from signals.rounded import regular_grid
+from signals.timebase import JITTER_SHARE
 
 
 @contextmanager
@@ -66,6 +66,9 @@ def _rate(path: Path, file: MDF, group: int) -> float | None:
     if steps.size == 0:
         return None
     wrong = np.flatnonzero(~(np.abs(steps - np.median(steps)) <= JITTER_SHARE * np.median(steps)))
-    if wrong.size:
+    if not wrong.size:
+        return float(steps.size / (times[-1] - times[0]))
+    grid = regular_grid(times) if np.all(np.isfinite(times)) and times[-1] > times[0] else None
+    if grid is None:
         raise refused(path, f"the time stamps of group {group} are irregular from sample {int(wrong[0]) + 1} on")
-    return float(steps.size / (times[-1] - times[0]))
+    return 1 / grid.step

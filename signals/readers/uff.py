@@ -15,6 +15,8 @@ import pyuff
 from signals.readers.borders import is_binary, without_false_borders, without_mark
 from signals.readers.contents import AnyArray, Contents, Entry, numeric, refused, told
 from signals.readers.limits import Bounds
+from signals.rounded import regular_grid
+from signals.timebase import JITTER_SHARE
 
 TIME_RESPONSE, TIME_AXIS = 1, 17
 """Function type and abscissa type of dataset 58 (SDRC, "Universal file datasets", records 6 and 8, field 1)."""
@@ -83,9 +85,12 @@ def _rate(path: Path, name: str, one: Mapping[str, Any]) -> float:
         return 1 / step
     times = np.asarray(one["x"], dtype=np.float64)
     steps = np.diff(times)
-    if steps.size == 0 or not np.all(steps > 0) or np.ptp(steps) > 0.01 * np.median(steps):
+    if steps.size and np.all(steps > 0) and np.ptp(steps) <= JITTER_SHARE * np.median(steps):
+        return float(steps.size / (times[-1] - times[0]))
+    grid = regular_grid(times) if steps.size > 1 and np.all(np.isfinite(times)) and times[-1] > times[0] else None
+    if grid is None:
         raise refused(path, f"{name}: its abscissa is irregular or does not grow")
-    return float(steps.size / (times[-1] - times[0]))
+    return 1 / grid.step
 
 
 def _load(path: Path, name: str, values: AnyArray) -> AnyArray:

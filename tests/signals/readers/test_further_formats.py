@@ -157,6 +157,17 @@ def test_groups_and_channels_of_another_rate(tmp_path) -> None:
         parse(about, tmp_path / "r.tdms", loader=load)
 
 
+def test_rounded_stamps_of_an_mdf_are_taken(tmp_path) -> None:
+    asammdf = needs("asammdf")
+    stamps = np.round(np.arange(A.size) / 25_600.0, 6)
+    with asammdf.MDF(version="4.10") as file:
+        file.append([asammdf.Signal(A, stamps, name="a")])
+        file.save(tmp_path / "r.mf4", overwrite=True)
+    about = read_description({"channels": [{"name": "a", "unit": "1"}]})
+    found = parse(about, tmp_path / "r.mf4", loader=load).recording
+    assert found.sampling_rate_hz == pytest.approx(25_600.0, rel=1e-6)
+
+
 def test_irregular_stamps_of_an_mdf_are_refused_with_where(tmp_path) -> None:
     asammdf = needs("asammdf")
     stamps = np.arange(A.size) / RATE
