@@ -9,7 +9,7 @@ from scipy.ndimage import median_filter
 
 from learn.speed import SEARCH
 from reconcile.speed.run_up import COVERED
-from signals.angle.pulses import check_inside, covered
+from signals.angle.pulses import SCATTERED, check_inside, covered, scattered
 from signals.recording import Recording
 from signals.series import FloatArray
 
@@ -74,7 +74,10 @@ def pulses_of(recording: Recording, *, trust: bool = False) -> Pulses:
     if stated is not None and apart:
         kinds.append("contradicted")
         taken = f"{hz:.4g} Hz is" if used else f"the stated {stated:.4g} Hz is"
-        per_turn = _per_turn(hz / stated, tacho.pulses_per_revolution)
+        even = (
+            scattered(times, tacho.pulses_per_revolution, round(tacho.pulses_per_revolution * hz / stated)) <= SCATTERED
+        )
+        per_turn = _per_turn(hz / stated, tacho.pulses_per_revolution) if even else "; is this a tacho signal?"
         remarks.append(f"tacho: its pulses make {hz:.4g} Hz, but {stated:.4g} Hz are stated: {taken} taken{per_turn}")
     return Pulses(speed_hz=hz, firm=firm, used=used, kinds=tuple(kinds), remarks=tuple(remarks))
 

@@ -11,8 +11,10 @@ from reconcile.kinematics.families import ties
 from reconcile.kinematics.spec import KinematicSpec
 from reconcile.report.words import percent
 from reconcile.speed import estimate_speed
-from reconcile.speed.estimate import ENOUGH, SEARCH
+from reconcile.speed.estimate import ENOUGH, SEARCH, line_logs
+from reconcile.speed.octave import ABSENT, LEAST_LINES, PRESENT, peak_near
 from reconcile.stated import Given
+from signals.angle.pulses import SCATTERED, UNEVEN, scattered
 from signals.recording import Operating, Recording
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
@@ -20,6 +22,10 @@ from sim.core.errors import Problem, SpecError
 SAME_SPEED = 0.05
 """Relative difference up to which pulses and statement may be of one speed: labels are that wrong."""
 MOST_PER_REVOLUTION = 10_000
+FEWEST_TURNS, TURNS_NEEDED = 2.0, 12
+"""Turns below which pulses that contradict the stated speed are put down to the length; what the engines need."""
+LINES = 4
+"""Multiples of a speed that are looked for lines."""
 MILLISECONDS = 1000.0
 NEAR_WHOLE = 0.03
 """By which a number of pulses per revolution that would fit may miss a whole one."""
@@ -41,13 +47,69 @@ def check_pulses(several: Sequence[Given], machine: KinematicSpec | None = None)
         field = one.field("tacho.pulses_per_revolution")
         held, said, ratio = _of_one_shaft(one.recording, machine)
         far = contradiction(held, field, SEARCH, all_along=True, said=said)
+        short = _too_short(held, one.field("samples")) if far is not None else None
+        if short is not None:
+            problems.append(short)
+            continue
         fits = far is not None and "would fit" in str(far.allowed)
         if far is not None and not _by_lines(held, ratio):
-            problems += [far] if fits or one.recording.operating is not None else []
+            problems += [_with_rate(far, held, ratio)] if fits or one.recording.operating is not None else []
         elif far is None and (near := contradiction(held, field, MISCOUNTED, said=said)) is not None:
             problems += [near] if "would fit" in str(near.allowed) and _miscounted(held) else []
     if problems:
         raise SpecError(problems)
+
+
+def _too_short(recording: Recording, field: str) -> Problem | None:
+    """What is wrong with a recording of less than a turn or two at the stated speed: nothing is told by pulses."""
+    assert recording.operating is not None
+    turns = recording.duration_s * recording.operating.speed_hz
+    if turns >= FEWEST_TURNS:
+        return None
+    return Problem(
+        field=field,
+        message="are too short to hold turns of the shaft, or pulses of it",
+        given=f"{recording.samples.shape[1]} samples, {turns:.2g} turns at the stated speed",
+        allowed=f"at least {TURNS_NEEDED} turns",
+    )
+
+
+def _with_rate(problem: Problem, recording: Recording, ratio: float) -> Problem:
+    """The problem, with what else would fit where lines of the vibration stand with the pulses.
+
+    Pulses and vibration share their clock: where the vibration has lines at multiples of the pulses' speed alone, what
+    is wrong is as well the sampling rate, or the stated speed.
+    """
+    operating, tacho = recording.operating, recording.tacho
+    assert operating is not None and tacho is not None
+    times = operating.speed_hz and _mean_hz(tacho.pulse_times_s, tacho.pulses_per_revolution) / operating.speed_hz
+    if (
+        "would fit" not in problem.allowed
+        or round(times) < 2
+        or not _only_with(recording, operating.speed_hz / ratio, round(times))
+    ):
+        return problem
+    rate = recording.sampling_rate_hz / round(times)
+    also = (
+        f"; lines of the vibration stand at the pulses' speed too, so a sampling_rate_hz of {rate:.6g} or a speed_hz "
+        f"of {operating.speed_hz * times:.4g} would fit as well)"
+    )
+    return replace(problem, allowed=problem.allowed.removesuffix(")") + also)
+
+
+def _only_with(recording: Recording, speed_hz: float, times: int) -> bool:
+    """Whether lines stand at multiples of `times` the speed, and none at its other multiples."""
+    try:
+        combs = line_logs(replace(recording, tacho=None))
+    except SpecError:
+        return False
+
+    def level(order: int) -> float:
+        return float(np.mean([peak_near(log, order * speed_hz / resolution) for log, resolution in combs]))
+
+    of_pulses = [level(times * k) for k in range(1, LINES + 1)]
+    others = [level(k) for k in range(1, times * LINES) if k % times][: 2 * LINES]
+    return sum(x >= PRESENT for x in of_pulses) >= LEAST_LINES and sum(others) <= ABSENT * sum(of_pulses)
 
 
 def _of_one_shaft(recording: Recording, machine: KinematicSpec | None) -> tuple[Recording, str, float]:
@@ -113,6 +175,15 @@ def contradiction(
             message=f"{message}: the times look like milliseconds",
             given=f"{times[0]:.6g} to {times[-1]:.6g}",
             allowed="times in seconds",
+        )
+    uneven = scattered(times, per_turn, round(hz * per_turn / stated))
+    if uneven > SCATTERED:
+        return Problem(
+            field=field,
+            message=f"{message}, and they do not look like those of a tacho: {uneven:.0%} of the intervals between the "
+            f"{times.size} pulses differ from the next by more than {UNEVEN:.0%}",
+            given=per_turn,
+            allowed="evenly spaced pulses: another column or threshold of the tacho, or none",
         )
     return Problem(
         field=field,

@@ -11,6 +11,16 @@ from sim.core.errors import Problem, SpecError
 HYSTERESIS = 0.2
 """Share of the range by which the signal must fall below the threshold before the next pulse counts."""
 
+UNEVEN = 0.2
+"""Relative difference of two intervals from which they are not of one speed."""
+SCATTERED = 0.25
+"""Share of intervals that differ so much from the next, or from the one a turn later, from which on what was counted
+were no pulses of a shaft: 0 of made pulse trains, 0.1 and 0.19 where 5 and 10 % of the pulses are lost; 0.34 to 0.9 of
+vibration that was counted as pulses."""
+BETWEEN = 0.5
+"""Share of samples in the middle half of a signal's range from which on it has no two levels: 0.33 of a sine, below
+0.05 of pulses, 0.65 to 0.92 of vibration."""
+
 
 def pulse_times(series: Series, *, threshold: float | None = None, hysteresis: float = HYSTERESIS) -> FloatArray:
     """Times of the rising crossings of `threshold`, shape (pulses,), s, linear between the two samples around each.
@@ -46,6 +56,23 @@ def pulse_times(series: Series, *, threshold: float | None = None, hysteresis: f
         )
     share = (level - x[found - 1]) / (x[found] - x[found - 1])
     return np.asarray(series.start_s + (found - 1 + share) / series.sampling_rate_hz, dtype=np.float64)
+
+
+def scattered(times_s: FloatArray, *pulses_per_revolution: int) -> float:
+    """Share of intervals between pulses, shape (pulses,), s, that are not spaced as those of a shaft are: like the next
+    one, or on a wheel of uneven teeth like that of the same tooth a turn later, by any of the counts."""
+    steps = np.diff(times_s)
+    lags = [lag for lag in {1, *pulses_per_revolution} if 1 <= lag < steps.size]
+    shares = [float(np.mean(np.abs(np.log(steps[lag:] / steps[:-lag])) > UNEVEN)) for lag in lags]
+    return min(shares, default=0.0)
+
+
+def looks_like_no_tacho(samples: FloatArray, times_s: FloatArray, pulses_per_revolution: int) -> bool:
+    """Whether samples (n,), in which pulses (pulses,), s, were counted, have neither two levels nor even intervals."""
+    low, high = (float(v) for v in np.quantile(samples, (0.01, 0.99)))
+    quarter = (high - low) / 4
+    between = float(np.mean((samples > low + quarter) & (samples < high - quarter)))
+    return between > BETWEEN and scattered(times_s, pulses_per_revolution) > SCATTERED
 
 
 def covered(times_s: FloatArray, start_s: float, duration_s: float) -> float:

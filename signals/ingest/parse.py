@@ -10,7 +10,7 @@ import numpy as np
 
 from signals.ingest.calibrate import Scale, scales_of, unsensed
 from signals.ingest.description import Description, remarks
-from signals.ingest.pulses import tacho_of, tacho_wants
+from signals.ingest.pulses import check_shared, doubted, tacho_of, tacho_wants
 from signals.ingest.stamps import RATE_TOLERANCE, TIME_NAMES, Stamps, agree, check_unasked, in_seconds, is_time
 from signals.readers.guard import load_carefully
 from signals.readers.limits import Bounds
@@ -107,7 +107,11 @@ def _recording(
     if description.tacho is None:
         return Ingested(recording=plain, remarks=said)
     by_name = dict(zip(plain.names, (s.samples for s in stored), strict=True))
+    shared = check_shared(
+        description.tacho, list(zip(description.channels, plain.channels, strict=True)), further, stored
+    )
     tacho = tacho_of(description.tacho, by_name, further, clock.sampling_rate_hz, clock.start_s)
+    said += (*shared, *doubted(description.tacho, tacho, by_name, further))
     return Ingested(recording=Recording(**{**vars(plain), "tacho": tacho}), remarks=said)
 
 

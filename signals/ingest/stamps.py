@@ -44,8 +44,8 @@ class Stamps:
             return ()
         return (
             (
-                f"time: stamps are rounded ({self.said}, {self.rounded_s:.2g} s at most), so single steps scatter: they "
-                f"lie on a regular grid of {self.sampling_rate_hz:.9g} Hz, fitted through all of them"
+                f"time: stamps are rounded ({self.said}, {self.rounded_s:.2g} s at most), so single steps scatter: "
+                f"they lie on a regular grid of {self.sampling_rate_hz:.9g} Hz, fitted through all of them"
             ),
         )
 

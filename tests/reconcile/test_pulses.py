@@ -139,3 +139,52 @@ def test_without_a_stated_speed_pulses_are_held_against_the_machines_own_but_a_d
 def test_shafts_that_nothing_ties_are_not_compared() -> None:
     apart = GEARED.model_copy(update={"meshes": []})
     check_pulses(given([of_slow(20.0)], []), apart)
+
+
+def crossings(seconds: float = 1.9) -> np.ndarray:
+    """What a vibration gives where its crossings are counted: 30 Hz 21 times a turn on the mean."""
+    steps = np.random.default_rng(8).uniform(0.3, 1.7, 4000) / (21 * 30.0)
+    times = np.cumsum(steps)
+    return times[times < seconds]
+
+
+def test_a_count_is_recommended_for_a_pulse_train_only() -> None:
+    """Random crossings fit some whole number; an even train, one with lost pulses and uneven teeth are pulses."""
+    one = turning(30.0, stated=30.0, lines=False)
+
+    def problem(times: np.ndarray, per_turn: int = 1) -> str:
+        tacho = Tacho(shaft="shaft", pulse_times_s=times, pulses_per_revolution=per_turn)
+        found = contradiction(replace(one, tacho=tacho), "tacho.pulses_per_revolution")
+        assert found is not None
+        return str(found)
+
+    said = problem(crossings())
+    assert "do not look like those of a tacho" in said and "would fit" not in said
+    even = np.arange(0.01, 1.9, 1 / 630.0)
+    lost = np.delete(even, np.random.default_rng(2).choice(even.size, even.size // 20, replace=False))
+    for train in (even, even + np.random.default_rng(3).normal(0, 2e-5, even.size), lost):
+        assert "does" not in problem(train) and "do not look" not in problem(train)
+    assert "pulses_per_revolution 21 would fit" in problem(even)
+    uneven_teeth = (np.arange(0, 60)[:, None] + np.array([0.0, 0.2, 0.55, 0.7])).ravel() / 30.0
+    assert "pulses_per_revolution 4 would fit" in problem(uneven_teeth, 4 * 2) or "would fit" in problem(
+        uneven_teeth, 8
+    )
+
+
+def test_a_recording_of_no_turn_is_too_short_to_be_judged_by_pulses() -> None:
+    one = turning(30.0, stated=30.0)
+    cut = replace(
+        one, samples=one.samples[:, :40], tacho=Tacho(shaft="shaft", pulse_times_s=np.array([0.0004, 0.0011]))
+    )
+    with pytest.raises(SpecError, match=r"samples: are too short to hold turns of the shaft.*'40 samples, 0\.06 turns"):
+        check_pulses(given([cut], []))
+
+
+@pytest.mark.parametrize("doubled", [True, False])
+def test_a_doubled_rate_is_named_beside_the_count_where_the_lines_stand_with_the_pulses(doubled: bool) -> None:
+    """A rate stated twice too high lifts pulses and lines alike; a wheel of two teeth leaves the lines."""
+    one = turning(56.0 if doubled else 28.0, stated=28.0, pulses=56.0)
+    with pytest.raises(SpecError, match="pulses_per_revolution 2 would fit") as caught:
+        check_pulses(given([one], []))
+    (problem,) = caught.value.problems
+    assert ("a sampling_rate_hz of 10000 or a speed_hz of 56 would fit as well" in problem.allowed) == doubled

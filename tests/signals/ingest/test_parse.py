@@ -226,8 +226,10 @@ def test_tacho_from_a_channel_a_column_times_or_an_array(read, tmp_path) -> None
     pulses = (np.mod(25 * t + 0.013, 1) < 0.2).astype(float)
     listed = [0.04 * k for k in range(1, 40)]
     np.savez(tmp_path / "p.npz", a=np.sin(t), b=pulses, pulse=pulses, when=np.array(listed))
+    wheel = {"name": "b", "quantity": "voltage", "unit": "V"}
+    channels = [{"name": "a", "quantity": "acceleration", "unit": "g"}, wheel]
     for source in ({"channel": "b"}, {"column": "pulse"}, {"channel": "pulse"}):
-        tacho = read(tmp_path / "p.npz", tacho={"shaft": "input", **source}).recording.tacho
+        tacho = read(tmp_path / "p.npz", channels=channels, tacho={"shaft": "input", **source}).recording.tacho
         np.testing.assert_allclose(np.diff(tacho.pulse_times_s), 0.04, atol=1e-9)
     for times in (listed, "when"):
         tacho = read(tmp_path / "p.npz", tacho={"shaft": "input", "pulse_times_s": times}).recording.tacho
@@ -237,6 +239,40 @@ def test_tacho_from_a_channel_a_column_times_or_an_array(read, tmp_path) -> None
     assert "exactly one" in refusal(read, tmp_path / "p.npz", tacho={"shaft": "input"})
     late = {"shaft": "input", "pulse_times_s": [1e3, 1e3 + 1.0]}
     assert "lie outside the recording" in refusal(read, tmp_path / "p.npz", tacho=late)
+
+
+def pulsed(folder: Path) -> Path:
+    t = np.arange(2000) / RATE
+    noise = np.random.default_rng(4).standard_normal((3, t.size))
+    np.savez(folder / "p.npz", a=noise[0], b=noise[1], noise=noise[2], pulse=(np.mod(25 * t, 1) < 0.2).astype(float))
+    return folder / "p.npz"
+
+
+def test_a_channel_of_motion_that_reads_the_pulses_is_refused(read, tmp_path) -> None:
+    path = pulsed(tmp_path)
+    entry = {"name": "a", "column": "pulse", "quantity": "acceleration", "unit": "g"}
+    text = refusal(read, path, channels=[entry], tacho={"shaft": "input", "column": "pulse"})
+    assert text.startswith("channels.0.column: reads the same samples as tacho.column") and "'pulse'" in text
+    text = refusal(read, path, tacho={"shaft": "input", "column": "b"})
+    assert text.startswith("channels.1.column: reads the same samples as tacho.column")
+    for free in ({"quantity": "", "unit": "V"}, {"quantity": "displacement", "unit": "um"}):
+        (said,) = read(path, channels=[{**entry, **free}], tacho={"shaft": "input", "channel": "pulse"}).remarks[-1:]
+        assert said == "channels.0: a holds the pulses of the tacho and is looked at as any channel is"
+    assert read(path, tacho={"shaft": "input", "column": "pulse"}).remarks == ()
+
+
+def test_the_field_that_was_written_is_named(read, tmp_path) -> None:
+    path = pulsed(tmp_path)
+    for key in ("column", "channel"):
+        assert refusal(read, path, tacho={"shaft": "input", key: "q"}).startswith(f"tacho.{key}: is not in the file")
+        far = refusal(read, path, tacho={"shaft": "input", key: "pulse", "threshold": 7.0})
+        assert far.startswith(f"tacho.{key}: shows fewer than two pulses")
+
+
+def test_a_column_that_looks_like_no_tacho_is_remarked_on(read, tmp_path) -> None:
+    path = pulsed(tmp_path)
+    (said,) = read(path, tacho={"shaft": "input", "column": "noise"}).remarks
+    assert said.startswith("tacho.column: does not look like a tacho signal") and "%" in said
 
 
 def test_sizes_are_refused_before_anything_is_read(read, archive) -> None:
