@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from reconcile.driven.ceiling import Ceiling, ceilings
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.forced import ALPHA, Analysis, Validation
-from reconcile.driven.judge import BRANCHES, TOO_FEW, Judgement, judge, leaves_more, lost
+from reconcile.driven.judge import BRANCHES, NOT_ALL, TOO_FEW, Judgement, judge, leaves_more, lost
 from reconcile.driven.machine import driven_site, mass_kg, revised, term_key, weighed
 from reconcile.driven.model import LINEAR
 from reconcile.driven.nominate import Trial, score_nats
@@ -28,6 +28,8 @@ from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
 
 NO_MACHINE = "the numbers that fit are none of a mass on a spring that can be simulated"
+MILLIMETRES = 1e-4
+"""Gap, m, from which on it is told in mm."""
 LED_RUN = "NRMSE of a run led by the output"
 NEAREST = 0.5
 """Least gain, by the low end of its interval, of a law that is told though it is not named."""
@@ -39,11 +41,19 @@ DIVERGED = "; the free run with the law diverges, errors and gain are bounds"
 def _law_words(found: Analysis) -> str:
     """`odd stiffness, about cubic: exponent 2.96 (90 %: 2.94 to 2.97)`."""
     laws = found.final.model.laws
-    said = " with ".join(f"{law.words} ({law.shown()})" for law in laws)
+    said = " with ".join(f"{law.words} ({law.shown()}{_gap_words(law)})" for law in laws)
     if found.power is not None:
         p = found.power
         said += f"; the exponent of the odd part left free is {p.value:.2f} (90 %: {p.low:.2f} to {p.high:.2f})"
     return said + _aside(found)
+
+
+def _gap_words(law: Law) -> str:
+    """A gap with its unit, as a machinist says it."""
+    if law.key not in GAPPED:
+        return ""
+    size = abs(law.shape)
+    return f", z in m: {law.shape * 1e3:.3g} mm" if size >= MILLIMETRES else f", z in m: {law.shape * 1e6:.3g} µm"
 
 
 def _aside(found: Analysis) -> str:
@@ -96,6 +106,13 @@ def _nearest(found: Analysis) -> tuple[str, ...]:
     return (f"the nearest that was tried, {_law_words(found)}, leaves {left} on {v.held}",)
 
 
+def _none(judgement: Judgement) -> str:
+    """Why no law is named: none holds, or the one that does leaves more than noise."""
+    if judgement.reasons == (NOT_ALL,):
+        return "no law that is tried describes all of it: what the laws leave is not noise"
+    return "no stable law describes it"
+
+
 def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
     linear = two_digits(found.fitted_nrmse)
     if judgement.verdict == "nothing_missing":
@@ -103,7 +120,7 @@ def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
     if judgement.verdict == "not_decidable":
         return _undecided(found, judgement, linear, site)
     if not found.final.model.laws or judgement.reasons:
-        said = f"A force on {site} is missing from the linear model, and no stable law describes it"
+        said = f"A force on {site} is missing from the linear model, and {_none(judgement)}"
         flown = [f"the free run on {v.held} with {_law_words(found)} diverges" for v in found.validations if v.diverged]
         return "; ".join([said, *flown[:1], *_nearest(found), *_saturation(found)]) + "."
     v = found.validations[0]

@@ -48,7 +48,7 @@ def measured_lines(
         found.append(
             LineChange(
                 label=label,
-                frequency_hz=float(place * step * test.speed.speed_hz),
+                frequency_hz=float(_order_of(place, order, step) * test.speed.speed_hz),
                 change_db=float(change),
                 channel=channel,
                 locked_to=locked_to,
@@ -56,6 +56,12 @@ def measured_lines(
             )
         )
     return tuple(found)
+
+
+def _order_of(place: int, order: float, step: float) -> float:
+    """The order of a line in bin `place`: the wanted one, which all of the family's lines tell and which is finer than
+    a bin, where the line stands at it, so that sentence and table say the same; else the bin's."""
+    return order if abs(place - order / step) <= 1.0 else place * step
 
 
 def _spectrum(one: Observation, channel: str, band_hz: tuple[float, float]) -> tuple[FloatArray, FloatArray, float]:

@@ -8,8 +8,7 @@ from dataclasses import replace
 from reconcile.machine.decide import UNMEASURED, Decision
 from reconcile.machine.proved import NO_NEARER
 from reconcile.observe.observation import PointData
-from reconcile.report.markup import figure_text
-from reconcile.report.words import percent
+from reconcile.report.words import percent, sizes
 from reconcile.verdict import EstimatedForce, HeldOut, NextExperiment, Severity, operating_point
 from sim.terms import REGISTRY
 
@@ -25,11 +24,11 @@ def title(label: str) -> str:
 
 
 def size(severity: Severity | None) -> str:
-    """`, width 1 mm (90 %: 900 µm to 1.1 mm)`, or nothing."""
+    """`, width 1 mm (90 %: 0.9 mm to 1.1 mm)`, or nothing."""
     if severity is None:
         return ""
-    low, high = (figure_text(x, severity.unit, digits=2) for x in (severity.low, severity.high))
-    return f", {severity.name} {figure_text(severity.value, severity.unit, digits=2)} (90 %: {low} to {high})"
+    value, low, high = sizes(severity)
+    return f", {severity.name} {value} (90 %: {low} to {high})"
 
 
 SEARCHED = "the two sizes it is forecast with were searched with all points, these too"

@@ -46,16 +46,23 @@ PREFIXED = frozenset({"m", "N", "s", "V", "Pa", "Hz", "J", "W", "rad", "N/m", "N
 """Units before which a prefix reads well."""
 
 
-def figure_text(value: float, unit: str = "", digits: int = 3) -> str:
-    """A number for a reader: `digits` figures, plain where it can be, with its unit (`2.1e-5`, `m` -> `21 µm`)."""
+def power_of(value: float, unit: str) -> int:
+    """The power of ten of the prefix with which a value reads best in its unit."""
     size = abs(value)
+    if unit not in PREFIXED or not math.isfinite(value) or size == 0 or 0.1 <= size < 1e4:
+        return 0
+    return min(max(3 * math.floor(math.log10(size) / 3), -9), 9)
+
+
+def figure_text(value: float, unit: str = "", digits: int = 3, power: int | None = None) -> str:
+    """A number for a reader: `digits` figures, plain where it can be, with its unit (`2.1e-5`, `m` -> `21 µm`), by the
+    prefix of that `power` of ten where one is given."""
     if not math.isfinite(value):
         return "–"
-    prefix = ""
-    if unit in PREFIXED and size > 0 and not 0.1 <= size < 1e4:
-        power = min(max(3 * math.floor(math.log10(size) / 3), -9), 9)
-        value, prefix = value * 10.0**-power, PREFIXES[power]
-        size = abs(value)
+    raised = power_of(value, unit) if power is None else power
+    if raised:
+        value *= 10.0**-raised
+    prefix, size = PREFIXES[raised], abs(value)
     if size == 0 or 1e-3 <= size < 1e5:
         text = f"{value:.0f}" if size >= 10**digits else f"{value:.{digits}g}"
     else:

@@ -164,4 +164,5 @@ class Frame:
     def svg(self, *parts: Markup, title: str, css: str = "plot") -> Markup:
         """The panel with its parts; `title` is read out where it cannot be seen."""
         box = f"0 0 {self.width:g} {self.height:g}"
-        return tag("svg", tag("title", title), *parts, viewBox=box, role="img", css=css)
+        drawn = tag("svg", tag("title", title), *parts, viewBox=box, role="img", css=css)
+        return tag("div", tag("div", drawn, css="sideways"), css="figure") if css == "plot" else drawn

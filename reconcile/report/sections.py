@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from reconcile.report.action import to_do, undecided
+from reconcile.report.formula import formula
 from reconcile.report.markup import Markup, escaped, figure_text, tag
 from reconcile.report.mending import channels
 from reconcile.report.words import (
@@ -31,7 +32,7 @@ MOST_LINES = 20
 MOST_PLACES = 3
 SYMBOLS = (
     "f_o, f_i, f_b, f_c: outer race, inner race, ball and cage of a bearing; f_r: a shaft; f_m: a mesh; numbered in "
-    "the order of the machine file. 3*f_i1-2*f_r1 is a sideband. Bearings that roll alike share their lines."
+    "the order of the machine file. 3*f_i1±2*f_r1 is a sideband. Bearings that roll alike share their lines."
 )
 TOLD = '<div class="told">'
 SCORE = (
@@ -156,12 +157,12 @@ def where_table(where: Where) -> Markup:
     heads = ("line", *(("operating point",) if points else ()), "Hz", "change, dB", "channel", "locked to")
     rows = [
         (
-            ", ".join(y.label for y in same),
+            Markup(", ".join(formula(y.label) for y in same)),
             *((operating_point(x.speed_hz, x.torque_ratio) or "–",) if points else ()),
             ", ".join(f"{y.frequency_hz:.5g}" for y in same),
             f"{x.change_db:+.1f}",
             x.channel or "–",
-            x.locked_to or "nothing known",
+            formula(x.locked_to or "nothing known"),
         )
         for x, same in alike
     ]
@@ -172,7 +173,7 @@ def where_table(where: Where) -> Markup:
         since = "from the tacho's pulse or, without one, from the first sample on"
         said = tag("p", f"The residual sits at {text}, {since}.")
     limits = bullets(where.limits)
-    key = tag("p", SYMBOLS, css="muted") if any("*f_" in x.label for x in shown) else ""
+    key = tag("p", formula(SYMBOLS), css="muted") if any("*f_" in x.label for x in shown) else ""
     return Markup(said + table(heads, rows) + key + (tag("h3", "Limits") + limits if limits else ""))
 
 
@@ -224,7 +225,23 @@ def simulated(report: Report) -> str:
     return (
         f"Simulated, it leaves {figure_text(float(str(found['left_of_it_db'])))} dB of the "
         f"{figure_text(float(str(found['level_change_db'])))} dB (root mean square) by which levels of lines and bands "
-        "changed in the recordings that were fitted; the spectra above show it."
+        f"changed in the recordings that were fitted; the spectra above show it.{_worse_than_held_out(report, found)}"
+    )
+
+
+def _worse_than_held_out(report: Report, found: Mapping[str, object]) -> str:
+    """Why more is left of what was fitted than of what was not, where it is so."""
+    held = report.held_out
+    if held is None or held.unit != "dB" or not held.before > 0 or not float(str(found["level_change_db"])) > 0:
+        return ""
+    here = float(str(found["left_of_it_db"])) / float(str(found["level_change_db"]))
+    there = held.after / held.before
+    if here <= there:
+        return ""
+    return (
+        f" That is {percent(here)} of it, where {percent(there)} were left on the held-out data above. The two are "
+        "different measures: here levels of single lines and bands, simulated with the one set of numbers "
+        f"of this file; there the {held.metric.replace('_', ' ')}. The held-out figure is the one that judges the name."
     )
 
 

@@ -74,9 +74,11 @@ svg .ceiling-name { fill:var(--ok); font-weight:650 } details.point { border-top
 #pictures:target ~ main .told { display:none }
 summary { cursor:pointer; font-weight:600 }
 h1, p, li { overflow-wrap:anywhere } td { overflow-wrap:break-word }
-svg.plot.narrow { display:none } svg.plot.slim { max-width:460px; margin:0 auto }
+sub { font-size:75%; line-height:0 } svg.plot.narrow { display:none } svg.plot.slim { max-width:460px; margin:0 auto }
 @media (max-width:720px) { main { padding:10px 8px 40px } section, header { padding:12px }
- section { overflow-x:auto } svg.plot { min-width:600px } svg.plot.wide { display:none }
+ .sideways { overflow-x:auto } svg.plot { min-width:600px } svg.plot.wide { display:none }
+ .figure::before { content:"⟷ wider than the screen: swipe sideways"; display:block; color:var(--muted);
+  font-size:12.5px }
  svg.plot.narrow { display:block } svg.plot.narrow, svg.plot.slim { min-width:0 }
  .scroll tbody, .scroll tr, .scroll td { display:block; border:0; padding:1px 0; overflow-wrap:anywhere }
  .scroll tr { border-bottom:1px solid var(--border); padding:6px 0 } .scroll tr.heads { display:none }

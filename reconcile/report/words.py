@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 
-from reconcile.report.markup import figure_text
+from reconcile.report.markup import figure_text, power_of
 from reconcile.verdict import Cause, HeldOut, Level, Placebo, Report, Severity, Word
 
 VERDICT: dict[Word, tuple[str, str]] = {
@@ -32,6 +32,8 @@ FORMS = (
 )
 MOST_DIGITS, MOST_PLACES = 6, 2
 OWN_LAW = "custom_force"
+WIDTH_BELOW = "width_below_m"
+"""Value of a cause that bounds the width of a defect whose edges are not told apart."""
 LAWS = {
     "quadratic": "even stiffness",
     "cubic": "odd stiffness, cubic",
@@ -88,9 +90,10 @@ def distance(value: float, unit: str) -> str:
 
 
 def sizes(found: Severity) -> tuple[str, str, str]:
-    """Value and ends of the interval, to two figures as in the sentence, or as many as part the ends."""
+    """Value and ends of the interval in one unit, to two figures as in the sentence, or as many as part the ends."""
+    power = power_of(max((v for v in (found.high, found.value) if math.isfinite(v)), key=abs, default=0.0), found.unit)
     for digits in range(2, MOST_DIGITS + 1):
-        value, low, high = (figure_text(v, found.unit, digits=digits) for v in (found.value, found.low, found.high))
+        value, low, high = (figure_text(v, found.unit, digits, power) for v in (found.value, found.low, found.high))
         if low != high or found.low == found.high:
             break
     return value, low, high
@@ -100,7 +103,8 @@ def severity(found: Cause) -> str:
     """`gap 12 µm (90 %: 10 µm to 14 µm)`, or `width at most 2 mm` where a bound is all that is known; nothing where no
     size is. A size that is called as the effect is has no name of its own."""
     if found.severity is None:
-        return ""
+        below = found.values.get(WIDTH_BELOW)
+        return "" if below is None else f"width less than {figure_text(float(below), 'm', digits=2)}"
     value, low, high = sizes(found.severity)
     said = f"at most {high} (90 %)" if found.severity.low == 0.0 else f"{value} (90 %: {low} to {high})"
     return f"{size_name(found)} {said}".strip()

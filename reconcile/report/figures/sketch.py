@@ -6,7 +6,7 @@ given, else in the order of the specification.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from reconcile.report.markup import Markup, tag
@@ -16,6 +16,8 @@ from reconcile.report.strict import Plain
 WIDTH, LANE, MARGIN = 720.0, 116.0, 70.0
 SLIM, FEW = 360.0, 2
 """Width of a sketch of so many parts a lane: it fits a phone."""
+NARROW_PART, NARROW_MARGIN = 82.0, 12.0
+"""Room of a part, and beside all, where the screen is narrow: a longer shaft is drawn smaller there."""
 RING = 36.0
 """Around what is located: clear of its name below."""
 GROUND = ""
@@ -92,25 +94,41 @@ def sketch(machine: Mapping[str, Plain], weights: Mapping[str, float]) -> Markup
     lanes = _lanes(machine)
     if not any(lane.parts for lane in lanes):
         return Markup("")
+    most = max(len(lane.parts) for lane in lanes)
+    if most <= FEW:
+        return _drawn(machine, lanes, weights, SLIM, "plot sketch slim")
+    narrow = min(max(SLIM, NARROW_PART * most), WIDTH)
+    return Markup(
+        _drawn(machine, lanes, weights, WIDTH, "plot sketch wide")
+        + _drawn(machine, lanes, weights, narrow, "plot sketch narrow", margin=NARROW_MARGIN)
+    )
+
+
+def _drawn(
+    machine: Mapping[str, Plain],
+    lanes: Sequence[_Lane],
+    weights: Mapping[str, float],
+    width: float,
+    css: str,
+    margin: float = MARGIN,
+) -> Markup:
+    """One size of it; where there is little room the names of shafts stand above their parts."""
     parts: list[Markup] = []
     places: dict[str, tuple[float, float]] = {}
-    slim = all(len(lane.parts) <= FEW for lane in lanes)
-    width = SLIM if slim else WIDTH
     for row, lane in enumerate(lanes):
         y = LANE * (row + 0.5)
-        step = (width - 2 * MARGIN) / max(len(lane.parts), 1)
+        step = (width - 2 * margin) / max(len(lane.parts), 1)
         if lane.name:
             parts.append(tag("line", x1=24, x2=width - 24, y1=y, y2=y, css="shaft"))
-            parts.append(tag("text", lane.name, x=26, y=y - 8, css="shaft-name"))
+            parts.append(tag("text", lane.name, x=26, y=y - (8 if margin == MARGIN else 40), css="shaft-name"))
             places[lane.name] = (40.0, y)
         for i, (kind, name) in enumerate(lane.parts):
-            x = MARGIN + step * (i + 0.5)
+            x = margin + step * (i + 0.5)
             places[name] = (x, y)
             parts += _body(kind, x, y) + ([] if lane.name else [_spring(x, y)])
             parts += _place(name, x, y, weights, -38.0 if kind == "gear" else 54.0 if not lane.name else 50.0)
     parts += _meshes(machine, places, weights)
     box = f"0 0 {width:g} {LANE * len(lanes):g}"
-    css = f"plot sketch{' slim' if slim else ''}"
     return tag("svg", tag("title", "Machine and located place"), *parts, viewBox=box, role="img", css=css)
 
 

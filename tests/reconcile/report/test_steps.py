@@ -8,8 +8,9 @@ import pytest
 
 from reconcile.report import page
 from reconcile.report.action import to_do
+from reconcile.report.formula import formula
 from reconcile.report.provenance import provenance
-from reconcile.report.sections import where_table
+from reconcile.report.sections import causes_table, where_table
 from reconcile.report.steps import stages
 from reconcile.report.words import compared
 from reconcile.verdict import (
@@ -148,14 +149,29 @@ def test_sizes_have_two_figures_as_the_sentence_has_them() -> None:
     size = Severity(name="width", value=1.664e-3, low=3.751e-4, high=7.391e-3, unit="m")
     cause = Cause(term="outer_spall", site="drive_end", score=29.6, named=True, severity=size)
     whole = page(report(causes=(cause,)))
-    assert "<b>1.7 mm</b>" in whole and "width of outer spall at drive_end, 90 %: 375 µm to 7.4 mm" in whole
-    assert "width 1.7 mm (90 %: 375 µm to 7.4 mm)" in whole and "1.66" not in whole
+    assert "<b>1.7 mm</b>" in whole and "width of outer spall at drive_end, 90 %: 0.38 mm to 7.4 mm" in whole
+    assert "width 1.7 mm (90 %: 0.38 mm to 7.4 mm)" in whole and "1.66" not in whole
+
+
+def test_a_bound_on_the_width_stands_in_the_cell_of_the_severity() -> None:
+    values = {"width_below_m": 0.0020003}
+    cause = Cause(term="outer_spall", site="drive_end", score=22.0, named=True, values=values)
+    (_, row) = rows(causes_table((cause,), "kinematics"))
+    assert row[2] == "width less than 2 mm"
+
+
+def test_names_of_lines_are_written_as_by_hand() -> None:
+    assert formula("3*f_i1-2*f_r1 or 4*f_o1").replace("\u00a0", " ") == (
+        "3 <i>f</i><sub>i1</sub> − 2 <i>f</i><sub>r1</sub> or 4 <i>f</i><sub>o1</sub>"
+    )
+    assert formula("1 BPFO") == "1 BPFO" and formula("drive_end.outer") == "drive_end.outer"
+    assert formula("<b>") == "&lt;b&gt;"
 
 
 def test_symbols_of_lines_are_said_where_there_are_any() -> None:
     for label, said in (("3*f_o1", True), ("BPFO", False)):
         lines = (LineChange(label=label, frequency_hz=323.7, change_db=30.0),)
-        assert ("f_o, f_i, f_b, f_c: outer race" in where_table(Where(lines=lines))) is said
+        assert ("<i>f</i><sub>c</sub>: outer race" in where_table(Where(lines=lines))) is said
 
 
 def test_costs_are_told_in_words() -> None:

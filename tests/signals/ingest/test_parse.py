@@ -241,40 +241,6 @@ def test_tacho_from_a_channel_a_column_times_or_an_array(read, tmp_path) -> None
     assert "lie outside the recording" in refusal(read, tmp_path / "p.npz", tacho=late)
 
 
-def pulsed(folder: Path) -> Path:
-    t = np.arange(2000) / RATE
-    noise = np.random.default_rng(4).standard_normal((3, t.size))
-    np.savez(folder / "p.npz", a=noise[0], b=noise[1], noise=noise[2], pulse=(np.mod(25 * t, 1) < 0.2).astype(float))
-    return folder / "p.npz"
-
-
-def test_a_channel_of_motion_that_reads_the_pulses_is_refused(read, tmp_path) -> None:
-    path = pulsed(tmp_path)
-    entry = {"name": "a", "column": "pulse", "quantity": "acceleration", "unit": "g"}
-    text = refusal(read, path, channels=[entry], tacho={"shaft": "input", "column": "pulse"})
-    assert text.startswith("channels.0.column: reads the same samples as tacho.column") and "'pulse'" in text
-    text = refusal(read, path, tacho={"shaft": "input", "column": "b"})
-    assert text.startswith("channels.1.column: reads the same samples as tacho.column")
-    for free in ({"quantity": "", "unit": "V"}, {"quantity": "displacement", "unit": "um"}):
-        (said,) = read(path, channels=[{**entry, **free}], tacho={"shaft": "input", "channel": "pulse"}).remarks[-1:]
-        assert said == "channels.0: a holds the pulses of the tacho and is looked at as any channel is"
-    assert read(path, tacho={"shaft": "input", "column": "pulse"}).remarks == ()
-
-
-def test_the_field_that_was_written_is_named(read, tmp_path) -> None:
-    path = pulsed(tmp_path)
-    for key in ("column", "channel"):
-        assert refusal(read, path, tacho={"shaft": "input", key: "q"}).startswith(f"tacho.{key}: is not in the file")
-        far = refusal(read, path, tacho={"shaft": "input", key: "pulse", "threshold": 7.0})
-        assert far.startswith(f"tacho.{key}: shows fewer than two pulses")
-
-
-def test_a_column_that_looks_like_no_tacho_is_remarked_on(read, tmp_path) -> None:
-    path = pulsed(tmp_path)
-    (said,) = read(path, tacho={"shaft": "input", "column": "noise"}).remarks
-    assert said.startswith("tacho.column: does not look like a tacho signal") and "%" in said
-
-
 def test_sizes_are_refused_before_anything_is_read(read, archive) -> None:
     size = archive.stat().st_size
     assert "too large" in refusal(read, archive, Bounds(file_bytes=size - 1))
