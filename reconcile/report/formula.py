@@ -12,6 +12,11 @@ SIGN = re.compile(r"(?<=\w)\s?([-+±])\s?(?=\d+\*f_|f_)")
 SIGNS = {"-": "−"}
 
 
+def drawn_formula(label: str) -> str:
+    """The same for a figure, whose text has no lowered indices: `3 f_i1 − 2 f_r1`."""
+    return TIMES.sub("\u00a0", SIGN.sub(lambda m: f" {SIGNS.get(m[1], m[1])} ", label))
+
+
 def formula(label: str) -> Markup:
     """A label, or a text with labels in it, as markup; other words stay as they are."""
     spaced = SIGN.sub(lambda m: f" {SIGNS.get(m[1], m[1])} ", label)

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
+from reconcile.report.formula import drawn_formula
 from reconcile.report.markup import Markup, tag
 from reconcile.report.pictures import number, numbers, text
 from reconcile.report.plot import TOP, Frame, span
@@ -40,7 +41,9 @@ def _marks(frame: Frame, lines: Sequence[LineChange]) -> Markup:
         at = frame.px(line.frequency_hz)
         css = "up" if line.change_db >= 0 else "down"
         parts.append(tag("line", x1=at, x2=at, y1=TOP, y2=TOP + 7, css=f"mark {css}"))
-        name = OR.join(dict.fromkeys(x.label for x in kept if abs(frame.px(x.frequency_hz) - at) <= ONE_PLACE))
+        name = OR.join(
+            dict.fromkeys(drawn_formula(x.label) for x in kept if abs(frame.px(x.frequency_hz) - at) <= ONE_PLACE)
+        )
         half = 0.5 * LETTER * len(name)
         middle = min(max(at, frame.left + half), max(frame.width - half, frame.left + half))
         if all(abs(middle - other) > half + room for other, room in taken):

@@ -302,3 +302,14 @@ def test_a_size_of_which_only_a_bound_is_known_is_told_as_a_bound() -> None:
     )
     text = page(made)
     assert "at most 2.2 mm" in text and "1.1 mm" not in text and "0 m" not in text.replace("20 m", "")
+
+
+def test_a_drawing_has_a_narrow_form_and_a_wider_figure_says_that_it_goes_on() -> None:
+    """On a phone four parts fit 360 pixels; frames of 720 scroll under a hint."""
+    machine = {"bodies": [{"name": f"b{k}"} for k in range(4)]}
+    both = sketch(machine, {"b2": 1.0})
+    assert both.count('viewBox="0 0 360 116"') == 1 and both.count('viewBox="0 0 720 116"') == 1
+    assert "plot sketch narrow" in both and "plot sketch wide" in both
+    whole = page(full_report())
+    assert whole.count('class="figure"') == whole.count('class="sideways"') == whole.count('class="plot"') > 0
+    assert ".figure::before" in whole and ".sideways { overflow-x:auto }" in whole
