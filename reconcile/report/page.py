@@ -141,7 +141,7 @@ def _force(report: Report) -> Markup:
     maps = [force_map(p) for p in several(report.pictures, "force_map")]
     if found is None:
         return section("Estimated force", *drawn, *maps)
-    said = f"At {found.site}: " + (f"law {found.law}." if found.law else "no stable law.")
+    said = f"At {found.site}: " + (f"law {found.law}." if found.law else "no law is named.")
     units = {c.severity.name: c.severity.unit for c in report.causes if c.severity is not None}
     terms = bullets(
         f"{LAWS.get(name, name.replace('_', ' '))}: {figure_text(value, units.get(name, ''), digits=4)}"
