@@ -238,7 +238,7 @@ def _where(setting: Setting, layout: Layout, watched: WatchList, weights: Mappin
     return Where(
         sites=_sites(weights),
         lines=by_name(line_changes(setting.data, setting.changes, layout, watched, setting.channels), setting.machine),
-        angle_window=angle_window(setting.machine, setting.data, setting.channels),
+        angle_window=angle_window(setting.direct.places),
         limits=limits(setting),
     )
 

@@ -9,7 +9,7 @@ other's slip.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from reconcile.kinematics.observe import Observation, reach_of
 from reconcile.kinematics.spec import of_machine
 from reconcile.machine.alone import Rise
 from reconcile.machine.struck import by_comb, combs
-from reconcile.machine.window import turn_heights
+from reconcile.machine.window import ToothPlace, tooth_places
 from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
 from signals.recording import Operating, Recording
@@ -38,9 +38,6 @@ TURNS_SHARE = 2.0
 """A struck inner ring modulates once a turn too: by no more than this share of its own lines' score."""
 IMPACTS_FROM = 3
 """Harmonic of a shaft from which on its modulation is that of impacts."""
-UNMOVED = 4.0
-"""Height of the fullest window of a mean turn that 14 concealed healthy cases of development reach."""
-PER_HEIGHT = 2.0
 MOST_TURNS = 4.0
 """Of impacts once a turn alone: unbalance in a clearance and a rub strike as often."""
 MODELLED = 4.0
@@ -66,13 +63,15 @@ class Direct:
     and is not heard, where another part is struck for sure.
 
     `p`: chance that a sound machine shows the firmest of what has risen; 1 where nothing has. `struck`: where impacts
-    come at the lines of several parts, the effects of each with their evidence, the firmest part's first.
+    come at the lines of several parts, the effects of each with their evidence, the firmest part's first. `places`: of
+    every gear in a mesh.
     """
 
     evidence: Mapping[str, float]
     p: float
     told: tuple[str, ...]
     struck: tuple[Mapping[str, float], ...] = ()
+    places: Mapping[str, ToothPlace] = field(default_factory=dict)
 
 
 NOTHING = Direct(evidence={}, p=1.0, told=())
@@ -88,23 +87,23 @@ def direct_evidence(
 ) -> Direct:
     """What struck, in the recordings of all operating points against their baselines, or without those by more than
     simulated sound machines (`rise`)."""
+    places = tooth_places(machine, data)
     try:
         tie = impulsive(ties(of_machine(machine), machine.operating.shaft if machine.operating else None))
     except SpecError as error:  # shafts whose speeds nothing ties together
-        return Direct(evidence={}, p=1.0, told=(f"not looked for: {error}",))
+        return replace(NOTHING, told=(f"not looked for: {error}",), places=places)
     if not reachable(data, tie):
-        return Direct(evidence={}, p=1.0, told=("not looked for: the sampling rate is too low for their lines",))
+        return replace(NOTHING, told=("not looked for: the sampling rate is too low for their lines",), places=places)
     tests = [observed_as(d.spectra[0], f"test {k}", channels, tie) for k, d in enumerate(data, 1)]
     rested = [d.spectra[1] for d in data]
     baselines = [observed_as(b, f"baseline {k}", channels, tie) for k, b in enumerate(rested, 1) if b is not None]
     seen = candidates(tests, baselines, tie, seed)
     points, based, teeth = len(data), bool(baselines), bool(machine.gears)
     every = tuple(c for c in seen if rise is None or _counts(c, rise, points=points, based=based, teeth=teeth))
-    heights = turn_heights(machine, data, [c.name for c in channels])
     evidence: dict[str, float] = {}
     for term in REGISTRY:
         if term.strikes == "tooth":
-            evidence |= {f"{term.key}@{g.name}": _tooth(every, g.name, g.shaft, heights) for g in machine.gears}
+            evidence |= {f"{term.key}@{g.name}": _tooth(every, g.shaft, places.get(g.name)) for g in machine.gears}
         elif term.strikes is not None:
             evidence |= {f"{term.key}@{b.name}": _ball(every, tie, term.strikes, b.name) for b in machine.bearings}
     evidence = shared_lines(evidence, tie)
@@ -115,10 +114,11 @@ def direct_evidence(
     usual = [f"{c.family.key}: {c.z:.1f}, but sound machines show as much" for c in seen if c.risen and c not in every]
     return Direct(
         evidence={name: min(value, MOST) for name, value in unheard(evidence, spared).items() if value != 0.0},
-        p=min([1.0, *(c.chance for c in firm), *(chance for _, chance in heights.values())]),
+        p=min([1.0, *(c.chance for c in firm), *(min(1.0, len(places) * p.chance) for p in places.values())]),
         told=(
             *(f"{_called(c.family, tie)}: {c.z:.1f} deviations of control lines" for c in heard),
             *usual,
+            *(f"one place of the turn of {name}: {p.evidence:.1f} of evidence" for name, p in places.items() if p.told),
             *(f"{c.family.key}: {c.z:.1f} without the lines of {several[0].family.key}" for c in several[1:]),
         ),
         struck=by_comb(several, machine, tie, evidence, MOST),
@@ -219,10 +219,10 @@ def _turn(every: Sequence[Candidate], shaft: str) -> float:
     return _score(next((c for c in every if c.family.kind == "turn" and c.family.site == shaft), None))
 
 
-def _tooth(every: Sequence[Candidate], gear: str, shaft: str, heights: Mapping[str, tuple[float, float]]) -> float:
+def _tooth(every: Sequence[Candidate], shaft: str, place: ToothPlace | None) -> float:
     """By impacts once a turn, or by the place in the mean turn, whichever says more."""
     impacts = _turn(every, shaft) ** 2 / (2 * SCATTER)
-    return max(min(impacts, MOST_TURNS), PER_HEIGHT * (heights.get(gear, (0.0, 1.0))[0] - UNMOVED))
+    return max(min(impacts, MOST_TURNS), place.evidence if place is not None else 0.0)
 
 
 def _ball(every: Sequence[Candidate], tie: Ties, kind: str, site: str) -> float:

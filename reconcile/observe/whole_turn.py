@@ -1,0 +1,184 @@
+"""What comes back at one place of a gear's turn, heard by all channels and in all bands together.
+
+The mean turn of a gear (S. Braun, "The extraction of periodic waveforms by time domain averaging", Acustica 32 (1975)
+69-77) without the lines of its meshes is a residual in which a faulty tooth stands out as a short burst (P. D.
+McFadden, "Examination of a technique for the early detection of failure in gears by signal processing of the time
+domain average of the meshing vibration", Mech. Syst. Signal Process. 1 (1987) 173-183). Here each order of it is
+divided by its own error, which the turns give by how they differ, so that bands in which the burst is weak but clean
+count as much as those in which it is loud and drowned; orders that only a few turns make large, or that stand out of
+all around them, are lines of something else and are held down.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+from signals.series import FloatArray
+
+ComplexArray = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
+
+LEAST_TURNS, MOST_TURNS = 4, 400
+MOST_SAMPLES = 600_000
+"""A channel, after resampling: more turns than these hold are left out."""
+LEAST_ORDERS = 3
+"""Unbalance, a bend and a coupling move the first two orders of a shaft."""
+MESHES = 2
+"""Harmonics of the teeth that the sampling rate must reach."""
+WINDOW_TEETH = 1.2
+BESIDE_TEETH = 2.0
+"""From the middle of the fullest window on all else is the rest of the turn: a tooth is in mesh for one and a half to
+two pitches."""
+LEVELLED = 2.5
+"""Times the level of the orders around it that an order may have at most."""
+LINE_BINS = 1.5
+"""Width to each side, in turns of the record, in which the lines of other shafts are taken out."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Other:
+    """Lines of something else: every multiple of `order` (a turn of the gear)."""
+
+    order: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class WholeTurn:
+    """`windows`: power in windows of `WINDOW_TEETH` around each step of the turn over the middle of them, (steps,).
+
+    `teeth`: of the gear; `turns`: that were averaged.
+    """
+
+    windows: FloatArray
+    teeth: int
+    turns: int
+
+    @property
+    def at(self) -> int:
+        """Step of the fullest window."""
+        return int(np.argmax(self.windows))
+
+    @property
+    def height(self) -> float:
+        """Of the fullest window."""
+        return float(np.max(self.windows))
+
+    @property
+    def rest(self) -> float:
+        """Of the fullest window of the rest of the turn."""
+        steps = self.windows.size
+        apart = min(int(BESIDE_TEETH * steps / self.teeth), steps // 2 - 1)
+        turned = np.roll(self.windows, -self.at)
+        return float(np.max(turned[apart : steps - apart + 1]))
+
+
+def whole_turn(
+    samples: FloatArray,
+    turns: FloatArray,
+    *,
+    teeth: Sequence[int],
+    others: Sequence[Other] = (),
+) -> WholeTurn | None:
+    """The mean turn of a gear of `teeth[0]` teeth, from `samples` (C, n) at the angles `turns` (n,) of its shaft.
+
+    `teeth`: also of the other gears on that shaft. None where a recording is too short or too slowly sampled.
+    """
+    known = np.flatnonzero(np.isfinite(turns))
+    if known.size < 2:
+        return None
+    cut = slice(int(known[0]), int(known[-1]) + 1)
+    each = _each_turn(samples[:, cut], turns[cut], others)
+    if each is None or each.shape[2] <= MESHES * max(teeth):
+        return None
+    kept = _kept(each.shape[2], teeth)
+    if np.count_nonzero(kept) < teeth[0]:
+        return None
+    power = np.mean(_power(_whitened(each, kept, teeth[0])), axis=0)
+    windows = _windows(power, max(3, int(WINDOW_TEETH * power.size / teeth[0])))
+    middle = float(np.median(windows))
+    if not middle > 0.0:
+        return None
+    return WholeTurn(windows=windows / middle, teeth=teeth[0], turns=each.shape[1])
+
+
+def standing(now: WholeTurn | None, before: WholeTurn | None) -> float:
+    """Log of how far the fullest window stands out, over the baseline's and over the rest of its own turn; 0 where it
+    cannot be told.
+
+    A height is worth less by the square of how much the rest of the turn stands out of what it was: what rattles once
+    a turn is heard for a third of it, a faulty tooth for its own pitch. Without a baseline the rest stands for that.
+    """
+    if now is None:
+        return 0.0
+    usual = before.height if before is not None else now.rest
+    return float(np.log(now.height * usual / max(now.rest, usual) ** 2))
+
+
+def _each_turn(samples: FloatArray, turns: FloatArray, others: Sequence[Other]) -> ComplexArray | None:
+    """Spectra of all whole turns, (C, turns, orders), without the lines of others."""
+    there = np.isfinite(turns)
+    steps = np.arange(turns.size)
+    turns = np.interp(steps, steps[there], turns[there])
+    span = float(turns[-1] - turns[0])
+    if not span > 0.0:
+        return None
+    per_turn = int((turns.size - 1) / span) // 2 * 2
+    count = int(min(span, MOST_TURNS, MOST_SAMPLES // max(per_turn, 1)))
+    if count < LEAST_TURNS or per_turn < 2:
+        return None
+    at = np.interp(turns[0] + np.arange(count * per_turn) / per_turn, turns, steps)
+    even = scipy.interpolate.CubicSpline(steps, samples, axis=1)(at)
+    spectrum = np.fft.rfft(even, axis=1)
+    orders = np.arange(spectrum.shape[1]) / count
+    for other in others:
+        away = np.abs(orders - np.rint(orders / other.order) * other.order)
+        spectrum[:, away <= LINE_BINS / count] = 0.0
+    clean = np.fft.irfft(spectrum, count * per_turn, axis=1)
+    return np.asarray(np.fft.rfft(clean.reshape(samples.shape[0], count, per_turn), axis=2), dtype=np.complex128)
+
+
+def _kept(count: int, teeth: Sequence[int]) -> np.ndarray:
+    """Mask of the orders that are neither a mesh nor next to it, nor the lowest."""
+    orders = np.arange(count)
+    kept = orders >= LEAST_ORDERS
+    for z in teeth:
+        kept &= np.abs((orders + z // 2) % z - z // 2) > 1
+    return kept
+
+
+def _whitened(each: ComplexArray, kept: np.ndarray, teeth: int) -> ComplexArray:
+    """The mean turn over its error, order by order, (C, orders); the error is that of the orders around, or its own
+    where that is larger."""
+    mean = each.mean(axis=1)
+    count = each.shape[1]
+    spread = np.sum(np.abs(each - mean[:, None]) ** 2, axis=1) / (count - 1) / count
+    white = np.zeros_like(mean)
+    orders, at = np.arange(mean.shape[1]), np.flatnonzero(kept)
+    for c, own in enumerate(np.maximum(spread, 1e-300)):
+        around = np.interp(orders, at, np.log(own[at]))
+        usual = np.exp(scipy.ndimage.uniform_filter1d(around, teeth // 2 * 2 + 1, mode="nearest"))
+        white[c] = np.where(kept, mean[c] / np.sqrt(np.maximum(usual, own)), 0.0)
+        size = np.abs(white[c])
+        level = scipy.ndimage.median_filter(np.interp(orders, at, size[at]), 2 * teeth + 1, mode="nearest")
+        white[c] *= np.minimum(1.0, LEVELLED * level / np.maximum(size, 1e-300))
+    return np.asarray(white, dtype=np.complex128)
+
+
+def _power(white: ComplexArray) -> FloatArray:
+    """Power of the mean turn at each step, (C, steps), of mean 1 where there is noise alone."""
+    channels, count = white.shape
+    twice = np.zeros((channels, 2 * count), dtype=np.complex128)
+    twice[:, :count] = white
+    there = np.maximum(np.count_nonzero(white, axis=1), 1)[:, None]
+    return np.asarray(np.abs(np.fft.ifft(twice, axis=1) * 2 * count) ** 2 / there)
+
+
+def _windows(power: FloatArray, width: int) -> FloatArray:
+    """Mean of `power` (steps,) over `width` steps around each, (steps,)."""
+    kernel = np.zeros(power.size)
+    kernel[:width] = 1 / width
+    turned = np.roll(kernel, -(width // 2))
+    return np.asarray(np.fft.irfft(np.fft.rfft(power) * np.fft.rfft(turned), power.size), dtype=np.float64)
