@@ -1,10 +1,10 @@
 """Of faults of one tooth that only a burst tells the crack is said first, where it is as good as any."""
 
 import pytest
-from tests.reconcile.machine.screens import screen
 
 from reconcile.machine.decide import Decision
 from reconcile.machine.of_teeth import AS_GOOD_TEETH, crack_first
+from tests.reconcile.machine.screens import screen
 
 NAMES = ("missing_tooth@pinion", "tooth_spall@pinion", "tooth_crack@pinion", "tooth_crack@gear", "unbalance@pinion")
 TEETH = NAMES[:3]
