@@ -35,6 +35,7 @@ from reconcile.kinematics.shafts import shaft_changes
 from reconcile.kinematics.slowest import with_slowest
 from reconcile.kinematics.spec import KinematicSpec, of_machine
 from reconcile.kinematics.teeth import other_teeth, told_with, with_teeth
+from reconcile.kinematics.tooth_turn import tooth_report, tooth_turn
 from reconcile.kinematics.unheard import with_lost
 from reconcile.kinematics.unread import ALIKE_Z, Judged
 from reconcile.kinematics.vague import gear_report
@@ -168,6 +169,8 @@ def _judged(
         report = with_rest(told, gears, grown, tests, series)
     elif (growth := grown_defect(old_defects(every), tests, baselines, tie)) is not None:
         report = _regrown(growth, tests, baselines, tie, seed)
+    elif (tooth := tooth_turn(tests, baselines, tie)) is not None:
+        report = tooth_report(tooth)
     elif gears and gears[0].grown:
         report = gear_report(gears, tests)
     else:

@@ -15,7 +15,7 @@ from reconcile.kinematics.measured import measured_lines
 from reconcile.kinematics.observe import Observation
 from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Report, Where
 
-TOOTH_TERMS = ("missing_tooth", "tooth_crack", "tooth_spall")
+TOOTH_TERMS = ("tooth_crack", "tooth_spall", "missing_tooth")
 
 
 def gear_report(found: Sequence[GearEvidence], tests: Sequence[Observation]) -> Report:

@@ -28,9 +28,9 @@ from reconcile.machine.setting import Found, Setting
 from reconcile.machine.stages import all_stages, gate_stage, of_pairs, revisions
 from reconcile.machine.unknown import Unknown, at_supports
 from reconcile.machine.weigh import merged_weights, of_one_part, of_the_set
-from reconcile.machine.window import angle_window
 from reconcile.machine.words import law_sentence, more, next_experiment, sentence, size, title, together, with_points
 from reconcile.observe.features import Layout
+from reconcile.observe.tooth_place import angle_window
 from reconcile.observe.watch import WatchList, watch_list
 from reconcile.origin import origin
 from reconcile.verdict import (

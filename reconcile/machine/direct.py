@@ -21,9 +21,10 @@ from reconcile.kinematics.observe import Observation, reach_of
 from reconcile.kinematics.spec import of_machine
 from reconcile.machine.alone import Rise
 from reconcile.machine.struck import by_comb, combs
-from reconcile.machine.window import ToothPlace, tooth_places
+from reconcile.machine.window import tooth_places
 from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
+from reconcile.observe.tooth_place import ToothPlace
 from signals.recording import Operating, Recording
 from sim.core.errors import SpecError
 from sim.core.response import Channel

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from reconcile.machine.window import PLACED, PLACED_BARE, ToothPlace, angle_window, window_of
+from reconcile.observe.tooth_place import PLACED, PLACED_BARE, ToothPlace, angle_window, window_of
 from reconcile.observe.whole_turn import WholeTurn
 
 
