@@ -14,6 +14,7 @@ from proof.kinds import kinds
 from proof.nominals import NOMINALS, PAPER
 from proof.plan import SEEDS, SENSOR_COUNTS, SNRS_DB, TARGET, Case, Split, hiding_of, plan, sensors_of
 from proof.rotors.plan import rotors
+from proof.teeth import teeth
 
 LEVEL = 2
 SPLITS: tuple[Split, ...] = get_args(Split)
@@ -35,7 +36,7 @@ def cases_of(split: Split) -> tuple[Case, ...]:
     """All cases of any split."""
     if split in {"rotors", "rotors-later"}:
         return rotors(split)
-    made = {"others": others, "kinds": kinds, "entire": entire}
+    made = {"others": others, "kinds": kinds, "entire": entire, "teeth": teeth}
     return made[split]() if split in made else plan(split)
 
 

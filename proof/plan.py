@@ -37,6 +37,7 @@ Split = Literal[
     "pitted",
     "anew",
     "entire",
+    "teeth",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -56,6 +57,7 @@ SEEDS = {
     "pitted": 9_302_716_583,
     "anew": 5_790_146_323,
     "entire": 8_064_731_295,
+    "teeth": 4_836_201_759,
 }
 COUNTS = {
     "dev": {
