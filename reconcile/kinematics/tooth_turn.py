@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from reconcile.kinematics.lines import matched
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.vague import TOOTH_TERMS
 from reconcile.observe.tooth_place import ToothPlace, placed, window_of
-from reconcile.observe.whole_turn import WholeTurn, standing, whole_turn
+from reconcile.observe.whole_turn import WholeTurn, of_as_many_turns, standing, whole_turn
 from reconcile.verdict import Cause, NextExperiment, PlaceWeight, Report, Where
 
 
@@ -39,7 +40,7 @@ def tooth_turn(tests: Sequence[Observation], baselines: Sequence[Observation], t
         points = []
         for test, base in pairs:
             names = tuple(n for n in test.recording.names if n in base.recording.names)
-            now, before = (_turn(one, names, ratio, teeth) for one in (test, base))
+            now, before = of_as_many_turns(*(partial(_turn, one, names, ratio, teeth) for one in (test, base)))
             points.append((standing(now, before) if before is not None else 0.0, now, 0.0))
         place = placed(shaft, points)
         if place.told and place.strongest is not None:
@@ -60,13 +61,13 @@ def _gears(ties: Ties) -> list[tuple[str, str, tuple[int, ...]]]:
     ]
 
 
-def _turn(one: Observation, names: Sequence[str], ratio: float, teeth: tuple[int, ...]) -> WholeTurn | None:
+def _turn(one: Observation, names: Sequence[str], ratio: float, teeth: tuple[int, ...], most: int) -> WholeTurn | None:
     channel = one.channel(names[0]) if names else None
     if channel is None:
         return None
     samples = np.array([one.recording.series(name).samples for name in names], dtype=np.float64)
     turns = np.asarray(channel.angle_rad * (ratio / (2 * np.pi)), dtype=np.float64)
-    return whole_turn(samples, turns, teeth=teeth)
+    return whole_turn(samples, turns, teeth=teeth, most_turns=most)
 
 
 def tooth_report(found: ToothTurn) -> Report:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
 from reconcile.observe.tooth_place import ToothPlace, placed
 from reconcile.observe.watch import bases_at
-from reconcile.observe.whole_turn import WholeTurn, standing, whole_turn
+from reconcile.observe.whole_turn import WholeTurn, of_as_many_turns, standing, whole_turn
 from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
 
@@ -23,7 +24,7 @@ def tooth_places(machine: MachineSpec, data: Sequence[PointData]) -> dict[str, T
     for one in data:
         now, before = one.spectra
         for gear in _known(machine, now.speed_hz):
-            turn, rested = _turn(now, gear), _turn(before, gear) if before is not None else None
+            turn, rested = of_as_many_turns(partial(_turn, now, gear), partial(_turn, before, gear))
             shafts[gear.name] = gear.shaft
             found.setdefault(gear.name, []).append((standing(turn, rested), turn, now.start_turns * gear.ratio))
     bare = any(one.baseline is None for one in data)
@@ -59,7 +60,9 @@ def _gears(machine: MachineSpec, speed_hz: float) -> Iterator[_Gear]:
         yield _Gear(name=gear.name, shaft=gear.shaft, ratio=ratio, teeth=(gear.teeth, *here))
 
 
-def _turn(one: Steady, gear: _Gear) -> WholeTurn | None:
+def _turn(one: Steady | None, gear: _Gear, most: int) -> WholeTurn | None:
+    if one is None:
+        return None
     angle = np.arange(one.samples.shape[1]) * (one.speed_hz * gear.ratio / one.rate_hz)
     turns = np.asarray(angle, dtype=np.float64)
-    return whole_turn(one.samples, turns, teeth=gear.teeth)
+    return whole_turn(one.samples, turns, teeth=gear.teeth, most_turns=most)

@@ -11,7 +11,7 @@ all around them, are lines of something else and are held down.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -74,6 +74,7 @@ def whole_turn(
     turns: FloatArray,
     *,
     teeth: Sequence[int],
+    most_turns: int = MOST_TURNS,
 ) -> WholeTurn | None:
     """The mean turn of a gear of `teeth[0]` teeth, from `samples` (C, n) at the angles `turns` (n,) of its shaft.
 
@@ -83,7 +84,7 @@ def whole_turn(
     if known.size < 2:
         return None
     cut = slice(int(known[0]), int(known[-1]) + 1)
-    each = _each_turn(samples[:, cut], turns[cut])
+    each = _each_turn(samples[:, cut], turns[cut], min(most_turns, MOST_TURNS))
     if each is None or each.shape[2] <= MESHES * max(teeth):
         return None
     kept = _kept(each.shape[2], teeth)
@@ -95,6 +96,18 @@ def whole_turn(
     if not middle > 0.0:
         return None
     return WholeTurn(windows=windows / middle, teeth=teeth[0], turns=each.shape[1])
+
+
+def of_as_many_turns(
+    now: Callable[[int], WholeTurn | None], before: Callable[[int], WholeTurn | None]
+) -> tuple[WholeTurn | None, WholeTurn | None]:
+    """The mean turns of a test and its baseline, of the same number of turns: a longer record brings out of the noise
+    what a shorter one had too. Both are made by a function of the most turns."""
+    one, other = now(MOST_TURNS), before(MOST_TURNS)
+    if one is None or other is None or one.turns == other.turns:
+        return one, other
+    least = min(one.turns, other.turns)
+    return (now(least), other) if one.turns > least else (one, before(least))
 
 
 def standing(now: WholeTurn | None, before: WholeTurn | None) -> float:
@@ -110,8 +123,8 @@ def standing(now: WholeTurn | None, before: WholeTurn | None) -> float:
     return float(np.log(now.height * usual / max(now.rest, usual) ** 2))
 
 
-def _each_turn(samples: FloatArray, turns: FloatArray) -> ComplexArray | None:
-    """Spectra of all whole turns, (C, turns, orders)."""
+def _each_turn(samples: FloatArray, turns: FloatArray, most: int) -> ComplexArray | None:
+    """Spectra of all whole turns, `most` at most, (C, turns, orders)."""
     there = np.isfinite(turns)
     steps = np.arange(turns.size)
     turns = np.interp(steps, steps[there], turns[there])
@@ -119,7 +132,7 @@ def _each_turn(samples: FloatArray, turns: FloatArray) -> ComplexArray | None:
     if not span > 0.0:
         return None
     per_turn = int((turns.size - 1) / span) // 2 * 2
-    count = int(min(span, MOST_TURNS, MOST_SAMPLES // max(per_turn, 1)))
+    count = int(min(span, most, MOST_SAMPLES // max(per_turn, 1)))
     if count < LEAST_TURNS or per_turn < 2:
         return None
     at = np.interp(turns[0] + np.arange(count * per_turn) / per_turn, turns, steps)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from reconcile.observe.whole_turn import standing, whole_turn
+from reconcile.observe.whole_turn import of_as_many_turns, standing, whole_turn
 
 RATE, HZ, TEETH, SECONDS = 20_000.0, 30.0, 23, 1.2
 TIME = np.arange(int(RATE * SECONDS)) / RATE
@@ -105,3 +105,19 @@ def test_without_a_baseline_the_usual_height_stands_for_it():
     struck += burst(TURNS, 0.5, size=0.6)
     assert standing(turn(struck), None) > 1.0
     assert standing(turn(sound(15)), None) < 0.3
+
+
+def test_a_longer_test_is_cut_to_the_turns_of_its_baseline():
+    """One tooth is a little odd in both: 35 turns bring it out of the noise, 8 do not."""
+    odd, short = sound(16), sound(17)[:, : TIME.size // 4]
+    odd, short = odd + burst(TURNS, 0.5, size=0.4), short + burst(TURNS[: TIME.size // 4], 0.5, size=0.4)
+
+    def made(samples):
+        return lambda most: turn(samples, turns=TURNS[: samples.shape[1]], most_turns=most)
+
+    whole = standing(made(odd)(400), made(short)(400))
+    now, before = of_as_many_turns(made(odd), made(short))
+    assert now.turns == before.turns == 8
+    assert standing(now, before) < 0.5 < whole
+    assert of_as_many_turns(made(short), made(odd))[1].turns == 8
+    assert of_as_many_turns(made(odd), lambda _: None)[0].turns == 35
