@@ -35,10 +35,9 @@ from reconcile.kinematics.shafts import shaft_changes
 from reconcile.kinematics.slowest import with_slowest
 from reconcile.kinematics.spec import KinematicSpec, of_machine
 from reconcile.kinematics.teeth import other_teeth, told_with, with_teeth
-from reconcile.kinematics.tooth_turn import tooth_report, tooth_turn
+from reconcile.kinematics.tooth_turn import teeth_report, tooth_turns, with_sidebands
 from reconcile.kinematics.unheard import with_lost
 from reconcile.kinematics.unread import ALIKE_Z, Judged
-from reconcile.kinematics.vague import gear_report
 from reconcile.kinematics.whose_speed import of_one_shaft, usual_speeds
 from reconcile.kinematics.without_part import without_a_part
 from reconcile.origin import origin
@@ -169,12 +168,11 @@ def _judged(
         report = with_rest(told, gears, grown, tests, series)
     elif (growth := grown_defect(old_defects(every), tests, baselines, tie)) is not None:
         report = _regrown(growth, tests, baselines, tie, seed)
-    elif (tooth := tooth_turn(tests, baselines, tie)) is not None:
-        report = tooth_report(tooth)
-    elif gears and gears[0].grown:
-        report = gear_report(gears, tests)
     else:
-        report = without_a_part(known, tie, tests, baselines, every, supply, grown, seed, series)
+        turns = tooth_turns(tests, baselines, tie)
+        teeth = teeth_report(turns, gears, tests)
+        others = teeth or without_a_part(known, tie, tests, baselines, every, supply, grown, seed, series)
+        report = others if teeth is not None else with_sidebands(others, turns, gears)
     rare = [f"{c.multiple:g} x {c.shaft} grew by {c.growth_db:.0f} dB in {c.label}" for c in changes if c.seldom]
     rare += [f"sidebands of {g.shaft} around {g.mesh} by {g.growth_db:.0f} dB in {g.label}" for g in gears if g.seldom]
     if rare:

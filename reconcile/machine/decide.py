@@ -66,6 +66,7 @@ LEAST_LIKELIER, LIKELIER_SHARE = 10.0, 0.25
 feature by feature, that it leaves the set. How near draws come is chance too: of an unbalance and a bow, which are
 alike, one leads by 453 of 2297 (r021). Of sets of the proof with one effect hidden the right first one leads a torque
 by 28 of 106 (t014), a stiffening support by 11 of 83 (k018), loose fits by 53 of 554 and 12 of 235 (r007, r114)."""
+MECHANISM_OPEN = "the mechanism is not decided by these recordings"
 AS_GOOD = 1.0
 """Log evidence behind the first up to which an effect is as good: chance decides between such."""
 ALIKE = {"bent_shaft", "unbalance"}
@@ -298,5 +299,5 @@ def _why(chosen: Sequence[str]) -> str:
     if len(terms) == 1:
         return PLACE_OPEN
     if len(sites) == 1:
-        return "the mechanism is not decided by these recordings"
+        return MECHANISM_OPEN
     return "several effects at several places look alike in these recordings"

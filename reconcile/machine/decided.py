@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from reconcile.machine.decide import Decision, decide
-from reconcile.machine.of_teeth import crack_first
+from reconcile.machine.of_teeth import of_teeth
 from reconcile.machine.setting import Found, Setting
 
 
@@ -11,4 +11,4 @@ def decided(setting: Setting, found: Found) -> Decision:
     """By all views of the recordings, and whether there is a baseline."""
     views = len(setting.channels) * len(setting.data)
     decision = decide(found.screen, views=views, measured=setting.changes.with_baseline)
-    return crack_first(decision, found.screen)
+    return of_teeth(decision, found.screen)

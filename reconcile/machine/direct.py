@@ -123,6 +123,7 @@ def direct_evidence(
             *(f"{c.family.key}: {c.z:.1f} without the lines of {several[0].family.key}" for c in several[1:]),
         ),
         struck=by_comb(several, machine, tie, evidence, MOST),
+        places=places,
     )
 
 

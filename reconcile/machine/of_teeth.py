@@ -1,37 +1,55 @@
-"""Which fault of a tooth is said first, where only the burst of one tooth tells that there is one."""
+"""Which fault of a tooth it is, where one tooth of a gear differs: mostly open, and then the crack is said first."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 from reconcile.judge.screen import Screen
-from reconcile.machine.decide import AS_GOOD, Decision
+from reconcile.machine.decide import AS_GOOD, MECHANISM_OPEN, Decision
 from sim.terms import REGISTRY
 
 CRACK = "tooth_crack"
 AS_GOOD_TEETH = 2 * AS_GOOD
 """Log evidence by which which machine happens to be near decides between faults of one tooth: of ten cracked teeth of
 the proof a broken tooth of a fifth of the width led the crack by 0.1 to 1.6."""
+APART = 12.0
+"""Log evidence by which one fault of a tooth must lead the others of that gear to be named alone: a pitted flank was
+named a broken tooth, 7.7 ahead of a crack and 10.2 ahead of a pit (g003 of the proof)."""
 
 
-def crack_first(decision: Decision, screen: Screen) -> Decision:
-    """A set of nothing but faults of the teeth of one gear, with the crack in front where it is as good as the first.
+def of_teeth(decision: Decision, screen: Screen) -> Decision:
+    """A name that is a fault of a tooth as the set of those that are not far behind it; a set of nothing but faults of
+    the teeth of one gear with the crack in front where it is as good as the first.
 
     All of them soften one tooth, and soften it alike while that is little. A crack grows from nothing; what breaks off
     or out is seldom so small. That is no reason to leave the others out.
     """
-    chosen = decision.chosen
-    teeth = {term.key for term in REGISTRY if term.strikes == "tooth"}
-    sites = {name.split("@")[1] for name in chosen}
-    cracks = [name for name in chosen if name.split("@")[0] == CRACK]
-    if (
-        decision.word != "ambiguous"
-        or not cracks
-        or len(sites) != 1
-        or any(n.split("@")[0] not in teeth for n in chosen)
-    ):
-        return decision
     told = dict(zip(screen.names, map(float, screen.evidence), strict=True))
+    if decision.word == "explained" and _of_a_tooth(decision.chosen[0]):
+        first = decision.chosen[0]
+        near = [n for n in told if _of_a_tooth(n) and _site(n) == _site(first) and told[n] > told[first] - APART]
+        if len(near) == 1:
+            return decision
+        chosen = tuple(sorted(near, key=lambda n: -told[n]))
+        decision = replace(decision, word="ambiguous", chosen=chosen, reasons=(MECHANISM_OPEN,))
+    return _crack_first(decision, told)
+
+
+def _crack_first(decision: Decision, told: dict[str, float]) -> Decision:
+    chosen = decision.chosen
+    cracks = [name for name in chosen if name.split("@")[0] == CRACK]
+    others = [name for name in chosen if not _of_a_tooth(name)]
+    if decision.word != "ambiguous" or not cracks or others or len({_site(n) for n in chosen}) != 1:
+        return decision
     if max(told[n] for n in chosen) - told[cracks[0]] > AS_GOOD_TEETH:
         return decision
     return replace(decision, chosen=(cracks[0], *(n for n in chosen if n != cracks[0])))
+
+
+def _of_a_tooth(name: str) -> bool:
+    term = REGISTRY.get(name.split("@", maxsplit=1)[0])
+    return term is not None and term.strikes == "tooth"
+
+
+def _site(name: str) -> str:
+    return name.split("@")[1]

@@ -6,10 +6,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from reconcile.machine.decide import STRUCK, Decision
+from reconcile.machine.direct import HEARD
 from reconcile.machine.revised import Revised
 from reconcile.machine.setting import Found
 from reconcile.machine.weigh import FAR_AHEAD, lead
 from reconcile.verdict import Cause
+from sim.terms import REGISTRY
 
 NO_NEARER = "the machine with the effect that fits best, simulated, is no nearer to the recordings than without it"
 BEYOND_DOUBT = 20.0
@@ -36,7 +38,7 @@ def proved(
     if decision.word not in ("explained", "ambiguous") or revised is None or revised.after_db < revised.before_db:
         return decision, causes
     place = found.screen.names.index(decision.chosen[0])
-    if float(found.screen.direct[place]) >= STRUCK:
+    if float(found.screen.direct[place]) >= (HEARD if _of_a_tooth(decision) else STRUCK):
         return decision, causes
     if decision.word == "ambiguous" and float(found.screen.evidence[place]) >= FAR_AHEAD:
         return decision, causes
@@ -45,6 +47,13 @@ def proved(
         return decision, (replace(first, reasons=(*first.reasons, FORM_UNMET)), *others)
     unnamed = _unnamed(causes)
     return replace(decision, word="not_decidable", reasons=(NO_NEARER,)), unnamed
+
+
+def _of_a_tooth(decision: Decision) -> bool:
+    """Whether all that is left open are faults of teeth: a burst at one place of the turn is told from far below what
+    moves a level."""
+    teeth = {term.key for term in REGISTRY if term.strikes == "tooth"}
+    return all(name.split("@")[0] in teeth for name in decision.chosen)
 
 
 def _unnamed(causes: Sequence[Cause]) -> tuple[Cause, ...]:

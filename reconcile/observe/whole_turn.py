@@ -43,12 +43,13 @@ half below 1.5, nine of ten below 2.1), which stands for a baseline's where ther
 class WholeTurn:
     """`windows`: power in windows of `WINDOW_TEETH` around each step of the turn over the middle of them, (steps,).
 
-    `teeth`: of the gear; `turns`: that were averaged.
+    `teeth`: of the gear; `turns`: that were averaged; `level`: that middle, over what noise alone makes.
     """
 
     windows: FloatArray
     teeth: int
     turns: int
+    level: float = 1.0
 
     @property
     def at(self) -> int:
@@ -95,7 +96,7 @@ def whole_turn(
     middle = float(np.median(windows))
     if not middle > 0.0:
         return None
-    return WholeTurn(windows=windows / middle, teeth=teeth[0], turns=each.shape[1])
+    return WholeTurn(windows=windows / middle, teeth=teeth[0], turns=each.shape[1], level=middle)
 
 
 def of_as_many_turns(

@@ -9,6 +9,7 @@ from reconcile.kinematics.families import Family, Ties
 from reconcile.machine import direct
 from reconcile.machine.direct import MODELLED, MOST, MOST_TURNS, Direct, direct_evidence, shared_lines
 from reconcile.observe.observation import observe
+from reconcile.observe.tooth_place import angle_window
 from reconcile.observe.watch import bases_at, watch_list
 from signals.recording import Operating, Recording
 from sim.core.response import Channel
@@ -143,6 +144,9 @@ def test_a_tooth_that_strikes_speaks_for_the_teeth_of_its_gear(machine: MachineS
     for term in teeth:
         assert direct.evidence[f"{term}@pinion"] >= MOST_TURNS
         assert direct.evidence.get(f"{term}@gear", 0.0) < 2.0
+    assert direct.places["pinion"].told and not direct.places["gear"].told
+    window = angle_window(direct.places)
+    assert window is not None and window.shaft == "input"
 
 
 @pytest.mark.slow

@@ -3,7 +3,7 @@
 import pytest
 
 from reconcile.machine.decide import Decision
-from reconcile.machine.of_teeth import AS_GOOD_TEETH, crack_first
+from reconcile.machine.of_teeth import APART, AS_GOOD_TEETH, of_teeth
 from tests.reconcile.machine.screens import screen
 
 NAMES = ("missing_tooth@pinion", "tooth_spall@pinion", "tooth_crack@pinion", "tooth_crack@gear", "unbalance@pinion")
@@ -12,7 +12,7 @@ TEETH = NAMES[:3]
 
 def first(chosen, evidence, word="ambiguous"):
     decision = Decision(word=word, chosen=chosen, p=1e-6, reasons=("alike",))
-    return crack_first(decision, screen(evidence, names=NAMES)).chosen
+    return of_teeth(decision, screen(evidence, names=NAMES)).chosen
 
 
 def test_the_crack_comes_first_and_none_is_left_out():
@@ -35,5 +35,19 @@ def test_other_sets_keep_their_order(chosen):
     assert first(chosen, [26.0, 26.0, 25.9, 25.9, 25.9]) == chosen
 
 
-def test_a_name_is_no_set():
-    assert first(("missing_tooth@pinion",), [26.0], word="explained") == ("missing_tooth@pinion",)
+def test_a_name_far_ahead_of_the_other_faults_of_that_gear_stays():
+    decision = Decision(word="explained", chosen=TEETH[:1], p=1e-6, reasons=())
+    alone = of_teeth(decision, screen([26.0, 26.0 - APART, 10.0, 26.0], names=NAMES))
+    assert alone == decision, "the crack of the other gear is no other name for it"
+
+
+def test_else_it_is_the_set_of_those_that_are_near():
+    decision = Decision(word="explained", chosen=TEETH[:1], p=1e-6, reasons=())
+    found = of_teeth(decision, screen([34.7, 24.5, 27.0, 1.0], names=NAMES))
+    assert found.word == "ambiguous" and found.reasons
+    assert found.chosen == ("missing_tooth@pinion", "tooth_crack@pinion", "tooth_spall@pinion")
+
+
+def test_other_names_are_left_alone():
+    decision = Decision(word="explained", chosen=("unbalance@pinion",), p=1e-6, reasons=())
+    assert of_teeth(decision, screen([26.0, 26.0, 26.0, 26.0, 26.5], names=NAMES)) == decision

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.machine.decide import Decision
+from reconcile.machine.direct import HEARD
 from reconcile.machine.proved import BEYOND_DOUBT, FORM_UNMET, NO_NEARER, proved
 from reconcile.machine.words import sentence
 from reconcile.verdict import Cause, Word
@@ -45,6 +46,17 @@ def test_so_is_a_set_whose_best_hardly_stands_out() -> None:
     assert decision.word == "not_decidable" and decision.reasons == (NO_NEARER,)
     struck = found(12.0, 3.7)
     assert proved(decided("ambiguous"), CAUSES, struck, machine)[0].word == "ambiguous"  # type: ignore[arg-type]
+
+
+def test_a_burst_of_a_tooth_needs_no_level_that_comes_nearer() -> None:
+    teeth = ("tooth_crack@gear", "tooth_spall@gear")
+    screen = SimpleNamespace(names=teeth, direct=np.array([HEARD, HEARD]), evidence=np.array([6.6, 6.6]))
+    decision = Decision(word="ambiguous", chosen=teeth, p=4.9e-3, reasons=())
+    told = proved(decision, CAUSES, SimpleNamespace(screen=screen), revised(1.0, 1.1))  # type: ignore[arg-type]
+    assert told[0] == decision
+    screen.direct[:] = HEARD - 0.1
+    told = proved(decision, CAUSES, SimpleNamespace(screen=screen), revised(1.0, 1.1))  # type: ignore[arg-type]
+    assert told[0].word == "not_decidable"
 
 
 def test_a_name_beyond_doubt_stays_and_says_that_its_form_is_not_met() -> None:
