@@ -135,7 +135,9 @@ def _gears(ties: Ties) -> list[tuple[str, str, tuple[int, ...]]]:
     ]
 
 
-def _turn(one: Observation, names: Sequence[str], ratio: float, teeth: tuple[int, ...], most: int) -> WholeTurn | None:
+def _turn(
+    one: Observation, most: int, *, names: Sequence[str], ratio: float, teeth: tuple[int, ...]
+) -> WholeTurn | None:
     channel = one.channel(names[0]) if names else None
     if channel is None:
         return None
