@@ -72,6 +72,7 @@ def teeth_report(
 
 def with_sidebands(report: Report, turns: Sequence[ToothTurn], gears: Sequence[GearEvidence]) -> Report:
     """What sidebands and the turn say where no tooth stands out: no single tooth, but perhaps all of the turn."""
+    report = replace(report, causes=_teeth_last(report.causes, turns))
     uneven = max((t for t in turns if t.grown >= RISEN), key=lambda t: t.grown, default=None)
     grown = next((g for g in gears if g.grown), None)
     if uneven is not None and report.verdict in ("nothing_missing", "not_decidable"):
@@ -91,6 +92,12 @@ def with_sidebands(report: Report, turns: Sequence[ToothTurn], gears: Sequence[G
         sentence=f"{report.sentence}{said}",
         undecidable=(*report.undecidable, note),
     )
+
+
+def _teeth_last(causes: Sequence[Cause], turns: Sequence[ToothTurn]) -> tuple[Cause, ...]:
+    """Of what strikes once a turn the teeth of a gear last, where no place of its turn stands out."""
+    sound = {t.gear for t in turns if not t.place.told}
+    return tuple(sorted(causes, key=lambda c: c.term in TOOTH_TERMS and c.site in sound))
 
 
 def uneven_report(found: ToothTurn) -> Report:

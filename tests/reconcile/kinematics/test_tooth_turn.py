@@ -13,7 +13,7 @@ from reconcile.kinematics.gears import GearEvidence, gear_evidence
 from reconcile.kinematics.observe import observe
 from reconcile.kinematics.tooth_turn import RISEN, ToothTurn, teeth_report, tooth_turns, with_sidebands
 from reconcile.observe.tooth_place import ToothPlace
-from reconcile.verdict import Report
+from reconcile.verdict import Cause, Report
 from tests.reconcile.kinematics.test_wander import turned
 from tests.strategies.brief import recorded
 
@@ -144,3 +144,11 @@ def test_sidebands_tell_where_the_turn_cannot() -> None:
     assert report is not None and "20 sidebands" in report.sentence
     assert teeth_report([turn_of("gear", 1.0)], [sideband_growth("gear")], tests) is None
     assert teeth_report((), [], tests) is None
+
+
+def test_teeth_come_last_where_no_place_of_their_turn_stands_out() -> None:
+    listed = (("tooth_crack", "gear"), ("tooth_crack", "pinion"), ("rub", "out"))
+    causes = tuple(Cause(term=term, site=site, score=1.0) for term, site in listed)
+    struck = replace(QUIET, verdict="ambiguous", causes=causes)
+    told = with_sidebands(struck, [turn_of("gear", 1.0)], []).causes
+    assert [c.site for c in told] == ["pinion", "out", "gear"]
