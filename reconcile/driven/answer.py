@@ -8,6 +8,7 @@ from reconcile.driven.ceiling import Ceiling, ceilings
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.forced import ALPHA, Analysis, Validation
 from reconcile.driven.judge import BRANCHES, NOT_ALL, TOO_FEW, Judgement, judge, leaves_more, lost
+from reconcile.driven.law_words import from_rest, law_words
 from reconcile.driven.machine import driven_site, mass_kg, revised, term_key, weighed
 from reconcile.driven.model import LINEAR
 from reconcile.driven.nominate import Trial, score_nats
@@ -33,50 +34,10 @@ SKEWED = (
     "to 10 % of the output instead of 0.6 to 3.5 %): check that the recorder reads both channels at once."
 )
 """Measured on two made oscillators with stops."""
-MILLIMETRES = 1e-4
-"""Gap, m, from which on it is told in mm."""
 LED_RUN = "NRMSE of a run led by the output"
 NEAREST = 0.5
 """Least gain, by the low end of its interval, of a law that is told though it is not named."""
-MIDDLE = 0.05
-"""Distance of the middle of stops from the channel's zero, over their gap, that is worth a word."""
 DIVERGED = "; the free run with the law diverges, errors and gain are bounds"
-
-
-def _law_words(found: Analysis) -> str:
-    """`odd stiffness, about cubic: exponent 2.96 (90 %: 2.94 to 2.97)`."""
-    laws = found.final.model.laws
-    said = " with ".join(f"{law.words} ({law.shown()}{_gap_words(law)})" for law in laws)
-    if found.power is not None:
-        p = found.power
-        said += f"; the exponent of the odd part left free is {p.value:.2f} (90 %: {p.low:.2f} to {p.high:.2f})"
-    return said + _aside(found)
-
-
-def _gap_words(law: Law) -> str:
-    """A gap with its unit, as a machinist says it."""
-    if law.key not in GAPPED:
-        return ""
-    size = abs(law.shape)
-    return f", z in m: {law.shape * 1e3:.3g} mm" if size >= MILLIMETRES else f", z in m: {law.shape * 1e6:.3g} µm"
-
-
-def _aside(found: Analysis) -> str:
-    """Where stops stand, counted from the channel's zero, if their middle is not there."""
-    model, data = found.final.model, found.held_run.data
-    gaps = [law.shape for law in model.laws if law.key == "stops"]
-    if data.order or not gaps or abs(model.output_offset) < MIDDLE * gaps[0]:
-        return ""
-    ends, unit = (model.output_offset + gaps[0], model.output_offset - gaps[0]), data.answer_channel.unit
-    return f", of the channel's zero at {ends[0]:.3g} and {ends[1]:.3g} {unit}"
-
-
-def _from_rest(found: Analysis) -> tuple[str, ...]:
-    """What a derivative of the motion does not tell of a gap."""
-    laws = found.final.model.laws
-    if not found.held_run.data.order or not any(law.key in GAPPED for law in laws):
-        return ()
-    return ("A gap is counted from where the mass rests: only its displacement would tell a constant force beside it.",)
 
 
 def _saturation(found: Analysis) -> tuple[str, ...]:
@@ -96,7 +57,7 @@ def _undecided(found: Analysis, judgement: Judgement, linear: str, site: str) ->
     if judgement.reasons[0].startswith(NO_MACHINE):
         return f"Nothing is said of {site}: {judgement.reasons[0]}."
     if judgement.reasons[0] == BRANCHES:
-        return f"A force on {site} is missing from the linear model, perhaps {_law_words(found)}; {BRANCHES}."
+        return f"A force on {site} is missing from the linear model, perhaps {law_words(found)}; {BRANCHES}."
     return f"The output does not follow the input: the best linear model of {site} leaves {linear} of it."
 
 
@@ -108,7 +69,7 @@ def _nearest(found: Analysis) -> tuple[str, ...]:
     if v.diverged or v.gain[1] < NEAREST:
         return ()
     left = f"{two_digits(v.after)} instead of {two_digits(v.before)}"
-    return (f"the nearest that was tried, {_law_words(found)}, leaves {left} on {v.held}",)
+    return (f"the nearest that was tried, {law_words(found)}, leaves {left} on {v.held}",)
 
 
 def _none(judgement: Judgement) -> str:
@@ -126,7 +87,7 @@ def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
         return _undecided(found, judgement, linear, site)
     if not found.final.model.laws or judgement.reasons:
         said = f"A force on {site} is missing from the linear model, and {_none(judgement)}"
-        flown = [f"the free run on {v.held} with {_law_words(found)} diverges" for v in found.validations if v.diverged]
+        flown = [f"the free run on {v.held} with {law_words(found)} diverges" for v in found.validations if v.diverged]
         return "; ".join([said, *flown[:1], *_nearest(found), *_saturation(found)]) + "."
     v = found.validations[0]
     gained = (
@@ -136,7 +97,7 @@ def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
         names = " or ".join([found.final.model.laws[0].words, *(t.laws[0].words for t in judgement.rivals)])
         return f"A force on {site} is missing: {names}; {gained}."
     aside = f", not all of it: {leaves_more(found)}" if lost(found) else ""
-    return f"What is missing at {site} is {_law_words(found)}; {gained}{aside}."
+    return f"What is missing at {site} is {law_words(found)}; {gained}{aside}."
 
 
 def _cause(found: Analysis, trial: Trial, index: int | None, site: str, mass: float, why: tuple[str, ...]) -> Cause:
@@ -305,7 +266,7 @@ def answer(spec: MachineSpec, found: Analysis, *, seed: int, provenance: Mapping
     shown, name = shown_stretch(found), site.body.name
     machine, judgement = _revised(spec, found, judgement, shown.drive)
     only = "One degree of freedom: a force between the mass and the ground is the only place."
-    limits = (only, *_from_rest(found), *(_not_freely(v) for v in found.validations if v.led), *_not_all(found))
+    limits = (only, *from_rest(found), *(_not_freely(v) for v in found.validations if v.led), *_not_all(found))
     nothing = judgement.verdict in ("nothing_missing", "not_decidable")
     freed = None if nothing else freed_force(found, mass, seed)
     return Report(
