@@ -76,15 +76,16 @@ def followed_angle(
     lines = _bands(samples, rate_hz, speed_hz, usable, count)
     ranks = np.searchsorted(np.array(sorted(usable)), lines.orders)
     even, odd = np.flatnonzero(ranks % 2 == 0), np.flatnonzero(ranks % 2 == 1)
-    gains = []
-    for used, held in ((even, odd), (odd, even)):
-        coefficients = _fitted(lines.part(used))
-        rest = lines.part(held)
-        gains.append(np.mean(_likelihoods(rest, coefficients) - _likelihoods(rest, np.zeros(count))))
-    if max(gains) < MIN_GAIN:
+    if not any(_gain(lines.part(used), lines.part(held)) >= MIN_GAIN for used, held in ((even, odd), (odd, even))):
         return None
     wander = _fitted(lines) @ _functions(n, count)
     return np.asarray(2.0 * np.pi * speed_hz * np.arange(n) / rate_hz + wander)
+
+
+def _gain(used: Lines, held: Lines) -> float:
+    """Mean gain of log likelihood of the `held` lines by the angle that others give."""
+    coefficients = _fitted(used)
+    return float(np.mean(_likelihoods(held, coefficients) - _likelihoods(held, np.zeros(coefficients.size))))
 
 
 def _functions(n: int, count: int) -> FloatArray:
@@ -115,10 +116,13 @@ def _bands(samples: FloatArray, rate_hz: float, speed_hz: float, orders: Sequenc
 
 def _captured(lines: Lines, coefficients: FloatArray) -> tuple[ComplexArray, FloatArray, ComplexArray]:
     """Lines along the angle (K, n), their energies (K,) and amplitudes (K,)."""
-    phase = coefficients @ lines.functions
     orders, place = lines.distinct
-    turned = lines.values * np.exp(-1j * orders[:, None] * phase)[place]
-    return turned, lines.energies, turned.mean(axis=1)
+    phase = orders[:, None] * (coefficients @ lines.functions)
+    turn = np.empty(phase.shape, dtype=complex)
+    np.cos(phase, out=turn.real)
+    np.sin(-phase, out=turn.imag)
+    turned = lines.values * turn[place]
+    return turned, lines.energies, turned.sum(axis=1) / turned.shape[1]
 
 
 def _likelihoods(lines: Lines, coefficients: FloatArray) -> FloatArray:
@@ -131,15 +135,16 @@ def _cost(coefficients: FloatArray, lines: Lines) -> tuple[float, FloatArray]:
     turned, energy, amplitude = _captured(lines, coefficients)
     rest = np.maximum(energy - np.abs(amplitude) ** 2, 1e-9 * energy + 1e-300)
     # d|a|^2/dc_j = 2 Re(conj(a) mean(-i k f_j turned)) = 2 k mean(f_j Im(conj(a) turned))
-    slope = np.imag(np.conj(amplitude)[:, None] * turned) * (lines.orders / rest)[:, None]
-    gradient = -2.0 * (slope.sum(axis=0) @ lines.functions.T) / turned.shape[1]
-    return float(np.sum(np.log(rest))), np.asarray(gradient)
+    slope = ((np.conj(amplitude) * lines.orders / rest) @ turned).imag
+    gradient = -2.0 * (lines.functions @ slope) / turned.shape[1]
+    return float(np.log(rest).sum()), gradient
 
 
 def _climbed(lines: Lines, start: FloatArray, free: int) -> FloatArray:
     """Local maximum over the first `free` functions."""
     few = Lines(values=lines.values, orders=lines.orders, functions=lines.functions[:free])
-    scale = 1.0 / float(lines.orders.max())
+    # of one size each, however fast it changes: then a quarter of the steps is enough
+    scale = 1.0 / (float(lines.orders.max()) * few.functions.std(axis=1))
 
     def cost(scaled: FloatArray) -> tuple[float, FloatArray]:
         value, gradient = _cost(scaled * scale, few)
