@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import numpy as np
 
@@ -15,13 +15,10 @@ from sim.core.system import System
 from sim.solve.collocation import collocation
 from sim.solve.plain import shaft_rows, step_array
 
-_DOUBLES = ctypes.POINTER(ctypes.c_double)
-_PREPARE = ctypes.CFUNCTYPE(None, *[_DOUBLES] * 5)
-_FORCE = ctypes.CFUNCTYPE(None, ctypes.c_int64, *[_DOUBLES] * 6)
-
-
-def _pointer(array: FloatArray) -> ctypes._Pointer[ctypes.c_double]:
-    return array.ctypes.data_as(_DOUBLES)
+_PREPARE = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 5)
+_FORCE = ctypes.CFUNCTYPE(None, ctypes.c_int64, *[ctypes.c_void_p] * 6)
+"""With addresses of doubles."""
+_rule = cache(collocation)
 
 
 @lru_cache(maxsize=256)
@@ -52,7 +49,7 @@ class Bench:
 
     def row(self, time_s: float, u: FloatArray | None = None, *, still: bool = False) -> FloatArray:
         """Context of the instant `time_s` of the machine's nominal turning; `still`: at that angle, but not turning."""
-        rule = collocation(STAGES)
+        rule = _rule(STAGES)
         step = step_array(time_s, 0.0, rule.c, rule.lagrange, rule.b)
         shafts = shaft_rows(self.system, self.element, step, np.zeros(2 * len(self.system.dofs)))
         if still:
@@ -60,7 +57,7 @@ class Bench:
         start = np.concatenate([self.zeros() if u is None else u, self.zeros()])
         context = np.zeros((STAGES + 1, self.element.context))
         arguments = (step, np.ascontiguousarray(shafts), start, self.element.parameters, context)
-        _prepare_at(self.element.kernel.prepare_address)(*(_pointer(a) for a in arguments))
+        _prepare_at(self.element.kernel.prepare_address)(*(a.ctypes.data for a in arguments))
         return np.array(context[STAGES if self.element.exact_end else STAGES - 1])
 
     def force(self, row: FloatArray, u: FloatArray, ud: FloatArray | None = None) -> FloatArray:
@@ -77,5 +74,5 @@ class Bench:
         out = np.zeros(max(2 * forces * d, OUT_ENERGY + len(self.element.outputs), 16))
         given = (np.ascontiguousarray(a) for a in (u, self.zeros() if ud is None else ud, row))
         arguments = (*given, self.element.parameters, f, out)
-        _force_at(self.element.kernel.force_address)(2, *(_pointer(a) for a in arguments))
+        _force_at(self.element.kernel.force_address)(2, *(a.ctypes.data for a in arguments))
         return f[:forces], out[OUT_ENERGY : OUT_ENERGY + len(self.element.outputs)]
