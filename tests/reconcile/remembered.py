@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ import numpy as np
 from reconcile.atlas.bank import Task
 from reconcile.machine.meter import Timed
 from reconcile.observe.statistics import Statistics
+from reconcile.observe.steady import Steady, steady
 from signals.recording import Recording
 from signals.series import Series
 
@@ -59,6 +60,24 @@ class Once:
             for values in [found] if isinstance(found, np.ndarray) else vars(found).values():
                 values.flags.writeable = False
         return self.kept[name]
+
+
+@dataclass(frozen=True)
+class Steadied:
+    """`reconcile.observe.steady.steady`: the same recording, without a tacho, is followed once."""
+
+    kept: dict[tuple[bytes, str], Steady] = field(default_factory=dict)
+
+    def __call__(self, recording: Recording, **about: Any) -> Steady:
+        """As the function; samples of the answer cannot be written."""
+        if recording.tacho is not None:
+            return steady(recording, **about)
+        told = [(f.name, getattr(recording, f.name)) for f in fields(recording) if f.name != "samples"]
+        key = hashlib.sha256(recording.samples.tobytes()).digest(), repr((told, recording.samples.shape, about))
+        if key not in self.kept:
+            self.kept[key] = steady(recording, **about)
+            self.kept[key].samples.flags.writeable = False
+        return self.kept[key]
 
 
 def _signals(one: Series | Recording) -> bytes:

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 
 import pytest
 
+from reconcile.observe import observation
 from tests.reconcile import few
-from tests.reconcile.remembered import Simulated
+from tests.reconcile.remembered import Simulated, Steadied
 
 
 @pytest.fixture(scope="session")
@@ -20,4 +21,12 @@ def simulated() -> Simulated:
 def few_machines() -> Iterator[None]:
     """As `few.few_machines`."""
     with few.few_machines():
+        yield
+
+
+@pytest.fixture(scope="module", autouse=True)
+def steadied() -> Iterator[None]:
+    """Tests of a file often hold others against the same baseline."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(observation, "steady", Steadied())
         yield
