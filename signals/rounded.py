@@ -86,9 +86,11 @@ def roundings(stamps: FloatArray) -> Iterator[Rounding]:
     plain = np.maximum(double, decimals)
     yield Rounding(said=f"multiples of {decimals:g}" if decimals else "double precision", steps=plain)
     single = np.spacing(np.abs(stamps).astype(np.float32)).astype(np.float64)
-    off = np.abs(stamps.astype(np.float32).astype(np.float64) - stamps)
+    cast = stamps.astype(np.float32)
+    off = np.abs(cast.astype(np.float64) - stamps)
+    kept = np.unique(cast).size == np.unique(stamps).size  # seconds since 1970 all become one number
     telling = SINGLE_SHARE * single > 0.51 * decimals
-    if np.all(off <= np.maximum(SINGLE_SHARE * single, 0.51 * decimals)) and np.sum(telling) >= LEAST_SINGLE:
+    if kept and np.all(off <= np.maximum(SINGLE_SHARE * single, 0.51 * decimals)) and np.sum(telling) >= LEAST_SINGLE:
         yield Rounding(said="single precision", steps=np.maximum(single, decimals))
     digits = significant_digits(stamps)
     if digits is None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
@@ -17,27 +16,33 @@ from reconcile.kinematics.gears import GearEvidence
 from reconcile.kinematics.lines import matched
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.vague import TOOTH_TERMS, gear_report
-from reconcile.observe.tooth_place import ToothPlace, placed, window_of
-from reconcile.observe.whole_turn import WholeTurn, of_as_many_turns, standing, whole_turn
+from reconcile.observe.tooth_place import Look, ToothPlace, placed, window_of
+from reconcile.observe.whole_turn import Turned, standing, whole_turns
 from reconcile.verdict import Cause, NextExperiment, PlaceWeight, Report, Where
 
+ALIKE = 1e-6
+"""Relative difference of the turns of two gears below which they turn alike: nothing tells whose tooth it is."""
 RISEN = 2.5
 """Growth of what comes back in a turn, over what noise makes, from which the turn is uneven in another way than it was.
-In 72 cases of the proof the middle of the speeds grew by 5 to 140 where a shaft rattles in a clearance or a tooth is
-broken or pitted, and by 1.4 at most elsewhere, cracked teeth among them; on a measured gearbox between any two of
-three loads by 1.5."""
+In 73 cases of the proof the middle of the speeds grew by 5 to 45 where a shaft rattles in a clearance or a tooth is
+broken or pitted, and by 1.2 at most elsewhere, cracked teeth among them. It counts only where sidebands of that shaft
+have grown over the lines of the teeth."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ToothTurn:
     """What comes back in the turn of a gear: the `place` that stands out most, how far all of the turn has `grown` (the
-    middle of the tests), and in how many `tests` with a baseline at their speed it could be told."""
+    middle of the tests), and in how many `tests` with a baseline at their speed it could be told. `shown`: the test
+    that shows the place best, and what its angles count from."""
 
     gear: str
     shaft: str
     place: ToothPlace
     grown: float
     tests: int
+    shown: str = "the first sample"
+    alike: tuple[str, ...] = ()
+    """Other gears that turn as this one does."""
 
 
 def tooth_turns(tests: Sequence[Observation], baselines: Sequence[Observation], ties: Ties) -> tuple[ToothTurn, ...]:
@@ -45,19 +50,45 @@ def tooth_turns(tests: Sequence[Observation], baselines: Sequence[Observation], 
     pairs = [(test, base) for test in tests if (base := matched(test, baselines)) is not None]
     found = []
     for shaft, gear, teeth in _gears(ties) if pairs else ():
-        points, grown = [], []
+        points, grown, shown = [], [], []
         for test, base in pairs:
             names = tuple(n for n in test.recording.names if n in base.recording.names)
-            turn = partial(_turn, names=names, ratio=ties.shafts[shaft], teeth=teeth)
-            now, before = of_as_many_turns(partial(turn, test), partial(turn, base))
+            each = [_turned(one, names, ties.shafts[shaft]) for one in (test, base)]
+            if each[0] is None or each[1] is None:
+                continue
+            now, before = whole_turns(each[0], each[1], teeth=teeth)
             if now is not None and before is not None:
-                points.append((standing(now, before), now, 0.0))
+                start = _start(test, ties.shafts[shaft])
+                speed = test.speed.speed_hz
+                points.append(Look(standing=standing(now, before), turn=now, start_turns=start, speed_hz=speed))
                 grown.append(now.level / max(before.level, 1.0))
+                shown.append(
+                    f"{'the first pulse of the tacho' if _pulses(test) else 'the first sample'} of {test.label}"
+                )
         if points:
             middle = float(np.median(grown))
+            best = shown[int(np.argmax([look.standing for look in points]))]
             place = placed(shaft, points)
-            found.append(ToothTurn(gear=gear, shaft=shaft, place=place, grown=middle, tests=len(points)))
+            alike = tuple(
+                g for s, g, _ in _gears(ties) if g != gear and abs(ties.shafts[s] / ties.shafts[shaft] - 1.0) < ALIKE
+            )
+            found.append(
+                ToothTurn(gear=gear, shaft=shaft, place=place, grown=middle, tests=len(points), shown=best, alike=alike)
+            )
     return tuple(sorted(found, key=lambda one: -one.place.standing))
+
+
+def _pulses(one: Observation) -> bool:
+    return one.speed.method == "tacho"
+
+
+def _start(one: Observation, ratio: float) -> float:
+    """Angle, turns of the gear, at which its mean turn begins: with pulses from the first of them on, else 0."""
+    channel = one.channels[0] if one.channels else None
+    if channel is None or not _pulses(one):
+        return 0.0
+    known = channel.angle_rad[np.isfinite(channel.angle_rad)]
+    return float(known[0] * ratio / (2 * np.pi)) % 1.0 if known.size else 0.0
 
 
 def teeth_report(
@@ -73,7 +104,8 @@ def teeth_report(
 def with_sidebands(report: Report, turns: Sequence[ToothTurn], gears: Sequence[GearEvidence]) -> Report:
     """What sidebands and the turn say where no tooth stands out: no single tooth, but perhaps all of the turn."""
     report = replace(report, causes=_teeth_last(report.causes, turns))
-    uneven = max((t for t in turns if t.grown >= RISEN), key=lambda t: t.grown, default=None)
+    shafts = {g.shaft for g in gears if g.grown}
+    uneven = max((t for t in turns if t.grown >= RISEN and t.shaft in shafts), key=lambda t: t.grown, default=None)
     grown = next((g for g in gears if g.grown), None)
     if uneven is not None and report.verdict in ("nothing_missing", "not_decidable"):
         return uneven_report(uneven)
@@ -108,9 +140,9 @@ def uneven_report(found: ToothTurn) -> Report:
     )
     return Report(
         verdict="ambiguous",
-        sentence=f"What comes back with each turn of {found.shaft} grew {found.grown:.1f} times, over more than one "
-        "tooth: an unbalance or a bend that rattles in a clearance, a rub, or uneven or several damaged teeth of "
-        f"{found.gear} are alike at this level.",
+        sentence=f"Sidebands of {found.shaft} grew, and what comes back with each of its turns {found.grown:.1f} "
+        "times, over more than one tooth: an unbalance or a bend that rattles in a clearance, a rub, or uneven or "
+        f"several damaged teeth of {found.gear} are alike at this level.",
         level="kinematics",
         where=Where(sites=(PlaceWeight(site=found.shaft, weight=1.0),)),
         causes=tuple(
@@ -142,40 +174,40 @@ def _gears(ties: Ties) -> list[tuple[str, str, tuple[int, ...]]]:
     ]
 
 
-def _turn(
-    one: Observation, most: int, *, names: Sequence[str], ratio: float, teeth: tuple[int, ...]
-) -> WholeTurn | None:
+def _turned(one: Observation, names: Sequence[str], ratio: float) -> Turned | None:
     channel = one.channel(names[0]) if names else None
     if channel is None:
         return None
     samples = np.array([one.recording.series(name).samples for name in names], dtype=np.float64)
-    turns = np.asarray(channel.angle_rad * (ratio / (2 * np.pi)), dtype=np.float64)
-    return whole_turn(samples, turns, teeth=teeth, most_turns=most)
+    return Turned(samples=samples, turns=np.asarray(channel.angle_rad * (ratio / (2 * np.pi)), dtype=np.float64))
 
 
 def tooth_report(found: ToothTurn) -> Report:
     """One tooth differs; how, a model of the mesh would have to tell."""
     turn = found.place.strongest
     assert turn is not None
-    window = window_of(turn, shaft=found.shaft)
+    gears = (found.gear, *found.alike)
+    window = window_of(turn, shaft=found.shaft, start_turns=found.place.start_turns)
     return Report(
         verdict="ambiguous",
-        sentence=f"A local tooth fault on {found.gear}: a burst comes back at one place of its turn "
+        sentence=f"A local tooth fault on {' or '.join(gears)}: a burst comes back at one place of its turn "
         f"({turn.height:.1f} times the rest of the mean turn, {turn.turns} turns, over the baseline's), at "
-        f"{window.centre_deg:.0f} degrees from the first sample of the recording that shows it best; whether the tooth "
-        "is broken, cracked or pitted can't be told without a model.",
+        f"{window.centre_deg:.0f} degrees from {found.shown}; whether the tooth is broken, cracked or pitted can't be "
+        "told without a model.",
         level="kinematics",
-        where=Where(sites=(PlaceWeight(site=found.gear, weight=1.0),), angle_window=window),
+        where=Where(sites=tuple(PlaceWeight(site=g, weight=1.0 / len(gears)) for g in gears), angle_window=window),
         causes=tuple(
             Cause(
                 term=term,
-                site=found.gear,
+                site=gear,
                 score=found.place.evidence,
                 reasons=("the mean turn says that one tooth differs, not how; a model of the mesh is needed to tell",),
             )
+            for gear in gears
             for term in TOOTH_TERMS
         ),
         undecidable=(
+            *((f"which of {' and '.join(gears)}, which turn alike",) if found.alike else ()),
             "broken, cracked or pitted: a model of the mesh is needed",
             "how large: a size can't be given without a model",
             f"whether it is a tooth of {found.gear}: a key, a rub or a loose part of {found.shaft} may do so too",

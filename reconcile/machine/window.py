@@ -2,33 +2,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from typing import overload
 
 import numpy as np
 
 from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
-from reconcile.observe.tooth_place import ToothPlace, placed
+from reconcile.observe.tooth_place import Look, ToothPlace, placed
 from reconcile.observe.watch import bases_at
-from reconcile.observe.whole_turn import WholeTurn, of_as_many_turns, standing, whole_turn
+from reconcile.observe.whole_turn import Turned, standing, whole_turns
 from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
+
+ALIKE = 1e-6
+"""Relative difference of the turns of two gears below which they turn alike: on one shaft, or in a mesh of 1 to 1."""
 
 
 def tooth_places(machine: MachineSpec, data: Sequence[PointData]) -> dict[str, ToothPlace]:
     """For every gear in a mesh; none where a shaft's speed is not known."""
-    found: dict[str, list[tuple[float, WholeTurn | None, float]]] = {}
+    found: dict[str, list[Look]] = {}
     shafts: dict[str, str] = {}
+    ratios: dict[str, float] = {}
     for one in data:
         now, before = one.spectra
         for gear in _known(machine, now.speed_hz):
-            turn, rested = of_as_many_turns(partial(_turn, now, gear), partial(_turn, before, gear))
+            turn, rested = whole_turns(_turned(now, gear), _turned(before, gear), teeth=gear.teeth)
             shafts[gear.name] = gear.shaft
-            found.setdefault(gear.name, []).append((standing(turn, rested), turn, now.start_turns * gear.ratio))
+            look = Look(
+                standing=standing(turn, rested),
+                turn=turn,
+                start_turns=now.start_turns * gear.ratio,
+                speed_hz=now.speed_hz,
+            )
+            found.setdefault(gear.name, []).append(look)
+            ratios[gear.name] = gear.ratio
     bare = any(one.baseline is None for one in data)
-    return {name: placed(shafts[name], points, bare=bare) for name, points in found.items()}
+    places = {name: placed(shafts[name], looks, bare=bare) for name, looks in found.items()}
+    return {name: _of_its_turn(name, places, ratios) for name in places}
+
+
+def _of_its_turn(name: str, places: Mapping[str, ToothPlace], ratios: Mapping[str, float]) -> ToothPlace:
+    """The place that stands out most of all gears that turn alike: nothing tells whose tooth it is."""
+    alike = [p for other, p in places.items() if abs(ratios[other] / ratios[name] - 1.0) < ALIKE]
+    return max(alike, key=lambda p: p.standing)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,9 +78,12 @@ def _gears(machine: MachineSpec, speed_hz: float) -> Iterator[_Gear]:
         yield _Gear(name=gear.name, shaft=gear.shaft, ratio=ratio, teeth=(gear.teeth, *here))
 
 
-def _turn(one: Steady | None, gear: _Gear, most: int) -> WholeTurn | None:
+@overload
+def _turned(one: Steady, gear: _Gear) -> Turned: ...
+@overload
+def _turned(one: Steady | None, gear: _Gear) -> Turned | None: ...
+def _turned(one: Steady | None, gear: _Gear) -> Turned | None:
     if one is None:
         return None
     angle = np.arange(one.samples.shape[1]) * (one.speed_hz * gear.ratio / one.rate_hz)
-    turns = np.asarray(angle, dtype=np.float64)
-    return whole_turn(one.samples, turns, teeth=gear.teeth, most_turns=most)
+    return Turned(samples=one.samples, turns=np.asarray(angle, dtype=np.float64))

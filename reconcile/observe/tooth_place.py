@@ -10,13 +10,27 @@ import numpy as np
 from reconcile.observe.whole_turn import WholeTurn
 from reconcile.verdict import AngleWindow
 
-USUAL, SHARE, SCALE = 0.28, 0.05, 0.2
+USUAL, SHARE, SCALE = 0.3, 0.05, 0.3
 """Of the sum over operating points of how far a window stands out: a twentieth of the looks at gears whose teeth are
-sound, whatever else is wrong, is above the first and falls off by a factor e every 0.2. Of 110 such looks of the
-proof's split `entire` the highest reached 0.62; seven cracked teeth of 6 to 10 % heard by three sensors 2.7 to 6.1."""
-PLACED, PLACED_BARE = 1.0, 2.0
-"""The same from which a place is told; the second where a point has no baseline. Without their baselines the 110 reach
-1.66 (a sensor's fault), the seven 2.4 and more."""
+sound, whatever else is wrong, is above the first and falls off by a factor e every 0.3. Of 108 such looks of the
+proof's split `entire` the highest reached 1.12 (a fault of a sensor; the next 0.80); seven cracked teeth of 6 to 10 %
+heard by three sensors 2.5 to 6.1."""
+PLACED, PLACED_BARE = 1.25, 2.0
+"""The same from which a place is told; the second where a point has no baseline. Without their baselines the 108 reach
+0.91, the seven 2.3 and more."""
+ONE_SPEED = 1.03
+"""Recordings whose speeds differ by less are looks at one operating point: their middle counts, however many."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Look:
+    """How far the fullest window of a recording's mean turn stands out, that turn, the angle at which it begins (turns)
+    and the speed of the drive shaft."""
+
+    standing: float
+    turn: WholeTurn | None
+    start_turns: float
+    speed_hz: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,11 +60,17 @@ class ToothPlace:
         return min(1.0, SHARE * float(np.exp(-(self.standing - USUAL) / SCALE))) if self.told else 1.0
 
 
-def placed(shaft: str, points: Sequence[tuple[float, WholeTurn | None, float]], *, bare: bool = False) -> ToothPlace:
-    """All operating points of a gear together: how far each stands out, its turn, and the angle at its first sample."""
-    _, strongest, start = max(points, key=lambda p: p[0])
-    total = sum(p[0] for p in points)
-    return ToothPlace(shaft=shaft, standing=total, strongest=strongest, start_turns=start, bare=bare)
+def placed(shaft: str, looks: Sequence[Look], *, bare: bool = False) -> ToothPlace:
+    """All recordings of a gear together: the sum over operating points of the middle of each."""
+    best = max(looks, key=lambda one: one.standing)
+    points: list[list[Look]] = []
+    for one in sorted(looks, key=lambda one: one.speed_hz):
+        if points and one.speed_hz < ONE_SPEED * points[-1][0].speed_hz:
+            points[-1].append(one)
+        else:
+            points.append([one])
+    total = sum(float(np.median([one.standing for one in point])) for point in points)
+    return ToothPlace(shaft=shaft, standing=total, strongest=best.turn, start_turns=best.start_turns, bare=bare)
 
 
 def angle_window(places: Mapping[str, ToothPlace]) -> AngleWindow | None:

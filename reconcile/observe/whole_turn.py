@@ -11,7 +11,7 @@ all around them, are lines of something else and are held down.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,7 +21,7 @@ from signals.series import FloatArray
 
 ComplexArray = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
 
-LEAST_TURNS, MOST_TURNS = 4, 400
+LEAST_TURNS, MOST_TURNS = 5, 400
 MOST_SAMPLES = 600_000
 """A channel, after resampling: more turns than these hold are left out."""
 LEAST_ORDERS = 3
@@ -34,16 +34,19 @@ BESIDE_TEETH = 2.0
 two pitches."""
 LEVELLED = 2.5
 """Times the level of the orders around it that an order may have at most."""
+STRONG = 0.2
+"""Share of the strongest line of the teeth from which one tells by how much a record is louder."""
 SOUND = 1.7
 """Height of the fullest window of sound gears heard by three sensors (298 mean turns of the proof's split `entire`:
-half below 1.5, nine of ten below 2.1), which stands for a baseline's where there is none."""
+half below 1.5, nine of ten below 1.8), which stands for a baseline's where there is none."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class WholeTurn:
     """`windows`: power in windows of `WINDOW_TEETH` around each step of the turn over the middle of them, (steps,).
 
-    `teeth`: of the gear; `turns`: that were averaged; `level`: that middle, over what noise alone makes.
+    `teeth`: of the gear; `turns`: that there are, of which all but the loudest at that
+    place are averaged; `level`: that middle, over what noise alone makes.
     """
 
     windows: FloatArray
@@ -70,45 +73,74 @@ class WholeTurn:
         return float(np.max(turned[apart : steps - apart + 1]))
 
 
-def whole_turn(
-    samples: FloatArray,
-    turns: FloatArray,
-    *,
-    teeth: Sequence[int],
-    most_turns: int = MOST_TURNS,
-) -> WholeTurn | None:
-    """The mean turn of a gear of `teeth[0]` teeth, from `samples` (C, n) at the angles `turns` (n,) of its shaft.
+@dataclass(frozen=True, kw_only=True)
+class Turned:
+    """`samples` (C, n) and the angle of the gear's shaft at each of them, turns (n,); NaN where it is not known."""
 
-    `teeth`: also of the other gears on that shaft. None where a recording is too short or too slowly sampled.
+    samples: FloatArray
+    turns: FloatArray
+
+
+def whole_turns(
+    now: Turned, before: Turned | None, *, teeth: Sequence[int]
+) -> tuple[WholeTurn | None, WholeTurn | None]:
+    """The mean turns of a gear of `teeth[0]` teeth in a test and its baseline (None without one).
+
+    `teeth`: also of the other gears on that shaft. None where a recording is too short or too slowly sampled. Both are
+    of as many turns and reach as high, and the cleaner one is made as noisy as the other over the lines of its teeth: a
+    longer, louder or quieter record brings out of the noise what another one had too.
     """
-    known = np.flatnonzero(np.isfinite(turns))
-    if known.size < 2:
-        return None
-    cut = slice(int(known[0]), int(known[-1]) + 1)
-    each = _each_turn(samples[:, cut], turns[cut], min(most_turns, MOST_TURNS))
+    one, other = _each_turn(now), None if before is None else _each_turn(before)
+    if one is not None and other is not None:
+        count, orders = (min(one.shape[k], other.shape[k]) for k in (1, 2))
+        one, other = _as_noisy(one[:, :count, :orders], other[:, :count, :orders], teeth)
+    return _told(one, teeth), _told(other, teeth)
+
+
+def _told(each: ComplexArray | None, teeth: Sequence[int]) -> WholeTurn | None:
     if each is None or each.shape[2] <= MESHES * max(teeth):
         return None
     kept = _kept(each.shape[2], teeth)
     if np.count_nonzero(kept) < teeth[0]:
         return None
-    power = np.mean(_power(_whitened(each, kept, teeth[0])), axis=0)
-    windows = _windows(power, max(3, int(WINDOW_TEETH * power.size / teeth[0])))
+    windows = _power_windows(each, kept, teeth[0])
+    each = np.delete(each, _loudest(each, kept, teeth[0], int(np.argmax(windows)) / windows.size), axis=1)
+    windows = _power_windows(each, kept, teeth[0])
     middle = float(np.median(windows))
     if not middle > 0.0:
         return None
-    return WholeTurn(windows=windows / middle, teeth=teeth[0], turns=each.shape[1], level=middle)
+    return WholeTurn(windows=windows / middle, teeth=teeth[0], turns=each.shape[1] + 1, level=middle)
 
 
-def of_as_many_turns(
-    now: Callable[[int], WholeTurn | None], before: Callable[[int], WholeTurn | None]
-) -> tuple[WholeTurn | None, WholeTurn | None]:
-    """The mean turns of a test and its baseline, of the same number of turns: a longer record brings out of the noise
-    what a shorter one had too. Both are made by a function of the most turns."""
-    one, other = now(MOST_TURNS), before(MOST_TURNS)
-    if one is None or other is None or one.turns == other.turns:
-        return one, other
-    least = min(one.turns, other.turns)
-    return (now(least), other) if one.turns > least else (one, before(least))
+def _power_windows(each: ComplexArray, kept: np.ndarray, teeth: int) -> FloatArray:
+    power = np.mean(_power(_whitened(each, kept, teeth)), axis=0)
+    return _windows(power, max(3, int(WINDOW_TEETH * power.size / teeth)))
+
+
+def _loudest(each: ComplexArray, kept: np.ndarray, teeth: int, at: float) -> int:
+    """The turn that has most at a place (a share of the turn): a knock in one turn comes back in no other."""
+    usual = np.maximum(_usual(each, kept, teeth), 1e-300)
+    white = np.where(kept, each / np.sqrt(usual)[:, None], 0.0)
+    power = np.mean([_power(channel) for channel in white], axis=0)
+    steps = power.shape[1]
+    width = max(3, int(WINDOW_TEETH * steps / teeth))
+    window = (int(at * steps) + np.arange(width) - width // 2) % steps
+    return int(np.argmax(np.mean(power[:, window], axis=1)))
+
+
+def _as_noisy(one: ComplexArray, other: ComplexArray, teeth: Sequence[int]) -> tuple[ComplexArray, ComplexArray]:
+    """Both at the same error of their orders, the test at the level of the baseline's lines where these have grown."""
+    kept = _kept(one.shape[2], teeth)
+    one = one / np.maximum(_gain(one, other, teeth[0]), 1.0)[:, None, None]
+    errors = [_usual(x, kept, teeth[0]) if np.any(kept) else np.zeros(x.shape[::2]) for x in (one, other)]
+    most = np.maximum(*errors)
+    rng = np.random.default_rng(one.shape[1])
+    made = []
+    for each, error in zip((one, other), errors, strict=True):
+        noise = rng.standard_normal((2, *each.shape))
+        size = np.sqrt(np.maximum(most - error, 0.0) * each.shape[1] / 2)
+        made.append(each + size[:, None] * (noise[0] + 1j * noise[1]))
+    return made[0], made[1]
 
 
 def standing(now: WholeTurn | None, before: WholeTurn | None) -> float:
@@ -124,21 +156,36 @@ def standing(now: WholeTurn | None, before: WholeTurn | None) -> float:
     return float(np.log(now.height * usual / max(now.rest, usual) ** 2))
 
 
-def _each_turn(samples: FloatArray, turns: FloatArray, most: int) -> ComplexArray | None:
-    """Spectra of all whole turns, `most` at most, (C, turns, orders)."""
-    there = np.isfinite(turns)
-    steps = np.arange(turns.size)
+def _gain(one: ComplexArray, other: ComplexArray, teeth: int) -> FloatArray:
+    """How much the strong lines of the teeth have grown on each channel, (C,)."""
+    now, before = (np.abs(x.mean(axis=1)[:, teeth::teeth]) for x in (one, other))
+    if not now.size:
+        return np.ones(len(one))
+    strong = before >= STRONG * before.max(axis=1, keepdims=True)
+    grown = np.where(strong, now / np.maximum(before, 1e-300), np.nan)
+    return np.asarray(np.nanmedian(grown, axis=1), dtype=np.float64)
+
+
+def _each_turn(one: Turned) -> ComplexArray | None:
+    """Spectra of all whole turns, (C, turns, orders)."""
+    known = np.flatnonzero(np.isfinite(one.turns))
+    if known.size < 2:
+        return None
+    cut = slice(int(known[0]), int(known[-1]) + 1)
+    samples, turns = one.samples[:, cut], one.turns[cut]
+    there, steps = np.isfinite(turns), np.arange(turns.size)
     turns = np.interp(steps, steps[there], turns[there])
     span = float(turns[-1] - turns[0])
     if not span > 0.0:
         return None
     per_turn = int((turns.size - 1) / span) // 2 * 2
-    count = int(min(span, most, MOST_SAMPLES // max(per_turn, 1)))
+    count = int(min(span, MOST_TURNS, MOST_SAMPLES // max(per_turn, 1)))
     if count < LEAST_TURNS or per_turn < 2:
         return None
     at = np.interp(turns[0] + np.arange(count * per_turn) / per_turn, turns, steps)
     even = scipy.interpolate.CubicSpline(steps, samples, axis=1)(at)
-    return np.asarray(np.fft.rfft(even.reshape(samples.shape[0], count, per_turn), axis=2), dtype=np.complex128)
+    spectra = np.fft.rfft(even.reshape(samples.shape[0], count, per_turn), axis=2) / per_turn
+    return np.asarray(spectra, dtype=np.complex128)
 
 
 def _kept(count: int, teeth: Sequence[int]) -> np.ndarray:
@@ -150,19 +197,31 @@ def _kept(count: int, teeth: Sequence[int]) -> np.ndarray:
     return kept
 
 
+def _spread(each: ComplexArray) -> FloatArray:
+    """Squared error of the mean turn, (C, orders), by how the turns differ."""
+    count = each.shape[1]
+    square = np.sum(np.abs(each - each.mean(axis=1)[:, None]) ** 2, axis=1)
+    return np.asarray(square / (count - 1) / count)
+
+
+def _usual(each: ComplexArray, kept: np.ndarray, teeth: int) -> FloatArray:
+    """The same of the orders around each, (C, orders)."""
+    orders, at = np.arange(each.shape[2]), np.flatnonzero(kept)
+    found = []
+    for own in np.maximum(_spread(each), 1e-300):
+        around = np.interp(orders, at, np.log(own[at]))
+        found.append(np.exp(scipy.ndimage.uniform_filter1d(around, teeth // 2 * 2 + 1, mode="nearest")))
+    return np.array(found)
+
+
 def _whitened(each: ComplexArray, kept: np.ndarray, teeth: int) -> ComplexArray:
     """The mean turn over its error, order by order, (C, orders); the error is that of the orders around, or its own
     where that is larger."""
     mean = each.mean(axis=1)
-    count = each.shape[1]
-    spread = np.sum(np.abs(each - mean[:, None]) ** 2, axis=1) / (count - 1) / count
-    white = np.zeros_like(mean)
+    error = np.maximum(_usual(each, kept, teeth), np.maximum(_spread(each), 1e-300))
+    white = np.where(kept, mean / np.sqrt(error), 0.0)
     orders, at = np.arange(mean.shape[1]), np.flatnonzero(kept)
-    for c, own in enumerate(np.maximum(spread, 1e-300)):
-        around = np.interp(orders, at, np.log(own[at]))
-        usual = np.exp(scipy.ndimage.uniform_filter1d(around, teeth // 2 * 2 + 1, mode="nearest"))
-        white[c] = np.where(kept, mean[c] / np.sqrt(np.maximum(usual, own)), 0.0)
-        size = np.abs(white[c])
+    for c, size in enumerate(np.abs(white)):
         level = scipy.ndimage.median_filter(np.interp(orders, at, size[at]), 2 * teeth + 1, mode="nearest")
         white[c] *= np.minimum(1.0, LEVELLED * level / np.maximum(size, 1e-300))
     return np.asarray(white, dtype=np.complex128)

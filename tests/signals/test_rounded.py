@@ -118,3 +118,14 @@ def test_the_refusal_gives_the_median_step() -> None:
     times[500:] += 1e-4
     with pytest.raises(SpecError, match=r"irregular from sample 500 on .* their median, 3\.906e-05 s, or"):
         check_regular(times)
+
+
+@pytest.mark.parametrize("start", [1.7e9, 1.7e9 + 50.0, 128.0 * 13_281_250])
+def test_seconds_since_1970_are_no_single_precision(start):
+    """Near a multiple of 128 s all of them are one number of single precision: gaps were taken for its rounding."""
+    even = start + np.arange(5000) / 25_600.0
+    assert regular_grid(np.round(even, 6)) is not None
+    late = even + np.where(np.arange(5000) >= 2000, 80 / 25_600.0, 0.0)
+    lost = late + np.where(np.arange(5000) >= 3000, 10 / 25_600.0, 0.0)
+    for gaps in (late, lost, even + np.where(np.arange(5000) >= 2500, 20 / 25_600.0, 0.0)):
+        assert regular_grid(np.round(gaps, 6)) is None

@@ -11,11 +11,13 @@ from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.gears import GearEvidence, gear_evidence
 from reconcile.kinematics.observe import observe
-from reconcile.kinematics.tooth_turn import RISEN, ToothTurn, teeth_report, tooth_turns, with_sidebands
+from reconcile.kinematics.tooth_turn import RISEN, ToothTurn, teeth_report, tooth_report, tooth_turns, with_sidebands
 from reconcile.observe.tooth_place import ToothPlace
+from reconcile.observe.whole_turn import WholeTurn
 from reconcile.verdict import Cause, Report
+from signals.recording import Tacho
 from tests.reconcile.kinematics.test_wander import turned
-from tests.strategies.brief import recorded
+from tests.strategies.brief import RATE_HZ, recorded
 
 TEETH, WHEEL, SPEED_HZ, SECONDS = 23, 81, 30.0, 2.0
 SPEC = read_kinematic_spec(
@@ -130,12 +132,14 @@ def test_sidebands_without_a_burst_are_not_decided() -> None:
     assert with_sidebands(QUIET, [turn_of("gear", 1.1)], []) == QUIET
 
 
-def test_an_uneven_turn_is_told_where_nothing_else_is() -> None:
-    report = with_sidebands(QUIET, [turn_of("gear", RISEN)], [])
+def test_an_uneven_turn_is_told_where_sidebands_grew_and_nothing_else_is() -> None:
+    grown = [sideband_growth("gear")]
+    report = with_sidebands(QUIET, [turn_of("gear", RISEN)], grown)
     assert report.verdict == "ambiguous" and {c.site for c in report.causes} == {"out", "gear"}
-    named = replace(QUIET, verdict="explained")
-    assert with_sidebands(named, [turn_of("gear", RISEN)], []) == named
-    assert with_sidebands(QUIET, [turn_of("gear", RISEN - 0.1)], []) == QUIET
+    named = with_sidebands(replace(QUIET, verdict="explained"), [turn_of("gear", RISEN)], grown)
+    assert named.verdict == "explained" and named.sentence == QUIET.sentence
+    assert with_sidebands(QUIET, [turn_of("gear", RISEN - 0.1)], grown).verdict == "not_decidable"
+    assert with_sidebands(QUIET, [turn_of("gear", RISEN)], []) == QUIET, "another load or less noise may do that"
 
 
 def test_sidebands_tell_where_the_turn_cannot() -> None:
@@ -152,3 +156,36 @@ def test_teeth_come_last_where_no_place_of_their_turn_stands_out() -> None:
     struck = replace(QUIET, verdict="ambiguous", causes=causes)
     told = with_sidebands(struck, [turn_of("gear", 1.0)], []).causes
     assert [c.site for c in told] == ["pinion", "out", "gear"]
+
+
+def test_gears_that_turn_alike_share_the_fault() -> None:
+    place = ToothPlace(
+        shaft="out", standing=3.0, start_turns=0.0, strongest=WholeTurn(windows=np.ones(100), teeth=23, turns=9)
+    )
+    one = ToothTurn(gear="gear", shaft="out", place=place, grown=1.0, tests=1, alike=("wheel",))
+    report = tooth_report(one)
+    assert {s.site: s.weight for s in report.where.sites} == {"gear": 0.5, "wheel": 0.5}
+    assert {c.site for c in report.causes} == {"gear", "wheel"} and "gear or wheel" in report.sentence
+    assert "which turn alike" in report.undecidable[0]
+
+
+@pytest.mark.slow
+def test_with_pulses_the_angle_counts_from_the_first_of_them() -> None:
+    """The same record, cut by a third of a turn: its place against the pulse stays."""
+    found = []
+    for skipped in (0, int(RATE_HZ / SPEED_HZ / 3)):
+        several = []
+        for seed, size in ((1, 1.0), (2, 0.0)):
+            one = seen(seed, "r", size).recording
+            angle = turned(seed, SPEED_HZ, 0.002, SECONDS)[skipped:] / (2 * np.pi)
+            pulses = np.interp(np.arange(np.ceil(angle[0]), np.floor(angle[-1])), angle, np.arange(angle.size))
+            tacho = Tacho(shaft="shaft", pulse_times_s=pulses / RATE_HZ)
+            cut = replace(one, samples=one.samples[:, skipped:], tacho=tacho)
+            several.append(observe(cut, TIE, f"test {seed}", stated_hz=None, seed=0))
+        first = tooth_turns(several[:1], several[1:], TIE)[0]
+        assert first.shown == "the first pulse of the tacho of test 1"
+        window = tooth_report(first).where.angle_window
+        assert window is not None
+        found.append(window.centre_deg)
+    assert found[0] == pytest.approx(120.0 + 6.0, abs=10.0)
+    assert found[1] == pytest.approx(found[0], abs=3.0)
