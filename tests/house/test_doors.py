@@ -45,10 +45,19 @@ def test_ci_runs_the_test_door_and_nothing_else():
     assert sum("make " in line for line in commands) == 1
 
 
-def test_make_accepts_its_file():
-    # This test may itself run under make, whose settings would be inherited.
+def _make(*asked):
+    # These tests may themselves run under make, whose settings would be inherited.
     outside = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
-    told = subprocess.run(["make", "-n", "test"], cwd=ROOT, env=outside, capture_output=True, text=True, check=False)
+    return subprocess.run(["make", *asked], cwd=ROOT, env=outside, capture_output=True, text=True, check=False)
+
+
+def test_help_lists_every_door_that_says_what_it_does():
+    told = _make("-s", "help").stdout.splitlines()
+    assert [line.split()[0] for line in told] == sorted(re.findall(r"^(\S+):.*## ", MAKEFILE, re.MULTILINE))
+
+
+def test_make_accepts_its_file():
+    told = _make("-n", "test")
     assert told.returncode == 0, told.stderr
     assert "pytest" in told.stdout.splitlines()[-1], "the test runner's closing line must come last"
     for tool in ("ruff check", "ruff format --check", "mypy", "lint-imports"):
