@@ -96,11 +96,7 @@ def _unlike(usual: Given, other: Given, sure: bool) -> Iterator[Problem]:
     """What differs between two recordings, the first of them the usual one where that is `sure`."""
     here, there = [[_of_channel(c) for c in one.recording.channels] for one in (usual, other)]
     if here != there and sorted(here) == sorted(there):
-        names = [", ".join(one.recording.names) for one in (usual, other)]
-        yield replace(
-            _differs(usual, other, "channels", names[0], names[1], sure=True),
-            message=f"are the usual ones ({usual.field('channels')}) in another order",
-        )
+        yield _in_another_order(usual, other, sure)
         return
     for c, (a, b) in enumerate(zip(usual.recording.channels, other.recording.channels, strict=False)):
         if _of_channel(a) != _of_channel(b):
@@ -111,6 +107,24 @@ def _unlike(usual: Given, other: Given, sure: bool) -> Iterator[Problem]:
         yield _differs(usual, other, "channels", len(mine.channels), len(theirs.channels), sure)
     if abs(theirs.sampling_rate_hz / mine.sampling_rate_hz - 1.0) > 1e-6:
         yield _differs(usual, other, "sampling_rate_hz", mine.sampling_rate_hz, theirs.sampling_rate_hz, sure, "Hz")
+
+
+def _in_another_order(usual: Given, other: Given, sure: bool) -> Problem:
+    """The same channels in two orders: told by their names where those tell them apart, else by what differs."""
+    names = [one.recording.names for one in (usual, other)]
+    named = names[0] != names[1] and sorted(names[0]) == sorted(names[1])
+    said = [", ".join(_named(c, named) for c in one.recording.channels) for one in (usual, other)]
+    place = usual.field("channels")
+    if sure:
+        message = f"are the usual ones ({place}) in another order"
+        return replace(_differs(usual, other, "channels", said[0], said[1], sure), message=message)
+    message = f"are those of {place} in another order, which has {said[0]}: either may be wrong"
+    return replace(_differs(usual, other, "channels", said[0], said[1], sure), message=message)
+
+
+def _named(channel: Channel, by_name: bool) -> str:
+    """`name`, or where that tells nothing `name at location axis quantity unit`."""
+    return channel.name if by_name else f"{channel.name} at {' '.join(filter(None, _of_channel(channel)))}"
 
 
 def _differs(

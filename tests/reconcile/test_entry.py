@@ -100,6 +100,25 @@ def test_channels_in_another_order_are_told_once() -> None:
         check_channels([here], [there])
     (problem,) = refused.value.problems
     assert problem.field == "rest.json: channels" and "in another order" in problem.message
+    assert "recording[0].channels in another order, which has bearing1y, bearing2y: either may" in problem.message
+    assert (problem.given, problem.allowed) == ("bearing2y, bearing1y", "the same in both")
+    with pytest.raises(SpecError, match="are the usual ones") as refused:
+        check_channels([here], [there, here])
+    assert refused.value.problems[0].allowed == "bearing1y, bearing2y"
+
+
+@pytest.mark.parametrize("names", [("a", "b"), ("p", "q")])
+def test_channels_in_another_order_under_names_that_tell_nothing_are_told_by_their_places(
+    names: tuple[str, str],
+) -> None:
+    here = recording(replace(channel(), name="a"), replace(channel("bearing2", "x"), name="b"))
+    there = recording(replace(channel("bearing2", "x"), name=names[0]), replace(channel(), name=names[1]))
+    with pytest.raises(SpecError) as refused:
+        check_channels([there], [here, here])
+    (problem,) = refused.value.problems
+    first, second = (f"{place} acceleration m/s^2" for place in ("bearing1 y", "bearing2 x"))
+    assert problem.given == f"{names[0]} at {second}, {names[1]} at {first}"
+    assert problem.allowed == f"a at {first}, b at {second}"
 
 
 def test_matching_recordings_pass_whatever_their_names_and_lengths() -> None:
