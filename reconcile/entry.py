@@ -27,9 +27,9 @@ from reconcile.stated import (
     given,
     pulses_hz,
     unplaced,
-    unstated,
 )
 from reconcile.told import about, sent_as
+from reconcile.unstated import unstated
 from reconcile.unsteady import unsteady
 from reconcile.verdict import Level, Report
 from signals.recording import Operating, Recording
@@ -195,7 +195,7 @@ def reconcile_recordings(
         check_whose_speeds(machine, given(tests, baselines))
         check_pulses(given(tests, baselines), machine)
     level: Level = "kinematics" if isinstance(machine, KinematicSpec) else "machine"
-    silent = (*unstated(given(tests, baselines)), *exchanged(given(tests, baselines)))
+    stated = given(tests, baselines)
     if isinstance(machine, MachineSpec):
         tests, baselines = ([_turning(machine, one) for one in several] for several in (tests, baselines))
     if isinstance(machine, KinematicSpec):
@@ -205,8 +205,9 @@ def reconcile_recordings(
         return _with_labels(smeared, sent, machine.name)
     if isinstance(machine, KinematicSpec):
         report = reconcile_kinematics(machine, tests, baselines, seed=seed, progress=progress)
-        remarks = unplaced(machine.parts, given(tests, baselines)) if _has_places(machine) else ()
-        return _with_labels(_with_limits(report, (*remarks, *silent)), sent, machine.name)
+        remarks = unplaced(machine.parts, stated) if _has_places(machine) else ()
+        remarks = (*remarks, *unstated(stated, report), *exchanged(stated))
+        return _with_labels(_with_limits(report, remarks), sent, machine.name)
     report = reconcile_machine(
         machine,
         tests,
@@ -218,7 +219,8 @@ def reconcile_recordings(
         progress=progress,
         nominated=nominated,
     )
-    return _with_labels(_with_limits(report, (*silent, *already_there(machine))), sent, machine.name)
+    remarks = (*unstated(stated, report), *exchanged(stated), *already_there(machine))
+    return _with_labels(_with_limits(report, remarks), sent, machine.name)
 
 
 def _turning(machine: MachineSpec, recording: Recording) -> Recording:

@@ -152,18 +152,6 @@ def check_turning(several: Sequence[Given]) -> None:
         raise SpecError(problems)
 
 
-def unstated(several: Sequence[Given]) -> tuple[str, ...]:
-    """What the report says of recordings that tell no speed in any way."""
-    names = {"recording": "test", "baseline": "baseline"}
-    silent = [
-        f"{names[one.kind]} {one.index + 1}"
-        for one in several
-        if one.recording.operating is None and one.recording.tacho is None
-    ]
-    says = "state no speed" if len(silent) > 1 else "states no speed"
-    return (f"{', '.join(silent)} {says}: the machine file's was taken",) if silent else ()
-
-
 def exchanged(several: Sequence[Given]) -> tuple[str, ...]:
     """What the report says where a test is described as a baseline, and no baseline is."""
     called = {kind: [o.recording.condition == "baseline" for o in several if o.kind == kind] for kind in KINDS}

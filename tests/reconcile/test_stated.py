@@ -11,6 +11,8 @@ import pytest
 from reconcile.entry import reconcile_recordings
 from reconcile.kinematics import read_kinematic_spec
 from reconcile.stated import check_speeds, exchanged, given, sixty_times
+from reconcile.unstated import unstated
+from reconcile.verdict import Report
 from signals.recording import Operating, Recording, Tacho
 from sim.core.errors import SpecError
 from sim.core.response import Channel
@@ -184,9 +186,20 @@ def test_a_standstill_without_pulses_is_refused_by_its_field() -> None:
 def test_a_speed_that_nobody_stated_is_told() -> None:
     silent = replace(quiet(), operating=None)
     report = reconcile_recordings(SPEC, [silent], [quiet(seed=1)])
-    assert any("test 1 states no speed" in limit for limit in report.where.limits)
+    assert "test 1 states no speed: the machine file's was taken" in report.where.limits
     stated = reconcile_recordings(SPEC, [quiet()], [quiet(seed=1)])
     assert not any("states no speed" in limit for limit in stated.where.limits)
+
+
+def test_a_speed_that_nobody_stated_but_lines_tell_is_told_with_what_they_tell() -> None:
+    silent = [replace(quiet(), operating=None)] * 2
+    rows = {"test 1": {"speed_hz": 29.897, "method": "harmonics"}, "test 2": {"speed_hz": 30.0, "method": "stated"}}
+    report = Report(verdict="nothing_missing", sentence="", level="kinematics")
+    found, taken = unstated(given(silent, []), replace(report, stages=({"name": "speed", "found": rows},)))
+    assert found.startswith("test 1 ") and found.endswith("was the start, lines of the shaft were found at 29.9 Hz")
+    assert taken == "test 2 states no speed: the machine file's was taken"
+    (both,) = unstated(given(silent, []), report)
+    assert both == "test 1, test 2 state no speed: the machine file's was taken"
 
 
 def test_sixty_times_the_drawing_and_far_too_fast_is_rpm_whatever_its_lines(monkeypatch: pytest.MonkeyPatch) -> None:
