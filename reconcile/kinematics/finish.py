@@ -13,7 +13,7 @@ from reconcile.kinematics.labels import label_faults
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.picture import envelope_picture, of_the_answer
 from reconcile.kinematics.slowest import short_limits, without_short
-from reconcile.verdict import NOT_JUDGED, Report
+from reconcile.verdict import NOT_JUDGED, NextExperiment, Report
 from sim.core.errors import SpecError
 
 SCORE_UNITS = {"nats": "deviations"}
@@ -97,11 +97,12 @@ def _left_out(gate: Gate) -> list[str]:
     return sorted({name for name in gone if name and name not in gate.tests[0].names})
 
 
-def refused_report(error: SpecError) -> Report:
-    """The recordings can't carry the kinematics."""
+def refused_report(error: SpecError, longer: NextExperiment | None) -> Report:
+    """The recordings can't carry the kinematics; `longer`: how long those must be that are too short."""
     return Report(
         verdict="not_decidable",
         sentence=f"The recordings can't carry these kinematics: {error}.",
         level="kinematics",
         undecidable=tuple(str(p) for p in error.problems),
+        next_experiment=longer,
     )

@@ -9,6 +9,7 @@ import numpy as np
 
 from reconcile.kinematics.envelopes import ComplexArray, Envelopes, envelopes, whitened
 from reconcile.kinematics.families import Family, Ties
+from reconcile.kinematics.slowest import MIN_TURNS, needed_for
 from reconcile.speed import SpeedEstimate, estimate_speed, followed_angle, shaft_angle
 from signals.recording import Recording
 from signals.series import FloatArray
@@ -16,7 +17,6 @@ from sim.core.errors import Problem, SpecError
 
 MOST_DOUBT = 0.012
 """Share by which the search widens where the speed could not be read: wider, every comb meets every line."""
-MIN_TURNS = 12.0
 WHITE = 2
 """Channels whose transforms are kept: families are heard in this one or that one, by turns."""
 SPEED_HARMONICS = (1, 2, 3)
@@ -86,13 +86,10 @@ def observe(recording: Recording, ties: Ties, label: str, *, stated_hz: float | 
     usable = tuple(z for z in teeth if stated is not None and z * stated * 1.1 < nyquist)
     speed = estimate_speed(recording, shaft=ties.reference, stated_hz=stated, orders=usable, seed=seed)
     if speed.speed_hz * recording.duration_s < MIN_TURNS:
+        given = round(speed.speed_hz * recording.duration_s, 2)
+        allowed = f"at least {MIN_TURNS:g} turns, better {needed_for(ties, speed.speed_hz)}"
         raise SpecError(
-            Problem(
-                field="samples",
-                message="hold too few turns of the shaft",
-                given=round(speed.speed_hz * recording.duration_s, 2),
-                allowed=f"at least {MIN_TURNS:g} turns",
-            )
+            Problem(field="samples", message="hold too few turns of the shaft", given=given, allowed=allowed)
         )
     angle = _angle(recording, speed, usable, ties)
     base, top = reach_of(ties.families)

@@ -32,7 +32,7 @@ from reconcile.kinematics.other_speeds import by_baseline, nominees
 from reconcile.kinematics.remarks import if_heard, remarked, with_rest
 from reconcile.kinematics.series import shaft_series
 from reconcile.kinematics.shafts import shaft_changes
-from reconcile.kinematics.slowest import with_slowest
+from reconcile.kinematics.slowest import longer, with_slowest
 from reconcile.kinematics.spec import KinematicSpec, of_machine
 from reconcile.kinematics.teeth import other_teeth, told_with, with_teeth
 from reconcile.kinematics.tooth_turn import teeth_report, tooth_turns, with_sidebands
@@ -110,7 +110,8 @@ def _reconciled(
         seen = _observed(gate.tests, "test", tie, stated, seed)
         past = _observed(gate.baselines, "baseline", tie, stated, seed)
     except SpecError as error:
-        return finished(refused_report(error), gate, (), ())
+        again = longer((*gate.tests, *gate.baselines), tie, stated)
+        return finished(refused_report(error, again), gate, (), ())
     wrong = None if corrected else other_teeth(known, tie.reference, (*seen, *past))
     if wrong is not None:
         return told_with(_reconciled(with_teeth(known, wrong), tests, baselines, seed, _silent, True), wrong)

@@ -8,7 +8,7 @@ from reconcile.gate.findings import Finding, Gate
 from reconcile.gate.timing import length_findings
 from reconcile.kinematics import read_kinematic_spec
 from reconcile.kinematics.families import ties
-from reconcile.kinematics.slowest import short_limits, with_slowest, without_short
+from reconcile.kinematics.slowest import longer, needed_for, short_limits, with_slowest, without_short
 from reconcile.verdict import Cause, Report
 from tests.strategies.brief import SPEED_HZ, N, recorded, sound
 
@@ -54,3 +54,15 @@ def test_it_is_left_out_beside_another_parts_name() -> None:
 
 def test_the_rest_of_the_gate_stays() -> None:
     assert without_short(gate()).findings == (OTHER,)
+
+
+def test_how_long_to_record_is_the_longer_of_what_the_shaft_and_the_slowest_part_need() -> None:
+    assert needed_for(TIE, 10.0) == "15.1 s (20 turns of the cage of out_near)"
+    alone = replace(TIE, families=(), shafts={"input": 1.7})
+    assert needed_for(alone, 10.0) == "1.2 s (12 turns of input)"
+    short = recorded(sound(1)[: N // 100])
+    advice = longer([recorded(sound(1)), short], TIE, None)
+    assert advice is not None and advice.sentence == f"Record at least {needed_for(TIE, SPEED_HZ)}."
+    assert longer([recorded(sound(1))], TIE, None) is None
+    silent = replace(short, operating=None, tacho=None)
+    assert longer([silent], TIE, None) is None and longer([silent], TIE, SPEED_HZ) == advice
