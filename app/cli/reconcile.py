@@ -30,7 +30,7 @@ from reconcile.machine.engine import ATLASES_DONE
 from reconcile.report import write_report
 from reconcile.report.write import PAGE, REPORT
 from reconcile.told import about
-from signals.ingest import read_recording
+from signals.ingest import ingest
 from signals.recording import Recording
 from sim import presets
 from sim.core.errors import Problem, SpecError
@@ -112,10 +112,13 @@ def _kinematics(path: Path, document: Mapping[str, object]) -> MachineSpec | Kin
         raise SpecError(several) from error
 
 
-def _recording(path: Path) -> Recording:
-    """A recording, labelled with its file as it was given; a refusal says which file too."""
+def _recording(path: Path, notes: list[str]) -> Recording:
+    """A recording, labelled with its file as it was given; a refusal says which file too, and so do the `notes` that
+    reading it adds."""
     try:
-        return replace(read_recording(path), label=str(path))
+        found = ingest(path)
+        notes += [f"{path}: {remark}" for remark in found.remarks]
+        return replace(found.recording, label=str(path))
     except SpecError as error:
         raise SpecError([replace(p, field=_in_file(path, p.field)) for p in error.problems]) from error
 
@@ -209,8 +212,11 @@ def run(arguments: argparse.Namespace) -> int:
     if not 1 <= arguments.jobs <= 64:
         raise SpecError(Problem(field="--jobs", message="must fit", given=arguments.jobs, allowed="1 to 64"))
     machine = _machine(arguments.machine)
-    tests = [_recording(path) for path in arguments.recording]
-    baselines = [_recording(path) for path in arguments.baseline]
+    notes: list[str] = []
+    tests = [_recording(path, notes) for path in arguments.recording]
+    baselines = [_recording(path, notes) for path in arguments.baseline]
+    for note in notes:
+        print(f"note: {note}", file=sys.stderr)
     keeper = AtlasFolder(arguments.atlas or default_atlas_folder())
     with _made(arguments.out), processes(arguments.jobs) as workers, _machine_named(arguments.machine):
         report = reconcile_recordings(
@@ -223,6 +229,7 @@ def run(arguments: argparse.Namespace) -> int:
             seed=arguments.seed,
             progress=_Shown(),
         )
+    report = replace(report, where=replace(report.where, limits=(*report.where.limits, *notes)))
     earlier = (arguments.out / "report.json").exists()
     written = write_report(report, arguments.out)
     if arguments.json:
