@@ -101,7 +101,7 @@ def stages(report: Report) -> Markup:
         words = _told({k: _as_above(k, v, gained) for k, v in found.items() if k not in wide})
         if words:
             rows.append((title, words))
-        tables += [Markup(tag("h3", title) + _table(v)) for v in wide.values()]
+        tables += [Markup(tag("h3", title) + _table(v) + _there_or_risen(v)) for v in wide.values()]
     if not rows and not tables:
         return Markup("")
     note = "A small chance (p) speaks for a change; deviations are robust standard deviations."
@@ -132,6 +132,11 @@ def _records(value: Plain) -> list[dict[str, Plain]]:
     return []
 
 
+THERE_OR_RISEN = (
+    "Lines are there where they stand out more than chance makes them, as lines of this part; they have risen where "
+    "they are deeper than the baselines', or without a baseline than sound machines', which noise and lines of others "
+    "near them can do too. What has risen and is not there names no part by itself."
+)
 MOST_FLAT = 3
 """Objects of no more keys are told in a line: by their first value."""
 
@@ -141,6 +146,13 @@ def _table(value: Plain) -> Markup:
     keys = [k for k in dict.fromkeys(k for r in records for k in r) if any(r.get(k) not in (None, {}) for r in records)]
     rows = [[_value(k, r.get(k)) for k in keys] for r in records]
     return table([_word(k) for k in keys], rows)
+
+
+def _there_or_risen(value: Plain) -> Markup:
+    """Why lines that have risen may not be there, under a table that says both."""
+    if any("present" in r and "risen" in r for r in _records(value)):
+        return Markup(tag("p", THERE_OR_RISEN, css="muted"))
+    return Markup("")
 
 
 def _word(key: str) -> str:

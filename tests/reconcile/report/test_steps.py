@@ -62,6 +62,12 @@ def test_lists_of_objects_are_tables_without_columns_that_nobody_has() -> None:
     assert first[0] == "b1.outer" and first[-1] == "yes" and second[-1] == "no"
 
 
+def test_under_a_table_that_says_what_is_there_and_what_has_risen_stands_why_both_are_asked() -> None:
+    for row, said in ((FAMILY, False), ({**FAMILY, "present": False}, True)):
+        shown = stages(report(stages=({"name": "families", "table": [row]},)))
+        assert ("What has risen and is not there names no part by itself" in shown) is said
+
+
 def test_short_objects_are_told_in_a_line_by_their_first_value() -> None:
     decided = [{"number": f"part {k}", "offset": 0.1, "share": 0.9} for k in range(15)]
     (_, told) = rows(stages(report(stages=({"name": "calibrate", "decided": decided},))))
