@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reconcile.driven import reconcile_driven
+from reconcile.driven import nominate, reconcile_driven
 from reconcile.driven.analysis import analyse
 from reconcile.driven.answer import answer
 from reconcile.driven.channels import driven_of
@@ -193,7 +193,9 @@ def test_why_no_law_is_named_is_said(jumping: Analysis) -> None:
 
 
 @pytest.mark.slow
-def test_an_exponent_is_no_surer_than_two_stretches_agree_on() -> None:
+def test_an_exponent_is_no_surer_than_two_stretches_agree_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(nominate, "WIDEST_POWER", np.inf)
+
     def run_of(key: str) -> tuple[Model, Run]:
         found = calibrate(parts_of([driven_of(r, OWN) for r in pair(key, "m", seed=1, n=4000)])[0])
         return found.linear.model, found.run
@@ -204,3 +206,14 @@ def test_an_exponent_is_no_surer_than_two_stretches_agree_on() -> None:
     assert alike is not None and other is not None
     assert alike.value == other.value and alike.low < 3.0 < alike.high
     assert other.high - other.low > 1.2 * (alike.high - alike.low)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("error", "told"), [(0.2, True), (5.0, False)])
+def test_an_exponent_that_may_be_anything_is_not_told(
+    monkeypatch: pytest.MonkeyPatch, error: float, told: bool
+) -> None:
+    found = calibrate(parts_of([driven_of(r, OWN) for r in pair("cubic", "m", seed=1, n=2000)])[0])
+    final = fit(found.linear.model.with_laws((CUBIC,), (0.0,)), found.run).model
+    monkeypatch.setattr(nominate, "_lowest", lambda *_: (3.01, error))
+    assert (free_power(found.linear.model, final, found.run, found.other) is not None) == told
