@@ -29,6 +29,13 @@ ALL_WRONG = (
 SET_SHARE = 0.5
 """Score over the best one's from which a cause is taken for one of an ambiguous set."""
 
+TURNING = "units, which sensor is which, the stated speed, the numbers of bearings and teeth"
+ONE_MASS = (
+    "units and sign of force and motion, the sampling rate, channels that are not read at once, the mass of the "
+    "machine file"
+)
+"""What may be wrong beside the machine, where parts turn and where one mass is driven by what was measured."""
+
 
 def to_do(report: Report) -> str:
     """The sentence for a verdict, with the next experiment where one is advised."""
@@ -107,9 +114,11 @@ def _explained(report: Report) -> str:
 def _unknown(report: Report) -> str:
     place = _place(report)
     here = f"look at {place} first; " if place else ""
+    rule_out = f"{ONE_MASS if report.level == 'driven' else TURNING}, a baseline of another machine or state"
+    if report.level == "driven" and not report.provenance.get("baselines"):
+        rule_out = ONE_MASS
     return (
-        f"{here}none of the known names fits, so take none for granted. Rule out what is not the machine: units, which "
-        "sensor is which, the stated speed, the numbers of bearings and teeth, a baseline of another machine or state."
+        f"{here}none of the known names fits, so take none for granted. Rule out what is not the machine: {rule_out}."
     )
 
 

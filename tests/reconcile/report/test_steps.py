@@ -183,3 +183,11 @@ def test_symbols_of_lines_are_said_where_there_are_any() -> None:
 def test_costs_are_told_in_words() -> None:
     whole = provenance(report(provenance={"cost": {"core_s": 70.1, "until_atlas_core_s": 0.8}, "seed": 0}))
     assert "processor seconds: 70.1; of them until the atlas was there: 0.8" in whole and "core s" not in whole
+
+
+def test_what_is_ruled_out_beside_the_machine_is_what_there_is() -> None:
+    turning, driven = (to_do(Report(verdict="unknown_physics", sentence="", level=x)) for x in ("machine", "driven"))
+    assert "bearings and teeth" in turning and "stated speed" in turning and "a baseline" in turning
+    assert "speed" not in driven and "teeth" not in driven and "sampling rate" in driven and "baseline" not in driven
+    compared = Report(verdict="unknown_physics", sentence="", level="driven", provenance={"baselines": 1})
+    assert "sign of force and motion" in to_do(compared) and "a baseline of another" in to_do(compared)
