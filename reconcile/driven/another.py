@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from reconcile.driven.aside import aside
 from reconcile.driven.changed import Change, changes, one_factor
 from reconcile.driven.forced import ALPHA, Analysis, calibrate, gain_interval
 from reconcile.driven.judge import ROUGH
@@ -39,6 +40,8 @@ def beside_baseline(
         if worst.left > max(LESS_SOUND * found.fitted_nrmse, ROUGH) and _lacks(worst, seed):
             return _turned(report, worst.left, found.fitted_nrmse, site.body.name)
     changed = changes(tests, baselines, site, None if quiet else found.final)
+    if not quiet and aside(found) is not None:  # its linear part is not the spring about rest
+        changed = tuple(c for c in changed if c.key != "stiffness")
     stage = {"stage": "baseline", "changed": {c.name: [c.before.value, c.after.value] for c in changed}}
     report = replace(report, stages=(*report.stages, stage))
     if not changed:

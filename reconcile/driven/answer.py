@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from reconcile.driven.aside import seen_from_rest
 from reconcile.driven.ceiling import Ceiling, ceilings
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.forced import ALPHA, Analysis, Validation
@@ -266,7 +267,13 @@ def answer(spec: MachineSpec, found: Analysis, *, seed: int, provenance: Mapping
     shown, name = shown_stretch(found), site.body.name
     machine, judgement = _revised(spec, found, judgement, shown.drive)
     only = "One degree of freedom: a force between the mass and the ground is the only place."
-    limits = (only, *from_rest(found), *(_not_freely(v) for v in found.validations if v.led), *_not_all(found))
+    limits = (
+        only,
+        *from_rest(found),
+        *seen_from_rest(found),
+        *(_not_freely(v) for v in found.validations if v.led),
+        *_not_all(found),
+    )
     nothing = judgement.verdict in ("nothing_missing", "not_decidable")
     freed = None if nothing else freed_force(found, mass, seed)
     return Report(

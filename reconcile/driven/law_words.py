@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+from reconcile.driven.aside import aside, beside_rest, length
 from reconcile.driven.forced import Analysis
 from reconcile.force_law.library import GAPPED, Law
 
-MILLIMETRES = 1e-4
-"""Gap, m, from which on it is told in mm."""
 MIDDLE = 0.05
 """Distance of the middle of stops from the channel's zero, over their gap, that is worth a word."""
 
@@ -18,15 +17,15 @@ def law_words(found: Analysis) -> str:
     if found.power is not None:
         p = found.power
         said += f"; the exponent of the odd part left free is {p.value:.2f} (90 %: {p.low:.2f} to {p.high:.2f})"
-    return said + _aside(found)
+    seen = aside(found)
+    return said + _aside(found) + ("" if seen is None else beside_rest(found, seen))
 
 
 def _gap_words(law: Law) -> str:
     """A gap with its unit, as a machinist says it."""
     if law.key not in GAPPED:
         return ""
-    size = abs(law.shape)
-    return f", z in m: {law.shape * 1e3:.3g} mm" if size >= MILLIMETRES else f", z in m: {law.shape * 1e6:.3g} µm"
+    return f", z in m: {length(law.shape)}"
 
 
 def _aside(found: Analysis) -> str:

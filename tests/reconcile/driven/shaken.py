@@ -24,10 +24,12 @@ LAWS: dict[str, tuple[float, Law]] = {
     "dry_friction": (3.0, lambda _, v: 3.0 * math.tanh(v / 1e-3)),
     "stops": (1e5, lambda x, _: 1e5 * (max(x - 4e-4, 0.0) - max(-x - 4e-4, 0.0))),
     "hard": (2e11, lambda x, _: 2e11 * x**3),
+    "leaning": (4e7, lambda x, _: 4e7 * x * x + 1e10 * x**3),
     "sine": (3e4, lambda x, _: 9.0 * math.sin(x / 3e-4)),
     "none": (0.0, lambda _x, _v: 0.0),
 }
-"""Size, and force in N over displacement and velocity; `hard`: cubic, jumping between its branches."""
+"""Size, and force in N over displacement and velocity; `hard`: cubic, jumping between its branches; `leaning`: a cubic
+beside a constant force, seen from rest."""
 
 
 def _run(rng: np.random.Generator, n: int, size: float, law: Law) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
