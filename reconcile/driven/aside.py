@@ -15,7 +15,7 @@ from reconcile.driven.forced import Analysis
 from reconcile.driven.machine import weighed
 from reconcile.driven.model import Model
 from reconcile.driven.motion import moved
-from reconcile.force_law.library import CUBIC, ODD_SQUARE, QUADRATIC, QUINTIC
+from reconcile.force_law.library import CUBIC, ODD_SQUARE, QUADRATIC, QUINTIC, length
 
 ANCHORED = frozenset({CUBIC.key, QUINTIC.key, ODD_SQUARE.key, QUADRATIC.key})
 """Laws of displacement that look otherwise from another point."""
@@ -96,15 +96,6 @@ def _distance(found: Analysis, said: Aside) -> str:
     if not found.held_run.data.calibrated:
         return f"{said.away / said.travel:.2g} of half the travel"
     return length(said.away)
-
-
-MILLIMETRES = 1e-4
-"""Length, m, from which on it is told in mm."""
-
-
-def length(metres: float) -> str:
-    """In mm or µm, as a machinist says it."""
-    return f"{metres * 1e3:.3g} mm" if abs(metres) >= MILLIMETRES else f"{metres * 1e6:.3g} µm"
 
 
 def seen_from_rest(found: Analysis) -> tuple[str, ...]:

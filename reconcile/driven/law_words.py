@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from reconcile.driven.aside import aside, beside_rest, length
+from reconcile.driven.aside import aside, beside_rest
 from reconcile.driven.forced import Analysis
-from reconcile.force_law.library import GAPPED, Law
+from reconcile.force_law.library import GAPPED
 
 MIDDLE = 0.05
 """Distance of the middle of stops from the channel's zero, over their gap, that is worth a word."""
@@ -13,19 +13,12 @@ MIDDLE = 0.05
 def law_words(found: Analysis) -> str:
     """`odd stiffness, about cubic: exponent 2.96 (90 %: 2.94 to 2.97)`."""
     laws = found.final.model.laws
-    said = " with ".join(f"{law.words} ({law.shown()}{_gap_words(law)})" for law in laws)
+    said = " with ".join(f"{law.words} ({law.shown()})" for law in laws)
     if found.power is not None:
         p = found.power
         said += f"; the exponent of the odd part left free is {p.value:.2f} (90 %: {p.low:.2f} to {p.high:.2f})"
     seen = aside(found)
     return said + _aside(found) + ("" if seen is None else beside_rest(found, seen))
-
-
-def _gap_words(law: Law) -> str:
-    """A gap with its unit, as a machinist says it."""
-    if law.key not in GAPPED:
-        return ""
-    return f", z in m: {length(law.shape)}"
 
 
 def _aside(found: Analysis) -> str:

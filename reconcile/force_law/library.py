@@ -19,6 +19,13 @@ SLOW = 0.02
 """Speed at which dry friction is fully developed, as a share of the largest one."""
 GAP_QUANTILES = (0.1, 0.25, 0.5, 0.75, 0.9)
 ZONE_QUANTILES = (0.25, 0.5, 0.75, 0.9)
+MILLIMETRES = 1e-4
+"""Length, m, from which on it is told in mm."""
+
+
+def length(metres: float) -> str:
+    """In mm or µm, as a machinist says it."""
+    return f"{metres * 1e3:.3g} mm" if abs(metres) >= MILLIMETRES else f"{metres * 1e6:.3g} µm"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,8 +56,9 @@ class Law:
         return f"{coefficient:.9g}*{self.formula.format(s=shape)}"
 
     def shown(self) -> str:
-        """For readers, with the shape in figures."""
-        return self.text.format(s=f"{self.shape:.3g}").replace("− -", "+ ")
+        """For readers, with the shape in figures, a gap in mm or µm: `(z + 0.506 mm)₊`."""
+        shape = length(self.shape) if self.key in GAPPED else f"{self.shape:.3g}"
+        return self.text.format(s=shape).replace("− -", "+ ")
 
     @property
     def unit(self) -> str:
