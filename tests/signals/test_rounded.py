@@ -62,7 +62,7 @@ def test_what_rounding_does_not_explain_is_refused_with_the_place(
 ) -> None:
     times, place = np.arange(n + 1) / rate, int(share * n)
     # at least a twentieth of a step, five times what clocks may; no round number, which would look like few decimals
-    off = 1.0371 * max(3 * rounding(times, way), 0.05 / rate)
+    off = 1.3371 * max(3 * rounding(times, way), 0.05 / rate)
     if kind in ("missing", "twice") and off > 1 / rate:
         return
     if kind == "missing":
