@@ -12,7 +12,7 @@ all around them, are lines of something else and are held down.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
@@ -34,6 +34,8 @@ BESIDE_TEETH = 2.0
 two pitches."""
 LEVELLED = 2.5
 """Times the level of the orders around it that an order may have at most."""
+HELD = 1e-9
+"""Share of its largest value by which a channel must move at least."""
 STRONG = 0.2
 """Share of the strongest line of the teeth from which one tells by how much a record is louder."""
 SOUND = 1.7
@@ -88,13 +90,24 @@ def whole_turns(
 
     `teeth`: also of the other gears on that shaft. None where a recording is too short or too slowly sampled. Both are
     of as many turns and reach as high, and the cleaner one is made as noisy as the other over the lines of its teeth: a
-    longer, louder or quieter record brings out of the noise what another one had too.
+    longer, louder or quieter record brings out of the noise what another one had too. A channel that holds one value in
+    either is left out.
     """
+    alive = _alive(now) & (_alive(before) if before is not None else True)
+    if not np.any(alive):
+        return None, None
+    now = replace(now, samples=now.samples[alive])
+    before = before if before is None else replace(before, samples=before.samples[alive])
     one, other = _each_turn(now), None if before is None else _each_turn(before)
     if one is not None and other is not None:
         count, orders = (min(one.shape[k], other.shape[k]) for k in (1, 2))
         one, other = _as_noisy(one[:, :count, :orders], other[:, :count, :orders], teeth)
     return _told(one, teeth), _told(other, teeth)
+
+
+def _alive(one: Turned) -> np.ndarray:
+    """Channels (C,) that hold more than one value."""
+    return np.asarray(np.ptp(one.samples, axis=1) > HELD * np.max(np.abs(one.samples), axis=1))
 
 
 def _told(each: ComplexArray | None, teeth: Sequence[int]) -> WholeTurn | None:

@@ -152,3 +152,14 @@ def test_of_unlike_rates_both_are_heard_in_the_same_band():
     ring = burst(TURNS, 0.5, size=1.0, hz=6500.0)
     half = Turned(samples=(before + ring)[:, ::2], turns=TURNS[::2])
     assert standing(*whole_turns(turned(now + ring), half, teeth=(TEETH,))) < 0.8
+
+
+@pytest.mark.parametrize("held", [0.0, 5.0])
+def test_a_channel_that_holds_one_value_in_either_hides_nothing(held):
+    struck, before = sound(20), sound(21)
+    struck[1] += burst(TURNS, 0.5, size=0.6)
+    for dead in (struck.copy(), before.copy()):
+        dead[2] = held
+        pair = (dead, before) if dead[1, 0] == struck[1, 0] else (struck, dead)
+        assert stands(*pair) > 0.8
+    assert stands(np.full((2, TIME.size), held), before[:2]) == 0.0
