@@ -8,7 +8,7 @@ from pathlib import Path
 from textwrap import wrap
 
 from proof.effects import LIPPED
-from proof.entire import GROUPS, SPLIT, STRUCK, entire
+from proof.entire import ENTIRE, STRUCK, entire
 from proof.score.one import Score
 from proof.score.rates import MEASURES, at_target, rate
 from proof.shown import WIDTH
@@ -23,14 +23,14 @@ LATER = "hearing"
 
 def one_engine(results: Path) -> str:
     """What the page says of the split; that there is nothing where nothing is stored."""
-    scores = read(results / f"{SPLIT}.json")
+    scores = read(results / f"{ENTIRE.split}.json")
     if not scores:
         return "None of its cases are stored."
-    engine = json.loads((results / f"{SPLIT}.json").read_text(encoding="utf-8"))["engine"]
+    engine = json.loads((results / f"{ENTIRE.split}.json").read_text(encoding="utf-8"))["engine"]
     later = {s.name for s in read(results / f"{LATER}.json")}
     left = sorted({c.name for c in entire()} - {s.name for s in scores} - later)
     said = (
-        f"{len(scores)} of its {sum(GROUPS.values())} cases are run, all by engine `{engine}` (commit {COMMIT}), which "
+        f"{len(scores)} of its {sum(ENTIRE.groups.values())} cases are run, all by engine `{engine}` (commit {COMMIT}), which "
         f"had met none of them and was not changed between them. {_later(later)}{_left(left)}"
         f"`git checkout {COMMIT} && make proof` makes these figures again; a later engine's answers are held against "
         f"them case by case by `make proof CASES=...`."

@@ -38,6 +38,7 @@ Split = Literal[
     "anew",
     "entire",
     "teeth",
+    "held",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -58,6 +59,7 @@ SEEDS = {
     "anew": 5_790_146_323,
     "entire": 8_064_731_295,
     "teeth": 4_836_201_759,
+    "held": 2_916_480_537,
 }
 COUNTS = {
     "dev": {

@@ -9,7 +9,7 @@ import pytest
 
 from proof import seal
 from proof.effects import LIPPED, Choice
-from proof.entire import GROUPS, STRUCK, entire
+from proof.entire import ENTIRE, HELD, STRUCK, entire, held
 from proof.library import CLOSED
 from proof.machine import arrays_of, exact_machine
 from proof.model.balls import pit
@@ -18,6 +18,7 @@ from proof.plan import ORTHOGONAL, SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS, plan
 from proof.unknown import OPEN
 
 CASES = entire()
+GROUPS = ENTIRE.groups
 
 
 def test_three_of_four_cases_stand_at_the_target_condition():
@@ -44,6 +45,19 @@ def test_every_known_and_unknown_law_of_the_usual_load_occurs_and_every_third_pi
 
 def test_the_seals_were_committed():
     assert seal.seals_of("entire") == seal.manifest("entire", CASES)["sha256"]
+    assert seal.seals_of("held") == seal.manifest("held", held())["sha256"]
+
+
+def test_the_second_has_no_case_of_the_first_and_is_a_sample_at_any_length():
+    cases = held()
+    assert Counter(c.group for c in cases) == HELD.groups and len({c.name for c in cases}) == 120
+    seen = {(e.law, e.site, round(e.value, 12)) for c in CASES for e in c.effects}
+    assert not any((e.law, e.site, round(e.value, 12)) in seen for c in cases for e in c.effects)
+    assert {len(c.speeds_hz) for c in cases} == {1, 3} and not any(c.group == "misset" for c in cases)
+    target = sum((len(c.sensors), c.snr_db, len(c.speeds_hz)) == (3, 20.0, 3) for c in cases)
+    assert target == 86 and {len(c.sensors) for c in cases} == {1, 3, 8}
+    half = Counter(c.group for c in cases[:60])
+    assert all(abs(half[g] - n / 2) <= 2 + 0.2 * n for g, n in HELD.groups.items())
 
 
 def test_a_lip_squeezes_the_ball_before_and_behind_the_pit():
