@@ -30,8 +30,8 @@ def one_engine(results: Path) -> str:
     later = {s.name for s in read(results / f"{LATER}.json")}
     left = sorted({c.name for c in entire()} - {s.name for s in scores} - later)
     said = (
-        f"{len(scores)} of its {sum(ENTIRE.groups.values())} cases are run, all by engine `{engine}` (commit {COMMIT}), which "
-        f"had met none of them and was not changed between them. {_later(later)}{_left(left)}"
+        f"{len(scores)} of its {sum(ENTIRE.groups.values())} cases are run, all by engine `{engine}` (commit "
+        f"{COMMIT}), which had met none of them and was not changed between them. {_later(later)}{_left(left)}"
         f"`git checkout {COMMIT} && make proof` makes these figures again; a later engine's answers are held against "
         f"them case by case by `make proof CASES=...`."
     )
