@@ -51,7 +51,9 @@ def test_the_seals_were_committed():
 def test_the_second_has_no_case_of_the_first_and_is_a_sample_at_any_length():
     cases = held()
     assert Counter(c.group for c in cases) == HELD.groups and len({c.name for c in cases}) == 120
-    drawn, others = ({(e.law, e.value) for c in s if c.group != "ambiguous" for e in c.effects} for s in (cases, CASES))
+    drawn, others = (
+        {(e.law, e.site, e.value) for c in s if c.group != "ambiguous" for e in c.effects} for s in (cases, CASES)
+    )
     assert len(drawn) > 80 and not drawn & others, "look-alikes have one size"
     assert {len(c.speeds_hz) for c in cases} == {1, 3} and not any(c.group == "misset" for c in cases)
     target = sum((len(c.sensors), c.snr_db, len(c.speeds_hz)) == (3, 20.0, 3) for c in cases)
