@@ -17,6 +17,7 @@ from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.engine import Progress, reconcile_machine
 from reconcile.pulses import check_pulses
 from reconcile.repeated import check_repeated
+from reconcile.report.revised import sent_to_the_file
 from reconcile.stated import (
     Given,
     check_locations,
@@ -220,7 +221,7 @@ def reconcile_recordings(
         nominated=nominated,
     )
     remarks = (*unstated(stated, report), *exchanged(stated), *already_there(machine))
-    return _with_labels(_with_limits(report, remarks), sent, machine.name)
+    return _with_labels(sent_to_the_file(_with_limits(report, remarks)), sent, machine.name)
 
 
 def _turning(machine: MachineSpec, recording: Recording) -> Recording:

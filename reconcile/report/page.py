@@ -22,6 +22,7 @@ from reconcile.report.markup import Markup, figure_text, tag
 from reconcile.report.panels import spectra, turns
 from reconcile.report.pictures import numbers, several, text
 from reconcile.report.provenance import provenance
+from reconcile.report.revised import note
 from reconcile.report.sections import (
     bullets,
     causes_table,
@@ -157,10 +158,9 @@ def _machine(report: Report) -> Markup:
     if report.machine is None:
         return Markup("")
     spec = json.dumps(plain(report.machine), allow_nan=False, ensure_ascii=False, indent=1)
-    note = "Loads back into the simulator and reproduces the model with it."
     body = tag("details", tag("summary", "Revised machine (JSON)"), tag("pre", spec))
     return section(
-        "Revised machine", told(tag("p", note, css="muted"), tag("p", simulated(report)), body), _paths(report)
+        "Revised machine", told(tag("p", note(report), css="muted"), tag("p", simulated(report)), body), _paths(report)
     )
 
 

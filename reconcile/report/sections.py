@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
-from reconcile.report.action import to_do, undecided
+from reconcile.report.action import undecided
 from reconcile.report.formula import formula
 from reconcile.report.markup import Markup, escaped, figure_text, tag
 from reconcile.report.mending import channels
+from reconcile.report.revised import to_do
 from reconcile.report.words import (
     FORMS,
     LEFT_OVER,

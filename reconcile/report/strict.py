@@ -9,7 +9,7 @@ from dataclasses import fields, is_dataclass
 
 import numpy as np
 
-from reconcile.report.action import to_do
+from reconcile.report.revised import to_do
 from reconcile.verdict import Report
 
 Plain = None | bool | int | float | str | list["Plain"] | dict[str, "Plain"]

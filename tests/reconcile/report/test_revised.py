@@ -1,0 +1,46 @@
+"""A revised machine that does not show what was recorded says so, and the answer sends to the machine file."""
+
+from __future__ import annotations
+
+import pytest
+
+from reconcile.report.page import page
+from reconcile.report.revised import CORRECT, sent_to_the_file, to_do
+from reconcile.report.strict import document
+from reconcile.verdict import NextExperiment, Report, Word
+
+
+def answer(left_db: float, *, sentence: str = "Outer-race spall at drive_end.", verdict: Word = "explained") -> Report:
+    stage = {"name": "revised machine", "simulated_forms": 7, "level_change_db": 6.0, "left_of_it_db": left_db}
+    return Report(verdict=verdict, sentence=sentence, level="machine", machine={"name": "rig"}, stages=(stage,))
+
+
+def test_a_machine_that_leaves_more_than_there_was_sends_to_its_file() -> None:
+    found = sent_to_the_file(answer(10.9))
+    assert found.next_experiment is not None and "Correct the machine file" in found.next_experiment.sentence
+    assert str(document(found)["to_do"]).count(CORRECT) == 1
+    drawn = page(found)
+    assert "leaves 182 % of the levels" in drawn and "should be corrected first" in drawn
+    assert "reproduces the" not in drawn
+
+
+def test_so_does_one_whose_file_does_not_fit_the_baseline_however_near_it_comes() -> None:
+    found = sent_to_the_file(answer(2.0, sentence="A spall. But the machine file does not fit the baseline: far off."))
+    assert CORRECT in to_do(found) and found.next_experiment is not None
+
+
+@pytest.mark.parametrize("verdict", ["explained", "ambiguous"])
+def test_a_machine_that_comes_near_is_only_told_by_what_it_leaves(verdict: Word) -> None:
+    near = answer(2.0, verdict=verdict)
+    assert sent_to_the_file(near) is near and "Correct" not in to_do(near)
+    assert "but for the 33 % of it that is left" in page(near)
+    alike = answer(6.3, verdict=verdict)
+    assert sent_to_the_file(alike) is alike and "comes no nearer to the recordings in level" in page(alike)
+
+
+def test_the_experiment_that_was_advised_follows() -> None:
+    advised = NextExperiment(sentence="Add a sensor.", separation_now=1.0)
+    asked = Report(**{**answer(9.0, verdict="ambiguous").__dict__, "next_experiment": advised})
+    found = sent_to_the_file(asked).next_experiment
+    assert found is not None and found.sentence == f"{CORRECT} Add a sensor." and found.separation_now == 1.0
+    assert to_do(sent_to_the_file(asked)).count(CORRECT) == 1
