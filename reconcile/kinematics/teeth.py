@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reconcile.kinematics.known_turn import most, taken
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.spec import KinematicSpec
 from reconcile.speed.excess import line_excess
@@ -48,6 +49,17 @@ def other_teeth(known: KinematicSpec, reference: str, several: Sequence[Observat
             counted = Counter(one.heard for one in found).most_common(1)
             if counted and 2 * counted[0][1] > len(several):
                 return next(one for one in found if one.heard == counted[0][0])
+            told = most(gear, several)
+            if told is not None and not taken(known, reference, told[0]):
+                heard, seen = told
+                return OtherTeeth(
+                    gear=gear.name,
+                    mesh=mesh.name,
+                    teeth=gear.teeth,
+                    heard=heard,
+                    mesh_hz=heard * seen.speed.speed_hz,
+                    label=seen.label,
+                )
     return None
 
 

@@ -1,0 +1,53 @@
+"""Where pulses tell the turn, a miscounted gear is told by the whole multiple at which its lines stand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reconcile.kinematics import reconcile_kinematics
+from reconcile.report.revised import to_do
+from signals.recording import Recording, Tacho
+from tests.reconcile.kinematics.test_teeth import SPEED_HZ, TRUE, gearbox, spec
+from tests.strategies.brief import RATE_HZ, recorded
+
+
+def measured(seed: int, *, fan: float = 0.0, shaft: bool = False) -> Recording:
+    """`fan`: height of blades' lines, three multiples of 27 turns; `shaft`: every multiple of the turn is there."""
+    samples = gearbox(seed)
+    angle = 2 * np.pi * SPEED_HZ * np.arange(samples.size) / RATE_HZ
+    samples = samples + fan * sum(np.cos(k * 27 * angle) / k for k in (1, 2, 3))
+    if shaft:
+        samples = samples + sum(2.0 * np.cos(k * angle + k * k) for k in range(1, 90))
+    seconds = samples.size / RATE_HZ
+    pulses = Tacho(shaft="shaft", pulse_times_s=np.arange(0.0, seconds, 1.0 / SPEED_HZ))
+    return replace(recorded(samples, SPEED_HZ), tacho=pulses)
+
+
+def said(teeth: int, **how: float):  # type: ignore[no-untyped-def]
+    return reconcile_kinematics(spec(teeth), [measured(2, **how)], [measured(1, **how)], seed=0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("teeth", [21, 25, 28])
+def test_the_line_that_shows_it_is_told(teeth: int) -> None:
+    report = said(teeth)
+    assert report.sentence.startswith(
+        f"In its teeth the machine file does not fit: {teeth} of pinion, but mesh1 stands"
+    )
+    assert "at 575 Hz" in report.sentence and f"{TRUE} times the line of the turn" in report.sentence
+    assert "correct the machine file first" in to_do(report)
+    assert report.next_experiment is not None and "Correct the teeth of pinion" in report.next_experiment.sentence
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("how", [{}, {"fan": 3.0}, {"shaft": True}], ids=["alone", "louder blades", "all multiples"])
+def test_right_teeth_are_left_alone(how: dict[str, float]) -> None:
+    assert "machine file" not in said(TRUE, **how).sentence
+
+
+@pytest.mark.slow
+def test_where_every_multiple_of_the_turn_is_as_loud_nothing_is_told() -> None:
+    assert "machine file" not in said(21, shaft=True).sentence
