@@ -49,7 +49,7 @@ def finished(
     if report.verdict != "measurement_fault":
         said = (*remarks(without_short(gate)), *doubts(gate), *short_limits(gate, report))
         report = replace(report, where=replace(report.where, limits=(*report.where.limits, *said)))
-    pictures = envelope_picture(of_the_answer(every, report.causes), tests, baselines)
+    pictures = report.pictures or envelope_picture(of_the_answer(every, report.causes), tests, baselines)
     causes = tuple(replace(c, score_unit=SCORE_UNITS.get(c.score_unit, c.score_unit)) for c in report.causes)
     report = replace(report, causes=causes, stages=tuple(stages), pictures=pictures)
     return with_faults(report, (*measurement_faults(gate), *label_faults(report, (*tests, *baselines))))

@@ -10,7 +10,9 @@ from reconcile.kinematics.answer import SYMBOLS
 from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.contrast import band_turns
 from reconcile.kinematics.envelopes import order_depth
+from reconcile.kinematics.evidence import Evidence
 from reconcile.kinematics.families import Family
+from reconcile.kinematics.foreign import Foreign
 from reconcile.kinematics.observe import Observation
 from reconcile.verdict import Cause
 
@@ -18,6 +20,8 @@ POINTS = 1200
 """Of a curve; of more bins the largest of each stretch is kept, which keeps lines."""
 HARMONICS_SHOWN = 3
 BEYOND = 1.13
+NEAREST = 4
+"""Lines of parts that are shown beside impacts of none."""
 """Orders shown over the highest line."""
 
 
@@ -36,21 +40,48 @@ def envelope_picture(
     best, test = chosen.best, tests[chosen.strongest]
     lines = [*_own(chosen), *_others(chosen, every)]
     top = BEYOND * max(float(str(line["order"])) for line in lines)
-    shown: dict[str, object] = {
-        "family": chosen.family.key,
-        "order": best.order,
+    shown: dict[str, object] = {"family": chosen.family.key, "order": best.order, "lines": lines, **_band(best, test)}
+    return {"envelope": {**shown, **_curves(best, test, baselines, top)}}
+
+
+def _band(best: Evidence, test: Observation) -> dict[str, object]:
+    """Where it was heard best."""
+    return {
         "band_hz": list(best.band_hz),
         "channel": best.channel,
         "shaft": test.speed.shaft,
         "speed_hz": test.speed.speed_hz,
-        "lines": lines,
     }
+
+
+def _curves(best: Evidence, test: Observation, baselines: Sequence[Observation], top: float) -> dict[str, object]:
+    """Of the test and of the baseline nearest in speed, up to an order."""
+    shown: dict[str, object] = {}
     near = sorted(baselines, key=lambda b: abs(b.speed.speed_hz - test.speed.speed_hz))[:1]
     for name, group in (("test", [test]), ("baseline", near)):
         for one in group:
             if best.channel in one.recording.names and best.band_hz[1] < one.recording.sampling_rate_hz / 2:
                 shown[name] = {"label": one.label, **_curve(one, best.channel, best.band_hz, top)}
-    return {"envelope": shown}
+    return shown
+
+
+def comb_picture(
+    found: Foreign, every: Sequence[Candidate], test: Observation, baselines: Sequence[Observation]
+) -> dict[str, object]:
+    """The same of impacts at an order of no part, with the nearest lines of parts; it has no `family`."""
+    order, best = found.order, found.evidence
+    own = [
+        {"label": f"{order:.4g}" if k == 1 else f"{k} x {order:.4g}", "order": k * order, "kind": "own"}
+        for k in range(1, HARMONICS_SHOWN + 1)
+    ]
+    near = sorted(every, key=lambda c: abs(c.best.order - order))[:NEAREST]
+    others = [
+        {"label": _named(c.family, 1), "order": c.best.order, "kind": "other"}
+        for c in near
+        if c.best.order < HARMONICS_SHOWN * order
+    ]
+    shown: dict[str, object] = {"order": order, "lines": [*own, *others], **_band(best, test)}
+    return {"envelope": {**shown, **_curves(best, test, baselines, BEYOND * HARMONICS_SHOWN * order)}}
 
 
 def of_the_answer(every: Sequence[Candidate], causes: Sequence[Cause]) -> list[Candidate]:

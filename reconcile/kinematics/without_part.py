@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.faint import impulsive_report, shallow_report
@@ -13,6 +14,7 @@ from reconcile.kinematics.in_step import new_blows
 from reconcile.kinematics.judge import HEARD_Z, TURN_DEPTH
 from reconcile.kinematics.mains import Supply, electric, electric_foreign, electric_report
 from reconcile.kinematics.observe import Observation
+from reconcile.kinematics.picture import comb_picture
 from reconcile.kinematics.series import ShaftSeries
 from reconcile.kinematics.shafts import ShaftChange, grown_impacts
 from reconcile.kinematics.slow import slow_turn
@@ -55,7 +57,7 @@ def without_a_part(
         stranger = foreign_comb(tests[0], baselines, tie, seed, heard=heard, least_db=BESIDE_DB)
         line = next((c for c in grown if c.multiple == 1.0 and c.shaft == turn.family.site), None)
         return turn_report(turn, tie, tests, baselines, carried, foreign=stranger, line=line)
-    of_none = _of_no_part(tie, tests, baselines, supply, heard, seed)
+    of_none = _of_no_part(tie, tests, baselines, every, supply, heard, seed)
     if of_none is not None:
         return of_none
     struck = new_blows(tests, baselines, tie)
@@ -74,6 +76,7 @@ def _of_no_part(
     tie: Ties,
     tests: list[Observation],
     baselines: list[Observation],
+    every: Sequence[Candidate],
     supply: Supply,
     heard: Sequence[str],
     seed: int,
@@ -82,9 +85,10 @@ def _of_no_part(
     made = electric(supply, bool(baselines))
     foreign = None if made is not None else foreign_comb(tests[0], baselines, tie, seed, heard=heard)
     made = made if foreign is None else electric_foreign(foreign, tests[0])
+    pictures = {} if foreign is None else comb_picture(foreign, every, tests[0], baselines)
     if made is not None:
-        return electric_report(made, tests, baselines)
-    return None if foreign is None else foreign_report(foreign, tests, baselines)
+        return replace(electric_report(made, tests, baselines), pictures=pictures)
+    return None if foreign is None else replace(foreign_report(foreign, tests, baselines), pictures=pictures)
 
 
 def _of_impacts(

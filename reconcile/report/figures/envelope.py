@@ -47,6 +47,8 @@ def caption(picture: Mapping[str, Plain]) -> str:
     low, high = (numbers(picture.get("band_hz")) or [0.0, 0.0])[:2]
     site, _, kind = text(picture.get("family")).partition(".")
     what = f"once a turn of {site}" if kind == "turn" else f"{kind} family of {site}"
+    if not site:
+        what = f"comb of impacts {number(picture.get('order')):.4g} times a turn, of no part,"
     speed = f" at {number(picture.get('speed_hz')):.4g} Hz" if picture.get("speed_hz") is not None else ""
     where = f"{text(picture.get('channel'))}, {low:.0f} to {high:.0f} Hz, {text(picture.get('shaft'))}{speed}"
     return f"{where}: the band in which the {what} stands out most."
