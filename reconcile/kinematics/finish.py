@@ -13,9 +13,13 @@ from reconcile.kinematics.labels import label_faults
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.picture import envelope_picture, of_the_answer
 from reconcile.kinematics.slowest import short_limits, without_short
+from reconcile.report.action import EXCHANGED
 from reconcile.verdict import NOT_JUDGED, NextExperiment, Report
 from sim.core.errors import SpecError
 
+AS_LOUD = "loose_sensor"
+"""What is told of a sensor by how loud its bands are against the baseline's: of one that has a defect it tells nothing.
+"""
 SCORE_UNITS = {"nats": "deviations"}
 """Scores here are robust deviations unless a report says what else they are."""
 
@@ -28,8 +32,11 @@ def finished(
     baselines: Sequence[Observation] = (),
 ) -> Report:
     """The report with its stages and pictures."""
+    seen = gate
+    if EXCHANGED in report.sentence and report.verdict != "measurement_fault":
+        gate = replace(gate, findings=tuple(f for f in gate.findings if f.kind != AS_LOUD))
     stages: list[Mapping[str, object]] = [
-        {"name": "gate", "findings": [f"{f.recording} {f.channel}: {f.kind}, {f.detail}" for f in gate.findings]},
+        {"name": "gate", "findings": [f"{f.recording} {f.channel}: {f.kind}, {f.detail}" for f in seen.findings]},
         {
             "name": "speed",
             "found": {

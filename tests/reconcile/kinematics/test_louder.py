@@ -8,9 +8,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from reconcile.gate.findings import Finding, Gate
 from reconcile.kinematics import faint, read_kinematic_spec, reconcile_kinematics
+from reconcile.kinematics.finish import finished
 from reconcile.kinematics.vague import LOUDER_DB
-from reconcile.report.action import to_do
+from reconcile.report.action import EXCHANGED, to_do
+from reconcile.verdict import Report
 from tests.strategies.brief import recorded, sound, train
 
 DRAWING = {
@@ -81,6 +84,17 @@ def test_a_doubtful_sensor_does_not_hide_that_the_baseline_shows_more(exchanged:
     report = reconcile_kinematics(read_kinematic_spec({"kinematics": DRAWING}), [quiet], [base], seed=0)
     assert ("exchanged, or a part replaced" in report.sentence) is exchanged, report.sentence
     assert (report.verdict == "measurement_fault") is not exchanged
+
+
+@pytest.mark.parametrize("exchanged", [True, False])
+def test_a_sound_machine_beside_a_damaged_baseline_accuses_no_sensor(exchanged: bool) -> None:
+    """The damaged bearing is loud at the near sensor alone, which looks as if that one had come loose since."""
+    loose = Finding(kind="loose_sensor", channel="a0", recording="all tests", detail="-15 dB", severity=0.8, fault=True)
+    gate = Gate(findings=(loose,), baselines=(), tests=(), fault=None, usable=True)
+    said = f"But the baseline has deep lines; {EXCHANGED}." if exchanged else "But nothing is said of it."
+    report = finished(Report(verdict="not_decidable", sentence=said, level="kinematics"), gate, (), ())
+    told = f"{report.measurement_faults} {report.where.limits} {report.undecidable}"
+    assert ("loose" in told) is not exchanged and report.stages[0]["findings"]
 
 
 @pytest.mark.slow
