@@ -40,6 +40,8 @@ def test_a_recording_is_sent_chosen_and_reconciled(browser: Browser, service: Se
     made = recorded(sound(2) + train(np.random.default_rng(2), 3.5848 * 0.992, 1.0))
     (tmp_path / "spalled.npz").write_bytes(encode(made, "npz"))
     browser.open(service.page("/reconcile"))
+    browser.find("[aria-label='Recordings'] p.empty")
+    assert "File" not in browser.text("[aria-label='Recordings']"), "no heads of a table that is empty"
     browser.type("#upload-file", str(tmp_path / "spalled.npz"))
     browser.run(FILL, "#upload-description", json.dumps(describe(made)))
     browser.click("[aria-label='Send a recording'] button[type=submit]")

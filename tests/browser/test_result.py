@@ -38,6 +38,12 @@ def view(browser: Browser, css: str) -> tuple[float, float]:
     return float(low), float(high)
 
 
+def test_how_many_steps_it_took_stands_once(result: Browser) -> None:
+    eventually(lambda: result.run(INKED, SPECTRUM) > 0.01, what="the page")
+    told = result.run("return document.body.innerText.match(/\\bSteps\\b/g).length")
+    assert told == 1, "what was estimated beside what it took"
+
+
 @pytest.mark.parametrize("card", ["#card-time", "#card-spectrum", "#card-envelope", "#card-inner", "#card-orbit"])
 def test_every_plot_is_drawn_and_named(result: Browser, card: str) -> None:
     canvas = f"{card} canvas[role=img]"

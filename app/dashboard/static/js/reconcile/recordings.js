@@ -15,10 +15,10 @@ export function recordingsCard() {
   const rows = new Map();
   const body = h("tbody");
   const notice = h("div");
+  const table = h("div", { class: "table-wrap", hidden: true }, h("table", { class: "recordings-table stacks", "aria-label": "Recordings" },
+    h("thead", {}, h("tr", {}, HEADS.map((name) => h("th", { scope: "col" }, name)))), body));
   const element = h("section", { class: "card", "aria-label": "Recordings" },
-    h("div", { class: "card-head" }, h("h2", {}, "Recordings")), notice,
-    h("div", { class: "table-wrap" }, h("table", { class: "recordings-table stacks", "aria-label": "Recordings" },
-      h("thead", {}, h("tr", {}, HEADS.map((name) => h("th", { scope: "col" }, name)))), body)));
+    h("div", { class: "card-head" }, h("h2", {}, "Recordings")), notice, table);
   let timer = 0;
   let stopped = false;
 
@@ -36,6 +36,7 @@ export function recordingsCard() {
   async function load() {
     const { recordings } = await getJson("/v1/recordings?limit=100");
     replace(notice, recordings.length ? null : h("p", { class: "empty" }, "No recording yet."));
+    table.hidden = !recordings.length;
     for (const [id, row] of rows) if (!recordings.some((found) => found.id === id)) { row.element.remove(); rows.delete(id); }
     recordings.forEach((found, place) => {
       if (!rows.has(found.id)) rows.set(found.id, recordingRow());

@@ -36,7 +36,7 @@ export function header(reload) {
     const took = job.finished_at && job.started_at ? (Date.parse(job.finished_at) - Date.parse(job.started_at)) / 1000 : null;
     const shown = [
       ["Duration", quantity(request.duration_s, "s")], ["Rate", quantity(request.sampling_rate_hz, "Hz")], ["Seed", String(request.seed)],
-      ["Steps", number(job.cost.steps, 3)], took === null ? null : ["Computed in", duration(took)],
+      job.result ? null : ["Steps, about", number(job.cost.steps, 3)], took === null ? null : ["Computed in", duration(took)],
       job.result ? ["Size", bytes(job.result.size_bytes)] : null, ["Job", job.id.slice(0, 12)],
     ].filter(Boolean);
     replace(facts, shown.map(([label, text]) => h("span", {}, `${label} `, h("b", {}, text))), h("span", { title: clock(job.accepted_at) }, ago(job.accepted_at)));
