@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 from jobs.atlas.lead import Lead
@@ -101,7 +102,8 @@ def reconcile_stored(
     request = ReconciliationRequest.model_validate(document)
     try:
         known = restored_known(document["machine"])
-        tests, baselines = choose(catalogue, artefacts, request.recordings, request.baselines).loaded()
+        chosen = choose(catalogue, artefacts, request.recordings, request.baselines)
+        tests, baselines = chosen.loaded()
         paced = isinstance(known, KinematicSpec)
         watched = Watched(reporter, len({r.operating for r in tests}), lead, paced=paced)
         report = reconcile_recordings(
@@ -116,6 +118,7 @@ def reconcile_stored(
         )
     except SpecError as error:
         raise NotReconcilable(error.problems) from error
+    report = replace(report, where=replace(report.where, limits=(*report.where.limits, *chosen.notes())))
     reporter.stage("storing", STORING)
     return _kept(artefacts, prefix, attempt, report, request.seed, tests[0].sampling_rate_hz, expires_at())
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 from jobs.errors import RecordingsNotReady, UnknownJob
 from jobs.ports import ArtefactStore, JobCatalogue
 from jobs.record import JobRecord
 from jobs.recordings.stored import described_recording, stored_recording
-from jobs.recordings.words import RECORDING
+from jobs.recordings.words import RECORDING, SUMMARY
 from jobs.results import ResultReader
 from jobs.status import Status
 from reconcile.entry import MOST_SAMPLES
@@ -46,6 +47,17 @@ class Chosen:
         readers = (*self.recordings, *self.baselines)
         every = [replace(stored_recording(r), label=label) for r, label in zip(readers, self.labels, strict=True)]
         return every[: len(self.recordings)], every[len(self.recordings) :]
+
+    def notes(self) -> tuple[str, ...]:
+        """What reading each recording left out or put right, as it stands with the recording."""
+        readers = zip((*self.recordings, *self.baselines), self.labels, strict=True)
+        return tuple(
+            f"{label}: {remark}" for r, label in readers if r.has(SUMMARY) for remark in _remarks(r.document(SUMMARY))
+        )
+
+
+def _remarks(summary: Mapping[str, Any]) -> list[str]:
+    return [str(remark) for remark in summary.get("remarks", ())]
 
 
 def choose(

@@ -14,7 +14,7 @@ from jobs.health.features import condition_document
 from jobs.health.words import CONDITION
 from jobs.ports import ArtefactStore
 from jobs.record import ResultRef
-from jobs.recordings.words import READERS_VERSION, RECORDING, upload_key
+from jobs.recordings.words import READERS_VERSION, RECORDING, SUMMARY, upload_key
 from jobs.reporter import Reporter
 from jobs.results import ChannelEntry, Manifest, json_bytes, put_file
 from reconcile.kinematics import described_kinematics
@@ -44,7 +44,7 @@ def read_upload(
     summary = report(found)
     condition = condition_document(found.recording, spec)
     reporter.stage("storing", 0.8)
-    return _kept(artefacts, f"{job_id}/{attempt}", attempt, found, {"summary": summary, CONDITION: condition})
+    return _kept(artefacts, f"{job_id}/{attempt}", attempt, found, {SUMMARY: summary, CONDITION: condition})
 
 
 def _by_name(problem: Problem, file: object, name: str) -> Problem:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 RECORDING = "recording"
 """Kind of these jobs, and name of the document that makes a stored result a recording."""
+SUMMARY = "summary"
+"""Name of the document of what is in a recording, with the remarks of its reading."""
 READERS_VERSION = "recording-1"
 """Part of a recording's identity: raised when the same file would be read as other numbers."""
 UPLOAD = "upload"

@@ -76,6 +76,18 @@ def test_the_answer_is_kept_as_report_page_and_machine(world: World, monkeypatch
 
 
 @pytest.mark.slow
+def test_keys_that_are_not_used_stand_in_the_limits(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(carry_out, "reconcile_recordings", lambda *_given, **_how: REPORT)
+    odd, plain = world.sent(made(1), shelf="left"), world.recording(2)
+    for ids, baselines in (([odd], [plain]), ([plain], [odd])):
+        record = world.ask(ids, baselines=baselines)
+        world.carried_out(record)
+        report = ResultReader(world.artefacts, f"{record.id}/1").document("report")
+        assert report["where"]["limits"] == [f"r.npz ({odd}): shelf: is not used here"]
+        assert "shelf: is not used here" in world.artefacts.read(f"{record.id}/1/report.html").decode()
+
+
+@pytest.mark.slow
 def test_the_same_question_is_one_job_another_is_another(world: World) -> None:
     a, b = world.recording(1), world.recording(2)
     first = world.ask([a])

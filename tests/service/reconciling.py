@@ -86,8 +86,10 @@ class World:
     def recording(self, seed: int, *, read: bool = True) -> str:
         return self.sent(made(seed), read=read)
 
-    def sent(self, recording: Recording, *, read: bool = True) -> str:
-        content, about = encode(recording, "npz"), json.loads(json.dumps(describe(recording)))
+    def sent(self, recording: Recording, *, read: bool = True, **further: object) -> str:
+        """`further`: keys of its description beside those of the recording."""
+        content = encode(recording, "npz")
+        about = {**json.loads(json.dumps(describe(recording))), **further}
         upload = Upload(name="r.npz", content=io.BytesIO(content))
         record = accept_recording(self.desk, about, upload, submitter="me").record
         if read:
