@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 from reconcile.report.markup import Markup, tag
+from reconcile.report.named import percent, readable
 from reconcile.report.sections import table
-from reconcile.report.words import distance, gain, known, percent, reached, readable, strongest_placebo
+from reconcile.report.words import distance, gain, known, reached, strongest_placebo
 from reconcile.verdict import HeldOut
 
 INTERVAL = "Line through a bar's end: 90 % interval."

@@ -19,6 +19,7 @@ from reconcile.report.figures.spectrum import in_third_octaves
 from reconcile.report.figures.traces import trace
 from reconcile.report.held import held_out_table, held_out_words
 from reconcile.report.markup import Markup, figure_text, tag
+from reconcile.report.named import cause, changed_or_added
 from reconcile.report.panels import spectra, turns
 from reconcile.report.pictures import numbers, several, text
 from reconcile.report.provenance import provenance
@@ -37,7 +38,7 @@ from reconcile.report.sections import (
 from reconcile.report.steps import stages
 from reconcile.report.strict import plain
 from reconcile.report.style import STYLE
-from reconcile.report.words import LAWS, cause, changed_or_added, tidied
+from reconcile.report.words import LAWS, tidied
 from reconcile.verdict import Report
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from reconcile.report.action import NO_FIT
 from reconcile.report.action import to_do as by_verdict
-from reconcile.report.words import percent
+from reconcile.report.named import percent
 from reconcile.verdict import NextExperiment, Report
 
 FARTHER = 1.25

@@ -9,6 +9,7 @@ from reconcile.report.action import undecided
 from reconcile.report.formula import formula
 from reconcile.report.markup import Markup, escaped, figure_text, tag
 from reconcile.report.mending import channels
+from reconcile.report.named import cause, percent, score
 from reconcile.report.revised import to_do
 from reconcile.report.words import (
     FORMS,
@@ -16,12 +17,10 @@ from reconcile.report.words import (
     LEVEL,
     PART_LEFT,
     VERDICT,
-    cause,
     compared,
     forms,
     gains,
     leaves_a_part,
-    percent,
     severity,
     size_name,
     sizes,
@@ -201,7 +200,7 @@ def causes_table(causes: Sequence[Cause], level: Level) -> Markup:
     rows = [
         (
             Markup(escaped(cause(c)) + (tag("div", forms(c), css="forms") if c.forms else "")),
-            f"{c.score:.3g}",
+            score(c.score),
             severity(c) or "–",
             "yes" if c.named else "no",
             *(["; ".join(why)] if any(own) else []),

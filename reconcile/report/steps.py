@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from reconcile.report.markup import Markup, figure_text, tag
+from reconcile.report.named import percent
 from reconcile.report.sections import section, table
 from reconcile.report.strict import Plain, plain
-from reconcile.report.words import distance, percent
+from reconcile.report.words import distance
 from reconcile.verdict import Report
 
 MOST_KEYS, MOST_ITEMS = 24, 12

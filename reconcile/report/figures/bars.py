@@ -7,13 +7,15 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from reconcile.report.markup import Markup, tag
+from reconcile.report.named import readable
 from reconcile.report.pictures import number, text
-from reconcile.report.plot import BOTTOM, TOP, Frame, fitting, span
+from reconcile.report.plot import BOTTOM, TOP, Frame, fitting, span, text_width
 from reconcile.report.strict import Plain
-from reconcile.report.words import readable
 
 MOST_ROWS = 30
 MARGIN = 8.0
+NARROWEST = 0.7
+"""Share of its width to which a name is squeezed before it is cut."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,13 +36,17 @@ class Rows:
         )  # fmt: skip
 
     def name(self, at: float, name: str, css: str = "") -> Markup:
-        """A row's name, cut to fit; whole where one rests on it."""
-        bold = css == "named"
+        """A row's name, squeezed or cut to fit; whole where one rests on it."""
         if self.above:
-            shown = fitting(name, self.width - 2 * MARGIN, bold=bold)
-            return tag("text", shown, tag("title", name), x=MARGIN, y=at - 12, css=f"row-name said {css}")
-        shown = fitting(name, self.left - 2 * MARGIN, bold=bold)
-        return tag("text", shown, tag("title", name), x=self.left - MARGIN, y=at + 4, css=f"row-name end {css}")
+            x, y, place, room = MARGIN, at - 12, "said", self.width - 2 * MARGIN
+        else:
+            x, y, place, room = self.left - MARGIN, at + 4, "end", self.left - 2 * MARGIN
+        bold = css == "named"
+        squeezed: dict[str, object] = {}
+        if room < text_width(name, bold=bold) <= room / NARROWEST:
+            squeezed = {"textLength": f"{room:g}", "lengthAdjust": "spacingAndGlyphs"}
+        shown = name if squeezed else fitting(name, room, bold=bold)
+        return tag("text", shown, tag("title", name), x=x, y=y, css=f"row-name {place} {css}", **squeezed)
 
 
 WIDE = Rows(css="plot wide", width=720.0, left=285.0, row=22.0)

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 from reconcile.report.figures.bars import Rows, for_screens
 from reconcile.report.markup import Markup, tag
+from reconcile.report.named import percent
 from reconcile.report.plot import BOTTOM, RIGHT, TOP, Frame, text_width, ticks
-from reconcile.report.words import distance, gain, percent, reached, strongest_placebo
+from reconcile.report.words import distance, gain, reached, strongest_placebo
 from reconcile.verdict import HeldOut
 
 AIR = 4.0

@@ -117,7 +117,7 @@ def test_the_spectra_say_what_they_are_held_against(mode: str, said: str) -> Non
 
 
 def test_names_of_rows_are_cut_where_they_have_no_room() -> None:
-    long = "one-sided Hertz contact, −(−z − 0.377 mm)₊^1.5"
+    long = "one-sided Hertz contact, −(−z − 0.377 mm)₊^1.5 beside stops on both sides"
     rows = [{"label": name, "score": 1.0, "low": 0.0, "high": 2.0, "named": name == long} for name in (long, "short")]
     drawn = ranking(rows)
     for layout, room in ((WIDE, WIDE.left), (NARROW, NARROW.width)):

@@ -18,7 +18,8 @@ export const LAWS = {
   van_der_pol: "damping that grows with the swing",
 };
 const OWN = "custom_force";
-const words = (text) => text.replace(/_/g, " ");
+/** As the report's page and sentence call it. */
+export const words = (text) => text.replace(/_/g, " ").replace("missing tooth", "broken tooth");
 
 /** An effect in words: `fit clearance`; of a law of force that is no effect of its own the law's, `stops on both sides`. */
 export function effectName({ term, severity }) {

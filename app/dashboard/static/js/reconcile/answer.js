@@ -3,17 +3,17 @@
 import { apiKey, download } from "/js/lib/api.js";
 import { h, icon } from "/js/lib/dom.js";
 import { number, partName, quantity, unit } from "/js/lib/format.js";
-import { LAWS, effectName, sizeName } from "/js/lib/laws.js";
+import { LAWS, effectName, sizeName, words } from "/js/lib/laws.js";
 import { toastProblem } from "/js/lib/problem.js";
 import { verdictPill } from "/js/lib/status.js";
 
 const LEFT_OVER = "A part of the change is left that the named effect does not bring: either something else has changed as well, or the effect is not quite as its law here has it. Take the name as a lead and the size as rough, look for a second cause before repairing, and record at one more speed or load to tell.";
 const FORMS = "“or” names another form of the same effect: a law for the same part that excludes it there, so that at most one of them is true; their evidence counts together, under the strongest.";
 const isRest = (reason) => reason.startsWith("a part of the change is left");
-const words = (text) => text.replace(/_/g, " ");
 /** Rounded as the report's page has it: a gain to a tenth of a per cent would say more than is known. */
 const [MOST_DIGITS, MOST_PLACES] = [6, 2];
 const SAYS_NOTHING = "the part that was held out";
+const NO_SCORE = 0.005;
 const percent = (share) => (share === null || share === undefined ? "–" : `${Math.round(100 * share)} %`);
 const distance = (value, of) => (!of || of === "1" ? `${number(100 * value, 2)} %` : `${number(value, 3)} ${unit(of)}`);
 
@@ -80,7 +80,7 @@ function causes(list) {
     left ? h("p", { class: "reconcile-note" }, LEFT_OVER) : null,
     told.length ? h("p", {}, `${list.some((cause) => cause.named) ? "For most of them" : "Why none is named"}: ${told.join("; ")}.`) : null,
     table("Causes", ["Effect", "At", "Severity (90 %)", "Score", "Named"], list.map((cause) =>
-      [effect(cause), partName(cause.site), severity(cause), number(cause.score, 3), `${cause.named ? "yes" : "no"}${why(cause) && `: ${why(cause)}`}`])),
+      [effect(cause), partName(cause.site), severity(cause), number(Math.abs(cause.score) < NO_SCORE ? 0 : cause.score, 3), `${cause.named ? "yes" : "no"}${why(cause) && `: ${why(cause)}`}`])),
     list.some((cause) => Object.keys(cause.forms ?? {}).length) ? h("p", { class: "muted small" }, FORMS) : null);
 }
 
