@@ -16,8 +16,9 @@ from sim.core.errors import Problem, SpecError
 from sim.core.response import Channel
 
 TIMES = "tacho.pulse_times_s"
-NO_PULSES = frozenset({"acceleration", "velocity", "sound_pressure", "force", "torque", "pressure"})
-"""Quantities that no pulse signal is of; a probe of displacement may count a notch."""
+NO_PULSES = frozenset({"acceleration", "velocity", "sound_pressure", "force", "torque"})
+"""Quantities that no pulse signal is of; a probe of displacement may count a notch, and the pressure in a cylinder is
+the trigger of an engine's turn."""
 
 
 def _source(entry: TachoEntry) -> tuple[str, Column | None]:

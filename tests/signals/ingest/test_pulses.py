@@ -51,3 +51,11 @@ def test_a_column_that_looks_like_no_tacho_is_remarked_on(read, tmp_path) -> Non
     path = pulsed(tmp_path)
     (said,) = read(path, tacho={"shaft": "input", "column": "noise"}).remarks
     assert said.startswith("tacho.column: does not look like a tacho signal") and "%" in said
+
+
+def test_the_pressure_in_a_cylinder_may_be_channel_and_trigger(read, tmp_path) -> None:
+    path = pulsed(tmp_path)
+    entry = {"name": "cylinder", "column": "pulse", "quantity": "pressure", "unit": "Pa"}
+    found = read(path, channels=[entry], tacho={"shaft": "input", "column": "pulse"})
+    assert found.recording.tacho is not None and found.recording.names == ("cylinder",)
+    assert any("cylinder holds the pulses of the tacho" in remark for remark in found.remarks)
