@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import scipy
@@ -27,6 +28,12 @@ COMPUTED = 4
 FEW, LEAST_ALIKE = 2, 20
 """Gaps that are no rounding if none of the other steps, of which there must be so many, shows any."""
 ROUNDS = 60
+BLOCK = 1000
+"""Stamps over which a clock that drifts is still one of an even rate: 1e-4 in 1000 steps is 0.01 of a step."""
+MOST_DRIFT = 1e-4
+"""Share by which the rate of a clock may drift within a recording: crystals do by 1e-5, cheap ones by 5e-5."""
+FINE_SHARE = 0.1
+"""Of a step, up to which stamps may be rounded for it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,6 +66,34 @@ def regular_grid(stamps: FloatArray) -> Grid | None:
             if line is not None:
                 return Grid(step=line[1] / (stamps.size - 1), rounding=float(np.max(way.steps)), said=way.said)
     return None
+
+
+def drifting_grid(stamps: FloatArray) -> Grid | None:
+    """The grid of stamps, shape (n,), of a clock whose rate drifts by `MOST_DRIFT` at most, finely rounded; None where
+    they are of none.
+
+    Blocks that share a stamp with the next lie each on a grid of its own. A sample that was lost is a whole step, far
+    beyond what the straight line of a block leaves; only so fine a rounding shows it.
+    """
+    mean = float(stamps[-1] - stamps[0]) / (stamps.size - 1)
+    if stamps.size < 2 * BLOCK or not mean > 0 or np.any(np.diff(stamps) < 0):
+        return None
+    edges = [*range(0, stamps.size - BLOCK, BLOCK), stamps.size - 1]
+    for way in roundings(stamps):
+        rounding = float(np.max(way.steps))
+        if rounding > FINE_SHARE * mean:
+            continue
+        near = MOST_DRIFT + 2 * rounding / (BLOCK * mean)
+        halves = _halves(stamps, way, JITTER_SHARE)
+        if all(_steady(stamps[a : b + 1], halves[a : b + 1], mean, near) for a, b in pairwise(edges)):
+            return Grid(step=mean, rounding=rounding, said=way.said)
+    return None
+
+
+def _steady(stamps: FloatArray, halves: FloatArray, mean: float, near: float) -> bool:
+    """Whether stamps (n,) lie on a grid whose step is the mean one but for the share `near`."""
+    line = _line(stamps, halves)
+    return line is not None and abs(line[1] / (stamps.size - 1) / mean - 1.0) <= near
 
 
 def _few_breaks(stamps: FloatArray) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from signals.rounded import first_off_grid, regular_grid, resolution, roundings
+from signals.rounded import MOST_DRIFT, drifting_grid, first_off_grid, regular_grid, resolution, roundings
 from signals.series import FloatArray
 from signals.timebase import JITTER_SHARE, irregular, read_time_base
 from signals.units import UNITS, find_unit, unit_of
@@ -36,12 +36,21 @@ class Stamps:
     sampling_rate_hz: float
     rounded_s: float
     said: str
+    drifts: bool = False
+    """Whether the clock is even over a thousand samples only, and the rate the mean one."""
 
     @property
     def remarks(self) -> tuple[str, ...]:
         """What a person should know of rounded stamps."""
         if not self.said:
             return ()
+        if self.drifts:
+            return (
+                (
+                    f"time: stamps are rounded ({self.said}) and their clock drifts by less than {MOST_DRIFT:g} of its "
+                    f"rate: the mean one is taken, {self.sampling_rate_hz:.9g} Hz"
+                ),
+            )
         return (
             (
                 f"time: stamps are rounded ({self.said}, {self.rounded_s:.2g} s at most), so single steps scatter: "
@@ -87,6 +96,16 @@ def check_regular(raw: FloatArray, factor: float = 1.0) -> Stamps:
         if grid.rounding * factor > JITTER_SHARE * base.median_step_s:
             return found
         return replace(found, sampling_rate_hz=base.sampling_rate_hz, said="")
+    drifting = None if base.uniform else drifting_grid(raw)
+    if drifting is not None:
+        return Stamps(
+            first_s=float(raw[0]) * factor,
+            span_s=float(raw[-1] - raw[0]) * factor,
+            sampling_rate_hz=base.sampling_rate_hz,
+            rounded_s=drifting.rounding * factor,
+            said=drifting.said,
+            drifts=True,
+        )
     if base.uniform:
         return Stamps(
             first_s=float(raw[0]) * factor,

@@ -129,3 +129,31 @@ def test_seconds_since_1970_are_no_single_precision(start):
     lost = late + np.where(np.arange(5000) >= 3000, 10 / 25_600.0, 0.0)
     for gaps in (late, lost, even + np.where(np.arange(5000) >= 2500, 20 / 25_600.0, 0.0)):
         assert regular_grid(np.round(gaps, 6)) is None
+
+
+def drifting(rate_hz: float, drift: float, n: int = 20_000) -> FloatArray:
+    """Stamps with six decimals of a clock whose rate falls evenly, by `drift` from one end to the other."""
+    k = np.arange(n)
+    return np.round(k / rate_hz * (1 + drift / 2 * k / n), 6)
+
+
+@pytest.mark.parametrize(("rate_hz", "drift"), [(12_800.0, 2e-5), (25_600.0, 2e-5), (25_600.0, 1e-4), (51_200.0, 5e-5)])
+def test_a_clock_that_drifts_a_little_is_taken_with_its_mean_rate_and_told(rate_hz: float, drift: float) -> None:
+    found = check_regular(drifting(rate_hz, drift, 200_000))
+    assert found.sampling_rate_hz == pytest.approx(rate_hz, rel=drift)
+    assert "clock drifts" in found.remarks[0] and "multiples of 1e-06" in found.remarks[0]
+
+
+@pytest.mark.parametrize("at", [0, 3, 450, 500, 999])
+@pytest.mark.parametrize("step", [1.0, -1.0, 0.5])
+def test_a_sample_that_was_lost_is_no_drift(at: int, step: float) -> None:
+    stamps = drifting(25_600.0, 5e-5)
+    stamps[7001 + at :] += np.round(step / 25_600.0, 6)
+    with pytest.raises(SpecError, match="irregular"):
+        check_regular(stamps)
+
+
+def test_nor_is_a_clock_of_another_rate_half_way() -> None:
+    stamps = np.round(np.cumsum(np.where(np.arange(20_000) < 10_000, 1.0, 1.001)) / 25_600.0, 6)
+    with pytest.raises(SpecError, match="irregular"):
+        check_regular(stamps)
