@@ -12,6 +12,7 @@ from reconcile.driven.another import beside_baseline
 from reconcile.driven.answer import answer
 from reconcile.driven.channels import Driven, driven_of
 from reconcile.driven.direction import directed
+from reconcile.driven.either import either
 from reconcile.driven.faulty import UNIT_NOT_KNOWN, Held, beside, fault_report, held_against
 from reconcile.driven.forced import Analysis
 from reconcile.driven.judge import ROUGH
@@ -154,7 +155,7 @@ def reconcile_driven(
             if share_kept(found.fitted_run) < LEAST_KEPT and shown:
                 report = fault_report([*held.faults, *shown], NOT_JUDGED)
             else:
-                report = beside(report, [*held.faults, *shown], held.data[0].drive_channel.name)
+                report = either(beside(report, [*held.faults, *shown], held.data[0].drive_channel.name))
     return replace(
         report, provenance={**origin(seed, time.process_time() - started), **provenance, **report.provenance}
     )

@@ -79,6 +79,16 @@ def test_less_than_all_may_be_a_spring_to_the_ground() -> None:
     assert re.search(r"a spring with (9\.\d|10) % of the stiffness", found.faults[0].detail), found.faults
 
 
+def test_and_the_sentence_has_both() -> None:
+    report = reconcile_driven(SPEC, [changed(lambda base, mass: (base, 0.9 * mass))], seed=1)
+    assert report.verdict == "ambiguous" and report.sentence.startswith("A gain or a spring")
+    assert "holds the mass to the ground. Apart from it the linear model" in report.sentence
+    assert report.fault is not None and report.fault.doubtful and report.measurement_faults == (report.fault,)
+    assert report.next_experiment is not None and "a gain stays" in report.next_experiment.sentence
+    more = reconcile_driven(SPEC, [changed(lambda base, mass: (base, 1.1 * mass))], seed=1)
+    assert more.verdict == "measurement_fault" and "spring" not in more.sentence, "no spring makes it follow by more"
+
+
 @pytest.mark.parametrize("wrong", ["base", "mass"])
 def test_levels_of_a_baseline_tell_whose_unit_it_is(wrong: str) -> None:
     given = changed(lambda base, mass: (base / 9.80665, mass) if wrong == "base" else (base, mass / 9.80665))
