@@ -1,4 +1,4 @@
-"""A mass that follows its base by less than it should: the gain of a sensor, or a spring that holds it to the ground."""
+"""A mass that follows its base by less than it should: the gain of a sensor, or a spring that holds it to ground."""
 
 from __future__ import annotations
 
