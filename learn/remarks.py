@@ -85,9 +85,16 @@ def _of_catalogue(name: str, row: CatalogueRow) -> str:
     )
 
 
+PROPER = {"outer": "BPFO", "inner": "BPFI", "ball": "2 BSF"}
+"""The line that a defect makes by itself; a cage's order may lie at a half of another shaft's turn."""
+
+
 def of_parts(parts: Iterable[Mapping[str, Any]]) -> list[str]:
     """How far each part's answer carries."""
-    said = []
+    parts, said = list(parts), []
+    knocking = next(
+        (p for p in parts if p["stage"] is not None and p["probabilities"].get("tooth", 0.0) >= UNSURE), None
+    )
     for part in parts:
         where = part["bearing"] or part["stage"] or "bearing"
         label, chance = part["label"], part["probabilities"][part["label"]]
@@ -99,11 +106,25 @@ def of_parts(parts: Iterable[Mapping[str, Any]]) -> list[str]:
             why = "balls are the least sure" if label == "ball" else f"{chance:.2f} is below {UNSURE:g}"
             said.append(f"{where}: look closer before acting on '{label}': {why}")
         said += [_of_foreign(where, label, line) for line in part["lines"] if line["family"] == FOREIGN]
+        if knocking is not None and part["stage"] is None and label != "healthy":
+            said.append(_beside_a_tooth(where, label, part, knocking))
         own = [line["z"] for line in part["lines"] if line["family"] in OWN.get(label, ())]
         if own and max(own) < PLAIN:
             most = f"{max(own):.1f} deviations over other orders"
             said.append(f"{where}: '{label}' rests on no line that stands out ({most} at most): is this the bearing?")
     return said
+
+
+def _beside_a_tooth(where: str, label: str, part: Mapping[str, Any], stage: Mapping[str, Any]) -> str:
+    """What a bearing's name is worth where a tooth knocks."""
+    tooth = f"the damaged tooth at {stage.get('gear') or stage['stage']}"
+    proper = [line["z"] for line in part["lines"] if line["family"] == PROPER.get(label)]
+    if proper and max(proper) >= PLAIN:
+        return f"{where}: '{label}' stands beside {tooth}, whose knocks every envelope has: mend that, and record again"
+    return (
+        f"{where}: do not act on '{label}': its own line stands out nowhere, and the knocks of {tooth} are in every "
+        "envelope; mend that, and record again"
+    )
 
 
 def _of_foreign(where: str, label: str, line: Mapping[str, Any]) -> str:

@@ -60,6 +60,19 @@ def test_a_sure_answer_of_a_race_needs_no_remark() -> None:
     assert of_parts([part("inner", 0.98), part("healthy", 0.9, z=0.2)]) == []
 
 
+def test_a_bearing_beside_a_damaged_tooth_is_not_to_be_acted_on() -> None:
+    tooth = {**part("tooth", 1.0, stage="m1"), "gear": "pinion"}
+    hollow = {**part("ball", 0.89, z=1.9), "lines": [{"family": "4 FTF", "z": 8.9}, {"family": "2 BSF", "z": 1.9}]}
+    said = of_parts([part("healthy", 0.9), hollow, tooth])
+    assert any("do not act on 'ball'" in one and "the damaged tooth at pinion" in one for one in said)
+    assert sum("damaged tooth" in one for one in said) == 1, "a healthy one needs no word"
+    firm = of_parts([part("inner", 0.98, z=16.0), tooth])
+    assert any("stands beside the damaged tooth" in one for one in firm) and not any(
+        "do not act" in one for one in firm
+    )
+    assert not any("damaged tooth" in one for one in of_parts([hollow, part("healthy", 0.9, stage="m1")]))
+
+
 def test_what_is_unsure_is_said() -> None:
     (low,) = of_parts([part("outer", 0.57)])
     assert "0.57 is below 0.7" in low
