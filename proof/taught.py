@@ -159,5 +159,12 @@ RULES = (
         ),
         "e022, e043, e049 and e119, pits left open between two bearings, and e056, a pair with one; named since",
     ),
+    (
+        (
+            "beside a force that turns, what may rattle is simulated whatever sums say "
+            "([decision](decisions/reconcile-interplay.md))"
+        ),
+        "e145, e182 and e183, an unbalance with a loose fit or a worn bearing, of which the unbalance alone was told",
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""

@@ -19,6 +19,7 @@ from reconcile.judge.space import Fitted
 from reconcile.machine.asked import TEMPER, Asked
 from reconcile.machine.assimilate import Ensemble, moved, simulated_again
 from reconcile.machine.decide import Decision, alike
+from reconcile.machine.interplay import interplaying, rattles
 from reconcile.machine.leftover import Leftover, leftover, ranked_seconds
 from reconcile.machine.library import Catalogued, joined
 from reconcile.machine.pairs import Pair, Pairs, Simulated, evidence_in, inadequate, pair_of
@@ -67,6 +68,7 @@ def best_left_pair(
     near = sum(one[1] >= NEAR_SHARE * seen[0][1] for one in seen)
     made = {name: _fitted(asked, name, rows) for name, _, rows in seen[: max(LEAST_ASKED, min(near, most))]}
     sought = _searched(asked, made, seen)
+    sought = sought or _rattling(asked, made)
     fitted = _fairly(asked, {**made, **sought})
     pairs = sorted((p for p in fitted.values() if p is not None), key=lambda p: -p.gain)
     simulated = {name: None if pair is None else pair.gain for name, pair in fitted.items()}
@@ -119,6 +121,16 @@ def _searched(
     name = max(refused, key=lambda n: gains[n])
     found = searched(asked, _start(asked, (), ""), refused[name])
     return {} if found is None else {name: _of_both(_pair(asked, name, found))}
+
+
+def _rattling(asked: Asked, made: Mapping[str, Pair | None]) -> dict[str, Pair]:
+    """What a driving first makes rattle, with the sizes of both searched, where none of those `made` adds enough."""
+    if any(rattles(name) and pair is not None and pair.gain >= asked.least for name, pair in made.items()):
+        return {}
+    alone = _start(asked, (), "")
+    beat = max((p.gain for p in made.values() if p is not None and p.gain >= asked.least), default=0.0)
+    found = {name: searched(asked, alone, rows, beat) for name, rows in interplaying(asked, alone).items()}
+    return {name: _of_both(_pair(asked, name, one)) for name, one in found.items() if one is not None}
 
 
 def _of_both(pair: Pair) -> Pair:

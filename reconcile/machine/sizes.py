@@ -49,9 +49,10 @@ class Trial:
     second: TermSpec
 
 
-def searched(asked: Asked, start: Ensemble, rows: Sequence[int]) -> Simulated | None:
+def searched(asked: Asked, start: Ensemble, rows: Sequence[int], beat: float = 0.0) -> Simulated | None:
     """The last machines with both effects; None where too few run. `start`: machines with the first alone, the nearest
-    first; `rows`: of `asked.every`, draws of the second, the best by sums first."""
+    first; `rows`: of `asked.every`, draws of the second, the best first; `beat`: what another second adds, beyond which
+    these must be enough."""
     every, count = asked.every, 2 * asked.members
     own = [(start.offsets[k % len(start.terms)], start.terms[k % len(start.terms)]) for k in range(count)]
     draws = [every.terms[rows[k % min(VARIED, len(rows))]] for k in range(count)]
@@ -65,7 +66,7 @@ def searched(asked: Asked, start: Ensemble, rows: Sequence[int]) -> Simulated | 
         told = asked.left.likelihood(more.library.changes) - asked.left.base
         pool += [(float(value), trials[k]) for value, k in zip(told, more.pairs, strict=True)]
         pool = sorted(pool, key=lambda one: -one[0])[:PARENTS]
-        if turn > 0 and _settled(turn, float(np.sort(told)[told.size // 2 :].mean()), pool[0][0]):
+        if turn > 0 and _settled(turn, float(np.sort(told)[told.size // 2 :].mean()) - beat, pool[0][0]):
             return Simulated(known=more, also=tuple(t.second for t in trials), gains=told / TEMPER)
         trials = tuple(_between([t for _, t in pool], NEAR * NEARER**turn, rng) for _ in range(asked.members))
         turn += 1
@@ -100,7 +101,7 @@ def spread(setting: Setting, firsts: Sequence[Trial], label: str) -> tuple[Trial
         size = low ** (1.0 - shares[1][k]) * high ** shares[1][k]
         found.append(
             Trial(
-                offsets=start.offsets, first=_sized(start.first, own, smaller), second=_sized(start.second, other, size)
+                offsets=start.offsets, first=sized(start.first, own, smaller), second=sized(start.second, other, size)
             )
         )
     return tuple(found)
@@ -126,6 +127,7 @@ def _size(term: TermSpec) -> Param:
     return size_parameter(known_term(term.term))
 
 
-def _sized(term: TermSpec, size: Param, value: float) -> TermSpec:
+def sized(term: TermSpec, size: Param, value: float) -> TermSpec:
+    """The same effect of another size, within what the size may be."""
     bounded = float(np.copysign(np.clip(abs(value), size.low, size.high), value))
     return term.model_copy(update={"parameters": {**term.parameters, size.name: bounded}})

@@ -130,6 +130,38 @@ def test_a_second_must_add_enough(gain: float, stands: bool, simulated: Asked, m
     assert told is not None and (told.best is not None) == stands and simulated
 
 
+def test_what_a_driving_first_makes_rattle_is_searched_and_must_beat_the_others(
+    simulated: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[tuple[tuple[int, ...], float]] = []
+    made, real = left_pairs._fitted, left_pairs._pair
+
+    def searched(_asked, _start, rows, beat=0.0):  # type: ignore[no-untyped-def]
+        asked.append((rows, beat))
+        return None if len(rows) == 1 else "machines"
+
+    def pair(asked, name, machines):  # type: ignore[no-untyped-def]
+        if machines != "machines":
+            return real(asked, name, machines)
+        found = made(asked, WRONG, list(asked.every.library.groups[WRONG]))
+        assert found is not None
+        return replace(found, beside=replace(found.beside, names=(name,)), gain=10.0 * LEAST_GAIN)
+
+    monkeypatch.setattr(left_pairs, "searched", searched)
+    monkeypatch.setattr(left_pairs, "_pair", pair)
+    monkeypatch.setattr(left_pairs, "_fitted", alike(WRONG))
+    monkeypatch.setattr(left_pairs, "_drawn", lambda *_: np.zeros((1, FEATURES)))
+    monkeypatch.setattr(left_pairs, "interplaying", lambda *_: {THIRD: (0, 1), "rub@shaft": (2,)})
+    told = pairs_in(seen(SMALLER))
+    assert told is not None and told.best is not None and told.best.beside.names == (THIRD,) and simulated
+    assert [rows for rows, _ in asked] == [(0, 1), (2,)]
+    assert {beat for _, beat in asked} == {max(b for _, b in asked)} and asked[0][1] > LEAST_GAIN, "what WRONG adds"
+    asked.clear()
+    monkeypatch.setattr(left_pairs, "rattles", lambda name: name == WRONG)
+    told = pairs_in(seen(SMALLER))
+    assert told is not None and told.best is not None and told.best.beside.names == (WRONG,) and asked == []
+
+
 def test_of_an_open_set_both_must_leave_what_known_effects_do(
     simulated: Asked, monkeypatch: pytest.MonkeyPatch
 ) -> None:
