@@ -88,7 +88,7 @@ cost: setup  ## measure again what a simulation costs (jobs/cost.json, from whic
 paper: dev setup  ## the paper's figures and trends, recomputed into docs/
 	$(BIN)/python -m paper
 
-SPLIT ?= entire
+SPLIT ?= held
 BUDGET ?= quick
 proof: dev setup  ## concealed cases: make them, run the engine, score, write docs/proof.md (CASES=s001,s002 reruns single ones)
 	$(BIN)/python -m proof generate --split $(SPLIT) --cases "$(CASES)"

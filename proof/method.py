@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 SECTIONS = {
+    "held": "No version of the engine had met these before their run; one engine ran all of them. Two ran at once on "
+    "the two threads of one core, which core-seconds show.",
     "entire": "No version of the engine had met these before their run; one engine ran all of them. Two ran at once on "
     "the two threads of one core, beside other work, which core-seconds show.",
     "hearing": "No version of the engine had met these before their run: the other cases of `entire` without atlases "
@@ -127,7 +129,7 @@ and "beats the black box"; sizes, their intervals and placebos are counted where
 right only if nothing else is named. Intervals are Wilson's, 90 %. The target condition: 3 sensors, 20 dB, 3 speeds, a
 baseline.
 
-## One engine
+## One engine for a whole split
 
 {one_engine}
 
