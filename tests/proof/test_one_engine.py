@@ -1,0 +1,40 @@
+"""The page says of the splits that one engine ran each which engine it was, and how many of their cases are run."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from proof.entire import held
+from proof.one_engine import COMMITS, one_engine
+from proof.plan import Case
+
+STORED = Path(__file__).parents[2] / "proof" / "results" / "entire.json"
+
+
+def stored(folder: Path, cases: tuple[Case, ...]) -> None:
+    """Scores of earlier cases under these names."""
+    kept = json.loads(STORED.read_text(encoding="utf-8"))
+    scores = [score | {"name": case.name} for score, case in zip(kept["scores"], cases, strict=False)]
+    (folder / "held.json").write_text(json.dumps({"engine": "feed", "scores": scores}), encoding="utf-8")
+
+
+@pytest.mark.parametrize("count", [3, 40])
+def test_what_is_run_is_told_with_its_engine_and_that_the_others_are_not(count: int, tmp_path: Path) -> None:
+    stored(tmp_path, held()[:count])
+    said = " ".join(one_engine(tmp_path).split())
+    assert f"{count} of its 120 cases are run, all by engine `feed` (commit {COMMITS['held']})" in said
+    assert "The others are not run yet" in said and "make proof SPLIT=held" in said
+    present, earlier = said.split("### An earlier engine")
+    assert present.startswith("### The present engine: split `held`") and "| false alarms on nulls" in present
+    assert "None of its cases are stored." in earlier and "|" not in earlier
+
+
+def test_nothing_is_said_to_be_left_where_all_are_run(tmp_path: Path) -> None:
+    kept = json.loads(STORED.read_text(encoding="utf-8"))["scores"]
+    every = [kept[k % len(kept)] | {"name": case.name} for k, case in enumerate(held())]
+    (tmp_path / "held.json").write_text(json.dumps({"engine": "feed", "scores": every}), encoding="utf-8")
+    said = one_engine(tmp_path)
+    assert "120 of its 120 cases" in said and "not run" not in said
