@@ -5,7 +5,7 @@ from __future__ import annotations
 from reconcile.report import words
 from reconcile.verdict import Cause
 
-CALLED = {"missing tooth": "broken tooth"}
+CALLED = {"missing tooth": "broken tooth", "fit clearance series": "fit clearance, elastic housing"}
 """Names of effects that the sentence has otherwise than their keys."""
 NO_SCORE = 0.005
 """Of a score less is none."""

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from reconcile.report.figures.bars import ranking
-from reconcile.report.named import percent
+from reconcile.report.named import cause, percent, readable
 from reconcile.report.page import page
 from reconcile.verdict import Cause, HeldOut, Placebo, Report
 
@@ -24,6 +24,11 @@ def report(**more: object) -> Report:
 def test_the_table_calls_an_effect_as_the_sentence_does() -> None:
     drawn = page(report(pictures={"ranking": [{"label": "missing_tooth@gear", "score": 9.0, "named": True}]}))
     assert "missing tooth" not in drawn and drawn.count("broken tooth at gear") > 2
+
+
+def test_of_two_housings_the_name_says_which() -> None:
+    loose = Cause(term="fit_clearance_series", site="bearing1", score=9.0, named=True)
+    assert cause(loose) == readable("fit_clearance_series@bearing1") == "fit clearance, elastic housing at bearing1"
 
 
 def test_a_score_of_next_to_nothing_is_none() -> None:

@@ -19,7 +19,11 @@ export const LAWS = {
 };
 const OWN = "custom_force";
 /** As the report's page and sentence call it. */
-export const words = (text) => text.replace(/_/g, " ").replace("missing tooth", "broken tooth");
+export const words = (text) =>
+  text
+    .replace(/_/g, " ")
+    .replace("missing tooth", "broken tooth")
+    .replace("fit clearance series", "fit clearance, elastic housing");
 
 /** An effect in words: `fit clearance`; of a law of force that is no effect of its own the law's, `stops on both sides`. */
 export function effectName({ term, severity }) {
