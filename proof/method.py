@@ -185,10 +185,10 @@ as the set of both, which are the same force (t014, u009, a006; read off once).
 * **A loose pedestal's lift** is zero in one form of the plan and within 2 µm in the other; the engine seeks at zero.
 * **Faulty teeth** are told by the mean turn of their gear since the runs before `held`
   ([decision](decisions/reconcile-mean-turn.md)); of its first three cracks with a baseline one (9.6 %, pinion) is such
-  a set with the crack first, and two (5.6 %, pinion; 10.4 %, gear) are not detected. Sixteen further cases are sealed for it (split
-  `teeth`); the first five were run by commit ca40c8e and all four teeth placed: cracks of 7.6 and 10.5 % as a set of
-  crack, broken piece and pit with the crack first, one of 9.4 % as that set and not decidable, a pitted flank named a
-  broken tooth; the unbalance was named. g001 and g003 have set a rule each since.
+  a set with the crack first, and two (5.6 %, pinion; 10.4 %, gear) are not detected. Sixteen further cases are sealed
+  for it (split `teeth`); the first five were run by commit ca40c8e and all four teeth placed: cracks of 7.6 and 10.5 %
+  as a set of crack, broken piece and pit with the crack first, one of 9.4 % as that set and not decidable, a pitted
+  flank named a broken tooth; the unbalance was named. g001 and g003 have set a rule each since.
 * **Preload** (a negative clearance) is in no case, and not sought by the engine.
 * **"Verdict right" is lenient.** Of a pair a single right name counts, of any effect the right name at the wrong place:
   so count {few_pairs} of the {right_pairs} right verdicts on pairs. "Mechanism", "place" and "both" are strict.
