@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+import scipy
 
 from reconcile.gate.findings import Finding, Gate, worst
 from reconcile.kinematics.envelopes import squared_envelope, whitened
@@ -32,6 +33,10 @@ every channel of every one holds a line; of their parts of 16384 samples one cha
 does, all of one motor in a third of a second."""
 SURELY = 3.0
 """By which the line of the baseline must be higher than the highest of noise, in as long a part of it."""
+
+COMMON_SEGMENT, COMMON_SHARE, COMMON_BINS = 512, 0.5, 3
+"""Two channels heard the same where so many bins are coherent by so much. Of noises of their own none is: the chance of
+one bin is 0.5^(segments - 1), and 16384 samples hold some 60 segments (Carter, Proc. IEEE 75, 1987, p. 236)."""
 
 
 def line_strength(values: FloatArray, rate_hz: float) -> float:
@@ -83,7 +88,26 @@ def _lost(test: Recording, baselines: Sequence[Recording], name: str) -> bool:
     if size < LEAST_SAMPLES or test.duration_s < LEAST_S or line_strength(_row(test, name), _rate(test)) >= 1.0:
         return False
     heard = [line_strength(_row(b, name)[:size], _rate(b)) for b in baselines if name in b.names]
-    return bool(heard) and min(heard) >= SURELY
+    return bool(heard) and min(heard) >= SURELY and not _heard_with_another(test, name)
+
+
+def _heard_with_another(test: Recording, name: str) -> bool:
+    """Whether the channel shares its noise with one that holds a line: what knocks without a rhythm (a loose ring) is
+    noise, and both heard it."""
+    return any(
+        common_bins(_row(test, name), _row(test, other)) >= COMMON_BINS
+        and line_strength(_row(test, other), _rate(test)) >= 1.0
+        for other in test.names
+        if other != name
+    )
+
+
+def common_bins(one: FloatArray, other: FloatArray) -> int:
+    """Bins of the spectrum, of 1 / `COMMON_SEGMENT` of the sampling rate each, in which half of the power of one
+    channel is that of another."""
+    with np.errstate(invalid="ignore", divide="ignore"):  # a channel that holds one value
+        _, shared = scipy.signal.coherence(one, other, nperseg=COMMON_SEGMENT)
+    return int(np.sum(shared[LOWEST_BIN:-LOWEST_BIN] >= COMMON_SHARE))
 
 
 def _row(one: Recording, name: str) -> FloatArray:

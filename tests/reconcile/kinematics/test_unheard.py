@@ -9,7 +9,7 @@ import pytest
 
 from reconcile.gate import Gate
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
-from reconcile.kinematics.unheard import LEAST_SAMPLES, line_strength, with_lost, with_unheard
+from reconcile.kinematics.unheard import COMMON_BINS, LEAST_SAMPLES, common_bins, line_strength, with_lost, with_unheard
 from signals.recording import Operating, Recording
 from signals.series import FloatArray
 from sim.core.response import Channel
@@ -73,6 +73,18 @@ def test_nothing_is_told(tests: list[Recording], bases: list[Recording]) -> None
     gate = gated(tests, bases)
     assert gate.usable
     assert gate.findings == ()
+
+
+@pytest.mark.slow
+def test_a_channel_that_knocks_with_another_heard_the_machine() -> None:
+    """A loose ring of a gearbox drowned every line of the housing above it; the other bearing's lines stayed."""
+    knocks = np.convolve(noise(8), np.exp(-np.arange(60) / 12.0) * np.sin(np.arange(60) * 1.3), mode="same")
+    gate = gated([recording(0.05 * heard(3, 4.0) + knocks, knocks + 0.1 * noise(4))], [BASE])
+    assert gate.findings == ()
+    assert (
+        common_bins(knocks + 0.1 * noise(4), 0.05 * heard(3) + knocks) >= COMMON_BINS > common_bins(noise(5), noise(6))
+    )
+    assert common_bins(np.ones(N), noise(6)) == 0
 
 
 def test_a_line_of_the_envelope_is_one() -> None:
