@@ -5,10 +5,12 @@ from __future__ import annotations
 from reconcile.machine.decide import Decision, decide
 from reconcile.machine.of_teeth import of_teeth
 from reconcile.machine.setting import Found, Setting
+from reconcile.machine.unstruck import unless_silent
 
 
 def decided(setting: Setting, found: Found) -> Decision:
     """By all views of the recordings, and whether there is a baseline."""
     views = len(setting.channels) * len(setting.data)
     decision = decide(found.screen, views=views, measured=setting.changes.with_baseline)
+    decision = unless_silent(decision, setting.direct, points=len(setting.data), views=views)
     return of_teeth(decision, found.screen)

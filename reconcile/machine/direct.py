@@ -73,6 +73,9 @@ class Direct:
     told: tuple[str, ...]
     struck: tuple[Mapping[str, float], ...] = ()
     places: Mapping[str, ToothPlace] = field(default_factory=dict)
+    looked: bool = False
+    """Whether every pit in a bearing that strikes would be heard: against a baseline, on a machine whose balls do not
+    rattle for want of teeth that load them."""
 
 
 NOTHING = Direct(evidence={}, p=1.0, told=())
@@ -124,6 +127,7 @@ def direct_evidence(
         ),
         struck=by_comb(several, machine, tie, evidence, MOST),
         places=places,
+        looked=based and teeth,
     )
 
 

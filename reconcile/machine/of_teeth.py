@@ -27,7 +27,7 @@ def of_teeth(decision: Decision, screen: Screen) -> Decision:
     told = dict(zip(screen.names, map(float, screen.evidence), strict=True))
     if decision.word == "explained" and _of_a_tooth(decision.chosen[0]):
         first = decision.chosen[0]
-        near = [n for n in told if _of_a_tooth(n) and _site(n) == _site(first) and told[n] > told[first] - APART]
+        near = [n for n in told if of_one_gear(n, first) and told[n] > told[first] - APART]
         if len(near) == 1:
             return decision
         chosen = tuple(sorted(near, key=lambda n: -told[n]))
@@ -44,6 +44,11 @@ def _crack_first(decision: Decision, told: dict[str, float]) -> Decision:
     if max(told[n] for n in chosen) - told[cracks[0]] > AS_GOOD_TEETH:
         return decision
     return replace(decision, chosen=(cracks[0], *(n for n in chosen if n != cracks[0])))
+
+
+def of_one_gear(name: str, other: str) -> bool:
+    """Whether both effects (`effect@site`) are faults of a tooth of one gear."""
+    return _of_a_tooth(name) and _of_a_tooth(other) and _site(name) == _site(other)
 
 
 def _of_a_tooth(name: str) -> bool:

@@ -8,6 +8,7 @@ machines that are fitted to the observation together with both (docs/decisions/r
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -23,6 +24,7 @@ from reconcile.machine.assimilate import Ensemble, moved, simulated_again
 from reconcile.machine.decide import STRANGE, Decision, leaves_lines
 from reconcile.machine.direct import HEARD
 from reconcile.machine.library import Catalogued
+from reconcile.machine.of_teeth import APART, of_one_gear
 from reconcile.machine.second import Beside, Together, strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.severity import weighted_severity
@@ -244,10 +246,19 @@ def best_pair(
         rivals = {p.beside.names[0]: p.gain + LEAST_EVIDENCE for p in pairs[1:]}
         rivals |= {s.name: s.gain + UNTRIED for s in seen[most:]}
         near = [n for n, reach in rivals.items() if reach > best.gain and not variants(n, second)]
+        near += [n for n in of_its_tooth(second, tried) if n not in near]
         best = replace(best, others=(second, *near) if near else ())
     if best is not None and best.others and best.gain < LEAST_GAIN:
         best = None
     return Pairs(first=first, tried=tried, best=best)
+
+
+def of_its_tooth(second: str, tried: Sequence[tuple[str, float, float | None]]) -> list[str]:
+    """Faults of a tooth of the same gear that `second` is not far enough ahead of, or that were summed only: a crack
+    beside a loose fit was named a broken tooth, 36 as simulated, where a pit had 19 and the crack was not simulated."""
+    gains = {name: math.inf if simulated is None else simulated + APART for name, _, simulated in tried}
+    own = next((simulated for name, _, simulated in tried if name == second and simulated is not None), 0.0)
+    return [n for n, reach in gains.items() if n != second and of_one_gear(n, second) and reach > own]
 
 
 def _stands(setting: Setting, found: Found, decision: Decision, best: Pair) -> bool:

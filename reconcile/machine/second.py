@@ -17,6 +17,7 @@ from reconcile.judge.adequacy import rest_of
 from reconcile.judge.screen import Look, looked
 from reconcile.judge.space import Fitted
 from reconcile.machine.decide import DETECT_P, LOOKS, STRANGE, STRUCK, UNMET_ROUGH, Decision, leaves_lines
+from reconcile.machine.of_teeth import APART, of_one_gear
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.weigh import LEAST_EVIDENCE, SET_WEIGHT, variants
 from reconcile.tail import tail_chance
@@ -28,6 +29,11 @@ from sim.terms import REGISTRY
 LEAST_KEPT = 0.5
 """Share of what is left of the single lines that a second effect must explain: named first ones explain 0.55 to 0.8,
 and not all effects are simulated."""
+PLAY = ("fit_clearance", "fit_clearance_series", "pedestal_looseness", "radial_clearance")
+"""Terms with a play, which balls that pass open and close: its own bearing's lines are those of a pit only by more."""
+STRUCK_BESIDE_PLAY = 16.0
+"""Log evidence of impacts from which they are: a ring loose in its seat brought 11.2 at the outer races' lines (h001 of
+the proof), 14.8 without teeth; a race that was pitted beside one 25 (b019), those of another shaft 8.2 (p015)."""
 LEFT = 0.9
 """Quantile of the misfit above which something besides the best effect is looked for."""
 
@@ -57,7 +63,7 @@ class Beside:
     p: float
     misfit: float
     placed: bool = True
-    """Whether a pattern, not only impacts that several places share, speaks for the first of them."""
+    """Whether a pattern, not only impacts that several places share or a play brings, speaks for the first of them."""
     together: Together | None = None
     """None where it was not fitted together with the first effect."""
 
@@ -148,6 +154,7 @@ def struck_too(setting: Setting, found: Found, first: str) -> Beside | None:
     look = looked(found.fitted, left)
     evidence = np.array([look.evidence[found.screen.names.index(n)] + parts[0][n] for n in known])
     order = np.argsort(-evidence)
+    own = parts[0][known[order[0]]]
     return Beside(
         view=found.fitted,
         left=left,
@@ -155,8 +162,16 @@ def struck_too(setting: Setting, found: Found, first: str) -> Beside | None:
         evidence=evidence[order],
         p=setting.direct.p,
         misfit=look.misfit,
-        placed=len(known) == 1 or float(evidence.max()) - parts[0][known[order[0]]] >= LEAST_EVIDENCE,
+        placed=(len(known) == 1 or float(evidence.max()) - own >= LEAST_EVIDENCE)
+        and _not_by_play(setting, first, parts[0]),
     )
+
+
+def _not_by_play(setting: Setting, first: str, part: Mapping[str, float]) -> bool:
+    """Whether what strikes at a part's lines is more than a play in a bearing with these lines brings."""
+    term, site = first.split("@")
+    own = [setting.direct.evidence.get(f"{name.split('@')[0]}@{site}", 0.0) for name in part]
+    return term not in PLAY or max(own) <= 0.0 or max(part.values()) >= STRUCK_BESIDE_PLAY
 
 
 def second_effect(setting: Setting, found: Found, decision: Decision) -> Beside | None:
@@ -164,7 +179,7 @@ def second_effect(setting: Setting, found: Found, decision: Decision) -> Beside 
     if decision.word != "explained":
         return None
     struck = struck_too(setting, found, decision.chosen[0])
-    if struck is not None and _outweighs(struck):
+    if struck is not None and outweighs(struck):
         return struck
     if not sure(found, decision.chosen[0]):
         return None
@@ -173,7 +188,7 @@ def second_effect(setting: Setting, found: Found, decision: Decision) -> Beside 
         return None
     if rest_of(found.levels_like(seen.view), seen.left, seen.names[0]).kept < LEAST_KEPT:
         return None
-    return seen if _outweighs(seen) else None
+    return seen if outweighs(seen) else None
 
 
 def struck_somewhere(setting: Setting, found: Found, decision: Decision) -> tuple[str, ...]:
@@ -185,15 +200,22 @@ def struck_somewhere(setting: Setting, found: Found, decision: Decision) -> tupl
         return ()
     parts = struck_parts(setting, found, decision.chosen[0])
     further = [p for p in parts if not set(p) & set(struck.names)]
-    if _outweighs(struck):
+    if outweighs(struck):
         return tuple(further[0]) if further else ()
     return tuple(n for n, e in zip(struck.names, struck.evidence, strict=True) if e > struck.evidence[0] - STRUCK)
 
 
-def _outweighs(seen: Beside) -> bool:
-    """Whether the first of them and its forms carry what a name needs."""
+def outweighs(seen: Beside) -> bool:
+    """Whether the first of them and its forms carry what a name needs; of faults of one tooth, which are alike, one
+    must be as far ahead as where it stands alone."""
     if not seen.placed:
+        return False
+    if sum(of_one_gear(n, seen.names[0]) and e > seen.evidence[0] - APART for n, e in _told(seen)) > 1:
         return False
     weights = np.exp(seen.evidence - seen.evidence[0])
     forms = np.array([n == seen.names[0] or variants(n, seen.names[0]) for n in seen.names])
     return float(weights[forms].sum() / weights.sum()) >= SET_WEIGHT
+
+
+def _told(seen: Beside) -> list[tuple[str, float]]:
+    return list(zip(seen.names, map(float, seen.evidence), strict=True))

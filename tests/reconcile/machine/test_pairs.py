@@ -16,7 +16,8 @@ from reconcile.machine.causes import ITS_IMPACTS, TOGETHER, ranked_causes
 from reconcile.machine.decide import Decision
 from reconcile.machine.direct import HEARD
 from reconcile.machine.heldout import held_out, with_sums
-from reconcile.machine.pairs import LEAST_GAIN, Pair, best_pair, fitted_pair, named_pair, sums
+from reconcile.machine.of_teeth import APART
+from reconcile.machine.pairs import LEAST_GAIN, Pair, best_pair, fitted_pair, named_pair, of_its_tooth, sums
 from reconcile.observe.phases import DB_PER_RAD
 from sim.core.spec import TermSpec
 from tests.reconcile.judge.made import FEATURES, changes, world
@@ -252,3 +253,13 @@ def test_the_ranking_marks_both_names_and_shows_them_wherever_they_stand(monkeyp
     fewer = pictures.ranking(setting, found, [RIGHT, WRONG])
     assert sorted(row["score"] for row in fewer if row["named"]) == sorted(r["score"] for r in rows if r["named"])
     assert not any(row["named"] for row in pictures.ranking(setting, found, []))
+
+
+def test_a_fault_of_a_tooth_leads_the_others_far_enough_or_is_one_of_them() -> None:
+    broken, pit, crack = (f"{kind}@pinion" for kind in ("missing_tooth", "tooth_spall", "tooth_crack"))
+    tried = ((pit, 25.5, 19.2), (broken, 21.2, 36.0), ("cage_slip@bearing1", 12.7, None), (crack, 8.6, None))
+    assert of_its_tooth(broken, tried) == [crack]  # summed only
+    near = tuple((n, by, 36.0 - APART + 0.1 if n == pit else one) for n, by, one in tried)
+    assert of_its_tooth(broken, near) == [pit, crack]
+    assert of_its_tooth("cage_slip@bearing1", tried) == []
+    assert of_its_tooth(broken, (*tried[:3], ("tooth_crack@gear", 8.6, None))) == []

@@ -14,11 +14,15 @@ from reconcile.machine.budget import QUICK
 from reconcile.machine.decide import STRUCK, decide
 from reconcile.machine.direct import MOST, NOTHING
 from reconcile.machine.library import Catalogued
+from reconcile.machine.of_teeth import APART
 from reconcile.machine.search import LEAST_OF_LINES, to_fit
 from reconcile.machine.second import (
     LEFT,
+    STRUCK_BESIDE_PLAY,
+    Beside,
     beside,
     looks_for_second,
+    outweighs,
     second_effect,
     struck_parts,
     struck_somewhere,
@@ -176,6 +180,12 @@ def test_what_strikes_for_sure_is_named_beside_a_first_effect_that_strikes_nowhe
     second = second_effect(setting, found, decision)  # type: ignore[arg-type]
     assert second is not None and second.names == (NAMES[0],)
     assert struck_too(setting, found, NAMES[0]) is None, "the first one's own impacts"  # type: ignore[arg-type]
+    setting.direct = replace(NOTHING, evidence={NAMES[0]: STRUCK + 1.0, "outer_spall@bearing2": STRUCK + 1.0})
+    assert second_effect(setting, found, decision) is None, "its own balls rattle"  # type: ignore[arg-type]
+    assert struck_somewhere(setting, found, decision) == (NAMES[0],)  # type: ignore[arg-type]
+    sure, clear = found_in(seen((2,), 1), STRUCK_BESIDE_PLAY + 1.0)
+    sure.direct = setting.direct
+    assert second_effect(sure, clear, decision) is not None  # type: ignore[arg-type]
     unsure, faint = found_in(seen((2,), 1), STRUCK - 1.0)
     assert struck_too(unsure, faint, loose) is None  # type: ignore[arg-type]
     assert struck_somewhere(unsure, faint, decision) == ()  # type: ignore[arg-type]
@@ -188,3 +198,19 @@ def test_impacts_at_several_parts_are_told_beside_a_first_effect_that_strikes_no
     assert [set(part) for part in parts] == [{NAMES[0]}, set(OTHER_PARTS)]
     decision = replace(decide(found.screen, views=9), word="explained", chosen=(NAMES[2],))
     assert set(struck_somewhere(setting, found, decision)) == set(OTHER_PARTS)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("names", "evidence", "enough"),
+    [
+        (("missing_tooth@pinion", "tooth_crack@pinion"), (30.0, 30.0 - APART - 0.1), True),
+        (("missing_tooth@pinion", "tooth_crack@pinion"), (30.0, 30.0 - APART + 0.1), False),
+        (("missing_tooth@pinion", "tooth_crack@gear"), (30.0, 22.0), True),
+        (("outer_spall@bearing1", "tooth_crack@pinion"), (30.0, 22.0), True),
+    ],
+)
+def test_of_faults_of_one_tooth_a_second_must_be_far_ahead(names, evidence, enough) -> None:
+    _, found = found_in(seen((0,), 1), STRUCK)
+    told = Beside(view=found.fitted, left=np.zeros(1), names=names, evidence=np.array(evidence), p=1e-6, misfit=0.5)
+    assert outweighs(told) is enough
+    assert not outweighs(replace(told, placed=False))

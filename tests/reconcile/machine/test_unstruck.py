@@ -1,0 +1,48 @@
+"""Pits that fit best and strike nowhere are no known effect."""
+
+from dataclasses import replace
+
+import pytest
+
+from reconcile.machine.decide import Decision
+from reconcile.machine.direct import NOTHING
+from reconcile.machine.unstruck import SILENT, UNHEARD, unless_silent
+
+PITS = ("inner_spall@bearing4", "ball_spall@bearing4")
+DECISION = Decision(word="ambiguous", chosen=PITS, p=1e-6, reasons=("alike",))
+LOOKED = replace(NOTHING, looked=True)
+
+
+def after(decision=DECISION, direct=LOOKED, points=3, views=9):
+    return unless_silent(decision, direct, points=points, views=views)
+
+
+def test_pits_that_are_not_heard_are_no_answer():
+    assert after().word == "unknown_physics"
+    assert after().chosen == PITS
+    assert after().reasons == (SILENT,)
+    assert after(replace(DECISION, word="explained", chosen=PITS[:1])).word == "unknown_physics"
+
+
+@pytest.mark.parametrize("evidence", [UNHEARD, 8.0, -20.0])
+def test_what_is_heard_or_ruled_out_by_another_part_is_no_matter_of_silence(evidence):
+    assert after(direct=replace(LOOKED, evidence={PITS[0]: evidence})) is DECISION
+
+
+@pytest.mark.parametrize(
+    ("points", "views", "direct"), [(1, 9, LOOKED), (2, 2, LOOKED), (3, 9, NOTHING)], ids=["point", "views", "unlooked"]
+)
+def test_where_little_is_heard_silence_says_nothing(points, views, direct):
+    assert after(points=points, views=views, direct=direct) is DECISION
+
+
+@pytest.mark.parametrize("also", ["unbalance@pinion", "tooth_crack@pinion", "no_such_effect@pinion"])
+def test_a_set_with_something_else_stays(also):
+    decision = replace(DECISION, chosen=(*PITS, also))
+    assert after(decision) is decision
+
+
+@pytest.mark.parametrize("word", ["nothing_missing", "not_decidable", "unknown_physics"])
+def test_other_answers_stay(word):
+    decision = replace(DECISION, word=word)
+    assert after(decision) is decision
