@@ -23,7 +23,7 @@ from reconcile.machine.interplay import interplaying, rattles
 from reconcile.machine.leftover import Leftover, leftover, ranked_seconds
 from reconcile.machine.library import Catalogued, joined
 from reconcile.machine.pairs import Pair, Pairs, Simulated, evidence_in, inadequate, pair_of
-from reconcile.machine.second import strikes
+from reconcile.machine.second import has_play, strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.sizes import searched
 from reconcile.machine.told_by import heard, own_lines, teeth_tell
@@ -34,7 +34,10 @@ PROMISING = 2.5
 """Log likelihood that a second effect must add by sums to be simulated: a clearance beside an unbalance added 3.6 so
 and 64 simulated."""
 LEAD = 6.0
-"""Log likelihood by which it must lead the other simulated ones."""
+"""Log likelihood by which it must lead the other simulated ones,"""
+LEAD_BESIDE_PLAY = 12.0
+"""and beside a play, which does not repeat: beside a loose fit alone (e143 of the proof) a crack of a shaft added 36,
+waves of a race 28 and a crack of another shaft 23."""
 NEAR_SHARE, LEAST_ASKED = 0.5, 2
 """Share of the most that any adds by sums from which a second is simulated, two in any case, and of what the best adds
 simulated from which one that was not is told with it. Beside a loose fit a crack of a shaft added 48 by sums and the
@@ -155,6 +158,7 @@ def _rivals(asked: Asked, best: Pair, pairs: Sequence[Pair], sums: Mapping[str, 
     is near it by its sum; a bow for an unbalance and the other way round, which teeth alone tell apart."""
     second, told = best.beside.names[0], {p.beside.names[0]: p.gain for p in pairs}
     teeth = bool(asked.setting.machine.gears)
+    lead = LEAD_BESIDE_PLAY if has_play(asked.first) else LEAD
     near = []
     for name, gain in sums.items():
         least = TWIN_SHARE * best.gain if teeth else -np.inf
@@ -163,7 +167,7 @@ def _rivals(asked: Asked, best: Pair, pairs: Sequence[Pair], sums: Mapping[str, 
             continue
         if alike(name, second):
             near += [name] if reached > least else []
-        elif reached > (best.gain - LEAD if name in told else NEAR_SHARE * best.gain):
+        elif reached > (best.gain - lead if name in told else NEAR_SHARE * best.gain):
             near.append(name)
     return near
 

@@ -74,6 +74,11 @@ def strikes(name: str) -> bool:
     return term is not None and term.strikes is not None
 
 
+def has_play(name: str) -> bool:
+    """Whether the effect (`effect@site`) is one that opens and closes."""
+    return name.split("@", maxsplit=1)[0] in PLAY
+
+
 def fitted_change(found: Found, name: str, observed: FloatArray) -> FloatArray:
     """The change (F,) of the point of an effect's path that is nearest to what was observed."""
     fitted = found.view(name)
@@ -169,9 +174,9 @@ def struck_too(setting: Setting, found: Found, first: str) -> Beside | None:
 
 def _not_by_play(setting: Setting, first: str, part: Mapping[str, float]) -> bool:
     """Whether what strikes at a part's lines is more than a play in a bearing with these lines brings."""
-    term, site = first.split("@")
+    site = first.split("@")[1]
     own = [setting.direct.evidence.get(f"{name.split('@')[0]}@{site}", 0.0) for name in part]
-    return term not in PLAY or max(own) <= 0.0 or max(part.values()) >= STRUCK_BESIDE_PLAY
+    return not has_play(first) or max(own) <= 0.0 or max(part.values()) >= STRUCK_BESIDE_PLAY
 
 
 def second_effect(setting: Setting, found: Found, decision: Decision) -> Beside | None:

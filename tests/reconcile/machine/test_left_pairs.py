@@ -275,12 +275,25 @@ def test_a_bow_is_told_with_an_unbalance_where_nothing_tells_them_apart(
 ) -> None:
     setting, _ = found_in(seen(SMALLER))
     setting.machine.gears = ("gear",) * teeth
-    asked = SimpleNamespace(setting=setting)
+    asked = SimpleNamespace(setting=setting, first="radial_clearance@bearing1")
     best, bow = (SimpleNamespace(beside=SimpleNamespace(names=(f"{n}@disc",))) for n in ("unbalance", "bent_shaft"))
     best.gain, bow.gain = 100.0, gain
     sums = {"bent_shaft@disc": 40.0, "unbalance@disc": 60.0, "bent_shaft@gear": 45.0}
     near = left_pairs._rivals(asked, best, [bow] if gain else [], sums)  # type: ignore[arg-type]
     assert near == ["bent_shaft@disc"] * told
+
+
+@pytest.mark.parametrize(("first", "told"), [("fit_clearance@bearing2", True), ("unbalance@gear", False)])
+def test_beside_a_play_a_second_must_lead_by_more(first: str, told: bool) -> None:
+    setting, _ = found_in(seen(SMALLER))
+    setting.machine.gears = ("gear",)
+    names = ("shaft_crack@bearing3", "outer_waviness@bearing2", "shaft_crack@bearing4")
+    best, waves, other = (SimpleNamespace(beside=SimpleNamespace(names=(n,))) for n in names)
+    best.gain, waves.gain, other.gain = 36.0, 27.6, 22.7
+    sums = dict(zip(names, (5.9, 9.5, 11.5), strict=True))
+    asked = SimpleNamespace(setting=setting, first=first)
+    near = left_pairs._rivals(asked, best, [waves, other], sums)  # type: ignore[arg-type]
+    assert near == [names[1]] * told
 
 
 def test_half_of_an_ensemble_starts_where_sums_fit_best() -> None:
