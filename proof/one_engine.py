@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from textwrap import wrap
 
@@ -16,10 +16,10 @@ from proof.shown import WIDTH
 from proof.targets import written
 from proof.whole import by_law, read, together
 
-COMMITS: Mapping[str, str] = {"held": "3f03490", "entire": "8e8edc1"}
+COMMITS: Mapping[str, str] = {"held": "84500bc", "entire": "8e8edc1"}
 """Whose engine ran each of the splits."""
-LATER = "hearing"
-"""Section of those cases of `entire` that a later engine met first."""
+ELSEWHERE: Mapping[str, tuple[str, str]] = {"held": ("begun", "an earlier"), "entire": ("hearing", "a later")}
+"""Section of those cases of a split that another engine met first, and which."""
 
 
 def one_engine(results: Path) -> str:
@@ -34,12 +34,15 @@ def _of(design: Design, results: Path) -> str:
     if not scores:
         return f"{title}\n\nNone of its cases are stored."
     engine, commit = json.loads(path.read_text(encoding="utf-8"))["engine"], COMMITS[design.split]
-    later = {s.name for s in read(results / f"{LATER}.json")} if design is ENTIRE else set()
+    section, other = ELSEWHERE[design.split]
+    elsewhere = {s.name for s in read(results / f"{section}.json")}
     cases = cases_of_design(design)
-    left = {c.name for c in cases} - {s.name for s in scores} - later
+    left = {c.name for c in cases} - {s.name for s in scores} - elsewhere
+    more = f'{len(elsewhere)} more were first met by {other} engine ("{section.capitalize()}" below). '
     said = (
         f"{len(scores)} of its {len(cases)} cases are run, all by engine `{engine}` (commit {commit}), which had met "
-        f"none of them and was not changed between them. {_later(later)}{LEFT[design.split] if left else ''}"
+        f"none of them and was not changed between them. {more if elsewhere else ''}"
+        f"{LEFT[design.split] if left else ''}"
         f"`git checkout {commit} && make proof SPLIT={design.split}` makes these figures again; a later engine's "
         f"answers are held against them case by case by `make proof SPLIT={design.split} CASES=...`."
     )
@@ -53,12 +56,6 @@ LEFT = {
     "entire": "The others are not run: the names' order is drawn, so those run are a sample of the plan but for the "
     "cases that need atlases of their own (mis-set files, five speeds, another load), which were put last. ",
 }
-
-
-def _later(names: Collection[str]) -> str:
-    if not names:
-        return ""
-    return f'{len(names)} more were first met by a later engine ("{LATER.capitalize()}" below). '
 
 
 def lips(scores: Sequence[Score], cases: Sequence[Case]) -> str:

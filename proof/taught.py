@@ -166,5 +166,24 @@ RULES = (
         ),
         "e145, e182 and e183, an unbalance with a loose fit or a worn bearing, of which the unbalance alone was told",
     ),
+    (
+        "a channel that shares its noise with one that holds a line is not deaf",
+        (
+            "h001 and h025, loose fits that drowned every line above them at one speed: one named a pit; named since, "
+            "with gains of 0.72 and, with the pit beside it, 0.66"
+        ),
+    ),
+    (
+        "what balls bring that pass under a play is no pit of that bearing; a second beside a play must lead by 12",
+        "h001, a pitted outer race beside the loose fit (e143, a cracked shaft)",
+    ),
+    (
+        "a pit of a bearing that fits best and strikes nowhere is no known effect",
+        "h028, loose blows told as a pit of one of two kinds; unknown since, at the right bearing",
+    ),
+    (
+        "of faults of a tooth beside another effect none is named unless the others are tried and far behind",
+        "h021, a crack named a broken tooth beside a loose fit",
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""

@@ -63,7 +63,7 @@ class Beside:
     p: float
     misfit: float
     placed: bool = True
-    """Whether a pattern, not only impacts that several places share or a play brings, speaks for the first of them."""
+    """Whether a pattern, not only impacts that several places share, speaks for the first of them."""
     together: Together | None = None
     """None where it was not fitted together with the first effect."""
 
@@ -153,13 +153,12 @@ def struck_too(setting: Setting, found: Found, first: str) -> Beside | None:
     same lines by what the first one leaves."""
     parts = struck_parts(setting, found, first)
     known = [n for n in (parts[0] if parts else ()) if n in found.screen.names]
-    if not known:
+    if not known or _by_play(setting, first, parts[0]):
         return None
     left = setting.changes.left(np.nan_to_num(fitted_change(found, first, setting.changes.observed)))
     look = looked(found.fitted, left)
     evidence = np.array([look.evidence[found.screen.names.index(n)] + parts[0][n] for n in known])
     order = np.argsort(-evidence)
-    own = parts[0][known[order[0]]]
     return Beside(
         view=found.fitted,
         left=left,
@@ -167,16 +166,15 @@ def struck_too(setting: Setting, found: Found, first: str) -> Beside | None:
         evidence=evidence[order],
         p=setting.direct.p,
         misfit=look.misfit,
-        placed=(len(known) == 1 or float(evidence.max()) - own >= LEAST_EVIDENCE)
-        and _not_by_play(setting, first, parts[0]),
+        placed=len(known) == 1 or float(evidence.max()) - parts[0][known[order[0]]] >= LEAST_EVIDENCE,
     )
 
 
-def _not_by_play(setting: Setting, first: str, part: Mapping[str, float]) -> bool:
-    """Whether what strikes at a part's lines is more than a play in a bearing with these lines brings."""
+def _by_play(setting: Setting, first: str, part: Mapping[str, float]) -> bool:
+    """Whether what strikes at a part's lines is no more than a play in a bearing with these lines brings."""
     site = first.split("@")[1]
     own = [setting.direct.evidence.get(f"{name.split('@')[0]}@{site}", 0.0) for name in part]
-    return not has_play(first) or max(own) <= 0.0 or max(part.values()) >= STRUCK_BESIDE_PLAY
+    return has_play(first) and max(own) > 0.0 and max(part.values()) < STRUCK_BESIDE_PLAY
 
 
 def second_effect(setting: Setting, found: Found, decision: Decision) -> Beside | None:

@@ -14,9 +14,9 @@ from reconcile.machine.direct import Direct
 from sim.terms import REGISTRY
 
 UNHEARD = 1.0
-"""Log evidence of impacts (two deviations of control lines) up to which none are heard. Of 26 concealed cases with a
-pit, of widths from 0.56 mm on, in which one was the best effect all have 5 deviations and more, two with loose blows
-instead none."""
+"""Log evidence of impacts (two deviations of control lines) up to which none are heard. Of 25 concealed cases with a
+pit (0.56 mm and more) that was told all have 5 deviations and more; of two of loose blows, which a pit fitted best,
+none."""
 FEWEST_POINTS = 2
 SILENT = "a pit in a bearing fits best, and nothing strikes at its frequency"
 

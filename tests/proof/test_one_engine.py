@@ -32,6 +32,14 @@ def test_what_is_run_is_told_with_its_engine_and_that_the_others_are_not(count: 
     assert "None of its cases are stored." in earlier and "|" not in earlier
 
 
+def test_what_another_engine_met_first_is_told_apart(tmp_path: Path) -> None:
+    stored(tmp_path, held()[40:])
+    (tmp_path / "held.json").rename(tmp_path / "begun.json")
+    stored(tmp_path, held()[:40])
+    said = " ".join(one_engine(tmp_path).split())
+    assert "40 of its 120 cases are run" in said and 'first met by an earlier engine ("Begun" below). `git' in said
+
+
 def test_nothing_is_said_to_be_left_where_all_are_run(tmp_path: Path) -> None:
     kept = json.loads(STORED.read_text(encoding="utf-8"))["scores"]
     every = [kept[k % len(kept)] | {"name": case.name} for k, case in enumerate(held())]
