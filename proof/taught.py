@@ -167,7 +167,10 @@ RULES = (
         "e145, e182 and e183, an unbalance with a loose fit or a worn bearing, of which the unbalance alone was told",
     ),
     (
-        "a channel that shares its noise with one that holds a line is not deaf",
+        (
+            "a channel that shares its noise with one that holds a line is not deaf "
+            "([decision](decisions/reconcile-silence.md))"
+        ),
         (
             "h001 and h025, loose fits that drowned every line above them at one speed: one named a pit; named since, "
             "with gains of 0.72 and, with the pit beside it, 0.66"
