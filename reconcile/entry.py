@@ -11,10 +11,12 @@ from reconcile.atlas.candidates import Candidate, candidates
 from reconcile.atlas.keep import Keeper
 from reconcile.atlas.places import simulated_channels
 from reconcile.driven import reconcile_driven
+from reconcile.driven.machine import check_linear
 from reconcile.kinematics import KinematicSpec, reconcile_kinematics
 from reconcile.kinematics.whose_speed import check_whose_speeds
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.engine import Progress, reconcile_machine
+from reconcile.one_names import by_one_name
 from reconcile.pulses import check_pulses
 from reconcile.repeated import check_repeated
 from reconcile.report.revised import sent_to_the_file
@@ -186,11 +188,13 @@ def reconcile_recordings(
     check_size(tests, baselines)
     sent = sent_as(tests, baselines)
     if isinstance(machine, MachineSpec) and not machine.shafts:
+        check_linear(machine)
         check_repeated(tests, baselines)
         report = reconcile_driven(machine, tests, baselines, seed=seed)
         return _with_labels(report, sent, machine.name)
     check_descriptions(machine, tests, baselines)
     check_channels(tests, baselines)
+    (tests, baselines), renamed = by_one_name(tests, baselines)
     check_repeated(tests, baselines)
     if isinstance(machine, KinematicSpec):
         check_whose_speeds(machine, given(tests, baselines))
@@ -207,7 +211,7 @@ def reconcile_recordings(
     if isinstance(machine, KinematicSpec):
         report = reconcile_kinematics(machine, tests, baselines, seed=seed, progress=progress)
         remarks = unplaced(machine.parts, stated) if _has_places(machine) else ()
-        remarks = (*remarks, *unstated(stated, report), *exchanged(stated))
+        remarks = (*remarks, *unstated(stated, report), *exchanged(stated), *renamed)
         return _with_labels(_with_limits(report, remarks), sent, machine.name)
     report = reconcile_machine(
         machine,
@@ -220,7 +224,7 @@ def reconcile_recordings(
         progress=progress,
         nominated=nominated,
     )
-    remarks = (*unstated(stated, report), *exchanged(stated), *already_there(machine))
+    remarks = (*unstated(stated, report), *exchanged(stated), *already_there(machine), *renamed)
     return _with_labels(sent_to_the_file(_with_limits(report, remarks)), sent, machine.name)
 
 

@@ -33,6 +33,7 @@ from reconcile.told import about
 from signals.ingest import ingest
 from signals.recording import Recording
 from sim import presets
+from sim.assembly.assemble import assemble
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec
 from sim.presets.reference import KEYS
@@ -97,7 +98,10 @@ def _machine(path: Path) -> MachineSpec | KinematicSpec:
     if "parameters" in document or len(set(document) & set(KEYS)) > MOST_FOREIGN:
         with about(str(path)):
             return read_parameters(path).machine
-    return read_machine(path)
+    machine = read_machine(path)
+    with about(str(path)):
+        assemble(machine)  # what does not fit is told before anything is read or simulated
+    return machine
 
 
 def _kinematics(path: Path, document: Mapping[str, object]) -> MachineSpec | KinematicSpec:

@@ -34,8 +34,17 @@ def read_known(form: object, engine: Engine) -> Known:
         return _preset(form, engine)
     known = read_form(form)
     if isinstance(known, MachineSpec):
-        report_of(known, engine)
+        try:
+            report_of(known, engine)
+        except SpecError as error:
+            raise SpecError([_in_machine(p) for p in error.problems]) from None
     return known
+
+
+def _in_machine(problem: Problem) -> Problem:
+    """What assembly says of a field, as the request has it."""
+    own = problem.field.split(".")[0] in MachineSpec.model_fields
+    return replace(problem, field=f"machine.{problem.field}") if own else problem
 
 
 def read_form(form: object) -> Known:

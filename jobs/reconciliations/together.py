@@ -15,6 +15,7 @@ from jobs.reconciliations.machine import Known
 from jobs.validation import Findings
 from reconcile.atlas.places import simulated_channels
 from reconcile.driven.engine import check_rates
+from reconcile.driven.machine import check_linear
 from reconcile.entry import check_channels
 from reconcile.kinematics import KinematicSpec
 from reconcile.stated import (
@@ -45,6 +46,8 @@ def check_together(known: Known, tests: Sequence[Recording], baselines: Sequence
     findings = Findings()
     if not isinstance(known, KinematicSpec) and not known.shafts:
         # Driven by a measured input: channels are matched by what they measure.
+        with findings.step():
+            check_linear(known)
         with findings.step():
             check_rates(tests)
         return _settle(findings)

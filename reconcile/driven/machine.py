@@ -47,6 +47,22 @@ def driven_site(spec: MachineSpec) -> Site:
     return Site(body=body, axis=axis)
 
 
+def check_linear(spec: MachineSpec) -> None:
+    """SpecError for a file that has laws of its own: what is missing is looked for beside a linear spring, and a law
+    that the file has already would be found, and added, once more."""
+    message = "a measured input is held against the mass on its linear spring alone, to find all that acts beside it"
+    for field, several in (
+        ("terms", [t.term for t in spec.terms]),
+        ("custom_laws", [x.name for x in spec.custom_laws]),
+    ):
+        if several:
+            raise SpecError(
+                Problem(
+                    field=f"machine.{field}", message=message, given=", ".join(several), allowed="none: leave them out"
+                )
+            )
+
+
 def mass_kg(model: Model, data: Driven, site: Site) -> float:
     """Mass: from the gain where force and motion are calibrated, else the specification's (it sets the scale)."""
     return 1.0 / model.gain if weighed(model, data) else site.body.mass_kg

@@ -10,10 +10,13 @@ from signals.ingest.description import ChannelEntry, Sensitivity
 from signals.series import FloatArray
 from signals.units import ELECTRICAL, Unit, find_unit, unit_of
 from sim.core.errors import Problem, SpecError
+from sim.core.near import near
 from sim.core.response import Channel
 
 CHECKED = frozenset({"acceleration", "velocity", "displacement", "force", "torque", "pressure"})
 """Quantities whose unit must be one of theirs. Volts and uncalibrated numbers may stand for any of them."""
+MISSPELT, SHORT = 0.88, 3
+"""Likeness of another word to one of them, and letters of its beginning, from which that one is meant."""
 _FREE = frozenset({"", ELECTRICAL})
 _SENSITIVITY = re.compile(r"^\s*(?P<out>[^/\s]+)\s*(?:/|\s+per\s+)\s*(?P<per>.+?)\s*$")
 _SAME = 1e-9
@@ -56,6 +59,10 @@ def scale_of(entry: ChannelEntry, unit_in_file: str, field: str) -> Scale:
     if wanted in CHECKED and unit.quantity not in _FREE and unit.quantity != wanted:
         message = f"{entry.unit} is a unit of {unit.quantity.replace('_', ' ')}, not of the quantity stated"
         raise SpecError(Problem(field=f"{field}.quantity", message=message, given=entry.quantity))
+    meant = _meant(wanted)
+    if meant is not None:
+        message = f"is not a known quantity (did you mean {meant}?)"
+        raise SpecError(Problem(field=f"{field}.quantity", message=message, given=entry.quantity, allowed=meant))
     channel = Channel(
         name=entry.name,
         quantity=wanted if wanted in CHECKED else entry.quantity or unit.quantity,
@@ -78,6 +85,14 @@ def unsensed(entries: Sequence[ChannelEntry]) -> tuple[str, ...]:
         and entry.sensitivity is None
         and (unit := unit_of(entry.unit, f"channels.{i}.unit")).quantity == ELECTRICAL
     )
+
+
+def _meant(wanted: str) -> str | None:
+    """The quantity that is checked and that a slip of the pen or a short form stands for."""
+    if wanted in CHECKED or len(wanted) < SHORT:
+        return None
+    begun = [quantity for quantity in sorted(CHECKED) if quantity.startswith(wanted)]
+    return next(iter(begun or near(wanted, sorted(CHECKED), most=1, like=MISSPELT)), None)
 
 
 def _levels(quantity: str) -> str:

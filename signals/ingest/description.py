@@ -231,10 +231,16 @@ def _slips(document: Mapping[str, object]) -> list[Problem]:
 
 
 def _tells_no_speed(operating: object) -> bool:
-    """Whether an operating point holds no number, under whatever name: as if it had been left out."""
+    """Whether an operating point holds no number, under whatever name, nor one in words (`29,5`) under a name that is
+    its own or like one: as if it had been left out."""
     if not isinstance(operating, Mapping) or not isinstance(operating.get("shaft", ""), str):
         return False
-    return all(value is None or isinstance(value, str) for value in operating.values())
+    return all(value is None or (isinstance(value, str) and not _number(k, value)) for k, value in operating.items())
+
+
+def _number(key: object, text: str) -> bool:
+    numbers = [name for name in OperatingEntry.model_fields if name != "shaft"]
+    return any(map(str.isdigit, text)) and bool(near(str(key), numbers, most=1))
 
 
 def _alike(part: object, model: type[BaseModel], prefix: str) -> list[Problem]:

@@ -11,6 +11,7 @@ from sim.assembly.mesh_settings import mesh_settings
 from sim.assembly.senses import Senses
 from sim.core.errors import Problem, SpecError
 from sim.core.laws import BallLaw, Laws, MeshLaw, SupportLaw
+from sim.core.near import did_you_mean
 from sim.core.spec import BearingSpec, MachineSpec
 from sim.core.terms import Registry, SiteContext, SiteKind, Term
 from sim.parts.bearing.frequencies import bearing_speeds
@@ -141,11 +142,9 @@ def acting_terms(machine: MachineSpec, kin: Kinematics, registry: Registry, seed
         term = registry.get(spec.term)
         where = f"terms.{i}"
         if term is None:
-            problems.append(
-                Problem(
-                    field=f"{where}.term", message="unknown term", given=spec.term, allowed=", ".join(registry.keys())
-                )
-            )
+            known = registry.keys()
+            message = f"unknown term{did_you_mean(spec.term, known)}"
+            problems.append(Problem(field=f"{where}.term", message=message, given=spec.term, allowed=", ".join(known)))
             continue
         allowed = [name for name, kind in kinds.items() if kind in term.sites]
         if spec.site not in allowed:

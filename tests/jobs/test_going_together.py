@@ -16,6 +16,7 @@ from reconcile.entry import reconcile_recordings
 from signals.recording import Operating, Recording, Tacho
 from sim.core.errors import Problem, SpecError
 from sim.core.response import Channel
+from sim.core.spec import CustomLaw, TermSpec
 from sim.presets.catalogue import preset
 from tests.service.reconciling import KINEMATICS, World, made
 
@@ -168,3 +169,18 @@ def test_rates_of_a_driven_machine_are_told_before_there_is_a_job() -> None:
     assert (problem.given, problem.allowed) == (1000.0, "the same in both")
     assert "recordings.0.sampling_rate_hz, which has 2000 Hz" in problem.message
     assert told([driven(2000.0)], [driven(1000.0)], preset("oscillator")) == {}, "a baseline may be at another rate"
+
+
+@pytest.mark.parametrize(
+    ("own", "field"),
+    [
+        ({"terms": [TermSpec(term="cubic_support", site="mass", parameters={"cubic": 4e10, "spring": 1.0})]}, "terms"),
+        ({"custom_laws": [CustomLaw(name="soft", dof="mass.y", expression="-3*z")]}, "custom_laws"),
+    ],
+)
+def test_a_driven_machine_with_laws_of_its_own_is_refused(own: dict[str, object], field: str) -> None:
+    oscillator = preset("oscillator")
+    assert told([made(1)], known=oscillator) == {}
+    (refused,) = told([made(1)], known=oscillator.model_copy(update=own)).values()
+    assert refused.field == f"machine.{field}" and refused.given in ("cubic_support", "soft")
+    assert "leave them out" in str(refused.allowed)

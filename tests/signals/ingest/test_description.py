@@ -125,7 +125,7 @@ def test_a_shaft_that_is_not_named_is_the_only_one(more: dict, shaft: str | None
         assert operating.shaft == shaft
 
 
-@pytest.mark.parametrize("none", [{}, {"speed_hz": None}, {"shaft": "input", "load": "half"}, None])
+@pytest.mark.parametrize("none", [{}, {"speed_hz": None}, {"shaft": "s2", "load": "50 %"}, {"speed_hz": "?"}, None])
 def test_an_operating_point_without_speed_is_none(none: dict | None) -> None:
     assert read_description({"channels": [CHANNEL], "operating": none}).operating is None
 
@@ -138,6 +138,9 @@ def test_an_operating_point_without_speed_is_none(none: dict | None) -> None:
         {"rps": 25},
         {"omega": 157.0},
         {"load": 2},
+        {"speed_hz": "29,5"},
+        {"shaft": "input", "speed_hz": "29,5 Hz"},
+        {"speed_rpm": "1500"},
         {"shaft": 5},
     ],
 )

@@ -97,6 +97,14 @@ def test_a_quantity_in_a_unit_of_another_is_refused(read, archive) -> None:
     assert "channels.0.quantity" in text and "velocity" in text
 
 
+@pytest.mark.parametrize("slip", ["accel", "aceleration"])
+def test_a_quantity_that_a_slip_stands_for_is_refused_and_another_is_the_users_own(read, archive, slip: str) -> None:
+    assert "acceleration?" in refusal(read, archive, channels=[{"name": "a", "quantity": slip, "unit": "g"}])
+    for own in ("angular velocity", "acceleration_env", "strain"):
+        found = read(archive, channels=[{"name": "a", "quantity": own, "unit": "1"}]).recording
+        assert found.channels[0].quantity == own
+
+
 def test_volts_become_what_the_sensor_senses(read, archive, samples) -> None:
     sensor = {"value": 100, "unit": "mV/g"}
     entry = {"name": "a", "quantity": "acceleration", "unit": "V", "sensitivity": sensor}
