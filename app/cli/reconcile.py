@@ -93,7 +93,7 @@ def _machine(path: Path) -> MachineSpec | KinematicSpec:
         message = "describes a recording, not a machine"
         allowed = f"a machine file, or a preset: {', '.join(presets.names())}"
         raise SpecError(Problem(field=f"--machine {path}", message=message, allowed=allowed))
-    if "kinematics" in document or bare_kinematics(document):
+    if "kinematics" in document or bare_kinematics(document) or len(document) < 2:
         return _kinematics(path, document)
     if "parameters" in document or len(set(document) & set(KEYS)) > MOST_FOREIGN:
         with about(str(path)):

@@ -14,7 +14,7 @@ from jobs.resolve import report_of
 from jobs.validation import Findings, problems_of, shown
 from reconcile.kinematics import KinematicSpec, read_kinematic_spec
 from sim.core.errors import Problem, SpecError
-from sim.core.near import did_you_mean
+from sim.core.near import did_you_mean, near
 from sim.core.spec import MachineSpec
 from sim.presets.reference import KEYS, reference_machine
 
@@ -25,6 +25,7 @@ MOST_FOREIGN = 5
 """A flat document with more reference names than this is a parameter file."""
 _SECTIONS = ("parameters", "bearings", "tolerance", "name", "notes")
 _KINEMATICS = "kinematics"
+FORMS = 'a machine, {"kinematics": {...}} or {"parameters": {...}}'
 _KINEMATIC_KEYS = {"name", "shafts", "bearings", "gears", "meshes"}
 
 
@@ -50,6 +51,7 @@ def _in_machine(problem: Problem) -> Problem:
 def read_form(form: object) -> Known:
     """The machine of an object in any of its forms, not yet assembled; SpecError names every field that is wrong."""
     assert isinstance(form, Mapping)
+    check_form(form)
     if _KINEMATICS in form:
         return told_behind_slips(_read, form)
     if bare_kinematics(form):
@@ -58,6 +60,17 @@ def read_form(form: object) -> Known:
             Problem(field="machine", message=message, given=", ".join(form), allowed='{"kinematics": {...}}')
         )
     return _from_parameters(form) if _is_parameters(form) else told_behind_slips(_spec, form)
+
+
+def check_form(form: Mapping[str, object]) -> None:
+    """SpecError for an object of no form: an empty one, or one whose one key is like `kinematics` or `parameters`."""
+    if not form:
+        raise SpecError(Problem(field="machine", message="is empty", given="{}", allowed=FORMS))
+    for key in form if len(form) == 1 else ():
+        meant = near(str(key), (_KINEMATICS, "parameters"), most=1)
+        if meant and meant[0] != key:
+            message = f"is not a known field (did you mean {meant[0]}?)"
+            raise SpecError(Problem(field=f"machine.{key}", message=message, given=shown(form[key]), allowed=FORMS))
 
 
 def bare_kinematics(form: Mapping[str, object]) -> bool:

@@ -198,7 +198,12 @@ def read_description(document: object) -> Description:
 
 def remarks(description: Description) -> tuple[str, ...]:
     """Keys that mean nothing here, by place: they are kept out of the recording, and this is said."""
-    return tuple(f"{place}: is not used here" for place in _unknown(description, ""))
+    return tuple(f"{place}: is not used here{_belongs(place)}" for place in _unknown(description, ""))
+
+
+def _belongs(place: str) -> str:
+    """Where a field of the operating point was meant, that stands at the top."""
+    return f"; it belongs under `operating`, as `operating.{place}`" if place in OperatingEntry.model_fields else ""
 
 
 def _unknown(part: BaseModel, prefix: str) -> Iterator[str]:

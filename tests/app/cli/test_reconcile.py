@@ -50,23 +50,6 @@ def test_a_machine_that_is_none_is_said(tmp_path: Path, capsys: pytest.CaptureFi
         assert told and "Traceback" not in told
 
 
-@pytest.mark.parametrize(
-    ("term", "told"),
-    [
-        ({"term": "outer_spal", "site": "bearing1"}, "m.json: terms.0.term: unknown term (did you mean outer_spall?)"),
-        ({"term": "outer_spall", "site": "pinion"}, "m.json: terms.0.site"),
-        ({"term": "outer_spall", "site": "bearing1", "parameters": {"wide": 1e-3}}, "m.json: terms.0.parameters.wide"),
-    ],
-)
-def test_a_machine_that_cannot_be_assembled_is_refused_before_anything_is_read(
-    machine: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], term: dict[str, object], told: str
-) -> None:
-    path = tmp_path / "m.json"
-    path.write_text(json.dumps(json.loads(machine.read_text(encoding="utf-8")) | {"terms": [term]}), encoding="utf-8")
-    assert main(asked(path, tmp_path / "none.json", tmp_path / "out")) == 2
-    assert told in capsys.readouterr().err
-
-
 def test_the_three_forms_of_a_machine(machine: Path, tmp_path: Path) -> None:
     assert isinstance(command._machine(machine), MachineSpec)
     path = tmp_path / "k.json"
