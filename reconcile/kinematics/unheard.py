@@ -34,9 +34,15 @@ does, all of one motor in a third of a second."""
 SURELY = 3.0
 """By which the line of the baseline must be higher than the highest of noise, in as long a part of it."""
 
-COMMON_SEGMENT, COMMON_SHARE, COMMON_BINS = 512, 0.5, 3
-"""Two channels heard the same where so many bins are coherent by so much. Of noises of their own none is: the chance of
-one bin is 0.5^(segments - 1), and 16384 samples hold some 60 segments (Carter, Proc. IEEE 75, 1987, p. 236)."""
+COMMON_SEGMENT, COMMON_SHARE, COMMON_BINS = 512, 0.5, 8
+"""Two channels share noise where so many bins are coherent by so much. Of noises of their own none is: the chance of
+one bin is 0.5^(segments - 1), and 16384 samples hold some 60 segments (Carter, Proc. IEEE 75, 1987, p. 236). One tone
+of a mains fills three or four; two loose rings that drowned all lines of the sensor above them had 9 and 22."""
+SHAPE_BINS, SMOOTH = slice(20, 205), 9
+"""Bins of a spectrum of so many samples in which its shape is compared, lines taken off by a running median."""
+ALIKE, COLOURED_DB = 0.6, 0.3
+"""Correlation of the shape (log power) with a baseline's, and deviation of both, from which it is the same machine's:
+under the two loose rings 0.73 and 0.75, deviations of 0.5 to 1.9 dB; noise of made dead sensors is white, 0.15 dB."""
 
 
 def line_strength(values: FloatArray, rate_hz: float) -> float:
@@ -88,18 +94,35 @@ def _lost(test: Recording, baselines: Sequence[Recording], name: str) -> bool:
     if size < LEAST_SAMPLES or test.duration_s < LEAST_S or line_strength(_row(test, name), _rate(test)) >= 1.0:
         return False
     heard = [line_strength(_row(b, name)[:size], _rate(b)) for b in baselines if name in b.names]
-    return bool(heard) and min(heard) >= SURELY and not _heard_with_another(test, name)
+    return bool(heard) and min(heard) >= SURELY and not _heard_with_another(test, baselines, name)
 
 
-def _heard_with_another(test: Recording, name: str) -> bool:
-    """Whether the channel shares its noise with one that holds a line: what knocks without a rhythm (a loose ring) is
-    noise, and both heard it."""
+def _heard_with_another(test: Recording, baselines: Sequence[Recording], name: str) -> bool:
+    """Whether the channel has the shape of a baseline's spectrum still and shares its noise with one that holds a line:
+    what knocks without a rhythm (a loose ring) is noise, and both heard it. Of cross-talk, hum and other interference
+    that a dead sensor shares with a sound one it has not the shape."""
+    if not any(same_shape(_row(test, name), _row(b, name)) for b in baselines if name in b.names):
+        return False
     return any(
         common_bins(_row(test, name), _row(test, other)) >= COMMON_BINS
         and line_strength(_row(test, other), _rate(test)) >= 1.0
         for other in test.names
         if other != name
     )
+
+
+def same_shape(one: FloatArray, other: FloatArray) -> bool:
+    """Whether two spectra without their lines are coloured, and coloured alike."""
+    a, b = (_shape(values) for values in (one, other))
+    if min(float(np.std(a)), float(np.std(b))) < COLOURED_DB:
+        return False
+    return float(np.corrcoef(a, b)[0, 1]) >= ALIKE
+
+
+def _shape(values: FloatArray) -> FloatArray:
+    _, power = scipy.signal.welch(values, nperseg=COMMON_SEGMENT)
+    level = 10.0 * np.log10(np.maximum(power, 1e-300))
+    return np.asarray(scipy.ndimage.median_filter(level, SMOOTH, mode="nearest")[SHAPE_BINS])
 
 
 def common_bins(one: FloatArray, other: FloatArray) -> int:

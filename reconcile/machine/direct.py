@@ -8,7 +8,7 @@ other's slip.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -73,6 +73,8 @@ class Direct:
     told: tuple[str, ...]
     struck: tuple[Mapping[str, float], ...] = ()
     places: Mapping[str, ToothPlace] = field(default_factory=dict)
+    present: frozenset[str] = frozenset()
+    """Effects in bearings at whose lines something strikes in the tests, more than in the baseline or not."""
     looked: bool = False
     """Whether every pit in a bearing that strikes would be heard: against a baseline, on a machine whose balls do not
     rattle for want of teeth that load them."""
@@ -127,8 +129,19 @@ def direct_evidence(
         ),
         struck=by_comb(several, machine, tie, evidence, MOST),
         places=places,
+        present=frozenset(struck_at(seen, tie, machine)),
         looked=based and teeth,
     )
+
+
+def struck_at(seen: Sequence[Candidate], tie: Ties, machine: MachineSpec) -> Iterator[str]:
+    """Effects in bearings whose families are `present`."""
+    there = [c.family for c in seen if c.present]
+    for term in REGISTRY:
+        for family in tie.families if term.strikes in DEFECTS else ():
+            known = family.kind == term.strikes and any(b.name == family.site for b in machine.bearings)
+            if known and any(f.kind == family.kind and same(f, family) for f in there):
+                yield f"{term.key}@{family.site}"
 
 
 def _called(family: Family, tie: Ties) -> str:

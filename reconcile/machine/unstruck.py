@@ -33,4 +33,6 @@ def unless_silent(decision: Decision, direct: Direct, *, points: int, views: int
 
 def _silent(name: str, direct: Direct) -> bool:
     term = REGISTRY.get(name.split("@", maxsplit=1)[0])
-    return term is not None and term.strikes in DEFECTS and abs(direct.evidence.get(name, 0.0)) < UNHEARD
+    if term is None or term.strikes not in DEFECTS or name in direct.present:
+        return False  # a pit that has grown strikes before and after
+    return abs(direct.evidence.get(name, 0.0)) < UNHEARD

@@ -9,7 +9,15 @@ import pytest
 
 from reconcile.gate import Gate
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
-from reconcile.kinematics.unheard import COMMON_BINS, LEAST_SAMPLES, common_bins, line_strength, with_lost, with_unheard
+from reconcile.kinematics.unheard import (
+    COMMON_BINS,
+    LEAST_SAMPLES,
+    common_bins,
+    line_strength,
+    same_shape,
+    with_lost,
+    with_unheard,
+)
 from signals.recording import Operating, Recording
 from signals.series import FloatArray
 from sim.core.response import Channel
@@ -75,16 +83,46 @@ def test_nothing_is_told(tests: list[Recording], bases: list[Recording]) -> None
     assert gate.findings == ()
 
 
+def ringing(values: FloatArray) -> FloatArray:
+    """Heard through a housing that rings."""
+    return np.convolve(values, np.exp(-np.arange(60) / 12.0) * np.sin(np.arange(60) * 1.3), mode="same")
+
+
+RINGING = recording(heard(11, 4.0), 0.3 * ringing(noise(12)) + heard(13, 1.0))
+KNOCKS = ringing(noise(8))
+
+
 @pytest.mark.slow
 def test_a_channel_that_knocks_with_another_heard_the_machine() -> None:
     """A loose ring of a gearbox drowned every line of the housing above it; the other bearing's lines stayed."""
-    knocks = np.convolve(noise(8), np.exp(-np.arange(60) / 12.0) * np.sin(np.arange(60) * 1.3), mode="same")
-    gate = gated([recording(0.05 * heard(3, 4.0) + knocks, knocks + 0.1 * noise(4))], [BASE])
+    gate = gated([recording(0.05 * heard(3, 4.0) + 0.1 * KNOCKS, KNOCKS + 0.1 * noise(4))], [RINGING])
     assert gate.findings == ()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("shared", ["hum", "interference", "cross-talk", "knocks of a channel without lines"])
+def test_what_a_dead_sensor_shares_with_another_is_no_machine(shared: str) -> None:
+    hum = np.sin(2 * np.pi * 450.0 * np.arange(N) / RATE_HZ)
+    sound, own = heard(3, 4.0), noise(4)
+    pairs = {
+        "hum": (sound + hum, own + hum),
+        "interference": (sound + noise(9), own + 2.0 * noise(9)),
+        "cross-talk": (sound, own + 2.0 * noise(3)),
+        "knocks of a channel without lines": (KNOCKS + 0.1 * noise(14), KNOCKS + 0.1 * own),
+    }
+    gate = gated([recording(*pairs[shared])], [RINGING])
+    assert ("a1", "noise") in {(f.channel, f.kind) for f in gate.findings}
+
+
+def test_shares_and_shapes() -> None:
     assert (
-        common_bins(knocks + 0.1 * noise(4), 0.05 * heard(3) + knocks) >= COMMON_BINS > common_bins(noise(5), noise(6))
+        common_bins(KNOCKS + 0.1 * noise(4), KNOCKS + 0.3 * noise(3)) >= COMMON_BINS > common_bins(noise(5), noise(6))
     )
     assert common_bins(np.ones(N), noise(6)) == 0
+    drift = np.cumsum(noise(7)) * 0.1
+    assert common_bins(drift + noise(5), drift + noise(6)) < COMMON_BINS, "below the lowest bins"
+    assert same_shape(KNOCKS, ringing(noise(9)) + heard(2))
+    assert not same_shape(KNOCKS, noise(2)) and not same_shape(noise(1), noise(2))
 
 
 def test_a_line_of_the_envelope_is_one() -> None:

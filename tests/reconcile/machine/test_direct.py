@@ -74,6 +74,19 @@ def test_a_struck_race_speaks_for_its_spall_at_the_bearings_that_share_the_frequ
 
 
 @pytest.mark.slow
+def test_every_pit_would_be_heard_against_a_baseline_and_one_that_was_there_already_is(machine: MachineSpec) -> None:
+    hz = bases_at(machine, SPEED_HZ)["f_o1"]
+    new = found(machine, sound(1) + struck(hz, slip=0.007), sound(2))
+    old = found(machine, sound(1) + struck(hz, slip=0.007), sound(2) + struck(hz, slip=0.007))
+    both = {"outer_spall@bearing1", "outer_spall@bearing2"}
+    assert new.looked and old.looked and both <= new.present and both <= old.present
+    assert not both & set(old.evidence), "no more than before"
+    bare = observe(machine, watch_list(machine), [recording(sound(1))], ())
+    quiet = direct_evidence(machine, bare, CHANNELS, seed=0, rise=lambda _: 0.0)
+    assert not quiet.looked and not quiet.present
+
+
+@pytest.mark.slow
 def test_without_a_baseline_what_sound_machines_show_too_is_no_evidence(machine: MachineSpec) -> None:
     now = 0.3 * sound(1) + 3.0 * struck(bases_at(machine, SPEED_HZ)["f_i1"], loads_hz=SPEED_HZ, slip=0.007)
     data = observe(machine, watch_list(machine), [recording(now)], ())

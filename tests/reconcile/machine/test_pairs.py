@@ -263,3 +263,20 @@ def test_a_fault_of_a_tooth_leads_the_others_far_enough_or_is_one_of_them() -> N
     assert of_its_tooth(broken, near) == [pit, crack]
     assert of_its_tooth("cage_slip@bearing1", tried) == []
     assert of_its_tooth(broken, (*tried[:3], ("tooth_crack@gear", 8.6, None))) == []
+
+
+def test_a_second_that_is_a_fault_of_a_tooth_is_told_with_those_that_were_summed_only(
+    simulated: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    setting, found = found_in(seen(SMALLER))
+    real, (one,) = pair_in(seen(SMALLER)), sums(setting, found, RIGHT, 8)  # type: ignore[arg-type]
+    assert real is not None and simulated
+    summed_up = {"tooth_spall": 25.5, "missing_tooth": 21.2, "tooth_crack": 8.6}
+    gains = {"tooth_spall@pinion": 19.2, "missing_tooth@pinion": 36.0}
+    tried = [replace(one, name=f"{kind}@pinion", gain=gain) for kind, gain in summed_up.items()]
+    monkeypatch.setattr(pairs, "sums", lambda *_: tried)
+    made = {n: replace(real, gain=g, beside=replace(real.beside, names=(n,))) for n, g in gains.items()}
+    monkeypatch.setattr(pairs, "fitted_pair", lambda _s, _f, _first, second, _m: made[second.name])
+    told = best_pair(setting, found, EXPLAINED, 8, 2, map)  # type: ignore[arg-type]
+    assert told is not None and told.best is not None
+    assert told.best.others == ("missing_tooth@pinion", "tooth_crack@pinion")

@@ -182,7 +182,7 @@ def test_what_strikes_for_sure_is_named_beside_a_first_effect_that_strikes_nowhe
     assert struck_too(setting, found, NAMES[0]) is None, "the first one's own impacts"  # type: ignore[arg-type]
     setting.direct = replace(NOTHING, evidence={NAMES[0]: STRUCK + 1.0, "outer_spall@bearing2": STRUCK + 1.0})
     assert second_effect(setting, found, decision) is None, "its own balls rattle"  # type: ignore[arg-type]
-    assert struck_somewhere(setting, found, decision) == ()  # type: ignore[arg-type]
+    assert struck_somewhere(setting, found, decision) == (NAMES[0],)  # type: ignore[arg-type]
     sure, clear = found_in(seen((2,), 1), STRUCK_BESIDE_PLAY + 1.0)
     sure.direct = setting.direct
     assert second_effect(sure, clear, decision) is not None  # type: ignore[arg-type]

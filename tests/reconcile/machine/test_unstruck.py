@@ -1,12 +1,15 @@
 """Pits that fit best and strike nowhere are no known effect."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
 from reconcile.machine.decide import Decision
+from reconcile.machine.decided import decided
 from reconcile.machine.direct import NOTHING
 from reconcile.machine.unstruck import SILENT, UNHEARD, unless_silent
+from tests.reconcile.machine.screens import screen
 
 PITS = ("inner_spall@bearing4", "ball_spall@bearing4")
 DECISION = Decision(word="ambiguous", chosen=PITS, p=1e-6, reasons=("alike",))
@@ -22,6 +25,22 @@ def test_pits_that_are_not_heard_are_no_answer():
     assert after().chosen == PITS
     assert after().reasons == (SILENT,)
     assert after(replace(DECISION, word="explained", chosen=PITS[:1])).word == "unknown_physics"
+
+
+def test_a_pit_that_has_grown_strikes_before_and_after():
+    assert after(direct=replace(LOOKED, present=frozenset(PITS[:1]))) is DECISION
+
+
+def test_the_decision_asks_who_is_heard():
+    pit = "inner_spall@bearing1"
+    seen = screen([0.0, 0.0, 30.0], p_any=1e-6, p_best=1e-6, strongest=20.0)
+    setting = SimpleNamespace(
+        channels=("a", "b", "c"), data=(0, 0, 0), changes=SimpleNamespace(with_baseline=True), direct=LOOKED
+    )
+    told = decided(setting, SimpleNamespace(screen=seen))  # type: ignore[arg-type]
+    assert (told.word, told.chosen, told.reasons) == ("unknown_physics", (pit,), (SILENT,))
+    setting.direct = replace(LOOKED, evidence={pit: 8.0})
+    assert decided(setting, SimpleNamespace(screen=seen)).word == "explained"  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("evidence", [UNHEARD, 8.0, -20.0])
