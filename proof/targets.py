@@ -75,7 +75,14 @@ CUT_WORDS = (
     "spectral distance cut by at least 50 %, of all",
     "spectral distance cut by at least 50 %, of those detected where drift and noise leave room for it",
 )
-WRONG_WORDS = ("one effect named as another or elsewhere", "a name where no effect is hidden")
+SOUND = ("null", "misset", "sensor")
+"""Groups in which no effect is hidden."""
+WRONG_WORDS = (
+    "one effect named as another or elsewhere",
+    "a name where no effect is hidden",
+    "a name for an effect that no library has",
+    "wrong among all names given (of a pair: one that is not there)",
+)
 
 
 def cut_rates(scores: Sequence[Score]) -> tuple[Rate, Rate]:
@@ -89,13 +96,24 @@ def cut_rates(scores: Sequence[Score]) -> tuple[Rate, Rate]:
     return first, second
 
 
-def wrong_rates(scores: Sequence[Score]) -> tuple[Rate, Rate]:
-    """Names given to single effects that are wrong in kind or place, and to machines where nothing is hidden."""
-    single = [s for s in scores if s.group == "single"]
-    sound = [s for s in scores if s.group in ("null", "misset", "sensor")]
-    wrong = sum(s.verdict == "explained" and not s.place for s in single)
-    named = sum(s.verdict == "explained" for s in sound)
-    return Rate(hits=wrong, n=len(single)), Rate(hits=named, n=len(sound))
+def wrong_rates(scores: Sequence[Score]) -> tuple[Rate, ...]:
+    """Names given to single effects that are wrong in kind or place, to machines where nothing is hidden, and to
+    effects that no library has; and how many of all names given are wrong."""
+    groups = (("single",), SOUND, ("open",))
+    found = [[s for s in scores if s.group in several] for several in groups]
+    named = [s for s in scores if s.verdict == "explained"]
+    return (
+        *(Rate(hits=sum(map(_misnamed, part)), n=len(part)) for part in found),
+        Rate(hits=sum(map(_misnamed, named)), n=len(named)),
+    )
+
+
+def _misnamed(score: Score) -> bool:
+    if score.verdict != "explained":
+        return False
+    if score.group in (*SOUND, "open"):
+        return True
+    return bool(score.false_name) if score.group == "double" else score.place is False
 
 
 def cut_rows(scores: Sequence[Score]) -> list[str]:

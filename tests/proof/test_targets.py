@@ -66,5 +66,9 @@ def test_wrong_names_are_counted_in_kind_and_place_and_where_nothing_is_hidden()
     singles: list[Score] = [score(t, said) for t, said in zip(SINGLES, answers, strict=False)]
     healthy = next(c for c in plan("third") if c.group == "null")
     sound = score(json.loads(json.dumps(truth_of(healthy))), right(SINGLES[0]))
-    one, nothing = wrong_rows([*singles, sound])
-    assert "1/3" in one and "1/1" in nothing
+    strange = next(c for c in plan("third") if c.group == "open")
+    named = score(json.loads(json.dumps(truth_of(strange))), right(SINGLES[0]))
+    flagged = score(json.loads(json.dumps(truth_of(strange))), {"verdict": "unknown_physics"})
+    one, nothing, unknown, every = wrong_rows([*singles, sound, named, flagged])
+    assert "1/3" in one and "1/1" in nothing and "1/2" in unknown
+    assert "3/4" in every, "the right one, and three that are wrong"
