@@ -51,6 +51,8 @@ WORDED = {
     r"^[A-Za-z0-9][A-Za-z0-9._-]*$": "a letter or digit, then letters, digits, dot, _ and -",
 }
 """Patterns of names in words."""
+FORMS: Mapping[str, tuple[str, ...]] = {"Sensitivity": ("sensitivity",), "float": ("sensitivity",)}
+"""What validation calls the forms of a field that may be an object or a number, and which field that is."""
 OF_KINDS = ("profile", "path")
 """Parts of several kinds beside those that stand in lists."""
 
@@ -63,7 +65,7 @@ def unit_of(field: str) -> str:
 
 def problems_of(error: ValidationError, prefix: str = "", model: type[BaseModel] | None = None) -> tuple[Problem, ...]:
     """Every finding of a pydantic validation as a field problem; `model`: what was validated, to say what it knows."""
-    found = error.errors(include_url=False)
+    found = [d for d in error.errors(include_url=False) if not _other_form(d)]
     return tuple(problem for details in found for problem in several_of(details, prefix, model))
 
 
@@ -104,8 +106,15 @@ def problem_of(details: ErrorDetails, prefix: str = "", model: type[BaseModel] |
 def _place(loc: Sequence[int | str]) -> Iterator[str]:
     """The path as it was written: without the kind that validation puts behind a part of several kinds."""
     for i, part in enumerate(loc):
-        if not (i and part in KINDS and (isinstance(loc[i - 1], int) or loc[i - 1] in OF_KINDS)):
+        kind = i and part in KINDS and (isinstance(loc[i - 1], int) or loc[i - 1] in OF_KINDS)
+        if not kind and (loc[i - 1] if i else "") not in FORMS.get(str(part), ()):
             yield str(part)
+
+
+def _other_form(details: ErrorDetails) -> bool:
+    """Whether an object is found not to be the number that might have stood in its place: its own findings are told."""
+    *_, place, form = ("", *details["loc"])
+    return form == "float" and place in FORMS[form] and isinstance(details.get("input"), Mapping)
 
 
 def shown(value: object) -> object:

@@ -6,6 +6,7 @@ import pytest
 from pydantic import ValidationError
 
 from jobs.request import SimulationRequest
+from signals.ingest.description import read_description
 from signals.sensors.path import MeasuredPath, ModalPath
 from signals.sensors.spec import Accelerometer, ProximityProbe, Tacho, TorqueSensor, VelocitySensor
 from signals.validation import KINDS, Findings, problems_of
@@ -55,3 +56,12 @@ def test_steps_are_told_together_and_nothing_twice() -> None:
     with pytest.raises(SpecError) as caught:
         findings.settle()
     assert caught.value.problems == (one, other)
+
+
+@pytest.mark.parametrize(("value", "told"), [(0, "is too small"), ("x", "is not a number")])
+def test_an_object_or_a_number_is_told_once_and_without_names_of_the_program(value: object, told: str) -> None:
+    channel = {"name": "a", "unit": "V", "sensitivity": {"value": value, "unit": "mV/g"}}
+    with pytest.raises(SpecError) as caught:
+        read_description({"channels": [channel]})
+    (problem,) = caught.value.problems
+    assert problem.field == "channels.0.sensitivity.value" and told in problem.message
