@@ -11,7 +11,7 @@ from reconcile.gate.spoiled import GONE, doubts, fault_sentence, remarks
 from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.labels import label_faults
 from reconcile.kinematics.observe import Observation
-from reconcile.kinematics.picture import envelope_picture, of_the_answer
+from reconcile.kinematics.picture import envelope_picture
 from reconcile.kinematics.slowest import short_limits, without_short
 from reconcile.report.action import EXCHANGED
 from reconcile.verdict import NOT_JUDGED, NextExperiment, Report
@@ -56,7 +56,7 @@ def finished(
     if report.verdict != "measurement_fault":
         said = (*remarks(without_short(gate)), *doubts(gate), *short_limits(gate, report))
         report = replace(report, where=replace(report.where, limits=(*report.where.limits, *said)))
-    pictures = report.pictures or envelope_picture(of_the_answer(every, report.causes), tests, baselines)
+    pictures = report.pictures or envelope_picture(every, report.causes, tests, baselines)
     causes = tuple(replace(c, score_unit=SCORE_UNITS.get(c.score_unit, c.score_unit)) for c in report.causes)
     report = replace(report, causes=causes, stages=tuple(stages), pictures=pictures)
     return with_faults(report, (*measurement_faults(gate), *label_faults(report, (*tests, *baselines))))

@@ -20,28 +20,36 @@ POINTS = 1200
 """Of a curve; of more bins the largest of each stretch is kept, which keeps lines."""
 HARMONICS_SHOWN = 3
 BEYOND = 1.13
+"""Orders shown over the highest line."""
 NEAREST = 4
 """Lines of parts that are shown beside impacts of none."""
-"""Orders shown over the highest line."""
 
 
 def envelope_picture(
-    every: Sequence[Candidate], tests: Sequence[Observation], baselines: Sequence[Observation]
+    every: Sequence[Candidate],
+    causes: Sequence[Cause],
+    tests: Sequence[Observation],
+    baselines: Sequence[Observation],
 ) -> dict[str, object]:
-    """`{"envelope": ...}` of the first family's band in the test that shows it best and the baseline nearest in speed.
+    """`{"envelope": ...}` of the band, in the test that shows it best, of the family that the answer rests on, and the
+    baseline nearest in speed.
 
     `depth` of `test` and `baseline`: amplitude of the squared envelope over its mean (0 to 2) from order 0 on, a value
     every `order_step` orders of the reference shaft; `lines`: the orders of the family (`own`), its sidebands, and of
-    other parts at the same place. Empty without candidates.
+    other parts at the same place. Where no family is there, the band in which one comes nearest to it, with neither
+    `family` nor `order` and no `lines`. Empty without candidates.
     """
     if not every:
         return {}
-    chosen = every[0]
+    rested = of_the_answer(every, causes)
+    chosen = rested or every[0]
     best, test = chosen.best, tests[chosen.strongest]
     lines = [*_own(chosen), *_others(chosen, every)]
     top = BEYOND * max(float(str(line["order"])) for line in lines)
-    shown: dict[str, object] = {"family": chosen.family.key, "order": best.order, "lines": lines, **_band(best, test)}
-    return {"envelope": {**shown, **_curves(best, test, baselines, top)}}
+    named: dict[str, object] = {"lines": []}
+    if rested is not None:
+        named = {"family": chosen.family.key, "order": best.order, "lines": lines}
+    return {"envelope": {**named, **_band(best, test), **_curves(best, test, baselines, top)}}
 
 
 def _band(best: Evidence, test: Observation) -> dict[str, object]:
@@ -84,16 +92,23 @@ def comb_picture(
     return {"envelope": {**shown, **_curves(best, test, baselines, BEYOND * HARMONICS_SHOWN * order)}}
 
 
-def of_the_answer(every: Sequence[Candidate], causes: Sequence[Cause]) -> list[Candidate]:
-    """The candidates, the family of the first cause that has lines of its own before all others: the picture is of it.
+def of_the_answer(every: Sequence[Candidate], causes: Sequence[Cause]) -> Candidate | None:
+    """The candidate that the answer rests on: that of the first cause whose lines are there, or without one the first
+    whose lines are; None where no family's are.
 
-    A louder family may be there that sound machines have too, such as once a turn.
+    A louder family may be there that sound machines have too, such as once a turn; a cause that is no defect of a
+    bearing, such as a rub, has the turn of its shaft.
     """
     for cause in causes:
         for c in every:
-            if c.family.site == cause.site and c.family.kind != "turn" and cause.term.startswith(c.family.kind):
-                return [c, *(other for other in every if other is not c)]
-    return list(every)
+            if (c.present or cause.named) and c.family.site == cause.site and _brings(cause, c.family):
+                return c
+    return next((c for c in every if c.present), next((c for c in every if c.driven), None))
+
+
+def _brings(cause: Cause, family: Family) -> bool:
+    """Whether a cause at the family's place makes its lines."""
+    return family.kind == "turn" or cause.term.startswith(family.kind)
 
 
 def _curve(one: Observation, channel: str, band_hz: tuple[float, float], top: float) -> dict[str, object]:

@@ -9,7 +9,7 @@ import json
 
 from reconcile.report.faintest import faintest
 from reconcile.report.figures.bars import changes, ranking
-from reconcile.report.figures.envelope import caption, envelope
+from reconcile.report.figures.envelope import caption, envelope, marked
 from reconcile.report.figures.gains import distances, gains
 from reconcile.report.figures.law import from_force, law
 from reconcile.report.figures.maps import force_map
@@ -84,9 +84,10 @@ def _envelope(report: Report) -> Markup:
         return Markup("")
     names = [("observed", "test"), *([("before", "baseline")] if any("baseline" in p for p in drawn) else [])]
     key = tag("div", *(tag("span", tag("i", css=f"k-{css}"), words) for css, words in names), css="key")
-    note = "Red: harmonics of that family, ticks on the upper edge: its sidebands. Grey: first lines of other parts."
+    note = "Violet: harmonics of that family, ticks on the upper edge: its sidebands. Grey: first lines of other parts."
+    told_of = tag("p", note, css="muted") if any(marked(p) for p in drawn) else Markup("")
     panels = [Markup(tag("p", caption(p), css="muted") + key + envelope(p)) for p in drawn]
-    return section("Envelope over orders", *panels, tag("p", note, css="muted"))
+    return section("Envelope over orders", *panels, told_of)
 
 
 def _maps(report: Report) -> Markup:

@@ -5,12 +5,13 @@ STYLE = """
  --border:#dbe1e9;
  --accent:#0f6fc6; --soft:#e3f0fc; --ok:#14804a; --ok-soft:#e0f4e9; --warn:#8a5a00; --warn-soft:#fdf1d8;
  --bad:#b3261e;
- --bad-soft:#fdeae8; --grid:#e6eaf0; --observed:#17212e; --before:#d2451e; --after:#0f6fc6; --part:#cfd8e3; }
+ --bad-soft:#fdeae8; --grid:#e6eaf0; --observed:#17212e; --before:#d2451e; --after:#0f6fc6; --part:#cfd8e3;
+ --own:#7a35b8; }
 @media (prefers-color-scheme: dark) { :root { --bg:#0d131b; --surface:#151d28; --text:#e6ecf3; --muted:#9dabbc;
  --border:#263242; --accent:#4aa3f0; --soft:#16304a; --ok:#4fcf8b; --ok-soft:#12301f; --warn:#e7b54a;
  --warn-soft:#33280f;
  --bad:#ff8a80; --bad-soft:#3a1a18; --grid:#212c3a; --observed:#e6ecf3; --before:#ff8358; --after:#57aef5;
- --part:#34445a; } }
+ --part:#34445a; --own:#c79bff; } }
 * { box-sizing:border-box } body { margin:0; background:var(--bg); color:var(--text);
  font:15px/1.55 "Inter","Segoe UI",system-ui,-apple-system,"Noto Sans","DejaVu Sans",sans-serif; }
 main { max-width:1000px; margin:0 auto; padding:24px 20px 60px; display:grid; gap:16px; }
@@ -61,8 +62,9 @@ svg .mark-name.up { fill:var(--bad) } svg .mark-name.down { fill:var(--ok) }
 .key i { display:inline-block; width:22px; border-top:2.5px solid; margin-right:6px; vertical-align:middle; }
 .key .k-observed { border-color:var(--observed) } .key .k-before { border-color:var(--before);
  border-top-style:dashed } .key .k-after { border-color:var(--after) }
-.comb { stroke:var(--muted); stroke-width:1; stroke-dasharray:2 4; opacity:.7 } .comb.own { stroke:var(--bad) }
-svg .comb-name.own { fill:var(--bad); font-weight:650 }
+.comb { stroke:var(--muted); stroke-width:1; stroke-dasharray:2 4; opacity:.7 }
+.comb.own, .mark.side { stroke:var(--own) }
+svg .comb-name.own { fill:var(--own); font-weight:650 }
 code, pre { font-family:ui-monospace,"DejaVu Sans Mono",monospace; font-size:12.5px; } pre { overflow:auto;
  max-height:420px; margin:8px 0 0; }
 .note { border-left:3px solid var(--warn); padding-left:10px; } .forms { color:var(--muted); font-weight:400; }

@@ -19,6 +19,9 @@ HEADROOM = 1.3
 SLOW = 0.2
 """Order below which no part of a bearing has a line: what wanders there may be cut off, it would flatten the rest."""
 GAP = 6.0
+NONE_THERE = (
+    "no part's lines stand out in any band, so none are marked; this is the band in which some came nearest to it."
+)
 
 
 def envelope(picture: Mapping[str, Plain]) -> Markup:
@@ -45,13 +48,22 @@ def envelope(picture: Mapping[str, Plain]) -> Markup:
 def caption(picture: Mapping[str, Plain]) -> str:
     """What is drawn, in words."""
     low, high = (numbers(picture.get("band_hz")) or [0.0, 0.0])[:2]
-    site, _, kind = text(picture.get("family")).partition(".")
-    what = f"once a turn of {site}" if kind == "turn" else f"{kind} family of {site}"
-    if not site:
-        what = f"comb of impacts {number(picture.get('order')):.4g} times a turn, of no part,"
     speed = f" at {number(picture.get('speed_hz')):.4g} Hz" if picture.get("speed_hz") is not None else ""
     where = f"{text(picture.get('channel'))}, {low:.0f} to {high:.0f} Hz, {text(picture.get('shaft'))}{speed}"
+    if not marked(picture):
+        return f"{where}: {NONE_THERE}"
+    site, _, kind = text(picture.get("family")).partition(".")
+    what = f"{kind} family of {site}"
+    if kind == "turn":
+        return f"{where}: the band in which what comes once a turn of {site} stands out most."
+    if not site:
+        what = f"comb of impacts {number(picture.get('order')):.4g} times a turn, of no part,"
     return f"{where}: the band in which the {what} stands out most."
+
+
+def marked(picture: Mapping[str, Plain]) -> bool:
+    """Whether lines are told: of a family, or of impacts at an order of no part."""
+    return bool(picture.get("lines"))
 
 
 def _highest(orders: list[float], depth: list[float]) -> float:
@@ -85,7 +97,7 @@ def _marks(frame: Frame, lines: Plain) -> Markup:
                 continue
             label = OR.join(same)
         if kind not in ROWS:
-            parts.append(tag("line", x1=at, x2=at, y1=TOP, y2=TOP + 7.0, css="mark up"))
+            parts.append(tag("line", x1=at, x2=at, y1=TOP, y2=TOP + 7.0, css="mark side"))
             continue
         row = next((y for y in ROWS[kind] if _fits(at, label, taken.setdefault(y, []), frame)), None)
         top = ROWS[kind][-1] if row is None else row

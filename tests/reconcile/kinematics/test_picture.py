@@ -15,22 +15,44 @@ from tests.reconcile.kinematics.test_vague import spec
 from tests.strategies.impulses import recorded, sound, train
 
 
-def candidate(site: str, kind: str) -> SimpleNamespace:
-    return SimpleNamespace(family=SimpleNamespace(site=site, kind=kind))
+def candidate(site: str, kind: str, present: bool = True, driven: bool = False) -> SimpleNamespace:
+    return SimpleNamespace(family=SimpleNamespace(site=site, kind=kind), present=present, driven=driven)
+
+
+def shown(every: list[SimpleNamespace], *causes: Cause) -> object:
+    return of_the_answer(every, causes)  # type: ignore[arg-type]
+
+
+def cause(term: str, site: str, named: bool = False) -> Cause:
+    return Cause(term=term, site=site, score=9.0, named=named)
 
 
 def test_the_answers_family_comes_first() -> None:
-    every = [candidate("motor", "turn"), candidate("drive_end", "ball"), candidate("drive_end", "inner")]
-    cause = Cause(term="inner_spall", site="drive_end", score=9.0, named=True)
-    shown = of_the_answer(every, [cause])  # type: ignore[arg-type]
-    assert shown == [every[2], every[0], every[1]]
+    every = [candidate("motor", "turn"), candidate("drive_end", "ball"), candidate("drive_end", "inner", False)]
+    assert shown(every, cause("inner_spall", "drive_end", True)) is every[2]
+    assert shown(every, cause("inner_spall", "drive_end")) is every[0], "not named, and not there"
 
 
-def test_without_a_cause_of_its_own_lines_the_firmest_stays_first() -> None:
-    every = [candidate("motor", "turn"), candidate("drive_end", "ball")]
-    rub = Cause(term="rub", site="motor", score=9.0, named=False)
-    assert of_the_answer(every, []) == every  # type: ignore[arg-type]
-    assert of_the_answer(every, [rub]) == every  # type: ignore[arg-type]
+def test_impacts_once_a_turn_are_shown_not_the_bearing_that_they_may_be_too() -> None:
+    every = [candidate("motor", "turn"), candidate("drive_end", "inner", False)]
+    assert shown(every, cause("rub", "motor"), cause("inner_spall", "drive_end")) is every[0]
+
+
+def test_without_a_cause_of_its_own_lines_the_first_that_is_there_is_shown_or_none() -> None:
+    every = [candidate("drive_end", "ball", False), candidate("motor", "turn")]
+    assert shown(every) is every[1] and shown(every, cause("broken_tooth", "mesh1")) is every[1]
+    assert shown([candidate("drive_end", "ball", False)]) is None
+    blows = candidate("drive_end", "ball", False, True)
+    assert shown([candidate("motor", "turn", False), blows]) is blows
+
+
+@pytest.mark.slow
+def test_of_noise_no_line_is_marked() -> None:
+    """Lines of a ball were, where nothing stands."""
+    noise = recorded(np.random.default_rng(3).standard_normal(sound(2).shape))
+    picture = reconcile_kinematics(spec(8), [noise], [], seed=3).pictures["envelope"]
+    assert isinstance(picture, dict) and picture["lines"] == [] and "family" not in picture
+    assert len(picture["test"]["depth"]) > 100
 
 
 @pytest.mark.slow
@@ -38,9 +60,9 @@ def test_impacts_at_an_order_of_no_part_are_shown_in_their_own_band() -> None:
     struck = recorded(sound(2) + train(np.random.default_rng(5), 5.95, 1.0))
     report = reconcile_kinematics(spec(8), [struck], [recorded(sound(1))], seed=3)
     assert report.verdict == "unknown_physics" and "of the specification has that order" in report.sentence
-    shown = report.pictures["envelope"]
-    assert isinstance(shown, dict) and "family" not in shown
-    low, high = shown["band_hz"]
-    assert f"in {low:.0f}-{high:.0f} Hz of {shown['channel']}" in report.sentence
-    assert shown["lines"][0] == {"label": f"{shown['order']:.4g}", "order": shown["order"], "kind": "own"}
-    assert abs(shown["order"] - 5.95) < 0.05 and "comb of impacts 5.9" in page(report)
+    drawn = report.pictures["envelope"]
+    assert isinstance(drawn, dict) and "family" not in drawn
+    low, high = drawn["band_hz"]
+    assert f"in {low:.0f}-{high:.0f} Hz of {drawn['channel']}" in report.sentence
+    assert drawn["lines"][0] == {"label": f"{drawn['order']:.4g}", "order": drawn["order"], "kind": "own"}
+    assert abs(drawn["order"] - 5.95) < 0.05 and "comb of impacts 5.9" in page(report)

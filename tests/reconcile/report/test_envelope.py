@@ -12,6 +12,7 @@ from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.picture import POINTS
 from reconcile.report import page
 from reconcile.report.figures.envelope import LETTER, envelope
+from reconcile.report.style import STYLE
 from reconcile.verdict import Report
 from tests.strategies.impulses import SPEED_HZ, recorded, sound, train
 
@@ -59,7 +60,7 @@ def test_both_curves_axes_with_units_and_the_lines_are_drawn() -> None:
     assert "Envelope over orders" in text and "a0, 3000 to 5000 Hz, input at 25 Hz" in text
     assert "order, cycles per turn of input" in text and "depth of modulation" in text
     assert text.count('class="curve observed"') == 1 and text.count('class="curve before"') == 1
-    assert text.count('class="comb own"') == 3 and text.count('class="mark up"') == 1
+    assert text.count('class="comb own"') == 3 and text.count('class="mark side"') == 1
     assert {"1 BPFI", "2 BPFI", "3 BPFI", "FTF"} <= {label for _, _, label in names(text)}
     assert "beyond" not in text
 
@@ -88,6 +89,20 @@ def test_without_a_baseline_one_curve_is_drawn_and_without_a_test_none() -> None
     assert 'class="curve before"' not in reported(alone) and "</i>baseline" not in reported(alone)
     for broken in ({}, {**PICTURE, "test": None}, {"test": {"depth": []}}, {"test": {"depth": "x", "order_step": 1}}):
         assert envelope(broken) == "" and "Envelope over orders" not in reported(broken)  # type: ignore[arg-type]
+
+
+def test_where_no_family_is_there_none_is_marked_and_it_is_said() -> None:
+    bare = {k: v for k, v in PICTURE.items() if k not in ("family", "order")} | {"lines": []}
+    text = reported(bare)
+    assert "so none are marked" in text and 'class="curve observed"' in text
+    assert 'class="comb' not in text and 'class="mark' not in text and "Violet:" not in text
+    assert "so none are marked" not in reported(PICTURE) and "Violet:" in reported(PICTURE)
+
+
+def test_a_family_has_another_colour_than_the_baseline() -> None:
+    """Both were red."""
+    rules = dict(re.findall(r"(?<![-\w])(\.before|\.comb\.own|\.mark\.side)[^{}]*{[^}]*stroke:(var\([^)]*\))", STYLE))
+    assert rules[".before"] not in (rules[".comb.own"], "var(--bad)") and rules[".comb.own"] != "var(--bad)"
 
 
 @pytest.mark.slow
