@@ -27,9 +27,10 @@ ADDRESS = "/v1/reconciliations"
 ERRORS = problems(401, 404, 409, 410, 503)
 PAGE_POLICY = (
     "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'; "
-    "frame-ancestors 'self'; sandbox"
+    "frame-ancestors 'self'; sandbox allow-same-origin"
 )
-"""The page has its style and pictures inside and no scripts; it may be shown within the dashboard."""
+"""The page has its style and pictures inside and no scripts, and none may run in it; it may be shown within the
+dashboard, which reads its height: for that it keeps its origin."""
 
 NO_MACHINE = (
     "a machine is revised where a machine was given as a model and its physics was found to lack something that can "

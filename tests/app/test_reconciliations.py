@@ -129,6 +129,10 @@ def _files(client: httpx.Client, found: dict[str, Any]) -> None:
     assert client.get(found["links"]["report"]).json() == found["report"]
     page = client.get(found["links"]["page"])
     assert page.headers["content-type"].startswith("text/html") and "sandbox" in page.headers["Content-Security-Policy"]
+    assert (
+        "default-src 'none'" in page.headers["Content-Security-Policy"]
+        and "scripts" not in page.headers["Content-Security-Policy"]
+    )
     assert page.headers["X-Frame-Options"] == "SAMEORIGIN" and found["report"]["sentence"][:20] in page.text
     assert client.get(found["links"]["page"], headers={"If-None-Match": page.headers["etag"]}).status_code == 304
     assert found["links"]["machine"] is None

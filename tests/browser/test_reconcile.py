@@ -33,6 +33,12 @@ LOOSE = """
     return parts.filter((e) => wide(e) && !boxed(e)).map((e) => e.tagName);
 """
 """What is wider than the screen and lies in no box that scrolls by itself."""
+HIDDEN_OR_BLANK = """
+    const frame = document.querySelector("iframe.report-frame");
+    const whole = frame.contentDocument.querySelector("main").getBoundingClientRect().bottom;
+    return Math.abs(frame.clientHeight - whole) > 2 ? frame.clientHeight - whole : 0;
+"""
+"""Pixels of the frame below its page, or less than none of a page that it cuts."""
 FILL = "const e = document.querySelector(arguments[0]); e.value = arguments[1];"
 
 
@@ -59,9 +65,10 @@ def test_a_recording_is_sent_chosen_and_reconciled(browser: Browser, service: Se
     assert "outer spall" in browser.text("#answer-causes")
     assert browser.find("#answer-page iframe.report-frame")
     assert browser.run("return fetch(document.querySelector('iframe.report-frame').src).then((r) => r.status)") == 200
-    browser.size(360)
-    assert browser.run("return document.documentElement.scrollWidth") <= 360
-    browser.size(1400)
+    for width in (360, 1400):
+        browser.size(width)
+        assert browser.run("return document.documentElement.scrollWidth") <= width
+        eventually(lambda: browser.run(HIDDEN_OR_BLANK) == 0, what="the frame to be as high as its page")
     pictures = browser.run("return document.querySelector('iframe.report-frame').src")
     assert pictures.endswith("report.html#pictures")
     here = browser.run(HEADS)
@@ -138,6 +145,29 @@ def test_sizes_and_laws_have_their_words_and_units(browser: Browser, service: Se
     browser.size(400)
     last = browser.run("return [...document.querySelectorAll('.top-bar nav a')].at(-1).getBoundingClientRect().right")
     assert last <= 400, "the menu is whole"
+
+
+def test_lines_stand_as_on_the_page_of_the_report_and_five_are_open(browser: Browser, service: Service) -> None:
+    browser.open(service.page("/reconcile"))
+    changes = [1.0, -9.0, 3.0, 4.0, 5.0, 6.0, 7.0]
+    lines = [
+        {"label": f"{i}*f_o1-1*f_r2", "frequency_hz": 10.0 * i, "change_db": c, "locked_to": f"b{i}"}
+        for i, c in enumerate(changes, 1)
+    ]
+    family = [{**lines[1], "label": "8*f_o1", "frequency_hz": 80.0}]
+    tables = browser.run(
+        "return import('/js/reconcile/lines.js').then((m) => { const e = document.createElement('div');"
+        " e.append(...m.lineTable(arguments[0]).filter(Boolean)); document.body.append(e);"
+        " const open = e.querySelector('details').open;"
+        " const names = (t) => [...t.tBodies[0].rows].map((r) => r.cells[0].innerHTML);"
+        " const told = [...e.querySelectorAll('table')].map(names);"
+        " e.remove(); return [open, ...told]; })",
+        [*lines, *family],
+    )
+    hidden, first, rest = tables
+    assert hidden is False and len(first) == 5 and len(rest) == 2
+    assert first[0].startswith("2&nbsp;<i>f</i><sub>o1</sub> − 1&nbsp;<i>f</i><sub>r2</sub>, 8&nbsp;<i>f</i>")
+    assert first[1].startswith("7&nbsp;") and rest[-1].startswith("1&nbsp;"), "the largest change first"
 
 
 def test_the_list_begins_with_what_was_asked_for_last(browser: Browser, service: Service) -> None:

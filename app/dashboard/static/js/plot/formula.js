@@ -13,6 +13,12 @@ export function formula(label) {
   ]));
 }
 
+/** A label, or a text with labels in it, as the report's page has it: `3*f_i1-2*f_r1` -> 3 f_i1 − 2 f_r1; other words stay. */
+export function typeset(text) {
+  const spaced = text.replace(/(\w)\s?([-+±])\s?(?=\d+\*f_|f_)/g, (whole, before, sign) => `${before} ${sign === "-" ? "−" : sign} `).replace(/(\d)\*(?=f_)/g, "$1\u00a0");
+  return spaced.split(/\bf_(\w+)/).map((part, i) => (i % 2 ? [h("i", {}, "f"), h("sub", {}, part)] : part));
+}
+
 /** Pieces of text with their fonts: [{text, lowered}], widths measured for `ctx`. */
 export function measured(ctx, label, sans) {
   const pieces = [];

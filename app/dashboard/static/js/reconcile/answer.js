@@ -6,6 +6,9 @@ import { number, partName, quantity, unit } from "/js/lib/format.js";
 import { LAWS, effectName, sizeName, words } from "/js/lib/laws.js";
 import { toastProblem } from "/js/lib/problem.js";
 import { verdictPill } from "/js/lib/status.js";
+import { lineTable } from "/js/reconcile/lines.js";
+import { frame } from "/js/reconcile/frame.js";
+import { table } from "/js/reconcile/table.js";
 
 const LEFT_OVER = "A part of the change is left that the named effect does not bring: either something else has changed as well, or the effect is not quite as its law here has it. Take the name as a lead and the size as rough, look for a second cause before repairing, and record at one more speed or load to tell.";
 const FORMS = "“or” names another form of the same effect: a law for the same part that excludes it there, so that at most one of them is true; their evidence counts together, under the strongest.";
@@ -55,20 +58,6 @@ function where({ sites, lines, angle_window: angle, limits: told }) {
     bullets(told));
 }
 
-/** The operating point of each where it is known: not of frequencies alone, nor in reports of earlier versions. */
-function lineTable(lines) {
-  const points = lines.some((line) => line.speed_hz != null);
-  const only = (cell) => (points ? [cell] : []);
-  return table("Lines", ["Line", ...only("Operating point"), "Frequency", "Change", "Channel", "Follows"], lines.map((line) =>
-    [line.label, ...only(point(line)), quantity(line.frequency_hz, "Hz"), `${number(line.change_db, 3)} dB`, line.channel || "–", line.locked_to || "–"]));
-}
-
-/** Speed, and load where it is not the machine's own. */
-function point({ speed_hz: speed, torque_ratio: torque }) {
-  if (speed == null) return "–";
-  return `${quantity(speed, "Hz")}${torque === 1 ? "" : ` at ${number(torque)} of the torque`}`;
-}
-
 function causes(list) {
   if (!list.length) return null;
   const often = (reason) => list.length > 1 && 2 * list.filter((cause) => cause.reasons.includes(reason)).length > list.length;
@@ -97,11 +86,12 @@ function severity(cause) {
   return `${sizeName(cause)} ${found.low === 0 ? `at most ${high}` : `${value} (${low} to ${high})`}`.trim();
 }
 
-/** To two figures, or the whole number that has more of them, as the sentence and the page say it; to as many as part the ends. */
+/** To two figures (three with a power of ten), or the whole number that has more of them, as the sentence and the page say it; to as many as part the ends. */
 function sizes(found) {
   for (let digits = 2; ; digits += 1) {
     const told = [found.value, found.low, found.high].map((value) => quantity(value, found.unit, digits, true));
-    if (told[1] !== told[2] || found.low === found.high || digits === MOST_DIGITS) return told;
+    const enough = digits > 2 || !told.some((text) => text.includes("×10"));
+    if (enough && (told[1] !== told[2] || found.low === found.high || digits === MOST_DIGITS)) return told;
   }
 }
 
@@ -115,6 +105,17 @@ function gains({ gain, gain_low: low, gain_high: high }) {
   }
 }
 
+/** What a measure is, by a word of its name, as the report's page says it. */
+const METRICS = {
+  NRMSE: "the error's root mean square over the spread of what was measured: 0 % is perfect, 100 % no better than the mean",
+  log: "how far the predicted and the measured spectrum are apart in dB, root mean square",
+};
+
+function meaning(metric) {
+  const known = Object.keys(METRICS).find((word) => metric.includes(word));
+  return known ? `, ${METRICS[known]}` : "";
+}
+
 function heldOut(found) {
   if (!found) return null;
   const [gain, low, high] = gains(found);
@@ -123,7 +124,7 @@ function heldOut(found) {
     ["Gain (90 %)", `${gain} (${low} to ${high})`],
     ...rivals.filter(([, share]) => share !== null && share !== undefined).map(([name, share]) => [name, percent(share)])];
   if (found.ceiling != null) rows.push(["Gain of a perfect model (drift and noise stay)", percent(found.ceiling)]);
-  return card("Improvement on data never fitted", "held-out", h("p", { class: "muted" }, `${words(found.metric)}${found.held && found.held !== SAYS_NOTHING ? `; held out: ${found.held}` : ""}`),
+  return card("Improvement on data never fitted", "held-out", h("p", { class: "muted" }, `${words(found.metric)}${meaning(found.metric)}${found.held && found.held !== SAYS_NOTHING ? `; held out: ${found.held}` : ""}`),
     table("Held-out data", ["", ""], rows));
 }
 
@@ -154,13 +155,7 @@ function files(id, links) {
  * No scripts run in it. A frame cannot carry a key: then it is a file only.
  */
 function picture(path) {
-  return card("Pictures and steps", "page", h("iframe", { class: "report-frame", src: `${path}#pictures`, sandbox: "", title: "Report with map, ranking, gains, spectra and heat maps" }));
-}
-
-function table(label, heads, rows) {
-  return h("div", { class: "table-wrap" }, h("table", { "aria-label": label, class: heads.some(Boolean) ? "stacks" : "" },
-    heads.some(Boolean) ? h("thead", {}, h("tr", {}, heads.map((head) => h("th", { scope: "col" }, head)))) : null,
-    h("tbody", {}, rows.map((cells) => h("tr", {}, cells.map((cell, place) => h("td", { dataset: { head: heads[place] } }, cell)))))));
+  return card("Pictures and steps", "page", frame(`${path}#pictures`, "Report with map, ranking, gains, spectra and heat maps"));
 }
 
 function bullets(list) {
