@@ -13,6 +13,11 @@ def signed_percent(share: float, digits: int = 1) -> str:
     return percent(share, digits) if round(share * 100, digits) == 0 else f"{share * 100:+.{digits}f} %"
 
 
+def from_drawing(share: float) -> str:
+    """`+1.4 % from the drawing`, `as in the drawing`."""
+    return "as in the drawing" if round(share * 100, 1) == 0 else f"{signed_percent(share)} from the drawing"
+
+
 def two_digits(share: float) -> str:
     """`1.4 %`, `0.29 %`, `3 %`, `137 %`: two digits, or all before the point, and never an exponent."""
     value = 100 * share

@@ -47,7 +47,7 @@ SYSTEMS = (
         name="silverbox",
         files=("SNLS80mV",),
         truth="cubic stiffness",
-        says=("odd stiffness, cubic",),
+        says=("cubic support, odd stiffness",),
         published="0.44 %",
     ),
     System(

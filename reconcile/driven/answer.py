@@ -9,7 +9,7 @@ from reconcile.driven.ceiling import Ceiling, ceilings
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.forced import ALPHA, Analysis, Validation
 from reconcile.driven.judge import BRANCHES, NOT_ALL, TOO_FEW, Judgement, judge, leaves_more, lost
-from reconcile.driven.law_words import from_rest, law_words
+from reconcile.driven.law_words import from_rest, law_words, product
 from reconcile.driven.machine import driven_site, mass_kg, revised, term_key, weighed
 from reconcile.driven.model import LINEAR
 from reconcile.driven.nominate import Trial, score_nats
@@ -134,7 +134,7 @@ def _same(law: Law, value: float) -> tuple[str, ...]:
     if twin is None:
         return ()
     turned = f"{abs(value):.4g} N/m {'stiffer' if value > 0 else 'softer'}"
-    return (f"the same motion: {-value:.4g} {twin.shown()} beside a linear spring {turned}",)
+    return (f"the same motion: {product(-value, twin)} beside a linear spring {turned}",)
 
 
 def _causes(found: Analysis, judgement: Judgement, site: str, mass: float) -> tuple[Cause, ...]:
@@ -188,7 +188,7 @@ def _force(found: Analysis, freed: Freed, judgement: Judgement, site: str, mass:
     return EstimatedForce(
         site=site,
         samples={key: tuple(float(x) for x in values) for key, values in samples.items()},
-        law=" + ".join(f"{mass * c:.4g} {law.shown()}" for law, c in named.items()) if stable else None,
+        law=" + ".join(product(mass * c, law) for law, c in named.items()) if stable else None,
         coefficients={law.key: mass * c for law, c in named.items()} if stable else {},
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from reconcile.driven.aside import aside, beside_rest
 from reconcile.driven.forced import Analysis
-from reconcile.force_law.library import GAPPED
+from reconcile.force_law.library import GAPPED, Law
 
 MIDDLE = 0.05
 """Distance of the middle of stops from the channel's zero, over their gap, that is worth a word."""
@@ -19,6 +19,13 @@ def law_words(found: Analysis) -> str:
         said += f"; the exponent of the odd part left free is {p.value:.2f} (90 %: {p.low:.2f} to {p.high:.2f})"
     seen = aside(found)
     return said + _aside(found) + ("" if seen is None else beside_rest(found, seen))
+
+
+def product(coefficient: float, law: Law) -> str:
+    """`4.02e+10 N/m^3 · z³`; the sign of a law that begins with one counts with the number's: `-2.7e+05 N/m · (…)₊`."""
+    shown = law.shown()
+    turned = -coefficient if shown.startswith("−") else coefficient
+    return f"{turned:.4g} {law.unit} · {shown.removeprefix('−')}"
 
 
 def _aside(found: Analysis) -> str:

@@ -113,6 +113,7 @@ def _spectra(found: Analysis, before: FloatArray, after: FloatArray) -> dict[str
     frequency = np.fft.rfftfreq(n, 1.0 / rate)
     return {
         "channel": f"{run.data.answer_channel.name}, held-out part",
+        "reference": f"1 ({run.data.answer_channel.unit})^2/Hz",
         "frequency_hz": frequency,
         "observed_db": level(run.compared),
         "before_db": level(before),

@@ -36,7 +36,7 @@ def parts_of(recordings: Sequence[Driven]) -> tuple[Part, ...]:
         return tuple(Part(name=f"recording {i + 1}", data=data) for i, data in enumerate(recordings))
     data = recordings[0]
     edges = [data.answer.size * k // PARTS for k in range(PARTS + 1)]
-    names = ("first third", "second third", "last third")
+    names = tuple(f"the {which} third of the record" for which in ("first", "second", "last"))
     return tuple(Part(name=names[k], data=data.part(edges[k], edges[k + 1])) for k in range(PARTS))
 
 

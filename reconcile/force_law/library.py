@@ -72,7 +72,7 @@ class Law:
 
 
 QUADRATIC = Law(key="quadratic", code=0, words="even stiffness", formula="x^2", text="z²", power=2)
-CUBIC = Law(key="cubic", code=1, words="odd stiffness, cubic", formula="x^3", text="z³", power=3)
+CUBIC = Law(key="cubic", code=1, words="cubic support, odd stiffness", formula="x^3", text="z³", power=3)
 QUINTIC = Law(key="quintic", code=2, words="odd stiffness, fifth power", formula="x^5", text="z⁵", power=5)
 ODD_SQUARE = Law(key="odd_square", code=3, words="odd stiffness, square", formula="x*abs(x)", text="z|z|", power=2)
 ABOVE = Law(key="contact_above", code=4, words="one-sided spring", formula="max(x-{s},0)", text="(z − {s})₊", power=1)

@@ -14,7 +14,7 @@ from reconcile.kinematics.heldout import held_out
 from reconcile.kinematics.measured import measured_lines
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.sites import decided, places
-from reconcile.shares import signed_percent
+from reconcile.shares import from_drawing
 from reconcile.verdict import Cause, HeldOut, LineChange, NextExperiment, PlaceWeight, Report, Severity, Where
 
 TERMS = {"outer": "outer_spall", "inner": "inner_spall", "ball": "ball_spall"}
@@ -148,11 +148,9 @@ def _phrase(candidate: Candidate, weights: Sequence[PlaceWeight], extent: Extent
     kind, e = candidate.family.kind, candidate.best
     where = weights[0].site if decided(weights) else "one of " + ", ".join(w.site for w in weights)
     text = f"A local defect on {PARTS[kind]} of {where}: {SYMBOLS[kind]} at order {e.order:.4g} ("
-    text += (
-        f"{signed_percent(e.slip)} from the drawing) modulates {e.band_hz[0]:.0f}-{e.band_hz[1]:.0f} Hz of {e.channel}"
-    )
+    text += f"{from_drawing(e.slip)}) modulates {e.band_hz[0]:.0f}-{e.band_hz[1]:.0f} Hz of {e.channel}"
     growth = candidate.growth_db
-    text += f", {growth:.0f} dB deeper than in the baseline" if growth is not None else ""
+    text += f", its depth of modulation {growth:.0f} dB above the baseline's" if growth is not None else ""
     if extent is None:
         return text
     if not extent.resolved:

@@ -11,7 +11,7 @@ from reconcile.kinematics.answer import PARTS, TERMS
 from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.judge import LIKE_SHARE, ONE_LINE
 from reconcile.kinematics.sites import DECIDED, USUAL_SLIP
-from reconcile.shares import signed_percent
+from reconcile.shares import from_drawing
 from reconcile.verdict import Cause, PlaceWeight, Report
 
 REASON = "another part of the bearing makes the same lines within slip"
@@ -52,8 +52,7 @@ def with_other_kind(report: Report, first: Candidate, rival: Candidate) -> Repor
     shares[rival.family.site] = shares.get(rival.family.site, 0.0) + 1.0 - weight
     sites = [PlaceWeight(site=site, weight=share) for site, share in sorted(shares.items(), key=lambda w: -w[1])]
     own = [replace(c, score=c.score * weight, named=False, reasons=(*c.reasons, REASON)) for c in report.causes]
-    off = signed_percent(rival.best.slip)
-    or_else = f"{PARTS[kind]} of {rival.family.site} ({off} from the drawing) makes the same lines"
+    or_else = f"{PARTS[kind]} of {rival.family.site} ({from_drawing(rival.best.slip)}) makes the same lines"
     return replace(
         report,
         verdict="ambiguous",

@@ -107,6 +107,10 @@ def _explained(report: Report) -> str:
     at = " and ".join(dict.fromkeys(sites)) or _place(report)
     if NO_PART in report.sentence:
         return f"check the numbers of the bearings in the machine file and ask again, before {at or 'it'} is inspected."
+    if report.level == "driven":
+        size = "the size, an estimate, holds" if any(c.severity is not None for c in named) else "it holds"
+        again = "record again at another level of the input and see whether"
+        return f"take it into the model of {at or 'the machine'}; {again} {size}."
     follow = "the size, an estimate" if any(c.severity is not None for c in named) else "its lines"
     return f"inspect {at or 'the machine'} at the next stop; until then record again and follow {follow}."
 

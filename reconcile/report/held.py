@@ -23,6 +23,19 @@ SAYS_NOTHING = ("", "the part that was held out")
 """What was held out, said without saying it."""
 
 
+METRICS = {
+    "NRMSE": "the error's root mean square over the spread of what was measured: 0 % is perfect, 100 % no better than "
+    "the mean",
+    "log": "how far the predicted and the measured spectrum are apart in dB, root mean square",
+}
+"""What a measure is, by a word of its name."""
+
+
+def meaning(found: HeldOut) -> str:
+    """What the measure is, behind a comma; nothing of one that is not known."""
+    return next((f", {words}" for word, words in METRICS.items() if word in found.metric), "")
+
+
 def held_out_table(found: HeldOut | None) -> Markup:
     """Figures of the validation against the rivals."""
     if found is None:
@@ -45,7 +58,9 @@ def held_out_table(found: HeldOut | None) -> Markup:
         rows.append(("expected of a perfect model: drift and noise stay", "", percent(expected)))
     metric = found.metric.replace("_", " ")
     marked = [False, True, *[False] * (len(rows) - 2)]
-    return Markup(tag("p", f"Measure: {metric}.") + table(("model", metric, "gain over without it"), rows, marked))
+    return Markup(
+        tag("p", f"Measure: {metric}{meaning(found)}.") + table(("model", metric, "gain over without it"), rows, marked)
+    )
 
 
 def held_out_words(found: HeldOut | None) -> Markup:

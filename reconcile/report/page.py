@@ -11,8 +11,8 @@ from reconcile.report.faintest import faintest
 from reconcile.report.figures.bars import changes, ranking
 from reconcile.report.figures.envelope import caption, envelope, marked
 from reconcile.report.figures.gains import distances, gains
-from reconcile.report.figures.law import from_force, law
-from reconcile.report.figures.maps import force_map
+from reconcile.report.figures.law import from_force, law, law_words, one_axis
+from reconcile.report.figures.maps import force_map, map_words
 from reconcile.report.figures.path import path
 from reconcile.report.figures.sketch import sketch
 from reconcile.report.figures.spectrum import in_third_octaves
@@ -91,14 +91,14 @@ def _envelope(report: Report) -> Markup:
 
 
 def _maps(report: Report) -> Markup:
-    drawn = several(report.pictures, "heat")
+    drawn = turns(several(report.pictures, "heat"), report.where.angle_window)
     if not drawn:
         return Markup("")
     angles = "Angles count from the tacho's pulse or, without one, from the first sample on."
     note = f"{angles} Red: more than the mean, blue: less."
     window = report.where.angle_window
     bar = " Bar along the upper edge: the window where the residual sits." if window is not None else ""
-    return section("Over the turn of a shaft", tag("p", note + bar, css="muted"), turns(drawn, window))
+    return section("Over the turn of a shaft", tag("p", note + bar, css="muted"), drawn)
 
 
 def _ranking(report: Report) -> Markup:
@@ -138,10 +138,12 @@ def _force(report: Report) -> Markup:
     found = report.force
     if report.level == "driven" and (found is None or report.verdict == "measurement_fault"):
         return Markup("")  # what is left of a linear model is noise then, or the fault
-    drawn = [law(p) for p in several(report.pictures, "law")]
-    if found is not None and not drawn and (own := from_force(found)) is not None:
-        drawn = [law(own)]
-    maps = [force_map(p) for p in several(report.pictures, "force_map")]
+    laws, planes = several(report.pictures, "law"), several(report.pictures, "force_map")
+    if found is not None and not laws and (own := from_force(found)) is not None:
+        laws = [own]
+    ends = one_axis(laws, planes)
+    drawn = [Markup(law_words(p) + law(p, ends)) for p in laws]
+    maps = [Markup(map_words(p) + force_map(p, ends)) for p in planes]
     if found is None:
         return section("Estimated force", *drawn, *maps)
     said = f"At {found.site}: " + (f"law {found.law}." if found.law else "no law is named.")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 
-from reconcile.report.figures.maps import MOST_CELLS, heat
+from reconcile.report.figures.maps import MOST_CELLS, heat, varying
 from reconcile.report.figures.spectrum import spectrum
 from reconcile.report.markup import Markup, tag
 from reconcile.report.pictures import number, numbers, text
@@ -16,6 +16,7 @@ MOST_PANELS = 320
 """Spectra of a page: some 3 kB each."""
 ALL_CELLS = 40_000
 """Cells of all maps of a page: some 22 B each."""
+FLAT = "Sensors that change by less than 3 dB over the turn and are left out: {}."
 Picture = Mapping[str, Plain]
 
 
@@ -66,13 +67,15 @@ def _change(picture: Picture) -> float:
 def turns(pictures: Sequence[Picture], window: AngleWindow | None) -> Markup:
     """Maps over a shaft's turn of every operating point."""
     most = min(MOST_CELLS, ALL_CELLS // max(len(pictures), 1))
+    lively = [picture for picture in pictures if varying(picture)[0].get("value")]
 
     def panels(group: Sequence[Picture]) -> Markup:
         drawn = []
         for picture in group:
             point = f" at {_point(picture)}" if _point(picture) else ""
             head = tag("h3", f"Shaft {text(picture.get('shaft'))}{point}")
-            drawn.append(head + heat(picture, window, most))
+            kept, flat = varying(picture)
+            drawn.append(head + heat(kept, window, most) + (tag("p", FLAT.format(flat), css="muted") if flat else ""))
         return Markup("".join(drawn))
 
-    return by_point(pictures, panels)
+    return by_point(lively, panels)

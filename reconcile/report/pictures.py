@@ -21,9 +21,10 @@ class Point(TypedDict, total=False):
 
 class Spectrum(Point):
     """`spectra`: one panel a channel and operating point. `before_db`/`after_db`: the baseline (or the model, where
-    there is none) without and with what was found."""
+    there is none) without and with what was found; `reference` of the levels, where it is known."""
 
     channel: str
+    reference: str
     frequency_hz: Sequence[float | None]
     observed_db: Sequence[float | None]
     before_db: Sequence[float | None]

@@ -62,6 +62,7 @@ svg .mark-name.up { fill:var(--bad) } svg .mark-name.down { fill:var(--ok) }
 .key i { display:inline-block; width:22px; border-top:2.5px solid; margin-right:6px; vertical-align:middle; }
 .key .k-observed { border-color:var(--observed) } .key .k-before { border-color:var(--before);
  border-top-style:dashed } .key .k-after { border-color:var(--after) }
+.key .k-band { border-color:var(--muted); border-top-width:10px; opacity:.35 }
 .comb { stroke:var(--muted); stroke-width:1; stroke-dasharray:2 4; opacity:.7 }
 .comb.own, .mark.side { stroke:var(--own) }
 svg .comb-name.own { fill:var(--own); font-weight:650 }

@@ -32,11 +32,15 @@ FORMS = (
 )
 MOST_DIGITS, MOST_PLACES = 6, 2
 OWN_LAW = "custom_force"
+CALLED_BY_LAW = (OWN_LAW, "cubic_support")
+"""Effects that are called by the words of their law of force, where one was found."""
+SCIENTIFIC = 3
+"""Figures of a number with a power of ten: two would say less than is known of a stiffness that has no prefix."""
 WIDTH_BELOW = "width_below_m"
 """Value of a cause that bounds the width of a defect whose edges are not told apart."""
 LAWS = {
     "quadratic": "even stiffness",
-    "cubic": "odd stiffness, cubic",
+    "cubic": "cubic support, odd stiffness",
     "quintic": "odd stiffness, fifth power",
     "odd_square": "odd stiffness, square",
     "odd_power": "odd stiffness",
@@ -90,11 +94,13 @@ def distance(value: float, unit: str) -> str:
 
 
 def sizes(found: Severity) -> tuple[str, str, str]:
-    """Value and ends of the interval in one unit, to two figures as in the sentence, or as many as part the ends."""
+    """Value and ends of the interval in one unit, to two figures as in the sentence (three with a power of ten), or as
+    many as part the ends."""
     power = power_of(max((v for v in (found.high, found.value) if math.isfinite(v)), key=abs, default=0.0), found.unit)
     for digits in range(2, MOST_DIGITS + 1):
         value, low, high = (figure_text(v, found.unit, digits, power) for v in (found.value, found.low, found.high))
-        if low != high or found.low == found.high:
+        enough = digits >= SCIENTIFIC or not any("e+" in x or "e-" in x for x in (value, low, high))
+        if enough and (low != high or found.low == found.high):
             break
     return value, low, high
 
@@ -113,7 +119,7 @@ def severity(found: Cause) -> str:
 def effect(found: Cause) -> str:
     """The effect in words: `fit clearance`, or of a law of force its own words, `stops on both sides`."""
     size = "" if found.severity is None else found.severity.name
-    return LAWS[size] if found.term == OWN_LAW and size in LAWS else found.term.replace("_", " ")
+    return LAWS[size] if found.term in CALLED_BY_LAW and size in LAWS else found.term.replace("_", " ")
 
 
 def size_name(found: Cause) -> str:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
-from reconcile.report.markup import Markup
+from reconcile.report.figures.maps import across
+from reconcile.report.markup import Markup, tag
 from reconcile.report.pictures import numbers, text
 from reconcile.report.plot import Frame, span
 from reconcile.report.strict import Plain, plain
@@ -17,12 +18,12 @@ ARGUMENTS = {
 }
 
 
-def law(picture: Mapping[str, Plain]) -> Markup:
-    """One panel of `law`."""
+def law(picture: Mapping[str, Plain], ends: tuple[float, float] | None = None) -> Markup:
+    """One panel of `law`, over `ends` where those are given."""
     x, force = numbers(picture.get("x")), numbers(picture.get("force"))
     low, high, fitted = (numbers(picture.get(key)) for key in ("low", "high", "fitted"))
     labels = text(picture.get("x_label")), text(picture.get("y_label"))
-    frame = Frame(x=span(x, pad=0.0), y=span(force, fitted), x_label=labels[0], y_label=labels[1], height=280.0)
+    frame = Frame(x=ends or span(x, pad=0.0), y=span(force, fitted), x_label=labels[0], y_label=labels[1], height=280.0)
     drawn = (
         frame.band(x, low, high, "force-band"),
         frame.axes(),
@@ -30,6 +31,24 @@ def law(picture: Mapping[str, Plain]) -> Markup:
         frame.curve(x, fitted, "after"),
     )
     return frame.svg(*drawn, title=f"Estimated force over {labels[0]}")
+
+
+def law_words(picture: Mapping[str, Plain]) -> Markup:
+    """Title of the panel, and what is which in it."""
+    y_label, x_label = (text(picture.get(key)).split(",")[0] for key in ("y_label", "x_label"))
+    drawn = [("observed", "estimated from the recording")]
+    drawn += [("band", "its 90 % band")] if numbers(picture.get("low")) else []
+    drawn += [("after", "the named law")] if numbers(picture.get("fitted")) else []
+    key = tag("div", *(tag("span", tag("i", css=f"k-{css}"), words) for css, words in drawn), css="key")
+    return Markup(tag("h3", f"{y_label.capitalize()} over {x_label}") + key)
+
+
+def one_axis(laws: Sequence[Mapping[str, Plain]], planes: Sequence[Mapping[str, Plain]]) -> tuple[float, float] | None:
+    """Ends of one horizontal axis for curves and maps under each other; None where they are over different things."""
+    ends = [e for p in planes if (e := across(p)) is not None]
+    ends += [span(x, pad=0.0) for p in laws if (x := numbers(p.get("x")))]
+    alike = len({text(p.get("x_label")).split(",")[0].split(" (")[0] for p in (*laws, *planes)}) == 1
+    return (min(a for a, _ in ends), max(b for _, b in ends)) if ends and alike else None
 
 
 def from_force(force: EstimatedForce) -> dict[str, Plain] | None:

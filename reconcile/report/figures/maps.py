@@ -22,6 +22,8 @@ SHADES = 24
 """Steps of the colour to either side."""
 NAMES = 215.0
 """Room for the names of rows, pixels."""
+LEAST_VARYING_DB = 3.0
+"""Least difference over a turn that is drawn of a sensor: below it nothing is to be seen."""
 QUARTERS = tuple(45.0 * k for k in range(9))
 
 
@@ -94,7 +96,12 @@ def _row_names(frame: Frame, names: Sequence[str]) -> Markup:
 
 
 def _map(
-    x: list[float], y: list[float], table: list[list[float]], labels: _Labels, most: int = MOST_CELLS
+    x: list[float],
+    y: list[float],
+    table: list[list[float]],
+    labels: _Labels,
+    most: int = MOST_CELLS,
+    ends: tuple[float, float] | None = None,
 ) -> tuple[Frame, Markup] | None:
     """The panel's frame and what is drawn in it."""
     if not x or not y or not table:
@@ -104,7 +111,7 @@ def _map(
     across, up = _edges(x), _edges(y)
     turn = "degrees" in labels.x
     frame = Frame(
-        x=(across[0], across[-1]),
+        x=ends or (across[0], across[-1]),
         y=(up[0], up[-1]),
         x_label=labels.x,
         y_label=labels.y,
@@ -151,8 +158,38 @@ def heat(picture: Mapping[str, Plain], window: AngleWindow | None, most: int = M
     return frame.svg(inside, bar, title=labels.title)
 
 
-def force_map(picture: Mapping[str, Plain]) -> Markup:
-    """A panel of `force_map`."""
+def varying(picture: Mapping[str, Plain]) -> tuple[dict[str, Plain], int]:
+    """The picture of a turn without the sensors that hardly change over it, and how many those are; with no values
+    where none is left. A map by order is kept whole or left out whole."""
+    values = picture.get("value")
+    table = values if isinstance(values, list) else []
+    lively = [max(known) - min(known) >= LEAST_VARYING_DB if (known := _finite(row)) else False for row in rows(table)]
+    names = picture.get("rows")
+    if not isinstance(names, list):
+        return {**picture, "value": list(table) if any(lively) else []}, 0
+    kept = [i for i, alive in enumerate(lively[: len(names)]) if alive]
+    return {**picture, "rows": [names[i] for i in kept], "value": [table[i] for i in kept]}, len(names) - len(kept)
+
+
+def _finite(row: Sequence[float]) -> list[float]:
+    return [v for v in row if math.isfinite(v)]
+
+
+def across(picture: Mapping[str, Plain]) -> tuple[float, float] | None:
+    """Ends of the horizontal axis of a map."""
+    x = numbers(picture.get("x"))
+    return (_edges(x)[0], _edges(x)[-1]) if x else None
+
+
+def map_words(picture: Mapping[str, Plain]) -> Markup:
+    """Title of a force map, and how to read it."""
+    x_label, y_label = (text(picture.get(key)).split(",")[0] for key in ("x_label", "y_label"))
+    said = f"Mean of the estimated force at each {x_label} and {y_label}; blank where the motion never came."
+    return Markup(tag("h3", f"Force over {x_label} and {y_label}") + tag("p", said, css="muted"))
+
+
+def force_map(picture: Mapping[str, Plain], ends: tuple[float, float] | None = None) -> Markup:
+    """A panel of `force_map`, over `ends` where those are given."""
     x_label, y_label = text(picture.get("x_label")), text(picture.get("y_label"))
     labels = _Labels(
         x=x_label,
@@ -160,5 +197,6 @@ def force_map(picture: Mapping[str, Plain]) -> Markup:
         value=f"force, {text(picture.get('value_label'))}",
         title=f"Force over {x_label} and {y_label}",
     )
-    drawn = _map(numbers(picture.get("x")), numbers(picture.get("y")), rows(picture.get("value")), labels)
+    table = rows(picture.get("value"))
+    drawn = _map(numbers(picture.get("x")), numbers(picture.get("y")), table, labels, ends=ends)
     return Markup("") if drawn is None else drawn[0].svg(drawn[1], title=labels.title)

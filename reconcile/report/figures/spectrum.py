@@ -21,6 +21,8 @@ LETTER = 7.0
 """Width of a letter, pixels."""
 HEADROOM = 0.12
 """Share of the height that is kept for the names of lines."""
+BELOW_FLOOR = 20.0
+"""Decibels under the lowest measured level down to which is drawn: what a model says below that nobody measured."""
 WIDE = 30.0
 """Highest over lowest frequency from which on their axis is logarithmic, as third octaves want it."""
 
@@ -58,12 +60,14 @@ def spectrum(picture: Mapping[str, Plain], lines: Sequence[LineChange]) -> Marku
     named = (("observed_db", "observed"), ("before_db", "before"), ("after_db", "after"))
     curves = [(numbers(picture.get(key)), css) for key, css in named]
     ends, (low, high) = span(x, pad=0.0), span(*(y for y, _ in curves))
+    low = max(low, min((y for y in curves[0][0] if math.isfinite(y)), default=low) - BELOW_FLOOR)
     thirds = in_third_octaves(x)
+    over = f" re {text(picture.get('reference'))}" if picture.get("reference") else ""
     frame = Frame(
         x=ends,
         y=(low, high + HEADROOM * (high - low)),
         x_label="centre of the third octave, Hz" if thirds else "frequency, Hz",
-        y_label="level of the third octave, dB" if thirds else "level, dB",
+        y_label=f"level of the third octave, dB{over}" if thirds else f"level, dB{over}",
         log=0.0 < WIDE * ends[0] <= ends[1],
     )
     drawn = [frame.curve(x, y, css) for y, css in curves]

@@ -103,7 +103,9 @@ def test_measured_input_stands_on_the_page() -> None:
         "stage": "validate", "held": "first third", "fitted_on": "last third", "before": 0.26, "after": 0.0072,
         "retuned": 0.13, "black_box": 0.39, "placebo": 0.02,
     }  # fmt: skip
-    said = "What is missing at mass is odd stiffness, cubic (z³); the exponent of the odd part left free is 2.96."
+    said = (
+        "What is missing at mass is cubic support, odd stiffness (z³); the exponent of the odd part left free is 2.96."
+    )
     stages = [{"stage": "fit", "exponent_by_free_run": [2.96, 2.94, 2.97]}, validation]
     found = report(sentence=said, stages=stages)
     text = page.page([row(report())], [(driven.SYSTEMS[0], Answer(report=found, error=None, wall_s=2.0))], limit_s=60.0)

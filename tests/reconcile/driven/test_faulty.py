@@ -98,7 +98,7 @@ def test_force_and_motion_exchanged_are_put_right(linear: Recording, stiffening:
         assert (report.fault.kind, report.fault.channel) == ("swapped_channels", "force")
     with_law = reconcile_driven(SPEC, [swapped(stiffening)], seed=1)
     assert with_law.verdict == "explained"
-    assert "odd stiffness, cubic" in with_law.sentence
+    assert "cubic support, odd stiffness" in with_law.sentence
     assert "swapped channels on force" in with_law.sentence
     assert with_law.fault is not None
 

@@ -65,7 +65,7 @@ def test_of_two_equal_one_sided_springs_the_one_that_pushes_is_named() -> None:
     report = told(analysed("contact_above"))
     is_named(report, "contact_above")
     assert abs(report.causes[0].values["shape"]) < 1e-5
-    assert "the same motion: -2.5" in report.causes[0].reasons[1]
+    assert "the same motion: 2.5" in report.causes[0].reasons[1]
     assert not any(c.severity and c.severity.name == "contact_below" for c in report.causes)
 
 
@@ -107,7 +107,7 @@ def test_a_free_run_that_flies_off_is_said_and_bounded(friction: Analysis) -> No
     assert "diverges" in judge(found).reasons[1]
     report = told(found)
     assert report.verdict == "unknown_physics"
-    assert "recording 2 with odd stiffness, cubic (z³) diverges" in report.sentence
+    assert "recording 2 with cubic support, odd stiffness (z³) diverges" in report.sentence
     assert "diverges" in report.held_out.held  # type: ignore[union-attr]
     assert not report.machine["terms"]  # type: ignore[index]
     shown = np.array(json.loads(strict_json(report))["pictures"]["traces"][0]["after"])

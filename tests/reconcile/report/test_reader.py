@@ -12,6 +12,7 @@ import pytest
 from reconcile.judge.screen import Screen
 from reconcile.machine.decide import decide
 from reconcile.report import page
+from reconcile.report.held import METRICS
 from reconcile.report.panels import MOST_PANELS
 from reconcile.report.plot import Frame, decades
 from reconcile.report.sections import SCORE
@@ -185,9 +186,28 @@ def test_a_turn_has_sensors_degrees_and_a_scale_with_its_unit() -> None:
         assert said in text, said
     assert ">315</text>" in whole and ">360</text>" in whole
     assert whole.count('class="window"') == 6, "in two pieces at each of three points"
-    ordered = {"shaft": "input", "angle_deg": [0.0, 90.0], "order": [1.0, 2.0], "value": [[1.0, -1.0], [0.0, 2.0]]}
+    ordered = {"shaft": "input", "angle_deg": [0.0, 90.0], "order": [1.0, 2.0], "value": [[2.0, -1.0], [0.0, 2.0]]}
     plain = told(drawn(heat=ordered))
     assert "order of shaft input" in plain and "change, dB" in plain
+
+
+def test_over_a_turn_only_sensors_that_change_over_it_are_drawn() -> None:
+    flat = {"shaft": "input", "angle_deg": [0.0, 90.0, 180.0], "rows": ["still", "lively"]}
+    text = told(drawn(heat={**flat, "value": [[1.0, 2.0, 3.9], [0.0, None, 3.1]]}))
+    assert "lively" in text and "still" not in text and "and are left out: 1." in text
+    assert "Over the turn of a shaft" not in told(drawn(heat={**flat, "value": [[1.0, 2.0, 3.9], [0.0, None, 2.0]]}))
+    assert "and are left out" not in told(drawn())
+
+
+def test_a_measure_is_explained_where_it_is_told() -> None:
+    text = told(drawn_with("free-run NRMSE"))
+    assert "Measure: free-run NRMSE, the error's root mean square over the spread of what was measured" in text
+    assert "Measure: log spectral distance, how far the predicted" in told(drawn_with(HELD.metric))
+    assert "Measure: share of lines." in told(drawn_with("share_of_lines"))
+
+
+def drawn_with(metric: str) -> Report:
+    return replace(drawn(), held_out=replace(HELD, metric=metric))
 
 
 class Pictures(Balanced):
@@ -225,6 +245,8 @@ def test_the_page_of_pictures_leaves_out_words_and_tables() -> None:
 def test_the_dashboard_says_it_in_the_same_words() -> None:
     script = (ROOT / "app/dashboard/static/js/reconcile/answer.js").read_text(encoding="utf-8")
     assert FORMS in script and LEFT_OVER in script and f'"{PART_LEFT}"' in script
+    for words in METRICS.values():
+        assert f'"{words}"' in script
 
 
 def test_third_octaves_have_a_logarithmic_axis() -> None:

@@ -110,7 +110,7 @@ def full_report(text: str = "Bearing 1 is loose.") -> Report:
                  "after_db": np.where(frequency > 1000, np.nan, level)}
             ],
             "heat": {"shaft": "input", "angle_deg": np.arange(0, 360, 5.0), "order": np.arange(1, 5),
-                     "value": np.ones((4, 72))},
+                     "value": np.arange(288.0).reshape(4, 72)},
             "changes": [{"feature": text, "observed_db": 3.0, "low": -1.0, "high": 1.0, "fitted_db": None}],
             "ranking": [{"label": text, "score": 3.0, "low": 1.0, "high": 4.0, "named": True}],
             "traces": [{"title": text, "unit": "V", "time_s": frequency, "observed": level, "before": level,
@@ -293,6 +293,12 @@ def test_an_interval_has_as_many_figures_as_part_its_ends() -> None:
     size = Severity(name="stiffness", value=70005.0, unit="N/m", low=69838.0, high=70173.0)
     assert sizes(size) == ("70 kN/m", "69.8 kN/m", "70.2 kN/m")
     assert sizes(replace(size, low=6.1e4, high=8.2e4)) == ("70 kN/m", "61 kN/m", "82 kN/m")
+
+
+def test_a_size_with_a_power_of_ten_has_three_figures() -> None:
+    """Two said 4.0e+10 (4.0e+10 to 4.1e+10) of what is told to 4.02e+10."""
+    size = Severity(name="cubic", value=4.0207e10, unit="N/m^3", low=3.9584e10, high=4.083e10)
+    assert sizes(size) == ("4.02e+10 N/m^3", "3.96e+10 N/m^3", "4.08e+10 N/m^3")
 
 
 def test_a_size_of_which_only_a_bound_is_known_is_told_as_a_bound() -> None:

@@ -46,6 +46,8 @@ def test_the_dashboard_has_the_same_words() -> None:
     ("term", "size", "said", "tile"),
     [
         ("custom_force", "stops", "stops on both sides at mass", ""),
+        ("cubic_support", "cubic", "cubic support, odd stiffness at mass", ""),
+        ("cubic_support", "k3", "cubic support at mass", "k3"),
         ("custom_force", "scale", "custom force at mass", "scale"),
         ("coulomb_friction", "dry_friction", "coulomb friction at mass", ""),
         ("stiffness", "stiffness", "stiffness at mass", ""),

@@ -2,7 +2,7 @@
 
 export const LAWS = {
   quadratic: "even stiffness",
-  cubic: "odd stiffness, cubic",
+  cubic: "cubic support, odd stiffness",
   quintic: "odd stiffness, fifth power",
   odd_square: "odd stiffness, square",
   odd_power: "odd stiffness",
@@ -17,7 +17,8 @@ export const LAWS = {
   cubic_drag: "cubic damping",
   van_der_pol: "damping that grows with the swing",
 };
-const OWN = "custom_force";
+/** Effects that are called by the words of their law, where one was found. */
+const CALLED_BY_LAW = ["custom_force", "cubic_support"];
 /** As the report's page and sentence call it. */
 export const words = (text) =>
   text
@@ -27,7 +28,7 @@ export const words = (text) =>
 
 /** An effect in words: `fit clearance`; of a law of force that is no effect of its own the law's, `stops on both sides`. */
 export function effectName({ term, severity }) {
-  return (term === OWN && LAWS[severity?.name]) || words(term);
+  return (CALLED_BY_LAW.includes(term) && LAWS[severity?.name]) || words(term);
 }
 
 /** What its size is: `gap`; nothing where that says no more than the effect's name. */
