@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from reconcile.shares import percent, signed_percent, two_digits
+from reconcile.shares import from_drawing, percent, signed_percent, two_digits
 
 
 @pytest.mark.parametrize(
@@ -18,6 +18,10 @@ from reconcile.shares import percent, signed_percent, two_digits
 )
 def test_zero_has_no_sign_and_per_cent_a_space(share: float, signed: str, bare: str) -> None:
     assert (signed_percent(share), percent(share)) == (signed, bare)
+
+
+def test_no_difference_from_the_drawing_is_told_so() -> None:
+    assert [from_drawing(x) for x in (0.0004, 0.0, -0.001)] == ["as in the drawing"] * 2 + ["-0.1 % from the drawing"]
 
 
 def test_digits() -> None:

@@ -295,12 +295,6 @@ def test_an_interval_has_as_many_figures_as_part_its_ends() -> None:
     assert sizes(replace(size, low=6.1e4, high=8.2e4)) == ("70 kN/m", "61 kN/m", "82 kN/m")
 
 
-def test_a_size_with_a_power_of_ten_has_three_figures() -> None:
-    """Two said 4.0e+10 (4.0e+10 to 4.1e+10) of what is told to 4.02e+10."""
-    size = Severity(name="cubic", value=4.0207e10, unit="N/m^3", low=3.9584e10, high=4.083e10)
-    assert sizes(size) == ("4.02e+10 N/m^3", "3.96e+10 N/m^3", "4.08e+10 N/m^3")
-
-
 def test_a_size_of_which_only_a_bound_is_known_is_told_as_a_bound() -> None:
     size = Severity(name="width", value=1.1e-3, unit="m", low=0.0, high=2.2e-3)
     made = replace(

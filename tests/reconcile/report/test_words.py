@@ -14,7 +14,7 @@ from reconcile.report import page
 from reconcile.report.figures.bars import NARROW, WIDE, ranking
 from reconcile.report.figures.gains import gains as gain_bars
 from reconcile.report.plot import RIGHT, fitting, text_width
-from reconcile.report.words import LAWS, cause, cause_key, gain, gains, severity, size_name, tidied
+from reconcile.report.words import LAWS, cause, cause_key, gain, gains, severity, size_name, sizes, tidied
 from reconcile.verdict import Cause, EstimatedForce, HeldOut, Placebo, Report, Severity
 from tests.reconcile.report.test_reader import HELD, told
 
@@ -60,6 +60,12 @@ def test_an_effect_and_its_size_are_called_once(term: str, size: str, said: str,
     assert severity(found) == f"{tile} 4 N (90 %: 3 N to 5 N)".strip()
     text = told(driven(found))
     assert f"{tile} of {said}, 90 %" in text if tile else f"4 N{said}, 90 %: 3 N to 5 N" in text
+
+
+def test_a_size_with_a_power_of_ten_has_three_figures() -> None:
+    """Two said 4.0e+10 (4.0e+10 to 4.1e+10) of what is told to 4.02e+10."""
+    size = Severity(name="cubic", value=4.0207e10, unit="N/m^3", low=3.9584e10, high=4.083e10)
+    assert sizes(size) == ("4.02e+10 N/m^3", "3.96e+10 N/m^3", "4.08e+10 N/m^3")
 
 
 def test_a_changed_number_is_told_as_a_change() -> None:
