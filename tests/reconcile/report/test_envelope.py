@@ -113,6 +113,7 @@ def test_the_level_of_kinematics_gives_all_lines_however_long_the_record_is() ->
     thrice = np.tile(hurt.samples, 3)  # a recorder adds noise of its own: else it is one buffer written again
     long = replace(hurt, samples=thrice + 0.01 * rng.standard_normal(thrice.shape))
     report = reconcile_kinematics(SPEC, [long], [recorded(sound(1))], seed=3)
+    assert re.search(r", its depth of modulation \d+ dB above the baseline's", report.sentence), report.sentence
     picture = report.pictures["envelope"]
     assert isinstance(picture, dict) and picture["family"] == "bearing1.inner" and picture["shaft"] == "shaft"
     assert picture["speed_hz"] == pytest.approx(SPEED_HZ, rel=1e-3)
