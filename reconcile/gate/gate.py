@@ -16,6 +16,7 @@ from reconcile.gate.findings import Finding, Gate, worst
 from reconcile.gate.harmonic import harmonic_findings
 from reconcile.gate.levels import pairs
 from reconcile.gate.loops import loop_findings
+from reconcile.gate.loose import transferred
 from reconcile.gate.mains import hum_findings, without_hum
 from reconcile.gate.noiseless import noiseless, told, with_floor
 from reconcile.gate.samples import repaired, sample_findings
@@ -203,16 +204,9 @@ def _unswapped(recording: Recording, names: Sequence[str], order: Sequence[int])
 
 def _regained(recording: Recording, findings: Sequence[Finding]) -> Recording:
     """Gains and the transfer of loose sensors undone as measured."""
+    faults = [f for f in findings if f.fault]
     samples = recording.samples.copy()
-    for f in findings:
-        if not f.fault or f.channel not in recording.names:
-            continue
-        row = recording.names.index(f.channel)
-        if f.gain_db is not None:
-            samples[row] *= 10 ** (-f.gain_db / 20)
-        if f.transfer_db:
-            hz, change_db = np.asarray(f.transfer_db).T
-            spectrum = np.fft.rfft(samples[row])
-            axis = np.fft.rfftfreq(samples.shape[1], 1 / recording.sampling_rate_hz)
-            samples[row] = np.fft.irfft(spectrum * 10 ** (-np.interp(axis, hz, change_db) / 20), samples.shape[1])
-    return replace(recording, samples=samples)
+    for f in faults:
+        if f.gain_db is not None and f.channel in recording.names:
+            samples[recording.names.index(f.channel)] *= 10 ** (-f.gain_db / 20)
+    return transferred(replace(recording, samples=samples), faults, -1)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import reduce
 
 import numpy as np
 
 from reconcile.gate.findings import Finding
 from reconcile.gate.levels import Pair
+from signals.recording import Recording
 from signals.series import BoolArray, FloatArray
 
 QUIET_DB = 1.0
@@ -88,7 +90,6 @@ def loose_findings(pairs: Sequence[Pair], change: Sequence[FloatArray], c: int, 
             recording="all tests",
             detail=detail,
             severity=float(min(1.0, size / 20)),
-            where=f"{hz:.4g} Hz",
             fault=quiet,
             transfer_db=tuple(zip(map(float, centre_hz), map(float, curve), strict=True)),
         )
@@ -135,3 +136,16 @@ def _rough(own: FloatArray, curve: FloatArray, changed: BoolArray) -> float:
     if len(own) < LEAST_SPEEDS or not narrow or not FLOOR_KEEPS <= keeps <= FLOOR_MOST:
         return alike
     return min(alike, float(np.median(np.max(np.abs(part - kinds), axis=(0, 1)))))
+
+
+def transferred(one: Recording, findings: Sequence[Finding], sign: int) -> Recording:
+    """The recording with the changes of transfer of these findings undone (`sign` -1), or as it came (1)."""
+    samples = one.samples.copy()
+    for f in findings:
+        if f.transfer_db and f.channel in one.names:
+            row = one.names.index(f.channel)
+            hz, change_db = np.asarray(f.transfer_db).T
+            axis = np.fft.rfftfreq(samples.shape[1], 1 / one.sampling_rate_hz)
+            factor = 10 ** (sign * np.interp(axis, hz, change_db) / 20)
+            samples[row] = np.fft.irfft(np.fft.rfft(samples[row]) * factor, samples.shape[1])
+    return replace(one, samples=samples)

@@ -12,7 +12,7 @@ from reconcile.kinematics.judge import SECOND_SHARE, named, one_line, same
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.series import ShaftSeries
 from reconcile.kinematics.shafts import ShaftChange
-from reconcile.kinematics.unheard import line_strength
+from reconcile.kinematics.unheard import deaf_limits, line_strength
 from reconcile.kinematics.vague import BEFORE_TOO, IN_BOTH
 from reconcile.report.action import EXCHANGED
 from reconcile.verdict import LineChange, NextExperiment, Report
@@ -58,9 +58,13 @@ def remarked(
 
 
 def if_heard(report: Report, tests: Sequence[Observation], baselines: Sequence[Observation]) -> Report:
-    """The report; of a machine that no channel heard, where no baseline says what there is to hear, no sound one."""
-    if report.verdict != "nothing_missing" or baselines or any(_heard(t) for t in tests):
+    """The report; of a machine that no channel heard, where no baseline says what there is to hear, no sound one;
+    with a limit for each channel that did not."""
+    if baselines:
         return report
+    if report.verdict != "nothing_missing" or any(_heard(t) for t in tests):
+        deaf = deaf_limits([t.recording for t in tests], [t.label for t in tests])
+        return replace(report, where=replace(report.where, limits=(*report.where.limits, *deaf)))
     return replace(report, verdict="not_decidable", sentence=UNHEARD, undecidable=(WHAT,), next_experiment=LISTEN)
 
 

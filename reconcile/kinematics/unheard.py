@@ -12,6 +12,8 @@ import numpy as np
 import scipy
 
 from reconcile.gate.findings import Finding, Gate, worst
+from reconcile.gate.loose import transferred
+from reconcile.gate.spoiled import HEARD
 from reconcile.kinematics.envelopes import squared_envelope, whitened
 from reconcile.speed.excess import line_excess, mains_bins, power_over_floor
 from signals.recording import Recording
@@ -66,19 +68,40 @@ def _highest(excess: FloatArray, step_hz: float) -> float:
 
 def with_unheard(gate: Gate) -> Gate:
     """The gate with `noise` for each channel of a test that holds no line where the same channel of a baseline does;
-    not usable where that is so of all of them."""
+    not usable where that is so of all of them.
+
+    Asked of what the sensor gave, without the gate's undoing of a loose sensor's transfer, which makes lines of noise
+    that has another shape; of noise alone no loudness of its bands is told.
+    """
     if not gate.usable or not gate.baselines:
         return gate
+    undone = [f for f in gate.findings if f.kind in HEARD and f.fault]
+    tests = [transferred(one, undone, 1) for one in gate.tests]
     found: list[Finding] = []
     silent = []
-    for i, test in enumerate(gate.tests, 1):
+    for i, test in enumerate(tests, 1):
         names = [name for name in test.names if _lost(test, gate.baselines, name)]
         silent.append(len(names) == len(test.names))
         found += [_finding(f"test {i}", name) for name in names]
     if not found:
         return gate
-    shown = (*gate.findings, *found)
+    deaf = {f.channel for f in found}
+    shown = (*(f for f in gate.findings if f.kind not in HEARD or f.channel not in deaf), *found)
     return replace(gate, findings=shown, fault=worst(shown), usable=not all(silent))
+
+
+def deaf_limits(tests: Sequence[Recording], labels: Sequence[str]) -> list[str]:
+    """What is to be known of channels that hold no line beside others that do, where no baseline says what there is to
+    hear."""
+    told = []
+    for test, label in zip(tests, labels, strict=True):
+        names = [c.name for c in test.channels if c.quantity != "force"]
+        deaf = [name for name in names if _deaf(test, name) and not _shares_noise(test, name)]
+        told += [
+            f"no line stands out of noise on {name} of {label}: its sensor may not have heard the machine"
+            for name in (deaf if len(deaf) < len(names) else ())
+        ]
+    return told
 
 
 def with_lost(gate: Gate, lost: frozenset[str]) -> frozenset[str]:
@@ -90,19 +113,29 @@ def with_lost(gate: Gate, lost: frozenset[str]) -> frozenset[str]:
 
 
 def _lost(test: Recording, baselines: Sequence[Recording], name: str) -> bool:
-    size = test.samples.shape[1]
-    if size < LEAST_SAMPLES or test.duration_s < LEAST_S or line_strength(_row(test, name), _rate(test)) >= 1.0:
+    if not _deaf(test, name):
         return False
+    size = test.samples.shape[1]
     heard = [line_strength(_row(b, name)[:size], _rate(b)) for b in baselines if name in b.names]
     return bool(heard) and min(heard) >= SURELY and not _heard_with_another(test, baselines, name)
+
+
+def _deaf(test: Recording, name: str) -> bool:
+    """Whether the channel holds no line, in a record that is long enough to say so."""
+    long = test.samples.shape[1] >= LEAST_SAMPLES and test.duration_s >= LEAST_S
+    return long and line_strength(_row(test, name), _rate(test)) < 1.0
 
 
 def _heard_with_another(test: Recording, baselines: Sequence[Recording], name: str) -> bool:
     """Whether the channel has the shape of a baseline's spectrum still and shares its noise with one that holds a line:
     what knocks without a rhythm (a loose ring) is noise, and both heard it. Of cross-talk, hum and other interference
     that a dead sensor shares with a sound one it has not the shape."""
-    if not any(same_shape(_row(test, name), _row(b, name)) for b in baselines if name in b.names):
-        return False
+    alike = any(same_shape(_row(test, name), _row(b, name)) for b in baselines if name in b.names)
+    return alike and _shares_noise(test, name)
+
+
+def _shares_noise(test: Recording, name: str) -> bool:
+    """Whether noise of the channel is that of another, which holds a line."""
     return any(
         common_bins(_row(test, name), _row(test, other)) >= COMMON_BINS
         and line_strength(_row(test, other), _rate(test)) >= 1.0

@@ -7,12 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reconcile.gate import Gate
+from reconcile.gate import Finding, Gate
+from reconcile.gate.loose import transferred
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.unheard import (
     COMMON_BINS,
     LEAST_SAMPLES,
     common_bins,
+    deaf_limits,
     line_strength,
     same_shape,
     with_lost,
@@ -56,6 +58,35 @@ def test_noise_alone_is_not_usable() -> None:
     assert gate.fault is not None
     assert gate.fault.kind == "noise"
     assert {f.channel for f in gate.findings} == {"a0", "a1"}
+
+
+@pytest.mark.slow
+def test_noise_that_looks_like_a_loose_sensor_is_noise() -> None:
+    """Undoing its transfer makes a line where the baseline has one."""
+    curve = ((0.0, 0.0), (72.0, 0.0), (72.5, -40.0), (73.5, -40.0), (74.0, 0.0), (6000.0, 0.0))
+    loose = Finding(
+        kind="loose_sensor", channel="a0", recording="all tests", detail="", severity=1.0, fault=True, transfer_db=curve
+    )
+    undone = transferred(recording(noise(3), heard(4)), [loose], -1)
+    assert line_strength(undone.samples[0], RATE_HZ) > 1.0
+    gate = with_unheard(Gate(findings=(loose,), baselines=(BASE,), tests=(undone,), fault=None, usable=True))
+    assert [(f.kind, f.channel) for f in gate.findings] == [("noise", "a0")]
+    assert gate.fault is not None and gate.fault.kind == "noise"
+    undone = transferred(BASE, [loose], -1)
+    same = with_unheard(Gate(findings=(loose,), baselines=(BASE,), tests=(undone,), fault=None, usable=True))
+    assert same.findings == (loose,)
+
+
+@pytest.mark.slow
+def test_a_deaf_channel_is_a_limit_where_no_baseline_is() -> None:
+    spec = read_kinematic_spec({"kinematics": {"shafts": [{"name": "shaft"}]}})
+    for test, deaf in ((recording(heard(3), noise(4)), ["a1"]), (BASE, [])):
+        report = reconcile_kinematics(spec, [test], [], seed=0)
+        assert report.verdict == "nothing_missing"
+        told = [text for text in report.where.limits if text.startswith("no line stands out of noise on")]
+        assert told == deaf_limits([test], ["test 1"])
+        assert [text.split()[7] for text in told] == deaf
+    assert deaf_limits([recording(noise(3), noise(4))], ["test 1"]) == []
 
 
 @pytest.mark.slow
