@@ -23,7 +23,10 @@ pairs of channels of real recordings (two sensors and more), a rig, gearboxes an
 (-2.5 of the real ones)."""
 LEAST_SAMPLES = 256
 CLEARLY_DB = 2.0
-"""By which a copy must be farther from its own baseline than the channel that it is of."""
+"""By which a copy must be farther from its own baseline than the channel that it is of, on the mean of all bands."""
+CLEAR_SHARE, LEAST_RMS_DB = 0.6, 1.0
+"""Or, where few bands tell sensors apart (a resonance of the place): the root mean square deviations, of the channel's
+over the copy's at most, and the copy's at least."""
 
 Groups = tuple[tuple[str, ...], ...]
 
@@ -76,16 +79,20 @@ def _own(test: Recording, baselines: Sequence[Recording], group: Sequence[str]) 
     base = next((b for b in baselines if all(n in b.names for n in group)), None)
     if base is None or base.sampling_rate_hz != test.sampling_rate_hz:
         return group[0], False
-    off = sorted((_unlike(test, base, name), name) for name in group)
-    return (off[0][1], True) if off[1][0] - off[0][0] >= CLEARLY_DB else (group[0], False)
+    apart = {name: _unlike(test, base, name) for name in group}
+    first, second = sorted(apart, key=lambda name: (apart[name][0], name))[:2]
+    (near, near_rms), (far, far_rms) = apart[first], apart[second]
+    clear = far - near >= CLEARLY_DB or (far_rms >= LEAST_RMS_DB and near_rms < CLEAR_SHARE * far_rms)
+    return (first, True) if clear else (group[0], False)
 
 
-def _unlike(test: Recording, base: Recording, name: str) -> float:
-    """Median deviation, dB, of a channel's bands from its baseline's but for one gain."""
+def _unlike(test: Recording, base: Recording, name: str) -> tuple[float, float]:
+    """Mean and root mean square deviation, dB, of a channel's bands from its baseline's but for one gain."""
     now, then = channel_levels(test, name), channel_levels(base, name)
     _, a, b = np.intersect1d(now.band, then.band, assume_unique=True, return_indices=True)
     change = np.concatenate([now.floor_db[a] - then.floor_db[b], now.mean_db[a] - then.mean_db[b]])
-    return float(np.mean(np.abs(change - np.median(change)))) if change.size else 0.0
+    off = np.abs(change - np.median(change)) if change.size else np.zeros(1)
+    return float(np.mean(off)), float(np.sqrt(np.mean(off**2)))
 
 
 def _factor(test: Recording, name: str, kept: str) -> str:

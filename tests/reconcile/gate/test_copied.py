@@ -72,6 +72,23 @@ def test_the_channel_whose_baseline_is_another_is_left_out(carried: int, left_ou
     assert any("copied" in text for text in doubts(gate))
 
 
+def ringing(seed: int, hz: float) -> FloatArray:
+    """Noise, and noise of a resonance at `hz`, the place's own: few bands tell it from that of another place."""
+    rng = np.random.default_rng(seed)
+    ring = np.exp(-2 * np.pi * hz * 0.03 * TIME[:400]) * np.sin(2 * np.pi * hz * TIME[:400])
+    coloured = np.convolve(rng.standard_normal(N), ring)[:N] / np.sqrt(np.sum(ring**2))
+    return np.asarray(rng.standard_normal(N) + 0.6 * coloured)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("hz", [(2000.0, 2600.0), (2600.0, 2000.0), (2000.0, 2000.0)])
+def test_a_resonance_of_the_place_tells_whose_the_signal_is(hz: tuple[float, float]) -> None:
+    base, row = recording(ringing(1, hz[0]), ringing(2, hz[1])), ringing(3, 2000.0)
+    (found,) = copy_findings([recording(row, row)], [base], ["test 1"])
+    assert ("the signal of" in found.detail) is (hz[0] != hz[1])
+    assert found.channel == ("a0" if hz[0] > hz[1] else "a1")
+
+
 @pytest.mark.slow
 def test_what_the_baseline_has_too_is_a_remark() -> None:
     twice = [recording(row, row) for row in (sensor(1, 0.2, 1), sensor(3, 0.2, 1))]
