@@ -14,6 +14,7 @@ import numpy as np
 from scipy import fft
 
 from reconcile.gate import Gate
+from reconcile.gate.spoiled import HEARD
 from reconcile.kinematics.answer import TERMS
 from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.contrast import single_band
@@ -49,11 +50,12 @@ def with_ends(
 ) -> Report:
     """The report, which says where a bearing that is named alone is heard louder at another one's sensor.
 
-    Asked of channels of one quantity and known unit alone, and of no recordings whose measurement is at fault.
+    Asked of channels of one quantity and known unit alone, and of no recordings whose measurement is surely at
+    fault.
     """
     sites = {c.site for c in report.causes}
     told = report.verdict in ("explained", "ambiguous") and not report.sentence.startswith(UNTOLD)
-    if not told or len(sites) != 1 or gate.fault is not None:
+    if not told or len(sites) != 1 or any(f.fault and f.kind not in HEARD for f in gate.findings):
         return report
     (site,) = sites
     candidate = _candidate(report, site, every, tie)

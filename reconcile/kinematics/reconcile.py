@@ -34,6 +34,7 @@ from reconcile.kinematics.series import shaft_series
 from reconcile.kinematics.shafts import shaft_changes
 from reconcile.kinematics.slowest import longer, with_slowest
 from reconcile.kinematics.spec import KinematicSpec, of_machine
+from reconcile.kinematics.struck import cut_alike, without_struck
 from reconcile.kinematics.teeth import other_teeth, told_with, with_teeth
 from reconcile.kinematics.tooth_turn import teeth_report, tooth_turns, with_sidebands
 from reconcile.kinematics.unheard import with_lost
@@ -102,7 +103,7 @@ def _reconciled(
     if not gate.usable:
         return finished(fault_report(gate), gate, (), ())
     whole = whole_stretches(gate, whole_tests, whole_baselines, stated)
-    gate = whole.gate
+    gate = cut_alike(whole.gate)
     if not gate.usable:
         return finished(fault_report(gate), gate, (), ())
     progress(FEATURES, "speed and features")
@@ -131,7 +132,8 @@ def _reconciled(
     progress(HELD_OUT, "held-out data")
     if report.verdict != "measurement_fault":
         report = if_heard(remarked(report, tie, seen, past, every, seed), seen, past)
-    report = with_ends(report, gate, every, seen, past, tie)
+    gate, came = without_struck(gate, seen, every)
+    report = with_ends(report, gate, every, came, past, tie)
     report = with_none_left(report, given=bool(baselines), left=bool(past))
     report = replace(report, where=replace(report.where, limits=(*report.where.limits, *told, *cut, *whole.told)))
     quiet = report.verdict in ("nothing_missing", "not_decidable") and EXCHANGED not in report.sentence
