@@ -113,7 +113,7 @@ def _place(loc: Sequence[int | str]) -> Iterator[str]:
 
 def _other_form(details: ErrorDetails) -> bool:
     """Whether an object is found not to be the number that might have stood in its place: its own findings are told."""
-    *_, place, form = ("", *details["loc"])
+    *_, place, form = ("", "", *details["loc"])
     return form == "float" and place in FORMS[form] and isinstance(details.get("input"), Mapping)
 
 
