@@ -14,8 +14,11 @@ from proof.score.one import Score
 from proof.score.rates import MEASURES, at_target, rate
 from proof.shown import WIDTH
 from proof.targets import written
+from proof.visible import Visible, stored
 from proof.whole import by_law, read, together
 
+CLEAR = 3.0
+"""Times as far as drift, from which there is much to see."""
 COMMITS: Mapping[str, str] = {"held": "919f12b", "entire": "8e8edc1"}
 """Whose engine ran each of the splits."""
 ELSEWHERE: Mapping[str, tuple[str, str]] = {"held": ("begun", "an earlier"), "entire": ("hearing", "a later")}
@@ -46,7 +49,8 @@ def _of(design: Design, results: Path) -> str:
         f"`git checkout {commit} && make proof SPLIT={design.split}` makes these figures again; a later engine's "
         f"answers are held against them case by case by `make proof SPLIT={design.split} CASES=...`."
     )
-    told = wrap(lips(scores, cases), WIDTH)
+    seen = seen_singles(scores, stored(results / f"visible-{design.split}.json"))
+    told = wrap(f"{lips(scores, cases)}{seen}", WIDTH)
     return "\n".join([title, "", *wrap(said, WIDTH), "", together(scores), "", *by_law(scores), "", *told])
 
 
@@ -56,6 +60,19 @@ LEFT = {
     "entire": "The others are not run: the names' order is drawn, so those run are a sample of the plan but for the "
     "cases that need atlases of their own (mis-set files, five speeds, another load), which were put last. ",
 }
+
+
+def seen_singles(scores: Sequence[Score], seen: Mapping[str, Visible]) -> str:
+    """Single effects at the target condition by how far they move the spectrum; empty where it is not stored of all."""
+    single = [s for s in scores if s.group == "single" and at_target(s)]
+    if not single or any(s.name not in seen for s in single):
+        return ""
+    far = [s for s in single if seen[s.name].effect_db >= CLEAR * seen[s.name].drift_db]
+    told = [written(rate(part, MEASURES["place"])) for part in (far, [s for s in single if s not in far])]
+    return (
+        f" Of single effects at the target condition that move the spectrum three times as far as drift or more {told[0]}"
+        f" are named with their place; of the others {told[1]} (`python -m proof visible`)."
+    )
 
 
 def lips(scores: Sequence[Score], cases: Sequence[Case]) -> str:

@@ -8,8 +8,11 @@ from pathlib import Path
 import pytest
 
 from proof.entire import held
-from proof.one_engine import COMMITS, one_engine
+from proof.one_engine import CLEAR, COMMITS, one_engine, seen_singles
 from proof.plan import Case
+from proof.score.rates import at_target
+from proof.visible import Visible
+from proof.whole import read
 
 STORED = Path(__file__).parents[2] / "proof" / "results" / "entire.json"
 
@@ -46,3 +49,16 @@ def test_nothing_is_said_to_be_left_where_all_are_run(tmp_path: Path) -> None:
     (tmp_path / "held.json").write_text(json.dumps({"engine": "feed", "scores": every}), encoding="utf-8")
     said = one_engine(tmp_path)
     assert "120 of its 120 cases" in said and "not run" not in said
+
+
+def test_single_effects_are_parted_by_how_far_they_move_the_spectrum() -> None:
+    scores = [s for s in read(STORED) if s.group == "single" and at_target(s)][:6]
+    assert {s.place for s in scores} == {True, False}
+    seen = {
+        s.name: Visible(effect_db=(CLEAR + 0.1 if s.place else CLEAR - 0.1), drift_db=1.0, new_share=0.0)
+        for s in scores
+    }
+    right = sum(bool(s.place) for s in scores)
+    said = seen_singles(scores, seen)
+    assert f"{right}/{right} = 100 %" in said and f"0/{6 - right} = 0 %" in said
+    assert seen_singles(scores, {}) == "" == seen_singles([], seen)
