@@ -70,8 +70,8 @@ def seen_singles(scores: Sequence[Score], seen: Mapping[str, Visible]) -> str:
     far = [s for s in single if seen[s.name].effect_db >= CLEAR * seen[s.name].drift_db]
     told = [written(rate(part, MEASURES["place"])) for part in (far, [s for s in single if s not in far])]
     return (
-        f" Of single effects at the target condition that move the spectrum three times as far as drift or more {told[0]}"
-        f" are named with their place; of the others {told[1]} (`python -m proof visible`)."
+        f" Of single effects at the target condition that move the spectrum three times as far as drift or more "
+        f"{told[0]} are named with their place; of the others {told[1]} (`python -m proof visible`)."
     )
 
 
