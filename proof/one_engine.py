@@ -26,7 +26,7 @@ ELSEWHERE: Mapping[str, tuple[str, str]] = {"held": ("begun", "an earlier"), "en
 
 
 def one_engine(results: Path) -> str:
-    """What the page says of the splits that one engine ran each, the present one first."""
+    """What the page says of the splits that one engine ran each, the latest first."""
     return "\n\n".join(_of(design, results) for design in (HELD, ENTIRE))
 
 
