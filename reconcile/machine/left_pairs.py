@@ -26,7 +26,7 @@ from reconcile.machine.pairs import Pair, Pairs, Simulated, evidence_in, inadequ
 from reconcile.machine.second import has_play, strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.sizes import searched
-from reconcile.machine.told_by import heard, own_lines, teeth_tell
+from reconcile.machine.told_by import heard, impacts_beside, own_lines, teeth_tell
 from reconcile.machine.weigh import LEAST_EVIDENCE, exclusive, variants
 from signals.series import FloatArray
 
@@ -73,7 +73,7 @@ def best_left_pair(
     sought = _searched(asked, made, seen)
     sought = sought or _rattling(asked, made)
     fitted = _fairly(asked, {**made, **sought})
-    pairs = sorted((p for p in fitted.values() if p is not None), key=lambda p: -p.gain)
+    pairs = sorted((p for p in fitted.values() if p is not None), key=lambda p: -_with_impacts(asked, p))
     simulated = {name: None if pair is None else pair.gain for name, pair in fitted.items()}
     tried = tuple((name, gain, simulated.get(name)) for name, gain, _ in seen)
     best = pairs[0] if pairs and _stands(asked, decision, pairs[0]) else None
@@ -153,21 +153,27 @@ def _fairly(asked: Asked, made: Mapping[str, Pair | None]) -> dict[str, Pair | N
     return {name: None if p is None else replace(p, gain=p.gain - gained) for name, p in made.items()}
 
 
+def _with_impacts(asked: Asked, pair: Pair) -> float:
+    """The gain by which a pair is compared with others: impacts of the second, which no other brings, count."""
+    return pair.gain + TEMPER * impacts_beside(asked.setting, asked.first, pair.beside.names[0])
+
+
 def _rivals(asked: Asked, best: Pair, pairs: Sequence[Pair], sums: Mapping[str, float]) -> list[str]:
     """What may stand beside the first as well as the best does: what is near it simulated; what was not simulated and
     is near it by its sum; a bow for an unbalance and the other way round, which teeth alone tell apart."""
-    second, told = best.beside.names[0], {p.beside.names[0]: p.gain for p in pairs}
+    second, told = best.beside.names[0], {p.beside.names[0]: _with_impacts(asked, p) for p in pairs}
+    most = _with_impacts(asked, best)
     teeth = bool(asked.setting.machine.gears)
     lead = LEAD_BESIDE_PLAY if has_play(asked.first) else LEAD
     near = []
     for name, gain in sums.items():
-        least = TWIN_SHARE * best.gain if teeth else -np.inf
+        least = TWIN_SHARE * most if teeth else -np.inf
         reached = told.get(name, gain)
         if name == second or variants(name, second):
             continue
         if alike(name, second):
             near += [name] if reached > least else []
-        elif reached > (best.gain - lead if name in told else NEAR_SHARE * best.gain):
+        elif reached > (most - lead if name in told else NEAR_SHARE * most):
             near.append(name)
     return near
 

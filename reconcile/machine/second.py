@@ -168,11 +168,11 @@ def struck_too(setting: Setting, found: Found, first: str) -> Beside | None:
         p=setting.direct.p,
         misfit=look.misfit,
         placed=(len(known) == 1 or float(evidence.max()) - parts[0][known[order[0]]] >= LEAST_EVIDENCE)
-        and not _by_play(setting, first, parts[0]),
+        and not by_play(setting, first, parts[0]),
     )
 
 
-def _by_play(setting: Setting, first: str, part: Mapping[str, float]) -> bool:
+def by_play(setting: Setting, first: str, part: Mapping[str, float]) -> bool:
     """Whether what strikes at a part's lines is no more than a play in a bearing with these lines brings."""
     site = first.split("@")[1]
     own = [setting.direct.evidence.get(f"{name.split('@')[0]}@{site}", 0.0) for name in part]

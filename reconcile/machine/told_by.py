@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from reconcile.machine.direct import HEARD
-from reconcile.machine.second import sure
+from reconcile.machine.second import by_play, strikes, sure
 from reconcile.machine.setting import Found, Setting
 from sim.terms import REGISTRY
 
@@ -35,3 +35,11 @@ def heard(setting: Setting, name: str) -> bool:
     term = REGISTRY.get(name.split("@", maxsplit=1)[0])
     least = HEARD if term is None or term.strikes == "tooth" else HALF_HEARD
     return setting.direct.evidence.get(name, 0.0) >= least
+
+
+def impacts_beside(setting: Setting, first: str, second: str) -> float:
+    """Log evidence of a second effect's impacts beside the first; 0 where they may be those of the first's play."""
+    evidence = setting.direct.evidence.get(second, 0.0)
+    if not strikes(second) or by_play(setting, first, {second: evidence}):
+        return 0.0
+    return max(evidence, 0.0)

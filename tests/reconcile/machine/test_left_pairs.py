@@ -14,13 +14,12 @@ from reconcile.machine import left_pairs
 from reconcile.machine.asked import LEAST_GAIN
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import Decision
-from reconcile.machine.direct import HEARD
 from reconcile.machine.heldout import held_out, with_drawn
 from reconcile.machine.left_pairs import best_left_pair
 from reconcile.machine.library import joined
 from reconcile.machine.pairs import Pair, Pairs, named_pair
 from reconcile.machine.setting import Found
-from reconcile.machine.told_by import HALF_HEARD, heard
+from reconcile.machine.told_by import HALF_HEARD
 from sim.core.spec import TermSpec
 from tests.reconcile.machine.rubs import FEATURES, MADE, RIGHT, WRONG, Asked, asked_of_the_made, found_in
 from tests.reconcile.machine.test_leftover import TRUE, seen
@@ -252,13 +251,6 @@ def test_what_would_strike_is_asked_only_if_it_is_heard(monkeypatch: pytest.Monk
     for evidence, there in (({}, False), ({WRONG: HALF_HEARD - 0.1}, False), ({WRONG: HALF_HEARD}, True)):
         setting.direct.evidence = evidence
         assert left_pairs._possible(setting, found.known, RIGHT) == [WRONG] * there  # type: ignore[arg-type]
-
-
-@pytest.mark.parametrize(("name", "least"), [("outer_spall@bearing1", HALF_HEARD), ("tooth_crack@pinion", HEARD)])
-def test_teeth_must_be_heard_better_than_balls(name: str, least: float) -> None:
-    for evidence, told in ((least, True), (least - 0.1, False)):
-        setting = SimpleNamespace(direct=SimpleNamespace(evidence={name: evidence}))
-        assert heard(setting, name) is told  # type: ignore[arg-type]
 
 
 def test_without_single_lines_nothing_is_looked_for(simulated: Asked) -> None:

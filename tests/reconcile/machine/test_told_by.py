@@ -1,0 +1,41 @@
+"""Impacts beside an effect that does not strike: which are asked, and what they add to a second one."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import pytest
+
+from reconcile.machine import left_pairs
+from reconcile.machine.direct import HEARD
+from reconcile.machine.told_by import HALF_HEARD, heard
+from tests.reconcile.machine.rubs import found_in
+from tests.reconcile.machine.test_leftover import seen
+
+GEAR = "eccentricity@gear"
+
+
+@pytest.mark.parametrize(("name", "least"), [("outer_spall@bearing1", HALF_HEARD), ("tooth_crack@pinion", HEARD)])
+def test_teeth_must_be_heard_better_than_balls(name: str, least: float) -> None:
+    for evidence, told in ((least, True), (least - 0.1, False)):
+        setting = SimpleNamespace(direct=SimpleNamespace(evidence={name: evidence}))
+        assert heard(setting, name) is told  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("evidence", "told"),
+    [
+        ({"outer_spall@bearing4": 6.0}, False),
+        ({"outer_spall@bearing4": 1.0}, True),
+        ({"outer_spall@bearing4": 6.0, "outer_spall@bearing1": 6.0}, True),
+    ],
+    ids=["heard", "hardly heard", "at the lines of the loose ring's own bearing"],
+)
+def test_impacts_of_a_second_put_it_before_what_brings_none(evidence: dict[str, float], told: bool) -> None:
+    setting, _ = found_in(seen(5e6))
+    setting.machine.gears, setting.direct.evidence = ("gear",), evidence
+    pit, off_centre = (SimpleNamespace(beside=SimpleNamespace(names=(n,))) for n in ("outer_spall@bearing4", GEAR))
+    pit.gain, off_centre.gain = 35.1, 38.5
+    asked = SimpleNamespace(setting=setting, first="fit_clearance@bearing1")
+    near = left_pairs._rivals(asked, pit, [off_centre], {"outer_spall@bearing4": 46.3, GEAR: 29.0})  # type: ignore[arg-type]
+    assert near == [GEAR] * told
