@@ -17,6 +17,7 @@ from reconcile.judge.adequacy import rest_of
 from reconcile.judge.screen import Look, looked
 from reconcile.judge.space import Fitted
 from reconcile.machine.decide import DETECT_P, LOOKS, STRANGE, STRUCK, UNMET_ROUGH, Decision, leaves_lines
+from reconcile.machine.direct import ALIKE
 from reconcile.machine.of_teeth import APART, of_one_gear
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.weigh import LEAST_EVIDENCE, SET_WEIGHT, variants
@@ -176,7 +177,8 @@ def by_play(setting: Setting, first: str, part: Mapping[str, float]) -> bool:
     """Whether what strikes at a part's lines is no more than a play in a bearing with these lines brings."""
     site = first.split("@")[1]
     own = [setting.direct.evidence.get(f"{name.split('@')[0]}@{site}", 0.0) for name in part]
-    return has_play(first) and max(own) > 0.0 and max(part.values()) < STRUCK_BESIDE_PLAY
+    most = max(part.values())
+    return has_play(first) and max(own) > 0.0 and max(own) >= ALIKE * most and most < STRUCK_BESIDE_PLAY
 
 
 def second_effect(setting: Setting, found: Found, decision: Decision) -> Beside | None:

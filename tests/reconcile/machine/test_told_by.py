@@ -27,9 +27,10 @@ def test_teeth_must_be_heard_better_than_balls(name: str, least: float) -> None:
     [
         ({"outer_spall@bearing4": 6.0}, False),
         ({"outer_spall@bearing4": 1.0}, True),
+        ({"outer_spall@bearing4": 6.0, "outer_spall@bearing1": 0.8}, False),
         ({"outer_spall@bearing4": 6.0, "outer_spall@bearing1": 6.0}, True),
     ],
-    ids=["heard", "hardly heard", "at the lines of the loose ring's own bearing"],
+    ids=["heard", "hardly heard", "and next to nothing at the loose ring", "at the lines of the loose ring's bearing"],
 )
 def test_impacts_of_a_second_put_it_before_what_brings_none(evidence: dict[str, float], told: bool) -> None:
     setting, _ = found_in(seen(5e6))
