@@ -11,6 +11,8 @@ from reconcile.atlas.places import sensor_sites
 from reconcile.judge.adequacy import Rest
 from reconcile.machine.decide import (
     GLARING,
+    LEAST_LEFT_UNKNOWN,
+    LITTLE_LEFT,
     STRANGE,
     chance,
     decide,
@@ -128,16 +130,27 @@ def test_single_lines_that_the_best_effect_leaves_are_unknown_physics() -> None:
     assert decide(screen([20.0, 15.0], rest=Rest(unmet=1.0, kept=0.3)), views=9).word == "explained"
     assert decide(screen([30.0, 15.0], rest=Rest(unmet=2.1, kept=0.3)), views=9).word == "explained", "far ahead"
     assert decide(screen([20.0, 15.0], rest=Rest(unmet=4.5, kept=0.65)), views=9).word == "explained"
-    fitted = Rest(unmet=1.0, kept=0.65, pooled=0.4, rough=False)
+    fitted = Rest(unmet=LEAST_LEFT_UNKNOWN, kept=0.65, pooled=0.4, rough=False)
     assert decide(screen([20.0, 15.0], rest=fitted), views=9).word == "unknown_physics", "fitted with the machine"
     assert decide(screen([20.0, 15.0], rest=replace(fitted, pooled=0.55)), views=9).word == "explained"
     assert decide(screen([20.0, 15.0], rest=replace(fitted, unmet=0.5)), views=9).word == "explained"
-    other = replace(fitted, unmet=0.0, elsewhere=1.6)
+    other = replace(fitted, unmet=0.0, elsewhere=2.1)
     assert decide(screen([20.0, 15.0], rest=other), views=9).word == "unknown_physics", "lines of the other view"
     assert decide(screen([20.0, 15.0], rest=replace(other, elsewhere=1.4)), views=9).word == "explained"
     assert decide(screen([20.0, 15.0], rest=replace(other, pooled=0.55)), views=9).word == "explained"
     beside = decide(struck([30.0, 5.0], [20.0], rest=Rest(unmet=3.0, kept=0.3)), views=9)
     assert beside.word == "explained" and "left" in beside.reasons[0]
+
+
+def test_a_little_more_left_of_single_lines_than_usual_is_neither_a_name_nor_unknown_physics() -> None:
+    little = Rest(unmet=LEAST_LEFT_UNKNOWN - 0.1, kept=0.3, pooled=0.4, rough=False)
+    for rest in (little, replace(little, unmet=0.0, elsewhere=LEAST_LEFT_UNKNOWN - 0.1)):
+        found = decide(screen([20.0, 15.0], rest=rest), views=9)
+        assert (found.word, found.reasons) == ("not_decidable", (LITTLE_LEFT,)) and found.chosen
+    faint = screen([2.0, 1.0], rest=little, strongest=20.0)
+    assert decide(faint, views=9).word == "not_decidable", "no pattern either"
+    worse = screen([20.0, 15.0], rest=little, misfit=STRANGE + 0.01)
+    assert decide(worse, views=9).word == "unknown_physics", "by all features"
 
 
 def test_clear_single_lines_are_not_too_faint_to_tell() -> None:
