@@ -15,6 +15,7 @@ from reconcile.machine.own_time import (
     STEP_HZ,
     OwnTime,
     _an_order,
+    _falls,
     own_time,
 )
 from reconcile.observe.extract import USABLE
@@ -172,3 +173,12 @@ def test_only_a_low_multiple_is_an_order_by_itself() -> None:
     one_side = 8.0 * ((np.abs(grid - 110.0) < 1.0) | (np.abs(grid - 120.0) < 1.0))
     assert not _an_order(10.0, 110.0, one_side, grid), "both neighbours"
     assert _an_order(10.0, 250.0, 8.0 * ((np.abs(grid - 250.0) < 1.0) | (np.abs(grid - 240.0) < 1.0)), grid), "one only"
+
+
+def test_what_rises_towards_the_teeth_s_lines_is_their_skirt_and_no_frequency() -> None:
+    grid = np.arange(LOWEST_HZ, 60.0, STEP_HZ)
+    skirt = 4.0 * np.exp(-(grid - LOWEST_HZ) / 6.0)
+    peak = 4.0 * np.exp(-((grid - 30.0) ** 2))
+    assert not _falls(grid, skirt, int(np.argmax(skirt)))
+    assert not _falls(grid, skirt, 3)
+    assert _falls(grid, skirt + peak, int(np.argmin(np.abs(grid - 30.0))))
