@@ -6,7 +6,8 @@ SECTIONS = {
     "held": "No version of the engine had met these before their run; one engine ran all (h035 was run a second "
     "time, as the engine was frozen again; its first answer was not looked at). Two ran at once on the two threads of "
     "one core, beside other work, which core-seconds show. Since then the rules of the sensor gate on dead, loose and "
-    "clipped sensors have changed, and what is told beside a play.",
+    "clipped sensors have changed, what is told beside a play, and when unknown physics is: h034, h035, h062, h100 and "
+    "h107 have each had a part in a rule.",
     "begun": "No version of the engine had met these before their run: the first 34 of `held` and h086, all run by the "
     "engine before (commit 3f03490). h001, h021, h025 and h028 have each set a rule since.",
     "entire": "No version of the engine had met these before their run; one engine ran all of them. Two ran at once on "

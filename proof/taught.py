@@ -188,5 +188,20 @@ RULES = (
         "of faults of a tooth beside another effect none is named unless the others are tried and far behind",
         "h021, a crack named a broken tooth beside a loose fit",
     ),
+    (
+        "lines alone tell of unknown physics from twice the usual on ([decision](decisions/reconcile-adequacy.md))",
+        "the sound h034 and e127, the loose pedestals h062 and h107 and the loose fit e141, unknown before",
+    ),
+    (
+        "what rises towards the teeth's lines is their skirt, no frequency of its own",
+        "h100, an eccentric gear told as a modulation at 12 Hz",
+    ),
+    (
+        (
+            "impacts of a second effect count beside a play, but for those at the lines of the play's own bearing "
+            "([decision](decisions/reconcile-leftover.md))"
+        ),
+        "h035, a loose fit with a pit on the other shaft told beside an eccentric gear; both named since, gain 0.52",
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""

@@ -170,7 +170,8 @@ class _Seen:
             best = int(np.argmax(left))
             order = self._middle(best)
             if not self._of_a_part(order):
-                return order if self.every[best] >= AHEAD * self.elsewhere(order) else None
+                least = max(LEAST_DB, AHEAD * self.elsewhere(order))
+                return order if self._at(order) >= least else None  # of a flank the centre counts
             left[np.abs(self.grid - self.grid[best]) <= self._width] = 0.0  # a part's line, with what it leaks
         return None
 
@@ -180,6 +181,10 @@ class _Seen:
         for multiple in (1 / 3, 0.5, 1.0, 2.0, 3.0):
             away &= np.abs(self.grid - multiple * order) > self._width
         return float(self.every[away].max(initial=0.0))
+
+    def _at(self, order: float) -> float:
+        """What has risen at an order, dB."""
+        return float(self.every[int(np.argmin(np.abs(self.grid - order)))])
 
     @property
     def _width(self) -> float:

@@ -165,3 +165,18 @@ def test_the_flat_top_of_a_shafts_strong_line_is_the_shafts(machine: MachineSpec
         every[begin : begin + len(risen)] = risen
         seen = _Seen(grid=grid, every=every, bin_order=0.049, tie=tie)
         assert (seen.stranger() is not None) == stranger
+
+
+@pytest.mark.parametrize(("middle", "stranger"), [(2.2, False), (3.4, True)])
+def test_where_only_a_flank_has_risen_enough_there_is_no_line(
+    middle: float, stranger: bool, machine: MachineSpec
+) -> None:
+    """Beside an eccentric gear (h100 of the proof) the tenth of its turns rose by 2.2 dB, and its flank by 3."""
+    tie = _known(machine)
+    assert tie is not None
+    grid = np.arange(0.4, 3.0, 0.01)
+    every = np.zeros(grid.size)
+    begin = int(np.argmin(np.abs(grid - 1.86)))
+    every[begin : begin + 9] = [3.2, 3.0, 2.8, middle, middle, middle, 2.8, 2.8, 2.8]
+    seen = _Seen(grid=grid, every=every, bin_order=0.049, tie=tie)
+    assert (seen.stranger() is not None) == stranger
