@@ -39,20 +39,14 @@ def with_faults(report: Report, found: Sequence[SensorFault], explained: Sequenc
     """The report with the faults `found`, without kinds that the answer itself explains.
 
     A verdict of `measurement_fault` keeps its `fault`, which then leads the list. Beside any other the first that is
-    sure is `fault` and the sure ones stand in the sentence; what the machine itself may do is undecidable.
+    sure is `fault` and the sure ones stand in the sentence; what the machine itself may do is undecidable beside any.
     """
     kept = tuple(f for f in found if f.kind not in explained)
     if report.verdict == "measurement_fault":
-        first = report.fault
-        if first is not None and all((f.kind, f.channel) != (first.kind, first.channel) for f in kept):
-            kept = (first, *kept)
-        return replace(report, measurement_faults=kept)
+        return _of_the_measurement(report, kept)
     if not kept:
         return report
-    sure = [f for f in kept if not f.doubtful]
-    open_ones = tuple(
-        f"whether {_words(f)} is the sensor's or the machine's own, which may do the same" for f in kept if f.doubtful
-    )
+    sure, open_ones = [f for f in kept if not f.doubtful], _open(kept)
     sentence = f"{report.sentence} {_beside(sure)}" if sure else report.sentence
     return replace(
         report,
@@ -61,6 +55,24 @@ def with_faults(report: Report, found: Sequence[SensorFault], explained: Sequenc
         measurement_faults=kept,
         undecidable=(*report.undecidable, *open_ones),
     )
+
+
+def _of_the_measurement(report: Report, kept: tuple[SensorFault, ...]) -> Report:
+    """The fault as it stands in the list, which it leads where it is not in it."""
+    first = report.fault
+    listed = next((f for f in kept if first and (f.kind, f.channel) == (first.kind, first.channel)), None)
+    if first is None:
+        return replace(report, measurement_faults=kept)
+    if listed is None:
+        return replace(report, measurement_faults=(first, *kept))
+    told = replace(first, doubtful=first.doubtful or listed.doubtful)
+    return replace(report, fault=told, measurement_faults=kept, undecidable=(*report.undecidable, *_open(kept)))
+
+
+def _open(faults: Sequence[SensorFault]) -> tuple[str, ...]:
+    """Of each that the machine itself may do."""
+    doubtful = [f for f in faults if f.doubtful]
+    return tuple(f"whether {_words(f)} is the sensor's or the machine's own, which may do the same" for f in doubtful)
 
 
 def _words(fault: SensorFault) -> str:

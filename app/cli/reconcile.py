@@ -27,6 +27,7 @@ from reconcile.entry import reconcile_recordings
 from reconcile.kinematics import KinematicSpec
 from reconcile.machine.budget import BUDGETS
 from reconcile.machine.engine import ATLASES_DONE
+from reconcile.observe.observation import LEFT_OUT
 from reconcile.report import write_report
 from reconcile.report.write import PAGE, REPORT
 from reconcile.told import about
@@ -233,6 +234,8 @@ def run(arguments: argparse.Namespace) -> int:
             seed=arguments.seed,
             progress=_Shown(),
         )
+    for limit in (one for one in report.where.limits if one.startswith(LEFT_OUT)):
+        print(f"note: {limit}", file=sys.stderr)
     report = replace(report, where=replace(report.where, limits=(*report.where.limits, *notes)))
     earlier = (arguments.out / "report.json").exists()
     written = write_report(report, arguments.out)

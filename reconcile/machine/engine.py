@@ -64,7 +64,7 @@ from reconcile.machine.told_by import teeth_tell
 from reconcile.machine.turned import told_apart, turned_alike, with_limits, with_unconfirmed
 from reconcile.machine.unfitting import misfit_report, told_of
 from reconcile.machine.unknown import Unknown, unknown_force
-from reconcile.observe.observation import PointData, observe
+from reconcile.observe.observation import PointData, observe, unpaired
 from reconcile.observe.watch import watch_list
 from reconcile.verdict import Report, operating_point
 from signals.recording import Recording
@@ -141,7 +141,8 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     if not fitting:
         return misfit_report(elsewhere, machine, data, gate, _told_by(meter, seed, budget))
     alike, apart = turned_alike(machine, fitting, channels)
-    apart = (*(told_of(one, machine) for one in elsewhere), *apart)
+    left_out = unpaired(machine, gate.tests, gate.baselines)
+    apart = (*left_out, *(told_of(one, machine) for one in elsewhere), *apart)
     if not alike:
         return told_apart(apart, data, gate, _told_by(meter, seed, budget))
     setting = _setting(machine, gate, alike, asked.plan, asked.keeper, meter, progress)

@@ -22,6 +22,8 @@ from sim.core.spec import MachineSpec, TorqueLoad
 
 SAME_SPEED = 0.015
 SAME_TORQUE = 0.1
+LEFT_OUT = "left out"
+"""How it begins what is told of tests that are not compared."""
 TOOTH_ORDERS = 10
 """Harmonics of the teeth by which the angle is followed."""
 
@@ -149,6 +151,15 @@ def observe(
         given, allowed = _points(_group(machine, tests)), f"the points of the baselines: {_points(known)}"
         raise SpecError(Problem(field="baseline", message=message, given=given, allowed=allowed))
     return tuple(found)
+
+
+def unpaired(machine: MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording]) -> tuple[str, ...]:
+    """What is told of tests that no baseline was recorded beside, where there are any baselines: they are left out."""
+    known = _group(machine, baselines)
+    alone = [one for one in _group(machine, tests) if not any(_alike(p, one[0]) for p, _ in known)] if known else []
+    if not alone:
+        return ()
+    return (f"left out: tests at {_points(alone)}; baselines were recorded at {_points(known)} only",)
 
 
 def _points(groups: Sequence[tuple[Point, Sequence[Recording]]]) -> str:

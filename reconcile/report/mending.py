@@ -18,7 +18,7 @@ MENDED = {
     "polarity": ("turn one of both channels round", ASKED),
     "sampling_rate": ("correct the sampling rate that the description states", ASKED),
     "drift": ("check what {at} is fixed to, its supply and its warm-up", AGAIN),
-    "gain_change": ("check range and sensitivity of {at}", AGAIN),
+    "gain_change": ("check range and sensitivity of {at}; if they are as before, inspect the parts beside it", ""),
     "repeated": ("check the recorder's buffer (here {at})", AGAIN),
     "copied": ("check which sensor each channel of the tests is of (here {at})", AGAIN),
     "filter_change": ("set the filter of {at} as it was", AGAIN),

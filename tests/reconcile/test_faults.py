@@ -100,3 +100,18 @@ def test_a_pit_beside_a_channel_with_gaps_is_told_with_both() -> None:
     assert report.fault is not None
     assert (report.fault.kind, report.fault.channel) == ("dropouts", "far")
     assert "Beside it the measurement is at fault: dropouts on far." in report.sentence  # heard where it was good
+
+
+def test_a_fault_that_is_the_answer_is_as_doubtful_as_in_the_list_and_says_what_is_open() -> None:
+    answer = Report(
+        verdict="measurement_fault", sentence="Loose.", level="machine", fault=replace(LOOSE, doubtful=False)
+    )
+    told = with_faults(answer, (CLIPPED, LOOSE))
+    assert told.fault == LOOSE and told.measurement_faults == (CLIPPED, LOOSE)
+    assert told.undecidable == (
+        "whether loose sensor on nde is the sensor's or the machine's own, which may do the same",
+    )
+    sure = with_faults(replace(answer, fault=CLIPPED), (CLIPPED,))
+    assert sure.fault == CLIPPED and sure.undecidable == ()
+    unlisted = with_faults(answer, (CLIPPED,))
+    assert unlisted.measurement_faults == (answer.fault, CLIPPED)
