@@ -11,7 +11,9 @@ from reconcile.gate.findings import Finding, Gate, worst
 from reconcile.gate.loose import transferred
 from reconcile.kinematics.candidate import ALONE_DEPTH, DEFECTS, LEAST_Z, Candidate
 from reconcile.kinematics.evidence import comb_depth
+from reconcile.kinematics.lines import SAME_SPEED
 from reconcile.kinematics.observe import Observation
+from signals.recording import Recording
 
 NARROW = 0.25
 """Of half the sampling rate, the widest band in which a place of a spectrum is looked at."""
@@ -45,16 +47,33 @@ def _strikes(one: Candidate, loose: Finding, tests: Sequence[Observation]) -> bo
 
 
 def cut_alike(gate: Gate) -> Gate:
-    """The gate with baselines that are cut off as far as the tests are: where the highest of what a sound shaft does is
-    cut off, the rest is modulated once a turn."""
-    names = {f.channel for f in gate.findings if f.kind == "clipped" and f.fault and f.recording.startswith("test")}
-    baselines = []
-    for base in gate.baselines:
-        samples = base.samples.copy()
-        for row, name in enumerate(base.names):
-            rows = [t.series(name).samples for t in gate.tests if name in t.names]
-            if name in names and rows:
-                low, high = max(float(np.min(x)) for x in rows), min(float(np.max(x)) for x in rows)
-                samples[row] = np.clip(samples[row], low, high)
-        baselines.append(replace(base, samples=samples))
-    return replace(gate, baselines=tuple(baselines)) if names else gate
+    """The gate with baselines that are cut off as far as the tests are that are held against them, those of their own
+    speed where there are any: where the highest of what a sound shaft does is cut off, the rest is modulated once a
+    turn. A test that is not cut off says nothing of where the baselines should be."""
+    cut = [f for f in gate.findings if f.kind == "clipped" and f.fault and f.recording.startswith(("test", "all"))]
+    if not cut:
+        return gate
+    return replace(gate, baselines=tuple(_cut_as(base, _held_against(base, gate), cut) for base in gate.baselines))
+
+
+def _held_against(base: Recording, gate: Gate) -> list[tuple[str, Recording]]:
+    """Tests by the names under which findings tell them."""
+    named = [(f"test {k}", test) for k, test in enumerate(gate.tests, 1)]
+    speed_hz = base.operating.speed_hz if base.operating is not None else None
+    if speed_hz is None:
+        return named
+    stated = [(name, t) for name, t in named if t.operating is not None]
+    alike = [(n, t) for n, t in stated if t.operating and abs(t.operating.speed_hz / speed_hz - 1.0) <= SAME_SPEED]
+    return alike or named
+
+
+def _cut_as(base: Recording, held: Sequence[tuple[str, Recording]], cut: Sequence[Finding]) -> Recording:
+    samples = base.samples.copy()
+    for row, name in enumerate(base.names):
+        told = {f.recording for f in cut if f.channel == name}
+        tests = [t for n, t in held if name in t.names and (n in told or "all tests" in told)]
+        if tests:
+            rows = [t.series(name).samples for t in tests]
+            low, high = max(float(np.min(x)) for x in rows), min(float(np.max(x)) for x in rows)
+            samples[row] = np.clip(samples[row], low, high)
+    return replace(base, samples=samples)

@@ -3,10 +3,14 @@ sensors are told beside it, and what is cut off makes no impacts once a turn."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from reconcile.gate.findings import Finding, Gate
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
+from reconcile.kinematics.struck import cut_alike
 from reconcile.report.action import LOUDEST
 from reconcile.verdict import Report
 from signals.recording import Operating, Recording
@@ -94,3 +98,18 @@ def test_a_cut_off_crest_is_no_impact_and_a_real_one_is_told() -> None:
     de, fe = motor(4, 2.5, order=1.0)
     turn = asked(np.clip(de, -2 * LIMIT, 2 * LIMIT), fe)
     assert turn.sentence.startswith("Impacts once a turn of input") and "clipped" in faults(turn), turn.sentence
+
+
+def test_baselines_are_cut_off_as_the_tests_that_are_cut_off_and_as_no_other() -> None:
+    de, fe = motor(3)
+    cut, quiet, base = recorded(np.clip(de, -LIMIT, LIMIT), fe), recorded(0.2 * de, 0.2 * fe), recorded(*motor(1))
+    slow = replace(base, operating=Operating(shaft="input", speed_hz=20.0))
+    told = Finding(kind="clipped", channel="de", recording="test 1", detail="", severity=1.0, fault=True)
+    gate = Gate(findings=(told,), baselines=(base, slow), tests=(cut, quiet), fault=None, usable=True)
+    highest = [[float(row.max()) for row in one.samples] for one in cut_alike(gate).baselines]
+    assert highest[0][0] == LIMIT and highest[0][1] == base.samples[1].max(), "by the test that is cut off"
+    assert highest[1][0] == LIMIT, "no test of its speed: as any"
+    other = replace(quiet, operating=slow.operating)
+    free = cut_alike(replace(gate, tests=(cut, other))).baselines[1]
+    assert np.array_equal(free.samples, slow.samples), "the test of its speed is not cut off"
+    assert cut_alike(replace(gate, findings=())).baselines == gate.baselines
