@@ -65,7 +65,12 @@ def _of_the_measurement(report: Report, kept: tuple[SensorFault, ...]) -> Report
         return replace(report, measurement_faults=kept)
     if listed is None:
         return replace(report, measurement_faults=(first, *kept))
-    told = replace(first, doubtful=first.doubtful or listed.doubtful)
+    told = replace(
+        first,
+        doubtful=first.doubtful or listed.doubtful,
+        left_out=first.left_out or listed.left_out,
+        recordings=first.recordings or listed.recordings,
+    )
     return replace(report, fault=told, measurement_faults=kept, undecidable=(*report.undecidable, *_open(kept)))
 
 
