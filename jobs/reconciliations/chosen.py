@@ -123,5 +123,7 @@ def _looked_up(catalogue: JobCatalogue, identifier: str) -> tuple[JobRecord | No
         return None, f"is a recording that was {record.gone}; send it again"
     if not record.status.active and record.status is not Status.SUCCESSFUL:
         why = f": {record.failure.message}" if record.failure is not None else ""
-        return None, f"is a recording that could not be read ({record.status.value}){why}"
+        refused = record.failure is not None and record.failure.code == "refused"
+        word = "refused" if refused else record.status.value
+        return None, f"is a recording that could not be read ({word}){why}"
     return record, ""

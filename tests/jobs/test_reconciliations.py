@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,9 @@ from jobs import transitions
 from jobs.budget import Budget
 from jobs.errors import BudgetSpent, IdempotencyConflict, ResultNotReady
 from jobs.reconciliations import carry_out
+from jobs.reconciliations.chosen import _looked_up
 from jobs.record import Answer
+from jobs.recordings.words import RECORDING
 from jobs.results import ResultReader
 from jobs.status import Status
 from reconcile.verdict import Cause, Report
@@ -240,3 +243,15 @@ def test_what_a_worker_refuses_names_the_recording(world: World) -> None:
     record = world.carried_out(world.ask([once, again]))
     assert record.status is Status.FAILED and record.failure is not None
     assert f"r.npz ({again})" in str(record.failure)
+
+
+@pytest.mark.parametrize(("code", "word"), [("refused", "refused"), ("internal", "failed")])
+def test_a_recording_that_was_refused_is_called_so(code: str, word: str) -> None:
+    record = SimpleNamespace(
+        kind=RECORDING,
+        gone=None,
+        status=Status.FAILED,
+        failure=SimpleNamespace(code=code, message="too short"),
+    )
+    found, why = _looked_up(SimpleNamespace(get=lambda _: record), "r")  # type: ignore[arg-type]
+    assert found is None and why == f"is a recording that could not be read ({word}): too short"
