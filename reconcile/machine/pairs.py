@@ -24,7 +24,7 @@ from reconcile.machine.assimilate import Ensemble, moved, simulated_again
 from reconcile.machine.decide import STRANGE, Decision, leaves_lines
 from reconcile.machine.direct import HEARD
 from reconcile.machine.library import Catalogued
-from reconcile.machine.of_teeth import APART, of_one_gear
+from reconcile.machine.of_teeth import APART, look_alike, of_one_gear
 from reconcile.machine.second import Beside, Together, strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.severity import weighted_severity
@@ -258,7 +258,8 @@ def of_its_tooth(second: str, tried: Sequence[tuple[str, float, float | None]]) 
     beside a loose fit was named a broken tooth, 36 as simulated, where a pit had 19 and the crack was not simulated."""
     gains = {name: math.inf if simulated is None else simulated + APART for name, _, simulated in tried}
     own = next((simulated for name, _, simulated in tried if name == second and simulated is not None), 0.0)
-    return [n for n, reach in gains.items() if n != second and of_one_gear(n, second) and reach > own]
+    near = [n for n, reach in gains.items() if reach > own or look_alike(n, second)]
+    return [n for n in near if n != second and of_one_gear(n, second)]
 
 
 def _stands(setting: Setting, found: Found, decision: Decision, best: Pair) -> bool:

@@ -18,7 +18,7 @@ from reconcile.judge.screen import Look, looked
 from reconcile.judge.space import Fitted
 from reconcile.machine.decide import DETECT_P, LOOKS, STRANGE, STRUCK, UNMET_ROUGH, Decision, leaves_lines
 from reconcile.machine.direct import ALIKE
-from reconcile.machine.of_teeth import APART, of_one_gear
+from reconcile.machine.of_teeth import APART, look_alike, of_one_gear
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.weigh import LEAST_EVIDENCE, SET_WEIGHT, variants
 from reconcile.tail import tail_chance
@@ -217,7 +217,8 @@ def outweighs(seen: Beside) -> bool:
     must be as far ahead as where it stands alone."""
     if not seen.placed:
         return False
-    if sum(of_one_gear(n, seen.names[0]) and e > seen.evidence[0] - APART for n, e in _told(seen)) > 1:
+    teeth = [(n, e) for n, e in _told(seen) if of_one_gear(n, seen.names[0])]
+    if sum(e > seen.evidence[0] - APART or look_alike(n, seen.names[0]) for n, e in teeth) > 1:
         return False
     weights = np.exp(seen.evidence - seen.evidence[0])
     forms = np.array([n == seen.names[0] or variants(n, seen.names[0]) for n in seen.names])

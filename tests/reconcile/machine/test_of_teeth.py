@@ -37,8 +37,17 @@ def test_other_sets_keep_their_order(chosen):
 
 def test_a_name_far_ahead_of_the_other_faults_of_that_gear_stays():
     decision = Decision(word="explained", chosen=TEETH[:1], p=1e-6, reasons=())
-    alone = of_teeth(decision, screen([26.0, 26.0 - APART, 10.0, 26.0], names=NAMES))
-    assert alone == decision, "the crack of the other gear is no other name for it"
+    others = ("missing_tooth@pinion", "tooth_crack@pinion", "tooth_crack@gear", "tooth_spall@gear")
+    alone = of_teeth(decision, screen([26.0, 26.0 - APART, 26.0, 26.0], names=others))
+    assert alone == decision, "faults of the other gear are no other name for it"
+
+
+@pytest.mark.parametrize("chosen", [TEETH[0], TEETH[1]])
+def test_a_broken_and_a_pitted_tooth_are_never_told_apart(chosen):
+    decision = Decision(word="explained", chosen=(chosen,), p=1e-6, reasons=())
+    evidence = [56.3 if name == chosen else 8.0 for name in NAMES]
+    found = of_teeth(decision, screen(evidence, names=NAMES))
+    assert found.word == "ambiguous" and found.chosen[0] == chosen and set(found.chosen) == set(TEETH[:2])
 
 
 def test_else_it_is_the_set_of_those_that_are_near():

@@ -258,11 +258,13 @@ def test_the_ranking_marks_both_names_and_shows_them_wherever_they_stand(monkeyp
 def test_a_fault_of_a_tooth_leads_the_others_far_enough_or_is_one_of_them() -> None:
     broken, pit, crack = (f"{kind}@pinion" for kind in ("missing_tooth", "tooth_spall", "tooth_crack"))
     tried = ((pit, 25.5, 19.2), (broken, 21.2, 36.0), ("cage_slip@bearing1", 12.7, None), (crack, 8.6, None))
-    assert of_its_tooth(broken, tried) == [crack]  # summed only
-    near = tuple((n, by, 36.0 - APART + 0.1 if n == pit else one) for n, by, one in tried)
-    assert of_its_tooth(broken, near) == [pit, crack]
+    assert of_its_tooth(broken, tried) == [pit, crack]  # a pit always; the crack was summed only
+    for gain, others in ((36.0 - APART, [pit]), (36.0 - APART + 0.1, [pit, crack])):
+        asked = tuple((n, by, gain if n == crack else one) for n, by, one in tried)
+        assert of_its_tooth(broken, asked) == others
+    assert of_its_tooth(crack, ((crack, 8.6, 36.0), (broken, 21.2, 36.0 - APART))) == []
     assert of_its_tooth("cage_slip@bearing1", tried) == []
-    assert of_its_tooth(broken, (*tried[:3], ("tooth_crack@gear", 8.6, None))) == []
+    assert of_its_tooth(broken, (*tried[:3], ("tooth_crack@gear", 8.6, None))) == [pit]
 
 
 def test_a_second_that_is_a_fault_of_a_tooth_is_told_with_those_that_were_summed_only(
@@ -279,4 +281,4 @@ def test_a_second_that_is_a_fault_of_a_tooth_is_told_with_those_that_were_summed
     monkeypatch.setattr(pairs, "fitted_pair", lambda _s, _f, _first, second, _m: made[second.name])
     told = best_pair(setting, found, EXPLAINED, 8, 2, map)  # type: ignore[arg-type]
     assert told is not None and told.best is not None
-    assert told.best.others == ("missing_tooth@pinion", "tooth_crack@pinion")
+    assert told.best.others == ("missing_tooth@pinion", "tooth_spall@pinion", "tooth_crack@pinion")
