@@ -164,7 +164,7 @@ def reconcile_driven(
 def _held_up(report: Report, found: Analysis, held: Held, site: Site, seed: int) -> Report:
     """The report held against the noise, the baselines, and lines of forces that were not measured."""
     noise = noise_of(found.linear.model, found.fitted_run, found.linear.error, held.rested)
-    report = settled(report, found, noise, site.body.name, seed)
+    report = settled(report, found, noise, site.body.name, seed, held.rested)
     report = beside_baseline(report, found, held.looks, held.rested, site, seed)
     return beside_tones(report, held.tones, held.data[0], site.body.name, noise)
 

@@ -22,7 +22,8 @@ from reconcile.driven.measured import (
     turned_against,
     turned_fault,
 )
-from reconcile.driven.step import stepped
+from reconcile.driven.skew import skewed
+from reconcile.driven.step import late_fault, stepped
 from reconcile.faults import with_faults
 from reconcile.gate.spoiled import fault_sentence
 from reconcile.verdict import NextExperiment, Report, SensorFault
@@ -51,10 +52,10 @@ class Held:
 
 def held_against(tests: Sequence[Driven], baselines: Sequence[Driven], site: Site) -> Held:
     """Channels exchanged, then units: against the first baseline, else the machine file, else the first test."""
-    faults, undecided = list[SensorFault](), False
-    heard = [_straight(d, f"test {i}", faults) for i, d in enumerate(tests, 1)]
+    faults, apart, undecided = list[SensorFault](), list[str](), False
+    heard = [_straight(d, f"test {i}", faults, apart) for i, d in enumerate(tests, 1)]
     looks = [one.look for one in heard]
-    rested = [_straight(d, f"baseline {i}", []).look for i, d in enumerate(baselines, 1)]
+    rested = [_straight(d, f"baseline {i}", [], []).look for i, d in enumerate(baselines, 1)]
     for i, one in enumerate(looks):
         if one.data.moved:
             continue
@@ -76,7 +77,7 @@ def held_against(tests: Sequence[Driven], baselines: Sequence[Driven], site: Sit
     return Held(
         data=[one.data for one in looks],
         faults=faults,
-        remarks=said,
+        remarks=(*said, *apart),
         undecided=undecided,
         looks=tuple(looks),
         rested=tuple(rested),
@@ -100,24 +101,32 @@ def _turned_and_clocked(looks: Sequence[Look], rested: Sequence[Look]) -> tuple[
     return seen, faults, len(rates) > 1
 
 
-def _straight(data: Driven, recording: str, faults: list[SensorFault]) -> Added:
-    """The look with force and motion as they are, in step, and without what was added to the motion."""
-    one = look(data) if data.moved else _unswapped(look(data), recording, faults)
+def _straight(data: Driven, recording: str, faults: list[SensorFault], apart: list[str]) -> Added:
+    """The look with force and motion as they are, in step, and without what was added to the motion; what is only said
+    of its timing is added to `apart`."""
+    one = look(data) if data.moved else _unswapped(look(data), recording, faults, apart)
     found = without_added(one)
     faults.extend(added_faults(found, one.data, recording))
     return found
 
 
-def _unswapped(one: Look, recording: str, faults: list[SensorFault]) -> Look:
+def _unswapped(one: Look, recording: str, faults: list[SensorFault], apart: list[str]) -> Look:
     """The look with force and motion as they are, and in step; what was wrong is added to `faults`."""
     other, shifted = exchanged(one), stepped(one, recording)
     if shifted is not None and (other is None or shifted[0].left <= other.left):
         faults.append(shifted[1])
         return shifted[0]
-    if other is None:
+    if other is not None:
+        faults.append(swap_fault(one, other, recording))
+        return other
+    skew = skewed(one)
+    if skew is None:
         return one
-    faults.append(swap_fault(one, other, recording))
-    return other
+    if abs(skew.samples) < 1.0:
+        apart.append(skew.remark(recording))
+    else:
+        faults.append(late_fault(one.data, skew.delay_s, recording))
+    return skew.look
 
 
 def fault_report(faults: Sequence[SensorFault], undecidable: tuple[str, ...]) -> Report:

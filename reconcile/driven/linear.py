@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.forced import Analysis, gain_interval
-from reconcile.driven.model import nrmse
+from reconcile.driven.measured import Look
+from reconcile.driven.model import nrmse, ready
 from reconcile.driven.noise import Noise
 from reconcile.driven.nominate import squares_in_blocks
 from reconcile.driven.second import Second, second
@@ -19,6 +21,8 @@ from reconcile.verdict import HeldOut
 
 MOST_BEYOND = 0.3
 """Share of the error's power that no noise accounts for, from which it is no noise."""
+SAME_PLACE = 0.05
+"""Over the frequency: a second resonance of the baseline that near is the same."""
 WORDS = {
     "stiffness": "The stiffness of {site} varies while it is recorded",
     "damping": "The damping of {site} varies while it is recorded",
@@ -37,9 +41,11 @@ class Told:
     held_out: HeldOut | None = None
     left: tuple[FloatArray, FloatArray] | None = None
     """What one and two resonances leave of the held-out part, (n - skip,) each, to be drawn."""
+    known: str = ""
+    """The sentence where a baseline shows the same: then it is nothing that came."""
 
 
-def found_out(found: Analysis, noise: Noise, seed: int, least: float) -> Told | None:
+def found_out(found: Analysis, noise: Noise, seed: int, least: float, baselines: Sequence[Look] = ()) -> Told | None:
     """The better of a variation and a second resonance, if it explains the `least` share of what is beyond noise.
 
     What follows the force is no noise, wherever it stands.
@@ -52,7 +58,26 @@ def found_out(found: Analysis, noise: Noise, seed: int, least: float) -> Told | 
     varies = one is not None and one.p_value <= ALPHA and one.share >= least * noise.beyond
     if one is not None and varies and (two is None or not resounds or one.share > two.share):
         return _varying(found, one)
-    return _second(found, two, noise, rng) if two is not None and resounds else None
+    if two is None or not resounds:
+        return None
+    told = _second(found, two, noise, rng)
+    return replace(told, known=_known(two)) if any(_alike(two, one, least) for one in baselines) else told
+
+
+def _alike(two: Second, one: Look, least: float) -> bool:
+    """Whether a baseline shows the same second resonance."""
+    run = ready(one.data, one.model.memory_s)
+    before = second(one.model, run, run)
+    if before is None or before.share < least * before.follows:
+        return False
+    return abs(math.log(before.second_hz / two.second_hz)) < SAME_PLACE
+
+
+def _known(two: Second) -> str:
+    return (
+        f"Nothing is missing that the baseline does not lack too: both have a second resonance, at {two.second_hz:.4g} "
+        f"Hz beside {two.first_hz:.4g} Hz"
+    )
 
 
 def _varying(found: Analysis, one: Varying) -> Told:

@@ -12,6 +12,7 @@ from reconcile.driven.channels import Driven, FloatArray
 from reconcile.driven.forced import Analysis
 from reconcile.driven.judge import ROUGH
 from reconcile.driven.linear import MOST_BEYOND, Told, found_out
+from reconcile.driven.measured import Look
 from reconcile.driven.noise import Noise, power_lines
 from reconcile.driven.pictures import redrawn
 from reconcile.shares import two_digits
@@ -59,14 +60,19 @@ def known_words(noise: Noise) -> str:
     return ", ".join(said)
 
 
-def settled(report: Report, found: Analysis, noise: Noise, site: str, seed: int) -> Report:
+def settled(
+    report: Report, found: Analysis, noise: Noise, site: str, seed: int, baselines: Sequence[Look] = ()
+) -> Report:
     """The report of a linear model that no law adds to, with what it leaves held against the noise."""
     report = replace(report, stages=(*report.stages, {"stage": "noise", **asdict(noise), "beyond": noise.beyond}))
     nothing = report.verdict == "nothing_missing"
     if not nothing and (report.verdict != "unknown_physics" or found.final.model.laws):
         return report
     if noise.left > LEAST:
-        told = found_out(found, noise, seed, LEAST_SHARE if nothing else LEAST_SHARE_BESIDE)
+        told = found_out(found, noise, seed, LEAST_SHARE if nothing else LEAST_SHARE_BESIDE, baselines)
+        if told is not None and told.known and nothing:
+            said = f"{told.known}; a linear model of one mass leaves {two_digits(noise.left)} of the output."
+            return replace(report, sentence=said, undecidable=(*report.undecidable, *told.undecidable))
         if told is not None:
             return _told(report, found, told, site)
     if not nothing:

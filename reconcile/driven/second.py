@@ -102,6 +102,11 @@ def _starts(model: Model, omega: FloatArray, extra: ComplexArray, pushed: FloatA
     return found
 
 
+def followed(drive: FloatArray, error: FloatArray, step_s: float) -> float:
+    """Share of an error's power that follows the force linearly."""
+    return _followed(drive, error, step_s)[3]
+
+
 def second(model: Model, run: Run, held: Run) -> Second | None:
     """The second resonance that explains most of what the linear model leaves; None where that follows no force."""
     error, order, step = errors(model, run), run.data.order, run.data.step_s

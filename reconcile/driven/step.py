@@ -122,7 +122,7 @@ def in_step(data: Driven, delay_s: float) -> Driven:
     )
 
 
-def _closer(near: Look) -> float:
+def closer(near: Look) -> float:
     """What is left of a delay, s, by one step of least squares on the free run (a long delay leaks out of segments)."""
     run = ready(near.data, near.model.memory_s)
     answered = simulated(near.model, run)
@@ -153,14 +153,14 @@ def stepped(one: Look, recording: str) -> tuple[Look, SensorFault] | None:
     least = BETTER**2 * seen.left(one.data.order, 0.0)
     others = [d for d in _other_motions(one.data) if seen.left(d.order, 0.0) < least]
     delay = _delay(seen, one)
-    late, closer = abs(delay) >= one.data.step_s and seen.left(one.data.order, delay) < least, delay
+    late, exact = abs(delay) >= one.data.step_s and seen.left(one.data.order, delay) < least, delay
     if late:
-        closer += _closer(look(in_step(one.data, delay)))
-        others.append(in_step(one.data, closer))
+        exact += closer(look(in_step(one.data, delay)))
+        others.append(in_step(one.data, exact))
     looks = [look(d) for d in others]
     best = min(looks, key=lambda x: x.left, default=one)
     if best.left <= BETTER * one.left:
-        return best, _fault(one, best, closer, recording)
+        return best, _fault(one, best, exact, recording)
     least = BESIDE_A_LAW * seen.left(one.data.order, 0.0)
     if late and seen.follows > FOLLOWS and seen.left(one.data.order, delay) < least:
         straight = look(in_step(one.data, delay))
