@@ -82,6 +82,14 @@ def _nearest(found: Analysis) -> tuple[str, ...]:
     return (f"the nearest that was tried, {law_words(found)}, leaves {left} on {v.held}",)
 
 
+def _curve(found: Analysis, kind: str, site: str) -> str:
+    """Where the laws are a curve through a force of another form."""
+    v = found.validations[0]
+    left = f"{two_digits(v.after)} instead of {two_digits(v.before)} on {v.held}"
+    said = f"A {kind} force of this form is missing at {site}; it follows none of the known laws, alone or in a pair"
+    return f"{said}. Its estimate is drawn, and laws that run through it as a curve leave {left}."
+
+
 def _none(judgement: Judgement) -> str:
     """Why no law is named: none holds, or the one that does leaves more than noise."""
     if judgement.reasons == (NOT_ALL,):
@@ -95,6 +103,8 @@ def _sentence(found: Analysis, judgement: Judgement, site: str) -> str:
         return f"A linear model of {site} explains the recording up to noise (free-run error {linear})."
     if judgement.verdict == "not_decidable":
         return _undecided(found, judgement, linear, site)
+    if judgement.form and not any(v.diverged for v in found.validations):
+        return _curve(found, judgement.form, site)
     if not found.final.model.laws or judgement.reasons:
         said = f"A force on {site} is missing from the linear model, and {_none(judgement)}"
         flown = [f"the free run on {v.held} with {law_words(found)} diverges" for v in found.validations if v.diverged]

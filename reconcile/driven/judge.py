@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from reconcile.driven.forced import ALPHA, Analysis, Validation
+from reconcile.driven.form import form
 from reconcile.driven.model import LINEAR
 from reconcile.driven.nominate import Trial, leads
 from reconcile.driven.settle import LOST
@@ -51,6 +52,8 @@ class Judgement:
     verdict: Word
     reasons: tuple[str, ...]
     rivals: tuple[Trial, ...]
+    form: str = ""
+    """`restoring` or `damping` where the laws are no more than a curve through such a force (`reconcile.driven.form`)."""
 
 
 def _rivals(found: Analysis) -> tuple[Trial, ...]:
@@ -139,6 +142,9 @@ def judge(found: Analysis) -> Judgement:
     reasons, rivals = _reasons(found), _rivals(found)
     if reasons == (NOT_ALL,) and led(found):
         return Judgement(verdict="not_decidable", reasons=(BRANCHES, *reasons), rivals=rivals)
+    kind, curved = form(found)
+    if curved:
+        return Judgement(verdict="unknown_physics", reasons=(*reasons, *curved), rivals=rivals, form=kind)
     if reasons:
         return Judgement(verdict="unknown_physics", reasons=reasons, rivals=rivals)
     if rivals:

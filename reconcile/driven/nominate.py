@@ -189,7 +189,8 @@ class PowerFit:
 
 
 def free_power(base: Model, final: Model, run: Run, other: Run) -> PowerFit | None:
-    """Replace the odd law of `final` by sgn z |z|^p and fit p with everything else; None without an odd law.
+    """Replace the odd law of `final` by sgn z |z|^p and fit p with everything else; None without an odd law,
+    and where another restoring law shares the force: what the one lacks of it the other takes, and any exponent fits.
 
     From the linear `base`; from `final` itself where no output can lead the run. The interval holds the scatter of
     blocks and what the exponent moves by where a true one would stay (`reconcile.driven.doubt`): led, with straight
@@ -198,7 +199,7 @@ def free_power(base: Model, final: Model, run: Run, other: Run) -> PowerFit | No
     """
     laws = final.laws
     odd = [law for law in laws if law.key in ("cubic", "quintic", "odd_square")]
-    if len(odd) != 1:
+    if len(odd) != 1 or sum(not law.rate for law in laws) > 1:
         return None
     others = [law for law in laws if law is not odd[0]]
     grid = odd[0].power + np.array([-0.3, -0.15, 0.0, 0.15, 0.3])
