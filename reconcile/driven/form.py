@@ -1,8 +1,8 @@
 """Whether fitted laws are laws, or no more than a curve through a force of another form.
 
 A few laws with free gaps and centres run through any smooth force and predict held-out motion well: an exponential
-spring was a cubic, a one-sided spring and stops, tanh a square, a cubic and stops. That says what the force is, not what
-makes it, so no law is named then.
+spring was a cubic, a one-sided spring and stops, tanh a square, a cubic and stops. That says what the force is, not
+what makes it, so no law is named then.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ rises up to 0.18 of it, at 0.13 (with quadratic damping beside it)."""
 
 
 def form(found: Analysis) -> tuple[str, tuple[str, ...]]:
-    """The kind of force that the fitted laws only run through (`restoring`, `damping`; nothing: they are laws), and what
-    tells that."""
+    """The kind of force that the fitted laws only run through (`restoring`, `damping`; nothing: they are laws), and
+    what tells that."""
     laws = found.final.model.laws
     if not laws:
         return "", ()

@@ -53,7 +53,7 @@ class Judgement:
     reasons: tuple[str, ...]
     rivals: tuple[Trial, ...]
     form: str = ""
-    """`restoring` or `damping` where the laws are no more than a curve through such a force (`reconcile.driven.form`)."""
+    """`restoring` or `damping` where the laws are only a curve through such a force (`reconcile.driven.form`)."""
 
 
 def _rivals(found: Analysis) -> tuple[Trial, ...]:
@@ -143,10 +143,8 @@ def judge(found: Analysis) -> Judgement:
     if reasons == (NOT_ALL,) and led(found):
         return Judgement(verdict="not_decidable", reasons=(BRANCHES, *reasons), rivals=rivals)
     kind, curved = form(found)
-    if curved:
+    if reasons or curved:
         return Judgement(verdict="unknown_physics", reasons=(*reasons, *curved), rivals=rivals, form=kind)
-    if reasons:
-        return Judgement(verdict="unknown_physics", reasons=reasons, rivals=rivals)
     if rivals:
         return Judgement(verdict="ambiguous", reasons=(), rivals=rivals)
     return Judgement(verdict="explained", reasons=(), rivals=())
