@@ -57,11 +57,15 @@ def _outside(law: Law, z: FloatArray, v: FloatArray) -> str:
     low, high = float(z.min()), float(z.max())
     if law.key in POWERS and not low < 0.0 < high:
         return "is counted from a point outside of the travel"
-    if law.key in GAPPED:
-        gaps = {"stops": (law.shape, -law.shape)}.get(law.key)
-        gaps = gaps or ((-law.shape,) if law.key.endswith("below") else (law.shape,))
-        if not all(low < gap < high for gap in gaps):
-            return "has its gap outside of the travel"
+    if law.key in GAPPED and not all(low < gap < high for gap in _gaps(law)):
+        return "has its gap outside of the travel"
     if law.key == FRICTION.key and law.shape > SLOW * float(np.quantile(np.abs(v), 0.99)):
         return "is full only at a speed that is not slow: dry friction is at once"
     return ""
+
+
+def _gaps(law: Law) -> tuple[float, ...]:
+    """Displacements at which it begins to push."""
+    if law.key == "stops":
+        return law.shape, -law.shape
+    return (-law.shape,) if law.key.endswith("below") else (law.shape,)

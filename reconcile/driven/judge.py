@@ -53,7 +53,8 @@ class Judgement:
     reasons: tuple[str, ...]
     rivals: tuple[Trial, ...]
     form: str = ""
-    """`restoring` or `damping` where the laws are only a curve through such a force (`reconcile.driven.form`)."""
+    """`restoring` or `damping` where the laws are only a curve through such a force (`reconcile.driven.form`), and
+    nothing else speaks against them."""
 
 
 def _rivals(found: Analysis) -> tuple[Trial, ...]:
@@ -144,7 +145,8 @@ def judge(found: Analysis) -> Judgement:
         return Judgement(verdict="not_decidable", reasons=(BRANCHES, *reasons), rivals=rivals)
     kind, curved = form(found)
     if reasons or curved:
-        return Judgement(verdict="unknown_physics", reasons=(*reasons, *curved), rivals=rivals, form=kind)
+        only = "" if reasons else kind
+        return Judgement(verdict="unknown_physics", reasons=(*reasons, *curved), rivals=rivals, form=only)
     if rivals:
         return Judgement(verdict="ambiguous", reasons=(), rivals=rivals)
     return Judgement(verdict="explained", reasons=(), rivals=())
