@@ -15,10 +15,11 @@ from reconcile.driven.model import errors, ready
 from reconcile.driven.second import LEAST_FOLLOWS, followed
 from reconcile.driven.step import closer, in_step
 
-EXPLAINS = 0.8
-"""Share of what follows the force that a delay must explain to be the cause. Of made sound masses on springs (noise 0.1
+EXPLAINS = 0.5
+"""Share of what follows the force that a delay must explain to be a cause. Of made sound masses on springs (noise 0.1
 to 1 %, 0.05 to 1.2 samples either way) it explained all of it (1.01 to 1.03); of 18 with a second one on them (mass
-ratio 0.01 to 0.2) at most 0.42, and 0.87 where the motion was a tenth of a sample late as well."""
+ratio 0.01 to 0.2) in step at most 0.42. Between lies a faint second one that is a tenth of a sample late as well (0.6
+and 0.9): put in step it is found at its own frequency, and was not, or at another, before."""
 LONGEST = 1.5
 """Samples: longer ones are looked for by the averaged response (`reconcile.driven.step`)."""
 ROUNDS = 3
