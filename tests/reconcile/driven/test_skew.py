@@ -28,7 +28,9 @@ Hung = tuple[float, float, float]
 """Mass, kg, and frequency, Hz, of a second mass on the first, and its damping ratio."""
 
 
-def apart(samples: float, noise: float, seed: int, hung: Hung | None = None) -> Recording:
+def apart(
+    samples: float, noise: float, seed: int, hung: Hung | None = None, relaxing: tuple[float, float] | None = None
+) -> Recording:
     """A mass on a spring by its frequency response, its motion so many samples late; white noise on the motion."""
     rng = np.random.default_rng(seed)
     n = 8 * SAMPLES  # periodic; a part in the middle is cut out
@@ -40,6 +42,9 @@ def apart(samples: float, noise: float, seed: int, hung: Hung | None = None) -> 
         mass, own = hung[0], 2.0 * math.pi * hung[1]
         spring = mass * (own**2 + 2j * hung[2] * own * omega)
         below = below + spring - spring**2 / (spring - mass * omega**2)
+    if relaxing is not None:
+        late = 1j * omega * relaxing[1]
+        below = below + relaxing[0] * late / (1.0 + late)
     there = slice(SAMPLES, 2 * SAMPLES)
     force, motion = (np.fft.irfft(x, n)[there] for x in (lines, lines / below * np.exp(-1j * omega * samples / RATE)))
     size = 20.0 / force.std()
@@ -123,3 +128,12 @@ def test_a_faint_second_mass_is_found_at_its_place_beside_a_delay(ratio: float) 
     assert report.verdict == "unknown_physics"
     assert second_hz(report.sentence) == pytest.approx(101.4, rel=0.02), "not where the delay turns the phase"
     assert any("of a sample" in x for x in report.where.limits)
+
+
+@pytest.mark.slow
+def test_a_mount_that_relaxes_is_no_delay() -> None:
+    """A spring of 40 kN/m with a damper in series, beside the spring: it turns the phase as a delay does, not alike."""
+    one = apart(0.0, 0.005, 8, relaxing=(4e4, 3e-3))
+    assert look(driven_of(one, SPEC)).left > 0.04
+    assert put_in_step(one) is None
+    assert reconcile_driven(SPEC, [one]).verdict == "not_decidable"
