@@ -87,7 +87,7 @@ def test_no_exponent_is_told_where_two_laws_share_the_force() -> None:
     ],
 )
 def test_a_force_that_no_law_has_is_told_as_its_curve(extra, kind) -> None:  # type: ignore[no-untyped-def]
-    report = reconcile_driven(SPEC, [made(61, extra, n=9000, noise=0.001)])
+    report = reconcile_driven(SPEC, [made(62, extra, n=9000, noise=0.001)])
     assert report.verdict == "unknown_physics"
     assert f"A {kind} force of this form is missing at" in report.sentence
     assert "exponent" not in report.sentence
