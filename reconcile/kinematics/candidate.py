@@ -42,6 +42,8 @@ class Candidate:
     """Whether no sideband of it is deeper than the line itself, where that was asked."""
     driven: bool = False
     """Whether its lines are those of blows that keep step with a shaft (`reconcile.kinematics.in_step`)."""
+    of_turn: bool = False
+    """Whether its lines are what impacts once a turn leave beside that turn's (`reconcile.kinematics.beside_turn`)."""
 
     @property
     def strongest(self) -> int:
@@ -83,7 +85,7 @@ class Candidate:
     @property
     def present(self) -> bool:
         """Whether its lines are there at all, in a sound machine or not."""
-        return self.chance < LEVEL and self.z > LEAST_Z and self.centred and not self.driven
+        return self.chance < LEVEL and self.z > LEAST_Z and self.centred and not (self.driven or self.of_turn)
 
     @property
     def depth(self) -> float:

@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from reconcile.kinematics.answer import PARTS, TERMS
+from reconcile.kinematics.beside_turn import ONE_LINE
 from reconcile.kinematics.candidate import DEFECTS, Candidate
-from reconcile.kinematics.judge import LIKE_SHARE, ONE_LINE
+from reconcile.kinematics.judge import LIKE_SHARE
 from reconcile.kinematics.sites import DECIDED, USUAL_SLIP
 from reconcile.shares import from_drawing
 from reconcile.verdict import Cause, PlaceWeight, Report

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
+from reconcile.kinematics.beside_turn import NEXT_BINS, ONE_LINE, Beside, Turned
 from reconcile.kinematics.candidate import DEFECTS, LEAST_Z, Candidate
 from reconcile.kinematics.chances import fisher, holm
 from reconcile.kinematics.contrast import contrast
@@ -32,16 +33,8 @@ LIKE_SPACING = 0.05
 """Relative difference of cages' orders that no recording of a minute tells apart in the sidebands of a ball."""
 CENTRE = 0.95
 """Of a sideband's depth that the line itself has at least: in a load zone of half a turn sidebands have 0.85 of it."""
-NEXT_BINS = 4.0
-"""Within which the skirts of a strong line reach."""
-ONE_LINE = 0.004
-"""Measured orders nearer than this are of one line: jitter and the search's grid move them by 0.2 %."""
 LIKE_SHARE = 0.7
 """Of the score of the firmest reading of a line that another reading of it must have."""
-
-
-Beside = Callable[[tuple[Candidate, ...]], tuple[Candidate, ...]]
-"""All candidates but these, without their lines."""
 
 
 def candidates(
@@ -83,7 +76,12 @@ def candidates(
         first = heard(f, evidence, chance)
         elsewhere = (heard(f, e, len(rows) * fisher([one.chance for one in e])) for e in in_other_channels(first))
         result.append(next((c for c in elsewhere if c.based and c.present and c.risen), first))
-    return tuple(sorted(result, key=lambda c: (not (c.present and c.risen), -c.z)))
+    return firmest_first(result)
+
+
+def firmest_first(several: Iterable[Candidate]) -> tuple[Candidate, ...]:
+    """Those that are present and have risen before the rest, by their scores."""
+    return tuple(sorted(several, key=lambda c: (not (c.present and c.risen), -c.z)))
 
 
 def in_other_channels(first: Candidate) -> Iterator[tuple[Evidence, ...]]:
@@ -105,10 +103,10 @@ def named(
 ) -> tuple[tuple[Candidate, ...], tuple[Candidate, ...]]:
     """(bearing defects that stand, at most two; all candidates)."""
     found = candidates(tests, baselines, ties, seed, certain_z=HEARD_Z)
-    every = tuple(_asked(c, tests, ties) for c in found)
     beside = partial(candidates, tests, baselines, ties, seed, certain_z=HEARD_Z)
-    firm = (c for c in every if c.family.kind in DEFECTS and c.present and c.risen and c.deep)
-    first = next((c for c in firm if not of_the_turn(c, every, tests, beside)), None)
+    turned = Turned(found, tests, beside)
+    every = tuple(_asked(c, tests, ties) for c in firmest_first(map(turned.told, found)))
+    first = next((c for c in every if c.family.kind in DEFECTS and c.present and c.risen and c.deep), None)
     if first is None:
         return (), every
     first, left = own_lines(nearest_drawing(first, every), every, beside)
@@ -121,6 +119,7 @@ def named(
             and c.deep
             and c.chance < SECOND_LEVEL
             and c.z > (SECOND_SHARE if baselines else SECOND_ALONE) * first.z
+            and not turned.leaves(c)
             and of_blows(c, tests, ties) is None
         ),
         None,
@@ -162,20 +161,6 @@ def _centred(
 def _depth_at(envelopes: Envelopes, band: int, order: float) -> float:
     place = round(order / envelopes.order_step)
     return float(np.max(envelopes.depth[band, max(place - 2, 0) : place + 3], initial=0.0))
-
-
-def of_the_turn(one: Candidate, every: Sequence[Candidate], tests: Sequence[Observation], beside: Beside) -> bool:
-    """Whether a family that begins next to a multiple of a shaft, of which something strikes once a turn and is firmer,
-    is what that leaves there: a broken tooth was the inner race, 1.5 bins off five times its shaft."""
-    channel = tests[one.strongest].channel(one.best.channel)
-    assert channel is not None
-    for turn in every:
-        if turn.family.kind != "turn" or not (turn.present and turn.risen) or turn.z <= one.z:
-            continue
-        number = round(one.best.order / turn.best.order)
-        if abs(one.best.order - number * turn.best.order) < NEXT_BINS * channel.order_step:
-            return _z_of(one, beside((turn,))) < LEAST_Z
-    return False
 
 
 def own_lines(first: Candidate, every: Sequence[Candidate], beside: Beside) -> tuple[Candidate, tuple[Candidate, ...]]:

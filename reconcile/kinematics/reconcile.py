@@ -30,13 +30,14 @@ from reconcile.kinematics.none_left import with_none_left
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.other_speeds import by_baseline, nominees
 from reconcile.kinematics.remarks import if_heard, remarked, with_rest
-from reconcile.kinematics.series import shaft_series
+from reconcile.kinematics.series import shaft_series, with_short
 from reconcile.kinematics.shafts import shaft_changes
 from reconcile.kinematics.slowest import longer, with_slowest
 from reconcile.kinematics.spec import KinematicSpec, of_machine
 from reconcile.kinematics.struck import cut_alike, without_struck
 from reconcile.kinematics.teeth import other_teeth, told_with, with_teeth
 from reconcile.kinematics.tooth_turn import teeth_report, tooth_turns, with_sidebands
+from reconcile.kinematics.turning import with_turn
 from reconcile.kinematics.unheard import with_lost
 from reconcile.kinematics.unread import ALIKE_Z, Judged
 from reconcile.kinematics.whose_speed import of_one_shaft, usual_speeds
@@ -168,6 +169,7 @@ def _judged(
         told = defect_report(chosen, tests, baselines, tie, np.random.default_rng(seed))
         rival = other_kind(chosen[0], every) if len(chosen) == 1 else None
         told = told if rival is None else with_other_kind(told, chosen[0], rival)
+        told = with_turn(told, chosen, every, tie, based=bool(baselines))
         report = with_rest(told, gears, grown, tests, series)
     elif (growth := grown_defect(old_defects(every), tests, baselines, tie)) is not None:
         report = _regrown(growth, tests, baselines, tie, seed)
@@ -178,6 +180,7 @@ def _judged(
         report = others if teeth is not None else with_sidebands(others, turns, gears)
     rare = [f"{c.multiple:g} x {c.shaft} grew by {c.growth_db:.0f} dB in {c.label}" for c in changes if c.seldom]
     rare += [f"sidebands of {g.shaft} around {g.mesh} by {g.growth_db:.0f} dB in {g.label}" for g in gears if g.seldom]
+    report = with_short(report, tests, baselines, tie)
     if rare:
         report = replace(
             report, undecidable=(*report.undecidable, f"at fewer than half of the speeds: {', '.join(rare)}")

@@ -90,6 +90,7 @@ def _risen_too(report: Report, every: Sequence[Candidate]) -> list[str]:
         for c in every
         if c.family.kind in DEFECTS
         and c.risen
+        and not c.of_turn
         and c.z >= least
         and not any(
             c is s or one_line(c, s) or (c.family.kind == s.family.kind and same(c.family, s.family)) for s in spoken

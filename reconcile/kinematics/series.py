@@ -7,8 +7,9 @@ measured gearboxes under four loads no more than two of thirty wandered upwards 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from reconcile.kinematics.families import Ties
 from reconcile.kinematics.lines import OrderLines, at_half_of_speeds, line_growth, matched, spectra_of
 from reconcile.kinematics.observe import Observation
 from reconcile.speed.excess import MAINS_HZ
+from reconcile.verdict import NextExperiment, Report
 from signals.series import FloatArray
 
 MULTIPLES = np.arange(1, 25) / 2
@@ -30,6 +32,10 @@ LEAST = 4
 HALVES = 2
 """Halves among them from which something lifts off at every other turn."""
 LEAST_PERIODS = 8.0
+LEAST_TURNS = 20.0
+"""Of a shaft in test and baseline, for its multiples and halves to be judged: in four turns the skirts of the teeth's
+lines stand at all of them, more so than in a longer baseline. Cuts of a sound gearbox of 4 turns of its slow shaft were
+told as loose, those of 6 and more were not."""
 TEETH = 5.5
 """Multiples to either side of the teeth's that are theirs."""
 SAME = 0.02
@@ -68,8 +74,10 @@ def shaft_series(tests: Sequence[Observation], baselines: Sequence[Observation],
         if base is None:
             continue
         spectra = spectra_of(test, base)
-        turns = min(o.speed.speed_hz * o.recording.duration_s for o in (test, base))
+        turns = min(_turns(o) for o in (test, base))
         for shaft, ratio in ties.shafts.items():
+            if turns * ratio < LEAST_TURNS:
+                continue
             multiples = _own(test, ratio, ties, turns)
             one = _series(spectra, shaft, ratio, multiples, test.label)
             speeds.setdefault(shaft, []).append((test.speed.speed_hz, one is not None))
@@ -80,6 +88,37 @@ def shaft_series(tests: Sequence[Observation], baselines: Sequence[Observation],
         if at_half_of_speeds(speeds[one.shaft]):
             best.setdefault(one.shaft, one)
     return tuple(best.values())
+
+
+def with_short(report: Report, tests: Sequence[Observation], baselines: Sequence[Observation], ties: Ties) -> Report:
+    """The report with the shafts of which no recording of the tests holds turns enough for their multiples; where it
+    leaves one of them open, a longer recording comes first."""
+    pairs = [(t, base) for t in tests if (base := matched(t, baselines)) is not None]
+    if not pairs or any(c.named for c in report.causes):
+        return report
+    both = [min(pair, key=_turns) for pair in pairs]
+    most = max(both, key=_turns)
+    short = {shaft: ratio for shaft, ratio in ties.shafts.items() if _turns(most) * ratio < LEAST_TURNS}
+    if not short:
+        return report
+    slowest = min(short.values())
+    seconds = math.ceil(10 * LEAST_TURNS / slowest / most.speed.speed_hz) / 10
+    held = ", ".join(f"{_turns(most) * ratio:.3g} turns of {shaft}" for shaft, ratio in short.items())
+    need = f"{LEAST_TURNS:g} are needed, {seconds:g} s of each recording"
+    limit = f"multiples and halves of a speed are not compared: {most.label} holds {held}; {need}"
+    report = replace(report, where=replace(report.where, limits=(*report.where.limits, limit)))
+    if report.verdict not in ("ambiguous", "not_decidable") or not short.keys() & {w.site for w in report.where.sites}:
+        return report
+    then = "" if report.next_experiment is None else f" {report.next_experiment.sentence}"
+    first = (
+        f"Record test and baseline for {seconds:g} s or longer first ({LEAST_TURNS:g} turns of {' and '.join(short)})."
+    )
+    return replace(report, next_experiment=NextExperiment(sentence=f"{first}{then}"))
+
+
+def _turns(one: Observation) -> float:
+    """Of the reference shaft."""
+    return one.speed.speed_hz * one.recording.duration_s
 
 
 def _own(test: Observation, ratio: float, ties: Ties, turns: float) -> FloatArray:

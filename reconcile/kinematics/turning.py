@@ -10,12 +10,14 @@ from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.foreign import Foreign
 from reconcile.kinematics.in_step import InStep
+from reconcile.kinematics.judge import TURN_DEPTH
 from reconcile.kinematics.measured import measured_lines
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.series import ShaftSeries
 from reconcile.kinematics.shafts import Impulsiveness, ShaftChange
 from reconcile.kinematics.slow import SlowTurn
 from reconcile.kinematics.vague import TOOTH_TERMS
+from reconcile.report.action import BESIDE_BEARING, STRIKES
 from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Report, Where
 
 SHAFT_TERMS = {
@@ -26,6 +28,12 @@ SHAFT_TERMS = {
 }
 TURNING = ("unbalance", "bent_shaft")
 LOOSE = ("pedestal_looseness", "rub")
+BESIDE = "Beside it"
+TURN_FLAT = 0.1
+"""Mean power of the third and higher lines of a turn over that of its first two, of impacts beside a bearing's: made
+ones of a tooth have 0.18 and more, what swells once a turn with a race in its load zone 0.02 at most."""
+ALIKE = 1e-3
+"""Relative difference of two turns below which they are one."""
 NOT_WHAT = "once a turn says where it turns, not what strikes"
 UNHEARD = 0.5
 """Share of the score of a part that strikes once a turn for a race whose own line is not heard."""
@@ -117,6 +125,41 @@ def _once_a_turn(shaft: str, gears: Sequence[str], carried: Sequence[str]) -> li
     teeth = [(term, g, 1.0) for g in gears for term in TOOTH_TERMS]
     loose = [("pedestal_looseness", site, 1.0) for site in (shaft, *carried)]
     return [*teeth, ("rub", shaft, 1.0), *loose]
+
+
+def with_turn(
+    report: Report, told: Sequence[Candidate], every: Sequence[Candidate], ties: Ties, *, based: bool
+) -> Report:
+    """The answer of bearings, with the impacts once a turn that rose beside the families it tells: they are no outer
+    race's. An inner race meets the load once a turn of its shaft, and how hard a ball strikes hangs on more than that.
+    Without a baseline nothing is said: sound gearboxes knock as well."""
+    if not based or any(c.family.kind == "ball" for c in told):
+        return report
+    struck = [
+        c
+        for c in every
+        if c.family.kind == "turn"
+        and c.present
+        and c.risen
+        and c.depth >= TURN_DEPTH
+        and c.best.flatness >= TURN_FLAT
+        and not any(x.family.kind == "inner" and abs(x.family.spacing / c.family.order - 1.0) < ALIKE for x in told)
+    ]
+    for c in struck[:1]:
+        gears = _gears_on(c.family.site, ties)
+        what = f"{f'the teeth of {_and(gears)}, ' if gears else ''}a rub, a loose part or a load that turns"
+        low, high = c.best.band_hz
+        rose = f"rose, {c.growth_db or 0.0:.0f} dB over the baseline, in {low:.0f}-{high:.0f} Hz of {c.best.channel}"
+        report = replace(
+            report,
+            sentence=f"{report.sentence} {BESIDE} impacts once a turn of {c.family.site} {rose}: {what}.",
+            undecidable=(*report.undecidable, f"{STRIKES} {c.family.site}{BESIDE_BEARING}: {what}"),
+        )
+    return report
+
+
+def _and(names: Sequence[str]) -> str:
+    return " and ".join(names)
 
 
 def slow_report(found: SlowTurn, impacts: Impulsiveness, ties: Ties, carried: Sequence[str]) -> Report:

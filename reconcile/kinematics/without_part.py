@@ -26,6 +26,7 @@ from reconcile.kinematics.turning import (
     slow_report,
     turn_report,
     with_driven,
+    with_turn,
 )
 from reconcile.kinematics.vague import foreign_report, nothing_report
 from reconcile.verdict import Report
@@ -48,7 +49,7 @@ def without_a_part(
     """Impacts of a turn, of a foreign order, of no order; shaft lines; nothing."""
     risen = [c for c in every if c.family.kind in DEFECTS and c.present and c.risen]
     if risen and baselines:
-        return shallow_report(risen, every, tests, baselines)
+        return with_turn(shallow_report(risen, every, tests, baselines), risen, every, tie, based=True)
     heard = [*(c.family.key for c in every if c.z > HEARD_Z), *(m[0] for m in tie.meshes)]
     turns = (c for c in every if c.family.kind == "turn" and c.present and c.risen and c.depth >= TURN_DEPTH)
     turn = next(turns, None)

@@ -21,6 +21,9 @@ LOUDEST = "loudest at the sensor of"
 """How the sentence says that a named bearing's lines are heard at the other end (`reconcile.kinematics.ends`)."""
 BY_LOUDNESS = "only which sensor hears it louder tells the place"
 """How the limits say so of bearings that make the same lines (`reconcile.kinematics.answer`)."""
+STRIKES = "what strikes once a turn of"
+"""How what is undecidable says that impacts of a turn rose beside a bearing (`reconcile.kinematics.turning`)."""
+BESIDE_BEARING = " beside the bearing"
 ALL_WRONG = (
     "Tests and baselines are wrong by one factor: check whether it is the speed of another shaft, the ratios of the "
     "machine file, and the sampling rate."
@@ -44,10 +47,19 @@ def to_do(report: Report) -> str:
         return exchanged
     if EXCHANGED in report.sentence:
         return f"{ACTIONS[report.verdict](report)} Before that {exchanged}"
-    advice = f"{ACTIONS[report.verdict](report)}{_sensor_too(report)}{_which_first(report)}"
+    advice = f"{ACTIONS[report.verdict](report)}{_turn_too(report)}{_sensor_too(report)}{_which_first(report)}"
     if report.next_experiment is None or report.verdict not in OPEN:
         return advice
     return f"{advice} {report.next_experiment.sentence}".strip()
+
+
+def _turn_too(report: Report) -> str:
+    """What may strike once a turn, where that rose beside a bearing."""
+    said = next((text for text in report.undecidable if text.startswith(f"{STRIKES} ")), None)
+    if said is None or report.verdict == "measurement_fault":
+        return ""
+    where, _, what = said.partition(": ")
+    return f" Look at {where.removesuffix(BESIDE_BEARING)} too: {what}."
 
 
 def _sensor_too(report: Report) -> str:

@@ -12,7 +12,7 @@ import pytest
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.answer import BOUND
 from reconcile.kinematics.families import Family
-from reconcile.kinematics.judge import nearest_drawing, of_the_turn, own_lines
+from reconcile.kinematics.judge import nearest_drawing, own_lines
 from reconcile.verdict import NOT_JUDGED
 from sim.core.errors import SpecError
 from tests.strategies.brief import RATE_HZ, SPEED_HZ, N, recorded, shaft_lines, sound, train
@@ -99,22 +99,6 @@ def test_of_two_firm_families_the_one_that_explains_the_other_comes_first(
     first, left = own_lines(outer, [outer, inner], beside)  # type: ignore[arg-type]
     assert first.family.kind == chosen
     assert [c.family.kind for c in left] == ["outer" if chosen == "inner" else "inner"]
-
-
-@pytest.mark.parametrize(
-    ("order", "left", "turn_z", "told"),
-    [(5.019, 1.0, 41.0, True), (5.019, 9.0, 41.0, False), (5.019, 1.0, 3.0, False), (4.947, 1.0, 41.0, False)],
-)
-def test_what_stands_next_to_a_firmer_turn_must_stand_without_it(
-    order: float, left: float, turn_z: float, told: bool
-) -> None:
-    turn = candidate("outer", turn_z)
-    turn.family, turn.best = replace(turn.family, kind="turn", order=1.0), SimpleNamespace(order=0.9999)
-    one = candidate("inner", 7.0)
-    one.best, one.strongest = SimpleNamespace(order=order, channel="a0"), 0
-    test = SimpleNamespace(channel=lambda _: SimpleNamespace(order_step=0.0124))
-    asked = [turn, one]
-    assert of_the_turn(one, asked, [test], lambda _: (candidate("inner", left),)) is told  # type: ignore[arg-type, list-item, return-value]
 
 
 @pytest.mark.slow

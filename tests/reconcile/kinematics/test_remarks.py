@@ -23,7 +23,7 @@ def seen(hz: float, method: str = "harmonics") -> SimpleNamespace:
 
 
 def candidate(kind: Kind, order: float, z: float, *, risen: bool = True, **how: bool) -> SimpleNamespace:
-    rest = {"present": True, "based": True, "deep": True, "by_itself": True} | how
+    rest = {"present": True, "based": True, "deep": True, "by_itself": True, "of_turn": False} | how
     return SimpleNamespace(family=family(kind, order), z=z, risen=risen, growth_db=19.0, **rest)
 
 
@@ -54,6 +54,7 @@ def test_lines_as_firm_as_the_named_ones_are_told() -> None:
     assert "drive_end.inner" in text and "19 dB" in text
     quiet = [OUTER, candidate("inner", 5.415, 14.5, risen=False), candidate("ball", 4.7, 5.5)]
     assert told(NAMED, every=quiet).undecidable == ()
+    assert told(NAMED, every=[OUTER, candidate("inner", 5.415, 14.5, of_turn=True)]).undecidable == ()
 
 
 def test_a_speed_that_nothing_confirms_is_a_limit_of_finding_nothing() -> None:

@@ -8,7 +8,8 @@ import pytest
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.observe import Observation, observe
-from reconcile.kinematics.series import ShaftSeries, shaft_series
+from reconcile.kinematics.series import LEAST_TURNS, ShaftSeries, shaft_series, with_short
+from reconcile.verdict import NextExperiment, PlaceWeight, Report, Where
 from tests.strategies.brief import RATE_HZ, SPEED_HZ, N, recorded, sound
 
 SPEC = read_kinematic_spec(
@@ -21,6 +22,13 @@ SPEC = read_kinematic_spec(
     }
 )
 MOTOR = read_kinematic_spec({"kinematics": {"shafts": [{"name": "shaft"}]}})
+OPEN = Report(
+    verdict="ambiguous",
+    sentence="Something is loose.",
+    level="kinematics",
+    where=Where(sites=(PlaceWeight(site="shaft", weight=1.0),)),
+    next_experiment=NextExperiment(sentence="Check bolts."),
+)
 HALVES, WHOLE = (0.5, 1.5, 2.5, 3.5, 4.5), (4.0, 5.0, 6.0, 7.0, 8.0)
 
 
@@ -54,6 +62,27 @@ def test_multiples_that_grew_are_found(multiples: tuple[float, ...], halves: boo
 def test_fewer_than_four_and_none_are_no_series() -> None:
     assert series(lines(WHOLE[:3])) is None
     assert series(0.0 * lines(WHOLE)) is None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seconds", [0.5, 0.7, 2.5])
+def test_of_few_turns_no_multiples_are_told_but_how_many_it_takes(seconds: float) -> None:
+    """A cut that holds 12 or 17 turns, against a whole baseline or one as short."""
+    cut = round(seconds * RATE_HZ)
+    added = (sound(2) + lines(HALVES + WHOLE))[:cut]
+    tie = ties(MOTOR, "shaft")
+    for rows in (sound(1), sound(1)[:cut]):
+        test, base = [seen(added)], [seen(rows, label="baseline 1")]
+        enough = seconds * SPEED_HZ >= LEAST_TURNS
+        assert bool(shaft_series(test, base, tie)) is enough
+        report = with_short(OPEN, test, base, tie)
+        limits = " ".join(report.where.limits)
+        assert ("multiples and halves of a speed are not compared: test 1 holds" in limits) is not enough
+        assert report.next_experiment is not None
+        first = report.next_experiment.sentence.startswith(
+            "Record test and baseline for 0.9 s or longer first (20 turns"
+        )
+        assert first is not enough and report.next_experiment.sentence.endswith("Check bolts.")
 
 
 @pytest.mark.slow
