@@ -101,15 +101,45 @@ def _unlike(usual: Given, other: Given, sure: bool) -> Iterator[Problem]:
     if here != there and sorted(here) == sorted(there):
         yield _in_another_order(usual, other, sure)
         return
-    for c, (a, b) in enumerate(zip(usual.recording.channels, other.recording.channels, strict=False)):
+    beyond = _beyond(usual.recording, other.recording)
+    if beyond:
+        yield _more_or_fewer(usual, other, beyond, sure)
+    for c, (a, b) in enumerate(() if beyond else zip(usual.recording.channels, other.recording.channels, strict=False)):
         if _of_channel(a) != _of_channel(b):
             said = [f"{x.location} {x.axis} {x.quantity} {x.unit}" for x in (a, b)]
             yield _differs(usual, other, f"channels[{c}]", said[0], said[1], sure)
     mine, theirs = usual.recording, other.recording
-    if len(mine.channels) != len(theirs.channels):
+    if len(mine.channels) != len(theirs.channels) and not beyond:
         yield _differs(usual, other, "channels", len(mine.channels), len(theirs.channels), sure)
     if abs(theirs.sampling_rate_hz / mine.sampling_rate_hz - 1.0) > 1e-6:
         yield _differs(usual, other, "sampling_rate_hz", mine.sampling_rate_hz, theirs.sampling_rate_hz, sure, "Hz")
+
+
+def _beyond(one: Recording, other: Recording) -> list[Channel]:
+    """The channels that the longer list has and the shorter lacks, where all others are alike; by their names where
+    these are the same, else by what must agree."""
+    short, long = sorted((one.channels, other.channels), key=len)
+    names = {c.name: _of_channel(c) for c in long}
+    if all(names.get(c.name) == _of_channel(c) for c in short):
+        kept = {c.name for c in short}
+        return [c for c in long if c.name not in kept]
+    left = Counter(map(_of_channel, short))
+    beyond = []
+    for c in long:
+        if left[_of_channel(c)]:
+            left[_of_channel(c)] -= 1
+        else:
+            beyond.append(c)
+    return beyond if len(beyond) == len(long) - len(short) else []
+
+
+def _more_or_fewer(usual: Given, other: Given, beyond: Sequence[Channel], sure: bool) -> Problem:
+    """How many channels there are, and which of them the other has not."""
+    count = [len(one.recording.channels) for one in (usual, other)]
+    found = _differs(usual, other, "channels", count[0], count[1], sure)
+    which = " and ".join(_named(c, by_name=False) for c in beyond)
+    said = f"it lacks {which}" if count[1] < count[0] else f"it has {which} beyond the others"
+    return replace(found, message=f"{found.message}; {said}")
 
 
 def _in_another_order(usual: Given, other: Given, sure: bool) -> Problem:

@@ -93,6 +93,20 @@ def test_of_two_that_differ_neither_is_called_wrong() -> None:
         check_channels([two], [rest])
 
 
+@pytest.mark.parametrize("gone", [0, 1, 2])
+def test_the_channel_that_is_missing_or_too_many_is_named(gone: int) -> None:
+    """Also where those after it stand one place further on."""
+    places = ["drive_end", "fan_end", "out_near"]
+    whole = recording(*(channel(place) for place in places))
+    fewer = recording(*(channel(place) for i, place in enumerate(places) if i != gone))
+    for tests, rest, said in (([whole, whole], fewer, "it lacks"), ([fewer, fewer], whole, "it has")):
+        with pytest.raises(SpecError) as refused:
+            check_channels(tests, [rest])
+        (problem,) = refused.value.problems
+        assert f"; {said} " in problem.message and f" at {places[gone]} y acceleration" in problem.message
+        assert problem.field.endswith("channels") and problem.given == len(rest.channels)
+
+
 def test_channels_in_another_order_are_told_once() -> None:
     here = recording(channel(), channel("bearing2"))
     there = replace(recording(channel("bearing2"), channel()), label="rest.json")
