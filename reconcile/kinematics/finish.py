@@ -14,13 +14,14 @@ from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.picture import envelope_picture
 from reconcile.kinematics.slowest import short_limits, without_short
 from reconcile.report.action import EXCHANGED
+from reconcile.report.score import DEVIATIONS
 from reconcile.verdict import NOT_JUDGED, NextExperiment, Report
 from sim.core.errors import SpecError
 
 AS_LOUD = "loose_sensor"
 """What is told of a sensor by how loud its bands are against the baseline's: of one that has a defect it tells nothing.
 """
-SCORE_UNITS = {"nats": "deviations"}
+SCORE_UNITS = {"nats": DEVIATIONS}
 """Scores here are robust deviations unless a report says what else they are."""
 
 

@@ -18,6 +18,7 @@ from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.vague import TOOTH_TERMS, gear_report
 from reconcile.observe.tooth_place import Look, ToothPlace, placed, window_of
 from reconcile.observe.whole_turn import Turned, standing, whole_turns
+from reconcile.report.score import LOG_EVIDENCE, LOG_GROWTH
 from reconcile.verdict import Cause, NextExperiment, PlaceWeight, Report, Where
 
 ALIKE = 1e-6
@@ -103,7 +104,10 @@ def teeth_report(
 
 def with_sidebands(report: Report, turns: Sequence[ToothTurn], gears: Sequence[GearEvidence]) -> Report:
     """What sidebands and the turn say where no tooth stands out: no single tooth, but perhaps all of the turn."""
-    report = replace(report, causes=_teeth_last(report.causes, turns))
+    causes = _teeth_last(report.causes, turns)
+    last = {c.site: -i for i, c in enumerate(reversed(causes))}
+    sites = tuple(sorted(report.where.sites, key=lambda w: (-w.weight, last.get(w.site, 1))))
+    report = replace(report, causes=causes, where=replace(report.where, sites=sites))
     shafts = {g.shaft for g in gears if g.grown}
     uneven = max((t for t in turns if t.grown >= RISEN and t.shaft in shafts), key=lambda t: t.grown, default=None)
     grown = next((g for g in gears if g.grown), None)
@@ -150,6 +154,7 @@ def uneven_report(found: ToothTurn) -> Report:
                 term=term,
                 site=site,
                 score=float(np.log(found.grown)),
+                score_unit=LOG_GROWTH,
                 reasons=("the mean turn says that it repeats, not what; a model of the machine is needed to tell",),
             )
             for term, site in causes
@@ -201,6 +206,7 @@ def tooth_report(found: ToothTurn) -> Report:
                 term=term,
                 site=gear,
                 score=found.place.evidence,
+                score_unit=LOG_EVIDENCE,
                 reasons=("the mean turn says that one tooth differs, not how; a model of the mesh is needed to tell",),
             )
             for gear in gears

@@ -17,7 +17,7 @@ from reconcile.kinematics.series import ShaftSeries
 from reconcile.kinematics.shafts import Impulsiveness, ShaftChange
 from reconcile.kinematics.slow import SlowTurn
 from reconcile.kinematics.vague import TOOTH_TERMS
-from reconcile.report.action import BESIDE_BEARING, STRIKES
+from reconcile.report.action import BESIDE_BEARING, STRIKES, STRIKES_OPEN
 from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Report, Where
 
 SHAFT_TERMS = {
@@ -65,10 +65,10 @@ def turn_report(
         + ("" if line is None else _with_line(line))
         + ("" if foreign is None else _beside_turn(foreign)),
         level="kinematics",
-        where=Where(sites=(PlaceWeight(site=shaft, weight=1.0),), lines=lines_of(candidate, tests, baselines)),
+        where=Where(sites=_places(causes), lines=lines_of(candidate, tests, baselines)),
         causes=tuple(Cause(term=t, site=s, score=candidate.z * w, reasons=(NOT_WHAT,)) for t, s, w in causes),
         undecidable=(
-            "what strikes once a turn",
+            STRIKES_OPEN,
             *(() if carried else (f"whether a bearing of {shaft} is damaged: the file has none there",)),
             *(() if foreign is None else ("whether the bearings' numbers are those of the machine",)),
             "how large: a size can't be given without a model",
@@ -120,6 +120,12 @@ def _gears_on(shaft: str, ties: Ties) -> list[str]:
     return [name for mesh in ties.meshes for s, name in zip(mesh[2], mesh[3], strict=True) if s == shaft]
 
 
+def _places(struck: Sequence[tuple[str, str, float]]) -> tuple[PlaceWeight, ...]:
+    """Of a set that a turn leaves open all places alike: the shaft, its gears and its bearings."""
+    sites = list(dict.fromkeys(site for _, site, _ in struck))
+    return tuple(PlaceWeight(site=site, weight=1.0 / len(sites)) for site in sites)
+
+
 def _once_a_turn(shaft: str, gears: Sequence[str], carried: Sequence[str]) -> list[tuple[str, str, float]]:
     """(term, site, weight) of what strikes once a turn of a shaft."""
     teeth = [(term, g, 1.0) for g in gears for term in TOOTH_TERMS]
@@ -166,6 +172,7 @@ def slow_report(found: SlowTurn, impacts: Impulsiveness, ties: Ties, carried: Se
     """Impacts at one angle of a shaft; `carried`: bearings on it."""
     gears = _gears_on(found.shaft, ties)
     what = "a damaged tooth, a rub or a loose part" if gears else "a rub or a loose part"
+    struck = _once_a_turn(found.shaft, gears, carried)
     return Report(
         verdict="ambiguous",
         sentence=f"{impacts.band_hz[0]:.0f}-{impacts.band_hz[1]:.0f} Hz of {impacts.channel} became impulsive (excess "
@@ -173,15 +180,12 @@ def slow_report(found: SlowTurn, impacts: Impulsiveness, ties: Ties, carried: Se
         f"turns: {what} are alike at this level.",
         level="kinematics",
         where=Where(
-            sites=(PlaceWeight(site=found.shaft, weight=1.0),),
+            sites=_places(struck),
             angle_window=found.window,
             limits=(f"{found.turns} turns of {found.shaft} are too few for its lines",),
         ),
-        causes=tuple(
-            Cause(term=t, site=s, score=found.score * w, reasons=(NOT_WHAT,))
-            for t, s, w in _once_a_turn(found.shaft, gears, carried)
-        ),
-        undecidable=("what strikes once a turn", "how large: a size can't be given without a model"),
+        causes=tuple(Cause(term=t, site=s, score=found.score * w, reasons=(NOT_WHAT,)) for t, s, w in struck),
+        undecidable=(STRIKES_OPEN, "how large: a size can't be given without a model"),
         next_experiment=NextExperiment(sentence=f"Record fifty turns of {found.shaft} or more, with a tacho."),
     )
 

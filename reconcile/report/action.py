@@ -23,6 +23,8 @@ BY_LOUDNESS = "only which sensor hears it louder tells the place"
 """How the limits say so of bearings that make the same lines (`reconcile.kinematics.answer`)."""
 STRIKES = "what strikes once a turn of"
 """How what is undecidable says that impacts of a turn rose beside a bearing (`reconcile.kinematics.turning`)."""
+STRIKES_OPEN = "what strikes once a turn"
+"""How it says that nothing else is told but these impacts."""
 BESIDE_BEARING = " beside the bearing"
 ALL_WRONG = (
     "Tests and baselines are wrong by one factor: check whether it is the speed of another shaft, the ratios of the "
@@ -32,6 +34,8 @@ ALL_WRONG = (
 SET_SHARE = 0.5
 """Score over the best one's from which a cause is taken for one of an ambiguous set."""
 
+TEETH = ("tooth_crack", "tooth_spall", "missing_tooth")
+"""Effects of a single tooth."""
 TURNING = "units, which sensor is which, the stated speed, the numbers of bearings and teeth"
 ONE_MASS = (
     "units and sign of force and motion, the sampling rate, channels that are not read at once, the mass of the "
@@ -142,11 +146,24 @@ def _several(report: Report) -> str:
     if report.fault is not None and _perhaps_all(report):
         return to_mend(report.fault, several=report.measurement_faults)
     kinds, sites = undecided(report)
+    if STRIKES_OPEN in report.undecidable and len(sites) > 1:
+        return _on_the_shaft(report, sites)
     if len(kinds) == 1 and len(sites) > 1:
         return f"plan to inspect {' and '.join(sites)}: one of them has it."
     if len(sites) == 1:
         return f"plan to inspect {sites[0]}; which of the names it is stays open."
     return "act on none of the names alone."
+
+
+def _on_the_shaft(report: Report, sites: list[str]) -> str:
+    """What to look at where something strikes once a turn: all that turns with the shaft, teeth first."""
+    shafts = dict.fromkeys(c.site for c in report.causes if c.term == "rub")
+    gears = dict.fromkeys(c.site for c in report.causes if c.term in TEETH)
+    rest = [site for site in sites if site not in shafts and site not in gears]
+    first = f" the teeth of {' and '.join(gears)} first, then" if gears else ""
+    parts = [*(f"{shaft} itself" for shaft in shafts), *rest]
+    said = ", ".join(parts[:-1]) + (" and " if len(parts) > 1 else "") + parts[-1] if parts else ""
+    return f"plan to inspect what turns with {' and '.join(shafts)}:{first} {said}; which of them it is stays open."
 
 
 def _nobody_knows(report: Report) -> str:

@@ -11,6 +11,7 @@ from reconcile.report.markup import Markup, escaped, figure_text, tag
 from reconcile.report.mending import channels
 from reconcile.report.named import cause, percent, score
 from reconcile.report.revised import to_do
+from reconcile.report.score import score_notes
 from reconcile.report.words import (
     FORMS,
     LEFT_OVER,
@@ -29,16 +30,12 @@ from reconcile.report.words import (
 from reconcile.verdict import Cause, Level, LineChange, PlaceWeight, Report, Where, operating_point
 
 MOST_LINES = 20
-MOST_PLACES = 3
+MOST_PLACES = 4
 SYMBOLS = (
     "f_o, f_i, f_b, f_c: outer race, inner race, ball and cage of a bearing; f_r: a shaft; f_m: a mesh; numbered in "
     "the order of the machine file. 3*f_i1±2*f_r1 is a sideband. Bearings that roll alike share their lines."
 )
 TOLD = '<div class="told">'
-SCORE = (
-    "Score: how much better the recordings are foretold with the effect than with nothing missing, as a logarithm; a "
-    "lead of 3 is twenty times the odds."
-)
 
 
 def section(title: str, *parts: Markup) -> Markup:
@@ -76,13 +73,20 @@ def _tile(value: str, label: str) -> Markup:
     return tag("div", tag("b", value), tag("span", label), css="tile")
 
 
+def _one_of(sites: Sequence[str]) -> str:
+    """All places of a set, or the first of them and how many more there are."""
+    if len(sites) <= MOST_PLACES:
+        return " or ".join(sites)
+    return f"{' or '.join(sites[: MOST_PLACES - 1])} or {len(sites) - MOST_PLACES + 1} more"
+
+
 def _place(report: Report, best: PlaceWeight) -> Markup:
     """The tile of the place: one, or the several that a set leaves open."""
     if report.verdict == "not_decidable":
         return _tile(best.site, f"leads with {percent(best.weight)} of the weight; the place is not decided")
     kinds, sites = undecided(report)
     if report.verdict == "unknown_physics" and len(report.where.likeliest) > 1:
-        return _tile(" or ".join(report.where.likeliest[:MOST_PLACES]), "places that nothing tells apart")
+        return _tile(_one_of(report.where.likeliest), "places that nothing tells apart")
     named = list(dict.fromkeys(c.site for c in report.causes if c.named))
     if len(named) > 1:
         return _tile(" and ".join(named), "places of the effects that are named")
@@ -90,7 +94,7 @@ def _place(report: Report, best: PlaceWeight) -> Markup:
         return _tile(best.site, f"most likely place, {percent(best.weight)} of the weight")
     if len(sites) > 1:
         what = "" if len(kinds) == 1 else "; what it is is open too"
-        return _tile(" or ".join(sites[:MOST_PLACES]), f"places that these recordings do not tell apart{what}")
+        return _tile(_one_of(sites), f"places that these recordings do not tell apart{what}")
     return _tile(sites[0], f"place, {percent(best.weight)} of the weight; what it is is not decided")
 
 
@@ -188,7 +192,7 @@ def _together(lines: Sequence[LineChange]) -> list[tuple[LineChange, list[LineCh
 def causes_table(causes: Sequence[Cause], level: Level) -> Markup:
     """Candidates in order with their other forms; why a name was or was not given, once where it goes for most.
 
-    From frequencies alone a score is the height of what was found, not evidence over nothing missing.
+    From frequencies alone a score is the height of what was found, not evidence over nothing missing; its unit is said.
     """
     if not causes:
         return Markup("")
@@ -211,7 +215,7 @@ def causes_table(causes: Sequence[Cause], level: Level) -> Markup:
     most = [r for r in common if not (rest and r.startswith(PART_LEFT))]
     lead = "For most of them" if any(c.named for c in causes) else "Why none is named"
     why = tag("p", f"{lead}: {'; '.join(most)}.") if most else Markup("")
-    notes = [*([SCORE] if level != "kinematics" else []), *([FORMS] if any(c.forms for c in causes) else [])]
+    notes = [*score_notes(causes, level), *([FORMS] if any(c.forms for c in causes) else [])]
     return Markup(
         left + why + table(heads, rows, [c.named for c in causes]) + "".join(tag("p", n, css="muted") for n in notes)
     )

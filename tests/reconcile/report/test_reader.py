@@ -15,7 +15,7 @@ from reconcile.report import page
 from reconcile.report.held import METRICS
 from reconcile.report.panels import MOST_PANELS
 from reconcile.report.plot import Frame, decades
-from reconcile.report.sections import SCORE
+from reconcile.report.score import SCORE
 from reconcile.report.words import FORMS, LEFT_OVER, PART_LEFT
 from reconcile.verdict import AngleWindow, Cause, HeldOut, LineChange, Report, Where, operating_point
 from tests.reconcile.report.test_report import Balanced, full_report
@@ -110,6 +110,14 @@ def test_a_reason_of_all_is_said_once() -> None:
     assert text.count("the place is not decided") == 1
     own = (*causes, Cause(term="rub", site="d", score=1.0, reasons=("once a turn",)))
     assert told(replace(drawn(), causes=own)).count("once a turn") == 1
+
+
+@pytest.mark.parametrize(("unit", "said"), [("deviations", "robust deviations"), ("dB", "by how many decibels")])
+def test_a_score_of_frequencies_alone_says_its_unit(unit: str, said: str) -> None:
+    cause = Cause(term="rub", site="pinion", score=9.0, score_unit=unit)
+    text = told(replace(drawn(), level="kinematics", causes=(cause,)))
+    assert text.count("Score: ") == 1 and said in text
+    assert said not in told(replace(drawn(), causes=(cause,)))
 
 
 def test_a_score_is_evidence_only_where_there_is_a_model() -> None:
