@@ -54,7 +54,7 @@ def _of(design: Design, results: Path) -> str:
     return "\n".join([title, "", *wrap(said, WIDTH), "", together(scores), "", *by_law(scores), "", *told])
 
 
-TITLES = {"held": "The engine measured last", "entire": "An earlier engine"}
+TITLES = {"held": "The latest whole plan", "entire": "An earlier engine"}
 LEFT = {
     "held": "The others are not run yet: the names' order is drawn, so those run are a sample of the plan. ",
     "entire": "The others are not run: the names' order is drawn, so those run are a sample of the plan but for the "
