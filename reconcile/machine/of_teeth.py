@@ -59,6 +59,13 @@ def look_alike(name: str, other: str) -> bool:
     return _site(name) == _site(other) and terms == ALIKE_TEETH
 
 
+def looks_like(name: str) -> str:
+    """The other of a broken and a pitted tooth of that gear; empty for what is neither."""
+    term, site = name.split("@")
+    other = ALIKE_TEETH - {term}
+    return f"{other.pop()}@{site}" if term in ALIKE_TEETH else ""
+
+
 def _of_a_tooth(name: str) -> bool:
     term = REGISTRY.get(name.split("@", maxsplit=1)[0])
     return term is not None and term.strikes == "tooth"

@@ -18,6 +18,7 @@ from reconcile.machine.budget import Budget
 from reconcile.machine.decide import DETECT_P
 from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import LANES, first_heat, more_draws, ordered_draws, second_heat, simulated_banks
+from reconcile.machine.of_teeth import looks_like
 from reconcile.machine.refine import best_draws, refined_plan, spread_plan
 from reconcile.machine.second import beside, looks_for_second, strikes, struck_too
 from reconcile.machine.setting import Found, Setting
@@ -102,6 +103,7 @@ def located(
     if looks_for_second(found):
         others = beside(setting, found, best[0])
         best += [n for n in (others.names[:SECONDS] if others else ()) if n not in best]
+    best += [n for n in map(looks_like, best) if n in draws and n not in best]
     second = second_heat(setting.plan, best, draws, first)
     if not second.draws:
         return found  # effects with one place only: the first heat had all of their draws

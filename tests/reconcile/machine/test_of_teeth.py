@@ -3,7 +3,7 @@
 import pytest
 
 from reconcile.machine.decide import Decision
-from reconcile.machine.of_teeth import APART, AS_GOOD_TEETH, of_teeth
+from reconcile.machine.of_teeth import APART, AS_GOOD_TEETH, looks_like, of_teeth
 from tests.reconcile.machine.screens import screen
 
 NAMES = ("missing_tooth@pinion", "tooth_spall@pinion", "tooth_crack@pinion", "tooth_crack@gear", "unbalance@pinion")
@@ -60,3 +60,7 @@ def test_else_it_is_the_set_of_those_that_are_near():
 def test_other_names_are_left_alone():
     decision = Decision(word="explained", chosen=("unbalance@pinion",), p=1e-6, reasons=())
     assert of_teeth(decision, screen([26.0, 26.0, 26.0, 26.0, 26.5], names=NAMES)) == decision
+
+
+def test_the_other_of_a_broken_and_a_pitted_tooth_is_that_gear_s():
+    assert [looks_like(name) for name in NAMES] == ["tooth_spall@pinion", "missing_tooth@pinion", "", "", ""]
