@@ -203,5 +203,9 @@ RULES = (
         ),
         "h035, a loose fit with a pit on the other shaft told beside an eccentric gear; both named since, gain 0.52",
     ),
+    (
+        "a broken and a pitted tooth of a gear are told together, and both are simulated where one is asked",
+        "g007, a pit of most of a flank named a broken tooth; a set of both since, as is g010, which was right",
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""

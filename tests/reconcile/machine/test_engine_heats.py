@@ -70,3 +70,31 @@ def test_draws_of_which_none_runs_leave_what_was_known(monkeypatch: pytest.Monke
     assert search.simulated(setting, None, map, known) is known  # type: ignore[arg-type]
     with pytest.raises(SpecError):
         search.simulated(setting, None, map)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("best", "with_it"), [("missing_tooth@gear", ["tooth_spall@gear"]), ("tooth_crack@gear", [])])
+def test_a_pitted_tooth_is_simulated_where_a_broken_one_is(
+    monkeypatch: pytest.MonkeyPatch, best: str, with_it: list[str]
+) -> None:
+    asked: list[str] = []
+    found = SimpleNamespace(screen=None, known=SimpleNamespace(library=SimpleNamespace(groups={})))
+
+    def heat(_plan: object, names: list[str], *_: object) -> SimpleNamespace:
+        asked.extend(names)
+        return SimpleNamespace(draws=())
+
+    for name, made in {
+        "with_others": lambda *_: [best],
+        "_draws": lambda *_: {key: [] for key in ("tooth_spall@gear", "missing_tooth@gear", "tooth_crack@gear")},
+        "first_heat": lambda *_: None,
+        "simulated": lambda *_: None,
+        "fit_views": lambda *_: found,
+        "plausible": lambda _: [best],
+        "nearest_effects": lambda *_: (),
+        "looks_for_second": lambda _: False,
+        "second_heat": heat,
+    }.items():
+        monkeypatch.setattr(search, name, made)
+    setting = SimpleNamespace(plan=None, changes=SimpleNamespace(observed=None))
+    search.located(setting, found, setting, SimpleNamespace(terms=1, candidates=4), map, found)  # type: ignore[arg-type]
+    assert asked == [best, *with_it]
