@@ -55,8 +55,7 @@ def of_one_gear(name: str, other: str) -> bool:
 def look_alike(name: str, other: str) -> bool:
     """Whether they are a broken and a pitted tooth of one gear: a pit of most of a flank carries as little as a tooth
     that is gone. One of 0.89 of the flank was named a broken tooth, 33 ahead of a crack (g007 of the proof)."""
-    terms = {one.split("@", maxsplit=1)[0] for one in (name, other)}
-    return _site(name) == _site(other) and terms == ALIKE_TEETH
+    return looks_like(name) == other
 
 
 def looks_like(name: str) -> str:

@@ -159,7 +159,7 @@ def unpaired(machine: MachineSpec, tests: Sequence[Recording], baselines: Sequen
     alone = [one for one in _group(machine, tests) if not any(_alike(p, one[0]) for p, _ in known)] if known else []
     if not alone:
         return ()
-    return (f"left out: tests at {_points(alone)}; baselines were recorded at {_points(known)} only",)
+    return (f"{LEFT_OUT}: tests at {_points(alone)}; baselines were recorded at {_points(known)} only",)
 
 
 def _points(groups: Sequence[tuple[Point, Sequence[Recording]]]) -> str:
