@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from textwrap import wrap
 
+import numpy as np
+
 from proof.effects import LIPPED
 from proof.entire import ENTIRE, HELD, STRUCK, Design, cases_of_design
 from proof.plan import Case
@@ -17,6 +19,8 @@ from proof.targets import written
 from proof.visible import Visible, stored
 from proof.whole import by_law, read, together
 
+FAR_OFF = 0.74
+"""Error of a size, as a share of it."""
 CLEAR = 3.0
 """Times as far as drift, from which there is much to see."""
 COMMITS: Mapping[str, str] = {"held": "919f12b", "entire": "8e8edc1"}
@@ -27,7 +31,26 @@ ELSEWHERE: Mapping[str, tuple[str, str]] = {"held": ("begun", "an earlier"), "en
 
 def one_engine(results: Path) -> str:
     """What the page says of the splits that one engine ran each, the latest first."""
-    return "\n\n".join(_of(design, results) for design in (HELD, ENTIRE))
+    every = [s for name in ("held", "begun", "hearing", "entire") for s in read(results / f"{name}.json")]
+    told = "\n".join(wrap(of_sizes(every), WIDTH))
+    return "\n\n".join([*(_of(design, results) for design in (HELD, ENTIRE)), *([told] if told else [])])
+
+
+def of_sizes(scores: Sequence[Score]) -> str:
+    """Of all cases of both splits, at all conditions: how far sizes are off, and how often placebos gain."""
+    errors = [s.severity_error for s in scores if s.severity_error is not None]
+    placebos = [s.placebo_improves for s in scores if s.placebo_improves is not None]
+    if not errors or not placebos:
+        return ""
+    held = sum(s.severity_covered is True for s in scores)
+    middle, last = (100.0 * float(np.quantile(errors, share)) for share in (0.5, 0.9))
+    far = 100.0 * float(np.mean(np.array(errors) >= FAR_OFF))
+    return (
+        f"Of the {len(scores)} cases of both splits, whichever engine met them first, {len(errors)} sizes were told: "
+        f"half are within {middle:.0f} %, {far:.0f} % are off by {100 * FAR_OFF:.0f} % or more, one in ten by "
+        f"{last:.0f} %; {held} of their intervals hold the truth. In {sum(placebos)} of {len(placebos)} cases the "
+        "median placebo gains more than 0.05."
+    )
 
 
 def _of(design: Design, results: Path) -> str:

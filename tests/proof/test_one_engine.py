@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from proof.entire import held
-from proof.one_engine import CLEAR, COMMITS, one_engine, seen_singles
+from proof.one_engine import CLEAR, COMMITS, FAR_OFF, of_sizes, one_engine, seen_singles
 from proof.plan import Case
 from proof.score.rates import at_target
 from proof.visible import Visible
@@ -62,3 +63,14 @@ def test_single_effects_are_parted_by_how_far_they_move_the_spectrum() -> None:
     said = seen_singles(scores, seen)
     assert f"{right}/{right} = 100 %" in said and f"0/{6 - right} = 0 %" in said
     assert seen_singles(scores, {}) == "" == seen_singles([], seen)
+
+
+def test_how_far_sizes_are_off_is_told_of_those_that_were_told() -> None:
+    one = read(STORED)[0]
+    off = [(0.1, True), (0.2, True), (FAR_OFF, False), (1.0, True)]
+    told = [replace(one, severity_error=e, severity_covered=c, placebo_improves=c) for e, c in off]
+    none = replace(one, severity_error=None, severity_covered=None, placebo_improves=None)
+    said = of_sizes([*told, none])
+    assert said.startswith("Of the 5 cases") and "4 sizes were told: half are within 47 %" in said
+    assert "50 % are off by 74 % or more" in said and "3 of their intervals" in said and "In 3 of 4 cases" in said
+    assert of_sizes([none]) == ""
