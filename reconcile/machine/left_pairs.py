@@ -18,7 +18,7 @@ from reconcile.judge.screen import looked
 from reconcile.judge.space import Fitted
 from reconcile.machine.asked import TEMPER, Asked
 from reconcile.machine.assimilate import Ensemble, moved, simulated_again
-from reconcile.machine.decide import Decision, alike
+from reconcile.machine.decide import Decision
 from reconcile.machine.interplay import interplaying, rattles
 from reconcile.machine.leftover import Leftover, leftover, ranked_seconds
 from reconcile.machine.library import Catalogued, joined

@@ -22,6 +22,8 @@ MOST_NAMED = 6
 """A set larger than this says nothing: the place or the mechanism is then not decidable."""
 LEAST_EVIDENCE = 3.0
 """Log evidence a named cause needs over nothing missing."""
+ALIKE = {"bent_shaft", "unbalance"}
+"""An unbalance u and a bow u/m of one body are the same force on its bearings at every speed."""
 
 
 def lead(screen: Screen) -> float:
@@ -125,3 +127,9 @@ def plausible(screen: Screen) -> list[str]:
     """Effects that are not out of the question, the best first."""
     order = [int(k) for k in np.argsort(-screen.evidence)]
     return [screen.names[k] for k in order if screen.evidence[k] >= screen.evidence[order[0]] - HOPELESS]
+
+
+def alike(first: str, second: str) -> bool:
+    """Whether two effects (`effect@site`) are a bow and an unbalance of one body."""
+    (a, here), (b, there) = first.split("@"), second.split("@")
+    return here == there and {a, b} <= ALIKE

@@ -10,6 +10,7 @@ import pytest
 from reconcile.atlas.places import sensor_sites
 from reconcile.judge.adequacy import Rest
 from reconcile.machine.decide import (
+    CLEAR_P,
     GLARING,
     LEAST_LEFT_UNKNOWN,
     LITTLE_LEFT,
@@ -87,7 +88,7 @@ def test_a_bad_fit_is_unknown_whoever_is_nearest() -> None:
     fitted = Rest(unmet=2.0, kept=0.5, pooled=0.5, rough=False)
     assert decide(screen([20.0, 9.0], misfit=STRANGE + 0.01, rest=fitted), views=9).word == "explained", "far ahead"
     assert decide(screen([20.0, 15.0], misfit=STRANGE + 0.01, rest=fitted), views=9).word == "unknown_physics"
-    assert decide(screen([2.0, -9.0]), views=9).word == "unknown_physics"
+    assert decide(screen([2.0, -9.0], p_lines=CLEAR_P), views=9).word == "unknown_physics"
 
 
 def test_a_lead_is_not_enough_for_what_fits_badly_and_explains_next_to_nothing() -> None:
@@ -283,7 +284,7 @@ def test_what_is_far_behind_is_not_simulated_again() -> None:
 
 def test_fitted_machines_make_no_change_more_glaring_than_it_was() -> None:
     first, local = screen([1.0], strongest=9.0, p_best=0.5), screen([1.0], strongest=30.0, p_best=0.5)
-    assert decide(local, views=9).word == "unknown_physics"
+    assert decide(local, views=9).word == "not_decidable"
     assert decide(tempered(local, first), views=9).word == "nothing_missing"
     assert tempered(first, local).strongest == 9.0
     assert tempered(local, replace(first, p_best=0.02)).p_first == 0.02

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import pytest
 
-from reconcile.machine.decide import FEW_UNDECIDED, NO_PATTERN, STRANGE, decide
+from reconcile.machine.decide import CLEAR_P, FEW_UNDECIDED, LINES_QUIET, NO_PATTERN, STRANGE, decide
 from tests.reconcile.machine.screens import NAMES, screen, struck
 
 
 def test_a_change_without_a_pattern_is_not_said_to_fit_badly() -> None:
     """It fits no worse than known effects do; of few views it is open whether one of them changed so."""
-    usual = decide(screen([2.0, -9.0]), views=9)
+    usual = decide(screen([2.0, -9.0], p_lines=CLEAR_P), views=9)
     assert (usual.word, usual.reasons) == ("unknown_physics", (NO_PATTERN,))
     worst = decide(screen([2.0, -9.0], misfit=STRANGE + 0.005), views=9)
     assert "fits worse than 98 % of" in worst.reasons[0]
-    few = decide(screen([2.0, -9.0]), views=2)
+    few = decide(screen([2.0, -9.0], p_lines=CLEAR_P), views=2)
     assert (few.word, few.reasons) == ("not_decidable", (FEW_UNDECIDED,))
     assert decide(screen([2.0, -9.0], misfit=STRANGE + 0.005), views=2).word == "unknown_physics"
 
@@ -36,4 +36,13 @@ def test_few_views_exclude_what_does_not_strike() -> None:
 
 @pytest.mark.parametrize(("strongest", "word"), [(10.0, "not_decidable"), (30.0, "unknown_physics")])
 def test_a_change_without_a_pattern_is_faint_or_unknown(strongest: float, word: str) -> None:
-    assert decide(screen([1.0, 0.5], strongest=strongest, misfit=0.5), views=9).word == word
+    made = screen([1.0, 0.5], strongest=strongest, misfit=0.5, p_lines=0.5 if word == "not_decidable" else CLEAR_P)
+    assert decide(made, views=9).word == word
+
+
+def test_groups_of_features_alone_claim_no_unknown_physics() -> None:
+    """However glaring they are: sound machines that change their regime reach 1e-6 by them, and no line shows it."""
+    quiet = decide(screen([1.0, 0.5], strongest=30.0, p_any=1e-6, p_lines=2 * CLEAR_P), views=9)
+    assert (quiet.word, quiet.reasons) == ("not_decidable", (LINES_QUIET,))
+    odd = screen([1.0, 0.5], strongest=30.0, misfit=STRANGE + 0.005, p_lines=1.0)
+    assert decide(odd, views=9).word == "unknown_physics", "fits worse than simulated effects do"
