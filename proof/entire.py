@@ -45,7 +45,7 @@ class Design:
     """One such split: `turned` is from which number on the cycles of laws, severities and variants go, as other splits
     have gone before; `rows` are the conditions of every fourth case."""
 
-    split: Literal["entire", "held"]
+    split: Literal["entire", "held", "wide"]
     groups: Mapping[Group, int]
     turned: int
     rows: tuple[Row, ...]
@@ -67,6 +67,13 @@ HELD = Design(
 )
 """Of a size that two cores run in an afternoon: without five speeds and mis-set machine files, whose atlases are made
 for one or two cases each."""
+WIDE = Design(
+    split="wide",
+    groups={"null": 14, "sensor": 4, "single": 32, "double": 8, "open": 8, "no_baseline": 3, "ambiguous": 3},
+    turned=439,
+    rows=HELD.rows,
+)
+"""The same in little, for the engine that came of the misses of the others."""
 ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
 STRUCK = ("outer_pit", "inner_pit", "ball_pit")
 FORMS = 3
@@ -82,6 +89,11 @@ def entire() -> tuple[Case, ...]:
 def held() -> tuple[Case, ...]:
     """All cases of the second."""
     return cases_of_design(HELD)
+
+
+def wide() -> tuple[Case, ...]:
+    """All cases of the third."""
+    return cases_of_design(WIDE)
 
 
 def cases_of_design(design: Design) -> tuple[Case, ...]:

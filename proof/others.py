@@ -9,7 +9,7 @@ from typing import get_args
 
 import numpy as np
 
-from proof.entire import entire, held
+from proof.entire import entire, held, wide
 from proof.kinds import kinds
 from proof.nominals import NOMINALS, PAPER
 from proof.plan import SEEDS, SENSOR_COUNTS, SNRS_DB, TARGET, Case, Split, hiding_of, plan, sensors_of
@@ -36,7 +36,7 @@ def cases_of(split: Split) -> tuple[Case, ...]:
     """All cases of any split."""
     if split in {"rotors", "rotors-later"}:
         return rotors(split)
-    made = {"others": others, "kinds": kinds, "entire": entire, "teeth": teeth, "held": held}
+    made = {"others": others, "kinds": kinds, "entire": entire, "teeth": teeth, "held": held, "wide": wide}
     return made[split]() if split in made else plan(split)
 
 

@@ -39,6 +39,7 @@ Split = Literal[
     "entire",
     "teeth",
     "held",
+    "wide",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -60,6 +61,7 @@ SEEDS = {
     "entire": 8_064_731_295,
     "teeth": 4_836_201_759,
     "held": 2_916_480_537,
+    "wide": 6_174_392_805,
 }
 COUNTS = {
     "dev": {

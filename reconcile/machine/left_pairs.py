@@ -27,7 +27,7 @@ from reconcile.machine.second import has_play, strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.sizes import searched
 from reconcile.machine.told_by import heard, impacts_beside, own_lines, teeth_tell
-from reconcile.machine.weigh import LEAST_EVIDENCE, exclusive, variants
+from reconcile.machine.weigh import LEAST_EVIDENCE, alike, exclusive, variants
 from signals.series import FloatArray
 
 PROMISING = 2.5

@@ -9,7 +9,7 @@ import pytest
 
 from proof import seal
 from proof.effects import LIPPED, Choice
-from proof.entire import ENTIRE, HELD, STRUCK, entire, held
+from proof.entire import ENTIRE, HELD, STRUCK, WIDE, entire, held, wide
 from proof.library import CLOSED
 from proof.machine import arrays_of, exact_machine
 from proof.model.balls import pit
@@ -46,6 +46,7 @@ def test_every_known_and_unknown_law_of_the_usual_load_occurs_and_every_third_pi
 def test_the_seals_were_committed():
     assert seal.seals_of("entire") == seal.manifest("entire", CASES)["sha256"]
     assert seal.seals_of("held") == seal.manifest("held", held())["sha256"]
+    assert seal.seals_of("wide") == seal.manifest("wide", wide())["sha256"]
 
 
 def test_the_second_has_no_case_of_the_first_and_is_a_sample_at_any_length():
@@ -60,6 +61,15 @@ def test_the_second_has_no_case_of_the_first_and_is_a_sample_at_any_length():
     assert target == 86 and {len(c.sensors) for c in cases} == {1, 3, 8}
     half = Counter(c.group for c in cases[:60])
     assert all(abs(half[g] - n / 2) <= 2 + 0.2 * n for g, n in HELD.groups.items())
+
+
+def test_the_third_has_no_case_of_the_others():
+    cases = wide()
+    assert Counter(c.group for c in cases) == WIDE.groups and len({c.name for c in cases}) == 72
+    free = [c for c in cases if c.group != "ambiguous"]  # their sizes are given
+    seen = {(e.law, e.site, round(e.value, 12)) for c in (*CASES, *held()) for e in c.effects}
+    assert not any((e.law, e.site, round(e.value, 12)) in seen for c in free for e in c.effects)
+    assert {len(c.speeds_hz) for c in cases} == {1, 3} and not any(c.group == "misset" for c in cases)
 
 
 def test_a_lip_squeezes_the_ball_before_and_behind_the_pit():
