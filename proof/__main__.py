@@ -14,6 +14,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
+from proof import oracle as oracles
 from proof.case import make
 from proof.kinematic import told_table
 from proof.method import SECTIONS
@@ -43,6 +44,7 @@ def parser() -> argparse.ArgumentParser:
         ("score", "score stored results against the truth"),
         ("kinematics", "run the engine on cases told by drawings alone, and print a table of its answers"),
         ("visible", "measure how much of the hidden effects there is to see, for the page"),
+        ("oracle", "measure what a classifier taught by the very machine can tell, for the page (minutes a case)"),
         ("page", "write docs/proof.md from the stored summaries"),
     ):
         command = commands.add_parser(name, help=sentence, description=sentence)
@@ -64,7 +66,7 @@ def parser() -> argparse.ArgumentParser:
             command.add_argument("--atlas", type=Path, default=ROOT / ".cache" / "proof" / "atlas")
             command.add_argument("--jobs", type=int, help="processes that simulate an atlas")
             command.add_argument("--processes", type=int, default=os.cpu_count(), help="cases that run at once")
-        if name == "visible":
+        if name in {"visible", "oracle"}:
             command.add_argument("--jobs", type=int, default=2, help="processes")
         if name == "score":
             command.add_argument("--keep", action="store_true", help="store the summary in proof/results")
@@ -200,6 +202,16 @@ def visible(given: argparse.Namespace) -> None:
             sys.stdout.write(f"{case.name} {'+'.join(e.law for e in case.effects)}{told(found[case.name])}\n")
 
 
+def oracle(given: argparse.Namespace) -> None:
+    """Measure what there is to tell in cases with effects; what is stored is left alone."""
+    found = oracles.measure(chosen(given), oracles.store_of(HERE / "results", given.split), given.jobs)
+    for case in chosen(given):
+        if case.name in found:
+            told_of = found[case.name]
+            effects = "+".join(e.law for e in case.effects)
+            sys.stdout.write(f"{case.name} {effects} distance {told_of.distance:.1f}, power {told_of.power:.2f}\n")
+
+
 def page(given: argparse.Namespace) -> None:
     """Write the page."""
     sys.stdout.write(f"{write_page(given.docs, HERE / 'results')}\n")
@@ -210,7 +222,7 @@ def main() -> None:
     given = parser().parse_args()
     commands = {
         "generate": generate, "seal": seal, "run": run, "score": score_all, "kinematics": kinematics,
-        "visible": visible, "page": page,
+        "visible": visible, "oracle": oracle, "page": page,
     }  # fmt: skip
     commands[given.command](given)
 

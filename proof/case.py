@@ -22,7 +22,7 @@ from proof.sensor_faults import Place, spoil
 DURATION_S = 1.2
 MISSET = ({"kp": 1.25, "mg": 0.75}, {"em": 0.72, "ks": 1.28}, {"kre": 0.7, "mr": 1.25})
 """Factors on two parameters of the machine file in the mis-set nulls."""
-MACHINE, DRIFT, EFFECT, SENSORS, NOISE, SPEED, FAULT = range(1, 8)
+MACHINE, DRIFT, EFFECT, SENSORS, NOISE, SPEED, FAULT, OTHER_TEST = range(1, 9)
 """Purposes of random numbers."""
 
 
@@ -95,6 +95,29 @@ def recordings(case: Case) -> dict[str, tuple[float, FloatArray]]:
     }
 
 
+def instruments_of(case: Case) -> tuple[list[Way], list[Noise]]:
+    """Transfer path and noise of every sensor of a case with a baseline."""
+    sound, middle = _sound(hidden_machine(case.rng(MACHINE)), case), len(case.speeds_hz) // 2 + 1
+    return _instruments(case, _motion(case, sound, *_operation(case, sound, middle, "baseline")))
+
+
+def another_test(
+    case: Case, number: int, hidden: Hidden, effects: tuple[Hiding, ...], instruments: tuple[list[Way], list[Noise]]
+) -> list[FloatArray]:
+    """Tests of a machine of the case's, at another time, `number`, which gives speeds, slips and noise: at every stated
+    speed the samples at the plugs below the angle of the drive shaft, rad, (1 + channels, n)."""
+    ways, noises = instruments
+    found = []
+    for k in range(1, len(case.speeds_hz) + 1):
+        machine = changed(_sound(hidden, case), effects, case)
+        speed, start = _turning(case, machine, k, case.rng(OTHER_TEST, number, k, 0))
+        samples = _motion(case, machine, speed, start)
+        rng = case.rng(OTHER_TEST, number, k, 1)
+        rows = [through(w, r) + n.draw(r.size, rng) for w, n, r in zip(ways, noises, samples, strict=True)]
+        found.append(np.array([speed.angle(np.arange(samples.shape[1]) / RATE_HZ), *rows]))
+    return found
+
+
 def quiet_tests(case: Case) -> Iterator[tuple[FloatArray, FloatArray, FloatArray, FloatArray]]:
     """For every test: samples at the sensors (channels, n) with the effects, without them, without the drift too, all
     without noise, and the standard deviation of each channel's noise (channels,)."""
@@ -149,8 +172,11 @@ def changed(machine: Arrays, effects: tuple[Hiding, ...], case: Case, numbers: S
 
 
 def _operation(case: Case, machine: Arrays, k: int, kind: str) -> tuple[Speed, float]:
+    return _turning(case, machine, k, case.rng(SPEED, k, int(kind == "test")))
+
+
+def _turning(case: Case, machine: Arrays, k: int, rng: np.random.Generator) -> tuple[Speed, float]:
     """Speed near the stated one and the angle at the start; slip and cage angles of the run."""
-    rng = case.rng(SPEED, k, int(kind == "test"))
     speed = wandering(case.speeds_hz[k - 1] * (1.0 + rng.uniform(-0.005, 0.005)), rng.uniform(0.001, 0.005), rng)
     slip_free = machine.bearings[:, B.SLIP] == 0.0
     machine.bearings[slip_free, B.SLIP] = rng.uniform(0.0, 0.02, 4)[slip_free]
