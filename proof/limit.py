@@ -32,11 +32,11 @@ def limit(results: Path, parts: Sequence[tuple[Split, str]]) -> str:
                 rows.append((s, cases[s.name], seen[s.name]))
     if not found:
         return ""
-    unseen = sum(seen.power >= HALF for _, _, seen in rows)
+    unseen = sum(seen.power < HALF for _, _, seen in rows)
     said = (
         f"Measured on {found} single effects at the target condition, {named} of them named with their place: at "
-        f"{FALSE_ALARMS:.0%} false alarms the oracle tells {told} in half of its tests or more. Of the {len(rows)} "
-        f"that were not named it tells {unseen}:"
+        f"{100 * FALSE_ALARMS:.0f} % false alarms the oracle tells {told} in half of its tests or more. Of the "
+        f"{len(rows)} that were not named it does not tell {unseen}:"
     )
     return "\n".join([*wrap(said, WIDTH), "", *_table(rows)])
 
@@ -47,5 +47,5 @@ def _table(rows: Sequence[tuple[Score, Case, Seen]]) -> list[str]:
         effect = case.effects[0]
         hidden = f"{LAWS[effect.law]}, {effect.site}, {effect.value:.3g} {effect.about().unit}"
         said = score.verdict.replace("_", " ")
-        found.append(f"| {score.name} | {hidden} | {said} | {seen.distance:.1f} | {seen.power:.0%} |")
+        found.append(f"| {score.name} | {hidden} | {said} | {seen.distance:.1f} | {100 * seen.power:.0f} % |")
     return found

@@ -10,7 +10,7 @@ from textwrap import wrap
 import numpy as np
 
 from proof.effects import LIPPED
-from proof.entire import ENTIRE, HELD, STRUCK, Design, cases_of_design
+from proof.entire import ENTIRE, HELD, STRUCK, WIDE, Design, cases_of_design
 from proof.plan import Case
 from proof.score.one import Score
 from proof.score.rates import MEASURES, at_target, rate
@@ -23,7 +23,7 @@ FAR_OFF = 0.74
 """Error of a size, as a share of it."""
 CLEAR = 3.0
 """Times as far as drift, from which there is much to see."""
-COMMITS: Mapping[str, str] = {"held": "919f12b", "entire": "8e8edc1"}
+COMMITS: Mapping[str, str] = {"wide": "9c93d3ef", "held": "919f12b", "entire": "8e8edc1"}
 """Whose engine ran each of the splits."""
 ELSEWHERE: Mapping[str, tuple[str, str]] = {"held": ("begun", "an earlier"), "entire": ("hearing", "a later")}
 """Section of those cases of a split that another engine met first, and which."""
@@ -31,13 +31,13 @@ ELSEWHERE: Mapping[str, tuple[str, str]] = {"held": ("begun", "an earlier"), "en
 
 def one_engine(results: Path) -> str:
     """What the page says of the splits that one engine ran each, the latest first."""
-    every = [s for name in ("held", "begun", "hearing", "entire") for s in read(results / f"{name}.json")]
+    every = [s for name in ("wide", "held", "begun", "hearing", "entire") for s in read(results / f"{name}.json")]
     told = "\n".join(wrap(of_sizes(every), WIDTH))
-    return "\n\n".join([*(_of(design, results) for design in (HELD, ENTIRE)), *([told] if told else [])])
+    return "\n\n".join([*(_of(design, results) for design in (WIDE, HELD, ENTIRE)), *([told] if told else [])])
 
 
 def of_sizes(scores: Sequence[Score]) -> str:
-    """Of all cases of both splits, at all conditions: how far sizes are off, and how often placebos gain."""
+    """Of all cases of these splits, at all conditions: how far sizes are off, and how often placebos gain."""
     errors = [s.severity_error for s in scores if s.severity_error is not None]
     placebos = [s.placebo_improves for s in scores if s.placebo_improves is not None]
     if not errors or not placebos:
@@ -46,7 +46,7 @@ def of_sizes(scores: Sequence[Score]) -> str:
     middle, last = (100.0 * float(np.quantile(errors, share)) for share in (0.5, 0.9))
     far = 100.0 * float(np.mean(np.array(errors) >= FAR_OFF))
     return (
-        f"Of the {len(scores)} cases of both splits, whichever engine met them first, {len(errors)} sizes were told: "
+        f"Of the {len(scores)} cases of these splits, whichever engine met them first, {len(errors)} sizes were told: "
         f"half are within {middle:.0f} %, {far:.0f} % are off by {100 * FAR_OFF:.0f} % or more, one in ten by "
         f"{last:.0f} %; {held} of their intervals hold the truth. In {sum(placebos)} of {len(placebos)} cases the "
         "median placebo gains more than 0.05."
@@ -60,8 +60,8 @@ def _of(design: Design, results: Path) -> str:
     if not scores:
         return f"{title}\n\nNone of its cases are stored."
     engine, commit = json.loads(path.read_text(encoding="utf-8"))["engine"], COMMITS[design.split]
-    section, other = ELSEWHERE[design.split]
-    elsewhere = {s.name for s in read(results / f"{section}.json")}
+    section, other = ELSEWHERE.get(design.split, ("", ""))
+    elsewhere = {s.name for s in read(results / f"{section}.json")} if section else set()
     cases = cases_of_design(design)
     left = {c.name for c in cases} - {s.name for s in scores} - elsewhere
     more = f'{len(elsewhere)} more were first met by {other} engine ("{section.capitalize()}" below). '
@@ -77,8 +77,9 @@ def _of(design: Design, results: Path) -> str:
     return "\n".join([title, "", *wrap(said, WIDTH), "", together(scores), "", *by_law(scores), "", *told])
 
 
-TITLES = {"held": "The latest whole plan", "entire": "An earlier engine"}
+TITLES = {"wide": "The latest whole plan", "held": "An engine before", "entire": "An earlier engine"}
 LEFT = {
+    "wide": "The others are not run yet: the names' order is drawn, so those run are a sample of the plan. ",
     "held": "The others are not run yet: the names' order is drawn, so those run are a sample of the plan. ",
     "entire": "The others are not run: the names' order is drawn, so those run are a sample of the plan but for the "
     "cases that need atlases of their own (mis-set files, five speeds, another load), which were put last. ",

@@ -13,6 +13,7 @@ import matplotlib as mpl
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 
+from proof.limit import limit
 from proof.method import METHOD, SECTIONS
 from proof.one_engine import one_engine
 from proof.others import cases_of
@@ -49,6 +50,7 @@ def write_page(docs: Path, results: Path) -> Path:
         METHOD.format(
             **said_of(results),
             one_engine=one_engine(results),
+            limit=limit(results, (("wide", "wide"), ("held", "held"), ("held", "begun"))),
             rules=rules,
             laws=laws,
             crossing=laws * 4 * 27,
