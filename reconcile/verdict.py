@@ -174,15 +174,40 @@ class HeldOut:
 
 
 @dataclass(frozen=True, kw_only=True)
+class PointForce:
+    """At one operating point: the force of all `lines` that rose beyond their band together, N rms, with a 90 %
+    interval [low_n, high_n]."""
+
+    speed_hz: float
+    torque_ratio: float
+    lines: int
+    force_n: float
+    low_n: float
+    high_n: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class EstimatedForce:
-    """Force nobody's law covers: samples over its arguments with band, and the simplest law that survived."""
+    """Force nobody's law covers: samples with their 90 % band, and the simplest law that survived."""
 
     site: str
     samples: Mapping[str, tuple[float, ...]]
-    """`displacement_m`, `velocity_m_per_s` or `angle_rad`, with `force_n`, `low_n`, `high_n`."""
+    """Over what it follows: `displacement_m`, `velocity_m_per_s` or `angle_rad`, with `force_n`, `low_n`, `high_n`.
+
+    At level `machine`, where no law stands, by lines: `frequency_hz`, `order` of the drive shaft, its speed `speed_hz`,
+    and `force_n` rms along each axis the sensors hear, with `low_n` (0 where the line rose no more than it may by
+    itself) and `high_n`: what at the support would add as much power.
+    """
     law: str | None
     coefficients: Mapping[str, float] = field(default_factory=dict)
     work_per_cycle_j: float | None = None
+    """None where it cannot be told: `remarks` say why."""
+    axes: tuple[str, ...] = ()
+    """Along which a force by lines is told."""
+    points: tuple[PointForce, ...] = ()
+    """Sums of what `samples` tell by lines, one an operating point at which any rose beyond its band."""
+    remarks: tuple[str, ...] = ()
+    """How the samples are meant, and what cannot be told."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -92,7 +92,7 @@ def _filled(bands: FloatArray) -> FloatArray:
     return filled
 
 
-def _leading(power: FloatArray, hz: FloatArray) -> np.ndarray:
+def leading(power: FloatArray, hz: FloatArray) -> np.ndarray:
     """Lines that are no weaker than `LEADING` of the strongest within half an octave either way, (L,)."""
     octaves = np.log2(np.maximum(hz, 1e-3))
     near = np.abs(octaves[:, None] - octaves[None, :]) <= 0.5
@@ -125,7 +125,7 @@ def calibrate_chain(
         for seen, model, hz in zip(recorded, healthy, lines_hz, strict=True):
             noise = np.interp(np.log(hz), np.log(band_centres_hz()), _filled(seen.floor)[c]) * LOBE * seen.resolution_hz
             power = seen.line[c]
-            out = (power > STANDS_OUT * noise) & _leading(power, hz) & _leading(model.line[c], hz)
+            out = (power > STANDS_OUT * noise) & leading(power, hz) & leading(model.line[c], hz)
             with np.errstate(invalid="ignore", divide="ignore"):
                 ratio = 10.0 * np.log10((power - noise) / model.line[c])
             ratios.append(np.where(out, ratio, np.nan))

@@ -28,6 +28,7 @@ from reconcile.machine.decided import decided
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.drive import on_drive
 from reconcile.machine.elsewhere import with_place
+from reconcile.machine.estimated import with_force
 from reconcile.machine.exchanged import with_exchanged
 from reconcile.machine.faintest import faintest_seen
 from reconcile.machine.foreign import with_foreign
@@ -63,7 +64,7 @@ from reconcile.machine.teeth_elsewhere import teeth_elsewhere
 from reconcile.machine.told_by import teeth_tell
 from reconcile.machine.turned import told_apart, turned_alike, with_limits, with_unconfirmed
 from reconcile.machine.unfitting import misfit_report, told_of
-from reconcile.machine.unknown import Unknown, unknown_force
+from reconcile.machine.unknown import Unknown, likely_supports, unknown_force
 from reconcile.observe.observation import PointData, observe, unpaired
 from reconcile.observe.watch import watch_list
 from reconcile.verdict import Report, operating_point
@@ -164,6 +165,7 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = with_mistaken(report, looks.setting, looks.by_families, channels, looks.found.screen.heard)
     report = with_misfit(report, looks.fit, machine)
     report = with_strange(report, strange(machine, alike, channels, gate.findings), machine, setting.direct.evidence)
+    report = with_force(report, looks.setting, likely_supports(looks.setting, looks.found) if machine.bearings else ())
     return as_named(with_short(with_limits(with_unconfirmed(report, machine, alike), apart), alike, gate.findings))
 
 

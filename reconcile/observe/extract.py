@@ -33,9 +33,7 @@ def hann_spectrum(samples: FloatArray, rate_hz: float) -> tuple[np.ndarray, Floa
     return spectrum, np.asarray(power), rate_hz / n
 
 
-def _line_powers(
-    power: FloatArray, bin_hz: float, lines_hz: FloatArray, slack: FloatArray, top_hz: float
-) -> FloatArray:
+def line_powers(power: FloatArray, bin_hz: float, lines_hz: FloatArray, slack: FloatArray, top_hz: float) -> FloatArray:
     """Largest lobe power within `slack` (share of the frequency) of every line, shape (C, L)."""
     lobes = np.cumsum(np.pad(power, ((0, 0), (LOBE_BINS + 1, LOBE_BINS))), axis=1)
     lobe = lobes[:, 2 * LOBE_BINS + 1 :] - lobes[:, : -2 * LOBE_BINS - 1]
@@ -91,7 +89,7 @@ def _shapes(
         envelope = square + analytic.imag**2
         relative = envelope / np.maximum(envelope.mean(axis=1, keepdims=True), 1e-300)
         _, power, _ = hann_spectrum(relative, points * bin_hz)
-        depth[:, e] = _line_powers(power, bin_hz, modulations_hz, slack, 0.5 * (high - low))
+        depth[:, e] = line_powers(power, bin_hz, modulations_hz, slack, 0.5 * (high - low))
     return mean_square, depth, kurtosis, skewness
 
 
@@ -126,7 +124,7 @@ def extract(
     floor, total = _bands(power, bin_hz, cut.edges_hz, top * cut.factor)
     band, depth, kurtosis, skewness = _shapes(samples, rate_hz, modulations_hz, modulation_slack, cut, top)
     return Statistics(
-        line=_line_powers(power, bin_hz, lines_hz, line_slack, top),
+        line=line_powers(power, bin_hz, lines_hz, line_slack, top),
         floor=floor,
         total=total,
         band=band,

@@ -10,6 +10,7 @@ import json
 from reconcile.report.faintest import faintest
 from reconcile.report.figures.bars import changes, ranking
 from reconcile.report.figures.envelope import caption, envelope, marked
+from reconcile.report.figures.force_lines import by_lines
 from reconcile.report.figures.gains import distances, gains
 from reconcile.report.figures.law import from_force, law, law_words, one_axis
 from reconcile.report.figures.maps import force_map, map_words
@@ -155,7 +156,8 @@ def _force(report: Report) -> Markup:
     work = Markup("")
     if found.work_per_cycle_j is not None:
         work = tag("p", f"Work per cycle {figure_text(found.work_per_cycle_j)} J.", css="muted")
-    return section("Estimated force", told(tag("p", said), terms, work), *drawn, *maps)
+    remarks = bullets(found.remarks)
+    return section("Estimated force", told(tag("p", said), terms, work, remarks), by_lines(found), *drawn, *maps)
 
 
 def _machine(report: Report) -> Markup:

@@ -40,6 +40,12 @@ def decades(low: float, high: float) -> list[float]:
     return [v for p in powers for m in (1.0, 2.0, 5.0) if low <= (v := m * 10.0**p) <= high]
 
 
+def powers_of_ten(low: float, high: float) -> list[float]:
+    """Those within the limits, for a logarithmic axis over many of them; 1, 2 and 5 times them over few."""
+    found = [v for v in decades(low, high) if f"{v:.0e}"[0] == "1"]
+    return found if len(found) > 2 else decades(low, high)
+
+
 def scaled(low: float, high: float, label: str) -> tuple[float, str]:
     """Factor for tick figures and the label that says so where figures would be tiny or huge: a prefix of the unit that
     the label ends with (`displacement, m` -> `displacement, mm`), else a power of 1000."""
@@ -100,6 +106,8 @@ class Frame:
     """Where figures stand, instead of round values."""
     log: bool = False
     """Whether the horizontal axis is logarithmic; its limits are positive then."""
+    log_y: bool = False
+    """The same of the vertical axis."""
 
     def px(self, value: float) -> float:
         """Horizontal place of a value, kept within the panel."""
@@ -111,7 +119,10 @@ class Frame:
 
     def py(self, value: float) -> float:
         """Vertical place of a value, kept within the panel."""
-        share = (value - self.y[0]) / ((self.y[1] - self.y[0]) or 1.0)
+        low, high = self.y
+        if self.log_y:
+            low, high, value = math.log10(low), math.log10(high), math.log10(max(value, self.y[0]))
+        share = (value - low) / ((high - low) or 1.0)
         return self.height - BOTTOM - (self.height - TOP - BOTTOM) * min(max(share, 0.0), 1.0)
 
     def axes(self, *, y_ticks: bool = True) -> Markup:
@@ -124,7 +135,8 @@ class Frame:
             parts.append(tag("line", x1=at, x2=at, y1=TOP, y2=bottom, css="grid"))
             parts.append(tag("text", figure_text(value * factor), x=at, y=bottom + 15, css="tick mid"))
         factor, y_label = scaled(*self.y, self.y_label)
-        for value in ticks(*self.y) if y_ticks else []:
+        heights = powers_of_ten(*self.y) if self.log_y else ticks(*self.y)
+        for value in heights if y_ticks else []:
             at = self.py(value)
             parts.append(tag("line", x1=self.left, x2=self.width - RIGHT, y1=at, y2=at, css="grid"))
             parts.append(tag("text", figure_text(value * factor), x=self.left - 6, y=at + 3.5, css="tick end"))

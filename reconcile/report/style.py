@@ -71,6 +71,10 @@ code, pre { font-family:ui-monospace,"DejaVu Sans Mono",monospace; font-size:12.
 .note { border-left:3px solid var(--warn); padding-left:10px; } .forms { color:var(--muted); font-weight:400; }
 .bar.off, .bar.rival { fill:var(--muted); opacity:.55 } .bar.on { fill:var(--accent) }
 svg .said { paint-order:stroke; stroke:var(--surface); stroke-width:5px }
+.spread { stroke:var(--accent); stroke-width:3; opacity:.55 } .spread.open { stroke:var(--muted);
+ stroke-dasharray:3 3; stroke-width:1.5 } .dot.told { fill:var(--accent); stroke:var(--accent) }
+.key .k-told { border-color:var(--accent); border-top-width:6px } .key .k-open { border-color:var(--muted);
+ border-top-style:dashed }
 .whisker { stroke:var(--text); stroke-width:1.5 } .ceiling { stroke:var(--ok); stroke-width:2; stroke-dasharray:6 3 }
 svg .ceiling-name { fill:var(--ok); font-weight:650 } details.point { border-top:1px solid var(--border);
  padding:8px 0; }

@@ -132,7 +132,13 @@ function force({ force: found, causes: list, verdict: told }) {
   if (!found || told === "measurement_fault") return null;
   const units = Object.fromEntries(list.filter((cause) => cause.severity).map(({ severity: { name, unit: of } }) => [name, of]));
   return card("Estimated force", "force", h("p", {}, `At ${partName(found.site)}: ${found.law ? `law ${found.law}` : "no stable law"}.`),
+    bullets((found.points ?? []).map(summed)), bullets(found.remarks),
     bullets(Object.entries(found.coefficients).map(([name, value]) => `${LAWS[name] ?? words(name)}: ${units[name] ? quantity(value, units[name]) : number(value)}`)));
+}
+
+function summed({ speed_hz: speed, torque_ratio: torque, lines, force_n: size, low_n: low, high_n: high }) {
+  const at = torque === 1 ? quantity(speed, "Hz") : `${quantity(speed, "Hz")}, ${number(torque)} of the torque`;
+  return `${at}: ${quantity(size, "N")} rms (90 %: ${quantity(low, "N")} to ${quantity(high, "N")}) at ${lines === 1 ? "1 line" : `${lines} lines together`}`;
 }
 
 function limits({ undecidable }) {
