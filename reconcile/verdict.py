@@ -194,9 +194,9 @@ class EstimatedForce:
     samples: Mapping[str, tuple[float, ...]]
     """Over what it follows: `displacement_m`, `velocity_m_per_s` or `angle_rad`, with `force_n`, `low_n`, `high_n`.
 
-    At level `machine`, where no law stands, by lines: `frequency_hz`, `order` of the drive shaft, its speed `speed_hz`,
-    and `force_n` rms along each axis the sensors hear, with `low_n` (0 where the line rose no more than it may by
-    itself) and `high_n`: what at the support would add as much power.
+    At level `machine`, where no law stands, by lines, at most 60 of all operating points (`speed_hz` of the drive
+    shaft, `torque_ratio`): `frequency_hz`, `order` of that shaft, `force_n` rms along the `axes` together, `low_n` (0
+    where no force would do as well) and `high_n`: what at the support would change the line as much.
     """
     law: str | None
     coefficients: Mapping[str, float] = field(default_factory=dict)

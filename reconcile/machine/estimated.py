@@ -83,6 +83,7 @@ def estimated_force(setting: Setting, site: str, risen: Sequence[LineChange] = (
             "frequency_hz": tuple(line.frequency_hz for line in kept),
             "order": tuple(line.frequency_hz / line.speed_hz for line in kept),
             "speed_hz": tuple(line.speed_hz for line in kept),
+            "torque_ratio": tuple(setting.data[line.point].point.torque_ratio for line in kept),
             "force_n": tuple(line.force_n for line in kept),
             "low_n": tuple(line.low_n for line in kept),
             "high_n": tuple(line.high_n for line in kept),

@@ -9,7 +9,7 @@ from reconcile.report.markup import Markup, figure_text, tag
 from reconcile.report.plot import BOTTOM, Frame
 from reconcile.verdict import EstimatedForce, PointForce, operating_point
 
-ARGUMENTS = ("order", "speed_hz", "force_n", "low_n", "high_n")
+ARGUMENTS = ("order", "speed_hz", "torque_ratio", "force_n", "low_n", "high_n")
 DEEP = 0.3
 """Share of the smallest force told down to which the axis goes: what may be 0 has no end on a logarithmic one."""
 WORDS = (
@@ -30,31 +30,30 @@ def by_lines(force: EstimatedForce) -> Markup:
     """A legend and a panel an operating point, a sentence under each title; nothing where no lines are told."""
     if any(key not in force.samples for key in ARGUMENTS) or not force.samples["order"]:
         return Markup("")
-    lines: dict[float, list[_Line]] = {}
-    for order, speed, value, low, high in zip(*(force.samples[key] for key in ARGUMENTS), strict=True):
+    lines: dict[tuple[float, float], list[_Line]] = {}
+    for order, speed, torque, value, low, high in zip(*(force.samples[key] for key in ARGUMENTS), strict=True):
         if order > 0.0 and value > 0.0 and math.isfinite(high):
-            lines.setdefault(speed, []).append(_Line(order=order, force_n=value, low_n=low, high_n=high))
+            lines.setdefault((speed, torque), []).append(_Line(order=order, force_n=value, low_n=low, high_n=high))
     told = [line for own in lines.values() for line in own]
     if not told:
         return Markup("")
     x = min(line.order for line in told) / 1.3, max(line.order for line in told) * 1.3
     y = DEEP * min(line.low_n or line.force_n for line in told), 1.5 * max(line.high_n for line in told)
     spans = [tag("span", tag("i", css=f"k-{css}"), words) for css, words in WORDS]
-    sums = {point.speed_hz: point for point in force.points}
-    panels = [_panel(own, speed, sums.get(speed), x, y) for speed, own in sorted(lines.items())]
+    sums = {(point.speed_hz, point.torque_ratio): point for point in force.points}
+    panels = [_panel(own, operating_point(*at), sums.get(at), x, y) for at, own in sorted(lines.items())]
     return Markup(tag("div", *spans, css="key") + "".join(panels))
 
 
 def summed(point: PointForce) -> str:
-    """`30 Hz: 12 N rms (90 %: 5 N to 30 N) at 4 lines together`."""
-    ends = f"{figure_text(point.low_n)} N to {figure_text(point.high_n)} N"
+    """`12 N rms (90 %: 5 N to 30 N) at 4 lines together`."""
+    ends = f"{figure_text(point.low_n, digits=2)} N to {figure_text(point.high_n, digits=2)} N"
     lines = "1 line" if point.lines == 1 else f"{point.lines} lines together"
-    at = operating_point(point.speed_hz, point.torque_ratio)
-    return f"{at}: {figure_text(point.force_n)} N rms (90 %: {ends}) at {lines}"
+    return f"{figure_text(point.force_n, digits=2)} N rms (90 %: {ends}) at {lines}"
 
 
 def _panel(
-    lines: list[_Line], speed_hz: float, point: PointForce | None, x: tuple[float, float], y: tuple[float, float]
+    lines: list[_Line], at_point: str, point: PointForce | None, x: tuple[float, float], y: tuple[float, float]
 ) -> Markup:
     frame = Frame(
         x=x, y=y, x_label="order of the drive shaft", y_label="force rms, N", height=280.0, log=True, log_y=True
@@ -76,8 +75,10 @@ def _panel(
                 css="dot" if open_ else "dot told",
             )
         )
-    title = f"Force over order at {figure_text(speed_hz)} Hz"
-    words = summed(point) if point is not None else "no line rose beyond its band here"
+    title = f"Force over order at {at_point}"
+    words = summed(point) if point is not None else "no line tells a force for sure here"
     return Markup(
-        tag("h3", title) + tag("p", words, css="muted") + frame.svg(*parts, title=f"Estimated {title.lower()}")
+        tag("h3", title)
+        + tag("p", words, css="muted")
+        + frame.svg(*parts, title=f"Estimated force over order at {at_point}")
     )
