@@ -61,6 +61,8 @@ def with_force(report: Report, setting: Setting, supports: Sequence[str]) -> Rep
 def estimated_force(setting: Setting, site: str, risen: Sequence[LineChange] = ()) -> EstimatedForce:
     """By the watched lines and those told as `risen` beside them."""
     nothing = EstimatedForce(site=site, samples={}, law=None, remarks=(NO_WORK,))
+    if any(one.baseline is None for one in setting.data):
+        return replace(nothing, remarks=(NO_BASELINE, NO_WORK))
     machines = machines_like(setting)
     healthy = [healthy_of(bank, setting.plan) for bank in setting.banks]
     found: list[Reached] = []
@@ -68,7 +70,7 @@ def estimated_force(setting: Setting, site: str, risen: Sequence[LineChange] = (
     for k, one in enumerate(setting.data):
         seen = reached(setting, k, site, machines, healthy, beside(one, risen))
         if seen is None:
-            return replace(nothing, remarks=(NO_BASELINE, NO_WORK))
+            return replace(nothing, remarks=(UNHEARD, NO_WORK))
         found.append(seen)
         lines += _told(one, k, seen, force_squares(seen.heard))
     standing = sorted((line for line in lines if line.low_n > 0.0), key=lambda line: -line.force_n)
@@ -104,8 +106,8 @@ def _open(lines: Sequence[_Line], points: int) -> list[_Line]:
 
 
 def beside(one: PointData, risen: Sequence[LineChange]) -> list[float]:
-    """Frequencies of lines told as risen at this operating point that are not watched."""
-    near = (2 * LOBE_BINS + 1) * one.test.resolution_hz / HANN_NOISE_BINS
+    """Frequencies of lines told as risen at this operating point of which no watched line's lobe has the middle."""
+    near = LOBE_BINS * one.test.resolution_hz / HANN_NOISE_BINS
     found: list[float] = []
     for line in risen:
         here = line.speed_hz == one.point.speed_hz and line.torque_ratio == one.point.torque_ratio
@@ -167,5 +169,6 @@ def _meant(site: str, axes: Sequence[str]) -> str:
     unheard = "" if len(axes) > 1 else f"; no sensor hears a force along {'y' if axes[0] == 'x' else 'x'}"
     return (
         f"It stands for what acts, wherever that is: a force on the outer ring of {site} along {along} that would "
-        f"change these lines as much{unheard}. Only lines at which the baseline tells the sensors' gain are counted."
+        f"change these lines as much{unheard}. Only lines at which the baseline tells the sensors' gain are counted; "
+        "knocks and noise, which have none, are not in it."
     )

@@ -81,7 +81,8 @@ def _along(heard: Heard, axis: int) -> Squares:
     no force at all would do as well the least is 0.
     """
     response = heard.response[axis]
-    usable = np.isfinite(response) & (response > 0.0) & np.isfinite(heard.test + heard.before + heard.deviation)
+    usable = np.isfinite(response) & (response > 0.0) & np.isfinite(heard.test + heard.before)
+    usable &= heard.deviation > 0.0
     known = np.flatnonzero(usable.any(axis=0))
     found = np.full((3, response.shape[1]), np.nan)
     if known.size:

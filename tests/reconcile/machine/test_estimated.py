@@ -76,9 +76,12 @@ def test_where_nothing_changed_only_upper_ends_are_told(by_point: dict[int, Reac
 
 
 def test_without_a_baseline_or_a_channel_that_hears_it_none_is_told(by_point: dict[int, Reached | None]) -> None:
-    by_point[0] = None
-    found = estimated_force(setting_of(30.0), "bearing2")  # type: ignore[arg-type]
+    bare = setting_of(30.0)
+    bare.data[0].baseline = None
+    found = estimated_force(bare, "bearing2")  # type: ignore[arg-type]
     assert found.samples == {} and found.remarks == (NO_BASELINE, NO_WORK)
+    by_point[0] = None
+    assert estimated_force(setting_of(30.0), "bearing2").remarks == (UNHEARD, NO_WORK)  # type: ignore[arg-type]
     deaf = reached(np.ones(4))
     deaf.heard.response[:] = np.nan
     by_point[0] = replace(deaf, axes=())

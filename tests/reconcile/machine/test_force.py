@@ -103,3 +103,11 @@ def test_lines_far_below_the_strongest_may_be_its_mixing_products() -> None:
         best=np.array([100.0, 0.5, np.nan]), low=np.array([50.0, 0.2, np.nan]), high=np.array([150.0, 1, 0])
     )
     assert mixed(squares).low[:2].tolist() == [50.0, 0.0] and np.isnan(mixed(squares).low[2])
+
+
+def test_a_channel_without_any_signal_tells_nothing() -> None:
+    silent = np.zeros((1, 2))
+    found = force_squares(
+        Heard(test=silent, before=silent, deviation=silent, response=np.ones((1, 1, 2)), spread_db=np.zeros((1, 1, 2)))
+    )
+    assert np.isnan(found.best).all()
