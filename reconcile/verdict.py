@@ -175,8 +175,8 @@ class HeldOut:
 
 @dataclass(frozen=True, kw_only=True)
 class PointForce:
-    """At one operating point: the force of all `lines` that rose beyond their band together, N rms, with a 90 %
-    interval [low_n, high_n]."""
+    """At one operating point: the force of the `lines` that tell one together, N rms, with a 90 % interval [low_n,
+    high_n]; its upper end counts what may be at all other lines too."""
 
     speed_hz: float
     torque_ratio: float

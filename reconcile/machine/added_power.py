@@ -33,7 +33,9 @@ HEARS = 0.1
 LEAST_TOLD = 0.1
 """Weight of the lines that tell the gain, a line at the frequency itself being 1, from which on it is calibrated."""
 CUT_OFF = 1e-2
-"""Share of the support's own response below which a channel is cut off from it: what it hears came on other ways."""
+"""Share of the support's own response below which a channel is cut off from it: what it hears came on other ways.
+Without it the sums of twelve simulated gearboxes came up to twenty times too large, by lines of 2 to 4 kHz on the other
+shaft; with 0.001 up to 3.8 times (95 %), with this 2.4."""
 
 
 @dataclass(frozen=True, kw_only=True)

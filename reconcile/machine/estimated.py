@@ -91,7 +91,7 @@ def estimated_force(setting: Setting, site: str, risen: Sequence[LineChange] = (
             "high_n": tuple(line.high_n for line in kept),
         },
         axes=axes,
-        points=_points(setting.data, standing),
+        points=_points(setting.data, lines),
         remarks=(_meant(site, axes), *(() if standing else (NO_RISE,)), NO_WORK),
     )
 
@@ -140,24 +140,27 @@ def _told(one: PointData, point: int, seen: Reached, squares: Squares) -> list[_
     ]
 
 
-def _points(data: Sequence[PointData], standing: Sequence[_Line]) -> tuple[PointForce, ...]:
-    """Sums of squares; the ends of all lines at once, as the errors of gains and machine are shared among them."""
+def _points(data: Sequence[PointData], lines: Sequence[_Line]) -> tuple[PointForce, ...]:
+    """Sums of squares: of the lines that tell a force, and as the upper end of all lines, since the force may be at the
+    others too; the ends of all at once, as the errors of gains and machine are shared among them."""
+
+    def total(several: Sequence[_Line], name: str) -> float:
+        return float(np.sqrt(sum(getattr(line, name) ** 2 for line in several)))
+
     found = []
     for k, one in enumerate(data):
-        own = [line for line in standing if line.point == k]
+        every = [line for line in lines if line.point == k]
+        own = [line for line in every if line.low_n > 0.0]
         if own:
-            total, low, high = (
-                float(np.sqrt(sum(getattr(line, name) ** 2 for line in own))) for name in ("force_n", "low_n", "high_n")
-            )
             point = one.point
             found.append(
                 PointForce(
                     speed_hz=point.speed_hz,
                     torque_ratio=point.torque_ratio,
                     lines=len(own),
-                    force_n=total,
-                    low_n=low,
-                    high_n=high,
+                    force_n=total(own, "force_n"),
+                    low_n=total(own, "low_n"),
+                    high_n=total(every, "high_n"),
                 )
             )
     return tuple(found)

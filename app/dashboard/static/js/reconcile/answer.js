@@ -138,7 +138,7 @@ function force({ force: found, causes: list, verdict: told }) {
 
 function summed({ speed_hz: speed, torque_ratio: torque, lines, force_n: size, low_n: low, high_n: high }) {
   const at = torque === 1 ? quantity(speed, "Hz") : `${quantity(speed, "Hz")}, ${number(torque)} of the torque`;
-  return `${at}: ${quantity(size, "N")} rms (90 %: ${quantity(low, "N")} to ${quantity(high, "N")}) at ${lines === 1 ? "1 line" : `${lines} lines together`}`;
+  return `${at}: ${quantity(size, "N", 2)} rms (90 %: ${quantity(low, "N", 2)} to ${quantity(high, "N", 2)}) at ${lines === 1 ? "1 line" : `${lines} lines together`}`;
 }
 
 function limits({ undecidable }) {
