@@ -44,7 +44,7 @@ def parser() -> argparse.ArgumentParser:
         ("score", "score stored results against the truth"),
         ("kinematics", "run the engine on cases told by drawings alone, and print a table of its answers"),
         ("visible", "measure how much of the hidden effects there is to see, for the page"),
-        ("oracle", "measure what a classifier taught by the very machine can tell, for the page (minutes a case)"),
+        ("oracle", "bound what can be told at all, knowing everything hidden, for the page (minutes a case)"),
         ("page", "write docs/proof.md from the stored summaries"),
     ):
         command = commands.add_parser(name, help=sentence, description=sentence)
@@ -207,9 +207,9 @@ def oracle(given: argparse.Namespace) -> None:
     found = oracles.measure(chosen(given), oracles.store_of(HERE / "results", given.split), given.jobs)
     for case in chosen(given):
         if case.name in found:
-            told_of = found[case.name]
-            effects = "+".join(e.law for e in case.effects)
-            sys.stdout.write(f"{case.name} {effects} distance {told_of.distance:.1f}, power {told_of.power:.2f}\n")
+            one, effects = found[case.name], "+".join(e.law for e in case.effects)
+            told_of = f"{one.distance:.1f} ({one.low:.1f} to {one.high:.1f}), at most {one.most:.1f}"
+            sys.stdout.write(f"{case.name} {effects} distance {told_of}\n")
 
 
 def page(given: argparse.Namespace) -> None:

@@ -102,20 +102,28 @@ def instruments_of(case: Case) -> tuple[list[Way], list[Noise]]:
 
 
 def another_test(
-    case: Case, number: int, hidden: Hidden, effects: tuple[Hiding, ...], instruments: tuple[list[Way], list[Noise]]
+    case: Case, number: int, hidden: Hidden, effects: tuple[Hiding, ...], ways: Sequence[Way]
 ) -> list[FloatArray]:
-    """Tests of a machine of the case's, at another time, `number`, which gives speeds, slips and noise: at every stated
-    speed the samples at the plugs below the angle of the drive shaft, rad, (1 + channels, n)."""
-    ways, noises = instruments
+    """Tests of a machine of the case's, at another time, `number`, which gives speeds and slips: at every stated speed
+    the samples at the plugs without noise below the angle of the drive shaft, rad, (1 + channels, n)."""
     found = []
     for k in range(1, len(case.speeds_hz) + 1):
         machine = changed(_sound(hidden, case), effects, case)
         speed, start = _turning(case, machine, k, case.rng(OTHER_TEST, number, k, 0))
         samples = _motion(case, machine, speed, start)
-        rng = case.rng(OTHER_TEST, number, k, 1)
-        rows = [through(w, r) + n.draw(r.size, rng) for w, n, r in zip(ways, noises, samples, strict=True)]
+        rows = [through(w, row) for w, row in zip(ways, samples, strict=True)]
         found.append(np.array([speed.angle(np.arange(samples.shape[1]) / RATE_HZ), *rows]))
     return found
+
+
+def with_noise(case: Case, test: Sequence[FloatArray], noises: Sequence[Noise], *purpose: int) -> list[FloatArray]:
+    """The same with each sensor's noise, drawn for a purpose."""
+    rng = case.rng(OTHER_TEST, *purpose)
+    drawn = []
+    for heard in test:
+        noise = [n.draw(heard.shape[1], rng) for n in noises]
+        drawn.append(heard + np.array([np.zeros(heard.shape[1]), *noise]))
+    return drawn
 
 
 def quiet_tests(case: Case) -> Iterator[tuple[FloatArray, FloatArray, FloatArray, FloatArray]]:

@@ -1,4 +1,4 @@
-"""What an oracle could have told of single effects that the engine did not name: the limit, for the page."""
+"""What could have been told of single effects that the engine did not name: bounds from below and above."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from textwrap import wrap
 
-from proof.oracle import FALSE_ALARMS, Seen, store_of, stored
+from proof.oracle import FALSE_ALARMS, HALF, Seen, store_of, stored
 from proof.others import cases_of
 from proof.plan import Case, Split
 from proof.score.one import Score
@@ -14,38 +14,38 @@ from proof.score.rates import at_target
 from proof.shown import WIDTH
 from proof.whole import LAWS, read
 
-HALF = 0.5
-"""Power from which an oracle is said to tell an effect."""
-
 
 def limit(results: Path, parts: Sequence[tuple[Split, str]]) -> str:
-    """Of the single effects at the target condition in splits and their sections of the page."""
-    rows, named, told, found = [], 0, 0, 0
+    """Of the measured single effects at the target condition in splits and their sections of the page."""
+    rows, named, missing = [], 0, 0
     for split, section in parts:
         seen, cases = stored(store_of(results, split)), {c.name: c for c in cases_of(split)}
-        for s in read(results / f"{section}.json"):
-            if s.group != "single" or not at_target(s) or s.name not in seen:
-                continue
-            found, named = found + 1, named + bool(s.place)
-            told += seen[s.name].power >= HALF
-            if not s.place:
-                rows.append((s, cases[s.name], seen[s.name]))
-    if not found:
+        singles = [s for s in read(results / f"{section}.json") if s.group == "single" and at_target(s)]
+        missing += sum(not s.place and s.name not in seen for s in singles) if seen else 0
+        for s in singles:
+            if s.name in seen:
+                named += bool(s.place)
+                rows += [] if s.place else [(s, cases[s.name], seen[s.name])]
+    if not rows:
         return ""
-    unseen = sum(seen.power < HALF for _, _, seen in rows)
+    can = sum(seen.low >= HALF for _, _, seen in rows)
+    cannot = sum(seen.most < HALF for _, _, seen in rows)
+    left = f" ({missing} more of these splits are not measured yet)" if missing else ""
     said = (
-        f"Measured on {found} single effects at the target condition, {named} of them named with their place: at "
-        f"{100 * FALSE_ALARMS:.0f} % false alarms the oracle tells {told} in half of its tests or more. Of the "
-        f"{len(rows)} that were not named it does not tell {unseen}:"
+        f"Measured on {len(rows)} single effects at the target condition that were not named with their place{left} "
+        f"and {named} that were. At {100 * FALSE_ALARMS:.0f} % false alarms half of the tests with an effect are told from "
+        f"a distance of {HALF:.1f} on, if all spread normally. {cannot} of the {len(rows)} cannot come so far, {can} "
+        f"surely do, of the other {len(rows) - can - cannot} it is open:"
     )
     return "\n".join([*wrap(said, WIDTH), "", *_table(rows)])
 
 
 def _table(rows: Sequence[tuple[Score, Case, Seen]]) -> list[str]:
-    found = ["| case | hidden | the engine said | oracle: distance | told |", "|---|---|---|---|---|"]
-    for score, case, seen in sorted(rows, key=lambda row: row[2].distance):
+    found = ["| case | hidden | the engine said | distance told (90 %) | at most |", "|---|---|---|---|---|"]
+    for score, case, seen in sorted(rows, key=lambda row: row[2].most):
         effect = case.effects[0]
         hidden = f"{LAWS[effect.law]}, {effect.site}, {effect.value:.3g} {effect.about().unit}"
         said = score.verdict.replace("_", " ")
-        found.append(f"| {score.name} | {hidden} | {said} | {seen.distance:.1f} | {100 * seen.power:.0f} % |")
+        told = f"{seen.distance:.1f} ({seen.low:.1f} to {seen.high:.1f})"
+        found.append(f"| {score.name} | {hidden} | {said} | {told} | {seen.most:.1f} |")
     return found

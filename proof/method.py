@@ -181,12 +181,13 @@ the rows below the first: more than half of the pairs and of the unknown effects
 single effects there loose fits and pits of outer races are missed most often. Three more are an unbalance or a bow told
 as the set of both, which are the same force (t014, u009, a006; read off once).
 
-**An oracle** shows how much there is to tell at all (`python -m proof oracle`, `proof/oracle.py`; minutes a case). It
-is taught by the concealed machine itself: it knows that machine's numbers and what each of them changes when it drifts,
-the one effect it has to look for with its place and size, every sensor's path and noise, and the angle at every moment;
-it has to tell tests with that effect from tests without, by levels in narrow bands of order (Fisher's discriminant, on
-tests that it was not taught with). What it cannot tell no engine can be asked to find by such levels; what it tells a
-recording need not show to those who know none of this.
+**What could be told at all** is bounded from both sides (`python -m proof oracle`, `proof/oracle.py`; minutes a case),
+with what no engine knows: the concealed machine's numbers and what each changes when it drifts, the one effect to look
+for with its place and size, every sensor's path and noise, and the angle at every moment. From below, a classifier
+taught by 15 tests of that machine with and 15 without the effect has to tell others apart by levels in narrow bands of
+order (Fisher's discriminant); more tests would teach it more. From above, only drift and the sensors' noise stand in
+the way, and slips, cages and speeds do not differ. An effect that cannot be told so is in no such level; one that can
+need not show to who knows none of this.
 
 {limit}
 

@@ -44,6 +44,8 @@ class Screen:
     length: float
     rest: Rest = field(default_factory=Rest)
     p_lines: float = 1.0
+    lines_asked: bool = True
+    """Whether single lines were asked at all: that view may be missing, or its lines not repeat."""
     p_first: float = 1.0
     """`p_best` among all machines of the kind, where the rest is of those that agree with the baseline."""
     struck: tuple[frozenset[str], ...] = ()
@@ -141,6 +143,7 @@ def judge(
         length=looks[0].length,
         rest=_rest(views[: 1 + KINDS], observed, best, int(by[int(np.argmax(evidence))])),
         p_lines=_of_lines(views[1:], looks[1:]),
+        lines_asked=any(repeats(view) for view in views[1:]),
     )
 
 
@@ -161,10 +164,15 @@ def _rest(views: Sequence[Fitted], observed: FloatArray, best: str, speaks: int)
     return replace(lines[(max(speaks, 1) - 1) % KINDS], pooled=pooled, elsewhere=max(rest.unmet for rest in lines))
 
 
+def repeats(view: Fitted) -> bool:
+    """Whether sound machines repeat the lines of a view."""
+    return bool(getattr(view.view, "repeats", True))
+
+
 def _of_lines(views: Sequence[Fitted], looks: Sequence[Look]) -> float:
     """Chance of such a change of single lines, the smallest of the views' for as many looks; of lines that sound
     machines repeat (`OneByOne.repeats`)."""
-    seen = [(v, look) for v, look in zip(views, looks, strict=True) if getattr(v.view, "repeats", True)]
+    seen = [(v, look) for v, look in zip(views, looks, strict=True) if repeats(v)]
     chances = [tail_chance(v.null, look.length) for v, look in seen]
     return min([1.0, *(len(chances) * c for c in chances)])
 

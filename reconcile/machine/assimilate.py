@@ -180,7 +180,7 @@ def _with(setting: Setting, found: Found, more: Catalogued) -> Found:
     views = [with_draws(v, more.library) for v in found.views]
     before, direct = found.screen, setting.direct
     after = judge(views, setting.changes.observed, direct.evidence, direct.p)
-    kept = {n: getattr(before, n) for n in ("p_any", "p_best", "p_direct", "p_lines", "strongest")}
+    kept = {n: getattr(before, n) for n in ("p_any", "p_best", "p_direct", "p_lines", "lines_asked", "strongest")}
     best = after.names[int(np.argmax(after.evidence))]
     rest = replace(after.rest, rough=best not in found.led)
     screen = replace(after, rest=rest, unmoved=before.pattern, **kept)

@@ -79,7 +79,7 @@ GREAT = 25.0
 UNMATCHED = "impacts come at a known frequency, but the rest of the change is not what such an effect brings"
 NO_PATTERN = "the change is none that a known effect brings"
 FEW_UNDECIDED = "so few sensors and operating points do not tell whether a known effect changed that, or none"
-LINES_QUIET = "no known effect has its pattern, and no single line changed more than those of sound machines do"
+LINES_QUIET = "no known effect has its pattern, and single lines do not show clearly that anything changed"
 LITTLE_LEFT = "the best known effect leaves more of the change than it should, and too little to exclude all known ones"
 FAINT = 14.0
 """Deviations of the most changed group below which a change that no effect explains may be too faint to tell."""
@@ -229,8 +229,8 @@ def _none_of_the_known(
 def _too_little(screen: Screen, inadequate: bool, views: int) -> str | None:
     """Why a change without a pattern is no unknown effect's either, if it need not be one's: three of 33 sound machines
     (h034, h049, e127) and a cracked tooth (g014) reached 2e-5 by groups of features, with no line to show."""
-    quiet = screen.p_lines > CLEAR_P
-    if quiet and screen.strongest < FAINT:
+    quiet = screen.p_lines > CLEAR_P and screen.lines_asked
+    if screen.p_lines > CLEAR_P and screen.strongest < FAINT:
         return "the change is too faint to tell one effect from another"
     if inadequate or not (quiet or views <= FEW_VIEWS):
         return None

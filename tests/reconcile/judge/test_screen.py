@@ -169,5 +169,6 @@ def test_lines_that_sound_machines_do_not_repeat_give_no_alarm_without_a_pattern
 
     steady, rattling = judged(repeats=True), judged(repeats=False)
     assert steady.p_lines < 1.0 == rattling.p_lines
+    assert steady.lines_asked and not rattling.lines_asked and not judge((space(),), observed).lines_asked
     np.testing.assert_array_equal(steady.evidence, rattling.evidence)
     assert steady.p_best == rattling.p_best

@@ -44,5 +44,7 @@ def test_groups_of_features_alone_claim_no_unknown_physics() -> None:
     """However glaring they are: sound machines that change their regime reach 1e-6 by them, and no line shows it."""
     quiet = decide(screen([1.0, 0.5], strongest=30.0, p_any=1e-6, p_lines=2 * CLEAR_P), views=9)
     assert (quiet.word, quiet.reasons) == ("not_decidable", (LINES_QUIET,))
+    unasked = screen([1.0, 0.5], strongest=30.0, p_any=1e-6, lines_asked=False)
+    assert decide(unasked, views=9).word == "unknown_physics", "lines that do not repeat are no witness"
     odd = screen([1.0, 0.5], strongest=30.0, misfit=STRANGE + 0.005, p_lines=1.0)
     assert decide(odd, views=9).word == "unknown_physics", "fits worse than simulated effects do"
