@@ -33,9 +33,9 @@ def limit(results: Path, parts: Sequence[tuple[Split, str]]) -> str:
     left = f" ({missing} more of these splits are not measured yet)" if missing else ""
     said = (
         f"Measured on {len(rows)} single effects at the target condition that were not named with their place{left} "
-        f"and {named} that were. At {100 * FALSE_ALARMS:.0f} % false alarms half of the tests with an effect are told from "
-        f"a distance of {HALF:.1f} on, if all spread normally. {cannot} of the {len(rows)} cannot come so far, {can} "
-        f"surely do, of the other {len(rows) - can - cannot} it is open:"
+        f"and {named} that were. At {100 * FALSE_ALARMS:.0f} % false alarms half of the tests with an effect are told "
+        f"from a distance of {HALF:.1f} on, if all spread normally. {cannot} of the {len(rows)} cannot come so far, "
+        f"{can} surely do, of the other {len(rows) - can - cannot} it is open:"
     )
     return "\n".join([*wrap(said, WIDTH), "", *_table(rows)])
 

@@ -186,8 +186,8 @@ with what no engine knows: the concealed machine's numbers and what each changes
 for with its place and size, every sensor's path and noise, and the angle at every moment. From below, a classifier
 taught by 15 tests of that machine with and 15 without the effect has to tell others apart by levels in narrow bands of
 order (Fisher's discriminant); more tests would teach it more. From above, only drift and the sensors' noise stand in
-the way, and slips, cages and speeds do not differ. An effect that cannot be told so is in no such level; one that can
-need not show to who knows none of this.
+the way, and slips, cages and speeds do not differ. What cannot be told even so is not in these levels for anyone; what
+can be need not show to an engine that knows none of this.
 
 {limit}
 
