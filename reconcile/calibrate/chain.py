@@ -92,6 +92,11 @@ def _filled(bands: FloatArray) -> FloatArray:
     return filled
 
 
+def floor_at(seen: Statistics, lines_hz: FloatArray) -> FloatArray:
+    """Density of a recording's own floor at the lines, (C, L), unit^2/Hz."""
+    return np.asarray(np.exp(_at(lines_hz, np.log(_filled(seen.floor)))))
+
+
 def leading(power: FloatArray, hz: FloatArray) -> np.ndarray:
     """Lines that are no weaker than `LEADING` of the strongest within half an octave either way, (L,)."""
     octaves = np.log2(np.maximum(hz, 1e-3))

@@ -8,17 +8,27 @@ from dataclasses import dataclass
 import numpy as np
 
 from reconcile.atlas.plan import Point, at_point
-from reconcile.calibrate.chain import FARTHEST_DB, PRIOR_DB, SMOOTH_OCTAVES, STANDS_OUT, Healthy, leading
+from reconcile.calibrate.chain import (
+    FARTHEST_DB,
+    PRIOR_DB,
+    SMOOTH_OCTAVES,
+    STANDS_OUT,
+    Healthy,
+    floor_at,
+    leading,
+)
 from reconcile.calibrate.uncertain import moved
 from reconcile.judge.changes import Lens
 from reconcile.machine.force import PER_DB, Heard
 from reconcile.machine.local import MOST_DB, UNKNOWN_DB
 from reconcile.machine.setting import Setting
-from reconcile.observe.extract import hann_spectrum, line_powers
+from reconcile.observe.extract import HANN_NOISE_BINS, hann_spectrum, line_powers
 from reconcile.observe.features import SOFT
 from reconcile.observe.observation import PointData
-from reconcile.observe.statistics import LOBE, LOBE_SCATTER
+from reconcile.observe.slack import slack
+from reconcile.observe.statistics import LOBE, LOBE_SCATTER, Statistics
 from reconcile.observe.steady import Steady
+from reconcile.observe.watch import watch_list
 from signals.series import FloatArray
 from sim.assembly.assemble import assemble
 from sim.assembly.receptance import receptances
@@ -28,6 +38,10 @@ from sim.core.spec import MachineSpec
 MACHINES = 12
 """Machines that agree with the baseline over which a response is averaged: 4 ms each to assemble."""
 AXES = ("x", "y")
+SHARES_DB = np.arange(-60.0, 61.0, 6.0)
+"""Of the power along the second axis over that along the first, beside all along one."""
+UNEVEN = 0.5
+"""Share by which a floor that rose may be another under a line than beside it."""
 HEARS = 0.1
 """Share of a channel's response that an axis must make for the force along it to count."""
 LEAST_TOLD = 0.1
@@ -40,11 +54,23 @@ shaft; with 0.001 up to 3.8 times (95 %), with this 2.4."""
 
 @dataclass(frozen=True, kw_only=True)
 class Reached:
-    """Lines of one operating point, `hz` (L,), as its channels hear a force at a support, and the axes they hear."""
+    """Lines of one operating point, `hz` (L,), as its channels hear a force at a support; `along` (axes, L): whether
+    any of them tells it along that axis."""
 
     hz: FloatArray
     heard: Heard
-    axes: tuple[str, ...]
+    along: np.ndarray
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """Those along which any line is told."""
+        return tuple(axis for axis, told in zip(AXES, self.along, strict=True) if told.any())
+
+
+def ways() -> FloatArray:
+    """(W, axes): shares of the axes in the mean square of a force, from all along the first to all along the second."""
+    second = np.concatenate([[0.0], 1.0 / (1.0 + 10.0 ** (-SHARES_DB / 10.0)), [1.0]])
+    return np.stack([1.0 - second, second], axis=1)
 
 
 def machines_like(setting: Setting) -> tuple[MachineSpec, ...]:
@@ -59,48 +85,75 @@ def reached(
     site: str,
     machines: Sequence[MachineSpec],
     healthy: Sequence[Healthy],
+    *,
     beside_hz: Sequence[float] = (),
+    told_by: Sequence[bool] | None = None,
 ) -> Reached | None:
-    """The watched lines of an operating point and those at `beside_hz`; None without a baseline, or where no machine
-    can be assembled."""
+    """The watched lines of an operating point and those at `beside_hz`, Hz at the point's own speed; None without a
+    baseline, or where no machine can be assembled. `told_by`: channels that are asked, all where it is None."""
     one, lens = setting.data[number], setting.seen_through[number]
-    if one.baseline is None or one.spectra[1] is None:
+    before, after = one.spectra[1], one.spectra[0]
+    if one.baseline is None or before is None:
         return None
     hz = np.concatenate([one.lines_hz, np.asarray(beside_hz, dtype=np.float64)])
-    powers = _responses(setting, one.point, site, machines, hz)
+    powers = _powers_by_newton(setting, one.point, site, machines, hz)
     if powers is None:
         return None
-    response, spread = _by_axis(powers)
     error = gain_errors_db(setting, healthy, hz)
-    gain = np.where(np.isfinite(error), lens.chain.line_gain(hz), np.nan)
-    test, before = (
-        np.concatenate([known.line, _powers(steady, beside_hz)], axis=1)
-        for known, steady in ((one.test, one.spectra[0]), (one.baseline, one.spectra[1]))
-    )
-    noise = LOBE * _noise(one, lens, hz)
+    asked = np.ones(len(setting.channels), dtype=bool) if told_by is None else np.asarray(told_by)
+    response, spread, along = by_ways(powers, np.isfinite(error) & asked[:, None])
+    gain = lens.chain.line_gain(hz)
+    sides = [
+        _line_over_noise(setting, one, *known, hz, beside_hz) for known in ((one.test, after), (one.baseline, before))
+    ]
     heard = Heard(
-        test=np.maximum(test - noise, 0.0),
-        before=np.maximum(before - noise, 0.0),
-        deviation=_deviation(setting, number, hz, test, before),
+        test=sides[0].line,
+        before=sides[1].line,
+        deviation=_deviation(setting, number, *sides),
         response=gain * response,
         spread_db=np.hypot(spread, np.nan_to_num(error)),
     )
-    axes = tuple(axis for k, axis in enumerate(AXES) if np.isfinite(heard.response[k]).any())
-    return Reached(hz=hz, heard=heard, axes=axes)
+    return Reached(hz=hz, heard=heard, along=along)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Side:
+    """Of the test or the baseline, (C, L): power of lines less the noise, noise in the noise bandwidth of a line, and
+    how far the noise under a line may be off, both as powers."""
+
+    line: FloatArray
+    noise: FloatArray
+    scatter: FloatArray
+
+
+def _line_over_noise(
+    setting: Setting, one: PointData, seen: Statistics, steady: Steady, hz: FloatArray, beside_hz: Sequence[float]
+) -> _Side:
+    """Less the recording's own floor beside each line: of a line that slips the strongest lobe in reach is taken, which
+    of noise alone is more than one lobe has."""
+    lines = np.concatenate([seen.line, _powers(steady, one.point.speed_hz, beside_hz)], axis=1)
+    noise = floor_at(seen, hz) * seen.resolution_hz
+    reach = np.zeros(hz.size)
+    watched = watch_list(setting.machine).lines
+    reach[: one.lines_hz.size] = slack(watched, one.lines_hz) * one.lines_hz
+    places = 1.0 + reach * HANN_NOISE_BINS / seen.resolution_hz
+    under = LOBE + LOBE_SCATTER * np.sqrt(2.0 * np.log(places))
+    return _Side(line=np.maximum(lines - under * noise, 0.0), noise=noise, scatter=LOBE_SCATTER * noise)
 
 
 def _noise(one: PointData, lens: Lens, hz: FloatArray) -> FloatArray:
-    """Noise power in the noise bandwidth of a line, (C, L)."""
+    """Noise power in the noise bandwidth of a line, (C, L), of the baseline's chain."""
     return np.asarray(lens.chain.line_noise(hz) * one.test.resolution_hz)
 
 
-def _powers(steady: Steady, hz: Sequence[float]) -> FloatArray:
-    lines = np.asarray(hz, dtype=np.float64)
+def _powers(steady: Steady, stated_hz: float, hz: Sequence[float]) -> FloatArray:
+    """Of lines at `hz` where the drive shaft turns at `stated_hz`, read at the speed it turned with."""
+    lines = np.asarray(hz, dtype=np.float64) * steady.speed_hz / stated_hz
     _, power, bin_hz = hann_spectrum(steady.samples, steady.rate_hz)
     return line_powers(power, bin_hz, lines, np.zeros(lines.size), 0.5 * steady.rate_hz)
 
 
-def _responses(
+def _powers_by_newton(
     setting: Setting, point: Point, site: str, machines: Sequence[MachineSpec], hz: FloatArray
 ) -> FloatArray | None:
     """(M, C + axes, L, axes): mean square acceleration by 1 N rms on each axis of the support's outer ring, of the
@@ -118,25 +171,26 @@ def _responses(
     return np.stack(found) if found else None
 
 
-def _by_axis(powers: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Response of `powers` (M, C + axes, L, axes) along each axis and its deviation in dB, both (axes, C, L).
+def by_ways(powers: FloatArray, asked: np.ndarray) -> tuple[FloatArray, FloatArray, np.ndarray]:
+    """Response in each way of `powers` (M, C + axes, L, axes), (W, C, L), its deviation in dB, (C, L), and the axes
+    that are told, (axes, L). `asked` (C, L): where a channel's gain is known.
 
-    A channel tells of an axis that makes `HEARS` of its response, and not where the model brings nothing to it. Where
-    both axes do, it is that to equal forces on both.
+    A channel tells of an axis that makes `HEARS` of its response, and not where the model brings nothing to it. What a
+    channel hears of both adds up, the phase between them being unknown. A line of which all channels tell one axis
+    has that one in every way; NaN where a channel tells none.
     """
     count = powers.shape[3]
     mean = np.exp(np.log(powers + 1e-300).mean(axis=0))
-    ring, mean, powers = mean[-count:], mean[:-count], powers[:, :-count]
-    total = mean.sum(axis=2)
-    response, spread = [], []
-    for k in range(count):
-        other = count - 1 - k
-        both = mean[..., other] >= HEARS * total
-        logs = np.log(powers[..., k] + np.where(both, powers[..., other], 0.0) + 1e-300)
-        told = (mean[..., k] >= HEARS * total) & (mean[..., k] >= CUT_OFF * ring[k, :, k])
-        response.append(np.where(told, np.exp(logs.mean(axis=0)), np.nan))
-        spread.append(logs.std(axis=0) / PER_DB)
-    return np.stack(response), np.stack(spread)
+    ring, mean = np.stack([mean[k - count, :, k] for k in range(count)]), np.moveaxis(mean[:-count], 2, 0)
+    tells = (mean >= HEARS * mean.sum(axis=0)) & (mean >= CUT_OFF * ring[:, None, :]) & asked
+    along = tells.any(axis=1)
+    response, logs = [], []
+    for way in ways():
+        share = np.where(along.sum(axis=0) == 1, along, way[:, None])
+        brought = np.log(np.einsum("mcla,al->mcl", powers[:, :-count], share) + 1e-300)
+        response.append(np.where(tells.any(axis=0), np.exp(brought.mean(axis=0)), np.nan))
+        logs.append(brought)
+    return np.stack(response), np.asarray(logs[len(logs) // 2].std(axis=0) / PER_DB), along
 
 
 def gain_errors_db(setting: Setting, healthy: Sequence[Healthy], hz: FloatArray) -> FloatArray:
@@ -166,15 +220,16 @@ def gain_errors_db(setting: Setting, healthy: Sequence[Healthy], hz: FloatArray)
     return np.where(count >= LEAST_TOLD, error, np.nan)
 
 
-def _deviation(setting: Setting, number: int, hz: FloatArray, test: FloatArray, before: FloatArray) -> FloatArray:
-    """(C, L): of the difference, by what sound machines change at that line and by noise."""
-    one, lens = setting.data[number], setting.seen_through[number]
-    noise = _noise(one, lens, hz)
-    changes = setting.changes
+def _deviation(setting: Setting, number: int, test: _Side, before: _Side) -> FloatArray:
+    """(C, L): of the difference, by what sound machines change at that line and by noise, whose floor under a line is
+    not quite that beside it."""
+    one, changes = setting.data[number], setting.changes
     rows = changes.null[:, changes.starts[number] : changes.starts[number + 1]]
-    by_channel = rows.reshape(rows.shape[0], test.shape[0], -1)[:, :, : one.lines_hz.size]
+    by_channel = rows.reshape(rows.shape[0], test.line.shape[0], -1)[:, :, : one.lines_hz.size]
     drift = np.sqrt(np.mean(np.clip(np.nan_to_num(by_channel, nan=UNKNOWN_DB), -MOST_DB, MOST_DB) ** 2, axis=0))
-    drift = np.concatenate([drift, np.full((test.shape[0], hz.size - one.lines_hz.size), UNKNOWN_DB)], axis=1)
-    drifted = (np.exp(PER_DB * drift) - 1.0) * (before + SOFT * LOBE * noise)
-    squares = [2.0 * np.maximum(p - LOBE * noise, 0.0) * noise + (LOBE_SCATTER * noise) ** 2 for p in (test, before)]
-    return np.asarray(np.sqrt(drifted**2 + squares[0] + squares[1]))
+    further = test.line.shape[1] - one.lines_hz.size
+    drift = np.concatenate([drift, np.full((drift.shape[0], further), UNKNOWN_DB)], axis=1)
+    drifted = (np.exp(PER_DB * drift) - 1.0) * (before.line + SOFT * LOBE * before.noise)
+    squares = [2.0 * side.line * side.noise + side.scatter**2 for side in (test, before)]
+    louder = UNEVEN * LOBE * np.abs(test.noise - before.noise)
+    return np.asarray(np.sqrt(drifted**2 + squares[0] + squares[1] + louder**2))

@@ -165,7 +165,8 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = with_mistaken(report, looks.setting, looks.by_families, channels, looks.found.screen.heard)
     report = with_misfit(report, looks.fit, machine)
     report = with_strange(report, strange(machine, alike, channels, gate.findings), machine, setting.direct.evidence)
-    report = with_force(report, looks.setting, likely_supports(looks.setting, looks.found) if machine.bearings else ())
+    supports = likely_supports(looks.setting, looks.found) if machine.bearings else ()
+    report = with_force(report, looks.setting, supports, channels)
     return as_named(with_short(with_limits(with_unconfirmed(report, machine, alike), apart), alike, gate.findings))
 
 

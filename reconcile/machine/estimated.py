@@ -12,9 +12,11 @@ from reconcile.machine.added_power import Reached, machines_like, reached
 from reconcile.machine.force import Squares, force_squares
 from reconcile.machine.setting import Setting
 from reconcile.observe.extract import HANN_NOISE_BINS, LOBE_BINS
-from reconcile.observe.observation import PointData
+from reconcile.observe.observation import SAME_SPEED, PointData
 from reconcile.verdict import EstimatedForce, LineChange, PointForce, Report
+from sim.core.response import Channel
 
+ACCELERATION = "acceleration"
 MOST_LINES = 60
 """Lines that are told, of all operating points together."""
 MOST_OPEN = 6
@@ -28,9 +30,25 @@ NO_BASELINE = (
     "tests themselves, with the force in them."
 )
 UNHEARD = "No force is estimated: no channel whose gain the baseline tells is reached by a force at this support."
+NOT_ACCELERATION = (
+    "Of sensors of velocity and displacement the gain is known to within 20 dB of its mean alone, which is not how it "
+    "goes with frequency: they are not asked for the force."
+)
 NO_RISE = (
     "No line changed by more than a sound machine's may: the sizes are upper ends only. What takes motion away, or "
     "adds to lines that were strong already, can be so large unseen."
+)
+HIDDEN = (
+    "Lines changed by more than a sound machine's may, but all of them may be products of what acts unseen at stronger "
+    "ones, as contacts and a stiffness that varies over the turn mix lines: the sizes are upper ends only."
+)
+MIXED_LINES = (
+    "Single lines may be products of others, as contacts and a stiffness that varies over the turn mix them: of made "
+    "machines a third of the lines told had none of the force."
+)
+ASSUMED = (
+    "That it acts there is assumed, not found: of all supports {site} is the one whose known effects come nearest to "
+    "what was heard."
 )
 
 
@@ -46,38 +64,49 @@ class _Line:
     high_n: float
 
 
-def with_force(report: Report, setting: Setting, supports: Sequence[str]) -> Report:
+def with_force(report: Report, setting: Setting, supports: Sequence[str], channels: Sequence[Channel]) -> Report:
     """The report with the force by lines at the likeliest support, where the answer is unknown physics and no law
     stands; nothing else changes. `supports`: the likeliest first."""
     known = report.force
     if report.verdict != "unknown_physics" or not supports or (known is not None and known.law is not None):
         return report
-    if known is None and any(one.baseline is None for one in setting.data):
-        return report
     site = known.site if known is not None else supports[0]
-    return replace(report, force=estimated_force(setting, site, report.where.lines))
+    told_by = [one.quantity == ACCELERATION for one in channels]
+    found = estimated_force(setting, site, report.where.lines, told_by=told_by)
+    if site not in report.where.likeliest:
+        found = replace(found, remarks=(ASSUMED.format(site=site), *found.remarks))
+    return replace(report, force=found)
 
 
-def estimated_force(setting: Setting, site: str, risen: Sequence[LineChange] = ()) -> EstimatedForce:
-    """By the watched lines and those told as `risen` beside them."""
+def estimated_force(
+    setting: Setting, site: str, risen: Sequence[LineChange] = (), *, told_by: Sequence[bool] = ()
+) -> EstimatedForce:
+    """By the watched lines and those told as `risen` beside them. `told_by`: channels that are asked, all where it is
+    empty."""
     nothing = EstimatedForce(site=site, samples={}, law=None, remarks=(NO_WORK,))
     if any(one.baseline is None for one in setting.data):
         return replace(nothing, remarks=(NO_BASELINE, NO_WORK))
+    left_out = () if all(told_by) else (NOT_ACCELERATION,)
     machines = machines_like(setting)
     healthy = [healthy_of(bank, setting.plan) for bank in setting.banks]
-    found: list[Reached] = []
     lines: list[_Line] = []
+    heard: list[str] = []
+    rose = False
     for k, one in enumerate(setting.data):
-        seen = reached(setting, k, site, machines, healthy, beside(one, risen))
+        at = beside(setting.data, k, risen)
+        seen = reached(setting, k, site, machines, healthy, beside_hz=at, told_by=told_by or None)
         if seen is None:
-            return replace(nothing, remarks=(UNHEARD, NO_WORK))
-        found.append(seen)
-        lines += _told(one, k, seen, force_squares(seen.heard))
+            return replace(nothing, remarks=(UNHEARD, *left_out, NO_WORK))
+        heard += seen.axes
+        squares = force_squares(seen.heard)
+        rose = rose or bool(squares.rose.any())
+        lines += _told(one, k, seen, squares)
+    axes = tuple(axis for axis in ("x", "y") if axis in heard)
+    if not axes or not lines:
+        return replace(nothing, remarks=(UNHEARD, *left_out, NO_WORK))
+    unsure = HIDDEN if rose else NO_RISE
     standing = sorted((line for line in lines if line.low_n > 0.0), key=lambda line: -line.force_n)
-    axes = tuple(axis for axis in ("x", "y") if any(axis in seen.axes for seen in found))
-    if not axes:
-        return replace(nothing, remarks=(UNHEARD, NO_WORK))
-    kept = [*standing, *_open(lines, len(found))][:MOST_LINES]
+    kept = [*standing, *_open(lines, len(setting.data))][:MOST_LINES]
     kept.sort(key=lambda line: (line.point, line.frequency_hz))
     return replace(
         nothing,
@@ -92,7 +121,7 @@ def estimated_force(setting: Setting, site: str, risen: Sequence[LineChange] = (
         },
         axes=axes,
         points=_points(setting.data, lines),
-        remarks=(_meant(site, axes), *(() if standing else (NO_RISE,)), NO_WORK),
+        remarks=(_meant(site, axes), MIXED_LINES if standing else unsure, *left_out, NO_WORK),
     )
 
 
@@ -105,23 +134,42 @@ def _open(lines: Sequence[_Line], points: int) -> list[_Line]:
     return found
 
 
-def beside(one: PointData, risen: Sequence[LineChange]) -> list[float]:
-    """Frequencies of lines told as risen at this operating point of which no watched line's lobe has the middle."""
+def beside(data: Sequence[PointData], number: int, risen: Sequence[LineChange]) -> list[float]:
+    """Frequencies of lines told as risen at this operating point, at its own speed, of which no watched line's lobe has
+    the middle: a line is told where the test had it, at the speed it turned with."""
+    one = data[number]
     near = LOBE_BINS * one.test.resolution_hz / HANN_NOISE_BINS
+    turned = one.point.speed_hz / one.spectra[0].speed_hz
     found: list[float] = []
     for line in risen:
-        here = line.speed_hz == one.point.speed_hz and line.torque_ratio == one.point.torque_ratio
+        hz = line.frequency_hz * turned
         known = np.concatenate([one.lines_hz, found])
-        if here and line.change_db > 0.0 and float(np.abs(known - line.frequency_hz).min(initial=np.inf)) > near:
-            found.append(line.frequency_hz)
+        apart = float(np.abs(known - hz).min(initial=np.inf)) > near
+        if line.change_db > 0.0 and _place(data, line) == number and apart:
+            found.append(hz)
     return found
 
 
+def _place(data: Sequence[PointData], line: LineChange) -> int | None:
+    """Number of the operating point that a line was told at: by the speed stated for it or the one measured there, the
+    nearest; None where none is near."""
+    told_hz = line.speed_hz
+    if told_hz is None:
+        return None
+
+    def off(one: PointData) -> tuple[float, float]:
+        speeds = (one.point.speed_hz, one.spectra[0].speed_hz)
+        return min(abs(told_hz / hz - 1.0) for hz in speeds), abs(line.torque_ratio - one.point.torque_ratio)
+
+    nearest = min(range(len(data)), key=lambda k: off(data[k]))
+    return nearest if off(data[nearest])[0] <= SAME_SPEED else None
+
+
 def _told(one: PointData, point: int, seen: Reached, squares: Squares) -> list[_Line]:
-    """Lines that rose, the surest of those that share a lobe of the spectrum."""
+    """Lines that any channel tells, the surest of those that share a lobe of the spectrum."""
     near = (2 * LOBE_BINS + 1) * one.test.resolution_hz / HANN_NOISE_BINS
-    rose = np.flatnonzero(np.nan_to_num(squares.best) > 0.0)
-    order = sorted(rose, key=lambda k: (squares.low[k] == 0.0, -squares.best[k]))
+    known = np.flatnonzero(np.nan_to_num(squares.high) > 0.0)
+    order = sorted(known, key=lambda k: (squares.low[k] == 0.0, -squares.best[k], -squares.high[k]))
     kept: list[int] = []
     for k in map(int, order):
         if all(abs(seen.hz[k] - seen.hz[j]) > near for j in kept):
@@ -151,12 +199,11 @@ def _points(data: Sequence[PointData], lines: Sequence[_Line]) -> tuple[PointFor
     for k, one in enumerate(data):
         every = [line for line in lines if line.point == k]
         own = [line for line in every if line.low_n > 0.0]
-        if own:
-            point = one.point
+        if every:
             found.append(
                 PointForce(
-                    speed_hz=point.speed_hz,
-                    torque_ratio=point.torque_ratio,
+                    speed_hz=one.point.speed_hz,
+                    torque_ratio=one.point.torque_ratio,
                     lines=len(own),
                     force_n=total(own, "force_n"),
                     low_n=total(own, "low_n"),
@@ -173,5 +220,5 @@ def _meant(site: str, axes: Sequence[str]) -> str:
     return (
         f"It stands for what acts, wherever that is: a force on the outer ring of {site} along {along} that would "
         f"change these lines as much{unheard}. Only lines at which the baseline tells the sensors' gain are counted; "
-        "knocks and noise, which have none, are not in it."
+        "knocks and a noise that rose are not in it."
     )

@@ -10,32 +10,50 @@ import numpy as np
 import pytest
 
 from reconcile.machine import estimated
-from reconcile.machine.added_power import Reached
-from reconcile.machine.estimated import NO_BASELINE, NO_RISE, NO_WORK, UNHEARD, estimated_force, with_force
+from reconcile.machine.added_power import Reached, ways
+from reconcile.machine.estimated import (
+    ASSUMED,
+    HIDDEN,
+    MIXED_LINES,
+    NO_BASELINE,
+    NO_RISE,
+    NO_WORK,
+    NOT_ACCELERATION,
+    UNHEARD,
+    estimated_force,
+    with_force,
+)
 from reconcile.machine.force import Heard
 from reconcile.report.strict import plain
-from reconcile.verdict import EstimatedForce, LineChange, Report
+from reconcile.verdict import EstimatedForce, LineChange, PlaceWeight, Report, Where
+from sim.core.response import Channel
 
 RESPONSE = 1e-4
 HZ = np.array([60.0, 62.0, 690.0, 1380.0])
 
 
 def reached(force: np.ndarray, before: float = 0.0) -> Reached:
-    """One channel that hears these forces along y, N rms, at lines of which the first two share a lobe."""
+    """One channel that hears these forces along y, N rms, at lines of which the first two share a lobe; `before` in
+    power."""
     test = (force**2 * RESPONSE + before)[None]
-    known = np.full((2, 1, HZ.size), RESPONSE)
-    known[0] = np.nan
+    known = np.full((len(ways()), 1, HZ.size), RESPONSE)
     there = np.full((1, HZ.size), before)
     heard = Heard(
-        test=test, before=there, deviation=0.1 * there + 1e-9, response=known, spread_db=np.zeros(known.shape)
+        test=test, before=there, deviation=0.1 * there + 1e-9, response=known, spread_db=np.zeros((1, HZ.size))
     )
-    return Reached(hz=HZ, heard=heard, axes=("y",))
+    return Reached(hz=HZ, heard=heard, along=np.array([[False] * HZ.size, [True] * HZ.size]))
 
 
 def setting_of(*speeds: float) -> SimpleNamespace:
     test = SimpleNamespace(resolution_hz=1.5)
     data = tuple(
-        SimpleNamespace(point=SimpleNamespace(speed_hz=s, torque_ratio=1.0), test=test, baseline=test, lines_hz=HZ)
+        SimpleNamespace(
+            point=SimpleNamespace(speed_hz=s, torque_ratio=1.0),
+            test=test,
+            baseline=test,
+            lines_hz=HZ,
+            spectra=(SimpleNamespace(speed_hz=s), SimpleNamespace(speed_hz=s)),
+        )
         for s in speeds
     )
     return SimpleNamespace(data=data, banks=(), plan=None)
@@ -46,7 +64,7 @@ def by_point(monkeypatch: pytest.MonkeyPatch) -> dict[int, Reached | None]:
     """What is reached at each operating point, instead of a machine."""
     found: dict[int, Reached | None] = {}
     monkeypatch.setattr(estimated, "machines_like", lambda _setting: ())
-    monkeypatch.setattr(estimated, "reached", lambda _setting, k, *_rest: found[k])
+    monkeypatch.setattr(estimated, "reached", lambda _setting, k, *_rest, **_named: found[k])
     return found
 
 
@@ -72,7 +90,21 @@ def test_lines_that_rose_are_told_with_their_sum(by_point: dict[int, Reached | N
 def test_where_nothing_changed_only_upper_ends_are_told(by_point: dict[int, Reached | None]) -> None:
     by_point[0] = reached(np.zeros(4), before=1e-2)
     found = estimated_force(setting_of(30.0), "bearing2")  # type: ignore[arg-type]
-    assert not found.points and set(found.samples["low_n"]) == {0.0} and NO_RISE in found.remarks
+    assert set(found.samples["low_n"]) == {0.0} and set(found.samples["force_n"]) == {0.0}
+    assert min(found.samples["high_n"]) > 0.0
+    (point,) = found.points
+    assert (point.lines, point.force_n, point.low_n) == (0, 0.0, 0.0) and point.high_n >= max(found.samples["high_n"])
+    assert NO_RISE in found.remarks and HIDDEN not in found.remarks and MIXED_LINES not in found.remarks
+    assert "NaN" not in json.dumps(plain(found.samples), allow_nan=False)
+
+
+def test_a_line_that_rose_beside_stronger_ones_is_not_called_unchanged(by_point: dict[int, Reached | None]) -> None:
+    one = reached(np.array([0.0, 0.0, 4.0, 0.0]))
+    one.heard.test[0, 3] = one.heard.before[0, 3] = 100.0
+    one.heard.deviation[0, 3] = 10.0
+    by_point[0] = one
+    found = estimated_force(setting_of(30.0), "bearing2")  # type: ignore[arg-type]
+    assert HIDDEN in found.remarks and NO_RISE not in found.remarks and set(found.samples["low_n"]) == {0.0}
 
 
 def test_without_a_baseline_or_a_channel_that_hears_it_none_is_told(by_point: dict[int, Reached | None]) -> None:
@@ -84,7 +116,7 @@ def test_without_a_baseline_or_a_channel_that_hears_it_none_is_told(by_point: di
     assert estimated_force(setting_of(30.0), "bearing2").remarks == (UNHEARD, NO_WORK)  # type: ignore[arg-type]
     deaf = reached(np.ones(4))
     deaf.heard.response[:] = np.nan
-    by_point[0] = replace(deaf, axes=())
+    by_point[0] = replace(deaf, along=np.zeros((2, HZ.size), dtype=bool))
     assert estimated_force(setting_of(30.0), "bearing2").remarks == (UNHEARD, NO_WORK)  # type: ignore[arg-type]
 
 
@@ -96,26 +128,70 @@ def test_the_list_is_bounded(by_point: dict[int, Reached | None]) -> None:
 
 
 def test_lines_told_beside_the_watched_ones_are_asked_too() -> None:
-    here = setting_of(30.0).data[0]
+    data = setting_of(30.0, 40.0).data
     lines = [LineChange(label="", frequency_hz=f, change_db=d, speed_hz=s)
              for f, d, s in ((591.0, 20.0, 30.0), (592.0, 20.0, 30.0), (689.0, 9.0, 30.0), (400.0, -9.0, 30.0),
                              (791.0, 20.0, 40.0))]  # fmt: skip
-    assert estimated.beside(here, lines) == [591.0]
+    assert estimated.beside(data, 0, lines) == [591.0] and estimated.beside(data, 1, lines) == [791.0]
+
+
+def test_a_line_told_at_the_measured_speed_belongs_to_the_nearest_point() -> None:
+    """Stated 30 and 30 at half the torque, turned 29.9 and 29.7."""
+    setting = setting_of(30.0, 30.0)
+    for one, turned, torque in zip(setting.data, (29.9, 29.7), (1.0, 0.5), strict=True):
+        one.spectra[0].speed_hz, one.point.torque_ratio = turned, torque
+    lines = [LineChange(label="", frequency_hz=10.1 * s, change_db=20.0, speed_hz=s) for s in (29.9, 29.7, 35.0)]
+    lines.append(LineChange(label="", frequency_hz=50.0, change_db=20.0, speed_hz=30.0, torque_ratio=0.5))
+    lines.append(LineChange(label="", frequency_hz=50.0, change_db=20.0))
+    assert estimated.beside(setting.data, 0, lines) == pytest.approx([303.0])
+    assert estimated.beside(setting.data, 1, lines) == pytest.approx([303.0, 50.0 * 30.0 / 29.7])
+
+
+CHANNELS = (Channel(name="a", quantity="acceleration", unit="m/s^2", location="bearing1"),)
 
 
 def test_nothing_but_the_force_of_an_unknown_physics_without_a_law_changes(by_point: dict[int, Reached | None]) -> None:
     by_point[0] = reached(np.array([3.0, 0.0, 4.0, 0.0]))
     setting = setting_of(30.0)
     plain_report = Report(verdict="unknown_physics", sentence="x", level="machine")
-    found = with_force(plain_report, setting, ("bearing3", "bearing1"))  # type: ignore[arg-type]
+    found = with_force(plain_report, setting, ("bearing3", "bearing1"), CHANNELS)  # type: ignore[arg-type]
     assert found.force is not None and found.force.site == "bearing3" and found.force.points
     assert replace(found, force=None) == plain_report
     placed = replace(plain_report, force=EstimatedForce(site="bearing1", samples={}, law=None))
-    again = with_force(placed, setting, ("bearing3",))  # type: ignore[arg-type]
+    again = with_force(placed, setting, ("bearing3",), CHANNELS)  # type: ignore[arg-type]
     assert again.force is not None and again.force.site == "bearing1"
     law = replace(plain_report, force=EstimatedForce(site="bearing1", samples={}, law="z^3"))
     for kept in (law, replace(plain_report, verdict="explained")):
-        assert with_force(kept, setting, ("bearing3",)) is kept  # type: ignore[arg-type]
-    assert with_force(plain_report, setting, ()) is plain_report  # type: ignore[arg-type]
+        assert with_force(kept, setting, ("bearing3",), CHANNELS) is kept  # type: ignore[arg-type]
+    assert with_force(plain_report, setting, (), CHANNELS) is plain_report  # type: ignore[arg-type]
     setting.data[0].baseline = None
-    assert with_force(plain_report, setting, ("bearing3",)) is plain_report  # type: ignore[arg-type]
+    bare = with_force(plain_report, setting, ("bearing3",), CHANNELS).force  # type: ignore[arg-type]
+    assert bare is not None and bare.site == "bearing3" and bare.samples == {} and NO_BASELINE in bare.remarks
+
+
+def test_a_place_that_was_not_found_is_called_assumed(by_point: dict[int, Reached | None]) -> None:
+    by_point[0] = reached(np.array([3.0, 0.0, 4.0, 0.0]))
+    report = Report(verdict="unknown_physics", sentence="x", level="machine")
+    assumed = ASSUMED.format(site="bearing3")
+    for sites, told in ((("input", "output"), True), ((), True), (("bearing3",), False)):
+        weights = tuple(PlaceWeight(site=s, weight=0.5) for s in sites)
+        placed = replace(report, where=Where(sites=weights))
+        found = with_force(placed, setting_of(30.0), ("bearing3",), CHANNELS).force  # type: ignore[arg-type]
+        assert found is not None and (assumed in found.remarks) == told
+
+
+def test_sensors_of_another_quantity_are_not_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[object] = []
+
+    def told(_setting: object, _k: int, *_rest: object, told_by: object, **_named: object) -> Reached:
+        asked.append(told_by)
+        return reached(np.array([3.0, 0.0, 4.0, 0.0]))
+
+    monkeypatch.setattr(estimated, "machines_like", lambda _setting: ())
+    monkeypatch.setattr(estimated, "reached", told)
+    report = Report(verdict="unknown_physics", sentence="x", level="machine")
+    speed = replace(CHANNELS[0], name="b", quantity="velocity", unit="m/s")
+    found = with_force(report, setting_of(30.0), ("bearing3",), (*CHANNELS, speed)).force  # type: ignore[arg-type]
+    assert asked == [[True, False]] and found is not None and NOT_ACCELERATION in found.remarks
+    found = with_force(report, setting_of(30.0), ("bearing3",), CHANNELS).force  # type: ignore[arg-type]
+    assert found is not None and NOT_ACCELERATION not in found.remarks

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reconcile.machine.force import Heard, Squares, force_squares, mixed
+from reconcile.machine import force as force_module
+from reconcile.machine.added_power import ways
+from reconcile.machine.force import AS_WELL, MODEL_DB, Heard, Squares, force_squares, mixed
 
 LINES = 6
 RESPONSE = 1e-4
@@ -16,10 +20,90 @@ RESPONSE = 1e-4
 def heard(
     test: np.ndarray, before: np.ndarray, *, share: float = 0.1, noise: float = 1e-8, response: np.ndarray | None = None
 ) -> Heard:
-    """Channels by lines; one axis unless `response` (A, C, L) says otherwise."""
+    """Channels by lines; one way to act unless `response` (W, C, L) says otherwise."""
     known = np.full((1, *test.shape), RESPONSE) if response is None else response
     deviation = share * before + noise
-    return Heard(test=test, before=before, deviation=deviation, response=known, spread_db=np.zeros(known.shape))
+    return Heard(test=test, before=before, deviation=deviation, response=known, spread_db=np.zeros(test.shape))
+
+
+def drawn(seed: int, channels: int, spread_db: float, least: float) -> tuple[np.ndarray, Heard]:
+    """Forces of `least` to 100 N at lines of 1 to 9 N's worth each, with errors and phases as the engine takes them;
+    all far apart, so that none counts as a product of others."""
+    rng, n = np.random.default_rng(seed), 1500
+    force, size = 10.0 ** rng.uniform(np.log10(least), 2.0, n), (channels, n)
+    before = 9.0 * RESPONSE * 10.0 ** rng.uniform(-1.0, 1.0, size)
+    deviation = 0.15 * before + 0.02 * 9.0 * RESPONSE
+    error = 10.0 ** (rng.normal(0.0, np.hypot(spread_db, MODEL_DB), size) / 10.0)
+    joined = np.sqrt(before) + force * np.sqrt(RESPONSE * error) * np.exp(1j * rng.uniform(0.0, 2.0 * np.pi, size))
+    test = np.maximum(np.abs(joined) ** 2 + deviation * rng.normal(size=size), 0.0)
+    one = heard(test, before)
+    return force, replace(one, deviation=deviation, spread_db=np.full(size, spread_db))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("channels", [1, 3])
+@pytest.mark.parametrize("spread_db", [0.0, 3.0, 11.0])
+@pytest.mark.parametrize("least", [0.01, 1.0])
+def test_the_true_force_is_in_nine_of_ten_bands(
+    channels: int, spread_db: float, least: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(force_module, "MIXED", 0.0)
+    force, one = drawn(7, channels, spread_db, least)
+    found = force_squares(one)
+    inside = (found.low <= force**2) & (force**2 <= found.high)
+    told = found.low > 0.0
+    assert told.mean() > 0.3, "else the upper ends alone are looked at"
+    assert 0.85 <= inside.mean() <= 0.955 and 0.85 <= inside[told].mean() <= 0.955, (inside.mean(), inside[told].mean())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "value"), [("UNHEARD", 1e-3), ("LOUDEST", 400.0), ("ACROSS", 1e-4)])
+def test_no_end_hangs_on_where_the_sizes_begin_and_end(
+    name: str, value: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(force_module, "MIXED", 0.0)
+    _, one = drawn(8, 1, 6.0, 0.01)
+    here = force_squares(one)
+    monkeypatch.setattr(force_module, name, value)
+    monkeypatch.setattr(force_module, "SIZES", 320)
+    there = force_squares(one)
+    assert np.mean((here.low > 0.0) != (there.low > 0.0)) < 0.01
+    both = (here.low > 0.0) & (there.low > 0.0)
+    assert np.allclose(10 * np.log10(here.high / there.high), 0.0, atol=0.5)
+    for known in ("low", "best"):
+        off = 10 * np.log10(getattr(here, known)[both] / getattr(there, known)[both])
+        assert np.quantile(np.abs(off), 0.99) < 0.5
+
+
+def band_by_hand(test: float, before: float, deviation: float) -> tuple[float, float]:
+    """Ends of the band of F^2 R, by thousands of phases and errors of the response each."""
+    phase = np.cos(np.pi * (np.arange(1500) + 0.5) / 1500)[:, None]
+    steps = np.linspace(-4.0, 4.0, 161)
+    shares = np.exp(-0.5 * steps**2)
+    error = np.exp(0.1 * np.log(10.0) * MODEL_DB * steps)[None, :]
+    sizes = 10.0 ** np.arange(-7.0, 3.0, 0.05)
+    likely = []
+    for size in sizes:
+        brought = size * error
+        made = np.maximum(before + brought + 2.0 * np.sqrt(before * brought) * phase, 0.0) + deviation
+        scatter = np.hypot(deviation / made, 0.02)
+        density = np.exp(-0.5 * (np.log(made / (test + deviation)) / scatter) ** 2) / scatter
+        likely.append(float(density.mean(axis=0) @ shares / shares.sum()))
+    inside = np.flatnonzero(np.array(likely) >= AS_WELL * max(likely))
+    return (0.0 if inside[0] == 0 else float(sizes[inside[0]])), float(sizes[inside[-1]])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("test", "share"), [(1.0, 0.1), (1.0, 1.0), (2.5, 0.1), (6.0, 0.3), (30.0, 0.1), (0.1, 0.1), (0.01, 0.5)]
+)
+def test_the_band_is_that_of_all_phases_and_errors(test: float, share: float) -> None:
+    low, high = band_by_hand(test, 1.0, share)
+    found = force_squares(heard(np.full((1, 1), test), np.ones((1, 1)), share=share, response=np.ones((1, 1, 1))))
+    assert 10.0 * np.log10(found.high[0] / high) == pytest.approx(0.0, abs=1.0)
+    assert bool(found.rose[0]) == (low > 0.0) == (found.best[0] > 0.0)
+    if low > 0.0:
+        assert 10.0 * np.log10(found.low[0] / low) == pytest.approx(0.0, abs=1.0)
 
 
 @pytest.mark.parametrize("force", [0.3, 3.0, 30.0])
@@ -81,15 +165,33 @@ def test_it_goes_with_the_gain(scale: float) -> None:
     assert np.allclose(plain.best, more.best, rtol=1e-6) and np.allclose(plain.high, more.high, rtol=1e-6)
 
 
-def test_axes_add_up_and_one_that_nobody_hears_counts_as_nothing() -> None:
+def of_axes(x: list[float], y: list[float]) -> np.ndarray:
+    """Response (W, C, 1) of channels that hear so much of either axis."""
+    return np.asarray(np.einsum("wa,ac->wc", ways(), np.array([x, y])) * RESPONSE)[:, :, None]
+
+
+def test_channels_along_two_axes_tell_both_together() -> None:
     test, before = np.array([[4.0 * RESPONSE], [9.0 * RESPONSE]]), np.zeros((2, 1))
-    response = np.array([[[RESPONSE], [np.nan]], [[np.nan], [RESPONSE]]])
-    both = force_squares(heard(test, before, response=response))
+    both = force_squares(heard(test, before, response=of_axes([1.0, 0.0], [0.0, 1.0])))
     assert np.sqrt(both.best[0]) == pytest.approx(np.hypot(2.0, 3.0), rel=0.15)
-    response[1] = np.nan
-    assert np.sqrt(force_squares(heard(test, before, response=response)).best[0]) == pytest.approx(2.0, rel=0.15)
-    response[0] = np.nan
-    assert np.isnan(force_squares(heard(test, before, response=response)).best[0])
+    none = np.full((len(ways()), 2, 1), np.nan)
+    assert np.isnan(force_squares(heard(test, before, response=none)).best[0])
+
+
+def test_a_force_along_one_axis_may_hide_under_a_strong_line_there() -> None:
+    """The other axis' silence says nothing of it."""
+    before = np.array([[1e-6], [100.0]])
+    found = force_squares(heard(before, before, response=of_axes([1.0, 0.0], [0.0, 1.0])))
+    alone = force_squares(heard(before[1:], before[1:]))
+    assert found.low[0] == 0.0 and found.high[0] == pytest.approx(alone.high[0], rel=0.1)
+
+
+@pytest.mark.parametrize("across", [0.1, 0.5, 1.0])
+def test_a_channel_that_hears_both_axes_leaves_the_direction_open(across: float) -> None:
+    test, before = np.full((1, 1), 9.0 * RESPONSE), np.zeros((1, 1))
+    found = force_squares(heard(test, before, response=of_axes([1.0], [across])))
+    db = 10.0 * np.log10(np.array([found.low[0], found.high[0]]) / 9.0)
+    assert db == pytest.approx([-1.645 * 3.0, 1.645 * 3.0 - 10.0 * np.log10(across)], abs=1.2)
 
 
 def test_channels_that_contradict_each_other_do_not_make_it_sure() -> None:
@@ -98,16 +200,33 @@ def test_channels_that_contradict_each_other_do_not_make_it_sure() -> None:
     assert apart.high[0] / max(apart.low[0], 1e-30) > 10 * alike.high[0] / alike.low[0]
 
 
-def test_lines_far_below_the_strongest_may_be_its_mixing_products() -> None:
+def test_lines_far_below_a_told_one_may_be_its_products() -> None:
     squares = Squares(
-        best=np.array([100.0, 0.5, np.nan]), low=np.array([50.0, 0.2, np.nan]), high=np.array([150.0, 1, 0])
+        best=np.array([100.0, 0.5, np.nan, 5.0]),
+        low=np.array([50.0, 0.2, np.nan, 3.0]),
+        high=np.array([150.0, 1.0, np.nan, 9.0]),
+        rose=np.array([True, True, False, True]),
     )
-    assert mixed(squares).low[:2].tolist() == [50.0, 0.0] and np.isnan(mixed(squares).low[2])
+    found = mixed(squares, np.ones((1, 4)))
+    assert found.low[[0, 1, 3]].tolist() == [50.0, 0.0, 3.0] and np.isnan(found.low[2])
+    assert found.best[1] == 0.0 and found.rose[1] and found.high[1] == 1.0
+
+
+def test_what_may_hide_at_lines_that_are_hardly_heard_makes_no_product_of_what_rose() -> None:
+    """A line up by 40 dB is told beside lines that stay and tell nothing; beside one that is heard as well and hides
+    ten times as much it may be a product."""
+    before = np.array([[1e-6, 100.0]])
+    test = np.array([[1e-2, 100.0]])
+    faint = np.array([[[1.0, 1e-3]]]) * RESPONSE
+    found = force_squares(heard(test, before, response=faint))
+    assert found.low[0] > 0.0 and found.rose.tolist() == [True, False]
+    found = force_squares(heard(test, before))
+    assert found.low[0] == 0.0 and found.rose.tolist() == [True, False]
 
 
 def test_a_channel_without_any_signal_tells_nothing() -> None:
     silent = np.zeros((1, 2))
     found = force_squares(
-        Heard(test=silent, before=silent, deviation=silent, response=np.ones((1, 1, 2)), spread_db=np.zeros((1, 1, 2)))
+        Heard(test=silent, before=silent, deviation=silent, response=np.ones((1, 1, 2)), spread_db=np.zeros((1, 2)))
     )
     assert np.isnan(found.best).all()
