@@ -176,7 +176,8 @@ class HeldOut:
 @dataclass(frozen=True, kw_only=True)
 class PointForce:
     """At one operating point: the force of the `lines` that tell one together, N rms, with a 90 % interval [low_n,
-    high_n]; its upper end counts what may be at all other lines too."""
+    high_n]; its upper end counts what may be at all other lines too. Where none tells one, `lines`, `force_n` and
+    `low_n` are 0 and the upper end stands alone."""
 
     speed_hz: float
     torque_ratio: float
@@ -195,8 +196,9 @@ class EstimatedForce:
     """Over what it follows: `displacement_m`, `velocity_m_per_s` or `angle_rad`, with `force_n`, `low_n`, `high_n`.
 
     At level `machine`, where no law stands, by lines, at most 60 of all operating points (`speed_hz` of the drive
-    shaft, `torque_ratio`): `frequency_hz`, `order` of that shaft, `force_n` rms along the `axes` together, `low_n` (0
-    where no force would do as well) and `high_n`: what at the support would change the line as much.
+    shaft, `torque_ratio`): `frequency_hz` at that speed, `order` of that shaft, `force_n` rms along the `axes`
+    together, `low_n` and `high_n`: what at the support would change the line as much. `force_n` and `low_n` are 0 where
+    no force would do as well, or where the line may be a product of others.
     """
     law: str | None
     coefficients: Mapping[str, float] = field(default_factory=dict)
@@ -205,7 +207,7 @@ class EstimatedForce:
     axes: tuple[str, ...] = ()
     """Along which a force by lines is told."""
     points: tuple[PointForce, ...] = ()
-    """Sums of what `samples` tell by lines, one an operating point at which any rose beyond its band."""
+    """Sums of what `samples` tell by lines, one an operating point."""
     remarks: tuple[str, ...] = ()
     """How the samples are meant, and what cannot be told."""
 

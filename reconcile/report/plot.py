@@ -134,12 +134,15 @@ class Frame:
             at = self.px(value)
             parts.append(tag("line", x1=at, x2=at, y1=TOP, y2=bottom, css="grid"))
             parts.append(tag("text", figure_text(value * factor), x=at, y=bottom + 15, css="tick mid"))
-        factor, y_label = scaled(*self.y, self.y_label)
+        factor, y_label = (1.0, self.y_label) if self.log_y else scaled(*self.y, self.y_label)
+        digits = 1 if self.log_y else 3
         heights = powers_of_ten(*self.y) if self.log_y else ticks(*self.y)
         for value in heights if y_ticks else []:
             at = self.py(value)
             parts.append(tag("line", x1=self.left, x2=self.width - RIGHT, y1=at, y2=at, css="grid"))
-            parts.append(tag("text", figure_text(value * factor), x=self.left - 6, y=at + 3.5, css="tick end"))
+            parts.append(
+                tag("text", figure_text(value * factor, digits=digits), x=self.left - 6, y=at + 3.5, css="tick end")
+            )
         middle = 0.5 * (self.left + self.width - RIGHT)
         parts.append(tag("text", x_label, x=middle, y=self.height - 6, css="label mid"))
         if self.y_label:

@@ -138,6 +138,7 @@ function force({ force: found, causes: list, verdict: told }) {
 
 function summed({ speed_hz: speed, torque_ratio: torque, lines, force_n: size, low_n: low, high_n: high }) {
   const at = torque === 1 ? quantity(speed, "Hz") : `${quantity(speed, "Hz")}, ${number(torque)} of the torque`;
+  if (!lines) return `${at}: no line tells a force for sure; at most ${quantity(high, "N", 2)} rms of all lines (90 %)`;
   return `${at}: ${quantity(size, "N", 2)} rms (90 %: ${quantity(low, "N", 2)} to ${quantity(high, "N", 2)}) at ${lines === 1 ? "1 line" : `${lines} lines together`}`;
 }
 
