@@ -44,7 +44,7 @@ HIDDEN = (
 )
 MIXED_LINES = (
     "Single lines may be products of others, as contacts and a stiffness that varies over the turn mix them: of made "
-    "machines a third of the lines told had none of the force."
+    "machines a quarter of the lines told had none of the force."
 )
 ASSUMED = (
     "That it acts there is assumed, not found: of all supports {site} is the one whose known effects come nearest to "

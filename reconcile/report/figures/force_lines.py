@@ -13,7 +13,7 @@ ARGUMENTS = ("order", "speed_hz", "torque_ratio", "force_n", "low_n", "high_n")
 DEEP = 0.3
 """Share of the smallest force told down to which the axis goes: what may be 0 has no end on a logarithmic one."""
 WORDS = (
-    ("told", "size told: dot, with its 90 % band (a third of such lines of made machines were products of others)"),
+    ("told", "size told: dot, with its 90 % band (a quarter of such lines of made machines were products of others)"),
     ("open", "nothing may act there: dashed from the foot up to the 90 % upper end, a ring"),
 )
 WIDTH = 5.0
