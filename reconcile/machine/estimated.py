@@ -53,7 +53,7 @@ ASSUMED = (
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Line:
+class ForceLine:
     """One told line; forces in N rms."""
 
     frequency_hz: float
@@ -89,7 +89,7 @@ def estimated_force(
     left_out = () if all(told_by) else (NOT_ACCELERATION,)
     machines = machines_like(setting)
     healthy = [healthy_of(bank, setting.plan) for bank in setting.banks]
-    lines: list[_Line] = []
+    lines: list[ForceLine] = []
     heard: list[str] = []
     rose = False
     for k, one in enumerate(setting.data):
@@ -100,7 +100,7 @@ def estimated_force(
         heard += seen.axes
         squares = force_squares(seen.heard)
         rose = rose or bool(squares.rose.any())
-        lines += _told(one, k, seen, squares)
+        lines += lines_told(one, k, seen, squares)
     axes = tuple(axis for axis in ("x", "y") if axis in heard)
     if not axes or not lines:
         return replace(nothing, remarks=(UNHEARD, *left_out, NO_WORK))
@@ -125,9 +125,9 @@ def estimated_force(
     )
 
 
-def _open(lines: Sequence[_Line], points: int) -> list[_Line]:
+def _open(lines: Sequence[ForceLine], points: int) -> list[ForceLine]:
     """Lines at which the force may be nothing."""
-    found: list[_Line] = []
+    found: list[ForceLine] = []
     for k in range(points):
         own = [line for line in lines if line.point == k and line.low_n == 0.0]
         found += sorted(own, key=lambda line: -line.high_n)[:MOST_OPEN]
@@ -165,7 +165,7 @@ def _place(data: Sequence[PointData], line: LineChange) -> int | None:
     return nearest if off(data[nearest])[0] <= SAME_SPEED else None
 
 
-def _told(one: PointData, point: int, seen: Reached, squares: Squares) -> list[_Line]:
+def lines_told(one: PointData, point: int, seen: Reached, squares: Squares) -> list[ForceLine]:
     """Lines that any channel tells, the surest of those that share a lobe of the spectrum."""
     near = (2 * LOBE_BINS + 1) * one.test.resolution_hz / HANN_NOISE_BINS
     known = np.flatnonzero(np.nan_to_num(squares.high) > 0.0)
@@ -176,7 +176,7 @@ def _told(one: PointData, point: int, seen: Reached, squares: Squares) -> list[_
             kept.append(k)
     best, low, high = (np.sqrt(np.maximum(values, 0.0)) for values in (squares.best, squares.low, squares.high))
     return [
-        _Line(
+        ForceLine(
             frequency_hz=float(seen.hz[k]),
             point=point,
             speed_hz=one.point.speed_hz,
@@ -188,11 +188,11 @@ def _told(one: PointData, point: int, seen: Reached, squares: Squares) -> list[_
     ]
 
 
-def _points(data: Sequence[PointData], lines: Sequence[_Line]) -> tuple[PointForce, ...]:
+def _points(data: Sequence[PointData], lines: Sequence[ForceLine]) -> tuple[PointForce, ...]:
     """Sums of squares: of the lines that tell a force, and as the upper end of all lines, since the force may be at the
     others too; the ends of all at once, as the errors of gains and machine are shared among them."""
 
-    def total(several: Sequence[_Line], name: str) -> float:
+    def total(several: Sequence[ForceLine], name: str) -> float:
         return float(np.sqrt(sum(getattr(line, name) ** 2 for line in several)))
 
     found = []
