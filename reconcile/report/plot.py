@@ -41,9 +41,10 @@ def decades(low: float, high: float) -> list[float]:
 
 
 def powers_of_ten(low: float, high: float) -> list[float]:
-    """Those within the limits, for a logarithmic axis over many of them; 1, 2 and 5 times them over few."""
+    """Those within the limits, for a logarithmic axis over many of them, not more than ten; 1, 2 and 5 times them over
+    few."""
     found = [v for v in decades(low, high) if f"{v:.0e}"[0] == "1"]
-    return found if len(found) > 2 else decades(low, high)
+    return found[:: math.ceil(len(found) / 10)] if len(found) > 2 else decades(low, high)
 
 
 def scaled(low: float, high: float, label: str) -> tuple[float, str]:

@@ -14,12 +14,12 @@ DEEP = 0.3
 """Share of the smallest force told down to which the axis goes: what may be 0 has no end on a logarithmic one."""
 WORDS = (
     ("told", "size told: dot, with its 90 % band (a quarter of such lines of made machines were products of others)"),
-    ("open", "nothing may act there: dashed from the foot up to the 90 % upper end, a ring"),
+    ("open", "there may be no force: dashed from the foot to its 90 % upper end, a ring"),
 )
 WIDTH = 5.0
 """Least ratio of the ends of the horizontal axis, so that a figure stands on it."""
 MOST_DECADES = 6.0
-"""Of the vertical axis, from its top."""
+"""Of the vertical axis, from its top, unless sizes told need more."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,8 +43,8 @@ def by_lines(force: EstimatedForce) -> Markup:
         return Markup("")
     x = _wide(min(line.order for line in told) / 1.3, max(line.order for line in told) * 1.3)
     top = 1.5 * max(line.high_n for line in told)
-    foot = DEEP * min(line.low_n or line.high_n for line in told)
-    y = max(foot, top * 10.0**-MOST_DECADES), top
+    foot = max(DEEP * min(line.high_n for line in told), top * 10.0**-MOST_DECADES)
+    y = min([foot, *(DEEP * line.low_n for line in told if line.low_n > 0.0)]), top
     spans = [tag("span", tag("i", css=f"k-{css}"), words) for css, words in WORDS]
     sums = {(point.speed_hz, point.torque_ratio): point for point in force.points}
     panels = [_panel(own, operating_point(*at), sums.get(at), x, y) for at, own in sorted(lines.items())]
