@@ -194,6 +194,30 @@ def test_a_channel_that_hears_both_axes_leaves_the_direction_open(across: float)
     assert db == pytest.approx([-1.645 * 3.0, 1.645 * 3.0 - 10.0 * np.log10(across)], abs=1.2)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("across", [[0.14], [0.71], [0.0, 0.71, 0.14]])
+@pytest.mark.parametrize("along", ["any", "x", "y"])
+def test_the_true_force_is_in_the_band_whatever_its_direction(
+    across: list[float], along: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each channel hears x as 1 and y as so much, the phase between them anyhow."""
+    monkeypatch.setattr(force_module, "MIXED", 0.0)
+    rng, size = np.random.default_rng(3), (len(across), 1000)
+    force = 10.0 ** rng.uniform(-1.0, 2.0, size[1])
+    angle = {"any": rng.uniform(0.0, 0.5 * np.pi, size[1]), "x": np.zeros(size[1]), "y": np.full(size[1], 0.5 * np.pi)}
+    y = np.sqrt(across)[:, None] * np.exp(1j * rng.uniform(0.0, 2.0 * np.pi, size)) * np.sin(angle[along])
+    error = 10.0 ** (rng.normal(0.0, MODEL_DB, size) / 20.0)
+    brought = force * np.sqrt(RESPONSE) * error * (np.cos(angle[along]) + y)
+    before = 9.0 * RESPONSE * 10.0 ** rng.uniform(-1.0, 1.0, size)
+    deviation = 0.15 * before + 0.02 * 9.0 * RESPONSE
+    joined = np.sqrt(before) + brought * np.exp(1j * rng.uniform(0.0, 2.0 * np.pi, size))
+    test = np.maximum(np.abs(joined) ** 2 + deviation * rng.normal(size=size), 0.0)
+    response = np.repeat(of_axes([1.0] * len(across), across), size[1], axis=2)
+    found = force_squares(replace(heard(test, before, response=response), deviation=deviation))
+    inside = (found.low <= force**2) & (force**2 <= found.high)
+    assert (found.low > 0.0).mean() > 0.3 and inside.mean() >= 0.85, inside.mean()
+
+
 def test_channels_that_contradict_each_other_do_not_make_it_sure() -> None:
     alike = force_squares(heard(np.full((2, 1), 9.0 * RESPONSE), np.zeros((2, 1))))
     apart = force_squares(heard(np.array([[900.0 * RESPONSE], [0.09 * RESPONSE]]), np.zeros((2, 1))))
