@@ -143,7 +143,8 @@ def test_a_line_told_at_the_measured_speed_belongs_to_the_nearest_point() -> Non
     lines = [LineChange(label="", frequency_hz=10.1 * s, change_db=20.0, speed_hz=s) for s in (29.9, 29.7, 35.0)]
     lines.append(LineChange(label="", frequency_hz=50.0, change_db=20.0, speed_hz=30.0, torque_ratio=0.5))
     lines.append(LineChange(label="", frequency_hz=50.0, change_db=20.0))
-    assert estimated.beside(setting.data, 0, lines) == pytest.approx([303.0])
+    lines.append(LineChange(label="", frequency_hz=12.0 * 29.88, change_db=20.0, speed_hz=29.88))
+    assert estimated.beside(setting.data, 0, lines) == pytest.approx([303.0, 12.0 * 29.88 * 30.0 / 29.9])
     assert estimated.beside(setting.data, 1, lines) == pytest.approx([303.0, 50.0 * 30.0 / 29.7])
 
 
