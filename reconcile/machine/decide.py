@@ -30,8 +30,9 @@ LOOKS = 4.0
 ALSO_P = 0.05
 """A pattern counts only if the whole change is unusual too,"""
 FIRST_P = 0.005
-"""or if it stood out already among all machines of the kind: of 36 healthy cases of development one came to 0.0065, the
-next to 0.16."""
+"""or if it stood out already among all machines of the kind, and its pattern or both the whole change and single lines
+are unusual: of 36 healthy cases of development one came to 0.0065, the next to 0.16; of 47 others two to 0.0013, whose
+lines came to 1 and 0.18 (a loose fit that was missed for its pattern's 0.051, w012: 0.034 and 0.010)."""
 CLEAR_P = 1e-4
 """Chance of a change of single lines from which it is too clear to be called faint, and from which it counts where no
 effect's pattern is near: a sound machine heard by eight sensors at 30 dB, where the model's own form shows, reached
@@ -116,7 +117,7 @@ def chance(screen: Screen) -> float:
     """Chance that a healthy machine shows as much: by a known effect's pattern, by any change that is glaring, by
     impacts at a part's own frequency, or by the single lines of machines that agree with the baseline."""
     pattern = screen.p_best if screen.p_any <= ALSO_P else 1.0
-    if screen.p_first <= FIRST_P and screen.p_best <= ALSO_P:
+    if screen.p_first <= FIRST_P and min(screen.p_best, max(screen.p_any, screen.p_lines)) <= ALSO_P:
         pattern = min(screen.p_best, screen.p_first)
     glaring = screen.p_any if screen.strongest > GLARING else 1.0
     lines = screen.p_lines if screen.p_lines <= CLEAR_P or screen.p_best <= ALSO_P else 1.0

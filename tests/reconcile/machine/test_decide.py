@@ -123,6 +123,10 @@ def test_a_pattern_that_stood_out_among_all_machines_needs_no_unusual_change() -
     assert chance(screen([1.0], p_any=0.3, p_best=0.03, p_first=0.001)) == pytest.approx(0.004)
     assert chance(screen([1.0], p_any=0.3, p_best=0.3, p_first=0.001)) == 1.0
     assert chance(screen([1.0], p_any=0.3, p_best=0.002, p_first=0.1)) == 1.0
+    beside = {"p_first": 0.001, "p_best": 0.06}
+    assert chance(screen([1.0], p_any=0.03, p_lines=0.01, **beside)) == pytest.approx(0.004), "all else is unusual"
+    assert chance(screen([1.0], p_any=0.03, p_lines=0.2, **beside)) > 0.1
+    assert chance(screen([1.0], p_any=0.2, p_lines=0.01, **beside)) > 0.1
 
 
 def test_single_lines_that_the_best_effect_leaves_are_unknown_physics() -> None:
