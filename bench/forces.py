@@ -1,4 +1,4 @@
-"""`python -m bench.forces`: how near the force by lines comes on made gearboxes, half a minute each on one core.
+"""`python -m bench.forces`: how near the force by lines comes on made gearboxes, 20 s each on one core.
 
 On a support of a gearbox that differs from the drawing acts a law or a sum of five sines; three sensors with gains and
 noise of their own record it at three speeds, and the gearbox without it. Asked is the engine's estimate there.
