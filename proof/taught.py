@@ -207,5 +207,13 @@ RULES = (
         "a broken and a pitted tooth of a gear are told together, and both are simulated where one is asked",
         "g007, a pit of most of a flank named a broken tooth; a set of both since, as is g010, which was right",
     ),
+    (
+        "groups of features alone claim no unknown physics where single lines are quiet",
+        "g014, a crack whose machine had changed its regime by drift, unknown before",
+    ),
+    (
+        "what stood out among all machines of the kind counts too where the whole change and single lines are unusual",
+        "w012, a loose fit of 11 um that was not detected; named with its place since, 8.6 um (5 to 15)",
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""
