@@ -31,8 +31,9 @@ ALSO_P = 0.05
 """A pattern counts only if the whole change is unusual too,"""
 FIRST_P = 0.005
 """or if it stood out already among all machines of the kind, and its pattern or both the whole change and single lines
-are unusual: of 36 healthy cases of development one came to 0.0065, the next to 0.16; of 47 others two to 0.0013, whose
-lines came to 1 and 0.18 (a loose fit that was missed for its pattern's 0.051, w012: 0.034 and 0.010)."""
+are unusual: of 36 healthy cases of development one came to 0.0065, the next to 0.16; of 47 others five to 0.0013, of
+which both are unusual in one alone that alarms by its pattern too (e127). Of a loose fit that was missed for its
+pattern's 0.051 they came to 0.034 and 0.010 (w012)."""
 CLEAR_P = 1e-4
 """Chance of a change of single lines from which it is too clear to be called faint, and from which it counts where no
 effect's pattern is near: a sound machine heard by eight sensors at 30 dB, where the model's own form shows, reached
@@ -228,8 +229,8 @@ def _none_of_the_known(
 
 
 def _too_little(screen: Screen, inadequate: bool, views: int) -> str | None:
-    """Why a change without a pattern is no unknown effect's either, if it need not be one's: three of 33 sound machines
-    (h034, h049, e127) and a cracked tooth (g014) reached 2e-5 by groups of features, with no line to show."""
+    """Why a change without a pattern is no unknown effect's either, if it need not be one's: three of 47 sound machines
+    (h034, h049, h058) and a cracked tooth (g014) reached 1e-6 by groups of features, with no line to show."""
     quiet = screen.p_lines > CLEAR_P and screen.lines_asked
     if screen.p_lines > CLEAR_P and screen.strongest < FAINT:
         return "the change is too faint to tell one effect from another"
