@@ -16,28 +16,20 @@ from reconcile.atlas.bank import Mapper
 from reconcile.atlas.candidates import Candidate
 from reconcile.judge.screen import looked
 from reconcile.judge.space import Fitted
-from reconcile.machine.asked import TEMPER, Asked
+from reconcile.machine.asked import LEAD, TEMPER, Asked, least_lead, promising
 from reconcile.machine.assimilate import Ensemble, moved, simulated_again
 from reconcile.machine.decide import Decision
 from reconcile.machine.interplay import interplaying, rattles
 from reconcile.machine.leftover import Leftover, leftover, ranked_seconds
 from reconcile.machine.library import Catalogued, joined
 from reconcile.machine.pairs import Pair, Pairs, Simulated, evidence_in, inadequate, pair_of
-from reconcile.machine.second import has_play, strikes
+from reconcile.machine.second import strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.sizes import searched
-from reconcile.machine.told_by import heard, impacts_beside, own_lines, teeth_tell
+from reconcile.machine.told_by import heard, impacts_beside, own_lines, repeats, teeth_tell
 from reconcile.machine.weigh import LEAST_EVIDENCE, alike, exclusive, variants
 from signals.series import FloatArray
 
-PROMISING = 2.5
-"""Log likelihood that a second effect must add by sums to be simulated: a clearance beside an unbalance added 3.6 so
-and 64 simulated."""
-LEAD = 6.0
-"""Log likelihood by which it must lead the other simulated ones,"""
-LEAD_BESIDE_PLAY = 12.0
-"""and beside a play, which does not repeat: beside a loose fit alone (e143 of the proof) a crack of a shaft added 36,
-waves of a race 28 and a crack of another shaft 23."""
 NEAR_SHARE, LEAST_ASKED = 0.5, 2
 """Share of the most that any adds by sums from which a second is simulated, two in any case, and of what the best adds
 simulated from which one that was not is told with it. Beside a loose fit a crack of a shaft added 48 by sums and the
@@ -67,13 +59,14 @@ def best_left_pair(
     first = decision.chosen[0]
     asked = _asked(setting, found, first, atlas, lines, members, mapper)
     seen = ranked_seconds(asked.left, setting.changes, asked.every, _possible(setting, asked.every, first))
-    seen = [one for one in seen if one[1] >= PROMISING]
+    seen = [one for one in seen if one[1] >= promising(first, one[0])]
     near = sum(one[1] >= NEAR_SHARE * seen[0][1] for one in seen)
     made = {name: _fitted(asked, name, rows) for name, _, rows in seen[: max(LEAST_ASKED, min(near, most))]}
     sought = _searched(asked, made, seen)
     sought = sought or _rattling(asked, made)
     fitted = _fairly(asked, {**made, **sought})
-    pairs = sorted((p for p in fitted.values() if p is not None), key=lambda p: -_with_impacts(asked, p))
+    kept = [p for p in fitted.values() if p is not None and repeats(asked.setting, p.first, p.beside.names[0], p.parts)]
+    pairs = sorted(kept, key=lambda p: -_with_impacts(asked, p))
     simulated = {name: None if pair is None else pair.gain for name, pair in fitted.items()}
     tried = tuple((name, gain, simulated.get(name)) for name, gain, _ in seen)
     best = pairs[0] if pairs and _stands(asked, decision, pairs[0]) else None
@@ -149,8 +142,14 @@ def _fairly(asked: Asked, made: Mapping[str, Pair | None]) -> dict[str, Pair | N
     if max((p.gain for p in made.values() if p is not None), default=0.0) < asked.least:
         return dict(made)
     again = _moved(asked, _start(asked, (), ""), "")
-    gained = 0.0 if again is None else max(0.0, asked.left.level(again.known.library.changes) - asked.left.base)
-    return {name: None if p is None else replace(p, gain=p.gain - gained) for name, p in made.items()}
+    if again is None or (gained := asked.left.level(again.known.library.changes) - asked.left.base) <= 0.0:
+        return dict(made)
+    own = _parts(asked, again)
+    return {name: None if p is None else _without(p, gained, own) for name, p in made.items()}
+
+
+def _without(pair: Pair, gained: float, own: Sequence[float]) -> Pair:
+    return replace(pair, gain=pair.gain - gained, parts=tuple(a - b for a, b in zip(pair.parts, own, strict=False)))
 
 
 def _with_impacts(asked: Asked, pair: Pair) -> float:
@@ -164,7 +163,6 @@ def _rivals(asked: Asked, best: Pair, pairs: Sequence[Pair], sums: Mapping[str, 
     second, told = best.beside.names[0], {p.beside.names[0]: _with_impacts(asked, p) for p in pairs}
     most = _with_impacts(asked, best)
     teeth = bool(asked.setting.machine.gears)
-    lead = LEAD_BESIDE_PLAY if has_play(asked.first) else LEAD
     near = []
     for name, gain in sums.items():
         least = TWIN_SHARE * most if teeth else -np.inf
@@ -173,7 +171,7 @@ def _rivals(asked: Asked, best: Pair, pairs: Sequence[Pair], sums: Mapping[str, 
             continue
         if alike(name, second):
             near += [name] if reached > least else []
-        elif reached > (most - lead if name in told else NEAR_SHARE * most):
+        elif reached > (most - least_lead(asked.first) if name in told else NEAR_SHARE * most):
             near.append(name)
     return near
 
@@ -265,7 +263,11 @@ def _pair(asked: Asked, second: str, made: Simulated) -> Pair:
     together = pair.beside.together
     if asked.beside_impacts and together is not None:
         pair = replace(pair, beside=replace(pair.beside, together=replace(together, own=None)))
-    return replace(pair, gain=gain)
+    return replace(pair, gain=gain, parts=_parts(asked, made))
+
+
+def _parts(asked: Asked, made: Simulated) -> tuple[float, ...]:
+    return tuple(map(float, asked.left.by_point(made.known.library.changes, len(asked.setting.data))))
 
 
 def _stands(asked: Asked, decision: Decision, best: Pair) -> bool:

@@ -75,6 +75,18 @@ class Leftover:
         told = np.sort(self.likelihood(changes))
         return float(told[told.size // 2 :].mean())
 
+    def by_point(self, changes: FloatArray, points: int) -> FloatArray:
+        """(points,): by how much the better half of `changes` (n, F) is likelier than that of the effect alone at each
+        operating point; all features of one stand before those of the next."""
+        place = np.arange(self.observed.size) * points // self.observed.size
+        told = [[self._better(one, self.used & (place == p)) for p in range(points)] for one in (changes, self.members)]
+        return np.asarray(np.array(told[0]) - np.array(told[1]))
+
+    def _better(self, changes: FloatArray, mask: np.ndarray) -> float:
+        """Mean log likelihood by the features of `mask` of the half that is better by all."""
+        order = np.argsort(self.likelihood(changes))
+        return float(self.likelihood(changes, mask)[order[order.size // 2 :]].mean())
+
     def by(self, mask: np.ndarray) -> Leftover:
         """By the features of `mask` (F,) alone."""
         return replace(self, used=self.used & mask, quiet=self.quiet & mask)

@@ -64,7 +64,8 @@ class Sum:
 @dataclass(frozen=True, kw_only=True)
 class Pair:
     """What stands beside the effect `first`, fitted together with it; `others` that may as well, if the first of them
-    is not decided; `gain`: log evidence of the second over the best that the first alone shows."""
+    is not decided; `gain`: log evidence of the second over the best that the first alone shows, `parts` of it at
+    each operating point; `drawn`: what both show on machines not led there, (n, F) dB, where simulated."""
 
     first: str
     beside: Beside
@@ -72,7 +73,7 @@ class Pair:
     rest: Rest
     others: tuple[str, ...] = ()
     drawn: FloatArray | None = None
-    """What both show on machines that were not led to the observation, (n, F) dB, where these were simulated."""
+    parts: tuple[float, ...] = ()
 
 
 def evidence_in(view: Fitted, changes: FloatArray, observed: FloatArray) -> FloatArray:
@@ -96,8 +97,7 @@ class Pairs:
 def heard_in(found: Found, first: str) -> list[Fitted]:
     """The views in which a second effect shows: impacts bring a forest of lines in which sidebands drown, and what
     stands in it had the pattern of an eccentric gear (33 over the spall alone, in a case without one)."""
-    every = found.views
-    return [view for k, view in enumerate(every) if k not in SIDEBANDS or not strikes(first)]
+    return [view for k, view in enumerate(found.views) if k not in SIDEBANDS or not strikes(first)]
 
 
 def alone(views: Sequence[Fitted], name: str, observed: FloatArray) -> FloatArray:

@@ -80,6 +80,7 @@ def found_in(observed: np.ndarray) -> tuple[SimpleNamespace, Found]:
         seed=0,
         machine=SimpleNamespace(gears=("gear", "pinion")),
         direct=SimpleNamespace(evidence={}, p=1.0),
+        data=(None,),
         plan=SimpleNamespace(offsets=tuple(Offsets(values=m) for m in machines)),
     )
     return setting, Found(known=known, fitted=views[0], fine=views[1], screen=screen)

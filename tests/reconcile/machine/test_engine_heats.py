@@ -72,8 +72,21 @@ def test_draws_of_which_none_runs_leave_what_was_known(monkeypatch: pytest.Monke
         search.simulated(setting, None, map)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize(("best", "with_it"), [("missing_tooth@gear", ["tooth_spall@gear"]), ("tooth_crack@gear", [])])
-def test_a_pitted_tooth_is_simulated_where_a_broken_one_is(
+CLOSELY = ("tooth_spall", "missing_tooth", "tooth_crack", "fit_clearance_series", "radial_clearance", "fit_clearance")
+
+
+@pytest.mark.parametrize(
+    ("best", "with_it"),
+    [
+        ("missing_tooth@gear", ["tooth_spall@gear"]),
+        ("tooth_crack@gear", []),
+        ("radial_clearance@gear", ["fit_clearance_series@gear"]),
+        ("fit_clearance_series@gear", ["radial_clearance@gear"]),
+        ("fit_clearance@gear", ["radial_clearance@gear"]),
+        ("radial_clearance@pinion", []),  # where a fit cannot be loose
+    ],
+)
+def test_a_pitted_tooth_is_simulated_where_a_broken_one_is_and_the_other_play_where_one_is(
     monkeypatch: pytest.MonkeyPatch, best: str, with_it: list[str]
 ) -> None:
     asked: list[str] = []
@@ -85,7 +98,7 @@ def test_a_pitted_tooth_is_simulated_where_a_broken_one_is(
 
     for name, made in {
         "with_others": lambda *_: [best],
-        "_draws": lambda *_: {key: [] for key in ("tooth_spall@gear", "missing_tooth@gear", "tooth_crack@gear")},
+        "_draws": lambda *_: {f"{term}@gear": [] for term in CLOSELY},
         "first_heat": lambda *_: None,
         "simulated": lambda *_: None,
         "fit_views": lambda *_: found,

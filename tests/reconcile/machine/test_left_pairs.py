@@ -129,6 +129,18 @@ def test_a_second_must_add_enough(gain: float, stands: bool, simulated: Asked, m
     assert told is not None and (told.best is not None) == stands and simulated
 
 
+@pytest.mark.parametrize(("points", "stands"), [(1, True), (2, False), (3, True)])
+def test_a_second_must_add_elsewhere_than_at_its_best_operating_point(
+    points: int, stands: bool, simulated: Asked
+) -> None:
+    observed = seen(SMALLER)
+    setting, found = found_in(observed)
+    setting.data = (None,) * points
+    told = best_left_pair(setting, found, EXPLAINED, found.known, 8, 2, map)  # type: ignore[arg-type]
+    assert told is not None and simulated, "of two halves the second alone is moved, of three thirds two are"
+    assert (told.best is not None) == stands and told.tried[0][2] is not None
+
+
 def test_what_a_driving_first_makes_rattle_is_searched_and_must_beat_the_others(
     simulated: Asked, monkeypatch: pytest.MonkeyPatch
 ) -> None:

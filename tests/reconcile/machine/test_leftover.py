@@ -116,6 +116,15 @@ def test_a_second_that_is_there_adds_and_one_that_is_not_adds_nothing() -> None:
         assert np.all(np.diff(gains) <= 0.0) and gains[0] == gain, "the best rows first"
 
 
+def test_what_is_added_at_each_operating_point_makes_the_whole() -> None:
+    left = left_of(seen(5e6))
+    shown = left.members + MADE.change(WRONG, TRUE, 5e6)
+    parts = left.by_point(shown, 2)
+    assert parts.shape == (2,) and parts.sum() == pytest.approx(left.level(shown) - left.base)
+    assert abs(parts[0]) < 1e-9 and parts[1] > 12.0, "the second moves the second half of the features alone"
+    assert left.by_point(left.members, 3) == pytest.approx([0.0, 0.0, 0.0])
+
+
 def test_quiet_features_tell_where_sums_err_on_the_others() -> None:
     observed = seen(5e6)
     setting, _ = found_in(observed)
