@@ -129,16 +129,18 @@ def test_a_second_must_add_enough(gain: float, stands: bool, simulated: Asked, m
     assert told is not None and (told.best is not None) == stands and simulated
 
 
-@pytest.mark.parametrize(("points", "stands"), [(1, True), (2, False), (3, True)])
-def test_a_second_must_add_elsewhere_than_at_its_best_operating_point(
-    points: int, stands: bool, simulated: Asked
+@pytest.mark.parametrize(
+    ("parts", "stands"),
+    [((124.0, -28.0, -38.0), False), ((60.0, 25.0, -16.0), True), ((50.0, -9.9), True), ((50.0, -10.1), False)],
+)
+def test_a_second_must_not_be_one_operating_points_alone(
+    parts: tuple[float, ...], stands: bool, simulated: Asked, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    observed = seen(SMALLER)
-    setting, found = found_in(observed)
-    setting.data = (None,) * points
-    told = best_left_pair(setting, found, EXPLAINED, found.known, 8, 2, map)  # type: ignore[arg-type]
-    assert told is not None and simulated, "of two halves the second alone is moved, of three thirds two are"
-    assert (told.best is not None) == stands and told.tried[0][2] is not None
+    monkeypatch.setattr(left_pairs, "_parts", lambda *_: parts)
+    monkeypatch.setattr(left_pairs, "_fairly", lambda _, made: made)
+    told = pairs_in(seen(SMALLER))
+    assert told is not None and (told.best is not None) == stands and simulated
+    assert told.tried[0][2] is not None, "it is told that it was tried"
 
 
 def test_what_a_driving_first_makes_rattle_is_searched_and_must_beat_the_others(
