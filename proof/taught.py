@@ -215,5 +215,16 @@ RULES = (
         "what stood out among all machines of the kind counts too where the whole change and single lines are unusual",
         "w012, a loose fit of 11 um that was not detected; named with its place since, 8.6 um (5 to 15)",
     ),
+    (
+        "a wider clearance and a loose fit of one bearing are simulated as closely where either is the best",
+        "w032, a loose fit of 11 um that was unknown physics; named with its place since, 13 um (7 to 24)",
+    ),
+    (
+        (
+            "a second effect takes no more than a quarter of what it adds at the other speeds "
+            "([decision](decisions/reconcile-leftover.md))"
+        ),
+        "w024, a loose fit of 36 um with waves of another bearing's race beside it that are not there; alone since",
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""
