@@ -6,7 +6,7 @@ SECTIONS = {
     "wide": "No version of the engine had met these before their run; one engine ran all, beside other work on the two "
     "threads of one core, which core-seconds show. Since then unknown physics comes with its force by lines, and a "
     "change without a pattern is unknown physics again where no single lines could be asked (machines without teeth); "
-    "no answer to these cases rests on either. w012, w024 and w032 have set rules since.",
+    "no answer to these cases rests on either. w012, w024, w032 and w054 have set rules since.",
     "held": "No version of the engine had met these before their run; one engine ran all (h035 was run a second "
     "time, as the engine was frozen again; its first answer was not looked at). Two ran at once on the two threads of "
     "one core, beside other work, which core-seconds show. Since then the rules of the sensor gate on dead, loose and "

@@ -216,6 +216,13 @@ RULES = (
         "w012, a loose fit of 11 um that was not detected; named with its place since, 8.6 um (5 to 15)",
     ),
     (
+        (
+            "which of two like bearings is struck is asked of pits that a loaded ball meets "
+            "([decision](decisions/reconcile-injected.md))"
+        ),
+        "w054, an outer race's pit told as a set of two places, named with its own since; w013 stays such a set",
+    ),
+    (
         "a wider clearance and a loose fit of one bearing are simulated as closely where either is the best",
         "w032, a loose fit of 11 um that was unknown physics; named with its place since, 13 um (7 to 24)",
     ),

@@ -25,7 +25,7 @@ from reconcile.kinematics.judge import same
 from reconcile.kinematics.spec import of_machine
 from reconcile.machine.direct import HEARD
 from reconcile.machine.meter import Meter
-from reconcile.machine.refine import best_draws, near_draws
+from reconcile.machine.refine import best_draws, near_draws, seen_draws
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.weigh import LEAST_EVIDENCE
 from reconcile.observe.impact_bands import ComplexArray, Rate, Standing, bands_of, density, envelope_power, standing
@@ -35,7 +35,7 @@ from sim.core.response import Response
 from sim.core.spec import MachineSpec, TermSpec
 from sim.terms import REGISTRY
 
-LEADERS, DRAWS = 3, 8
+LEADERS, DRAWS = 3, 16
 """Best draws of an effect, and draws about them, that are added to the baseline."""
 MOST_GROUPS, MOST_RIVALS = 2, 4
 """Effects of which places are compared, and places of each."""
@@ -159,8 +159,7 @@ def distances(setting: Setting, found: Found, names: Sequence[str], meter: Meter
     without those that cannot run or that nobody would hear."""
     families = [_family(setting.machine, n) for n in names]
     rng = np.random.default_rng([setting.seed, 31])
-    leaders = [best_draws(found.fitted, found.known, n, setting.changes.observed, LEADERS) for n in names]
-    drawn = tuple(tuple(near_draws(own, DRAWS, rng)) for own in leaders)
+    drawn = tuple(tuple(near_draws(own, DRAWS, rng)) for own in leaders(found, names, setting.changes.observed))
     distinct = tuple(sorted(set(setting.simulated)))
     tasks = []
     for p, one in enumerate(setting.data):
@@ -181,6 +180,20 @@ def distances(setting: Setting, found: Found, names: Sequence[str], meter: Meter
     points: list[list[_Off]] = list(meter(_heard, tasks))  # type: ignore[arg-type]
     nearest = {n: _nearest([p[k] for p in points]) for k, n in enumerate(names)} if points else {}
     return {name: value for name, value in nearest.items() if np.isfinite(value)}
+
+
+def leaders(found: Found, names: Sequence[str], observed: FloatArray) -> list[list[TermSpec]]:
+    """Of each place of an effect the nearest draws that show anything, as a pit of an outer race that no loaded ball
+    meets does not; where none does, what shows at another place, put here; else the nearest."""
+    fitted, known = found.fitted, found.known
+    own = [seen_draws(fitted, fitted.visible, known, n, observed, LEADERS) for n in names]
+    others = [term for terms in own for term in terms][:LEADERS]
+    return [
+        terms
+        or [t.model_copy(update={"site": n.split("@")[1]}) for t in others]
+        or best_draws(fitted, known, n, observed, LEADERS)
+        for n, terms in zip(names, own, strict=True)
+    ]
 
 
 def _nearest(points: Sequence[_Off]) -> float:

@@ -19,13 +19,12 @@ from reconcile.machine.decide import DETECT_P
 from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import LANES, first_heat, more_draws, ordered_draws, second_heat, simulated_banks
 from reconcile.machine.of_teeth import looks_like
-from reconcile.machine.refine import best_draws, refined_plan, spread_plan
+from reconcile.machine.refine import best_draws, refined_plan, seen_draws, spread_plan
 from reconcile.machine.second import beside, looks_for_second, strikes, struck_too
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.weigh import LEAST_EVIDENCE, credible_set, merged_weights, plausible
 from signals.series import FloatArray
 from sim.core.errors import SpecError
-from sim.core.spec import TermSpec
 
 POINTS_OF_LINES, CHANNELS_OF_LINES, CHANNELS_OF_PHASES = 2, 6, 3
 """Operating points from which single lines have a pattern: at one, few sensors see each meet its resonance by chance;
@@ -236,14 +235,6 @@ def to_fit(setting: Setting, found: Found, budget: Budget) -> list[Task]:
     return [first, *seconds]
 
 
-def _seen_best(setting: Setting, found: Found, name: str) -> list[TermSpec]:
-    """The nearest of the draws that show anything."""
-    rows = found.known.library.groups[name]
-    shown = {id(found.known.terms[k]) for k in rows if found.fitted.visible[k]}
-    nearest = best_draws(found.view(name), found.known, name, setting.changes.observed, count=len(rows))
-    return [term for term in nearest if id(term) in shown][:SPREAD_ABOUT]
-
-
 def spread_out(setting: Setting, found: Found, leading: Sequence[str], mapper: Mapper) -> Found:
     """With leading effects that strike and that most draws hide simulated over the sizes, as they are best else: of an
     outer race's pits those outside the load show nothing, and the few in it are not of all sizes."""
@@ -251,7 +242,8 @@ def spread_out(setting: Setting, found: Found, leading: Sequence[str], mapper: M
     few = [n for n in leading if strikes(n) and 0.0 < visible[list(groups[n])].mean() < MOSTLY_SEEN]
     if not few:
         return found
-    around = [(n, _seen_best(setting, found, n)) for n in few]
+    seen = setting.changes.observed
+    around = [(n, seen_draws(found.view(n), visible, found.known, n, seen, SPREAD_ABOUT)) for n in few]
     pairs = len(setting.plan.offsets)
     plan = spread_plan(setting.plan, around, draws=SPREAD, pairs=pairs, seed=setting.seed)
     return fit_views(setting, simulated(setting, plan, mapper, found.known))

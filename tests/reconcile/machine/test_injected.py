@@ -14,7 +14,7 @@ from reconcile.atlas.run import run_members
 from reconcile.calibrate.chain import band_centres_hz
 from reconcile.calibrate.uncertain import Offsets
 from reconcile.judge.screen import Screen
-from reconcile.machine import injected
+from reconcile.machine import injected, refine
 from reconcile.machine.injected import MOST, PER, SIZES_DB, apart, counted, twins
 from reconcile.machine.meter import Meter
 from reconcile.observe.impact_bands import Rate, Standing, density, envelope_power, standing
@@ -164,6 +164,29 @@ def recorded(plan: AtlasPlan, term: TermSpec | None, seed: int) -> Steady:
     return Steady(samples=clean + noise, rate_hz=RATE_HZ, speed_hz=30.0, estimate=None)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize(
+    ("visible", "widths"),
+    [
+        ((False, True, True, False), ([2e-3], [3e-3])),
+        ((False, True, False, False), ([2e-3], [2e-3])),
+        ((False, False, False, False), ([1e-3, 2e-3], [3e-3, 4e-3])),
+    ],
+)
+def test_draws_that_show_something_speak_for_a_place_if_need_be_those_of_another(
+    visible: tuple[bool, ...], widths: tuple[list[float], ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    names = [f"outer_spall@{site}" for site in SITES]
+    terms = [pit(site, 1e-3 * (1 + k)) for k, site in enumerate(np.repeat(SITES, 2))]
+    groups = {names[0]: (0, 1), names[1]: (2, 3)}
+    known = SimpleNamespace(library=SimpleNamespace(groups=groups), terms=terms)
+    found = SimpleNamespace(fitted=SimpleNamespace(visible=np.array(visible)), known=known)
+    for module in (refine, injected):
+        monkeypatch.setattr(module, "best_draws", lambda _f, _k, n, *_, **__: [terms[k] for k in groups[n]])
+    told = injected.leaders(found, names, np.zeros(1))  # type: ignore[arg-type]
+    assert tuple([t.parameters["width"] for t in place] for place in told) == widths
+    assert [{t.site for t in place} for place in told] == [{site} for site in SITES]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("struck", SITES)
 def test_a_bearing_without_a_sensor_is_told_from_the_next_one_with_it(
@@ -185,7 +208,7 @@ def test_a_bearing_without_a_sensor_is_told_from_the_next_one_with_it(
     monkeypatch.setattr(injected, "LEADERS", 2)
     monkeypatch.setattr(injected, "DRAWS", 2)
     monkeypatch.setattr(
-        injected, "best_draws", lambda _f, _k, name, *_: [pit(name.split("@")[1], w) for w in (8e-4, 2e-3)]
+        injected, "leaders", lambda _f, names, _o: [[pit(n.split("@")[1], w) for w in (8e-4, 2e-3)] for n in names]
     )
     names = [f"outer_spall@{site}" for site in SITES]
     found = SimpleNamespace(screen=screen((25.0, 25.0, 0.0, 0.0)), fitted=None, known=None, views=(), led={})

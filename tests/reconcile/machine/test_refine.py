@@ -12,7 +12,7 @@ import pytest
 from reconcile.atlas.candidates import size_parameter, size_range
 from reconcile.atlas.plan import AtlasPlan
 from reconcile.calibrate.uncertain import Offsets
-from reconcile.machine import search
+from reconcile.machine import refine, search
 from reconcile.machine.refine import LARGER, NEAR_ANGLE_RAD, SMALLER, near_draws, refined_plan, spread_plan
 from reconcile.machine.search import MOSTLY_SEEN, SPREAD, spread_out
 from sim.core.spec import TermSpec
@@ -96,7 +96,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> Shown:
         return "plan"
 
     monkeypatch.setattr(search, "spread_plan", planned)
-    monkeypatch.setattr(search, "best_draws", lambda _, known, *__, count: known.terms[7::-1][:count])
+    monkeypatch.setattr(refine, "best_draws", lambda _, known, *__, count: known.terms[7::-1][:count])
     monkeypatch.setattr(search, "simulated", lambda _, plan, *__: f"simulated {plan}")
     monkeypatch.setattr(search, "fit_views", lambda _, known: f"judged {known}")
     return shown
