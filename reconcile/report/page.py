@@ -1,6 +1,6 @@
 """The page: one HTML file with its pictures in it, nothing fetched from elsewhere, no scripts.
 
-At its address with `#pictures` it leaves out what the dashboard tells in its own words and tables.
+What is `told` the dashboard leaves out, as it has words and tables of its own.
 """
 
 from __future__ import annotations
@@ -212,8 +212,4 @@ def page(report: Report) -> str:
         tag("title", f"Reconciliation: {tidied(report.sentence)}"),
         tag("style", Markup(STYLE)),
     )
-    return (
-        "<!doctype html>\n"
-        + tag("html", top, tag("body", tag("span", id="pictures"), tag("main", *body)), lang="en")
-        + "\n"
-    )
+    return "<!doctype html>\n" + tag("html", top, tag("body", tag("main", *body)), lang="en") + "\n"

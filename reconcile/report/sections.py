@@ -46,7 +46,7 @@ def section(title: str, *parts: Markup) -> Markup:
 
 
 def told(*parts: Markup) -> Markup:
-    """What is left out of the page of pictures alone (`report.html#pictures`): who shows that has told it already."""
+    """What the dashboard leaves out where it shows the page: it has told it already."""
     return Markup(TOLD + "".join(parts) + "</div>") if any(parts) else Markup("")
 
 

@@ -78,7 +78,6 @@ svg .said { paint-order:stroke; stroke:var(--surface); stroke-width:5px }
 .whisker { stroke:var(--text); stroke-width:1.5 } .ceiling { stroke:var(--ok); stroke-width:2; stroke-dasharray:6 3 }
 svg .ceiling-name { fill:var(--ok); font-weight:650 } details.point { border-top:1px solid var(--border);
  padding:8px 0; }
-#pictures:target ~ main .told { display:none }
 summary { cursor:pointer; font-weight:600 }
 h1, p, li { overflow-wrap:anywhere } td { overflow-wrap:break-word }
 sub { font-size:75%; line-height:0 } svg.plot.narrow { display:none } svg.plot.slim { max-width:460px; margin:0 auto }

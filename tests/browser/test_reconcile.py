@@ -20,10 +20,13 @@ MACHINE = {
     }
 }
 HEADS = (
-    "return [...document.querySelectorAll('table')].filter((t) => t.offsetParent)"
+    "return [...PAGE.querySelectorAll('table')].filter((t) => t.offsetParent)"
     ".map((t) => [...t.querySelectorAll('th')].map((h) => h.textContent))"
 )
-"""Heads of the tables that are seen."""
+"""Heads of the tables that are seen of PAGE."""
+FRAMED = "document.querySelector('iframe.report-frame').contentDocument"
+SCROLLED = f"return {FRAMED.replace('.contentDocument', '?.contentDocument')}?.querySelector('main') ? scrollY : -1"
+"""How far the page is scrolled, once the report is in its frame."""
 PHONE = 390
 LOOSE = """
     const scrolls = (e) => getComputedStyle(e).overflowX === "auto";
@@ -69,17 +72,22 @@ def test_a_recording_is_sent_chosen_and_reconciled(browser: Browser, service: Se
         browser.size(width)
         assert browser.run("return document.documentElement.scrollWidth") <= width
         eventually(lambda: browser.run(HIDDEN_OR_BLANK) == 0, what="the frame to be as high as its page")
-    pictures = browser.run("return document.querySelector('iframe.report-frame').src")
-    assert pictures.endswith("report.html#pictures")
-    here = browser.run(HEADS)
+    page = browser.run("return document.querySelector('iframe.report-frame').src")
+    assert page.endswith("report.html"), "a fragment would scroll the dashboard too"
+    here = browser.run(HEADS.replace("PAGE", "document"))
     assert ["Effect", "At", "Severity (90 %)", "Score", "Named"] in here
-    browser.open(pictures)
-    framed = browser.run(HEADS)
+    framed = browser.run(HEADS.replace("PAGE", FRAMED))
     assert framed and not [heads for heads in framed if {"candidate", "line", "model"} & set(heads)]
-    assert not browser.run("return document.querySelector('h1').offsetParent"), "the verdict is told above the frame"
-    browser.open(pictures.removesuffix("#pictures"))
-    assert [heads for heads in browser.run(HEADS) if "candidate" in heads], "by itself the report is whole"
-    _fits_a_phone(browser, service, pictures)
+    assert not browser.run(f"return {FRAMED}.querySelector('h1').offsetParent"), "the verdict is told above the frame"
+    browser.open(service.page(f"/reconcile/{page.split('/')[-2]}"))
+    eventually(lambda: browser.run(SCROLLED) >= 0 and browser.run(HIDDEN_OR_BLANK) == 0, what="the report in its frame")
+    assert browser.run("return document.documentElement.scrollHeight > 1.5 * innerHeight"), "there is far to scroll"
+    assert browser.run(SCROLLED) == 0, "the answer opens at its verdict"
+    browser.open(page)
+    assert [heads for heads in browser.run(HEADS.replace("PAGE", "document")) if "candidate" in heads], (
+        "whole by itself"
+    )
+    _fits_a_phone(browser, service, page)
     browser.size(360)
     browser.open(service.page("/reconcile"))
     browser.find("[aria-label=Reconciliations] tr[data-status=successful]")
@@ -190,13 +198,12 @@ def test_sizes_are_rounded_as_on_the_page_of_the_report(browser: Browser, servic
     assert [" ".join(text.split()) for text in told] == ["1.7 mm", "375 µm", "7.4 mm", "924 nm"]
 
 
-def _fits_a_phone(browser: Browser, service: Service, pictures: str) -> None:
+def _fits_a_phone(browser: Browser, service: Service, page: str) -> None:
     """No page is wider than the screen; tables and charts that are scroll in their own box."""
     browser.size(PHONE)
-    answer = service.page(f"/reconcile/{pictures.split('/')[-2]}")
+    answer = service.page(f"/reconcile/{page.split('/')[-2]}")
     for address, part in (
-        (pictures.removesuffix("#pictures"), "svg.plot"),
-        (pictures, "svg.plot"),
+        (page, "svg.plot"),
         (answer, "#answer-causes table"),
         (f"{service.url.rstrip('/')}/docs", "section pre"),
     ):

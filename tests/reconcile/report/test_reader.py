@@ -219,7 +219,7 @@ def drawn_with(metric: str) -> Report:
 
 
 class Pictures(Balanced):
-    """Text of the page at `#pictures`: without what is `told`."""
+    """Text of the page as the dashboard shows it: without what is `told`."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -239,10 +239,11 @@ class Pictures(Balanced):
 
 
 @pytest.mark.slow
-def test_the_page_of_pictures_leaves_out_words_and_tables() -> None:
+def test_what_the_dashboard_leaves_out_are_words_and_tables() -> None:
     report = full_report("A sentence.")
     whole, parser = page(report), Pictures()
-    assert "#pictures:target ~ main .told { display:none }" in whole and '<span id="pictures">' in whole
+    script = (ROOT / "app/dashboard/static/js/reconcile/answer.js").read_text(encoding="utf-8")
+    assert 'const TOLD = ".told";' in script and 'class="told"' in whole
     parser.feed(whole)
     for left_out in ("locked to", "severity", "gain over", "Revised machine", "Limits", "What is undecided"):
         assert left_out in told(report) and left_out not in parser.text, left_out

@@ -17,6 +17,8 @@ const isRest = (reason) => reason.startsWith("a part of the change is left");
 const [MOST_DIGITS, MOST_PLACES] = [6, 2];
 const SAYS_NOTHING = "the part that was held out";
 const NO_SCORE = 0.005;
+/** What of the report's page is told here already. */
+const TOLD = ".told";
 const percent = (share) => (share === null || share === undefined ? "–" : `${Math.round(100 * share)} %`);
 const distance = (value, of) => (!of || of === "1" ? `${number(100 * value, 2)} %` : `${number(value, 3)} ${unit(of)}`);
 
@@ -158,11 +160,11 @@ function files(id, links) {
 }
 
 /**
- * Map of the machine, ranking, gains, spectra, heat maps and steps; what is told above is left out of the page at `#pictures`.
+ * Map of the machine, ranking, gains, spectra, heat maps and steps; what is told above is left out of the page.
  * No scripts run in it. A frame cannot carry a key: then it is a file only.
  */
 function picture(path) {
-  return card("Pictures and steps", "page", frame(`${path}#pictures`, "Report with map, ranking, gains, spectra and heat maps"));
+  return card("Pictures and steps", "page", frame(path, "Report with map, ranking, gains, spectra and heat maps", TOLD));
 }
 
 function bullets(list) {

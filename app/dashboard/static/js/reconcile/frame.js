@@ -2,12 +2,16 @@
 
 import { h } from "/js/lib/dom.js";
 
-/** No scripts run in the page: that it has this origin lets its height be read, no more. */
-export function frame(src, title) {
+/**
+ * No scripts run in the page: that it has this origin lets its height be read and what `told` selects be left out, no more.
+ * Not by a fragment of its address: to that the browser scrolls the dashboard too, past the verdict.
+ */
+export function frame(src, title, told) {
   const shown = h("iframe", { class: "report-frame", src, title, sandbox: "allow-same-origin" });
   shown.addEventListener("load", () => {
     const body = shown.contentDocument?.body;
     if (!body) return;
+    for (const part of body.querySelectorAll(told)) part.hidden = true;
     const fit = () => { shown.style.height = `${Math.ceil(body.getBoundingClientRect().height) + shown.offsetHeight - shown.clientHeight}px`; };
     new ResizeObserver(fit).observe(body);
     fit();
