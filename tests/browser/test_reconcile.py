@@ -66,6 +66,7 @@ def test_a_recording_is_sent_chosen_and_reconciled(browser: Browser, service: Se
     assert "explained" in browser.text("#answer-verdict")
     assert "bearing 1" in browser.text("#answer-where .site-bar")
     assert "outer spall" in browser.text("#answer-causes")
+    assert "width less than 1" in browser.text("#answer-causes"), "the bound of a size that is not told"
     assert browser.find("#answer-page iframe.report-frame")
     assert browser.run("return fetch(document.querySelector('iframe.report-frame').src).then((r) => r.status)") == 200
     for width in (360, 1400):
@@ -196,6 +197,19 @@ def test_sizes_are_rounded_as_on_the_page_of_the_report(browser: Browser, servic
         [1.664e-3, 3.751e-4, 7.391e-3, 9.24e-7],
     )
     assert [" ".join(text.split()) for text in told] == ["1.7 mm", "375 µm", "7.4 mm", "924 nm"]
+    size = {"name": "width", "value": 1.664e-3, "unit": "m", "low": 3.751e-4, "high": 7.391e-3}
+    causes = [
+        {"term": "outer_spall", "severity": None, "values": {"width_below_m": 2.23e-3}},
+        {"term": "outer_spall", "severity": None, "values": {}},
+        {"term": "outer_spall", "severity": size, "values": {"width_below_m": 2.23e-3}},
+    ]
+    said = browser.run(
+        "return import('/js/reconcile/answer.js').then((m) => arguments[0].map((c) => m.severity(c)))", causes
+    )
+    assert [" ".join(text.split()) for text in said] == [
+        *("width less than 2.2 mm", "–"),
+        "width 1.7 mm (375 µm to 7.4 mm)",
+    ]
 
 
 def _fits_a_phone(browser: Browser, service: Service, page: str) -> None:

@@ -16,7 +16,7 @@ from reconcile.report.held import METRICS
 from reconcile.report.panels import MOST_PANELS
 from reconcile.report.plot import Frame, decades
 from reconcile.report.score import SCORE
-from reconcile.report.words import FORMS, LEFT_OVER, PART_LEFT
+from reconcile.report.words import FORMS, LEFT_OVER, PART_LEFT, WIDTH_BELOW
 from reconcile.verdict import AngleWindow, Cause, HeldOut, LineChange, Report, Where, operating_point
 from tests.reconcile.report.test_report import Balanced, full_report
 
@@ -254,6 +254,7 @@ def test_what_the_dashboard_leaves_out_are_words_and_tables() -> None:
 def test_the_dashboard_says_it_in_the_same_words() -> None:
     script = (ROOT / "app/dashboard/static/js/reconcile/answer.js").read_text(encoding="utf-8")
     assert FORMS in script and LEFT_OVER in script and f'"{PART_LEFT}"' in script
+    assert f"cause.values?.{WIDTH_BELOW};" in script
     for words in METRICS.values():
         assert f'"{words}"' in script
 

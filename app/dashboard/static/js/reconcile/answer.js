@@ -81,9 +81,11 @@ function effect(cause) {
   return [effectName(cause), others.length ? h("div", { class: "muted small" }, `or: ${others.join(", ")}`) : null];
 }
 
-function severity(cause) {
+/** The size with its interval, the bound on a width where that is all that is known, or a dash. */
+export function severity(cause) {
   const found = cause.severity;
-  if (!found) return "–";
+  const below = cause.values?.width_below_m;
+  if (!found) return below === undefined ? "–" : `width less than ${quantity(below, "m", 2, true)}`;
   const [value, low, high] = sizes(found);
   return `${sizeName(cause)} ${found.low === 0 ? `at most ${high}` : `${value} (${low} to ${high})`}`.trim();
 }
