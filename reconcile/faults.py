@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from reconcile.gate.findings import FAULTS, Finding, Gate, Kind
 from reconcile.gate.spoiled import HEARD
+from reconcile.report.mending import channels
 from reconcile.verdict import Report, SensorFault
 
 MOST_NAMED = 3
@@ -38,8 +39,9 @@ def measurement_faults(gate: Gate) -> tuple[SensorFault, ...]:
 def with_faults(report: Report, found: Sequence[SensorFault], explained: Sequence[Kind] = ()) -> Report:
     """The report with the faults `found`, without kinds that the answer itself explains.
 
-    A verdict of `measurement_fault` keeps its `fault`, which then leads the list. Beside any other the first that is
-    sure is `fault` and the sure ones stand in the sentence; what the machine itself may do is undecidable beside any.
+    A verdict of `measurement_fault` keeps its `fault`, which then leads the list; other sure ones follow in the
+    sentence, so that no channel of them is overlooked. Beside any other verdict the first that is sure is `fault` and
+    the sure ones stand in the sentence; what the machine itself may do is undecidable beside any.
     """
     kept = tuple(f for f in found if f.kind not in explained)
     if report.verdict == "measurement_fault":
@@ -47,7 +49,7 @@ def with_faults(report: Report, found: Sequence[SensorFault], explained: Sequenc
     if not kept:
         return report
     sure, open_ones = [f for f in kept if not f.doubtful], _open(kept)
-    sentence = f"{report.sentence} {_beside(sure)}" if sure else report.sentence
+    sentence = f"{report.sentence} {_told('Beside it the measurement is at fault', sure)}" if sure else report.sentence
     return replace(
         report,
         sentence=sentence,
@@ -63,15 +65,17 @@ def _of_the_measurement(report: Report, kept: tuple[SensorFault, ...]) -> Report
     listed = next((f for f in kept if first and (f.kind, f.channel) == (first.kind, first.channel)), None)
     if first is None:
         return replace(report, measurement_faults=kept)
+    sentence = f"{report.sentence}{_too(first, kept)}"
     if listed is None:
-        return replace(report, measurement_faults=(first, *kept))
+        return replace(report, sentence=sentence, measurement_faults=(first, *kept))
     told = replace(
         first,
         doubtful=first.doubtful or listed.doubtful,
         left_out=first.left_out or listed.left_out,
         recordings=first.recordings or listed.recordings,
     )
-    return replace(report, fault=told, measurement_faults=kept, undecidable=(*report.undecidable, *_open(kept)))
+    open_ones = (*report.undecidable, *_open(kept))
+    return replace(report, sentence=sentence, fault=told, measurement_faults=kept, undecidable=open_ones)
 
 
 def _open(faults: Sequence[SensorFault]) -> tuple[str, ...]:
@@ -85,9 +89,19 @@ def _words(fault: SensorFault) -> str:
     return fault.kind.replace("_", " ") + (f" on {fault.channel}" if fault.channel else "")
 
 
-def _beside(sure: Sequence[SensorFault]) -> str:
+def _too(first: SensorFault, kept: Sequence[SensorFault]) -> str:
+    """Sure faults that the answer's own does not tell: of other channels, whatever their kind, or of all of them."""
+    others = [
+        f
+        for f in kept
+        if not f.doubtful and (f.kind, f.channel) != (first.kind, first.channel) and f.channel not in channels(first)
+    ]
+    return f" {_told('At fault too', others)}" if others else ""
+
+
+def _told(lead: str, sure: Sequence[SensorFault]) -> str:
     told = list(dict.fromkeys(_words(f) + (" (left out)" if f.left_out else "") for f in sure))
     named = told[:MOST_NAMED]
     if len(told) > MOST_NAMED:
         named.append(f"{len(told) - MOST_NAMED} more")
-    return f"Beside it the measurement is at fault: {', '.join(named)}."
+    return f"{lead}: {', '.join(named)}."

@@ -38,10 +38,18 @@ USUAL = ("check sensor and cable of {at}", AGAIN)
 
 def to_mend(fault: SensorFault, *, beside: bool = False, several: Sequence[SensorFault] = ()) -> str:
     """A clause with its full stop, which begins small; `beside` another answer what follows is not said. `several`:
-    all faults, of which those of this kind are mended alike."""
-    what, then = MENDED.get(fault.kind, USUAL)
+    all faults; those that are mended alike share the clause, other sure ones follow it with their own."""
+    what, then = _clause(fault)
     what = what.format(at=_channels(fault, several) or "all channels")
-    return f"{what.rstrip(',')}." if beside or not then else f"{what} {then}."
+    said = f"{what.rstrip(',')}." if beside or not then else f"{what} {then}."
+    others = [f for f in several if not f.doubtful and _clause(f) != _clause(fault)]
+    firsts = {_clause(f): f for f in reversed(others)}
+    more = [to_mend(f, beside=True, several=[o for o in others if _clause(o) == _clause(f)]) for f in firsts.values()]
+    return " ".join([said, *(f"Also {text}" for text in reversed(more))])
+
+
+def _clause(fault: SensorFault) -> tuple[str, str]:
+    return MENDED.get(fault.kind, USUAL)
 
 
 def channels(fault: SensorFault, several: Sequence[SensorFault] = ()) -> list[str]:
@@ -54,5 +62,8 @@ def channels(fault: SensorFault, several: Sequence[SensorFault] = ()) -> list[st
 
 
 def _channels(fault: SensorFault, several: Sequence[SensorFault]) -> str:
-    *many, last = channels(fault, several) or [""]
+    """All that are mended alike: a silent channel and a stuck one are both looked at."""
+    alike = [f for f in several if f.kind == fault.kind or (not f.doubtful and _clause(f) == _clause(fault))]
+    every = [name for f in (fault, *alike) for name in channels(f, several)]
+    *many, last = dict.fromkeys(every) or [""]
     return f"{', '.join(many)} and {last}" if many else last

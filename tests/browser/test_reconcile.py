@@ -212,6 +212,31 @@ def test_sizes_are_rounded_as_on_the_page_of_the_report(browser: Browser, servic
     ]
 
 
+def test_every_channel_at_fault_is_told_whatever_its_kind(browser: Browser, service: Service) -> None:
+    browser.open(service.page("/reconcile"))
+    fault = {"kind": "silence", "channel": "fe", "detail": "never changes", "recordings": ["test 1"], "left_out": True}
+    other = {**fault, "kind": "loose_sensor", "channel": "xe", "left_out": False, "doubtful": True}
+    report = {
+        "verdict": "measurement_fault",
+        "sentence": "Silent.",
+        "fault": fault,
+        "measurement_faults": [fault, other],
+        "where": {"sites": [], "lines": [], "limits": []},
+        "causes": [],
+        "undecidable": [],
+    }
+    told = browser.run(
+        "return import('/js/reconcile/answer.js').then((m) => { const e = m.answer({ id: 'x', links: {},"
+        " report: arguments[0] }); return [...e.querySelectorAll('#answer-measurement tbody tr')].map((row) =>"
+        " [...row.cells].map((cell) => cell.textContent)); })",
+        report,
+    )
+    assert told == [
+        ["silence", "fe", "test 1", "never changes", "left out"],
+        ["loose sensor", "xe", "test 1", "never changes", "or the machine's own"],
+    ]
+
+
 def _fits_a_phone(browser: Browser, service: Service, page: str) -> None:
     """No page is wider than the screen; tables and charts that are scroll in their own box."""
     browser.size(PHONE)

@@ -12,6 +12,7 @@ from reconcile.faults import measurement_faults, with_faults
 from reconcile.gate.findings import Finding, Gate, Kind
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.report import page, strict_json
+from reconcile.report.action import to_do
 from reconcile.verdict import Report, SensorFault
 from tests.strategies.impulses import recorded, sound, train
 
@@ -66,6 +67,18 @@ def test_a_verdict_on_the_measurement_keeps_its_fault_first() -> None:
     assert with_faults(report, (CLIPPED,)).measurement_faults == (speed, CLIPPED)
     assert with_faults(report, (CLIPPED,)).fault == speed
     assert with_faults(replace(report, fault=CLIPPED), (CLIPPED,)).measurement_faults == (CLIPPED,)
+
+
+def test_a_verdict_on_the_measurement_tells_the_sure_faults_of_other_channels() -> None:
+    silent = SensorFault(kind="silence", channel="fe", detail="test 1: never changes; also on ae")
+    also, stuck = replace(silent, channel="ae", detail=""), SensorFault(kind="stuck", channel="xe", left_out=True)
+    report = replace(ANSWER, verdict="measurement_fault", fault=silent)
+    told = with_faults(report, (silent, also, stuck, LOOSE))
+    assert told.sentence == "A pit. At fault too: stuck on xe (left out).", "ae is told in the detail, nde is not sure"
+    assert to_do(told) == "check sensor and cable of fe, ae and xe and record again before judging the machine."
+    assert with_faults(report, (silent, also)).sentence == ANSWER.sentence
+    speed = SensorFault(kind="speed_mismatch", channel="")
+    assert with_faults(replace(report, fault=speed), (speed,)).sentence == ANSWER.sentence
 
 
 def test_the_files_tell_all_of_them() -> None:

@@ -53,6 +53,9 @@ def test_all_channels_with_one_fault_are_asked_for_and_shown() -> None:
         verdict="explained", sentence="", level="kinematics", fault=faults[0], measurement_faults=(*faults, other)
     )
     assert "stated for de and fe." in to_do(report)
-    assert "on de, fe<" in head(report) and "xe" not in head(report)
+    assert to_do(report).endswith("stated for de and fe. Also set a larger range at xe.")
+    assert "on de, fe<" in head(report)
+    sure = (*faults, replace(other, doubtful=True))
+    assert "xe" not in to_do(replace(report, measurement_faults=sure)), "what may be the machine's own is not mended"
     for verdict in ("measurement_fault", "ambiguous"):
         assert "stated for de and fe" in to_do(replace(report, verdict=verdict))

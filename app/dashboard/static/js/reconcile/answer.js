@@ -23,7 +23,7 @@ const percent = (share) => (share === null || share === undefined ? "–" : `${M
 const distance = (value, of) => (!of || of === "1" ? `${number(100 * value, 2)} %` : `${number(value, 3)} ${unit(of)}`);
 
 export function answer({ id, report, links }) {
-  return h("div", { class: "result-body" }, verdict(report), where(report.where), causes(report.causes), heldOut(report.held_out), force(report),
+  return h("div", { class: "result-body" }, verdict(report), measurement(report.measurement_faults), where(report.where), causes(report.causes), heldOut(report.held_out), force(report),
     limits(report), next(report.next_experiment), files(id, links), links.page && !apiKey() ? picture(links.page) : null);
 }
 
@@ -33,7 +33,8 @@ function card(title, name, ...content) {
 }
 
 function verdict(report) {
-  const { fault, provenance } = report;
+  const { provenance } = report;
+  const fault = report.measurement_faults?.length ? null : report.fault;
   const sent = Object.entries(provenance?.sent_as ?? {}).map(([name, label]) => `${name}: ${label}`);
   return h("section", { class: "card card-body reconcile-form", id: "answer-verdict", "aria-label": "Verdict" },
     h("div", {}, verdictPill(report.verdict)),
@@ -41,6 +42,14 @@ function verdict(report) {
     sent.length ? h("p", { class: "muted small" }, [provenance.machine, ...sent].filter(Boolean).join("; ")) : null,
     report.to_do ? h("p", {}, h("b", {}, "What to do: "), report.to_do) : null,
     fault ? h("p", { class: "muted" }, `${words(fault.kind)}${fault.channel ? `, channel ${fault.channel}` : ""}. ${tidied(fault.detail)}`) : null);
+}
+
+/** All that is wrong with the measurement, whatever the verdict, as the report's page has it. */
+function measurement(faults) {
+  if (!faults?.length) return null;
+  const remarks = (fault) => [fault.left_out ? "left out" : "", fault.doubtful ? "or the machine's own" : ""].filter(Boolean).join("; ");
+  return card("The measurement", "measurement", table("Faults of the measurement", ["Fault", "Channel", "Recordings", "What was seen", "Remark"],
+    faults.map((fault) => [words(fault.kind), fault.channel || "–", fault.recordings.join(", ") || "–", tidied(fault.detail), remarks(fault) || "–"])));
 }
 
 /** Shares to three figures, and one stretch as one, as the report's page has them. */
