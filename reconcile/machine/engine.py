@@ -65,6 +65,7 @@ from reconcile.machine.told_by import teeth_tell
 from reconcile.machine.turned import told_apart, turned_alike, with_limits, with_unconfirmed
 from reconcile.machine.unfitting import misfit_report, told_of
 from reconcile.machine.unknown import Unknown, likely_supports, unknown_force
+from reconcile.machine.wide import with_wide
 from reconcile.observe.observation import PointData, observe, unpaired
 from reconcile.observe.watch import watch_list
 from reconcile.verdict import Report, operating_point
@@ -167,7 +168,8 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = with_strange(report, strange(machine, alike, channels, gate.findings), machine, setting.direct.evidence)
     supports = likely_supports(looks.setting, looks.found) if machine.bearings else ()
     report = with_force(report, looks.setting, supports, channels)
-    return as_named(with_short(with_limits(with_unconfirmed(report, machine, alike), apart), alike, gate.findings))
+    report = with_short(with_limits(with_unconfirmed(report, machine, alike), apart), alike, gate.findings)
+    return as_named(with_wide(report))
 
 
 def _told_by(meter: Meter, seed: int, budget: Budget) -> Mapping[str, object]:
