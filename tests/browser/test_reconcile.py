@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from signals.encode import describe, encode
+from signals.readers.formats import FORMATS
 from tests.browser.conftest import Service
 from tests.browser.driver import Browser, eventually
 from tests.strategies.impulses import recorded, sound, train
@@ -129,6 +130,10 @@ def test_what_is_wrong_is_said_in_the_words_of_the_page(browser: Browser, servic
     browser.open(service.page("/reconcile"))
     (tmp_path / "a.csv").write_text("a\n1\n", encoding="utf-8")
     browser.type("#upload-file", str(tmp_path / "a.csv"))
+    asked = browser.text("label[for=upload-file]").lower()
+    endings = {"text": "csv", "wave": "wav", "mdf": "mdf4"}
+    told = {endings.get(one.module, one.module) for one in FORMATS.values()} - {"values"}
+    assert not [ending for ending in told if ending not in asked], "every format that can be read"
     browser.run(FILL, "#upload-description", json.dumps({"sampling_rate_hz": 20000}))
     browser.click("[aria-label='Send a recording'] button[type=submit]")
     said = browser.text("[aria-label='Send a recording'] .problem-fields")

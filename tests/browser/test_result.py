@@ -211,6 +211,15 @@ def test_the_start_up_does_not_set_the_scale(browser: Browser, service: Service)
     assert low >= 0.2 and high == pytest.approx(0.5)
 
 
+def test_the_note_of_the_start_up_says_only_what_is_seen(result: Browser, service: Service) -> None:
+    summary = service.client.get(f"/v1/jobs/{service.demo}/result").json()
+    canvas = "#card-time canvas.plot-canvas"
+    eventually(lambda: result.run("return document.querySelector(arguments[0])?.dataset.view", canvas), what="a view")
+    assert view(result, canvas)[0] == pytest.approx(summary["analysed_from_s"]), "nothing before it is in sight"
+    note = result.text("#card-time .notes")
+    assert "The view begins there; what is before is shaded in the whole record." in note
+
+
 def test_a_ring_down_is_seen_from_its_beginning(browser: Browser, service: Service) -> None:
     job = finished(service, preset="oscillator", duration_s=0.5)
     browser.open(service.page(f"/jobs/{job}"))

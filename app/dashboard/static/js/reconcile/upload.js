@@ -45,7 +45,7 @@ export function uploadCard(sent) {
   return h("section", { class: "card", "aria-label": "Send a recording" },
     h("div", { class: "card-head" }, h("h2", {}, "1. Send recordings")),
     h("form", { class: "card-body reconcile-form", onsubmit: send },
-      h("label", { for: "upload-file" }, "Data (csv, npz, mat, wav, parquet, hdf5, UFF 58, TDMS, MDF4)"), data,
+      h("label", { for: "upload-file" }, "Data (csv, npz, mat, wav, flac, parquet, hdf5, UFF 58, TDMS, MDF4)"), data,
       h("label", { for: "upload-description-file" }, "Description from a file, or written below"), fromFile,
       h("label", { for: "upload-description", class: "visually-hidden" }, "Description, JSON"), description,
       notice, h("div", {}, button)));

@@ -81,6 +81,9 @@ export function signalCard(context, { title, id, channels = null, height = 250, 
   return { element, use, view: () => plot.view, stop: () => { abort.abort(); plot.destroy(); } };
 }
 
+/** The axis begins after it, so nothing shaded is in sight at first. */
+const SHOWN = "The view begins there; what is before is shaded in the whole record.";
+
 /**
  * Where the view starts: the load steps on at t = 0, and what it strikes would set the scale. A motion that does not
  * settle is seen from its second half on.
@@ -93,9 +96,9 @@ function settledFrom({ analysed_from_s: analysed, rings_down: ringing, quality }
 
 function settledText({ analysed_from_s: analysed, rings_down: ringing, quality }, from_s) {
   if (ringing) return "Nothing keeps this machine moving: the record is its ring-down, and spectra and features use all of it.";
-  if (analysed > 0) return `The start-up transient ends at ${quantity(from_s, "s")} (shaded before); spectra and features begin there.`;
+  if (analysed > 0) return `The start-up transient ends at ${quantity(from_s, "s")}: spectra and features begin there. ${SHOWN}`;
   const end = quality?.transient_end_s ?? 0;
-  return end === from_s ? `The start-up transient ends at ${quantity(from_s, "s")} (shaded before), but spectra and features use the whole record.`
+  return end === from_s ? `The start-up transient ends at ${quantity(from_s, "s")}, but spectra and features use the whole record. ${SHOWN}`
     : "The motion does not settle in this record: the view begins at its half, spectra and features use all of it.";
 }
 
