@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import subprocess
@@ -9,6 +10,7 @@ import subprocess
 import pytest
 
 from app.cli.main import COMMANDS
+from reconcile.kinematics import read_kinematic_spec
 from tests.house.project import ROOT
 
 MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
@@ -34,6 +36,16 @@ def test_every_door_is_told_to_make_as_no_file():
 def test_readme_names_only_doors_and_commands_that_exist():
     assert set(re.findall(r"\bmake ([a-z0-9-]+)\b", README)) <= _targets()
     assert set(re.findall(r"bin/sideband ([a-z]+)", README)) <= set(COMMANDS)
+
+
+def test_readme_needs_no_splitting_of_words_which_zsh_does_not():
+    assert not re.search(r"^\$\w+ ", README, re.MULTILINE)
+
+
+def test_the_drawing_in_readme_is_one():
+    (drawing,) = re.findall(r"```json\n(.+?)```", README, re.DOTALL)
+    found = read_kinematic_spec(json.loads(drawing))
+    assert [bearing.name for bearing in found.bearings] == ["drive_end"]
 
 
 def test_ci_runs_the_test_door_and_nothing_else():
