@@ -14,7 +14,7 @@ from reconcile.kinematics.series import ShaftSeries
 from reconcile.kinematics.shafts import ShaftChange
 from reconcile.kinematics.unheard import deaf_limits, line_strength
 from reconcile.kinematics.vague import BEFORE_TOO, IN_BOTH
-from reconcile.report.action import EXCHANGED
+from reconcile.report.action import BESIDE_BEARING, EXCHANGED, STRIKES
 from reconcile.verdict import LineChange, NextExperiment, Report
 from sim.terms import REGISTRY
 
@@ -27,6 +27,9 @@ WHAT = "anything about the machine: no line of it was heard"
 LISTEN = NextExperiment(sentence="Check the sensors, their range and their mounting, and that the machine turned.")
 CHANGED = ("ambiguous", "unknown_physics")
 RACES = ("outer", "inner")
+MODULATING = {"turn": "the turn", "cage": "the cage"}
+"""What modulates a damaged part of a bearing, in words."""
+ONLY_MODULATES = "more than what modulates a damaged bearing, as its shaft and cage do"
 SAME_SPEED = 0.015
 """Relative difference of a baseline's speed up to which depths of modulation are compared without a word."""
 
@@ -52,7 +55,7 @@ def remarked(
     return replace(
         report,
         sentence=" ".join([report.sentence, *(f"But {text}." for text in said)]),
-        undecidable=(*report.undecidable, *_risen_too(report, every)),
+        undecidable=(*report.undecidable, *_risen_too(report, every), *_modulating(report, every)),
         where=replace(report.where, limits=(*report.where.limits, *limits)),
     )
 
@@ -96,6 +99,25 @@ def _risen_too(report: Report, every: Sequence[Candidate]) -> list[str]:
             c is s or one_line(c, s) or (c.family.kind == s.family.kind and same(c.family, s.family)) for s in spoken
         )
     ]
+
+
+def _modulating(report: Report, every: Sequence[Candidate]) -> list[str]:
+    """Turns and cages that are there and have risen beside named bearings, of which the answer does not speak yet: a
+    load that turns and balls that differ modulate what a damaged part shows, so they are no second name."""
+    if report.verdict != "explained":
+        return []
+    told: dict[tuple[str, float], Candidate] = {}
+    for c in every:
+        if c.family.kind not in MODULATING or not (c.present and c.risen):
+            continue
+        struck = f"{STRIKES} {c.family.site}{BESIDE_BEARING}"
+        if c.family.kind == "turn" and any(text.startswith(struck) for text in report.undecidable):
+            continue
+        told.setdefault((c.family.kind, c.family.order), c)  # equal cages have one line
+    if not told:
+        return []
+    what = " and ".join(f"{MODULATING[c.family.kind]} of {c.family.site} ({_by(c)})" for c in told.values())
+    return [f"whether {what}, which rose too, {'is' if len(told) == 1 else 'are'} {ONLY_MODULATES}"]
 
 
 def _is(family: Family, key: str, site: str) -> bool:

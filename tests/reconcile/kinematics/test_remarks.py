@@ -10,7 +10,7 @@ import pytest
 from reconcile.kinematics import remarks
 from reconcile.kinematics.families import Family, Kind
 from reconcile.kinematics.remarks import remarked
-from reconcile.report.action import to_do
+from reconcile.report.action import BESIDE_BEARING, STRIKES, to_do
 from reconcile.verdict import Cause, Report
 
 
@@ -25,6 +25,10 @@ def seen(hz: float, method: str = "harmonics") -> SimpleNamespace:
 def candidate(kind: Kind, order: float, z: float, *, risen: bool = True, **how: bool) -> SimpleNamespace:
     rest = {"present": True, "based": True, "deep": True, "by_itself": True, "of_turn": False} | how
     return SimpleNamespace(family=family(kind, order), z=z, risen=risen, growth_db=19.0, **rest)
+
+
+def replaced(one: SimpleNamespace, site: str) -> SimpleNamespace:
+    return SimpleNamespace(**{**vars(one), "family": replace(one.family, site=site)})
 
 
 @pytest.fixture(autouse=True)
@@ -55,6 +59,26 @@ def test_lines_as_firm_as_the_named_ones_are_told() -> None:
     quiet = [OUTER, candidate("inner", 5.415, 14.5, risen=False), candidate("ball", 4.7, 5.5)]
     assert told(NAMED, every=quiet).undecidable == ()
     assert told(NAMED, every=[OUTER, candidate("inner", 5.415, 14.5, of_turn=True)]).undecidable == ()
+
+
+def test_a_turn_and_a_cage_that_rose_beside_a_name_are_commented_on() -> None:
+    turn, cage = candidate("turn", 1.0, 18.4), candidate("cage", 0.398, 9.1)
+    (text,) = told(NAMED, every=[OUTER, turn, cage]).undecidable
+    assert text == (
+        "whether the turn of drive_end (by 19 dB, 18.4 deviations) and the cage of drive_end (by 19 dB, 9.1 "
+        "deviations), which rose too, are more than what modulates a damaged bearing, as its shaft and cage do"
+    )
+    (one,) = told(NAMED, every=[OUTER, cage, replaced(cage, "fan_end")]).undecidable
+    assert "which rose too, is more" in one and "fan_end" not in one, "equal cages have one line"
+
+
+def test_what_is_not_there_has_not_risen_or_is_told_already_gets_no_comment() -> None:
+    quiet = [candidate("turn", 1.0, 18.4, present=False), candidate("cage", 0.398, 9.1, risen=False)]
+    assert told(NAMED, every=[OUTER, *quiet]).undecidable == ()
+    rose = [OUTER, candidate("turn", 1.0, 18.4)]
+    assert told(NOTHING, every=rose).undecidable == ()
+    said = (f"{STRIKES} drive_end{BESIDE_BEARING}: a rub, a loose part or a load that turns",)
+    assert told(replace(NAMED, undecidable=said), every=rose).undecidable == said
 
 
 def test_a_speed_that_nothing_confirms_is_a_limit_of_finding_nothing() -> None:
