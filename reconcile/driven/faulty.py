@@ -133,7 +133,7 @@ def fault_report(faults: Sequence[SensorFault], undecidable: tuple[str, ...]) ->
     """The answer where the measurement does not carry an analysis."""
     report = Report(
         verdict="measurement_fault",
-        sentence=fault_sentence(faults[0]),
+        sentence=fault_sentence(faults[0], heard=False),
         level="driven",
         fault=faults[0],
         undecidable=undecidable,
@@ -160,7 +160,7 @@ def beside(report: Report, faults: Sequence[SensorFault], force: str = "") -> Re
         if report.verdict == "nothing_missing" and not cut
         else ""
     )
-    said = f"{fault_sentence(faults[0])}{rest}"
+    said = f"{fault_sentence(faults[0], heard=False)}{rest}"
     causes = tuple(replace(c, named=False) for c in report.causes)
     answer = replace(report, verdict="measurement_fault", sentence=said, fault=faults[0], causes=causes)
     return with_faults(answer, faults)

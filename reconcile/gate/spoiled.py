@@ -39,13 +39,21 @@ HEARD: frozenset[Kind] = frozenset(("loose_sensor", "gain_change"))
 """What a machine's own fault may look like on one channel."""
 
 
-def fault_sentence(fault: SensorFault) -> str:
-    """What is wrong with the measurement, for the answer; a damaged part beside a sensor may look like a loose one."""
-    place = f" on {fault.channel}" if fault.channel else ""
-    text = f"The mismatch is in the measurement: {fault.kind.replace('_', ' ')}{place} ({fault.detail})."
-    if fault.kind == "loose_sensor":
-        text += " If the sensor is tight, a damaged part near it may do the same."
-    return text
+LOOKS = {
+    "loose_sensor": "a sensor that looks loose{on}, or damage near it",
+    "gain_change": "another gain{on}, or what the machine does there",
+}
+"""What may be meant by each kind that is `HEARD`."""
+
+
+def fault_sentence(fault: SensorFault, *, heard: bool = True) -> str:
+    """What is wrong with the measurement, for the answer; from its first words on what may be the machine's own where
+    the channels were `heard` beside it (not where they drive the model)."""
+    on = f" on {fault.channel}" if fault.channel else ""
+    if heard and fault.kind in LOOKS:
+        what = LOOKS[fault.kind].format(on=on)
+        return f"The mismatch may be in the measurement: {what} ({fault.detail})."
+    return f"The mismatch is in the measurement: {fault.kind.replace('_', ' ')}{on} ({fault.detail})."
 
 
 FILLED = ("not_finite", "spikes")

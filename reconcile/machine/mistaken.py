@@ -147,7 +147,7 @@ def _mistaken(report: Report, one: Correction, fit: Fit, channels: Sequence[Chan
     return replace(
         report,
         verdict="measurement_fault",
-        sentence=f"The mismatch is in the measurement: {text}.",
+        sentence=f"The mismatch may be in the measurement: {text}.",
         fault=replace(fault, detail=text),
         where=Where(limits=report.where.limits),
         causes=(),

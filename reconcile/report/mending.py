@@ -28,7 +28,10 @@ MENDED = {
     "tacho_jitter": ("check the tacho", AGAIN),
     "irregular_time": ("check the recorder's clock", AGAIN),
     "fixed_tones": ("find what runs at these frequencies beside the machine, or record with it off,", BEFORE),
-    "loose_sensor": ("check how the sensor of {at} is fastened; if it is tight, inspect the parts beside it", ""),
+    "loose_sensor": (
+        "check how the sensor of {at} is fastened; if it is tight, inspect what turns beside it: teeth, bearings, fits",
+        "",
+    ),
 }
 """What to do, and what then where the fault is the whole answer."""
 ALSO_ON = "; also on "

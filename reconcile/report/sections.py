@@ -35,6 +35,8 @@ SYMBOLS = (
     "f_o, f_i, f_b, f_c: outer race, inner race, ball and cage of a bearing; f_r: a shaft; f_m: a mesh; numbered in "
     "the order of the machine file. 3*f_i1±2*f_r1 is a sideband. Bearings that roll alike share their lines."
 )
+PERHAPS = ("Perhaps the measurement", "warn")
+"""Badge of a fault that the machine itself may look like."""
 TOLD = '<div class="told">'
 
 
@@ -101,6 +103,8 @@ def _place(report: Report, best: PlaceWeight) -> Markup:
 def head(report: Report) -> Markup:
     """Verdict, sentence, and the figures that matter."""
     word, tone = VERDICT[report.verdict]
+    if report.verdict == "measurement_fault" and report.fault is not None and report.fault.doubtful:
+        word, tone = PERHAPS
     tiles = []
     named = [c for c in report.causes if c.named]
     if report.fault is not None:

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from reconcile.gate.findings import Finding, Gate
-from reconcile.gate.spoiled import GONE, doubts, without_spoiled
+from reconcile.gate.spoiled import GONE, HEARD, LOOKS, doubts, fault_sentence, without_spoiled
+from reconcile.verdict import SensorFault
 from signals.recording import Recording
 from sim.core.response import Channel
 
@@ -61,3 +62,18 @@ def test_faults_are_told_as_limits_of_what_is_said_of_the_machine():
     many = doubts(gate(*(finding("stuck", f"a{c}") for c in range(9))))
     assert len(many) == 7 and many[-1].startswith("and 3 more")
     assert doubts(gate()) == ()
+
+
+@pytest.mark.parametrize(
+    ("kind", "said"),
+    [
+        ("loose_sensor", "The mismatch may be in the measurement: a sensor that looks loose on a1, or damage near it"),
+        ("gain_change", "The mismatch may be in the measurement: another gain on a1, or what the machine does there"),
+        ("clipped", "The mismatch is in the measurement: clipped on a1"),
+    ],
+)
+def test_what_may_be_the_machine_is_said_so_from_the_first_words(kind, said):
+    fault = SensorFault(kind=kind, channel="a1", detail="seen")
+    assert fault_sentence(fault) == f"{said} (seen)."
+    assert fault_sentence(fault, heard=False).startswith("The mismatch is in the measurement: ")
+    assert set(LOOKS) == HEARD

@@ -87,6 +87,7 @@ def test_a_unit_that_makes_the_tests_explainable_is_the_answer(told) -> None:  #
     found = told(UNKNOWN, TRUE / 9.80665**2)
     assert found.verdict == "measurement_fault" and found.causes == () and found.machine is None
     assert "g described as m/s^2: outer spall at drive_end then does" in found.sentence
+    assert found.sentence.startswith("The mismatch may be in the measurement: ")
     assert found.fault is not None and found.fault.kind == "unit_mismatch" and found.fault.doubtful
     assert "nothing needs to be recorded anew" in to_do(found)
     other = told(UNKNOWN, TRUE * 9.80665**2)

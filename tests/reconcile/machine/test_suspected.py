@@ -62,5 +62,6 @@ def test_the_sensor_is_the_answer_only_where_the_others_have_nothing() -> None:
     gate, before = suspecting("loose_sensor"), said("unknown_physics")
     report = of_the_sensor(before, said("nothing_missing"), gate)
     assert report.verdict == "measurement_fault" and report.fault == gate.fault
-    assert "loose sensor on a" in report.sentence and "other channels alone" in report.sentence
+    assert "may be in the measurement: a sensor that looks loose on a, or damage near it" in report.sentence
+    assert "other channels alone" in report.sentence
     assert of_the_sensor(before, said("unknown_physics"), gate) is before

@@ -59,3 +59,12 @@ def test_all_channels_with_one_fault_are_asked_for_and_shown() -> None:
     assert "xe" not in to_do(replace(report, measurement_faults=sure)), "what may be the machine's own is not mended"
     for verdict in ("measurement_fault", "ambiguous"):
         assert "stated for de and fe" in to_do(replace(report, verdict=verdict))
+
+
+def test_a_fault_that_may_be_the_machine_asks_for_both_and_its_page_is_as_doubtful() -> None:
+    fault = SensorFault(kind="loose_sensor", channel="a1", doubtful=True)
+    report = Report(verdict="measurement_fault", sentence="", level="kinematics", fault=fault)
+    assert "the sensor of a1 is fastened" in to_do(report) and "inspect what turns beside it: teeth" in to_do(report)
+    sure = replace(report, fault=SensorFault(kind="clipped", channel="a1"))
+    assert "Perhaps the measurement" in head(report) and "Fault in the measurement" not in head(report)
+    assert "Fault in the measurement" in head(sure)
