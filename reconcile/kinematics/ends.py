@@ -25,7 +25,7 @@ from reconcile.kinematics.judge import same
 from reconcile.kinematics.labels import UNTOLD
 from reconcile.kinematics.lines import matched
 from reconcile.kinematics.observe import Observation
-from reconcile.report.action import LOUDEST
+from reconcile.report.action import LOUDEST, UNIT_OR_GAIN
 from reconcile.verdict import Report
 from signals.units import UNCALIBRATED
 
@@ -71,8 +71,8 @@ def with_ends(
     if more < LOUDER_DB:
         return report
     text = (
-        f"its lines are {LOUDEST} {places[loudest]}, by {more:.0f} dB: the sensors may be exchanged, or the types of "
-        "the bearings in the machine file wrong"
+        f"its lines are {LOUDEST} {places[loudest]}, by {more:.0f} dB: the sensors may be exchanged, the "
+        f"{UNIT_OR_GAIN} of one wrong, or the types of the bearings in the machine file"
     )
     limit = f"the lines of {site} are{text.removeprefix('its lines are')}"
     return replace(

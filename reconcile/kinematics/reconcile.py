@@ -32,6 +32,7 @@ from reconcile.kinematics.other_speeds import by_baseline, nominees
 from reconcile.kinematics.remarks import if_heard, remarked, with_rest
 from reconcile.kinematics.series import shaft_series, with_short
 from reconcile.kinematics.shafts import shaft_changes
+from reconcile.kinematics.shifted import with_shifted
 from reconcile.kinematics.slowest import longer, with_slowest
 from reconcile.kinematics.spec import KinematicSpec, of_machine
 from reconcile.kinematics.struck import cut_alike, without_struck
@@ -134,7 +135,7 @@ def _reconciled(
     if report.verdict != "measurement_fault":
         report = if_heard(remarked(report, tie, seen, past, every, seed), seen, past)
     gate, came = without_struck(gate, seen, every)
-    report = with_ends(report, gate, every, came, past, tie)
+    report = with_ends(with_shifted(report, gate, came, past), gate, every, came, past, tie)
     report = with_none_left(report, given=bool(baselines), left=bool(past))
     report = replace(report, where=replace(report.where, limits=(*report.where.limits, *told, *cut, *whole.told)))
     quiet = report.verdict in ("nothing_missing", "not_decidable") and EXCHANGED not in report.sentence

@@ -21,6 +21,8 @@ LOUDEST = "loudest at the sensor of"
 """How the sentence says that a named bearing's lines are heard at the other end (`reconcile.kinematics.ends`)."""
 BY_LOUDNESS = "only which sensor hears it louder tells the place"
 """How the limits say so of bearings that make the same lines (`reconcile.kinematics.answer`)."""
+UNIT_OR_GAIN = "unit or gain"
+"""How the sentence, or a limit, says that levels changed as those of another unit (`reconcile.kinematics.shifted`)."""
 STRIKES = "what strikes once a turn of"
 """How what is undecidable says that impacts of a turn rose beside a bearing (`reconcile.kinematics.turning`)."""
 STRIKES_OPEN = "what strikes once a turn"
@@ -75,16 +77,21 @@ def _sensor_too(report: Report) -> str:
 
 
 def _which_first(report: Report) -> str:
-    """What the place, or a speed that is wrong in all recordings, hangs on: to be looked up first."""
+    """What place, levels, or a speed that is wrong in all recordings hang on: to be looked up first."""
     if report.verdict == "measurement_fault" and report.next_experiment is not None:
         return f" {ALL_WRONG}" if ALL_WRONG in report.next_experiment.sentence else ""
     if report.verdict not in ("explained", "ambiguous"):
         return ""
     if LOUDEST in report.sentence:
-        return " Before that check which sensor is which channel, and the types of the bearings in the machine file."
+        return (
+            " Before that check which sensor is which channel, unit and gain of each, and the types of the bearings in "
+            "the machine file."
+        )
+    shifted = any(UNIT_OR_GAIN in limit for limit in report.where.limits)
+    units = " Before that check unit and gain of every channel against the baseline's." if shifted else ""
     if any(BY_LOUDNESS in limit for limit in report.where.limits):
-        return " Before that check which sensor is which channel: the place hangs on it."
-    return ""
+        return f"{units} Before that check which sensor is which channel: the place hangs on it."
+    return units
 
 
 def _perhaps_all(report: Report) -> bool:

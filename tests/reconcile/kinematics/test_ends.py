@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from reconcile.kinematics import KinematicSpec, read_kinematic_spec, reconcile_kinematics
-from reconcile.report.action import BY_LOUDNESS, LOUDEST, to_do
+from reconcile.report.action import BY_LOUDNESS, LOUDEST, UNIT_OR_GAIN, to_do
 from reconcile.verdict import Report
 from signals.recording import Recording
 from tests.strategies.brief import N, recorded, sound, train
@@ -60,7 +60,8 @@ def test_exchanged_sensors_and_a_wrong_type_are_doubted_but_stay_named() -> None
         assert {c.site for c in report.causes if c.named} == {named}
         assert f"{LOUDEST} {heard}" in report.sentence
         assert any(text.startswith(f"the lines of {named} are {LOUDEST} {heard}") for text in report.where.limits)
-        assert "which sensor is which channel, and the types of the bearings" in to_do(report)
+        assert f"may be exchanged, the {UNIT_OR_GAIN} of one wrong, or the types" in report.sentence
+        assert "which sensor is which channel, unit and gain of each, and the types of the bearings" in to_do(report)
 
 
 def test_levels_that_cannot_be_compared_say_nothing() -> None:
