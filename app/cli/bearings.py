@@ -9,9 +9,9 @@ import argparse
 import math
 
 from app.cli.files import json_text
-from reconcile.kinematics.catalogued import uncatalogued
 from sim.core.errors import SpecError
 from sim.parts.bearing import CatalogueRow, catalogue, defect_orders, lookup, missing
+from sim.parts.bearing.uncatalogued import uncatalogued
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

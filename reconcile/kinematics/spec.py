@@ -10,7 +10,6 @@ from typing import Annotated
 from pydantic import Field, ValidationError, model_validator
 from pydantic_core import ErrorDetails
 
-from reconcile.kinematics.catalogued import uncatalogued
 from reconcile.kinematics.plausible import implausible
 from signals.validation import problem_of
 from sim.core.errors import Problem, SpecError
@@ -18,6 +17,7 @@ from sim.core.near import did_you_mean
 from sim.core.spec import MachineSpec, Name, SpecModel
 from sim.core.spec.base import MAX_ITEMS, WHOLE
 from sim.parts.bearing.geometry import RollingGeometry
+from sim.parts.bearing.uncatalogued import uncatalogued
 
 
 class KinematicShaft(SpecModel):

@@ -6,6 +6,7 @@ from collections import Counter
 
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec, TorqueLoad
+from sim.parts.bearing.from_spec import unknown_size
 
 
 def _unknown(field: str, kind: str, given: str, known: list[str]) -> Problem:
@@ -56,7 +57,7 @@ def _loads(machine: MachineSpec, problems: list[Problem], shafts: list[str], bod
 
 
 def check_references(machine: MachineSpec) -> None:
-    """Raise SpecError listing every dangling or repeated name."""
+    """Raise SpecError listing every dangling or repeated name, and every bearing that the catalogue does not have."""
     problems = _duplicates(machine)
     shafts = [s.name for s in machine.shafts]
     gears = [g.name for g in machine.gears]
@@ -64,6 +65,8 @@ def check_references(machine: MachineSpec) -> None:
     _rotors(machine, problems, shafts, gears)
     for bearing in machine.bearings:
         _need(problems, f"bearings.{bearing.name}.body", "gear or body", bearing.body, bodies)
+        unknown = unknown_size(bearing, f"bearings.{bearing.name}")
+        problems.extend([] if unknown is None else [unknown])
     bearings = [b.name for b in machine.bearings]
     for resonator in machine.resonators:
         _need(problems, f"resonators.{resonator.name}.bearing", "bearing", resonator.bearing, bearings)

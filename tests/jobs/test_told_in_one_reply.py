@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 from pydantic import ValidationError
 
-from jobs.reconciliations.machine import MOST_UNKNOWN, read_form
+from jobs.reconciliations.machine import MOST_UNKNOWN, read_form, read_known
 from jobs.reconciliations.request import ReconciliationRequest
 from jobs.validation import problems_of
+from sim.assembly.assemble import assemble
 from sim.core.errors import Problem, SpecError
+from sim.presets import preset
 
 BEARING = {"name": "b", "shaft": "s", "catalogue": "6205"}
 
@@ -101,3 +104,13 @@ def test_a_body_full_of_unknown_keys_is_told_in_bounds() -> None:
         read_form(document["machine"])
     assert len(alone.value.problems) <= 2 * MOST_UNKNOWN + 2, "it is read twice at most"
     assert any("further keys" in p.message for p in alone.value.problems)
+
+
+def test_a_bearing_that_the_catalogue_has_not_is_told_by_its_field() -> None:
+    form = preset("paper").model_dump(mode="json")
+    form["bearings"][0] |= {"catalogue": "9999", "geometry": None}
+    with pytest.raises(SpecError) as caught:
+        read_known(form, SimpleNamespace(report=assemble))  # type: ignore[arg-type]
+    (told,) = caught.value.problems
+    assert (told.field, told.given) == ("machine.bearings.bearing1.catalogue", "9999")
+    assert "a `geometry`" in str(told.allowed)

@@ -9,6 +9,7 @@ from sim.core.errors import Problem, SpecError
 from sim.core.spec import BallGeometry, BearingSpec
 from sim.parts.bearing.catalogue import lookup
 from sim.parts.bearing.geometry import RollingGeometry
+from sim.parts.bearing.uncatalogued import uncatalogued
 
 _SPEC_NAMES = {"contact_angle_rad": "contact_angle_deg"}
 
@@ -52,12 +53,22 @@ def geometry_from_ball_spec(spec: BallGeometry, *, field: str = "geometry") -> R
         raise _relocated(error, field) from None
 
 
-def geometry_from_spec(bearing: BearingSpec, *, field: str = "bearing") -> RollingGeometry:
-    """Geometry of a bearing from its catalogue designation or its own numbers, exactly one of them."""
+def geometry_from_spec(bearing: BearingSpec, *, field: str = "") -> RollingGeometry:
+    """Geometry of a bearing from its catalogue designation or its own numbers, exactly one of them; problems are
+    reported under `field`, else under the bearing's name."""
+    field = field or f"bearings.{bearing.name}"
     if (bearing.catalogue is None) == (bearing.geometry is None):
         message = "give either a catalogue designation or a geometry"
         raise SpecError(Problem(field=f"{field}.geometry", message=message, allowed="exactly one of the two"))
     if bearing.geometry is not None:
         return geometry_from_ball_spec(bearing.geometry, field=f"{field}.geometry")
     assert bearing.catalogue is not None
+    unknown = unknown_size(bearing, field)
+    if unknown is not None:
+        raise SpecError(unknown)
     return lookup(bearing.catalogue).geometry()
+
+
+def unknown_size(bearing: BearingSpec, field: str) -> Problem | None:
+    """The problem with a designation that the catalogue does not have."""
+    return None if bearing.catalogue is None else uncatalogued(bearing.catalogue, f"{field}.catalogue", "a `geometry`")

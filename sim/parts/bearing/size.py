@@ -25,8 +25,8 @@ class BearingSize:
 
 def bearing_size(bearing: BearingSpec) -> BearingSize | None:
     """Sizes of a bearing; None when only the ratio of its diameters is known."""
-    row = None if bearing.catalogue is None else lookup(bearing.catalogue)
     geometry = geometry_from_spec(bearing)
+    row = None if bearing.catalogue is None else lookup(bearing.catalogue)
     ball, pitch = geometry.ball_diameter_m, geometry.pitch_diameter_m
     if row is not None:
         ball, pitch = row.ball_diameter_m, row.pitch_diameter_m

@@ -39,6 +39,7 @@ def fields(machine):
         (PAPER.model_copy(update={"loads": [ForceLoad(body="nobody", axis="x")]}), "loads.0.body"),
         (PAPER.model_copy(update={"operating": None}), "operating"),
         (changed("bearings", name="bearing2"), "bearing2"),
+        (changed("bearings", catalogue="9999", geometry=None), "bearings.bearing1.catalogue"),
         (MachineSpec(name="empty"), "gears"),
     ],
 )
@@ -47,8 +48,9 @@ def test_dangling_names(machine, field):
 
 
 def test_every_wrong_field_is_listed_at_once():
-    machine = changed("gears", shaft="nowhere").model_copy(update={"operating": None})
-    assert {"gears.pinion.shaft", "operating"} <= set(fields(machine))
+    bearings = changed("bearings", catalogue="9999", geometry=None).bearings
+    machine = changed("gears", shaft="nowhere").model_copy(update={"operating": None, "bearings": bearings})
+    assert {"gears.pinion.shaft", "operating", "bearings.bearing1.catalogue"} <= set(fields(machine))
 
 
 def test_a_shaft_no_mesh_reaches_has_no_speed():

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from sim.core.errors import SpecError, UnknownName
+from sim.core.errors import SpecError
 from sim.core.spec import BallGeometry, BearingSpec, SupportSpec
 from sim.parts.bearing.from_spec import geometry_from_ball_spec, geometry_from_spec
 
@@ -28,8 +28,10 @@ def test_catalogue_designation() -> None:
     geometry = geometry_from_spec(_bearing(catalogue="6205-2RS"))
     assert geometry.balls == 9
     assert geometry.pitch_diameter_m == pytest.approx(39.04e-3, rel=1e-4)
-    with pytest.raises(UnknownName):
-        geometry_from_spec(_bearing(catalogue="9999"))
+    bearing = _bearing(catalogue="9999")
+    with pytest.raises(SpecError, match="is not in the catalogue of bearings") as error:
+        geometry_from_spec(bearing)
+    assert [p.field for p in error.value.problems] == [f"bearings.{bearing.name}.catalogue"]
 
 
 def test_own_geometry_in_degrees() -> None:

@@ -10,8 +10,11 @@ MOST_NEAR = 6
 LIKE = 0.5
 
 
-def uncatalogued(designation: str, field: str) -> Problem | None:
-    """The problem with a designation that stands in `field`; None where the catalogue has it."""
+def uncatalogued(
+    designation: str, field: str, otherwise: str = "balls with both diameters, or orders"
+) -> Problem | None:
+    """The problem with a designation that stands in `field`; None where the catalogue has it. `otherwise`: what else
+    can be given."""
     try:
         lookup(designation)
     except UnknownName:
@@ -20,6 +23,6 @@ def uncatalogued(designation: str, field: str) -> Problem | None:
         names = list(catalogue())
         alike = near(designation, names, most=MOST_NEAR, like=LIKE)
         shown = f"near it {', '.join(alike)}; " if alike else ""
-        allowed = f"{shown}one of {len(names)} that `sideband bearings` lists; or balls with both diameters, or orders"
+        allowed = f"{shown}one of {len(names)} that `sideband bearings` lists; or {otherwise}"
         return Problem(field=field, message=message, given=designation, allowed=allowed)
     return None
