@@ -91,11 +91,15 @@ def restored_known(document: object) -> Known:
 
 
 def _preset(name: str, engine: Engine) -> MachineSpec:
-    names = engine.preset_names()
+    check_preset(name, engine.preset_names())
+    return engine.preset(name)
+
+
+def check_preset(name: str, names: Sequence[str]) -> None:
+    """SpecError where it is none of the `names`."""
     if name not in names:
         message = f"is not a known preset{did_you_mean(name, names)}"
         raise SpecError(Problem(field="machine", message=message, given=name, allowed=", ".join(names)))
-    return engine.preset(name)
 
 
 def _read(form: Mapping[str, object]) -> KinematicSpec:

@@ -15,9 +15,10 @@ from pydantic import (
     model_validator,
 )
 
-from jobs.reconciliations.machine import read_form
+from jobs.reconciliations.machine import check_preset, read_form
 from jobs.validation import problems_of
 from reconcile.entry import MOST_RECORDINGS
+from sim import presets
 from sim.core.errors import SpecError
 from sim.core.spec import SpecModel
 
@@ -100,6 +101,8 @@ class ReconciliationRequest(SpecModel):
             try:
                 if isinstance(form, Mapping) and _is_small(form):
                     read_form(form)
+                if isinstance(form, str) and all(p.field != "machine" for p in problems):
+                    check_preset(form, presets.names())
             except SpecError as further:
                 problems += further.problems
             raise SpecError(problems) from error

@@ -114,3 +114,21 @@ def test_a_bearing_that_the_catalogue_has_not_is_told_by_its_field() -> None:
     (told,) = caught.value.problems
     assert (told.field, told.given) == ("machine.bearings.bearing1.catalogue", "9999")
     assert "a `geometry`" in str(told.allowed)
+
+
+@pytest.mark.parametrize(
+    ("machine", "told"), [("papper", True), ("paper", False), ({"kinematics": {"shafts": [{"name": "s"}]}}, False)]
+)
+def test_a_wrong_preset_is_told_with_a_misspelt_key(machine: object, told: bool) -> None:
+    with pytest.raises(ValidationError) as caught:
+        ReconciliationRequest.model_validate({"machine": machine, "recording": ["r"]})
+    found = {p.field: p for p in problems_of(caught.value, model=ReconciliationRequest)}
+    assert {"recording", "recordings"} <= set(found) and ("machine" in found) is told
+    if told:
+        assert "did you mean paper" in found["machine"].message
+
+
+def test_a_name_that_can_be_no_preset_is_told_once() -> None:
+    with pytest.raises(ValidationError) as caught:
+        ReconciliationRequest.model_validate({"machine": "x" * 81, "recording": ["r"]})
+    assert [p.field for p in problems_of(caught.value, model=ReconciliationRequest)].count("machine") == 1
