@@ -1,10 +1,11 @@
-"""What looks doubtful in a recording before anything is asked of it: a speed in rpm, sensors that hear noise alone."""
+"""What looks doubtful in a recording before anything is asked of it: a speed in rpm, too few turns, noise alone."""
 
 from __future__ import annotations
 
 from learn.measured import measured
 from learn.remarks import PER_MINUTE
 from learn.speed import LOWEST_HZ
+from reconcile.kinematics.slowest import MIN_TURNS, shortest_s
 from reconcile.stated import check_speeds, confirmed, given
 from signals.recording import Recording
 from sim.core.errors import SpecError
@@ -15,7 +16,17 @@ LEAST_SAMPLES = 2048
 
 def doubts(recording: Recording) -> list[str]:
     """Sentences for whoever recorded it; none of them is a defect, and an empty list is no praise."""
-    return [*_of_speed(recording), *_of_noise(recording)]
+    return [*_of_speed(recording), *_of_length(recording), *_of_noise(recording)]
+
+
+def _of_length(recording: Recording) -> list[str]:
+    """Whether it holds fewer turns than `reconcile` needs of the shaft whose speed is stated."""
+    operating = recording.operating
+    turns = operating.speed_hz * recording.duration_s if operating is not None else 0.0
+    if operating is None or not 0.0 < turns < MIN_TURNS:
+        return []
+    least = f"{MIN_TURNS:g} turns or more are needed, {shortest_s(operating.speed_hz):g} s"
+    return [f"{recording.duration_s:.4g} s are {turns:.3g} turns of {operating.shaft}: to look for its lines {least}"]
 
 
 def _of_speed(recording: Recording) -> list[str]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from reconcile.kinematics.envelopes import ComplexArray, Envelopes, envelopes, whitened
 from reconcile.kinematics.families import Family, Ties
-from reconcile.kinematics.slowest import MIN_TURNS, needed_for
+from reconcile.kinematics.slowest import MIN_TURNS, needed_for, shortest_s
 from reconcile.speed import SpeedEstimate, estimate_speed, followed_angle, shaft_angle
 from signals.recording import Recording
 from signals.series import FloatArray
@@ -83,14 +83,11 @@ def observe(recording: Recording, ties: Ties, label: str, *, stated_hz: float | 
     teeth = tuple(z * k for z in ties.mesh_orders for k in SPEED_HARMONICS)
     nyquist = recording.sampling_rate_hz / 2
     stated = recording.operating.speed_hz if recording.operating is not None else stated_hz
+    if stated is not None and recording.tacho is None:
+        _long_enough(recording, ties, stated)
     usable = tuple(z for z in teeth if stated is not None and z * stated * 1.1 < nyquist)
     speed = estimate_speed(recording, shaft=ties.reference, stated_hz=stated, orders=usable, seed=seed)
-    if speed.speed_hz * recording.duration_s < MIN_TURNS:
-        given = round(speed.speed_hz * recording.duration_s, 2)
-        allowed = f"at least {MIN_TURNS:g} turns, better {needed_for(ties, speed.speed_hz)}"
-        raise SpecError(
-            Problem(field="samples", message="hold too few turns of the shaft", given=given, allowed=allowed)
-        )
+    _long_enough(recording, ties, speed.speed_hz)
     angle = _angle(recording, speed, usable, ties)
     base, top = reach_of(ties.families)
     if top * speed.speed_hz * 2 > recording.sampling_rate_hz:
@@ -103,6 +100,21 @@ def observe(recording: Recording, ties: Ties, label: str, *, stated_hz: float | 
         envelopes(recording, name, np.asarray(angle), highest_base=base, highest_order=top) for name in recording.names
     )
     return Observation(label=label, recording=recording, speed=speed, doubt=float(doubt), channels=found)
+
+
+def _long_enough(recording: Recording, ties: Ties, speed_hz: float) -> None:
+    """SpecError with all that it takes where the recording holds too few turns."""
+    turns, seconds = speed_hz * recording.duration_s, recording.duration_s
+    if turns < MIN_TURNS:
+        least = f"at least {MIN_TURNS:g} turns, {shortest_s(speed_hz):g} s at {speed_hz:.4g} Hz"
+        raise SpecError(
+            Problem(
+                field="samples",
+                message=f"hold too few turns of {ties.reference}",
+                given=f"{seconds:.4g} s, {turns:.3g} turns",
+                allowed=f"{least}; better {needed_for(ties, speed_hz)}",
+            )
+        )
 
 
 def _angle(recording: Recording, speed: SpeedEstimate, orders: Sequence[float], ties: Ties) -> FloatArray:

@@ -40,6 +40,13 @@ def _slowest(tie: Ties) -> list[tuple[str, str]]:
     return [(words, site) for words, site, order in rows if order <= tie.lowest_order * (1 + SAME)]
 
 
+def shortest_s(speed_hz: float) -> float:
+    """Shortest recording at a speed, s, two figures, none too few."""
+    seconds = MIN_TURNS / speed_hz
+    step = 10.0 ** (math.floor(math.log10(seconds)) - 1)
+    return float(f"{math.ceil(seconds / step - SAME) * step:.2g}")
+
+
 def needed_for(tie: Ties, speed_hz: float) -> str:
     """How long a recording at this speed must be, and for what: turns of the shaft or of what turns slowest."""
     slow = SLOWEST_TURNS / tie.lowest_order

@@ -193,9 +193,8 @@ def _long_enough(recording: Recording, speed_hz: float) -> None:
             Problem(
                 field="samples",
                 message="are too short to hold the turns needed to read a speed",
-                given=recording.duration_s,
-                allowed=f"at least {MIN_TURNS / speed_hz:.3g}",
-                unit="s",
+                given=f"{recording.duration_s:.4g} s, {speed_hz * recording.duration_s:.3g} turns",
+                allowed=f"at least {MIN_TURNS:g} turns, {MIN_TURNS / speed_hz:.3g} s at {speed_hz:.4g} Hz",
             )
         )
 

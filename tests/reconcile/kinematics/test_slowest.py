@@ -4,13 +4,25 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
+
 from reconcile.gate.findings import Finding, Gate
 from reconcile.gate.timing import length_findings
 from reconcile.kinematics import read_kinematic_spec
 from reconcile.kinematics.families import ties
-from reconcile.kinematics.slowest import longer, needed_for, short_limits, with_slowest, without_short
+from reconcile.kinematics.observe import observe
+from reconcile.kinematics.slowest import (
+    MIN_TURNS,
+    longer,
+    needed_for,
+    short_limits,
+    shortest_s,
+    with_slowest,
+    without_short,
+)
 from reconcile.verdict import Cause, Report
-from tests.strategies.brief import SPEED_HZ, N, recorded, sound
+from sim.core.errors import SpecError
+from tests.strategies.brief import RATE_HZ, SPEED_HZ, N, recorded, sound
 
 TIE = ties(
     read_kinematic_spec(
@@ -66,3 +78,20 @@ def test_how_long_to_record_is_the_longer_of_what_the_shaft_and_the_slowest_part
     assert longer([recorded(sound(1))], TIE, None) is None
     silent = replace(short, operating=None, tacho=None)
     assert longer([silent], TIE, None) is None and longer([silent], TIE, SPEED_HZ) == advice
+
+
+@pytest.mark.parametrize("turns", [1.5, 4.2, 11.9])
+def test_the_turns_that_are_needed_are_told_at_once_with_the_seconds(turns: float) -> None:
+    """However short: nothing shorter is named that would not do either."""
+    count = round(turns / SPEED_HZ * RATE_HZ)
+    with pytest.raises(SpecError) as caught:
+        observe(recorded(sound(1)[:count]), TIE, "test 1", stated_hz=None, seed=0)
+    (told,) = caught.value.problems
+    assert f" s, {turns:.3g} turns" in str(told.given) and "hold too few turns of input" in told.message
+    least = f"at least 12 turns, {shortest_s(SPEED_HZ):g} s at {SPEED_HZ:.4g} Hz; better "
+    assert told.allowed == least + needed_for(TIE, SPEED_HZ)
+
+
+@pytest.mark.parametrize("speed_hz", [0.7, 10.0, 24.3, 29.93, 500.0])
+def test_the_shortest_is_long_enough_and_hardly_longer(speed_hz: float) -> None:
+    assert MIN_TURNS <= shortest_s(speed_hz) * speed_hz * (1 + 1e-9) <= 1.1 * MIN_TURNS
