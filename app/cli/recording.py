@@ -1,8 +1,8 @@
 """Reads a recording (R.json and the data beside it) and says what is in it: channels, levels in SI, rate, duration.
 
 With --check it also looks for defects (samples that are not finite, stuck stretches, dropouts, clipping, mains hum) and
-says where; the exit code is then 1 if any channel has one. A stated speed that looks like rpm, and sensors that hear
-noise alone, are remarked on. What cannot be read is refused with its place (exit code 2).
+says where; the exit code is then 1 if any channel has one. A stated speed that looks like rpm, fewer turns than can be
+compared, and sensors that hear noise alone are remarked on. What cannot be read is refused with its place (exit 2).
 
 Example: sideband recording R.json --check
 """
@@ -54,7 +54,9 @@ def _text(document: Mapping[str, Any]) -> str:
         lines.append(f"tacho: {tacho['shaft']}, {tacho['pulses']} pulses, {span} Hz, mean {tacho['mean_speed_hz']:.6g}")
     lines += [f"note: {remark}" for remark in document["remarks"]]
     if "findings" in document:
-        lines += [_finding(finding) for finding in document["findings"]] or ["no defects found"]
+        values = {channel["name"]: channel["minimum"] for channel in document["channels"]}
+        told = [_finding(finding, values[finding["channel"]]) for finding in document["findings"]]
+        lines += told or ["no defects found"]
         lines += [_hum(line) for line in document["mains_hum"]]
     return "\n".join(lines) + "\n"
 
@@ -65,13 +67,18 @@ def _channel(channel: Mapping[str, Any], width: int) -> str:
     if channel["rms"] is not None:
         unit = channel["unit"]
         level = f"rms {channel['rms']:.4g}, {channel['minimum']:.4g} to {channel['maximum']:.4g} {unit}"
+        if channel["minimum"] == channel["maximum"]:
+            level = f"always {channel['minimum']:.4g} {unit}"
     return f"  {channel['name']:<{width}}  {channel['quantity'] or '-'}, {place}: {level}"
 
 
-def _finding(finding: Mapping[str, Any]) -> str:
+def _finding(finding: Mapping[str, Any], value: float | None) -> str:
+    """`value`: the channel's smallest, the only one of a constant channel, which `reconcile` calls stuck or silence."""
     places = [f"{p['start_s']:.6g}-{p['stop_s']:.6g} s" for p in finding["places"][:3]]
     more = f" and {finding['count'] - len(places)} more" if finding["count"] > len(places) else ""
     kind = finding["kind"].replace("_", " ")
+    if kind == "constant":
+        kind = "silence" if value == 0.0 else "stuck"
     where = ", ".join(places) + more
     return f"{finding['channel']}: {kind}: {finding['message']} ({finding['samples']} samples: {where})"
 

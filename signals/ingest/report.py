@@ -49,8 +49,8 @@ def _levels(row: FloatArray) -> dict[str, float | None]:
     if finite.size == 0:
         return {"mean": None, "rms": None, "minimum": None, "maximum": None}
     return {
-        "mean": float(np.mean(finite)),
-        "rms": float(np.std(finite)),
+        "mean": float(np.mean(finite)) if np.ptp(finite) > 0 else float(finite[0]),
+        "rms": float(np.std(finite)) if np.ptp(finite) > 0 else 0.0,  # not what rounding of the mean leaves
         "minimum": float(np.min(finite)),
         "maximum": float(np.max(finite)),
     }

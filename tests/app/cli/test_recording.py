@@ -84,3 +84,22 @@ def test_what_cannot_be_read_is_exit_code_2_and_no_traceback(call: Call, describ
     assert (code, out) == (2, "") and "never guessed" in err and "Traceback" not in err
     (described / "no.json").write_text(json.dumps({**ABOUT, "data": "nowhere.npz"}))
     assert "no such file" in call("recording", described / "no.json")[2]
+
+
+def test_a_channel_that_never_changes_is_stuck_or_silent_and_has_no_level(call: Call, described) -> None:
+    two = [{**ABOUT["channels"][0], "name": name, "column": name} for name in ("held", "none")]
+    np.savez(described / "still.npz", held=np.full(8000, 0.01), none=np.zeros(8000))
+    (described / "still.json").write_text(json.dumps({**ABOUT, "channels": two}))
+    code, out, _ = call("recording", described / "still.json", "--check")
+    assert code == 1 and "held: stuck: the channel never changes" in out and "none: silence: the channel" in out
+    assert "always 0.09807 m/s^2" in out and "always 0 m/s^2" in out and "rms" not in out and "constant" not in out
+    document = json.loads(call("recording", described / "still.json", "--json")[1])
+    assert [c["rms"] for c in document["channels"]] == [0.0, 0.0]
+
+
+def test_too_few_turns_for_a_comparison_are_remarked_on(call: Call, described) -> None:
+    np.savez(described / "short.npz", x=np.random.default_rng(2).normal(size=1000))
+    (described / "short.json").write_text(json.dumps(ABOUT))
+    out = call("recording", described / "short.json", "--check")[1]
+    assert "note: 0.5 s are 10.5 turns of input: to look for its lines 12 turns or more are needed, 0.58 s" in out
+    assert "turns" not in call("recording", described / "R.json", "--check")[1]
