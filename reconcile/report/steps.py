@@ -74,6 +74,10 @@ WORDS = {
     "turns": "distance from the teeth's lines, turns",
     "shaft": "of shaft",
     "speed_hz": "speed, Hz",
+    "low_hz": "at least, Hz",
+    "high_hz": "at most, Hz",
+    "confidence": "confidence that its lines were found, of 1",
+    "rival_hz": "or, as its lines fit that too, Hz",
     "rise_db": "risen by, dB",
     "elsewhere_db": "most at any other distance, dB",
     "nrmse": "error over the spread",
@@ -84,7 +88,11 @@ GAINS = ("gain", "over_placebo", "retuned", "black_box", "placebo")
 DISTANCES = ("before", "after")
 VALUES = {
     "mode": {"A": "baselines of this machine", "B": "the drawing, without a baseline"},
-    "method": {"stated": "as stated, no line confirms it", "harmonics": "lines of the shaft", "tacho": "tacho"},
+    "method": {
+        "stated": "as stated, no line of the spectrum confirms it",
+        "harmonics": "lines of the shaft",
+        "tacho": "tacho",
+    },
 }
 
 

@@ -116,6 +116,39 @@ def test_a_name_stands_where_it_is_firmer_than_all_others_by_their_scatter() -> 
     assert told(own, (judged("outer", "drive_end", 25.0), 30.9)).verdict == "explained"  # the same part
 
 
+def with_turn(judgement: Judged, z: float, order: float, chance: float = 0.001, site: str = "shaft") -> Judged:
+    family = Family(kind="turn", site=site, order=1.0, spacing=1.0, sidebands=0, slip=0.0)
+    best = SimpleNamespace(order=order, channel="de")
+    turn = SimpleNamespace(
+        family=family, z=z, best=best, chance=chance, present=True, risen=True, based=True, deep=True
+    )
+    return Judged(report=judgement.report, every=(*judgement.every, turn))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("z", "order", "chance", "site", "confirms"),
+    [
+        (33.0, 0.998, 0.001, "shaft", True),
+        (9.0, 0.998, 0.001, "shaft", False),  # hardly there
+        (33.0, 1.012, 0.001, "shaft", False),  # where the search ends: the label is off
+        (33.0, 0.998, 0.2, "shaft", False),  # as other orders
+        (33.0, 0.998, 0.001, "output", False),  # another shaft's
+    ],
+)
+def test_what_comes_once_a_turn_confirms_the_speed_beside_a_part(
+    z: float, order: float, chance: float, site: str, confirms: bool
+) -> None:
+    own = judged("outer", "drive_end", 20.0)
+    report = told(with_turn(own, z, order, chance, site))
+    assert (report.verdict, report.sentence, report.causes) == ("explained", own.report.sentence, own.report.causes)
+    assert ("once a turn in the envelope of de does, at 29.94 Hz" in " ".join(report.where.limits)) is confirms
+    assert any("no line confirms it" in text for text in report.undecidable) is not confirms
+    # its multiples are half of those at half the speed: without a part nothing tells
+    assert "no line confirms it" in told(with_turn(NOTHING, z, order, chance, site)).undecidable[-1]
+    near = judged("outer", "fan_end", 19.0), 35.0
+    assert told(with_turn(own, z, order, chance, site), near).verdict == "ambiguous", "another speed as firm"
+
+
 def test_parts_as_firm_at_other_speeds_are_a_set() -> None:
     near, far = (judged("outer", "fan_end", 19.0), 35.0), (judged("ball", "fan_end", 18.7), 27.0)
     report = told(judged("outer", "drive_end", 20.0), near, far, (judged("inner", "fan_end", 9.0), 26.0))

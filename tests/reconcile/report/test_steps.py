@@ -191,3 +191,16 @@ def test_what_is_ruled_out_beside_the_machine_is_what_there_is() -> None:
     assert "speed" not in driven and "teeth" not in driven and "sampling rate" in driven and "baseline" not in driven
     compared = Report(verdict="unknown_physics", sentence="", level="driven", provenance={"baselines": 1})
     assert "sign of force and motion" in to_do(compared) and "a baseline of another" in to_do(compared)
+
+
+def test_the_speeds_are_told_in_words() -> None:
+    one = {"speed_hz": 29.9, "low_hz": 26.9, "high_hz": 32.9, "method": "stated", "confidence": 0.2, "rival_hz": None}
+    html = stages(report(stages=({"name": "speed", "found": {"test 1": one}},)))
+    for words in (
+        "at least, Hz",
+        "at most, Hz",
+        "confidence that its lines were found, of 1",
+        "no line of the spectrum",
+    ):
+        assert words in html
+    assert "low hz" not in html and "rival" not in html
