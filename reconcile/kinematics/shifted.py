@@ -22,13 +22,13 @@ from signals.series import FloatArray
 
 APART_DB, WITHIN_DB = 2.0, 6.0
 """By which the median of a channel's change against the others may miss a unit's ratio, and half of its bands lie about
-it. Of 14 measured pairs of recordings with two to eight channels none changed so by more than 1.2 dB in the median
+it. Of nine measured pairs of recordings with two to eight channels none changed so by more than 1.2 dB in the median
 band, a unit that is wrong on one of them by 19.8 with half of the bands within 3.1."""
 LARGE_DB = 12.0
 """Change of the median band from which a channel's level is told."""
 FALLEN_DB = 10.0
 """By which a quarter of a channel's bands must have fallen to be told: a defect takes nothing away. Of the same pairs,
-and of seven of one channel, the deepest such quarter is 5.9 dB down (a damaged ball), beside a race in g described as
+and of eight of one channel, the deepest such quarter is 5.9 dB down (a damaged ball), beside a race in g described as
 m/s^2 11.2."""
 NEAR_DB = 1.5
 """Of the ratio of g against m/s^2, within which such a change may be a unit's."""

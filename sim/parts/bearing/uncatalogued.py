@@ -22,7 +22,7 @@ def uncatalogued(
         message = "is not in the catalogue of bearings" + (f" (left out: {reason})" if reason else "")
         names = list(catalogue())
         alike = near(designation, names, most=MOST_NEAR, like=LIKE)
-        shown = f"near it {', '.join(alike)}; " if alike else ""
+        shown = f"near it {', '.join(alike)}; " if alike else f"{', '.join(names[:MOST_NEAR])}, ...: "
         allowed = f"{shown}one of {len(names)} that `sideband bearings` lists; or {otherwise}"
         return Problem(field=field, message=message, given=designation, allowed=allowed)
     return None
