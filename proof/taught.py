@@ -228,7 +228,7 @@ RULES = (
     ),
     (
         (
-            "a second effect takes no more than a quarter of what it adds at the other speeds "
+            "a second effect takes no more than a quarter of what it adds at the other speeds, beside a play nothing "
             "([decision](decisions/reconcile-leftover.md))"
         ),
         "w024, a loose fit of 36 um with waves of another bearing's race beside it that are not there; alone since",

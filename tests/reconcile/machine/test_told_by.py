@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from reconcile.machine import left_pairs
+from reconcile.machine import left_pairs, told_by
 from reconcile.machine.direct import HEARD
 from reconcile.machine.told_by import HALF_HEARD, heard
 from tests.reconcile.machine.rubs import found_in
@@ -40,3 +40,23 @@ def test_impacts_of_a_second_put_it_before_what_brings_none(evidence: dict[str, 
     asked = SimpleNamespace(setting=setting, first="fit_clearance@bearing1")
     near = left_pairs._rivals(asked, pit, [off_centre], {"outer_spall@bearing4": 46.3, GEAR: 29.0})  # type: ignore[arg-type]
     assert near == [GEAR] * told
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "parts", "so"),
+    [
+        ("unbalance@gear", "pedestal_looseness@bearing2", (74.0, 6.0, -10.0), True),
+        ("unbalance@gear", "pedestal_looseness@bearing2", (74.0, 6.0, -30.0), False),
+        ("radial_clearance@bearing4", "torque_ripple@output", (-1.0, 172.0, -2.0), False),
+        ("radial_clearance@bearing4", "unbalance@gear", (-1.0, 72.0, 3.0), True),
+        ("radial_clearance@bearing4", "outer_spall@bearing1", (-1.0, 172.0, -2.0), True),  # as its impacts are heard
+        ("outer_spall@bearing1", "unbalance@gear", (50.0, -40.0), True),  # of whose lines only the teeth's are asked
+        ("radial_clearance@bearing4", "unbalance@gear", (20.0,), True),  # at one operating point nothing else is known
+    ],
+)
+def test_a_second_is_not_one_operating_points_alone(
+    first: str, second: str, parts: tuple[float, ...], so: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(told_by, "by_play", lambda *_: False)
+    setting = SimpleNamespace(direct=SimpleNamespace(evidence={"outer_spall@bearing1": 9.0}))
+    assert told_by.repeats(setting, first, second, parts) is so  # type: ignore[arg-type]
