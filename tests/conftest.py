@@ -23,10 +23,10 @@ from hypothesis import HealthCheck, settings  # noqa: E402
 # No deadline: a busy machine must not fail a test. The same examples every time: a red run can be repeated, and more
 # of them find nothing new from run to run (`explore` draws others, a thousand of each).
 settings.register_profile(
-    "house", deadline=None, derandomize=True, max_examples=30, suppress_health_check=[HealthCheck.too_slow]
+    "house", deadline=None, derandomize=True, max_examples=20, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.register_profile("explore", deadline=None, max_examples=1000)
-settings.register_profile("fast", settings.get_profile("house"), max_examples=20)
+settings.register_profile("fast", settings.get_profile("house"), max_examples=15)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "house"))
 
 
