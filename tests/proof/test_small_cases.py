@@ -30,8 +30,8 @@ FACTOR = {"broken_tooth": 1.5}
 """Within which a size must be."""
 EXPLAINED = {name: case for name, case in CASES.items() if case.effects}
 Answered = Callable[[str], tuple[Report, Score]]
-TASKS = (3, -1)
-"""Of the atlas: drifted twins of healthy machines, and an effect on healthy machines."""
+TASKS = (-1,)
+"""Of the atlas: the last, an effect on healthy machines."""
 
 
 @pytest.fixture(scope="module")
