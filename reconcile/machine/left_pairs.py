@@ -72,7 +72,8 @@ def best_left_pair(
     best = pairs[0] if pairs and _stands(asked, decision, pairs[0]) else None
     if best is not None:
         second = best.beside.names[0]
-        others = _rivals(asked, best, pairs[1:], {name: gain for name, gain, _ in seen})
+        refused = {name for name, p in fitted.items() if p is not None} - {p.beside.names[0] for p in kept}
+        others = _rivals(asked, best, pairs[1:], {name: gain for name, gain, _ in seen if name not in refused})
         drawn = None if others else _drawn(asked, atlas, best)
         best = replace(best, others=(second, *others) if others else (), drawn=drawn)
         best = best if others or drawn is not None else None
@@ -149,7 +150,7 @@ def _fairly(asked: Asked, made: Mapping[str, Pair | None]) -> dict[str, Pair | N
 
 
 def _without(pair: Pair, gained: float, own: Sequence[float]) -> Pair:
-    return replace(pair, gain=pair.gain - gained, parts=tuple(a - b for a, b in zip(pair.parts, own, strict=False)))
+    return replace(pair, gain=pair.gain - gained, parts=tuple(a - b for a, b in zip(pair.parts, own, strict=True)))
 
 
 def _with_impacts(asked: Asked, pair: Pair) -> float:

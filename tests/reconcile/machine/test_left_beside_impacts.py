@@ -206,7 +206,7 @@ def test_what_the_first_gains_by_being_moved_once_more_counts_from_the_limit_on(
     monkeypatch.setattr(type(asked.left), "base", base)
     monkeypatch.setattr(type(asked.left), "level", lambda *_: base + 3.0)
     for gain, left in ((BESIDE_PIT - 0.1, BESIDE_PIT - 0.1), (BESIDE_PIT + 0.1, BESIDE_PIT - 2.9)):
-        pair = Pair(first=RIGHT, beside=None, gain=gain, rest=None)  # type: ignore[arg-type]
+        pair = Pair(first=RIGHT, beside=None, gain=gain, rest=None, parts=(gain,))  # type: ignore[arg-type]
         told = left_pairs._fairly(asked, {WRONG: pair})[WRONG]
         assert told is not None and told.gain == pytest.approx(left)
 

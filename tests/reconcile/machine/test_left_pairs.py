@@ -259,6 +259,25 @@ def test_what_adds_as_much_by_sums_and_was_not_simulated_is_told_too(simulated: 
     assert simulated
 
 
+def test_a_second_of_one_operating_point_alone_is_no_rival_by_its_sum(
+    simulated: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    setting, found = found_in(seen(SMALLER))
+    twin = with_third(found, MADE.change(WRONG, TRUE, SMALLER))
+    made = alike(WRONG, behind=1.0)
+
+    def fitted(asked, name, rows):  # type: ignore[no-untyped-def]
+        return replace(made(asked, name, rows), parts=(40.0, 40.0 if name == WRONG else -40.0))
+
+    monkeypatch.setattr(left_pairs, "_fitted", fitted)
+    monkeypatch.setattr(left_pairs, "_fairly", lambda _, made: made)
+    monkeypatch.setattr(left_pairs, "_alone", lambda *_: -np.inf)
+    told = best_left_pair(setting, twin, EXPLAINED, found.known, 8, 3, map)  # type: ignore[arg-type]
+    assert told is not None and told.best is not None and simulated
+    assert (told.best.beside.names, told.best.others) == ((WRONG,), ())
+    assert {name for name, _, gain in told.tried if gain is not None} == {WRONG, THIRD}, "both are simulated"
+
+
 def test_what_would_strike_is_asked_only_if_it_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
     setting, found = found_in(seen(SMALLER))
     monkeypatch.setattr(left_pairs, "strikes", lambda name: name == WRONG)
