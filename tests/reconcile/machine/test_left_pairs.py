@@ -129,20 +129,6 @@ def test_a_second_must_add_enough(gain: float, stands: bool, simulated: Asked, m
     assert told is not None and (told.best is not None) == stands and simulated
 
 
-@pytest.mark.parametrize(
-    ("parts", "stands"),
-    [((124.0, -28.0, -38.0), False), ((60.0, 25.0, -16.0), True), ((50.0, -9.9), True), ((50.0, -10.1), False)],
-)
-def test_a_second_must_not_be_one_operating_points_alone(
-    parts: tuple[float, ...], stands: bool, simulated: Asked, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(left_pairs, "_parts", lambda *_: parts)
-    monkeypatch.setattr(left_pairs, "_fairly", lambda _, made: made)
-    told = pairs_in(seen(SMALLER))
-    assert told is not None and (told.best is not None) == stands and simulated
-    assert told.tried[0][2] is not None, "it is told that it was tried"
-
-
 def test_what_a_driving_first_makes_rattle_is_searched_and_must_beat_the_others(
     simulated: Asked, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -257,25 +243,6 @@ def test_what_adds_as_much_by_sums_and_was_not_simulated_is_told_too(simulated: 
         assert told is not None and told.best is not None
         assert set(told.best.others) == set(others)
     assert simulated
-
-
-def test_a_second_of_one_operating_point_alone_is_no_rival_by_its_sum(
-    simulated: Asked, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    setting, found = found_in(seen(SMALLER))
-    twin = with_third(found, MADE.change(WRONG, TRUE, SMALLER))
-    made = alike(WRONG, behind=1.0)
-
-    def fitted(asked, name, rows):  # type: ignore[no-untyped-def]
-        return replace(made(asked, name, rows), parts=(40.0, 40.0 if name == WRONG else -40.0))
-
-    monkeypatch.setattr(left_pairs, "_fitted", fitted)
-    monkeypatch.setattr(left_pairs, "_fairly", lambda _, made: made)
-    monkeypatch.setattr(left_pairs, "_alone", lambda *_: -np.inf)
-    told = best_left_pair(setting, twin, EXPLAINED, found.known, 8, 3, map)  # type: ignore[arg-type]
-    assert told is not None and told.best is not None and simulated
-    assert (told.best.beside.names, told.best.others) == ((WRONG,), ())
-    assert {name for name, _, gain in told.tried if gain is not None} == {WRONG, THIRD}, "both are simulated"
 
 
 def test_what_would_strike_is_asked_only_if_it_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
