@@ -14,6 +14,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
+from proof import apart as aparts
 from proof import oracle as oracles
 from proof.case import make
 from proof.kinematic import told_table
@@ -45,6 +46,10 @@ def parser() -> argparse.ArgumentParser:
         ("kinematics", "run the engine on cases told by drawings alone, and print a table of its answers"),
         ("visible", "measure how much of the hidden effects there is to see, for the page"),
         ("oracle", "bound what can be told at all, knowing everything hidden, for the page (minutes a case)"),
+        (
+            "apart",
+            "bound whether faults of a tooth can be told apart, knowing all else, for the page (a minute a case)",
+        ),
         ("page", "write docs/proof.md from the stored summaries"),
     ):
         command = commands.add_parser(name, help=sentence, description=sentence)
@@ -66,7 +71,7 @@ def parser() -> argparse.ArgumentParser:
             command.add_argument("--atlas", type=Path, default=ROOT / ".cache" / "proof" / "atlas")
             command.add_argument("--jobs", type=int, help="processes that simulate an atlas")
             command.add_argument("--processes", type=int, default=os.cpu_count(), help="cases that run at once")
-        if name in {"visible", "oracle"}:
+        if name in {"visible", "oracle", "apart"}:
             command.add_argument("--jobs", type=int, default=2, help="processes")
         if name == "score":
             command.add_argument("--keep", action="store_true", help="store the summary in proof/results")
@@ -212,6 +217,16 @@ def oracle(given: argparse.Namespace) -> None:
             sys.stdout.write(f"{case.name} {effects} distance {told_of}\n")
 
 
+def apart(given: argparse.Namespace) -> None:
+    """Measure how far faults of a tooth are from each other at most; what is stored is left alone."""
+    found = aparts.measure(chosen(given), aparts.store_of(HERE / "results", given.split), given.jobs)
+    for case in chosen(given):
+        if case.name in found:
+            one = found[case.name]
+            others = ", ".join(f"{law} {distance:.1f}" for law, distance in one.rivals.items())
+            sys.stdout.write(f"{case.name} {case.effects[0].law} seen {one.seen:.1f}, from {others}\n")
+
+
 def page(given: argparse.Namespace) -> None:
     """Write the page."""
     sys.stdout.write(f"{write_page(given.docs, HERE / 'results')}\n")
@@ -222,7 +237,7 @@ def main() -> None:
     given = parser().parse_args()
     commands = {
         "generate": generate, "seal": seal, "run": run, "score": score_all, "kinematics": kinematics,
-        "visible": visible, "oracle": oracle, "page": page,
+        "visible": visible, "oracle": oracle, "apart": apart, "page": page,
     }  # fmt: skip
     commands[given.command](given)
 

@@ -193,6 +193,16 @@ can be need not show to an engine that knows none of this.
 
 {limit}
 
+**Which fault of a tooth it is** is bounded from above (`python -m proof apart`, `proof/apart.py`; a minute a case): the
+machine, every sensor's path, the tooth and the angle at every moment are known, nothing drifts, and only the sensors'
+noise stands between the mean turn of the gear with the hidden fault and that with another fault of whatever size comes
+nearest (cracks in both forms, a piece broken off, one pit). An engine knows the numbers of a machine of the kind to
+10 % and no path. A crack stays a set with the broken piece for want of a path, not of a method: the two differ by
+a quarter to a half of the burst, and what stands between tooth and sensor is not known that well
+([the mean turn](decisions/reconcile-mean-turn.md)).
+
+{told_apart}
+
 ## Gaps against what was planned
 
 * **False alarms are counted, not computed.** A parametric bootstrap for every case was planned. Where a machine can be

@@ -13,11 +13,11 @@ import matplotlib as mpl
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 
-from proof.limit import limit
+from proof.limit import limit, told_apart
 from proof.method import METHOD, SECTIONS
 from proof.one_engine import one_engine
 from proof.others import cases_of
-from proof.plan import COUNTS, FIRST, OTHERS
+from proof.plan import COUNTS, FIRST, OTHERS, Split
 from proof.score.one import Score
 from proof.score.rates import at_target
 from proof.score.table import failures
@@ -40,6 +40,12 @@ TITLES = {
 }
 
 
+PARTS: tuple[tuple[Split, str], ...] = (("wide", "wide"), ("held", "held"), ("held", "begun"))
+"""Splits, and the sections of the page they are in, of which is asked what could be told at all."""
+TEETH_IN: tuple[Split, ...] = ("teeth", "entire", "next")
+"""Further splits of which faults of a tooth are measured."""
+
+
 def write_page(docs: Path, results: Path) -> Path:
     """Write the page and its pictures; a split without stored summary has no section."""
     laws = len(FIRST) + len(OTHERS) + len(OPEN)
@@ -50,7 +56,8 @@ def write_page(docs: Path, results: Path) -> Path:
         METHOD.format(
             **said_of(results),
             one_engine=one_engine(results),
-            limit=limit(results, (("wide", "wide"), ("held", "held"), ("held", "begun"))),
+            limit=limit(results, PARTS),
+            told_apart=told_apart(results, (*PARTS, *((s, s) for s in TEETH_IN))),
             rules=rules,
             laws=laws,
             crossing=laws * 4 * 27,
