@@ -83,7 +83,7 @@ def observe(recording: Recording, ties: Ties, label: str, *, stated_hz: float | 
     teeth = tuple(z * k for z in ties.mesh_orders for k in SPEED_HARMONICS)
     nyquist = recording.sampling_rate_hz / 2
     stated = recording.operating.speed_hz if recording.operating is not None else stated_hz
-    if stated is not None and recording.tacho is None:
+    if stated is not None and stated > 0.0 and recording.tacho is None:
         _long_enough(recording, ties, stated)
     usable = tuple(z for z in teeth if stated is not None and z * stated * 1.1 < nyquist)
     speed = estimate_speed(recording, shaft=ties.reference, stated_hz=stated, orders=usable, seed=seed)

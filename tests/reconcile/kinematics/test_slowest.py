@@ -92,6 +92,16 @@ def test_the_turns_that_are_needed_are_told_at_once_with_the_seconds(turns: floa
     assert told.allowed == least + needed_for(TIE, SPEED_HZ)
 
 
+@pytest.mark.parametrize("speed_hz", [0.0, -24.3])
+def test_a_speed_that_is_none_is_refused_as_such_and_not_as_too_few_turns(speed_hz: float) -> None:
+    still = recorded(sound(1))
+    assert still.operating is not None
+    with pytest.raises(SpecError, match=r"operating\.speed_hz: is needed where there is no tacho"):
+        observe(
+            replace(still, operating=replace(still.operating, speed_hz=speed_hz)), TIE, "test 1", stated_hz=None, seed=0
+        )
+
+
 @pytest.mark.parametrize("speed_hz", [0.7, 10.0, 24.3, 29.93, 500.0])
 def test_the_shortest_is_long_enough_and_hardly_longer(speed_hz: float) -> None:
     assert MIN_TURNS <= shortest_s(speed_hz) * speed_hz * (1 + 1e-9) <= 1.1 * MIN_TURNS
