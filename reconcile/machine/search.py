@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from itertools import zip_longest
 
 import numpy as np
@@ -43,12 +43,13 @@ MOSTLY_SEEN, SPREAD, SPREAD_ABOUT = 0.75, 6, 2
 """Share of an effect's draws from which its sizes are known as they are drawn, else so many draws spread over the sizes
 about so many of the best."""
 OTHER_PLAY = {
-    "radial_clearance": "fit_clearance_series",
-    "fit_clearance": "radial_clearance",
-    "fit_clearance_series": "radial_clearance",
+    "radial_clearance": ("fit_clearance_series", "fit_clearance"),
+    "fit_clearance": ("radial_clearance",),
+    "fit_clearance_series": ("radial_clearance",),
 }
 """A bearing with more play and a ring loose in its seat let the shaft stand off alike: where one is the best, the other
-is simulated too. A ring loose by 11 um was unknown physics, the wider clearance of its bearing the best (w032)."""
+is simulated too, the first form of it that there may be: beside a fit of the machine file the other form cannot be. A
+ring loose by 11 um was unknown physics, the wider clearance of its bearing the best (w032)."""
 FITTED_SECONDS = 2
 """Of these so many are fitted together with the machine."""
 
@@ -110,17 +111,17 @@ def located(
         others = beside(setting, found, best[0])
         best += [n for n in (others.names[:SECONDS] if others else ()) if n not in best]
     best += [n for n in map(looks_like, best) if n in draws and n not in best]
-    best += [n for n in (other_play(best[0]),) if n in draws and n not in best]
+    best += [n for n in other_play(best[0], draws) if n not in best]
     second = second_heat(setting.plan, best, draws, first)
     if not second.draws:
         return found  # effects with one place only: the first heat had all of their draws
     return fit_views(setting, simulated(setting, second, mapper, known))
 
 
-def other_play(name: str) -> str:
-    """The other play of that bearing; empty for what is none."""
+def other_play(name: str, known: Collection[str]) -> list[str]:
+    """The other play of that bearing, if it is `known`; none of what is no play."""
     term, site = name.split("@")
-    return f"{OTHER_PLAY[term]}@{site}" if term in OTHER_PLAY else ""
+    return [other for form in OTHER_PLAY.get(term, ()) if (other := f"{form}@{site}") in known][:1]
 
 
 def _draws(screened: Found, before: Setting) -> dict[str, list[Draw]]:
