@@ -32,7 +32,9 @@ def without_suspected(report: Report, gate: Gate) -> Gate | None:
 
 
 def of_the_sensor(report: Report, others: Report, gate: Gate) -> Report:
-    """The fault, where the `others` alone have nothing missing; else the report as it was."""
+    """The fault, where the `others` alone have nothing missing; else the report as it was. The gate lists no fault that
+    it is not sure of, so that the machine may look like it is said here."""
     if gate.fault is None or others.verdict not in ("nothing_missing", "measurement_fault"):
         return report
-    return replace(others, verdict="measurement_fault", sentence=fault_sentence(gate.fault) + ALONE, fault=gate.fault)
+    fault = replace(gate.fault, doubtful=True)
+    return replace(others, verdict="measurement_fault", sentence=fault_sentence(fault) + ALONE, fault=fault)

@@ -7,8 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from reconcile.faults import measurement_faults, with_faults
 from reconcile.gate.findings import Finding, Gate, Kind
 from reconcile.machine.suspected import of_the_sensor, without_suspected
+from reconcile.report.sections import head
 from reconcile.verdict import Report, SensorFault, Word
 from signals.recording import Recording
 from sim.core.response import Channel
@@ -54,14 +56,16 @@ def test_a_sensor_of_which_the_gate_was_not_sure_is_asked_about_too() -> None:
     assert fewer is not None and fewer.tests[0].names == ("b",)
     assert fewer.fault is not None and fewer.fault.channel == "a"
     report = of_the_sensor(said("unknown_physics"), said("nothing_missing"), fewer)
-    assert report.verdict == "measurement_fault" and report.fault == fewer.fault
+    assert report.verdict == "measurement_fault" and report.fault == replace(fewer.fault, doubtful=True)
+    (listed,) = with_faults(report, measurement_faults(doubted)).measurement_faults
+    assert listed.doubtful and "Perhaps the measurement" in head(report), "as doubtful as its sentence"
     assert without_suspected(said("unknown_physics"), replace(gate, findings=(), fault=None)) is None
 
 
 def test_the_sensor_is_the_answer_only_where_the_others_have_nothing() -> None:
     gate, before = suspecting("loose_sensor"), said("unknown_physics")
     report = of_the_sensor(before, said("nothing_missing"), gate)
-    assert report.verdict == "measurement_fault" and report.fault == gate.fault
+    assert report.verdict == "measurement_fault" and report.fault is not None and report.fault.doubtful
     assert "may be in the measurement: a sensor that looks loose on a, or damage near it" in report.sentence
     assert "other channels alone" in report.sentence
     assert of_the_sensor(before, said("unknown_physics"), gate) is before
