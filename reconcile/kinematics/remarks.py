@@ -30,6 +30,9 @@ RACES = ("outer", "inner")
 MODULATING = {"turn": "the turn", "cage": "the cage"}
 """What modulates a damaged part of a bearing, in words."""
 ONLY_MODULATES = "more than what modulates a damaged bearing, as its shaft and cage do"
+ANOTHER = "of another defect: no part of the named bearing turns so"
+SAME_TURN = 1e-3
+"""Relative difference of two orders that are one to the data."""
 SAME_SPEED = 0.015
 """Relative difference of a baseline's speed up to which depths of modulation are compared without a word."""
 
@@ -103,7 +106,8 @@ def _risen_too(report: Report, every: Sequence[Candidate]) -> list[str]:
 
 def _modulating(report: Report, every: Sequence[Candidate]) -> list[str]:
     """Turns and cages that are there and have risen beside named bearings, of which the answer does not speak yet: a
-    load that turns and balls that differ modulate what a damaged part shows, so they are no second name."""
+    load that turns and balls that differ modulate what a damaged part shows, so their own are no second name; those of
+    another shaft or bearing modulate nothing of it."""
     if report.verdict != "explained":
         return []
     told: dict[tuple[str, float], Candidate] = {}
@@ -114,10 +118,28 @@ def _modulating(report: Report, every: Sequence[Candidate]) -> list[str]:
         if c.family.kind == "turn" and any(text.startswith(struck) for text in report.undecidable):
             continue
         told.setdefault((c.family.kind, c.family.order), c)  # equal cages have one line
-    if not told:
+    own = _turning_with({c.site for c in report.causes if c.named}, every)
+    alike = [c for c in told.values() if any(c.family.kind == f.kind and _as_fast(c.family, f) for f in own)]
+    strange = [c for c in told.values() if c not in alike]
+    return [*_rose_too(alike, ONLY_MODULATES), *_rose_too(strange, ANOTHER)]
+
+
+def _turning_with(sites: set[str], every: Sequence[Candidate]) -> list[Family]:
+    """Turn and cage of each bearing, as families; what modulates its inner race is the turn of its shaft."""
+    here = [c.family for c in every if c.family.site in sites]
+    turns = [replace(f, kind="turn", order=f.spacing) for f in here if f.kind == "inner"]
+    return [*turns, *(f for f in here if f.kind == "cage")]
+
+
+def _as_fast(one: Family, other: Family) -> bool:
+    return abs(one.order / other.order - 1.0) <= SAME_TURN
+
+
+def _rose_too(several: Sequence[Candidate], what: str) -> list[str]:
+    if not several:
         return []
-    what = " and ".join(f"{MODULATING[c.family.kind]} of {c.family.site} ({_by(c)})" for c in told.values())
-    return [f"whether {what}, which rose too, {'is' if len(told) == 1 else 'are'} {ONLY_MODULATES}"]
+    parts = " and ".join(f"{MODULATING[c.family.kind]} of {c.family.site} ({_by(c)})" for c in several)
+    return [f"whether {parts}, which rose too, {'is' if len(several) == 1 else 'are'} {what}"]
 
 
 def _is(family: Family, key: str, site: str) -> bool:

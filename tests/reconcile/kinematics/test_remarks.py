@@ -39,6 +39,7 @@ def sound(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 OUTER, INNER = candidate("outer", 3.585, 12.6), candidate("inner", 5.415, 14.5)
+SILENT = candidate("inner", 5.415, 2.0, risen=False)
 NAMED = Report(
     verdict="explained",
     sentence="A defect.",
@@ -62,14 +63,23 @@ def test_lines_as_firm_as_the_named_ones_are_told() -> None:
 
 
 def test_a_turn_and_a_cage_that_rose_beside_a_name_are_commented_on() -> None:
-    turn, cage = candidate("turn", 1.0, 18.4), candidate("cage", 0.398, 9.1)
-    (text,) = told(NAMED, every=[OUTER, turn, cage]).undecidable
+    turn, cage = replaced(candidate("turn", 1.0, 18.4), "shaft"), candidate("cage", 0.398, 9.1)
+    (text,) = told(NAMED, every=[OUTER, SILENT, turn, cage]).undecidable
     assert text == (
-        "whether the turn of drive_end (by 19 dB, 18.4 deviations) and the cage of drive_end (by 19 dB, 9.1 "
+        "whether the turn of shaft (by 19 dB, 18.4 deviations) and the cage of drive_end (by 19 dB, 9.1 "
         "deviations), which rose too, are more than what modulates a damaged bearing, as its shaft and cage do"
     )
     (one,) = told(NAMED, every=[OUTER, cage, replaced(cage, "fan_end")]).undecidable
     assert "which rose too, is more" in one and "fan_end" not in one, "equal cages have one line"
+
+
+def test_a_turn_and_a_cage_of_other_parts_are_no_modulation_of_the_named_bearing() -> None:
+    """Of a shaft that turns a fourth as fast, and of a bearing with another cage."""
+    slow, cage = replaced(candidate("turn", 0.25, 18.4), "output"), replaced(candidate("cage", 0.37, 25.0), "other")
+    own, strange = told(NAMED, every=[OUTER, SILENT, candidate("cage", 0.398, 9.1), slow, cage]).undecidable
+    assert "the cage of drive_end" in own and "is more than what modulates a damaged bearing" in own
+    assert strange.startswith("whether the turn of output (") and "the cage of other (" in strange
+    assert strange.endswith("are of another defect: no part of the named bearing turns so")
 
 
 def test_what_is_not_there_has_not_risen_or_is_told_already_gets_no_comment() -> None:
