@@ -65,15 +65,16 @@ def best_left_pair(
     sought = _searched(asked, made, seen)
     sought = sought or _rattling(asked, made)
     fitted = _fairly(asked, {**made, **sought})
-    kept = [p for p in fitted.values() if p is not None and repeats(asked.setting, p.first, p.beside.names[0], p.parts)]
-    pairs = sorted(kept, key=lambda p: -_with_impacts(asked, p))
+    kept = {n: p for n, p in fitted.items() if p is not None and repeats(asked.setting, first, n, p.parts)}
+    pairs = sorted(kept.values(), key=lambda p: -_with_impacts(asked, p))
     simulated = {name: None if pair is None else pair.gain for name, pair in fitted.items()}
     tried = tuple((name, gain, simulated.get(name)) for name, gain, _ in seen)
     best = pairs[0] if pairs and _stands(asked, decision, pairs[0]) else None
     if best is not None:
         second = best.beside.names[0]
-        refused = {name for name, p in fitted.items() if p is not None} - {p.beside.names[0] for p in kept}
-        others = _rivals(asked, best, pairs[1:], {name: gain for name, gain, _ in seen if name not in refused})
+        told = {n: p for n, p in fitted.items() if p is not None and (n in kept or alike(n, second))}
+        sums = {name: gain for name, gain, _ in seen if name in told or fitted.get(name) is None}
+        others = _rivals(asked, best, list(told.values()), sums)
         drawn = None if others else _drawn(asked, atlas, best)
         best = replace(best, others=(second, *others) if others else (), drawn=drawn)
         best = best if others or drawn is not None else None

@@ -34,9 +34,11 @@ def test_a_second_must_not_be_one_operating_points_alone(
     assert told.tried[0][2] is not None, "it is told that it was tried"
 
 
-def test_a_second_of_one_operating_point_alone_is_no_rival_by_its_sum(
-    simulated: Asked, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("twins", "others"), [(False, ()), (True, (WRONG, THIRD))])
+def test_a_second_of_one_operating_point_alone_is_no_rival_by_its_sum_but_as_a_bow_of_an_unbalance(
+    twins: bool, others: tuple[str, ...], simulated: Asked, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """Two that may not be told apart at all stay together, whichever of them the rule keeps by a little."""
     setting, found = found_in(seen(SMALLER))
     twin = with_third(found, MADE.change(WRONG, TRUE, SMALLER))
     made = alike(WRONG, behind=1.0)
@@ -44,10 +46,11 @@ def test_a_second_of_one_operating_point_alone_is_no_rival_by_its_sum(
     def fitted(asked, name, rows):  # type: ignore[no-untyped-def]
         return replace(made(asked, name, rows), parts=(40.0, 40.0 if name == WRONG else -40.0))
 
+    monkeypatch.setattr(left_pairs, "alike", lambda *_: twins)
     monkeypatch.setattr(left_pairs, "_fitted", fitted)
     monkeypatch.setattr(left_pairs, "_fairly", lambda _, made: made)
     monkeypatch.setattr(left_pairs, "_alone", lambda *_: -np.inf)
     told = best_left_pair(setting, twin, EXPLAINED, found.known, 8, 3, map)  # type: ignore[arg-type]
     assert told is not None and told.best is not None and simulated
-    assert (told.best.beside.names, told.best.others) == ((WRONG,), ())
+    assert (told.best.beside.names, told.best.others) == ((WRONG,), others)
     assert {name for name, _, gain in told.tried if gain is not None} == {WRONG, THIRD}, "both are simulated"
