@@ -34,10 +34,10 @@ NEAR_DB = 1.5
 """Of the ratio of g against m/s^2, within which such a change may be a unit's."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Shift:
-    """Changes of the bands of a channel, dB: of its own level, and against the median of the others' (empty where it is
-    alone)."""
+    """Changes of the bands of a channel, dB: of its own level, and against the median of the others' of its quantity
+    (empty where it is alone): what races do to an acceleration they do to no displacement or current."""
 
     channel: str
     quantity: str
@@ -68,7 +68,7 @@ def _shifts(tests: Sequence[Observation], baselines: Sequence[Observation]) -> l
             continue
         change = _changes(test, base)
         for name, own in change.items():
-            others = [d for other, d in change.items() if other != name]
+            others = [d for other, d in change.items() if other != name and quantities[other] == quantities[name]]
             apart = own - np.median(np.stack(others), axis=0) if others else np.zeros(0)
             rows.setdefault(name, []).append((own, apart))
     return [
@@ -101,21 +101,43 @@ def _changes(test: Observation, base: Observation) -> dict[str, FloatArray]:
 
 
 def _apart(shifts: Sequence[Shift]) -> str:
-    """The channel whose level moved by a unit's ratio against the others; of two the one that fell, or either."""
+    """What moved by a unit's ratio against its likes, and whose unit may be wrong."""
     moved = [s for s in shifts if _of_a_unit(s)]
     if not moved:
         return ""
-    first = max(moved, key=lambda s: (np.percentile(s.own_db, 25) <= -FALLEN_DB, abs(float(np.median(s.apart_db)))))
+    first = max(moved, key=lambda s: (_fell(s), float(np.median(s.apart_db)) > 0.0, abs(float(np.median(s.apart_db)))))
     middle = float(np.median(first.apart_db))
     unit = str(unit_of(middle, APART_DB, possible(first.quantity)))
-    sure = len(shifts) > 2 or float(np.percentile(first.own_db, 25)) <= -FALLEN_DB
-    names = first.channel if sure else " or ".join(s.channel for s in shifts)
-    against = "the other channels" if len(shifts) > 2 else next(s.channel for s in shifts if s is not first)
+    likes = [s for s in shifts if s.quantity == first.quantity]
+    against = "the other channels" if len(likes) > 2 else next(s.channel for s in likes if s is not first)
     ratio = 20.0 * float(np.log10(UNIT_RATIOS[unit]))
     return (
         f"the level of {first.channel} against {against} changed by {middle:+.0f} dB in the median band, and "
-        f"{ratio:.1f} dB is the ratio of {unit}: {UNIT_OR_GAIN} of {names} may be wrong"
+        f"{ratio:.1f} dB is the ratio of {unit}: {UNIT_OR_GAIN} of {_whose(first, likes, moved)} may be wrong"
     )
+
+
+def _whose(first: Shift, likes: Sequence[Shift], moved: Sequence[Shift]) -> str:
+    """Of `likes`, `first` among them, those that fell; else, if they are fewer than the rest, those that rose more. A
+    channel that rose less may be wrong, or all others are."""
+    fallen = [s for s in likes if _fell(s)]
+    if fallen:
+        return _and(fallen)
+    up = float(np.median(first.apart_db)) > 0.0
+    own = [s for s in likes if s in moved and (float(np.median(s.apart_db)) > 0.0) == up]
+    rest = [s for s in likes if s not in own]
+    if up and len(own) < len(rest):
+        return _and(own)
+    return f"{_and(own)} or {_and(rest)}" if len(likes) == 2 else f"{_and(own)}, or of {_and(rest)},"
+
+
+def _and(several: Sequence[Shift]) -> str:
+    *many, last = (s.channel for s in several)
+    return f"{', '.join(many)} and {last}" if many else last
+
+
+def _fell(shift: Shift) -> bool:
+    return float(np.percentile(shift.own_db, 25)) <= -FALLEN_DB
 
 
 def _of_a_unit(shift: Shift) -> bool:
@@ -137,18 +159,16 @@ def _large(shifts: Sequence[Shift]) -> list[str]:
         for s in far
     )
     exact = 20.0 * float(np.log10(UNIT_RATIOS[GRAVITY]))
-    fallen = [s.channel for s in far if np.percentile(s.own_db, 25) <= -FALLEN_DB]
-    near = [
-        s.channel for s in far if GRAVITY in possible(s.quantity) and abs(abs(np.median(s.own_db)) - exact) <= NEAR_DB
-    ]
+    fallen = [s for s in far if _fell(s)]
+    near = [s for s in far if GRAVITY in possible(s.quantity) and abs(abs(np.median(s.own_db)) - exact) <= NEAR_DB]
     text = f"levels against the baseline: {told}"
     if near or fallen:
-        doubted = " and ".join(dict.fromkeys((*fallen, *near)))
-        why = "a defect takes nothing away" if fallen else f"{exact:.1f} dB is the ratio of {GRAVITY}"
-        text += f"; {why}: {UNIT_OR_GAIN} of {doubted} may be wrong"
+        doubted = [s for s in far if s in fallen or s in near]
+        load = "unless the load was smaller, "
+        why = f"a defect takes nothing away: {load}" if fallen else f"{exact:.1f} dB is the ratio of {GRAVITY}: "
+        text += f"; {why}{UNIT_OR_GAIN} of {_and(doubted)} may be wrong"
     return [text]
 
 
 def _far(shift: Shift) -> bool:
-    fell = float(np.percentile(shift.own_db, 25)) <= -FALLEN_DB
-    return fell or abs(float(np.median(shift.own_db))) >= LARGE_DB
+    return _fell(shift) or abs(float(np.median(shift.own_db))) >= LARGE_DB

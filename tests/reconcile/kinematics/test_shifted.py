@@ -36,9 +36,12 @@ def heard(seed: int, count: int, blow: float = 0.0) -> FloatArray:
     return np.asarray(noise + ring + 0.5 * blow * rng.standard_normal((count, N)), dtype=np.float64)
 
 
-def seen(rows: FloatArray, speed_hz: float = 20.0) -> SimpleNamespace:
-    names = ("de", "fe", "xe")[: rows.shape[0]]
-    channels = tuple(Channel(name=n, quantity="acceleration", unit="m/s^2", location="", axis="") for n in names)
+def seen(rows: FloatArray, speed_hz: float = 20.0, last: str = "acceleration") -> SimpleNamespace:
+    names = ("de", "fe", "xe", "ye", "ze")[: rows.shape[0]]
+    kinds = [*["acceleration"] * (len(names) - 1), last]
+    channels = tuple(
+        Channel(name=n, quantity=kind, unit="m/s^2", location="", axis="") for n, kind in zip(names, kinds, strict=True)
+    )
     return SimpleNamespace(
         recording=Recording(sampling_rate_hz=RATE_HZ, channels=channels, samples=rows),
         speed=SimpleNamespace(speed_hz=speed_hz),
@@ -64,6 +67,11 @@ def times(rows: FloatArray, *factors: float) -> FloatArray:
         ((G, 1.0), "changed by", "of de or fe may"),  # either: nothing fell
         ((1.0, 1 / G, 1.0), "of fe against the other channels changed by -20 dB", "of fe may"),
         ((1.0, 1.0, G), "of xe against the other channels changed by +20 dB", "of xe may"),
+        ((1 / G, 1 / G, 1.0), "of xe against the other channels changed by +20 dB", "of de and fe may"),  # they fell
+        ((1 / G, 1 / G, 1.0, 1.0), "against the other channels changed by -20 dB", "of de and fe may"),
+        ((G, G, 1.0), "of xe against the other channels changed by -20 dB", "of xe, or of de and fe, may"),
+        ((G, G, 1.0, 1.0), "against the other channels changed by +20 dB", "of de and fe, or of xe and ye, may"),
+        ((G, G, 1.0, 1.0, 1.0), "against the other channels changed by +20 dB", "of de and fe may"),
     ],
 )
 def test_one_channel_in_another_unit_is_told_beside_a_defect(
@@ -81,10 +89,19 @@ def test_other_gains_and_a_defect_alone_are_no_unit(factors: tuple[float, ...]) 
     assert report.sentence == NAMED.sentence
 
 
+def test_what_another_quantity_does_not_hear_is_no_unit() -> None:
+    """A race may raise all of an acceleration evenly by as much, and moves no current."""
+    gate = Gate(findings=(), baselines=(), tests=(), fault=None, usable=True)
+    louder = times(heard(2, 2), G, 1.0)
+    for last, alike in (("acceleration", True), ("current", False)):
+        both = [seen(louder, last=last)], [seen(heard(1, 2), last=last)]
+        assert ("changed by" in with_shifted(NAMED, gate, *both).sentence) is alike  # type: ignore[arg-type]
+
+
 def test_all_channels_in_another_unit_are_a_limit_with_the_levels() -> None:
     (limit,) = told(times(heard(2, 2, 0.4), 1 / G, 1 / G)).where.limits
     assert "de -" in limit and "fe -" in limit and "a defect takes nothing away" in limit
-    assert f"{UNIT_OR_GAIN} of de and fe may be wrong" in limit
+    assert f"unless the load was smaller, {UNIT_OR_GAIN} of de and fe may be wrong" in limit
 
 
 def test_a_level_that_rose_far_is_told_and_doubted_only_near_a_unit() -> None:
