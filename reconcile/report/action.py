@@ -87,11 +87,14 @@ def _which_first(report: Report) -> str:
             " Before that check which sensor is which channel, unit and gain of each, and the types of the bearings in "
             "the machine file."
         )
-    shifted = any(UNIT_OR_GAIN in limit for limit in report.where.limits)
-    units = " Before that check unit and gain of every channel against the baseline's." if shifted else ""
+    units = " Before that check unit and gain of every channel against the baseline's." if _shifted(report) else ""
     if any(BY_LOUDNESS in limit for limit in report.where.limits):
         return f"{units} Before that check which sensor is which channel: the place hangs on it."
     return units
+
+
+def _shifted(report: Report) -> bool:
+    return any(UNIT_OR_GAIN in limit for limit in report.where.limits)
 
 
 def _perhaps_all(report: Report) -> bool:
@@ -113,6 +116,8 @@ def _place(report: Report) -> str:
 
 def _nothing(report: Report) -> str:
     kept = "nothing follows from these recordings; keep them to compare later ones with."
+    if _shifted(report):
+        kept = "check unit and gain of every channel against the baseline's before you keep these to compare with."
     if NO_FIT in report.sentence:
         kept = "correct the machine file first, and ask again: what sound machines show is measured with it."
     unseen = " What they would hardly have shown stands under “What would have been seen”." if report.faintest else ""

@@ -102,6 +102,10 @@ def test_all_channels_in_another_unit_are_a_limit_with_the_levels() -> None:
     (limit,) = told(times(heard(2, 2, 0.4), 1 / G, 1 / G)).where.limits
     assert "de -" in limit and "fe -" in limit and "a defect takes nothing away" in limit
     assert f"unless the load was smaller, {UNIT_OR_GAIN} of de and fe may be wrong" in limit
+    nothing = replace(NAMED, verdict="nothing_missing", causes=())
+    quiet = told(times(heard(2, 2), 1 / 4, 1 / 4), report=nothing)
+    assert "check unit and gain" in to_do(quiet) and "keep them" not in to_do(quiet)
+    assert "keep them" in to_do(nothing)
 
 
 def test_a_level_that_rose_far_is_told_and_doubted_only_near_a_unit() -> None:
