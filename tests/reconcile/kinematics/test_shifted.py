@@ -36,14 +36,16 @@ def heard(seed: int, count: int, blow: float = 0.0) -> FloatArray:
     return np.asarray(noise + ring + 0.5 * blow * rng.standard_normal((count, N)), dtype=np.float64)
 
 
-def seen(rows: FloatArray, speed_hz: float = 20.0, last: str = "acceleration") -> SimpleNamespace:
+def seen(
+    rows: FloatArray, speed_hz: float = 20.0, last: str = "acceleration", rate_hz: float = RATE_HZ
+) -> SimpleNamespace:
     names = ("de", "fe", "xe", "ye", "ze")[: rows.shape[0]]
     kinds = [*["acceleration"] * (len(names) - 1), last]
     channels = tuple(
         Channel(name=n, quantity=kind, unit="m/s^2", location="", axis="") for n, kind in zip(names, kinds, strict=True)
     )
     return SimpleNamespace(
-        recording=Recording(sampling_rate_hz=RATE_HZ, channels=channels, samples=rows),
+        recording=Recording(sampling_rate_hz=rate_hz, channels=channels, samples=rows),
         speed=SimpleNamespace(speed_hz=speed_hz),
     )
 
@@ -120,5 +122,9 @@ def test_no_word_of_it_where_levels_cannot_be_held_against_each_other() -> None:
     wrong = times(heard(2, 2, 2.0), 1 / G, 1.0)
     assert told(wrong, kind="clipped") == NAMED and told(wrong, speed_hz=30.0) == NAMED
     assert told(wrong, kind="loose_sensor") != NAMED
+    other = [seen(heard(1, 2), rate_hz=RATE_HZ / 2)]
+    gate = Gate(findings=(), baselines=(), tests=(), fault=None, usable=True)
+    assert with_shifted(NAMED, gate, [seen(wrong)], other) == NAMED  # type: ignore[list-item, arg-type]
+    assert with_shifted(NAMED, gate, [seen(wrong)], []) == NAMED  # type: ignore[list-item]
     fault = replace(NAMED, verdict="measurement_fault")
     assert told(wrong, report=fault) == fault

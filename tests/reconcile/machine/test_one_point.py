@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -32,6 +33,22 @@ def test_a_second_must_not_be_one_operating_points_alone(
     told = pairs_in(seen(SMALLER))
     assert told is not None and (told.best is not None) == stands and simulated
     assert told.tried[0][2] is not None, "it is told that it was tried"
+
+
+@pytest.mark.parametrize(("again", "gain", "parts"), [(7.0, 43.0, (14.0, 29.0)), (-7.0, 50.0, (20.0, 30.0))])
+def test_what_the_first_alone_gains_once_more_is_taken_off_at_each_operating_point(
+    again: float, gain: float, parts: tuple[float, ...], simulated: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = pairs_in(seen(SMALLER))
+    assert told is not None and told.best is not None and simulated
+    library = SimpleNamespace(known=SimpleNamespace(library=SimpleNamespace(changes=None)))
+    for name, made in {"_start": None, "_moved": library, "_parts": (6.0, 1.0)}.items():
+        monkeypatch.setattr(left_pairs, name, lambda *_, made=made: made)
+    asked = SimpleNamespace(least=30.0, left=SimpleNamespace(level=lambda _: again, base=0.0))
+    one = replace(told.best, gain=50.0, parts=(20.0, 30.0))
+    fair = left_pairs._fairly(asked, {WRONG: one, THIRD: None})  # type: ignore[arg-type]
+    left = fair[WRONG]
+    assert left is not None and (left.gain, left.parts, fair[THIRD]) == (gain, parts, None)
 
 
 @pytest.mark.parametrize(("twins", "others"), [(False, ()), (True, (WRONG, THIRD))])
