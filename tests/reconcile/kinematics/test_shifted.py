@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 
 from reconcile.gate.findings import Finding, Gate, Kind
+from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.shifted import with_shifted
 from reconcile.report.action import UNIT_OR_GAIN, to_do
 from reconcile.verdict import Cause, Report
 from signals.recording import Recording
 from signals.series import FloatArray
 from sim.core.response import Channel
+from tests.strategies import brief
 
 RATE_HZ, N, G = 20_000.0, 40_000, 9.80665
 NAMED = Report(
@@ -128,3 +130,15 @@ def test_no_word_of_it_where_levels_cannot_be_held_against_each_other() -> None:
     assert with_shifted(NAMED, gate, [seen(wrong)], []) == NAMED  # type: ignore[list-item]
     fault = replace(NAMED, verdict="measurement_fault")
     assert told(wrong, report=fault) == fault
+
+
+@pytest.mark.slow
+def test_the_whole_answer_tells_levels_that_fell_on_all_channels_and_keeps_no_such_recording() -> None:
+    bearing = {"name": "bearing1", "shaft": "shaft", "catalogue": "6205"}
+    machine = read_kinematic_spec({"kinematics": {"shafts": [{"name": "shaft"}], "bearings": [bearing]}})
+    base, test = (brief.recorded(np.array([brief.sound(k), brief.sound(k + 10)])) for k in (5, 2))
+    fallen = replace(test, samples=np.asarray(test.samples / 4))
+    report = reconcile_kinematics(machine, [fallen], [base], seed=1)
+    assert report.verdict == "nothing_missing" and "load, speed or mounting" in report.sentence
+    assert any("unless the load was smaller" in limit for limit in report.where.limits)
+    assert "check unit and gain" in to_do(report)
