@@ -228,6 +228,17 @@ RULES = (
     ),
     (
         (
+            "second sidebands of a shaft are a family and count one by one, and a torque that comes twice a turn and "
+            "an angle at a coupling are simulated as closely where either is the best "
+            "([decision](decisions/reconcile-sidebands.md))"
+        ),
+        (
+            "w003 and a005, angles at a coupling that were not decidable and not detected; the set of angle and torque "
+            "at their shaft since, w003 with the angle first, 0.13 rad (0.07 to 0.22)"
+        ),
+    ),
+    (
+        (
             "a second effect takes no more than a quarter of what it adds at the other speeds, beside a play nothing "
             "([decision](decisions/reconcile-leftover.md))"
         ),

@@ -13,7 +13,7 @@ from reconcile.atlas.plan import AtlasPlan
 from reconcile.calibrate.chain import Chain, Healthy, calibrate_chain
 from reconcile.judge.in_step import Delay, clock_delays, compared
 from reconcile.judge.measured import measured_db, unsteady_db, wander_patterns
-from reconcile.judge.pooled import OneByOne, Pooling, lines_beside, own_lines, pooling
+from reconcile.judge.pooled import OneByOne, Pooling, lines_beside, lines_twice, own_lines, pooling
 from reconcile.observe.background import gained_between
 from reconcile.observe.features import Layout, Scale, changed, scale_of, soft_features, through
 from reconcile.observe.observation import PointData
@@ -43,6 +43,8 @@ class Changes:
     """The machine's own lines (mesh harmonics), one by one."""
     sides: OneByOne
     """What modulates them (the shafts' first sidebands), one by one."""
+    twice: OneByOne
+    """What modulates them twice a turn (the shafts' second sidebands), one by one; none without teeth."""
     wander: FloatArray
     """(k, F): changes that speed wander brings about, one deviation each; signs and sizes are free."""
     kind: FloatArray
@@ -199,6 +201,7 @@ def observed_changes(
         pooling=pooling(watched, layout, phased=phased, **size),
         single=own_lines(watched, layout, **size),
         sides=lines_beside(watched, layout, **size),
+        twice=lines_twice(watched, layout, **size),
         phased=tuple(view(watched, layout, phased=True, **size) for view in (own_lines, lines_beside) if phased),
         wander=block_diag(*wander),
         kind=np.zeros((0, starts[-1])),

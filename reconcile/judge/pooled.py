@@ -45,8 +45,10 @@ def _shaft_order(line: Watched) -> tuple[str, float]:
 
 def _sideband_family(line: Watched) -> str:
     """The first pair of a shaft's sidebands is a family of its own: what is out of true or out of balance moves it and
-    hardly the others."""
+    hardly the others. So is the second: what comes twice a turn moves it alone."""
     base, order = _shaft_order(line)
+    if abs(order) == 2:
+        return f"sidebands {base} second"
     if abs(order) != 1:
         return f"sidebands {base}"
     mesh = next(n for b, n in line.orders.items() if b != base)
@@ -142,6 +144,11 @@ def lines_beside(watched: WatchList, layout: Layout, *, points: int, channels: i
     """What modulates them (the first pair of every shaft's sidebands around mesh harmonics), one by one; with their
     phases."""
     return _one_by_one(watched, layout, watched.beside, points=points, channels=channels, phased=phased)
+
+
+def lines_twice(watched: WatchList, layout: Layout, *, points: int, channels: int) -> OneByOne:
+    """What modulates them twice a turn (the second pair of every shaft's sidebands), one by one."""
+    return _one_by_one(watched, layout, watched.twice, points=points, channels=channels, phased=False)
 
 
 def pooling(watched: WatchList, layout: Layout, *, points: int, channels: int, phased: bool = False) -> Pooling:

@@ -14,9 +14,9 @@ from reconcile.tail import tail_chance
 from signals.series import FloatArray
 
 OTHER_VIEW = 0.5
-KINDS = 2
-"""Views of single lines by levels alone: own lines (the teeth's; without teeth the shafts' and passing balls')
-and first sidebands."""
+KINDS = 3
+"""Views of single lines by levels alone: own lines (the teeth's; without teeth the shafts' and passing balls'), first
+and second sidebands; the last is missing without teeth, where there are no views with phases behind it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +26,7 @@ class Screen:
 
     `p_any`: chance of such a change in a healthy machine, by the most changed group of features (one point, channel
     and kind), `strongest` in standard deviations; `p_best`: by the best candidate's evidence; `p_direct`: by impacts.
-    `by` (effects,): the view (0 to 4) that speaks for each. `weights` sum to 1 over the effects.
+    `by` (effects,): the view (0 to 5) that speaks for each. `weights` sum to 1 over the effects.
     `misfit`: quantile of the best distance among draws of known effects; `rest`: what the best leaves of single lines,
     nothing where that view is missing. `p_lines`: chance of such a change of single lines, whatever its pattern.
     """
@@ -112,8 +112,9 @@ def together(told: Sequence[FloatArray]) -> FloatArray:
 def judge(
     views: Sequence[Fitted], observed: FloatArray, direct: Mapping[str, float] | None = None, p_direct: float = 1.0
 ) -> Screen:
-    """`observed` (F,) in dB against all paths in one to five views, the first of families and the others of single
-    lines, levels of two kinds first and then the same with phases; `direct`: log evidence that needs no simulation.
+    """`observed` (F,) in dB against all paths in one to six views, the first of families and the others of single
+    lines, levels of two or three kinds first and then two of them with phases; `direct`: log evidence that needs no
+    simulation.
 
     An effect counts by the view that speaks louder for it, and half by the other: what that one sees may be what the
     model has not, and it sees much of the same.

@@ -184,14 +184,15 @@ def _with(setting: Setting, found: Found, more: Catalogued) -> Found:
     best = after.names[int(np.argmax(after.evidence))]
     rest = replace(after.rest, rough=best not in found.led)
     screen = replace(after, rest=rest, unmoved=before.pattern, **kept)
-    fitted, fine, sides = (*views, None, None)[:3]
-    phases = tuple(views[3:])
+    fitted, fine, sides, twice = (*views, None, None, None)[:4]
+    phases = tuple(views[4:])
     return replace(
         found,
         known=joined(found.known, more),
         fitted=fitted or found.fitted,
         fine=fine,
         sides=sides,
+        twice=twice,
         phases=phases,
         screen=screen,
     )

@@ -18,7 +18,7 @@ from reconcile.atlas.bank import Mapper
 from reconcile.atlas.candidates import Candidate, size_parameter
 from reconcile.calibrate.uncertain import Offsets
 from reconcile.judge.adequacy import Rest, rest_beside
-from reconcile.judge.screen import quantile_of_misfit, together
+from reconcile.judge.screen import KINDS, quantile_of_misfit, together
 from reconcile.judge.space import Fitted
 from reconcile.machine.assimilate import Ensemble, moved, simulated_again
 from reconcile.machine.decide import STRANGE, Decision, leaves_lines
@@ -46,7 +46,7 @@ least repeatable, 11. Where rivals come near the second it must be the first: be
 come once a turn added 8.4."""
 UNTRIED = 6.0
 """Log evidence by which it must lead what was summed only: simulated beside the first, seconds gain up to 5 more."""
-SIDEBANDS = (2, 4)
+SIDEBANDS = (2, 3, 5)
 """Numbers of the views of single sidebands."""
 
 
@@ -300,7 +300,7 @@ def inadequate(pair: Pair) -> bool:
 
 
 def _rest(found: Found, first: str, changes: FloatArray, observed: FloatArray) -> Rest:
-    lines = [rest_beside(v, observed, first, changes) for v in found.views[1:3]]
+    lines = [rest_beside(v, observed, first, changes) for v in found.views[1 : 1 + KINDS]]
     pooled = rest_beside(found.fitted, observed, first, changes).kept
     worst = max(lines, key=lambda rest: rest.unmet)
     return replace(worst, pooled=pooled, elsewhere=worst.unmet, rough=False)

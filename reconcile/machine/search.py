@@ -42,14 +42,17 @@ SECONDS = 3
 MOSTLY_SEEN, SPREAD, SPREAD_ABOUT = 0.75, 6, 2
 """Share of an effect's draws from which its sizes are known as they are drawn, else so many draws spread over the sizes
 about so many of the best."""
-OTHER_PLAY = {
+LIKE_IT = {
+    "torque_ripple": ("angular_misalignment",),
+    "angular_misalignment": ("torque_ripple",),
     "radial_clearance": ("fit_clearance_series", "fit_clearance"),
     "fit_clearance": ("radial_clearance",),
     "fit_clearance_series": ("radial_clearance",),
 }
 """A bearing with more play and a ring loose in its seat let the shaft stand off alike: where one is the best, the other
 is simulated too, the first form of it that there may be: beside a fit of the machine file the other form cannot be. A
-ring loose by 11 um was unknown physics, the wider clearance of its bearing the best (w032)."""
+ring loose by 11 um was unknown physics, the wider clearance of its bearing the best (w032). An angle at a coupling
+twists the shaft twice a turn, as a torque does that comes twice (a005)."""
 FITTED_SECONDS = 2
 """Of these so many are fitted together with the machine."""
 
@@ -63,7 +66,8 @@ def fit_views(setting: Setting, known: Catalogued) -> Found:
     told = len(setting.data) >= POINTS_OF_LINES or len(setting.channels) >= enough
     views: tuple[OneByOne, ...] = ()
     if setting.fitted_machine is not None and told:
-        views = (changes.single, changes.sides, *changes.phased)
+        toothed = (changes.twice, *changes.phased) if np.any(changes.twice.chosen) else ()
+        views = (changes.single, changes.sides, *toothed)
     lines = [
         fit_space(changes, known.library, seed=setting.seed, view=view, least=LEAST_OF_LINES, banks=banks)
         for view in views
@@ -71,8 +75,10 @@ def fit_views(setting: Setting, known: Catalogued) -> Found:
     screen = judge((fitted, *lines), changes.observed, direct.evidence, direct.p)
     if not lines:
         return Found(known=known, fitted=fitted, screen=screen)
-    fine, sides, *phases = lines
-    return Found(known=known, fitted=fitted, screen=screen, fine=fine, sides=sides, phases=tuple(phases))
+    fine, sides, twice = (*lines, None)[:3]
+    return Found(
+        known=known, fitted=fitted, screen=screen, fine=fine, sides=sides, twice=twice, phases=tuple(lines[3:])
+    )
 
 
 def screen_atlas(setting: Setting) -> Found:
@@ -111,17 +117,17 @@ def located(
         others = beside(setting, found, best[0])
         best += [n for n in (others.names[:SECONDS] if others else ()) if n not in best]
     best += [n for n in map(looks_like, best) if n in draws and n not in best]
-    best += [n for n in other_play(best[0], draws) if n not in best]
+    best += [n for n in like_it(best[0], draws) if n not in best]
     second = second_heat(setting.plan, best, draws, first)
     if not second.draws:
         return found  # effects with one place only: the first heat had all of their draws
     return fit_views(setting, simulated(setting, second, mapper, known))
 
 
-def other_play(name: str, known: Collection[str]) -> list[str]:
-    """The other play of that bearing, if it is `known`; none of what is no play."""
+def like_it(name: str, known: Collection[str]) -> list[str]:
+    """The other play of that bearing or what drives that shaft alike, if it is `known`; none of what is neither."""
     term, site = name.split("@")
-    return [other for form in OTHER_PLAY.get(term, ()) if (other := f"{form}@{site}") in known][:1]
+    return [other for form in LIKE_IT.get(term, ()) if (other := f"{form}@{site}") in known][:1]
 
 
 def _draws(screened: Found, before: Setting) -> dict[str, list[Draw]]:

@@ -49,8 +49,10 @@ class Found:
     the baseline."""
     sides: Fitted | None = None
     """The view of single sidebands there."""
+    twice: Fitted | None = None
+    """The view of single second sidebands there."""
     phases: tuple[Fitted, ...] = ()
-    """The same two with the phases between sensors, where these are compared."""
+    """The first two with the phases between sensors, where these are compared."""
     before: Catalogued | None = None
     """The draws that were not led to the observation, where others were."""
     led: Mapping[str, Offsets] = field(default_factory=dict)
@@ -70,8 +72,9 @@ class Found:
 
     @property
     def views(self) -> tuple[Fitted, ...]:
-        """Families, single lines, single sidebands, both with phases; what there is of them, in this order."""
-        return tuple(v for v in (self.fitted, self.fine, self.sides, *self.phases) if v is not None)
+        """Families, single lines, first and second sidebands one by one, the first two of these with phases; what there
+        is of them, in this order."""
+        return tuple(v for v in (self.fitted, self.fine, self.sides, self.twice, *self.phases) if v is not None)
 
     def view(self, name: str) -> Fitted:
         """The view that speaks for an effect."""

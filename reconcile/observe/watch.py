@@ -20,6 +20,9 @@ MESH_SIDEBANDS = 3
 OUTER_ORDERS = 8
 ROLLING_ORDERS = 4
 ROLLING_SIDEBANDS = 2
+DOUBLED_MESH = 3
+"""Mesh harmonics up to which second sidebands count one by one: an angle between the shafts at a coupling (0.12 rad,
+w003 of the proof) raised those of the first three by up to 20 dB, and none beyond by more than 5."""
 SAME_HZ_SHARE = 1e-3
 """Lines closer than this share of the drive shaft's speed are one line (equal bearings on one shaft)."""
 SLIPPING = ("f_o", "f_i", "f_b", "f_c")
@@ -38,7 +41,16 @@ class Watched:
     @property
     def first_sideband(self) -> bool:
         """Of a mesh harmonic, one turn of a shaft away."""
-        return self.family == "sideband" and any(abs(n) == 1 for b, n in self.orders.items() if b.startswith("f_r"))
+        return self._sideband(1)
+
+    @property
+    def second_sideband(self) -> bool:
+        """Of a lower mesh harmonic, two turns of a shaft away."""
+        mesh = max((n for b, n in self.orders.items() if b.startswith("f_m")), default=0.0)
+        return self._sideband(2) and mesh <= DOUBLED_MESH
+
+    def _sideband(self, order: int) -> bool:
+        return self.family == "sideband" and any(abs(n) == order for b, n in self.orders.items() if b.startswith("f_r"))
 
     def frequency_hz(self, bases_hz: Mapping[str, float]) -> float:
         """Frequency for these base frequencies, Hz."""
@@ -74,6 +86,11 @@ class WatchList:
         if self.gears:
             return np.array([w.first_sideband for w in self.lines], dtype=bool)
         return np.array([w.family in ("inner", "ball") for w in self.lines], dtype=bool)
+
+    @cached_property
+    def twice(self) -> np.ndarray:
+        """Mask over `lines`, shape (lines,): what modulates the mesh twice a turn, its second sidebands."""
+        return np.array([w.second_sideband for w in self.lines], dtype=bool)
 
     @cached_property
     def phased(self) -> tuple[int, ...]:

@@ -48,6 +48,7 @@ def single_lines(observed: np.ndarray, null: np.ndarray) -> Changes:
         pooling=Pooling(family=np.zeros(LINES, dtype=int), names=("all",), points=1, channels=1),
         single=lines,
         sides=lines,
+        twice=lines,
         wander=np.zeros((1, LINES)),
         kind=np.zeros((0, LINES)),
     )

@@ -79,6 +79,7 @@ def changes(made: World, observed: np.ndarray, seed: int = 0, *, points: int = 1
         pooling=Pooling(family=family, names=names, points=points, channels=1),
         single=OneByOne(chosen=np.ones(FEATURES, dtype=bool), points=points, channels=1),
         sides=OneByOne(chosen=np.arange(FEATURES) < MEMBERS, points=points, channels=1),
+        twice=OneByOne(chosen=np.zeros(FEATURES, dtype=bool), points=points, channels=1),
         wander=np.zeros((1, FEATURES)),
         kind=np.zeros((0, FEATURES)),
     )

@@ -72,7 +72,8 @@ def test_draws_of_which_none_runs_leave_what_was_known(monkeypatch: pytest.Monke
         search.simulated(setting, None, map)  # type: ignore[arg-type]
 
 
-CLOSELY = ("tooth_spall", "missing_tooth", "tooth_crack", "fit_clearance_series", "radial_clearance", "fit_clearance")
+TEETH = ("tooth_spall", "missing_tooth", "tooth_crack")
+CLOSELY = (*TEETH, "fit_clearance_series", "radial_clearance", "fit_clearance", "torque_ripple", "angular_misalignment")
 
 
 @pytest.mark.parametrize(
@@ -83,11 +84,13 @@ CLOSELY = ("tooth_spall", "missing_tooth", "tooth_crack", "fit_clearance_series"
         ("radial_clearance@gear", ["fit_clearance_series@gear"]),
         ("fit_clearance_series@gear", ["radial_clearance@gear"]),
         ("fit_clearance@gear", ["radial_clearance@gear"]),
+        ("torque_ripple@gear", ["angular_misalignment@gear"]),
+        ("angular_misalignment@gear", ["torque_ripple@gear"]),
         ("radial_clearance@wheel", ["fit_clearance@wheel"]),  # whose fit the machine file has loose already
         ("radial_clearance@pinion", []),  # where a fit cannot be loose
     ],
 )
-def test_a_pitted_tooth_is_simulated_where_a_broken_one_is_and_the_other_play_where_one_is(
+def test_what_looks_like_the_best_is_simulated_as_closely_pitted_and_broken_teeth_plays_and_twists(
     monkeypatch: pytest.MonkeyPatch, best: str, with_it: list[str]
 ) -> None:
     asked: list[str] = []

@@ -9,24 +9,26 @@ import pytest
 from reconcile.machine.limits import limits
 from reconcile.machine.setting import Found
 
-FAMILIES, MESH, SIDES, MESH_PHASES, SIDES_PHASES = (SimpleNamespace(name=n) for n in "fmsMS")
-NAMES = ("a@x", "b@x", "c@x", "d@x", "e@x")
+FAMILIES, MESH, SIDES, TWICE, MESH_PHASES, SIDES_PHASES = (SimpleNamespace(name=n) for n in "fmstMS")
+NAMES = ("a@x", "b@x", "c@x", "d@x", "e@x", "f@x")
 
 
 def found(**parts: object) -> Found:
     screen = SimpleNamespace(names=NAMES, by=range(len(NAMES)))
-    given = {"fitted": FAMILIES, "fine": MESH, "sides": SIDES, "phases": (MESH_PHASES, SIDES_PHASES), **parts}
+    phases = (MESH_PHASES, SIDES_PHASES)
+    given = {"fitted": FAMILIES, "fine": MESH, "sides": SIDES, "twice": TWICE, "phases": phases, **parts}
     return Found(known=None, screen=screen, **given)  # type: ignore[arg-type]
 
 
 def test_views_stand_in_the_order_of_the_screen() -> None:
-    assert found().views == (FAMILIES, MESH, SIDES, MESH_PHASES, SIDES_PHASES)
-    assert found(phases=()).views == (FAMILIES, MESH, SIDES)
-    assert found(fine=None, sides=None, phases=()).views == (FAMILIES,)
+    assert found().views == (FAMILIES, MESH, SIDES, TWICE, MESH_PHASES, SIDES_PHASES)
+    assert found(phases=()).views == (FAMILIES, MESH, SIDES, TWICE)
+    assert found(twice=None, phases=()).views == (FAMILIES, MESH, SIDES), "a machine without teeth"
+    assert found(fine=None, sides=None, twice=None, phases=()).views == (FAMILIES,)
     assert [found().view(name) for name in NAMES] == list(found().views)
 
 
-@pytest.mark.parametrize(("name", "view"), list(zip(NAMES, (MESH, MESH, SIDES, MESH, SIDES), strict=True)))
+@pytest.mark.parametrize(("name", "view"), list(zip(NAMES, (MESH, MESH, SIDES, TWICE, MESH, SIDES), strict=True)))
 def test_an_effect_is_fitted_in_levels_whatever_speaks_for_it(name: str, view: object) -> None:
     assert found().lines(name) is view
 

@@ -111,5 +111,8 @@ def test_lines_that_count_each_for_itself_are_the_teeths_or_else_the_shafts_and_
         assert {w.family for w, one in zip(watched.lines, watched.own, strict=True) if one} == own
         assert {w.family for w, one in zip(watched.lines, watched.beside, strict=True) if one} == beside
     assert not geared.beside[[i for i, w in enumerate(geared.lines) if not w.first_sideband]].any()
+    twice = [w for w, one in zip(geared.lines, geared.twice, strict=True) if one]
+    assert all(w.family == "sideband" and {abs(n) for b, n in w.orders.items() if b != "f_m"} == {2} for w in twice)
+    assert {w.orders["f_m"] for w in twice} == {1, 2, 3} and not bare.twice.any()
     every = {w.label for w, one in zip(bare.lines, bare.own, strict=True) if one}
     assert {"1*f_r1", "6*f_r1", "1*f_o1", "8*f_o1"} <= every and "0.5*f_r1" not in every
