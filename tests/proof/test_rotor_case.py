@@ -22,12 +22,13 @@ from tests.reconcile import prebuilt
 pytestmark = [pytest.mark.slow, pytest.mark.long, pytest.mark.xdist_group("proof-rotor")]
 
 
-@pytest.mark.parametrize("now", wanted(), ids=lambda now: now.bank.stem)
-def test_the_small_atlases_are_what_the_simulator_gives_today(now: prebuilt.Wanted) -> None:
-    why = prebuilt.stale(now)
-    if why is not None:
-        pytest.fail(why, pytrace=False)
-    found = prebuilt.deviation_db(now, -1)
+def test_the_small_atlases_are_what_the_simulator_gives_today() -> None:
+    """One of the two is simulated: both are of one machine and one version of the physics."""
+    for now in wanted():
+        why = prebuilt.stale(now)
+        if why is not None:
+            pytest.fail(why, pytrace=False)
+    found = prebuilt.deviation_db(wanted()[0], -1)
     assert max(found.values()) < prebuilt.SAME_DB, f"the physics changed (dB: {found}): {prebuilt.REMAKE}"
 
 

@@ -185,7 +185,7 @@ def test_error_is_relative_to_the_spread() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1])
 def test_hysteresis_which_is_no_listed_law_gets_no_name_that_feeds_energy_in(seed: int) -> None:
     report = reconcile_driven(SPEC, [hysteretic(seed=seed)], seed=1)
     assert report.verdict == "unknown_physics", report.sentence
