@@ -240,6 +240,12 @@ def test_every_channel_at_fault_is_told_whatever_its_kind(browser: Browser, serv
         ["silence", "fe", "test 1", "never changes", "left out"],
         ["loose sensor", "xe", "test 1", "never changes", "or the machine's own"],
     ]
+    pill = (
+        "return import('/js/reconcile/answer.js').then((m) => { const p = m.answer({ id: 'x', links: {},"
+        " report: arguments[0] }).querySelector('.pill'); return [p.dataset.tone, p.textContent]; })"
+    )
+    assert browser.run(pill, report) == ["bad", "measurement fault"]
+    assert browser.run(pill, {**report, "fault": other}) == ["warn", "perhaps the measurement"]
 
 
 def _fits_a_phone(browser: Browser, service: Service, page: str) -> None:

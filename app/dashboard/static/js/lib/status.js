@@ -14,8 +14,10 @@ export function statusPill(job) {
 const VERDICTS = { nothing_missing: "ok", explained: "run", ambiguous: "warn", unknown_physics: "warn", measurement_fault: "bad", not_decidable: "warn" };
 const words = (text) => text.replace(/_/g, " ");
 
-export function verdictPill(verdict) {
-  return h("span", { class: "pill", dataset: { tone: VERDICTS[verdict] ?? "", verdict } }, words(verdict));
+/** `perhaps`: a fault of the measurement that may as well be the machine's own. */
+export function verdictPill(verdict, perhaps = false) {
+  const [tone, text] = perhaps ? ["warn", "perhaps the measurement"] : [VERDICTS[verdict] ?? "", words(verdict)];
+  return h("span", { class: "pill", dataset: { tone, verdict } }, text);
 }
 
 /** The verdict of a reconciliation with the causes it names; of any other job, and before there is one, how it stands. */

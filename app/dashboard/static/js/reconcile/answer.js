@@ -37,7 +37,7 @@ function verdict(report) {
   const fault = report.measurement_faults?.length ? null : report.fault;
   const sent = Object.entries(provenance?.sent_as ?? {}).map(([name, label]) => `${name}: ${label}`);
   return h("section", { class: "card card-body reconcile-form", id: "answer-verdict", "aria-label": "Verdict" },
-    h("div", {}, verdictPill(report.verdict)),
+    h("div", {}, verdictPill(report.verdict, report.verdict === "measurement_fault" && report.fault?.doubtful)),
     h("p", { class: "reconcile-sentence" }, tidied(report.sentence)),
     sent.length ? h("p", { class: "muted small" }, [provenance.machine, ...sent].filter(Boolean).join("; ")) : null,
     report.to_do ? h("p", {}, h("b", {}, "What to do: "), report.to_do) : null,
