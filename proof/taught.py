@@ -228,8 +228,8 @@ RULES = (
     ),
     (
         (
-            "second sidebands of a shaft are a family and count one by one, and a torque that comes twice a turn and "
-            "an angle at a coupling are simulated as closely where either is the best "
+            "second sidebands of a shaft count one by one, and a torque that comes twice a turn and an angle at a "
+            "coupling are simulated as closely where either is the best "
             "([decision](decisions/reconcile-sidebands.md))"
         ),
         (

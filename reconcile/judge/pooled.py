@@ -45,10 +45,8 @@ def _shaft_order(line: Watched) -> tuple[str, float]:
 
 def _sideband_family(line: Watched) -> str:
     """The first pair of a shaft's sidebands is a family of its own: what is out of true or out of balance moves it and
-    hardly the others. So is the second: what comes twice a turn moves it alone."""
+    hardly the others."""
     base, order = _shaft_order(line)
-    if abs(order) == 2:
-        return f"sidebands {base} second"
     if abs(order) != 1:
         return f"sidebands {base}"
     mesh = next(n for b, n in line.orders.items() if b != base)

@@ -137,7 +137,6 @@ def test_every_feature_of_a_machine_has_a_family() -> None:
     first = dict(zip([w.label for w in watched.lines], found.family, strict=False))
     assert first["1*f_o1"] == first["8*f_o1"] != first["1*f_o3"]
     assert first["1*f_m-1*f_r1"] == first["2*f_m+1*f_r1"] != first["1*f_m-1*f_r2"]
-    assert first["1*f_m-2*f_r1"] == first["5*f_m+2*f_r1"] != first["1*f_m-3*f_r1"] == first["5*f_m+3*f_r1"]
-    assert len({first[f"1*f_m-{n}*f_r1"] for n in (1, 2, 3)} | {first["5*f_m+1*f_r1"]}) == 4
+    assert first["1*f_m-2*f_r1"] == first["5*f_m+3*f_r1"] != first["1*f_m-1*f_r1"] != first["5*f_m+1*f_r1"]
     assert first["1*f_m"] == first["2*f_m"] != first["3*f_m"]
     assert first["0.5*f_r1"] != first["1*f_r1"] != first["2*f_r1"]
