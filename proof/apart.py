@@ -13,18 +13,16 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from dataclasses import asdict, dataclass, replace
-from multiprocessing import get_context
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.ndimage import uniform_filter1d
 from scipy.stats import norm
-from tqdm import tqdm
 
 from proof.case import MACHINE, another_test, instruments_of, with_noise
+from proof.each import of_each
 from proof.machine import FloatArray, hidden_machine
 from proof.model.layout import G
 from proof.oracle import NOISES
@@ -161,12 +159,7 @@ def measure(cases: Sequence[Case], store: Path, jobs: int) -> dict[str, Apart]:
     """Of all cases of one fault of a tooth; what is stored is not made again."""
     found = stored(store)
     todo = [c for c in cases if of_a_tooth(c) and c.name not in found]
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        for case, one in zip(todo, tqdm(pool.map(apart, todo), total=len(todo), desc="apart"), strict=True):
-            found[case.name] = one
-            text = json.dumps({name: asdict(v) for name, v in sorted(found.items())}, indent=1)
-            store.write_text(text + "\n", encoding="utf-8")
-    return found
+    return of_each(todo, apart, found, store, jobs)
 
 
 def store_of(results: Path, split: str) -> Path:

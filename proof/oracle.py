@@ -16,18 +16,16 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import partial
-from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.stats import norm
-from tqdm import tqdm
 
 from proof.case import DURATION_S, MACHINE, OTHER_TEST, another_test, instruments_of, with_noise
+from proof.each import of_each
 from proof.machine import DRIFT, SPREAD, FloatArray, Hidden, hidden_machine
 from proof.plan import Case, Hiding
 
@@ -172,12 +170,7 @@ def measure(cases: Sequence[Case], store: Path, jobs: int) -> dict[str, Seen]:
     """Of all cases with effects; what is stored is not made again."""
     found = stored(store)
     todo = [c for c in cases if c.effects and c.name not in found]
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        for case, one in zip(todo, tqdm(pool.map(seen, todo), total=len(todo), desc="oracle"), strict=True):
-            found[case.name] = one
-            text = json.dumps({name: asdict(v) for name, v in sorted(found.items())}, indent=1)
-            store.write_text(text + "\n", encoding="utf-8")
-    return found
+    return of_each(todo, seen, found, store, jobs)
 
 
 def store_of(results: Path, split: str) -> Path:

@@ -8,16 +8,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from dataclasses import asdict, dataclass
-from multiprocessing import get_context
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from tqdm import tqdm
 
 from proof.case import quiet_parts, quiet_tests
+from proof.each import of_each
 from proof.machine import FloatArray
 from proof.plan import Case
 
@@ -91,12 +89,7 @@ def measure(cases: Sequence[Case], store: Path, jobs: int) -> dict[str, Visible]
     """Of all cases with effects; what is stored is not made again."""
     found = stored(store)
     todo = [c for c in cases if c.effects and not _measured(c, found.get(c.name))]
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        for case, one in zip(todo, tqdm(pool.map(visibility, todo), total=len(todo), desc="visible"), strict=True):
-            found[case.name] = one
-            text = json.dumps({name: asdict(v) for name, v in sorted(found.items())}, indent=1)
-            store.write_text(text + "\n", encoding="utf-8")
-    return found
+    return of_each(todo, visibility, found, store, jobs)
 
 
 def _measured(case: Case, one: Visible | None) -> bool:
