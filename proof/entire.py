@@ -43,12 +43,14 @@ Row = tuple[int, int, int]
 @dataclass(frozen=True, kw_only=True)
 class Design:
     """One such split: `turned` is from which number on the cycles of laws, severities and variants go, as other splits
-    have gone before; `rows` are the conditions of every fourth case."""
+    have gone before, `begun` from which on those of rarer laws, pairs and unknown effects; `rows` are the conditions of
+    every fourth case."""
 
-    split: Literal["entire", "held", "wide"]
+    split: Literal["entire", "held", "wide", "mixed"]
     groups: Mapping[Group, int]
     turned: int
     rows: tuple[Row, ...]
+    begun: int = 0
 
 
 ENTIRE = Design(
@@ -74,6 +76,8 @@ WIDE = Design(
     rows=HELD.rows,
 )
 """The same in little, for the engine that came of the misses of the others."""
+MIXED = Design(split="mixed", groups=WIDE.groups, turned=557, rows=HELD.rows, begun=8)
+"""As wide, of laws, pairs and unknown effects that it leaves out."""
 ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
 STRUCK = ("outer_pit", "inner_pit", "ball_pit")
 FORMS = 3
@@ -96,6 +100,11 @@ def wide() -> tuple[Case, ...]:
     return cases_of_design(WIDE)
 
 
+def mixed() -> tuple[Case, ...]:
+    """All cases of the fourth."""
+    return cases_of_design(MIXED)
+
+
 def cases_of_design(design: Design) -> tuple[Case, ...]:
     """All cases in the order of their names, which say nothing: any first so many are a sample of the split."""
     every = [(group, i) for group, count in design.groups.items() for i in range(count)]
@@ -115,7 +124,7 @@ def _case(design: Design, place: int, index: int, group: Group, number: int) -> 
     if group == "ambiguous":
         alike = LOOKALIKES[number % len(LOOKALIKES)]
         chosen, speeds, causes, snr = alike.sensors, alike.speeds, alike.causes, 20.0
-    effects = _effects(group, number, turned, level, rng)
+    effects = _effects(group, number, turned, level, rng, design.begun)
     return Case(
         name=f"{design.split[0]}{place + 1:03d}",
         index=index,
@@ -132,22 +141,24 @@ def _case(design: Design, place: int, index: int, group: Group, number: int) -> 
     )
 
 
-def _effects(group: Group, number: int, turned: int, level: int, rng: np.random.Generator) -> tuple[Hiding, ...]:
+def _effects(
+    group: Group, number: int, turned: int, level: int, rng: np.random.Generator, begun: int
+) -> tuple[Hiding, ...]:
     if group in {"null", "misset", "sensor"}:
         return ()
     if group == "open":
-        return (hiding_of(tuple(OPEN)[number % len(OPEN)], turned, level, rng),)
+        return (hiding_of(tuple(OPEN)[(number + begun) % len(OPEN)], turned, level, rng),)
     if group == "double":
-        pair = ALL_PAIRS[number % len(ALL_PAIRS)]
+        pair = ALL_PAIRS[(number + begun) % len(ALL_PAIRS)]
         return tuple(_formed(hiding_of(law, turned + i, level, rng), turned + i) for i, law in enumerate(pair))
     if group == "ambiguous":
         alike = LOOKALIKES[number % len(LOOKALIKES)]
         law = CLOSED[alike.law]
         return (Hiding(law=alike.law, site=alike.causes[0][1], value=law.levels[level], variant=number % law.variants),)
     if group == "no_baseline":
-        return (_formed(hiding_of(FIRST[number % len(FIRST)], turned, level, rng), turned),)
+        return (_formed(hiding_of(FIRST[(number + begun) % len(FIRST)], turned, level, rng), turned),)
     turn, place = divmod(number, 8)
-    law_name = FIRST[place] if place < len(FIRST) else OTHERS[(2 * turn + place - len(FIRST)) % len(OTHERS)]
+    law_name = FIRST[place] if place < len(FIRST) else OTHERS[(2 * turn + begun + place - len(FIRST)) % len(OTHERS)]
     return (_formed(hiding_of(law_name, turned + turn, level, rng), turn + place),)
 
 

@@ -5,11 +5,12 @@ Six a machine: two sound ones, a loose fit, a pit of an outer race, a damaged to
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from typing import get_args
 
 import numpy as np
 
-from proof.entire import entire, held, wide
+from proof.entire import entire, held, mixed, wide
 from proof.kinds import kinds
 from proof.nominals import NOMINALS, PAPER
 from proof.plan import SEEDS, SENSOR_COUNTS, SNRS_DB, TARGET, Case, Split, hiding_of, plan, sensors_of
@@ -36,8 +37,12 @@ def cases_of(split: Split) -> tuple[Case, ...]:
     """All cases of any split."""
     if split in {"rotors", "rotors-later"}:
         return rotors(split)
-    made = {"others": others, "kinds": kinds, "entire": entire, "teeth": teeth, "held": held, "wide": wide}
-    return made[split]() if split in made else plan(split)
+    return MADE[split]() if split in MADE else plan(split)
+
+
+MADE: Mapping[str, Callable[[], tuple[Case, ...]]] = {
+    "others": others, "kinds": kinds, "entire": entire, "teeth": teeth, "held": held, "wide": wide, "mixed": mixed,
+}  # fmt: skip
 
 
 def _case(machine: str, index: int, name: str | None) -> Case:

@@ -40,6 +40,7 @@ Split = Literal[
     "teeth",
     "held",
     "wide",
+    "mixed",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -62,6 +63,7 @@ SEEDS = {
     "teeth": 4_836_201_759,
     "held": 2_916_480_537,
     "wide": 6_174_392_805,
+    "mixed": 9_481_205_763,
 }
 COUNTS = {
     "dev": {
