@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 SECTIONS = {
+    "mixed": "No version of the engine had met these before their run; one engine ran all of them, two or three at "
+    "once on the two threads of one core, which core-seconds show.",
     "wide": "No version of the engine had met these before their run; one engine ran all, beside other work on the two "
     "threads of one core, which core-seconds show. Since then unknown physics comes with its force by lines, and a "
     "change without a pattern is unknown physics again where no single lines could be asked (machines without teeth); "

@@ -40,7 +40,7 @@ TITLES = {
 }
 
 
-PARTS: tuple[tuple[Split, str], ...] = (("wide", "wide"), ("held", "held"), ("held", "begun"))
+PARTS: tuple[tuple[Split, str], ...] = (("mixed", "mixed"), ("wide", "wide"), ("held", "held"), ("held", "begun"))
 """Splits, and the sections of the page they are in, of which is asked what could be told at all."""
 TEETH_IN: tuple[Split, ...] = ("teeth", "entire", "next")
 """Further splits of which faults of a tooth are measured."""

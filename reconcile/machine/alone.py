@@ -16,6 +16,7 @@ from reconcile.judge.metric import drift_sigma
 from reconcile.kinematics.families import Family
 from reconcile.observe.observation import PointData
 from reconcile.observe.watch import bases_at, watch_list
+from signals.series import FloatArray
 
 HARMONICS = 2
 """Of a family that are looked for among the watched modulations, from its lowest on."""
@@ -24,26 +25,34 @@ NEAR = 1e-4
 
 Rise = Callable[[Family], float]
 """Deviations of sound machines by which the modulation of a family's most modulated band exceeds theirs."""
+Depth = Callable[[Family, FloatArray], FloatArray]
+"""The same of changes that are given."""
 
 
 def rise_over_sound(changes: Changes, data: tuple[PointData, ...], plan: AtlasPlan) -> Rise:
     """Median over the operating points; infinite for families that are not watched."""
+    depth = depth_over_sound(changes, data, plan)
+    return lambda family: float(depth(family, changes.observed[None])[0])
+
+
+def depth_over_sound(changes: Changes, data: tuple[PointData, ...], plan: AtlasPlan) -> Depth:
+    """The same of any changes (n, F), shape (n,)."""
     watched = watch_list(plan.machine)
     layout = layout_of(data[0].test)
     speed = data[0].point.speed_hz
     orders = watched.modulation_hz(bases_at(plan.machine, speed)) / speed
-    channels = data[0].test.line.shape[0]
-    z = changes.observed / drift_sigma(changes.measured, changes.null)
-    deep = z.reshape(len(data), channels, layout.size)[..., layout.slices()["depth"]]
-    deep = deep.reshape(len(data), channels, layout.shapes, layout.modulations)
+    sigma = drift_sigma(changes.measured, changes.null)
+    split = (len(data), data[0].test.line.shape[0], layout.size)
 
-    def rise(family: Family) -> float:
+    def depth(family: Family, change: FloatArray) -> FloatArray:
+        deep = (change / sigma).reshape(-1, *split)[..., layout.slices()["depth"]]
+        deep = deep.reshape(*deep.shape[:3], layout.shapes, layout.modulations)
         own = [
             np.abs(orders / (k * family.order) - 1.0) < NEAR for k in range(family.lowest, family.lowest + HARMONICS)
         ]
         members = np.any(own, axis=0)
         if not members.any():
-            return float("inf")
-        return float(np.median(np.nan_to_num(deep[..., members]).max(axis=(1, 2, 3))))
+            return np.full(deep.shape[0], np.inf)
+        return np.asarray(np.median(np.nan_to_num(deep[..., members]).max(axis=(2, 3, 4)), axis=1))
 
-    return rise
+    return depth

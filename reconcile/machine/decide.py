@@ -9,11 +9,11 @@ import numpy as np
 
 from reconcile.judge.adequacy import Rest
 from reconcile.judge.screen import Screen
+from reconcile.machine.likelier import likelier, rivalled
 from reconcile.machine.weigh import (
     FAR_AHEAD,
     LEAST_EVIDENCE,
     MOST_NAMED,
-    alike,
     credible_set,
     lead,
     merged_weights,
@@ -68,11 +68,6 @@ FEW_VIEWS = 2
 FEW_SHARE = 0.5
 LINE_BY_LINE = "others have a pattern like it, and are far less likely feature by feature"
 FEW_REASON = "so few sensors and operating points do not exclude what has half the evidence, whatever its weight"
-LEAST_LIKELIER, LIKELIER_SHARE = 10.0, 0.25
-"""Log likelihood, and share of the first's own over no change, by which another of a set is so much less likely,
-feature by feature, that it leaves the set. How near draws come is chance too: of an unbalance and a bow, which are
-alike, one leads by 453 of 2297 (r021). Of sets of the proof with one effect hidden the right first one leads a torque
-by 28 of 106 (t014), a stiffening support by 11 of 83 (k018), loose fits by 53 of 554 and 12 of 235 (r007, r114)."""
 MECHANISM_OPEN = "the mechanism is not decided by these recordings"
 AS_GOOD = 1.0
 """Log evidence behind the first up to which an effect is as good: chance decides between such."""
@@ -180,7 +175,7 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     if views <= FEW_VIEWS:
         chosen = _not_excluded(screen, weights, chosen)
     odd = screen.misfit > strange
-    far = lead(screen) >= FAR_AHEAD and not (odd and screen.rest.kept < LEAST_KEPT_FAR)
+    far = lead(screen) >= FAR_AHEAD and not (odd and screen.rest.kept < LEAST_KEPT_FAR) and not rivalled(screen)
     odd = odd and not (far and not screen.rest.rough)
     inadequate = odd or (leaves_lines(screen.rest) and not far)
     apart = beside_impacts(screen, chosen)
@@ -200,7 +195,7 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     if open_why is not None:
         return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(open_why,))
     if weak or alone or (inadequate and struck < STRUCK):
-        here = () if weak or alone else of_the_place(screen)
+        here = () if weak or alone else _likely_here(screen)
         reason = _misfit(screen, strange, weak, alone)
         return _none_of_the_known(screen, chosen, here, p, reason, sure=odd or alone)
     likely = likelier(screen, chosen) if views > FEW_VIEWS else chosen
@@ -228,6 +223,13 @@ def _none_of_the_known(
     return Decision(word="unknown_physics", chosen=chosen[:3], p=p, reasons=(why,))
 
 
+def _likely_here(screen: Screen) -> tuple[str, ...]:
+    """Effects of the place without those that are far less likely; all of them where one would be left."""
+    here = of_the_place(screen)
+    likely = likelier(screen, here)
+    return likely if len(likely) > 1 else here
+
+
 def _too_little(screen: Screen, inadequate: bool, views: int) -> str | None:
     """Why a change without a pattern is no unknown effect's either, if it need not be one's: three of 47 sound machines
     (h034, h049, h058) and a cracked tooth (g014) reached 1e-6 by groups of features, with no line to show."""
@@ -253,18 +255,6 @@ def beside_impacts(screen: Screen, chosen: tuple[str, ...]) -> tuple[str, ...]:
     weights = np.exp(pattern - pattern.max())
     own = credible_set(merged_weights(replace(screen, weights=weights / weights.sum())))
     return own if own == (resting[0],) else chosen
-
-
-def likelier(screen: Screen, chosen: tuple[str, ...]) -> tuple[str, ...]:
-    """Of a set what is not far less likely than its first, feature by feature, where all of it were fitted together
-    with the machine and the first is the likeliest; a bow and an unbalance of one body stay together."""
-    first, told = chosen[0], screen.likelihoods
-    if any(name not in told for name in chosen) or told[first] < max(told[name] for name in chosen):
-        return chosen
-    if told[first] < LEAST_LIKELIER:
-        return chosen
-    least = told[first] - max(LEAST_LIKELIER, LIKELIER_SHARE * told[first])
-    return tuple(name for name in chosen if told[name] > least or alike(first, name))
 
 
 def _only_impacts(screen: Screen) -> bool:

@@ -159,7 +159,7 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = answer(setting, found, gate, meter, cost, looks.fit, unknown, looks.pairs)
     sensors = sensor_sites(looks.setting.machine, looks.setting.simulated)
     report = with_place(report, looks.setting.direct.evidence, len(looks.setting.data), sensors)
-    report = with_foreign(with_exchanged(report, setting, channels), setting, channels)
+    report = with_foreign(with_exchanged(report, setting, found, channels), setting, channels)
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
     report = with_beaten(with_grown(report, machine))

@@ -8,11 +8,12 @@ from dataclasses import replace
 import numpy as np
 
 from reconcile.kinematics.candidate import DEFECTS
-from reconcile.kinematics.families import ties
+from reconcile.kinematics.families import Family, ties
 from reconcile.kinematics.judge import candidates
 from reconcile.kinematics.spec import of_machine
+from reconcile.machine.alone import depth_over_sound
 from reconcile.machine.direct import impulsive, observed_as, reachable
-from reconcile.machine.setting import Setting
+from reconcile.machine.setting import Found, Setting
 from reconcile.observe.observation import PointData
 from reconcile.verdict import Report
 from sim.core.errors import SpecError
@@ -26,6 +27,8 @@ LOUDER_DB = 6.0
 or an unbalance, the regular lines of sound balls that roll by are no longer as deep: right recordings of pits 40 dB
 louder were told to be exchanged."""
 HOLDS_OTHERWISE = ("fit_clearance", "fit_clearance_series", "radial_clearance")
+BRINGS, ENOUGH = 0.5, 0.25
+"""Share of the loss of depth that draws of a named effect must bring, and of its draws that do."""
 QUIET = ("nothing_missing", "measurement_fault")
 
 
@@ -47,7 +50,20 @@ def _louder_db(one: PointData, channel: int) -> float:
     return 20.0 * float(np.log10(levels[0] / levels[1])) if min(levels) > 0.0 else 0.0
 
 
-def with_exchanged(report: Report, setting: Setting, channels: Sequence[Channel]) -> Report:
+def brought(report: Report, setting: Setting, found: Found, family: Family) -> bool:
+    """Whether a named effect takes these lines away by itself, as it is simulated: a loose pedestal that lets the load
+    go round did so at a bearing of the other shaft (m006 of the proof)."""
+    depth = depth_over_sound(setting.changes, setting.data, setting.plan)
+    fell = float(depth(family, -setting.changes.observed[None])[0])
+    groups = found.known.library.groups
+    named = [name for c in report.causes if c.named and (name := f"{c.term}@{c.site}") in groups]
+    return any(
+        np.mean(depth(family, -found.known.library.changes[list(groups[name])]) >= BRINGS * fell) >= ENOUGH
+        for name in named
+    )
+
+
+def with_exchanged(report: Report, setting: Setting, found: Found, channels: Sequence[Channel]) -> Report:
     """The report, which says so after its sentence; where nothing is missing no one looks."""
     pairs = [d for d in setting.data if d.spectra[1] is not None]
     machine = setting.machine
@@ -70,7 +86,7 @@ def with_exchanged(report: Report, setting: Setting, channels: Sequence[Channel]
     if deep is None or deep.family.site in _held_otherwise(report) or _turned_otherwise(report, machine):
         return report
     channel = [c.name for c in channels].index(deep.best.channel)
-    if any(_louder_db(d, channel) > LOUDER_DB for d in pairs):
+    if any(_louder_db(d, channel) > LOUDER_DB for d in pairs) or brought(report, setting, found, deep.family):
         return report
     text = f"the baseline has lines of {deep.family.key} that the tests have not; exchanged, or a part replaced"
     where = replace(report.where, limits=(*report.where.limits, text))

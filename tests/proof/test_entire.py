@@ -9,12 +9,12 @@ import pytest
 
 from proof import seal
 from proof.effects import LIPPED, Choice
-from proof.entire import ENTIRE, HELD, STRUCK, WIDE, entire, held, wide
+from proof.entire import ENTIRE, HELD, MIXED, STRUCK, WIDE, entire, held, mixed, wide
 from proof.library import CLOSED
 from proof.machine import arrays_of, exact_machine
 from proof.model.balls import pit
 from proof.model.layout import B
-from proof.plan import ORTHOGONAL, SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS, plan
+from proof.plan import FIRST, ORTHOGONAL, SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS, plan
 from proof.unknown import OPEN
 
 CASES = entire()
@@ -47,6 +47,7 @@ def test_the_seals_were_committed():
     assert seal.seals_of("entire") == seal.manifest("entire", CASES)["sha256"]
     assert seal.seals_of("held") == seal.manifest("held", held())["sha256"]
     assert seal.seals_of("wide") == seal.manifest("wide", wide())["sha256"]
+    assert seal.seals_of("mixed") == seal.manifest("mixed", mixed())["sha256"]
 
 
 def test_the_second_has_no_case_of_the_first_and_is_a_sample_at_any_length():
@@ -70,6 +71,18 @@ def test_the_third_has_no_case_of_the_others():
     seen = {(e.law, e.site, round(e.value, 12)) for c in (*CASES, *held()) for e in c.effects}
     assert not any((e.law, e.site, round(e.value, 12)) in seen for c in free for e in c.effects)
     assert {len(c.speeds_hz) for c in cases} == {1, 3} and not any(c.group == "misset" for c in cases)
+
+
+def test_the_fourth_hides_what_the_third_leaves_out():
+    cases, before = mixed(), wide()
+    assert Counter(c.group for c in cases) == MIXED.groups and len({c.name for c in cases}) == 72
+    assert not {c.seed for c in cases} & {c.seed for c in (*CASES, *held(), *before)}, "its machines are its own"
+    rare, seen = ({e.law for c in s if c.group == "single" for e in c.effects} - set(FIRST) for s in (cases, before))
+    assert len(rare) == 8 and len(rare - seen) >= 6
+    pairs, told = ({tuple(e.law for e in c.effects) for c in s if c.group == "double"} for s in (cases, before))
+    assert len(pairs) == 8 and not pairs & told
+    half = Counter(c.group for c in cases[:36])
+    assert all(abs(half[g] - n / 2) <= 2 + 0.2 * n for g, n in MIXED.groups.items())
 
 
 def test_a_lip_squeezes_the_ball_before_and_behind_the_pit():

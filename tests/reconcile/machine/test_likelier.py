@@ -9,8 +9,9 @@ import pytest
 
 from reconcile.judge.adequacy import Rest
 from reconcile.machine import leftover
-from reconcile.machine.decide import FEW_VIEWS, LEAST_LIKELIER, LIKELIER_SHARE, LINE_BY_LINE, decide, likelier
+from reconcile.machine.decide import FEW_VIEWS, LINE_BY_LINE, decide
 from reconcile.machine.leftover import likelihoods
+from reconcile.machine.likelier import LEAST_LIKELIER, LIKELIER_SHARE, likelier, rivalled
 from tests.reconcile.machine.rubs import FEATURES, MADE, RIGHT, WRONG, found_in
 from tests.reconcile.machine.test_decide import NAMES, screen
 
@@ -58,6 +59,33 @@ def test_what_is_far_less_likely_leaves_the_set_and_a_bow_stays_with_its_unbalan
     assert likelier(made, names) == names[:2]
     found = decide(made, views=9)
     assert (found.word, found.chosen) == ("ambiguous", names[:2]) and LINE_BY_LINE not in found.reasons
+
+
+def test_a_lead_by_patterns_alone_is_no_proof_of_what_leaves_much_of_the_lines() -> None:
+    """m009 of the proof: a support that stiffens before the loose fit of its bearing, which was as likely."""
+    names = ("bearing_stiffness@bearing1", "fit_clearance@bearing1", "squeeze_film@bearing1", "rub@pinion")
+    values, left = [43.2, 34.8, 16.4, 11.3], Rest(unmet=6.6, kept=0.39, pooled=0.68, rough=False)
+    alone = decide(screen(values, names, rest=left), views=9)
+    assert (alone.word, alone.chosen) == ("explained", names[:1])
+    known = dict(zip(names, (73.0, 72.0, 12.0), strict=False))
+    found = decide(screen(values, names, rest=left, likelihoods=known), views=9)
+    assert (found.word, found.chosen) == ("ambiguous", names[:2]), "a film is far less likely than either"
+    sure = decide(screen(values, names, rest=left, likelihoods={**known, names[1]: 20.0, names[3]: 73.0}), views=9)
+    assert (sure.word, sure.chosen) == ("ambiguous", names[:3]), "a set is of two at least"
+    behind = decide(screen(values, names, rest=left, likelihoods={**known, names[1]: 60.0}), views=9)
+    assert (behind.word, behind.chosen) == ("explained", names[:1])
+    fits = decide(screen(values, names, likelihoods=known), views=9)
+    assert (fits.word, fits.chosen) == ("explained", names[:1]), "where nothing is left the lead is enough"
+
+
+def test_forms_of_one_effect_and_a_bow_of_an_unbalance_are_no_rivals() -> None:
+    names = ("fit_clearance@bearing1", "fit_clearance_series@bearing1", "rub@gear")
+    both = dict(zip(names, (73.0, 72.0, -5.0), strict=True))
+    assert not rivalled(screen([40.0, 35.0, 3.0], names, likelihoods=both))
+    assert rivalled(screen([40.0, 35.0, 3.0], names, likelihoods={**both, names[2]: 72.0}))
+    assert not rivalled(screen([40.0, 35.0, 3.0], names, likelihoods={names[2]: 72.0})), "the first was not fitted"
+    twins = ("unbalance@pinion", "bent_shaft@pinion")
+    assert not rivalled(screen([40.0, 35.0], twins, likelihoods=dict(zip(twins, (73.0, 72.0), strict=True))))
 
 
 def test_likelihoods_are_of_what_was_fitted_and_does_not_strike(monkeypatch: pytest.MonkeyPatch) -> None:
