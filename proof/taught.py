@@ -244,5 +244,23 @@ RULES = (
         ),
         "w024, a loose fit of 36 um with waves of another bearing's race beside it that are not there; alone since",
     ),
+    (
+        (
+            "a lead by patterns does not carry what leaves much of single lines where another effect is as likely, "
+            "feature by feature ([decision](decisions/reconcile-adequacy.md))"
+        ),
+        "m009, a loose fit of 23 um told as a support that stiffens; the set of both since",
+    ),
+    (
+        (
+            "a second effect whose gain is one speed's alone adds twice as much as others must "
+            "([decision](decisions/reconcile-leftover.md))"
+        ),
+        "m008, an unbalance with a rub beside it that is not there; alone since",
+    ),
+    (
+        "lines that a named effect takes away, as it is simulated, are no sign of exchanged recordings",
+        "m006, a loose pedestal named rightly, beside which the recordings were told to be exchanged",
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""

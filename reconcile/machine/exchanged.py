@@ -53,14 +53,14 @@ def _louder_db(one: PointData, channel: int) -> float:
 def brought(report: Report, setting: Setting, found: Found, family: Family) -> bool:
     """Whether a named effect takes these lines away by itself, as it is simulated: a loose pedestal that lets the load
     go round did so at a bearing of the other shaft (m006 of the proof)."""
+    library = found.known.library
+    named = [name for c in report.causes if c.named and (name := f"{c.term}@{c.site}") in library.groups]
+    if not named:
+        return False
     depth = depth_over_sound(setting.changes, setting.data, setting.plan)
-    fell = float(depth(family, -setting.changes.observed[None])[0])
-    groups = found.known.library.groups
-    named = [name for c in report.causes if c.named and (name := f"{c.term}@{c.site}") in groups]
-    return any(
-        np.mean(depth(family, -found.known.library.changes[list(groups[name])]) >= BRINGS * fell) >= ENOUGH
-        for name in named
-    )
+    least = BRINGS * float(depth(family, -setting.changes.observed[None])[0])
+    fell = (depth(family, -library.changes[list(library.groups[name])]) for name in named)
+    return any(np.mean(one >= least) >= ENOUGH for one in fell)
 
 
 def with_exchanged(report: Report, setting: Setting, found: Found, channels: Sequence[Channel]) -> Report:

@@ -65,7 +65,7 @@ def best_left_pair(
     sought = _searched(asked, made, seen)
     sought = sought or _rattling(asked, made)
     fitted = _fairly(asked, {**made, **sought})
-    kept = {n: p for n, p in fitted.items() if p is not None and repeats(asked.setting, first, n, p.parts)}
+    kept = {n: p for n, p in fitted.items() if p and repeats(asked.setting, first, n, p.parts, asked.least)}
     pairs = sorted(kept.values(), key=lambda p: -_with_impacts(asked, p))
     simulated = {name: None if pair is None else pair.gain for name, pair in fitted.items()}
     tried = tuple((name, gain, simulated.get(name)) for name, gain, _ in seen)

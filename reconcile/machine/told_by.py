@@ -20,6 +20,10 @@ LOST_ELSEWHERE = 0.25
 (e053, n001) add 5 and 9 of 79 and 69 there. Beside a play nothing: beside one alone a ring rattles at one speed as no
 law has it, where waves of a race added 122 and took 65 at two others (w024), a torque 172 and took 3 (t007)."""
 
+SHARED, ALONE = 0.1, 2.0
+"""Share that the others must add, or the whole be so many times what a second must add: right ones of one speed (e053)
+add 79 of 30. A rub beside an unbalance alone added 41, of which 39 at one speed (m008)."""
+
 
 def teeth_tell(setting: Setting, found: Found, first: str) -> bool:
     """Whether the teeth's own lines say what stands beside a first effect that strikes: a pit of a bearing, which
@@ -52,9 +56,13 @@ def impacts_beside(setting: Setting, first: str, second: str) -> float:
     return max(evidence, 0.0)
 
 
-def repeats(setting: Setting, first: str, second: str, parts: Sequence[float]) -> bool:
-    """Whether a second effect that adds `parts` of log likelihood at several operating points takes less elsewhere than
-    `LOST_ELSEWHERE` of the whole, and beside a play nothing; beside a pit, or where its impacts are heard, it may."""
+def repeats(setting: Setting, first: str, second: str, parts: Sequence[float], least: float) -> bool:
+    """Whether a second effect that adds `parts` of log likelihood at several operating points, `least` or more in all,
+    takes less elsewhere than `LOST_ELSEWHERE` of the whole, and beside a play nothing, and is not of one point alone
+    with little to spare; beside a pit, or where its impacts are heard, it may be."""
     if strikes(first) or len(parts) < 2 or impacts_beside(setting, first, second) > 0.0:
         return True
-    return max(parts) - sum(parts) < (0.0 if has_play(first) else LOST_ELSEWHERE) * sum(parts)
+    whole, others = sum(parts), sum(parts) - max(parts)
+    if others < SHARED * whole and whole < ALONE * least:
+        return False
+    return -others < (0.0 if has_play(first) else LOST_ELSEWHERE) * whole

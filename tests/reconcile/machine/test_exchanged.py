@@ -7,6 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from reconcile.kinematics.families import Family
+from reconcile.machine import exchanged
 from reconcile.machine.direct import NOTHING
 from reconcile.machine.exchanged import _turned_otherwise, with_exchanged
 from reconcile.observe.observation import observe
@@ -28,7 +30,36 @@ def told(
     data = observe(machine, watch_list(machine), [recording(now)], [recording(before)])
     setting = SimpleNamespace(machine=machine, data=data, direct=NOTHING, seed=0)
     report = Report(verdict=verdict, sentence="Something is missing.", level="machine", causes=causes)
-    return with_exchanged(report, setting, CHANNELS)  # type: ignore[arg-type]
+    return with_exchanged(report, setting, simulated({}, np.zeros((0, 1))), CHANNELS)  # type: ignore[arg-type]
+
+
+def simulated(groups: dict[str, tuple[int, ...]], changes: np.ndarray) -> SimpleNamespace:
+    """What is known of effects."""
+    return SimpleNamespace(known=SimpleNamespace(library=SimpleNamespace(groups=groups, changes=changes)))
+
+
+@pytest.mark.parametrize(
+    ("falls", "named", "says"),
+    [
+        ((-6.0, -5.0, 0.0, 0.0), True, True),
+        ((-6.0, -5.0, 0.0, 0.0), False, False),
+        ((-6.0, -0.5, 0.0, 0.0, 1.0), True, False),
+        ((-2.5, -2.5, -2.5, -2.5), True, False),
+        ((6.0, 6.0, 6.0, 6.0), True, False),
+    ],
+)
+def test_what_a_named_effect_takes_away_as_it_is_simulated_is_no_exchange(
+    monkeypatch: pytest.MonkeyPatch, falls: tuple[float, ...], named: bool, says: bool
+) -> None:
+    """Lines that fell by six deviations, where each draw of a loose pedestal makes them fall by so many."""
+    name = "pedestal_looseness@bearing1"
+    monkeypatch.setattr(exchanged, "depth_over_sound", lambda *_: lambda _, change: change[:, 0])
+    setting = SimpleNamespace(changes=SimpleNamespace(observed=np.array([-6.0])), data=(), plan=None)
+    found = simulated({name: tuple(range(len(falls)))}, np.array(falls)[:, None])
+    cause = Cause(term="pedestal_looseness", site="bearing1", severity=None, score=20.0, named=named)
+    report = Report(verdict="explained", sentence="", level="machine", causes=(cause,))
+    family = Family(kind="outer", site="bearing3", order=2.6, spacing=0.0, sidebands=0, slip=0.02)
+    assert exchanged.brought(report, setting, found, family) is says  # type: ignore[arg-type]
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from reconcile.machine import left_pairs, told_by
+from reconcile.machine.asked import LEAST_GAIN
 from reconcile.machine.direct import HEARD
 from reconcile.machine.told_by import HALF_HEARD, heard
 from tests.reconcile.machine.rubs import found_in
@@ -51,6 +52,9 @@ def test_impacts_of_a_second_put_it_before_what_brings_none(evidence: dict[str, 
         ("radial_clearance@bearing4", "unbalance@gear", (-1.0, 72.0, 3.0), True),
         ("radial_clearance@bearing4", "outer_spall@bearing1", (-1.0, 172.0, -2.0), True),  # as its impacts are heard
         ("outer_spall@bearing1", "unbalance@gear", (50.0, -40.0), True),  # of whose lines only the teeth's are asked
+        ("unbalance@pinion", "rub@gear", (-0.1, 39.4, 1.7), False),
+        ("unbalance@pinion", "rub@gear", (-0.1, 39.4, 4.7), True),
+        ("unbalance@pinion", "rub@gear", (-0.1, 61.4, 1.7), True),
         ("radial_clearance@bearing4", "unbalance@gear", (20.0,), True),  # at one operating point nothing else is known
     ],
 )
@@ -59,4 +63,4 @@ def test_a_second_is_not_one_operating_points_alone(
 ) -> None:
     monkeypatch.setattr(told_by, "by_play", lambda *_: False)
     setting = SimpleNamespace(direct=SimpleNamespace(evidence={"outer_spall@bearing1": 9.0}))
-    assert told_by.repeats(setting, first, second, parts) is so  # type: ignore[arg-type]
+    assert told_by.repeats(setting, first, second, parts, LEAST_GAIN) is so  # type: ignore[arg-type]
