@@ -54,6 +54,8 @@ class Screen:
     """Log likelihood over no change, feature by feature, of effects that were fitted together with the machine."""
     heard: Mapping[str, float] = field(default_factory=dict)
     """Log evidence, counted above already, against places that share their lines, by which sensor hears which band."""
+    yields: Mapping[str, float] = field(default_factory=dict)
+    """Log evidence, counted above already, against effects that leave lines which another, as likely, explains."""
     unmoved: float | None = None
     """Largest evidence of a pattern before machines were fitted to what was observed; none where none were."""
 
@@ -68,9 +70,13 @@ class Screen:
         return np.array([self.heard.get(name, 0.0) for name in self.names])
 
     @property
+    def _yielded(self) -> FloatArray:
+        return np.array([self.yields.get(name, 0.0) for name in self.names])
+
+    @property
     def patterns(self) -> FloatArray:
         """Evidence of the patterns alone, (effects,): without impacts, and without what tells their place."""
-        return np.asarray(self.evidence + self.against - self.direct)
+        return np.asarray(self.evidence + self.against + self._yielded - self.direct)
 
     @property
     def located(self) -> FloatArray:
@@ -142,7 +148,7 @@ def judge(
         p_direct=p_direct,
         misfit=looks[int(by[int(np.argmax(evidence))])].misfit,
         length=looks[0].length,
-        rest=_rest(views[: 1 + KINDS], observed, best, int(by[int(np.argmax(evidence))])),
+        rest=rest_in(views[: 1 + KINDS], observed, best, int(by[int(np.argmax(evidence))])),
         p_lines=_of_lines(views[1:], looks[1:]),
         lines_asked=any(repeats(view) for view in views[1:]),
     )
@@ -152,16 +158,16 @@ def of_best(screen: Screen, views: Sequence[Fitted], observed: FloatArray) -> Sc
     """The screen with what its best effect leaves, where that has become another."""
     best = int(np.argmax(screen.evidence))
     speaks = int(screen.by[best])
-    rest = _rest(views[: 1 + KINDS], observed, screen.names[best], speaks)
+    rest = rest_in(views[: 1 + KINDS], observed, screen.names[best], speaks)
     return replace(screen, rest=rest, misfit=looked(views[speaks], observed).misfit)
 
 
-def _rest(views: Sequence[Fitted], observed: FloatArray, best: str, speaks: int) -> Rest:
-    """By levels: of own lines, unless sidebands speak for the effect."""
+def rest_in(views: Sequence[Fitted], observed: FloatArray, effect: str, speaks: int) -> Rest:
+    """What an effect leaves, by levels: of own lines, unless sidebands speak for it (`speaks`: number of the view)."""
     if len(views) == 1:
         return Rest()
-    lines = [rest_of(view, observed, best) for view in views[1:]]
-    pooled = explained(views[0], observed, best)
+    lines = [rest_of(view, observed, effect) for view in views[1:]]
+    pooled = explained(views[0], observed, effect)
     return replace(lines[(max(speaks, 1) - 1) % KINDS], pooled=pooled, elsewhere=max(rest.unmet for rest in lines))
 
 

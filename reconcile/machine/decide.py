@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reconcile.judge.adequacy import Rest
 from reconcile.judge.screen import Screen
-from reconcile.machine.likelier import likelier, rivalled
+from reconcile.machine.left_lines import UNMET_ROUGH, leaves_lines, leaves_little
+from reconcile.machine.likelier import likelier, rivals
 from reconcile.machine.weigh import (
     FAR_AHEAD,
     LEAST_EVIDENCE,
@@ -38,18 +38,6 @@ CLEAR_P = 1e-4
 """Chance of a change of single lines from which it is too clear to be called faint, and from which it counts where no
 effect's pattern is near: a sound machine heard by eight sensors at 30 dB, where the model's own form shows, reached
 1.8e-4 without one; faults and unknown effects of development cases come to 3e-5 and less."""
-UNMET, UNMET_ROUGH = 0.8, 1.5
-"""What the best effect leaves of single lines, over what is usual, from which it is not what changed; the second where
-machine and effect were not fitted together. Right effects of five development cases leave nothing unusual or 1.1 to
-1.3 (a rigid bore 5), effects that no library has 1.1 to 5; before, right ones reach 1.2 and unknown ones 1.7 to 2.7."""
-LEAST_LEFT_UNKNOWN = 2.0
-"""The same from which it is told that no known effect changed them, where machine and effect were fitted together. Of
-concealed cases three with effects that no library has left 2.5 to 3.8, and five without any 1.1 to 1.9: two sound
-machines (e127, h034), two loose pedestals (h062, h107) and a loose fit (e141)."""
-MOST_KEPT, MOST_KEPT_ROUGH = 1.15, 0.62
-"""Share of the single lines' change above which an effect is named all the same, with the remark that a part is left:
-the largest changes are the least alike. Where machine and effect were fitted together it is the sum with the share of
-the families' change: right effects of development cases keep 1.15 to 1.6, effects that no library has 0.8 to 1.05."""
 LEAST_KEPT_FAR = 0.3
 """Share of the single lines' change that an effect which fits worse than nearly all known ones do must explain for its
 lead to be enough: a pit of a race far ahead of all else explained 0.14, and was the other race's. No right name so far
@@ -93,20 +81,6 @@ class Decision:
 
 
 UNMEASURED = "without a baseline it cannot be told whether that is missing physics or an error of the machine file"
-
-
-def leaves_lines(rest: Rest) -> bool:
-    """Whether an effect is not what changed the single lines; one that was fitted to the lines of one view must not
-    leave those of the other, to which it was not fitted, either."""
-    if rest.rough:
-        return rest.unmet > UNMET_ROUGH and rest.kept < MOST_KEPT_ROUGH
-    left = rest.unmet > UNMET or rest.elsewhere > UNMET_ROUGH
-    return left and rest.kept + rest.pooled < MOST_KEPT
-
-
-def leaves_little(rest: Rest) -> bool:
-    """Whether an effect leaves more of the single lines than a right one does, and less than unknown ones did."""
-    return leaves_lines(rest) and not rest.rough and max(rest.unmet, rest.elsewhere) < LEAST_LEFT_UNKNOWN
 
 
 def chance(screen: Screen) -> float:
@@ -175,7 +149,7 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     if views <= FEW_VIEWS:
         chosen = _not_excluded(screen, weights, chosen)
     odd = screen.misfit > strange
-    far = lead(screen) >= FAR_AHEAD and not (odd and screen.rest.kept < LEAST_KEPT_FAR) and not rivalled(screen)
+    far = lead(screen) >= FAR_AHEAD and not (odd and screen.rest.kept < LEAST_KEPT_FAR) and not rivals(screen)
     odd = odd and not (far and not screen.rest.rough)
     inadequate = odd or (leaves_lines(screen.rest) and not far)
     apart = beside_impacts(screen, chosen)

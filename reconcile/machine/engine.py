@@ -23,7 +23,7 @@ from reconcile.machine.answer import answer, fault_answer, provenance
 from reconcile.machine.assimilate import assimilated
 from reconcile.machine.beaten import with_beaten
 from reconcile.machine.budget import QUICK, Budget
-from reconcile.machine.decide import leaves_lines, remarkable, tempered, unmeasured
+from reconcile.machine.decide import remarkable, tempered, unmeasured
 from reconcile.machine.decided import decided
 from reconcile.machine.direct import direct_evidence
 from reconcile.machine.drive import on_drive
@@ -35,9 +35,11 @@ from reconcile.machine.foreign import with_foreign
 from reconcile.machine.gate_orders import gate_orders
 from reconcile.machine.grown import with_grown
 from reconcile.machine.injected import placed_by_hearing
+from reconcile.machine.left_lines import leaves_lines
 from reconcile.machine.left_pairs import best_left_pair
 from reconcile.machine.leftover import likelihoods
 from reconcile.machine.library import Catalogued
+from reconcile.machine.likelier import yielding
 from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter, Telling
 from reconcile.machine.misfit import with_misfit
@@ -232,6 +234,7 @@ def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, prog
     screen = replace(screen, struck=tuple(frozenset(part) for part in setting.direct.struck))
     if based and local is not None:
         screen = replace(screen, likelihoods=likelihoods(closer, found))
+        screen = yielding(screen, found.views, closer.changes.observed)
     fit = told(local) if local is not None else {}
     found = replace(found, screen=screen)
     if based and local is not None:

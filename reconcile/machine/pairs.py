@@ -21,10 +21,12 @@ from reconcile.judge.adequacy import Rest, rest_beside
 from reconcile.judge.screen import KINDS, quantile_of_misfit, together
 from reconcile.judge.space import Fitted
 from reconcile.machine.assimilate import Ensemble, moved, simulated_again
-from reconcile.machine.decide import STRANGE, Decision, leaves_lines
+from reconcile.machine.decide import STRANGE, Decision
 from reconcile.machine.direct import HEARD
+from reconcile.machine.left_lines import leaves_lines
 from reconcile.machine.library import Catalogued
 from reconcile.machine.of_teeth import APART, look_alike, of_one_gear
+from reconcile.machine.refine import known_term
 from reconcile.machine.second import Beside, Together, strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.severity import weighted_severity
@@ -32,8 +34,6 @@ from reconcile.machine.weigh import LEAST_EVIDENCE, exclusive, variants
 from reconcile.verdict import Severity
 from signals.series import FloatArray
 from sim.core.spec import TermSpec
-from sim.core.terms import Term
-from sim.terms import REGISTRY
 
 FORMS = 4
 """Draws of the first effect to which others are added: the best of all views together, and of each."""
@@ -223,7 +223,7 @@ def pair_of(
 
 
 def _size_of(name: str, terms: Sequence[TermSpec], weights: FloatArray) -> Severity:
-    size = size_parameter(_registered(name))
+    size = size_parameter(known_term(name.split("@", maxsplit=1)[0]))
     return weighted_severity(size, np.array([abs(t.parameters[size.name]) for t in terms]), weights / weights.sum())
 
 
@@ -311,10 +311,3 @@ def _misfit(view: Fitted, changes: FloatArray, observed: FloatArray) -> float:
     points = view.metric(view.view(view.whiten(changes)))
     left = float(np.sum((points - place) ** 2, axis=1).min())
     return quantile_of_misfit(view, left, float(np.sum(place**2)))
-
-
-def _registered(name: str) -> Term:
-    term = REGISTRY.get(name.split("@", maxsplit=1)[0])
-    if term is None:
-        raise ValueError(f"no effect {name}")
-    return term

@@ -16,8 +16,9 @@ from reconcile.calibrate.uncertain import Offsets
 from reconcile.judge.adequacy import rest_of
 from reconcile.judge.screen import Look, looked
 from reconcile.judge.space import Fitted
-from reconcile.machine.decide import DETECT_P, LOOKS, STRANGE, STRUCK, UNMET_ROUGH, Decision, leaves_lines
+from reconcile.machine.decide import DETECT_P, LOOKS, STRANGE, STRUCK, Decision
 from reconcile.machine.direct import ALIKE
+from reconcile.machine.left_lines import UNMET_ROUGH, leaves_lines
 from reconcile.machine.of_teeth import APART, look_alike, of_one_gear
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.weigh import LEAST_EVIDENCE, SET_WEIGHT, variants

@@ -62,6 +62,7 @@ def all_stages(
             "lines_explained": rest.kept if lines else None,
             "families_explained": rest.pooled,
             "fitted_with_the_machine": sorted(found.led),
+            "as_likely_and_leaves_more": [f"{name}: {value:.1f}" for name, value in found.screen.yields.items()],
             "heard_less_likely": [f"{name}: {value:.1f}" for name, value in sorted(found.screen.heard.items())],
         },
     )

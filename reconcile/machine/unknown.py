@@ -16,8 +16,8 @@ from reconcile.judge.adequacy import rest_of
 from reconcile.judge.changes import signatures
 from reconcile.judge.screen import looked
 from reconcile.judge.space import Fitted, Library, fit_space
-from reconcile.machine.decide import leaves_lines
 from reconcile.machine.laws import LAWS, SHARES, Motion, TrialLaw, label, motions, trial_plan, with_law
+from reconcile.machine.left_lines import leaves_lines
 from reconcile.machine.library import Catalogued, joined
 from reconcile.machine.local import simulated_banks
 from reconcile.machine.search import LEAST_OF_LINES

@@ -12,7 +12,6 @@ from reconcile.judge.adequacy import Rest
 from reconcile.machine.decide import (
     CLEAR_P,
     GLARING,
-    LEAST_LEFT_UNKNOWN,
     LITTLE_LEFT,
     STRANGE,
     chance,
@@ -21,6 +20,7 @@ from reconcile.machine.decide import (
     tempered,
     unmeasured,
 )
+from reconcile.machine.left_lines import LEAST_LEFT_UNKNOWN
 from reconcile.machine.weigh import MOST_NAMED, credible_set, exclusive, merged_weights, plausible, variants
 from reconcile.machine.words import next_experiment, sentence, title
 from reconcile.verdict import HeldOut, Severity

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from reconcile.judge.adequacy import Rest
+from reconcile.judge.screen import Screen
 from reconcile.machine import leftover
+from reconcile.machine import likelier as machine_likelier
 from reconcile.machine.decide import FEW_VIEWS, LINE_BY_LINE, decide
 from reconcile.machine.leftover import likelihoods
-from reconcile.machine.likelier import LEAST_LIKELIER, LIKELIER_SHARE, likelier, rivalled
+from reconcile.machine.likelier import BEHIND, LEAST_LIKELIER, LIKELIER_SHARE, likelier, rivals, yielding
 from tests.reconcile.machine.rubs import FEATURES, MADE, RIGHT, WRONG, found_in
 from tests.reconcile.machine.test_decide import NAMES, screen
 
@@ -63,7 +65,7 @@ def test_what_is_far_less_likely_leaves_the_set_and_a_bow_stays_with_its_unbalan
 
 def test_a_lead_by_patterns_alone_is_no_proof_of_what_leaves_much_of_the_lines() -> None:
     """m009 of the proof: a support that stiffens before the loose fit of its bearing, which was as likely."""
-    names = ("bearing_stiffness@bearing1", "fit_clearance@bearing1", "squeeze_film@bearing1", "rub@pinion")
+    names = M009
     values, left = [43.2, 34.8, 16.4, 11.3], Rest(unmet=6.6, kept=0.39, pooled=0.68, rough=False)
     alone = decide(screen(values, names, rest=left), views=9)
     assert (alone.word, alone.chosen) == ("explained", names[:1])
@@ -78,14 +80,61 @@ def test_a_lead_by_patterns_alone_is_no_proof_of_what_leaves_much_of_the_lines()
     assert (fits.word, fits.chosen) == ("explained", names[:1]), "where nothing is left the lead is enough"
 
 
+M009 = ("bearing_stiffness@bearing1", "fit_clearance@bearing1", "squeeze_film@bearing1", "rub@pinion")
+
+
+def yielded(
+    monkeypatch: pytest.MonkeyPatch, rests: dict[str, Rest], values: tuple[float, ...], second: float = 72.0
+) -> Screen:
+    """m009 with these rests, evidence and likelihood of the fit."""
+    monkeypatch.setattr(machine_likelier, "rest_in", lambda _v, _o, name, _s: rests[name])
+    monkeypatch.setattr(
+        machine_likelier, "of_best", lambda s, _v, _o: replace(s, rest=rests[s.names[int(np.argmax(s.evidence))]])
+    )
+    known = dict(zip(M009, (73.0, second, 12.0), strict=False))
+    made = screen(list(values), M009, rest=rests[M009[0]], likelihoods=known)
+    return yielding(made, (), np.zeros(1))
+
+
+LEAVES = Rest(unmet=6.6, kept=0.39, pooled=0.68, elsewhere=6.6, rough=False)
+KEEPS = Rest(unmet=2.5, kept=0.76, pooled=0.77, elsewhere=2.5, rough=False)
+
+
+def test_what_leaves_lines_comes_behind_what_is_as_likely_and_does_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    rests = dict(zip(M009, (LEAVES, KEEPS, LEAVES, LEAVES), strict=True))
+    values = (43.2, 34.8, 16.4, 11.3)
+    made = yielded(monkeypatch, rests, values)
+    assert made.yields == {M009[0]: pytest.approx(43.2 - 34.8 + BEHIND)} and made.rest == KEEPS
+    assert made.patterns.max() == pytest.approx(43.2), "how unusual the change is stays what it was"
+    found = decide(made, views=9)
+    assert (found.word, found.chosen) == ("explained", M009[1:2]) and found.reasons, "a part is left"
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "values", "likelihood"),
+    [
+        (KEEPS, KEEPS, (43.2, 34.8, 16.4, 11.3), 72.0),  # the best leaves nothing that it should not
+        (LEAVES, LEAVES, (43.2, 34.8, 16.4, 11.3), 72.0),  # so does the other
+        (LEAVES, KEEPS, (43.2, 34.8, 16.4, 11.3), 60.0),  # which is less likely
+        (LEAVES, KEEPS, (43.2, 34.8, 36.4, 11.3), 72.0),  # and not the next
+    ],
+)
+def test_and_stays_the_best_else(
+    monkeypatch: pytest.MonkeyPatch, first: Rest, second: Rest, values: tuple[float, ...], likelihood: float
+) -> None:
+    rests = dict(zip(M009, (first, second, LEAVES, LEAVES), strict=True))
+    made = yielded(monkeypatch, rests, values, likelihood)
+    assert not made.yields and made.evidence.tolist() == list(values)
+
+
 def test_forms_of_one_effect_and_a_bow_of_an_unbalance_are_no_rivals() -> None:
     names = ("fit_clearance@bearing1", "fit_clearance_series@bearing1", "rub@gear")
     both = dict(zip(names, (73.0, 72.0, -5.0), strict=True))
-    assert not rivalled(screen([40.0, 35.0, 3.0], names, likelihoods=both))
-    assert rivalled(screen([40.0, 35.0, 3.0], names, likelihoods={**both, names[2]: 72.0}))
-    assert not rivalled(screen([40.0, 35.0, 3.0], names, likelihoods={names[2]: 72.0})), "the first was not fitted"
+    assert not rivals(screen([40.0, 35.0, 3.0], names, likelihoods=both))
+    assert rivals(screen([40.0, 35.0, 3.0], names, likelihoods={**both, names[2]: 72.0}))
+    assert not rivals(screen([40.0, 35.0, 3.0], names, likelihoods={names[2]: 72.0})), "the first was not fitted"
     twins = ("unbalance@pinion", "bent_shaft@pinion")
-    assert not rivalled(screen([40.0, 35.0], twins, likelihoods=dict(zip(twins, (73.0, 72.0), strict=True))))
+    assert not rivals(screen([40.0, 35.0], twins, likelihoods=dict(zip(twins, (73.0, 72.0), strict=True))))
 
 
 def test_likelihoods_are_of_what_was_fitted_and_does_not_strike(monkeypatch: pytest.MonkeyPatch) -> None:
