@@ -247,9 +247,10 @@ RULES = (
     (
         (
             "a lead by patterns does not carry what leaves much of single lines where another effect is as likely, "
-            "feature by feature ([decision](decisions/reconcile-adequacy.md))"
+            "feature by feature; it comes behind one that leaves less "
+            "([decision](decisions/reconcile-adequacy.md))"
         ),
-        "m009, a loose fit of 23 um told as a support that stiffens; the set of both since",
+        "m009, a loose fit of 23 um told as a support that stiffens (held-out gain 0.30); named with its place since (0.50)",
     ),
     (
         (
