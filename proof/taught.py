@@ -266,5 +266,12 @@ RULES = (
         "lines that a named effect takes away, as it is simulated, are no sign of exchanged recordings",
         "m006, a loose pedestal named rightly, beside which the recordings were told to be exchanged",
     ),
+    (
+        (
+            "where impacts are heard and not sure, the silence of what would strike elsewhere counts as far as they do, "
+            "and among pits of one bearing they choose ([decision](decisions/reconcile-silence.md))"
+        ),
+        "m024, an outer race's pit told as one of three of its bearing",
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""

@@ -51,6 +51,8 @@ STRANGE = 0.98
 """Quantile of the misfit among known effects above which no known effect is adequate."""
 STRUCK = 8.0
 """Log evidence of impacts at its own frequency from which an effect is there, whatever else is."""
+LEAST_HEARD = 5.0
+"""The same from which it is heard."""
 FEW_VIEWS = 2
 """So few sensors and operating points together cannot exclude what explains half as much."""
 FEW_SHARE = 0.5
@@ -61,6 +63,7 @@ AS_GOOD = 1.0
 """Log evidence behind the first up to which an effect is as good: chance decides between such."""
 GREAT = 25.0
 """Deviations of the most changed group that impacts of a known effect do not bring without its pattern."""
+LEFT_OVER = "a part of the change is left that this effect does not bring"
 UNMATCHED = "impacts come at a known frequency, but the rest of the change is not what such an effect brings"
 NO_PATTERN = "the change is none that a known effect brings"
 FEW_UNDECIDED = "so few sensors and operating points do not tell whether a known effect changed that, or none"
@@ -170,13 +173,15 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
         return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(open_why,))
     if weak or alone or (inadequate and struck < STRUCK):
         here = () if weak or alone else _likely_here(screen)
+        if here and _others_silent(screen, here):
+            return Decision(word="explained", chosen=here[:1], p=p, reasons=(LEFT_OVER,))
         reason = _misfit(screen, strange, weak, alone)
         return _none_of_the_known(screen, chosen, here, p, reason, sure=odd or alone)
     likely = likelier(screen, chosen) if views > FEW_VIEWS else chosen
     led, chosen = len(likely) < len(chosen), likely
     if len(chosen) == 1:
         left = screen.misfit > strange or screen.rest.unmet > UNMET_ROUGH
-        rest = ("a part of the change is left that this effect does not bring",) if left else ()
+        rest = (LEFT_OVER,) if left else ()
         rest = (*rest, LINE_BY_LINE) if led else rest
         return Decision(word="explained", chosen=chosen, p=p, reasons=rest)
     if len(chosen) <= MOST_NAMED:
@@ -202,6 +207,14 @@ def _likely_here(screen: Screen) -> tuple[str, ...]:
     here = of_the_place(screen)
     likely = likelier(screen, here)
     return likely if len(likely) > 1 else here
+
+
+def _others_silent(screen: Screen, here: tuple[str, ...]) -> bool:
+    """Whether impacts choose among effects of one place: the first is heard at its own lines, the others would be and
+    are not, and it leads them. What a pit leaves of single lines is the form of its law (m024 of the proof)."""
+    at = [screen.names.index(name) for name in here]
+    leads = all(screen.evidence[at[0]] >= screen.evidence[k] + LEAST_EVIDENCE for k in at[1:])
+    return leads and screen.direct[at[0]] >= LEAST_HEARD and all(screen.direct[k] < 0.0 for k in at[1:])
 
 
 def _too_little(screen: Screen, inadequate: bool, views: int) -> str | None:

@@ -168,11 +168,11 @@ def shared_lines(evidence: Mapping[str, float], tie: Ties) -> dict[str, float]:
 
 
 def unjudged(evidence: Mapping[str, float], tie: Ties, usual: Sequence[Family]) -> set[str]:
-    """Effects whose silence says nothing: their lines lie within slip of those of a part that is struck for sure, or
+    """Effects whose silence says nothing: their lines lie within slip of those of a part that is heard, or
     are there (`usual`) and no more than sound machines show."""
     rolling = {t.strikes: [u.key for u in REGISTRY if u.strikes == t.strikes] for t in REGISTRY if t.strikes != "tooth"}
     families = [f for f in tie.families if f.kind in rolling]
-    sure = [f for f in families if max(evidence.get(f"{key}@{f.site}", 0.0) for key in rolling[f.kind]) >= SURE]
+    sure = [f for f in families if max(evidence.get(f"{key}@{f.site}", 0.0) for key in rolling[f.kind]) >= HEARD]
     spared = [
         f
         for f in families
@@ -186,13 +186,17 @@ def unheard(evidence: Mapping[str, float], spared: Collection[str] = ()) -> dict
     """Where balls strike one part for sure, the silence of other parts that they would strike is evidence too: what
     a pit of one race and one of the other do to the levels is nearly alike, what they strike is not. With phases
     between sensors the pattern of a pit of the wrong race led two of the proof's outer races (l056, l069) by 14 and 18,
-    where the right race's lines stood 8 deviations out of control lines and the other's not at all. That of the
-    `spared` says nothing."""
+    where the right race's lines stood 8 deviations out of control lines and the other's not at all. Where they are
+    heard and not sure, silence counts as far as they do (m024: 5.3 deviations, the other races of that bearing led by 5
+    in pattern and were not heard). That of the `spared` says nothing."""
     rolling = {t.key for t in REGISTRY if t.strikes is not None and t.strikes != "tooth"}
     strikers = {name: value for name, value in evidence.items() if name.split("@")[0] in rolling}
-    if max(strikers.values(), default=0.0) < SURE:
+    loudest = max(strikers.values(), default=0.0)
+    if loudest < HEARD:
         return dict(evidence)
-    return {**evidence, **{n: value - MOST for n, value in strikers.items() if value < HEARD and n not in spared}}
+    quiet = {name: value for name, value in strikers.items() if value < HEARD and name not in spared}
+    sure = loudest >= SURE
+    return {**evidence, **{n: value - (MOST if sure else loudest - value) for n, value in quiet.items()}}
 
 
 def _counts(candidate: Candidate, rise: Rise, *, points: int, based: bool, teeth: bool) -> bool:

@@ -12,8 +12,10 @@ from reconcile.judge.adequacy import Rest
 from reconcile.machine.decide import (
     CLEAR_P,
     GLARING,
+    LEFT_OVER,
     LITTLE_LEFT,
     STRANGE,
+    Decision,
     chance,
     decide,
     remarkable,
@@ -37,6 +39,22 @@ def test_a_known_place_goes_before_an_unknown_effect() -> None:
     assert near.word == "unknown_physics", "an effect elsewhere says nearly as much"
     weak = decide(screen([2.9, 2.8, -9.0, -9.0], names, rest=left), views=9)
     assert weak.word == "unknown_physics", "nothing says anything"
+
+
+def test_impacts_choose_among_pits_of_one_bearing_that_leave_lines() -> None:
+    """m024 of the proof: the outer race at 5.3 deviations, the inner one and the balls silent."""
+    names = ("outer_spall@b", "inner_spall@b", "ball_spall@b", "outer_spall@c")
+    left = Rest(unmet=0.0, kept=0.06, pooled=0.5, elsewhere=1.83, rough=False)
+
+    def told(evidence: list[float], direct: list[float]) -> Decision:
+        return decide(replace(screen(evidence, names, rest=left), direct=np.array(direct)), views=9)
+
+    found = told([19.5, 13.3, 4.7, 1.3], [6.9, -6.9, -6.7, 6.9])
+    assert (found.word, found.chosen, found.reasons) == ("explained", names[:1], (LEFT_OVER,))
+    assert told([19.5, 13.3, 4.7, 1.3], [4.9, -4.9, -4.7, 4.9]).word == "ambiguous", "hardly heard"
+    assert told([19.5, 13.3, 4.7, 1.3], [6.9, 0.0, -6.7, 6.9]).word == "ambiguous", "silence of one says nothing"
+    assert told([19.5, 17.3, 4.7, 1.3], [6.9, -6.9, -6.7, 6.9]).word == "ambiguous", "no lead"
+    assert told([19.5, 13.3, 4.7, 12.3], [6.9, -6.9, -6.7, 6.9]).word == "not_decidable", "nor a place"
 
 
 def test_lines_without_any_pattern_count_only_when_they_are_clear() -> None:
