@@ -268,8 +268,8 @@ RULES = (
     ),
     (
         (
-            "where impacts are heard and not sure, the silence of what would strike elsewhere counts as far as they "
-            "do, and among pits of one bearing they choose ([decision](decisions/reconcile-silence.md))"
+            "among pits of one bearing the one that is heard is named where the others would be and are not at all "
+            "([decision](decisions/reconcile-silence.md))"
         ),
         "m024, an outer race's pit told as one of three of its bearing",
     ),

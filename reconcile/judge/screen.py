@@ -50,6 +50,8 @@ class Screen:
     """`p_best` among all machines of the kind, where the rest is of those that agree with the baseline."""
     struck: tuple[frozenset[str], ...] = ()
     """Effects that strike at the lines of one part each, where impacts come at those of several."""
+    silent: frozenset[str] = frozenset()
+    """Effects that would strike and are not heard at all, where others are."""
     likelihoods: Mapping[str, float] = field(default_factory=dict)
     """Log likelihood over no change, feature by feature, of effects that were fitted together with the machine."""
     heard: Mapping[str, float] = field(default_factory=dict)
@@ -148,7 +150,7 @@ def judge(
         p_direct=p_direct,
         misfit=looks[int(by[int(np.argmax(evidence))])].misfit,
         length=looks[0].length,
-        rest=rest_in(views[: 1 + KINDS], observed, best, int(by[int(np.argmax(evidence))])),
+        rest=rest_in(views, observed, best, int(by[int(np.argmax(evidence))])),
         p_lines=_of_lines(views[1:], looks[1:]),
         lines_asked=any(repeats(view) for view in views[1:]),
     )
@@ -158,12 +160,13 @@ def of_best(screen: Screen, views: Sequence[Fitted], observed: FloatArray) -> Sc
     """The screen with what its best effect leaves, where that has become another."""
     best = int(np.argmax(screen.evidence))
     speaks = int(screen.by[best])
-    rest = rest_in(views[: 1 + KINDS], observed, screen.names[best], speaks)
+    rest = rest_in(views, observed, screen.names[best], speaks)
     return replace(screen, rest=rest, misfit=looked(views[speaks], observed).misfit)
 
 
 def rest_in(views: Sequence[Fitted], observed: FloatArray, effect: str, speaks: int) -> Rest:
     """What an effect leaves, by levels: of own lines, unless sidebands speak for it (`speaks`: number of the view)."""
+    views = views[: 1 + KINDS]  # judged by levels alone
     if len(views) == 1:
         return Rest()
     lines = [rest_of(view, observed, effect) for view in views[1:]]

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reconcile.judge.screen import Screen
+from reconcile.machine.direct import HEARD
 from reconcile.machine.left_lines import UNMET_ROUGH, leaves_lines, leaves_little
 from reconcile.machine.likelier import likelier, rivals
 from reconcile.machine.weigh import (
@@ -51,8 +52,6 @@ STRANGE = 0.98
 """Quantile of the misfit among known effects above which no known effect is adequate."""
 STRUCK = 8.0
 """Log evidence of impacts at its own frequency from which an effect is there, whatever else is."""
-LEAST_HEARD = 5.0
-"""The same from which it is heard."""
 FEW_VIEWS = 2
 """So few sensors and operating points together cannot exclude what explains half as much."""
 FEW_SHARE = 0.5
@@ -152,7 +151,7 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     if views <= FEW_VIEWS:
         chosen = _not_excluded(screen, weights, chosen)
     odd = screen.misfit > strange
-    far = lead(screen) >= FAR_AHEAD and not (odd and screen.rest.kept < LEAST_KEPT_FAR) and not rivals(screen)
+    far = lead(screen) >= FAR_AHEAD and not (odd and screen.rest.kept < LEAST_KEPT_FAR)
     odd = odd and not (far and not screen.rest.rough)
     inadequate = odd or (leaves_lines(screen.rest) and not far)
     apart = beside_impacts(screen, chosen)
@@ -172,11 +171,14 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     if open_why is not None:
         return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(open_why,))
     if weak or alone or (inadequate and struck < STRUCK):
-        here = () if weak or alone else _likely_here(screen)
-        if here and _others_silent(screen, here):
+        here = () if weak or alone else of_the_place(screen)
+        if here and views > FEW_VIEWS and _others_silent(screen, here):
             return Decision(word="explained", chosen=here[:1], p=p, reasons=(LEFT_OVER,))
         reason = _misfit(screen, strange, weak, alone)
         return _none_of_the_known(screen, chosen, here, p, reason, sure=odd or alone)
+    first = screen.names[int(np.argmax(screen.evidence))]
+    near = rivals(screen) if chosen[0] == first and leaves_lines(screen.rest) else ()
+    chosen = (*chosen, *(name for name in near if name not in chosen))
     likely = likelier(screen, chosen) if views > FEW_VIEWS else chosen
     led, chosen = len(likely) < len(chosen), likely
     if len(chosen) == 1:
@@ -202,19 +204,14 @@ def _none_of_the_known(
     return Decision(word="unknown_physics", chosen=chosen[:3], p=p, reasons=(why,))
 
 
-def _likely_here(screen: Screen) -> tuple[str, ...]:
-    """Effects of the place without those that are far less likely; all of them where one would be left."""
-    here = of_the_place(screen)
-    likely = likelier(screen, here)
-    return likely if len(likely) > 1 else here
-
-
 def _others_silent(screen: Screen, here: tuple[str, ...]) -> bool:
     """Whether impacts choose among effects of one place: the first is heard at its own lines, the others would be and
-    are not, and it leads them. What a pit leaves of single lines is the form of its law (m024 of the proof)."""
-    at = [screen.names.index(name) for name in here]
-    leads = all(screen.evidence[at[0]] >= screen.evidence[k] + LEAST_EVIDENCE for k in at[1:])
-    return leads and screen.direct[at[0]] >= LEAST_HEARD and all(screen.direct[k] < 0.0 for k in at[1:])
+    are not at all, and it leads them if their silence counts as far as its impacts do. What a pit leaves of single
+    lines is the form of its law (m024 of the proof)."""
+    first, *others = (screen.names.index(name) for name in here)
+    heard = float(screen.direct[first])
+    leads = all(screen.evidence[first] + heard >= screen.evidence[k] + LEAST_EVIDENCE for k in others)
+    return heard >= HEARD and leads and set(here[1:]) <= screen.silent
 
 
 def _too_little(screen: Screen, inadequate: bool, views: int) -> str | None:

@@ -54,8 +54,9 @@ SAME_LINE = 1e-3
 """Relative difference of orders below which parts of two bearings have one line: no recording tells them apart."""
 MOST = 25.0
 """Log evidence beyond which more impacts prove no more."""
-SURE, HEARD = 8.0, 5.0
-"""Log evidence from which impacts are sure; below which none are heard (4.5 deviations of control lines)."""
+SURE, HEARD, UNHEARD = 8.0, 5.0, 1.0
+"""Log evidence from which impacts are sure; below which none are heard (4.5 deviations of control lines); below which
+there is nothing at all."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,6 +76,8 @@ class Direct:
     places: Mapping[str, ToothPlace] = field(default_factory=dict)
     present: frozenset[str] = frozenset()
     """Effects in bearings at whose lines something strikes in the tests, more than in the baseline or not."""
+    silent: frozenset[str] = frozenset()
+    """What balls would strike and is not heard at all, where they are heard elsewhere."""
     looked: bool = False
     """Whether every pit in a bearing that strikes would be heard: against a baseline, on a machine whose balls do not
     rattle for want of teeth that load them."""
@@ -113,7 +116,8 @@ def direct_evidence(
         elif term.strikes is not None:
             evidence |= {f"{term.key}@{b.name}": _ball(every, tie, term.strikes, b.name) for b in machine.bearings}
     evidence = shared_lines(evidence, tie)
-    spared = unjudged(evidence, tie, [c.family for c in seen if c.risen and c not in every])
+    as_usual = [c.family for c in seen if c.risen and c not in every]
+    spared = unjudged(evidence, tie, as_usual)
     firm = [c for c in every if c.present and c.risen]
     several = combs(tests, baselines, tie, every, seed) if baselines else ()
     heard = [c for c in every if c.risen and c.z > 2.0]
@@ -129,6 +133,7 @@ def direct_evidence(
         ),
         struck=by_comb(several, machine, tie, evidence, MOST),
         places=places,
+        silent=silent_beside(evidence, unjudged(evidence, tie, as_usual, HEARD)),
         present=frozenset(struck_at(seen, tie, machine)),
         looked=based and teeth,
     )
@@ -167,12 +172,12 @@ def shared_lines(evidence: Mapping[str, float], tie: Ties) -> dict[str, float]:
     return found
 
 
-def unjudged(evidence: Mapping[str, float], tie: Ties, usual: Sequence[Family]) -> set[str]:
-    """Effects whose silence says nothing: their lines lie within slip of those of a part that is heard, or
-    are there (`usual`) and no more than sound machines show."""
+def unjudged(evidence: Mapping[str, float], tie: Ties, usual: Sequence[Family], least: float = SURE) -> set[str]:
+    """Effects whose silence says nothing: their lines lie within slip of those of a part that is struck for sure (by
+    log evidence `least`), or are there (`usual`) and no more than sound machines show."""
     rolling = {t.strikes: [u.key for u in REGISTRY if u.strikes == t.strikes] for t in REGISTRY if t.strikes != "tooth"}
     families = [f for f in tie.families if f.kind in rolling]
-    sure = [f for f in families if max(evidence.get(f"{key}@{f.site}", 0.0) for key in rolling[f.kind]) >= HEARD]
+    sure = [f for f in families if max(evidence.get(f"{key}@{f.site}", 0.0) for key in rolling[f.kind]) >= least]
     spared = [
         f
         for f in families
@@ -186,17 +191,23 @@ def unheard(evidence: Mapping[str, float], spared: Collection[str] = ()) -> dict
     """Where balls strike one part for sure, the silence of other parts that they would strike is evidence too: what
     a pit of one race and one of the other do to the levels is nearly alike, what they strike is not. With phases
     between sensors the pattern of a pit of the wrong race led two of the proof's outer races (l056, l069) by 14 and 18,
-    where the right race's lines stood 8 deviations out of control lines and the other's not at all. Where they are
-    heard and not sure, silence counts as far as they do (m024: 5.3 deviations, the other races of that bearing led by 5
-    in pattern and were not heard). That of the `spared` says nothing."""
+    where the right race's lines stood 8 deviations out of control lines and the other's not at all. That of
+    the `spared` says nothing."""
     rolling = {t.key for t in REGISTRY if t.strikes is not None and t.strikes != "tooth"}
     strikers = {name: value for name, value in evidence.items() if name.split("@")[0] in rolling}
-    loudest = max(strikers.values(), default=0.0)
-    if loudest < HEARD:
+    if max(strikers.values(), default=0.0) < SURE:
         return dict(evidence)
-    quiet = {name: value for name, value in strikers.items() if value < HEARD and name not in spared}
-    sure = loudest >= SURE
-    return {**evidence, **{n: value - (MOST if sure else loudest - value) for n, value in quiet.items()}}
+    return {**evidence, **{n: value - MOST for n, value in strikers.items() if value < HEARD and n not in spared}}
+
+
+def silent_beside(evidence: Mapping[str, float], spared: Collection[str]) -> frozenset[str]:
+    """What balls would strike and is not heard at all, where they are heard elsewhere; `evidence` as it was heard. That
+    of the `spared` says nothing."""
+    rolling = {t.key for t in REGISTRY if t.strikes is not None and t.strikes != "tooth"}
+    strikers = {name: value for name, value in evidence.items() if name.split("@")[0] in rolling}
+    if max(strikers.values(), default=0.0) < HEARD:
+        return frozenset()
+    return frozenset(name for name, value in strikers.items() if value < UNHEARD and name not in spared)
 
 
 def _counts(candidate: Candidate, rise: Rise, *, points: int, based: bool, teeth: bool) -> bool:

@@ -27,8 +27,9 @@ LOUDER_DB = 6.0
 or an unbalance, the regular lines of sound balls that roll by are no longer as deep: right recordings of pits 40 dB
 louder were told to be exchanged."""
 HOLDS_OTHERWISE = ("fit_clearance", "fit_clearance_series", "radial_clearance")
-BRINGS, ENOUGH = 0.5, 0.25
-"""Share of the loss of depth that draws of a named effect must bring, and of its draws that do."""
+BRINGS, ENOUGH, LEAST_LOSS = 0.5, 0.25, 1.0
+"""Share of the loss of depth that draws of a named effect must bring, and of its draws that do; deviations of sound
+machines that this must be at least."""
 QUIET = ("nothing_missing", "measurement_fault")
 
 
@@ -59,6 +60,8 @@ def brought(report: Report, setting: Setting, found: Found, family: Family) -> b
         return False
     depth = depth_over_sound(setting.changes, setting.data, setting.plan)
     least = BRINGS * float(depth(family, -setting.changes.observed[None])[0])
+    if not LEAST_LOSS < least < np.inf:
+        return False  # it is not these bands that have lost it, or they are not watched
     fell = (depth(family, -library.changes[list(library.groups[name])]) for name in named)
     return any(np.mean(one >= least) >= ENOUGH for one in fell)
 

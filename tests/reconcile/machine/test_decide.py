@@ -22,6 +22,7 @@ from reconcile.machine.decide import (
     tempered,
     unmeasured,
 )
+from reconcile.machine.direct import HEARD
 from reconcile.machine.left_lines import LEAST_LEFT_UNKNOWN
 from reconcile.machine.weigh import MOST_NAMED, credible_set, exclusive, merged_weights, plausible, variants
 from reconcile.machine.words import next_experiment, sentence, title
@@ -43,18 +44,22 @@ def test_a_known_place_goes_before_an_unknown_effect() -> None:
 
 def test_impacts_choose_among_pits_of_one_bearing_that_leave_lines() -> None:
     """m024 of the proof: the outer race at 5.3 deviations, the inner one and the balls silent."""
-    names = ("outer_spall@b", "inner_spall@b", "ball_spall@b", "outer_spall@c")
+    names = ("outer_spall@b", "inner_spall@b", "ball_spall@b", "ball_spall@c")
     left = Rest(unmet=0.0, kept=0.06, pooled=0.5, elsewhere=1.83, rough=False)
 
-    def told(evidence: list[float], direct: list[float]) -> Decision:
-        return decide(replace(screen(evidence, names, rest=left), direct=np.array(direct)), views=9)
+    def told(
+        evidence: list[float], heard: float = 6.9, silent: tuple[str, ...] = names[1:3], views: int = 9
+    ) -> Decision:
+        made = screen(evidence, names, rest=left, silent=frozenset(silent))
+        return decide(replace(made, direct=np.array([heard, 0.0, 0.0, 0.0])), views=views)
 
-    found = told([19.5, 13.3, 4.7, 1.3], [6.9, -6.9, -6.7, 6.9])
+    found = told([17.5, 15.8, 12.8, 3.2])
     assert (found.word, found.chosen, found.reasons) == ("explained", names[:1], (LEFT_OVER,))
-    assert told([19.5, 13.3, 4.7, 1.3], [4.9, -4.9, -4.7, 4.9]).word == "ambiguous", "hardly heard"
-    assert told([19.5, 13.3, 4.7, 1.3], [6.9, 0.0, -6.7, 6.9]).word == "ambiguous", "silence of one says nothing"
-    assert told([19.5, 17.3, 4.7, 1.3], [6.9, -6.9, -6.7, 6.9]).word == "ambiguous", "no lead"
-    assert told([19.5, 13.3, 4.7, 12.3], [6.9, -6.9, -6.7, 6.9]).word == "not_decidable", "nor a place"
+    assert told([17.5, 15.8, 12.8, 3.2], heard=HEARD - 0.1).word == "ambiguous", "hardly heard"
+    assert told([17.5, 15.8, 12.8, 3.2], silent=names[1:2]).word == "ambiguous", "silence of one says nothing"
+    assert told([15.8, 17.5, 12.8, 3.2]).chosen[0] == names[1], "the silent one leads"
+    assert told([17.5, 15.8, 12.8, 3.2], views=2).word != "explained", "so few views fit by chance"
+    assert told([17.5, 15.8, 12.8, 12.3]).word == "not_decidable", "nor a place"
 
 
 def test_lines_without_any_pattern_count_only_when_they_are_clear() -> None:

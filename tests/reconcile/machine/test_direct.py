@@ -197,15 +197,15 @@ def test_what_would_strike_and_is_not_heard_beside_sure_impacts_is_unlikely() ->
     assert told["outer_spall@bearing1"] == 17.0 and told["ball_spall@bearing1"] == 6.0
     assert told["inner_spall@bearing1"] == -direct.MOST
     assert told["tooth_crack@pinion"] == 1.0 and told["rub@gear"] == 0.0, "teeth are no balls"
-    weak = {"outer_spall@bearing1": direct.HEARD - 0.1, "inner_spall@bearing1": 0.0}
+    weak = {"outer_spall@bearing1": 7.0, "inner_spall@bearing1": 0.0}
     assert direct.unheard(weak) == weak
 
 
-def test_silence_beside_impacts_that_are_not_sure_counts_as_far_as_they_do() -> None:
-    heard = {"outer_spall@b": 7.0, "inner_spall@b": 0.0, "ball_spall@b": 4.5, "tooth_crack@g": 0.0}
-    told = direct.unheard(heard)
-    assert told == {**heard, "inner_spall@b": -7.0, "ball_spall@b": 2.0}
-    assert direct.unheard(heard, {"inner_spall@b"})["inner_spall@b"] == 0.0
+def test_what_is_not_heard_at_all_beside_what_is_heard_is_told() -> None:
+    heard = {"outer_spall@b": direct.HEARD, "inner_spall@b": 0.0, "ball_spall@b": 1.5, "tooth_crack@g": 0.0}
+    assert direct.silent_beside(heard, set()) == {"inner_spall@b"}
+    assert direct.silent_beside(heard, {"inner_spall@b"}) == set(), "its lines lie within slip of others"
+    assert direct.silent_beside({**heard, "outer_spall@b": direct.HEARD - 0.1}, set()) == set()
 
 
 def family(kind: str, site: str, order: float) -> Family:
@@ -221,8 +221,9 @@ def test_silence_says_nothing_where_slip_or_sound_machines_leave_it_open() -> No
     told = direct.unheard(heard, spared)
     assert told["ball_spall@b"] == 3.9 and told["outer_spall@b"] == -direct.MOST
     assert direct.unjudged(heard, tie, [families[2]]) == {"ball_spall@b", "outer_spall@b"}
-    quiet = {**heard, "inner_spall@b": direct.HEARD - 0.1}
+    quiet = {**heard, "inner_spall@b": 5.0}
     assert direct.unjudged(quiet, tie, []) == set()
+    assert direct.unjudged(quiet, tie, [], direct.HEARD) == {"ball_spall@b"}
 
 
 @pytest.mark.parametrize(

@@ -62,6 +62,18 @@ def test_what_a_named_effect_takes_away_as_it_is_simulated_is_no_exchange(
     assert exchanged.brought(report, setting, found, family) is says  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("fell", [0.2, 0.0, -1.9, -np.inf])
+def test_bands_that_lost_nothing_explain_no_loss(monkeypatch: pytest.MonkeyPatch, fell: float) -> None:
+    name = "pedestal_looseness@bearing1"
+    monkeypatch.setattr(exchanged, "depth_over_sound", lambda *_: lambda _, change: change[:, 0])
+    setting = SimpleNamespace(changes=SimpleNamespace(observed=np.array([fell])), data=(), plan=None)
+    found = simulated({name: (0, 1)}, np.array([[-np.inf], [-9.0]]))
+    cause = Cause(term="pedestal_looseness", site="bearing1", severity=None, score=20.0, named=True)
+    report = Report(verdict="explained", sentence="", level="machine", causes=(cause,))
+    family = Family(kind="outer", site="bearing3", order=2.6, spacing=0.0, sidebands=0, slip=0.02)
+    assert not exchanged.brought(report, setting, found, family)  # type: ignore[arg-type]
+
+
 @pytest.mark.slow
 def test_an_exchange_is_told_with_what_to_do() -> None:
     machine = preset("paper-lightly-damped")

@@ -63,24 +63,25 @@ def test_what_is_far_less_likely_leaves_the_set_and_a_bow_stays_with_its_unbalan
     assert (found.word, found.chosen) == ("ambiguous", names[:2]) and LINE_BY_LINE not in found.reasons
 
 
+M009 = ("bearing_stiffness@bearing1", "fit_clearance@bearing1", "squeeze_film@bearing1", "rub@pinion")
+
+
 def test_a_lead_by_patterns_alone_is_no_proof_of_what_leaves_much_of_the_lines() -> None:
     """m009 of the proof: a support that stiffens before the loose fit of its bearing, which was as likely."""
-    names = M009
     values, left = [43.2, 34.8, 16.4, 11.3], Rest(unmet=6.6, kept=0.39, pooled=0.68, rough=False)
-    alone = decide(screen(values, names, rest=left), views=9)
-    assert (alone.word, alone.chosen) == ("explained", names[:1])
-    known = dict(zip(names, (73.0, 72.0, 12.0), strict=False))
-    found = decide(screen(values, names, rest=left, likelihoods=known), views=9)
-    assert (found.word, found.chosen) == ("ambiguous", names[:2]), "a film is far less likely than either"
-    sure = decide(screen(values, names, rest=left, likelihoods={**known, names[1]: 20.0, names[3]: 73.0}), views=9)
-    assert (sure.word, sure.chosen) == ("ambiguous", names[:3]), "a set is of two at least"
-    behind = decide(screen(values, names, rest=left, likelihoods={**known, names[1]: 60.0}), views=9)
-    assert (behind.word, behind.chosen) == ("explained", names[:1])
-    fits = decide(screen(values, names, likelihoods=known), views=9)
-    assert (fits.word, fits.chosen) == ("explained", names[:1]), "where nothing is left the lead is enough"
-
-
-M009 = ("bearing_stiffness@bearing1", "fit_clearance@bearing1", "squeeze_film@bearing1", "rub@pinion")
+    alone = decide(screen(values, M009, rest=left), views=9)
+    assert (alone.word, alone.chosen) == ("explained", M009[:1])
+    known = dict(zip(M009, (73.0, 72.0, 12.0), strict=False))
+    found = decide(screen(values, M009, rest=left, likelihoods=known), views=9)
+    assert (found.word, found.chosen) == ("ambiguous", M009[:2]), "a film is far less likely than either"
+    elsewhere = decide(screen(values, M009, rest=left, likelihoods={M009[0]: 73.0, M009[3]: 73.0}), views=9)
+    assert (elsewhere.word, elsewhere.chosen) == ("ambiguous", (M009[0], M009[3])), "wherever the other is"
+    behind = decide(screen(values, M009, rest=left, likelihoods={**known, M009[1]: 60.0}), views=9)
+    assert (behind.word, behind.chosen) == ("explained", M009[:1])
+    fits = decide(screen(values, M009, likelihoods=known), views=9)
+    assert (fits.word, fits.chosen) == ("explained", M009[:1]), "where nothing is left the lead is enough"
+    nothing = decide(screen(values, M009, rest=left, likelihoods={M009[0]: 2.0, M009[1]: 1.5}), views=9)
+    assert (nothing.word, nothing.chosen) == ("explained", M009[:1]), "neither is likelier than no change"
 
 
 def yielded(
@@ -117,6 +118,8 @@ def test_what_leaves_lines_comes_behind_what_is_as_likely_and_does_not(monkeypat
         (LEAVES, LEAVES, (43.2, 34.8, 16.4, 11.3), 72.0),  # so does the other
         (LEAVES, KEEPS, (43.2, 34.8, 16.4, 11.3), 60.0),  # which is less likely
         (LEAVES, KEEPS, (43.2, 34.8, 36.4, 11.3), 72.0),  # and not the next
+        (LEAVES, KEEPS, (47.2, 34.8, 16.4, 11.3), 72.0),  # and far behind
+        (LEAVES, replace(KEEPS, kept=0.58, pooled=0.77), (43.2, 34.8, 16.4, 11.3), 72.0),  # and explains hardly more
     ],
 )
 def test_and_stays_the_best_else(
@@ -125,6 +128,16 @@ def test_and_stays_the_best_else(
     rests = dict(zip(M009, (first, second, LEAVES, LEAVES), strict=True))
     made = yielded(monkeypatch, rests, values, likelihood)
     assert not made.yields and made.evidence.tolist() == list(values)
+
+
+def test_all_forms_of_what_yields_come_behind(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = ("fit_clearance@b", "bearing_stiffness@b", "fit_clearance_series@b")
+    rests = dict(zip(names, (LEAVES, KEEPS, LEAVES), strict=True))
+    monkeypatch.setattr(machine_likelier, "rest_in", lambda _v, _o, name, _s: rests[name])
+    monkeypatch.setattr(machine_likelier, "of_best", lambda s, _v, _o: s)
+    known = dict(zip(names, (73.0, 72.0), strict=False))
+    made = yielding(screen([43.0, 34.8, 36.0], names, rest=LEAVES, likelihoods=known), (), np.zeros(1))
+    assert made.evidence.tolist() == pytest.approx([30.8, 34.8, 30.8]) and set(made.yields) == {names[0], names[2]}
 
 
 def test_forms_of_one_effect_and_a_bow_of_an_unbalance_are_no_rivals() -> None:
