@@ -23,7 +23,14 @@ def simulated(monkeypatch: pytest.MonkeyPatch) -> Asked:
 
 @pytest.mark.parametrize(
     ("parts", "stands"),
-    [((124.0, -28.0, -38.0), False), ((60.0, 25.0, -16.0), True), ((50.0, -9.9), True), ((50.0, -10.1), False)],
+    [
+        ((124.0, -28.0, -38.0), False),
+        ((60.0, 25.0, -16.0), True),
+        ((100.0, -19.9), True),
+        ((100.0, -20.1), False),
+        ((50.0, -9.9), False),  # with little to spare
+        ((50.0, 10.0), True),
+    ],
 )
 def test_a_second_must_not_be_one_operating_points_alone(
     parts: tuple[float, ...], stands: bool, simulated: Asked, monkeypatch: pytest.MonkeyPatch
