@@ -5,7 +5,8 @@ from __future__ import annotations
 SECTIONS = {
     "mixed": "No version of the engine had met these before their run; one engine ran all of them, two or three at "
     "once on the two threads of one core that takes twice as long as that of `wide`, which core-seconds show. m040 (a "
-    "cracked tooth) was begun and not waited for: after 15 minutes machines with much backlash were still simulated. "
+    "backlash beside a cracked tooth) was begun and not waited for: after 15 minutes machines with backlash were still "
+    "simulated. Its worker had taken the even numbers, so m042, m044 and m046 are not run either. "
     "m006, m008, m009 and m024 have each set a rule since, by which m009 and m024 are named.",
     "wide": "No version of the engine had met these before their run; one engine ran all, beside other work on the two "
     "threads of one core, which core-seconds show. Since then unknown physics comes with its force by lines, and a "

@@ -10,13 +10,9 @@ from dataclasses import replace
 
 from reconcile.kinematics.candidate import DEFECTS
 from reconcile.machine.decide import FEW_VIEWS, Decision
-from reconcile.machine.direct import Direct
+from reconcile.machine.direct import UNHEARD, Direct
 from sim.terms import REGISTRY
 
-UNHEARD = 1.0
-"""Log evidence of impacts (two deviations of control lines) up to which none are heard. Of 25 concealed cases with a
-pit (0.56 mm and more) that was told all have 5 deviations and more; of two of loose blows, which a pit fitted best,
-none."""
 FEWEST_POINTS = 2
 SILENT = "a pit in a bearing fits best, and nothing strikes at its frequency"
 

@@ -7,8 +7,8 @@ import pytest
 
 from reconcile.machine.decide import Decision
 from reconcile.machine.decided import decided
-from reconcile.machine.direct import NOTHING
-from reconcile.machine.unstruck import SILENT, UNHEARD, unless_silent
+from reconcile.machine.direct import NOTHING, UNHEARD
+from reconcile.machine.unstruck import SILENT, unless_silent
 from tests.reconcile.machine.screens import screen
 
 PITS = ("inner_spall@bearing4", "ball_spall@bearing4")
