@@ -13,7 +13,7 @@ from reconcile.observe.watch import bases_at, watch_list
 from sim.core.errors import Problem, SpecError
 from sim.version import PHYSICS_VERSION
 
-ATLAS_VERSION = 4
+ATLAS_VERSION = 5
 
 
 class Keeper(Protocol):

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable, Sequence
 from dataclasses import replace
 
 from sim.assembly.assemble import assemble
 from sim.core.errors import Diverged, Meaningless, SidebandError, SpecError, UnknownName
 from sim.core.response import Response
+from sim.core.system import System
 from sim.solve.api import simulate
 from sim.solve.ensemble import Member, simulate_many, structure
 from sim.solve.settings import Settings
-from sim.solve.step_choice import steps_per_output
+from sim.solve.step_choice import LEAST_STEPS_PER_OUTPUT, steps_per_output
 
 RATE_HZ = 20480.0
 SETTLE_S = 0.2
@@ -19,13 +21,15 @@ SETTLE_S = 0.2
 SPAN_S = 1.0
 FEW = 2
 """So many machines of one structure cost less one by one than in eight lanes of which the others idle."""
-SETTINGS = Settings(rtol=1e-3, estimate_error=False)
+COARSER = 2.0 / 3.0
+"""Of the steps that a user's simulation takes: enough for levels (docs/decisions/atlas-steps.md)."""
+SETTINGS = Settings(rtol=1e-2, estimate_error=False)
 
 
 def run_members(members: Sequence[Member], channels: Sequence[str]) -> list[Response | SidebandError]:
     """A response or an error a member, in their order."""
     results: dict[int, Response | SidebandError] = {}
-    groups: dict[Hashable, list[int]] = {}
+    groups: dict[tuple[Hashable, int], list[int]] = {}
     built = list(members)
     for k, member in enumerate(members):
         try:
@@ -34,20 +38,30 @@ def run_members(members: Sequence[Member], channels: Sequence[str]) -> list[Resp
             results[k] = error
             continue
         built[k] = replace(member, system=system)
-        groups.setdefault((structure(system), steps_per_output(system, RATE_HZ)), []).append(k)
-    for group in groups.values():
+        groups.setdefault((structure(system), steps_of(system)), []).append(k)
+    for (_, steps), group in groups.items():
         run = _one_by_one if len(group) <= FEW else _side_by_side
-        results |= dict(zip(group, run([built[k] for k in group], channels), strict=True))
+        settings = replace(SETTINGS, steps_per_output=steps)
+        results |= dict(zip(group, run([built[k] for k in group], channels, settings), strict=True))
     return [results[k] for k in range(len(members))]
 
 
-def _side_by_side(members: Sequence[Member], channels: Sequence[str]) -> list[Response | SidebandError]:
+def steps_of(system: System) -> int:
+    """Steps between two samples."""
+    return max(LEAST_STEPS_PER_OUTPUT, math.ceil(COARSER * steps_per_output(system, RATE_HZ) - 1e-9))
+
+
+def _side_by_side(
+    members: Sequence[Member], channels: Sequence[str], settings: Settings
+) -> list[Response | SidebandError]:
     return simulate_many(
-        members, duration_s=SETTLE_S + SPAN_S, output_rate_hz=RATE_HZ, channels=list(channels), settings=SETTINGS
+        members, duration_s=SETTLE_S + SPAN_S, output_rate_hz=RATE_HZ, channels=list(channels), settings=settings
     )
 
 
-def _one_by_one(members: Sequence[Member], channels: Sequence[str]) -> list[Response | SidebandError]:
+def _one_by_one(
+    members: Sequence[Member], channels: Sequence[str], settings: Settings
+) -> list[Response | SidebandError]:
     found: list[Response | SidebandError] = []
     for member in members:
         try:
@@ -58,7 +72,7 @@ def _one_by_one(members: Sequence[Member], channels: Sequence[str]) -> list[Resp
                     output_rate_hz=RATE_HZ,
                     channels=list(channels),
                     seed=member.seed,
-                    settings=SETTINGS,
+                    settings=settings,
                 )
             )
         except (SpecError, UnknownName, Diverged, Meaningless) as error:
