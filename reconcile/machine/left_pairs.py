@@ -22,7 +22,7 @@ from reconcile.machine.decide import Decision
 from reconcile.machine.interplay import interplaying, rattles
 from reconcile.machine.leftover import Leftover, leftover, ranked_seconds
 from reconcile.machine.library import Catalogued, joined
-from reconcile.machine.pairs import Pair, Pairs, Simulated, evidence_in, inadequate, pair_of
+from reconcile.machine.pairs import Pair, Pairs, Simulated, evidence_in, inadequate, of_its_tooth, pair_of
 from reconcile.machine.second import strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.sizes import searched
@@ -75,10 +75,16 @@ def best_left_pair(
         told = {n: p for n, p in fitted.items() if p is not None and (n in kept or alike(n, second))}
         sums = {name: gain for name, gain, _ in seen if name in told or fitted.get(name) is None}
         others = _rivals(asked, best, list(told.values()), sums)
+        others += [n for n in of_its_tooth(second, _tempered(tried)) if n not in others]
         drawn = None if others else _drawn(asked, atlas, best)
         best = replace(best, others=(second, *others) if others else (), drawn=drawn)
         best = best if others or drawn is not None else None
     return Pairs(first=first, tried=tried, best=best)
+
+
+def _tempered(tried: Sequence[tuple[str, float, float | None]]) -> tuple[tuple[str, float, float | None], ...]:
+    """As log evidence."""
+    return tuple((name, gain / TEMPER, None if made is None else made / TEMPER) for name, gain, made in tried)
 
 
 def _lines(setting: Setting, found: Found, decision: Decision) -> Fitted | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from reconcile.atlas import run
 from reconcile.atlas.bank import measure
 from reconcile.atlas.candidates import with_effects
 from reconcile.atlas.run import RATE_HZ, SETTLE_S, SPAN_S, run_members, steps_of
@@ -51,3 +52,16 @@ def test_levels_are_those_of_a_users_simulation(effect: str) -> None:
     assert clear.sum() > 10
     apart = np.abs(10.0 * np.log10(lines[1][clear] / lines[0][clear]))
     assert np.quantile(apart, 0.95) < SAME_DB
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("term", "alone"), [("fit_clearance", True), ("pedestal_looseness", False)])
+def test_what_strikes_is_simulated_one_by_one(monkeypatch: pytest.MonkeyPatch, term: str, alone: bool) -> None:
+    ways: list[str] = []
+    for name in ("_one_by_one", "_side_by_side"):
+        way = getattr(run, name)
+        monkeypatch.setattr(run, name, lambda *asked, way=way, name=name: ways.append(name) or way(*asked))
+    machine = with_effects(preset("rotor"), (TermSpec(term=term, site="bearing1", parameters={}),))
+    found = run_members([Member(machine=machine, seed=k) for k in range(3)], ("disc.y.acceleration",))
+    assert all(isinstance(one, Response) for one in found)
+    assert ways == (["_one_by_one"] if alone else ["_side_by_side"])

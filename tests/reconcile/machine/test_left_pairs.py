@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -201,6 +201,24 @@ def test_a_rival_close_by_is_told_beside_it(simulated: Asked, monkeypatch: pytes
         assert told is not None and told.best is not None and told.best.others == others
         assert (told.best.drawn is None) == bool(others), "nothing is forecast for what is not named"
     assert simulated
+
+
+def test_a_second_that_is_a_fault_of_a_tooth_is_told_with_the_others(
+    simulated: Asked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """m038 of the proof: a broken tooth beside a loose fit, 16 ahead of a pit as log evidence; the crack was summed."""
+    heard: list[tuple[str, float | None]] = []
+
+    def of_its_tooth(second: str, tried: Sequence[tuple[str, float, float | None]]) -> list[str]:
+        heard.extend((name, made) for name, _, made in tried)
+        assert second == WRONG
+        return [THIRD]
+
+    monkeypatch.setattr(left_pairs, "of_its_tooth", of_its_tooth)
+    told = pairs_in(seen(SMALLER))
+    assert told is not None and told.best is not None and told.best.others == (WRONG, THIRD)
+    assert told.best.drawn is None and simulated
+    assert heard[0] == (WRONG, told.best.gain / asked_of.TEMPER), "as log evidence"
 
 
 def with_third(found: Found, change: np.ndarray) -> Found:
