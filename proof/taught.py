@@ -273,5 +273,15 @@ RULES = (
         ),
         "m024, an outer race's pit told as one of three of its bearing",
     ),
+    (
+        (
+            "the burst of a tooth is no evidence against what moves the lines "
+            "([decision](decisions/reconcile-mean-turn.md))"
+        ),
+        (
+            "m038, a loose fit of 44 um beside a cracked tooth, told as the tooth's faults alone; the fit named since "
+            "(0.33 held out), beside it a set of these"
+        ),
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from reconcile.machine.decide import UNMEASURED, Decision
+from reconcile.machine.decide import LINES_QUIET, UNMEASURED, Decision
 from reconcile.machine.proved import NO_NEARER
 from reconcile.observe.observation import PointData
 from reconcile.report.words import percent, sizes
@@ -84,18 +84,25 @@ def sentence(decision: Decision, severity: Severity | None, held: HeldOut | None
         return f"{title(decision.chosen[0])}{size(severity)}{gain}."
     if decision.word == "unknown_physics":
         return f"Something is missing that no known effect explains: {decision.reasons[0]}."
+    return _undecided(decision)
+
+
+def _undecided(decision: Decision) -> str:
+    """Of a set, or of a change of which nothing can be named."""
+    best, unusual = title(decision.chosen[0]).lower(), f"(p {_chance(decision.p)})"
     if decision.reasons[0] == NO_NEARER:
-        best = title(decision.chosen[0]).lower()
-        return f"The change is unusual (p {_chance(decision.p)}), but {NO_NEARER} ({best}): nothing is named."
+        return f"The change is unusual {unusual}, but {NO_NEARER} ({best}): nothing is named."
+    if decision.reasons[0] == LINES_QUIET:
+        told = f"the change is unusual {unusual}, but {LINES_QUIET}"
+        return f"Whether anything is missing is not decided: {told}; nearest is {best}."
     if decision.reasons[0] == UNMEASURED:
-        best = title(decision.chosen[0]).lower()
         return (
-            f"The recordings differ from machines of this kind (p {_chance(decision.p)}) in a way that no known effect "
+            f"The recordings differ from machines of this kind {unusual} in a way that no known effect "
             f"explains, but {UNMEASURED}; nearest is {best}."
         )
     listed = ", or ".join(title(c).lower() for c in decision.chosen[:LISTED])
     rest = "" if len(decision.chosen) <= LISTED else f" and {len(decision.chosen) - LISTED} more"
-    return f"Something is missing (p {_chance(decision.p)}), but {decision.reasons[0]}: {listed}{rest}."
+    return f"Something is missing {unusual}, but {decision.reasons[0]}: {listed}{rest}."
 
 
 APART = {

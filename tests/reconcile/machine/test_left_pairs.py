@@ -216,8 +216,7 @@ def test_a_second_that_is_a_fault_of_a_tooth_is_told_with_the_others(
 
     monkeypatch.setattr(left_pairs, "of_its_tooth", of_its_tooth)
     told = pairs_in(seen(SMALLER))
-    assert told is not None and told.best is not None and told.best.others == (WRONG, THIRD)
-    assert told.best.drawn is None and simulated
+    assert simulated and told is not None and told.best is not None and told.best.others == (WRONG, THIRD)
     assert heard[0] == (WRONG, told.best.gain / asked_of.TEMPER), "as log evidence"
 
 

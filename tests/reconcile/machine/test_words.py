@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from reconcile.machine.decide import Decision
+from reconcile.machine.decide import LINES_QUIET, Decision
 from reconcile.machine.words import LISTED, more, next_experiment, sentence, together, with_points
 from reconcile.verdict import HeldOut
 
@@ -16,6 +16,14 @@ def test_places_that_share_impacts_are_listed() -> None:
     assert said == (
         " Impacts come from another part too: outer-race spall at bearing4, or outer-race spall at bearing3."
     )
+
+
+def test_groups_of_features_alone_do_not_say_that_anything_is_missing() -> None:
+    """A sound machine (m052 of the proof) whose drift moved the teeth's lines across the line of action by 20 dB."""
+    decision = Decision(word="not_decidable", chosen=("bent_shaft@pinion",), p=4e-6, reasons=(LINES_QUIET,))
+    told = sentence(decision, None, None)
+    assert told.startswith("Whether anything is missing is not decided: the change is unusual (p < 0.001), but")
+    assert told.endswith("; nearest is bent shaft at pinion.") and LINES_QUIET in told
 
 
 def test_a_long_list_ends_with_how_many_there_are_more() -> None:
