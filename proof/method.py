@@ -5,9 +5,14 @@ from __future__ import annotations
 SECTIONS = {
     "mixed": "No version of the engine had met these before their run; one engine ran all of them, two or three at "
     "once on the two threads of one core that takes twice as long as that of `wide`, which core-seconds show. m040 (a "
-    "backlash beside a cracked tooth) was begun and not waited for: after 15 minutes machines with backlash were still "
-    "simulated. Its worker had taken the even numbers, so m042, m044 and m046 are not run either. "
-    "m006, m008, m009 and m024 have each set a rule since, by which m009 and m024 are named.",
+    "backlash beside a cracked tooth) was begun and not waited for, beside two others; its worker had taken the even "
+    'numbers, so m042, m044 and m046 were not run either. They are under "Resumed". '
+    "m006, m008, m009, m024 and m038 have each set a rule since, by which m009, m024 and a part of m038 are named.",
+    "resumed": "No version of the engine had met these before their run: m040, begun before and not waited for, and "
+    "those that follow in the plan, all run by the engine of commit 1e2292b8, whose simulations take longer steps "
+    "([decision](decisions/atlas-steps.md)). Other work shared the machine, which core-seconds show; those of m040 "
+    "hold a part of three atlases. m052 has changed a sentence since: that something is missing is not said where "
+    "groups of features alone are unusual.",
     "wide": "No version of the engine had met these before their run; one engine ran all, beside other work on the two "
     "threads of one core, which core-seconds show. Since then unknown physics comes with its force by lines, and a "
     "change without a pattern is unknown physics again where no single lines could be asked (machines without teeth); "

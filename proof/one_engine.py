@@ -25,9 +25,11 @@ CLEAR = 3.0
 """Times as far as drift, from which there is much to see."""
 COMMITS: Mapping[str, str] = {"mixed": "6b73d6fa", "wide": "9c93d3ef", "held": "919f12b", "entire": "8e8edc1"}
 """Whose engine ran each of the splits."""
-ELSEWHERE: Mapping[str, tuple[str, str]] = {"held": ("begun", "an earlier"), "entire": ("hearing", "a later")}
+ELSEWHERE: Mapping[str, tuple[str, str]] = {
+    "mixed": ("resumed", "a later"), "held": ("begun", "an earlier"), "entire": ("hearing", "a later"),
+}  # fmt: skip
 """Section of those cases of a split that another engine met first, and which."""
-RUN_BY_ONE = ("mixed", "wide", "held", "begun", "hearing", "entire")
+RUN_BY_ONE = ("mixed", "resumed", "wide", "held", "begun", "hearing", "entire")
 """Sections of these splits' cases."""
 
 
