@@ -21,7 +21,6 @@ from reconcile.atlas.candidates import with_effects  # noqa: E402
 from reconcile.atlas.keep import Keeper, kept_bank  # noqa: E402
 from reconcile.atlas.places import simulated_channels, standard_channels  # noqa: E402
 from reconcile.atlas.plan import AtlasPlan, Point, at_point, atlas_plan, simulated_at, slips, with_tooth_pairs  # noqa: E402
-from reconcile.atlas.run import SETTINGS  # noqa: E402
 from reconcile.calibrate.uncertain import DRIFT, draw_offsets, moved, uncertain_numbers  # noqa: E402
 from reconcile.judge.changes import healthy_of, lenses, observed_changes  # noqa: E402
 from reconcile.machine.added_power import machines_like, reached  # noqa: E402
@@ -41,8 +40,10 @@ from sim.core.response import Channel  # noqa: E402
 from sim.core.spec import CustomLaw, MachineSpec, TermSpec  # noqa: E402
 from sim.presets import preset  # noqa: E402
 from sim.solve.api import simulate  # noqa: E402
+from sim.solve.settings import Settings  # noqa: E402
 
 RATE, SETTLED_S, LONG_S = 20000.0, 0.25, 1.2
+SETTINGS = Settings(rtol=1e-3, estimate_error=False)
 SPEEDS_HZ = (22.5, 30.0, 39.0)
 KINDS = ("cubic", "periodic", "drag", "viscous", "dead_zone", "periodic_y", "cubic_y", "rate_free")
 LEAST_SHARE = 1e-3

@@ -10,6 +10,7 @@ import numpy as np
 
 from jobs.atlas.words import METHOD_VERSION
 from reconcile.atlas.bank import ARRAYS, Task
+from reconcile.atlas.keep import ATLAS_VERSION
 from reconcile.atlas.plan import AtlasPlan, Draw, Point
 from reconcile.calibrate.uncertain import Offsets, Uncertain
 from reconcile.observe.statistics import Statistics
@@ -21,12 +22,17 @@ NAMES = {"name": "machine", "notes": ""}
 SCALARS = ("resolution_hz", "duration_s")
 
 
+def made_by() -> dict[str, str]:
+    """Versions of what makes the numbers of a round: of the simulator, and of how an atlas asks it."""
+    return {**versions(), "atlas": str(ATLAS_VERSION)}
+
+
 def round_document(tasks: Sequence[Task]) -> dict[str, object]:
     """Everything that the numbers of these tasks depend on; they are of one plan, point and set of channels."""
     plan, point = tasks[0].plan, tasks[0].point
     return {
         "method": METHOD_VERSION,
-        "versions": versions(),
+        "versions": made_by(),
         "machine": plan.machine.model_dump(mode="json") | NAMES,
         "numbers": [[list(n.path), n.kind] for n in plan.numbers],
         "offsets": [o.values.tolist() for o in plan.offsets],

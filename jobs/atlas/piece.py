@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, cast
 
-from jobs.atlas.document import from_bytes, restored_tasks, to_bytes
+from jobs.atlas.document import from_bytes, made_by, restored_tasks, to_bytes
 from jobs.atlas.words import KEPT_S
 from jobs.datasets.shard import check_versions, json_loaded
 from jobs.errors import UnknownArtefact
@@ -44,7 +44,7 @@ def make_piece(
     if catalogue.get(request["round"]).status is not Status.RUNNING:
         raise Cancelled("the round ended")
     document = json_loaded(artefacts, plan_key(request["round"]))
-    check_versions(document)
+    check_versions(document, made_by())
     tasks = restored_tasks(document, *request["tasks"])
     seconds, several = 0.0, []
     for done, task in enumerate(tasks):

@@ -59,9 +59,9 @@ def make_part(
     return _described(artefacts, prefix, attempt, plan, receipt, files, expires_at())
 
 
-def check_versions(document: Mapping[str, object]) -> None:
-    """Raise DatasetRefused unless this process makes the rows that were asked for."""
-    wanted, here = cast(Mapping[str, str], document["versions"]), versions()
+def check_versions(document: Mapping[str, object], own: Mapping[str, str] | None = None) -> None:
+    """Raise DatasetRefused unless this process, of the `own` versions, makes the rows that were asked for."""
+    wanted, here = cast(Mapping[str, str], document["versions"]), versions() if own is None else own
     if wanted != here:
         other = [f"{name} {here.get(name)}, not {wanted.get(name)}" for name in here if here[name] != wanted.get(name)]
         message = f"a worker has other versions ({'; '.join(other)}): its rows would not be of one kind with the rest"

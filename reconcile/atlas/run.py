@@ -21,6 +21,8 @@ SETTLE_S = 0.2
 SPAN_S = 1.0
 FEW = 2
 """So many machines of one structure cost less one by one than in eight lanes of which the others idle."""
+OFTEN = 0.05
+"""Share of short steps from which that costs more than lanes save."""
 COARSER = 2.0 / 3.0
 """Of the steps that a user's simulation takes: enough for levels (docs/decisions/atlas-steps.md)."""
 SETTINGS = Settings(rtol=1e-2, estimate_error=False)
@@ -40,16 +42,31 @@ def run_members(members: Sequence[Member], channels: Sequence[str]) -> list[Resp
         built[k] = replace(member, system=system)
         groups.setdefault((structure(system), steps_of(system)), []).append(k)
     for (_, steps), group in groups.items():
-        run = _one_by_one if len(group) <= FEW or _strikes(built[group[0]].system) else _side_by_side
         settings = replace(SETTINGS, steps_per_output=steps)
-        results |= dict(zip(group, run([built[k] for k in group], channels, settings), strict=True))
+        found = _of_one_kind([built[k] for k in group], channels, settings)
+        results |= dict(zip(group, found, strict=True))
     return [results[k] for k in range(len(members))]
 
 
-def _strikes(system: System | None) -> bool:
-    """Whether rings strike walls in it. Eight machines strike at different moments, and lanes wait for each other's
-    short steps: loose fits took 1 to 2 times as long side by side as one by one."""
+def _of_one_kind(
+    members: Sequence[Member], channels: Sequence[str], settings: Settings
+) -> list[Response | SidebandError]:
+    """Of one structure and step. Where rings may strike walls the first is run alone: if it strikes often, so are the
+    others. Eight machines strike at different moments, and lanes wait for each other's short steps."""
+    alone: list[Response | SidebandError] = []
+    rest = list(members)
+    if len(members) > FEW and _may_strike(members[0].system):
+        alone, rest = _one_by_one(rest[:1], channels, settings), rest[1:]
+    run = _one_by_one if len(rest) <= FEW or _strikes_often(alone) else _side_by_side
+    return [*alone, *run(rest, channels, settings)]
+
+
+def _may_strike(system: System | None) -> bool:
     return system is not None and any(element.stiff for element in system.elements)
+
+
+def _strikes_often(alone: Sequence[Response | SidebandError]) -> bool:
+    return any(isinstance(r, Response) and r.quality.refined_steps > OFTEN * r.quality.steps for r in alone)
 
 
 def steps_of(system: System) -> int:

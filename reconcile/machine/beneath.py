@@ -6,25 +6,84 @@ tooth's own faint pattern it makes that lead what explains the change.
 
 from __future__ import annotations
 
-from reconcile.judge.screen import Screen
-from reconcile.machine.weigh import FAR_AHEAD, HOPELESS, LEAST_EVIDENCE, variants
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from reconcile.judge.screen import Screen, of_best
+from reconcile.judge.space import Fitted
+from reconcile.machine.decide import STRANGE, STRUCK
+from reconcile.machine.left_lines import leaves_lines
+from reconcile.machine.weigh import FAR_AHEAD, HOPELESS, LEAST_EVIDENCE, alike, variants
+from signals.series import FloatArray
 from sim.terms import REGISTRY
 
 
-def beneath_a_tooth(screen: Screen, sure: float) -> tuple[str, ...]:
-    """The effect whose pattern leads that of every other, faults of teeth among them, by `FAR_AHEAD`, and is more than
-    `HOPELESS`, where the first is a fault of a tooth with impacts of `sure` log evidence or more; else none.
+def burst_leads(screen: Screen) -> bool:
+    """Whether the best effect is a fault of a tooth that is sure by its burst."""
+    first = int(np.argmax(screen.evidence))
+    return _strikes(screen.names[first]) == "tooth" and bool(screen.direct[first] >= STRUCK)
+
+
+def asked_beneath(screen: Screen) -> str | None:
+    """What strikes nowhere and has more of a pattern than the teeth, where a burst leads: it is fitted together with
+    the machine as they are; else none."""
+    if not burst_leads(screen):
+        return None
+    resting = _resting(screen)
+    best = max(resting, key=lambda name: resting[name], default=None)
+    if best is None or resting[best] < max(LEAST_EVIDENCE, *_others(screen, best)):
+        return None
+    return best
+
+
+def beneath_a_tooth(screen: Screen, views: Sequence[Fitted], observed: FloatArray) -> Screen:
+    """The screen, in which faults of teeth count by their patterns alone, where a burst leads and what strikes nowhere
+    was fitted together with the machine, explains the change as a name must, has `HOPELESS` or more and leads the
+    patterns of all others, those of the teeth among them, by `FAR_AHEAD`. The teeth stand beside it then.
 
     A loose fit of 44 um beside a crack of a tooth: patterns of 18 and 4.3, and 23 of the burst, with which the tooth
     led and the fit was not asked (m038 of the proof)."""
-    first = max(range(len(screen.names)), key=lambda k: float(screen.evidence[k]))
-    term = REGISTRY.get(screen.names[first].split("@", maxsplit=1)[0])
-    if term is None or term.strikes != "tooth" or screen.direct[first] < sure:
-        return ()
-    patterns = dict(zip(screen.names, map(float, screen.patterns), strict=True))
-    heard = dict(zip(screen.names, map(float, screen.direct), strict=True))
-    best = max(patterns, key=lambda name: patterns[name])
-    others = [value for name, value in patterns.items() if name != best and not variants(name, best)]
-    if heard[best] >= LEAST_EVIDENCE or patterns[best] < HOPELESS:
-        return ()
-    return (best,) if patterns[best] >= max(others, default=0.0) + FAR_AHEAD else ()
+    best = asked_beneath(screen)
+    if best is None or best not in screen.likelihoods:
+        return screen
+    reached = _resting(screen)[best]
+    if reached < HOPELESS or reached < max(_others(screen, best), default=0.0) + FAR_AHEAD:
+        return screen
+    burst = np.array([max(d, 0.0) if _strikes(n) == "tooth" else 0.0 for n, d in _heard(screen).items()])
+    evidence = screen.evidence - burst
+    set_aside = {n: screen.yields.get(n, 0.0) + float(b) for n, b in zip(screen.names, burst, strict=True) if b > 0.0}
+    weights = np.exp(evidence - evidence.max())
+    made = replace(screen, evidence=evidence, weights=weights / weights.sum(), yields={**screen.yields, **set_aside})
+    made = of_best(made, views, observed)
+    made = replace(made, rest=replace(made.rest, rough=False))
+    return screen if leaves_lines(made.rest) or made.misfit > STRANGE else made
+
+
+def set_aside(screen: Screen) -> tuple[str, ...]:
+    """Faults of teeth that are sure by their burst and stand beneath another effect's pattern, the best first."""
+    sure = {n: d for n, d in _heard(screen).items() if _strikes(n) == "tooth" and d >= STRUCK and n in screen.yields}
+    told = dict(zip(screen.names, map(float, screen.evidence), strict=True))
+    return tuple(sorted(sure, key=lambda name: -told[name]))
+
+
+def _strikes(name: str) -> str | None:
+    term = REGISTRY.get(name.split("@", maxsplit=1)[0])
+    return None if term is None else term.strikes
+
+
+def _heard(screen: Screen) -> dict[str, float]:
+    return dict(zip(screen.names, map(float, screen.direct), strict=True))
+
+
+def _resting(screen: Screen) -> dict[str, float]:
+    """Evidence of what strikes nowhere."""
+    told = dict(zip(screen.names, map(float, screen.evidence), strict=True))
+    return {name: value for name, value in told.items() if _strikes(name) is None}
+
+
+def _others(screen: Screen, best: str) -> list[float]:
+    """Patterns of all that is no form of `best`, a bow for an unbalance among the forms; at least 0."""
+    told = zip(screen.names, map(float, screen.patterns), strict=True)
+    return [0.0, *(value for n, value in told if n != best and not variants(n, best) and not alike(n, best))]

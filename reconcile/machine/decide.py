@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reconcile.judge.screen import Screen
-from reconcile.machine.beneath import beneath_a_tooth
 from reconcile.machine.direct import HEARD
 from reconcile.machine.left_lines import UNMET_ROUGH, leaves_lines, leaves_little
 from reconcile.machine.likelier import likelier, rivals
@@ -155,7 +154,7 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     far = lead(screen) >= FAR_AHEAD and not (odd and screen.rest.kept < LEAST_KEPT_FAR)
     odd = odd and not (far and not screen.rest.rough)
     inadequate = odd or (leaves_lines(screen.rest) and not far)
-    apart = beneath_a_tooth(screen, STRUCK) or beside_impacts(screen, chosen)
+    apart = beside_impacts(screen, chosen)
     if apart[0] != chosen[0] and screen.direct[screen.names.index(chosen[0])] >= STRUCK:
         inadequate = False  # what is left is known of the first alone, and a pit leaves what stands beside it
     if apart[0] == chosen[0] or not inadequate:
@@ -184,7 +183,7 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     led, chosen = len(likely) < len(chosen), likely
     if len(chosen) == 1:
         left = screen.misfit > strange or screen.rest.unmet > UNMET_ROUGH
-        rest = (LEFT_OVER,) if left and chosen[0] == first else ()
+        rest = (LEFT_OVER,) if left else ()
         rest = (*rest, LINE_BY_LINE) if led else rest
         return Decision(word="explained", chosen=chosen, p=p, reasons=rest)
     if len(chosen) <= MOST_NAMED:

@@ -22,6 +22,7 @@ from reconcile.machine.alone import rise_over_sound
 from reconcile.machine.answer import answer, fault_answer, provenance
 from reconcile.machine.assimilate import assimilated
 from reconcile.machine.beaten import with_beaten
+from reconcile.machine.beneath import beneath_a_tooth
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.decide import remarkable, tempered, unmeasured
 from reconcile.machine.decided import decided
@@ -236,6 +237,7 @@ def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, prog
     if based and local is not None:
         screen = replace(screen, likelihoods=likelihoods(closer, found))
         screen = yielding(screen, found.views, closer.changes.observed)
+        screen = beneath_a_tooth(screen, found.views, closer.changes.observed)
     fit = told(local) if local is not None else {}
     found = replace(found, screen=screen)
     if based and local is not None:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from reconcile.machine.decide import STRUCK, Decision
+from reconcile.machine.beneath import set_aside
+from reconcile.machine.decide import MECHANISM_OPEN, STRUCK, Decision
 from reconcile.machine.direct import HEARD
 from reconcile.machine.revised import Revised
 from reconcile.machine.setting import Found
 from reconcile.machine.weigh import FAR_AHEAD, lead
-from reconcile.verdict import Cause
+from reconcile.verdict import Cause, Word
 from sim.terms import REGISTRY
 
 NO_NEARER = "the machine with the effect that fits best, simulated, is no nearer to the recordings than without it"
@@ -45,6 +46,10 @@ def proved(
     if float(found.screen.evidence[place]) >= BEYOND_DOUBT and lead(found.screen) >= FAR_AHEAD:
         first, *others = causes
         return decision, (replace(first, reasons=(*first.reasons, FORM_UNMET)), *others)
+    teeth = set_aside(found.screen)
+    if teeth:  # what their burst stood beside is not proved; the burst is
+        word: Word = "ambiguous" if len(teeth) > 1 else "explained"
+        return replace(decision, word=word, chosen=teeth, reasons=(MECHANISM_OPEN,)), _teeth_first(causes, teeth)
     unnamed = _unnamed(causes)
     return replace(decision, word="not_decidable", reasons=(NO_NEARER,)), unnamed
 
@@ -54,6 +59,14 @@ def _of_a_tooth(decision: Decision) -> bool:
     moves a level."""
     teeth = {term.key for term in REGISTRY if term.strikes == "tooth"}
     return all(name.split("@")[0] in teeth for name in decision.chosen)
+
+
+def _teeth_first(causes: Sequence[Cause], teeth: Sequence[str]) -> tuple[Cause, ...]:
+    """What their burst proves, then the rest; one fault alone is named."""
+    own = [c for name in teeth for c in causes if f"{c.term}@{c.site}" == name]
+    rest = [c for c in causes if c not in own]
+    kept = [replace(c, named=len(teeth) == 1, reasons=(MECHANISM_OPEN,)) for c in own]
+    return (*kept, *_unnamed(rest))
 
 
 def _unnamed(causes: Sequence[Cause]) -> tuple[Cause, ...]:

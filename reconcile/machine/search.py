@@ -14,6 +14,7 @@ from reconcile.judge.pooled import OneByOne
 from reconcile.judge.screen import judge
 from reconcile.judge.space import fit_space
 from reconcile.machine.assimilate import Task
+from reconcile.machine.beneath import asked_beneath
 from reconcile.machine.budget import Budget
 from reconcile.machine.decide import DETECT_P
 from reconcile.machine.library import Catalogued, catalogued, joined
@@ -220,12 +221,15 @@ def simulated(setting: Setting, plan: AtlasPlan, mapper: Mapper, known: Catalogu
 
 
 def leaders(found: Found, budget: Budget, near: Sequence[str] = ()) -> list[str]:
-    """The effects that are simulated again, the best first; those `near` the observation in the atlas among them."""
+    """The effects that are simulated again, the best first; those `near` the observation in the atlas among them, and
+    what has more of a pattern than a tooth that leads by its burst."""
     weights = merged_weights(found.screen)
     leading = list(weights)[: budget.effects]
     if len(credible_set(weights, 0.999)) == 1:
         leading = leading[:2]
-    return leading + [n for n in near if n not in leading and n in found.screen.names]
+    beneath = asked_beneath(found.screen)
+    more = (*near, *((beneath,) if beneath is not None else ()))
+    return leading + [n for n in dict.fromkeys(more) if n not in leading and n in found.screen.names]
 
 
 def to_fit(setting: Setting, found: Found, budget: Budget) -> list[Task]:

@@ -11,6 +11,7 @@ import pytest
 from jobs.atlas.document import from_bytes, restored_tasks, round_document, to_bytes
 from reconcile.atlas.bank import Task, run_task, tasks
 from reconcile.atlas.candidates import candidates
+from reconcile.atlas.keep import ATLAS_VERSION
 from reconcile.atlas.plan import Point, atlas_plan, with_tooth_pairs
 from reconcile.calibrate.uncertain import uncertain_numbers
 from sim.presets import preset
@@ -73,3 +74,9 @@ def test_a_restored_task_simulates_the_same_numbers() -> None:
     task = Task(plan=plan(), draws=(0, 9, 17), point=POINT, channels=CHANNELS)
     (again,) = travelled([task], 0, 1)
     assert to_bytes(run_task(again)) == to_bytes(run_task(task))
+
+
+def test_a_round_is_another_where_atlases_are_made_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
+    before = round_document(todo())
+    monkeypatch.setattr("jobs.atlas.document.ATLAS_VERSION", ATLAS_VERSION + 1)
+    assert round_document(todo()) != before

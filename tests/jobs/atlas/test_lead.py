@@ -11,6 +11,7 @@ import pytest
 
 from jobs import transitions
 from jobs.atlas import lead, pieces
+from jobs.atlas.document import made_by
 from jobs.errors import StaleAttempt, StoreFull
 from jobs.ports import Lane
 from jobs.record import Failure
@@ -114,10 +115,13 @@ def test_a_piece_that_failed_elsewhere_is_made_here(house: House) -> None:
     assert same(house.led(Once(fails)), alone())
 
 
-def test_a_worker_of_other_versions_refuses_and_does_no_harm(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("changed", ["physics", "atlas"])
+def test_a_worker_of_other_versions_refuses_and_does_no_harm(
+    changed: str, house: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def helped() -> None:
         with monkeypatch.context() as other:
-            other.setattr("jobs.datasets.shard.versions", lambda: {"physics": "another"})
+            other.setattr("jobs.atlas.piece.made_by", lambda: {**made_by(), changed: "another"})
             made = house.help_out()
         assert made is not None and made.failure is not None and made.failure.code == "not-makeable"
 

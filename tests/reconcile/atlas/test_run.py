@@ -55,13 +55,25 @@ def test_levels_are_those_of_a_users_simulation(effect: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("term", "alone"), [("fit_clearance", True), ("pedestal_looseness", False)])
-def test_what_strikes_is_simulated_one_by_one(monkeypatch: pytest.MonkeyPatch, term: str, alone: bool) -> None:
-    ways: list[str] = []
+@pytest.mark.parametrize(
+    ("term", "often", "ways"),
+    [
+        ("fit_clearance", -1.0, ["_one_by_one", "_one_by_one"]),
+        ("fit_clearance", 1.0, ["_one_by_one", "_side_by_side"]),
+        ("squeeze_film", 0.05, ["_one_by_one", "_side_by_side"]),
+        ("pedestal_looseness", -1.0, ["_side_by_side"]),
+    ],
+)
+def test_what_strikes_often_is_simulated_one_by_one(
+    monkeypatch: pytest.MonkeyPatch, term: str, often: float, ways: list[str]
+) -> None:
+    """A film is as stiff as a wall and never strikes, which its first run shows."""
+    asked: list[str] = []
     for name in ("_one_by_one", "_side_by_side"):
         way = getattr(run, name)
-        monkeypatch.setattr(run, name, lambda *asked, way=way, name=name: ways.append(name) or way(*asked))
+        monkeypatch.setattr(run, name, lambda *given, way=way, name=name: asked.append(name) or way(*given))
+    monkeypatch.setattr(run, "OFTEN", often)
     machine = with_effects(preset("rotor"), (TermSpec(term=term, site="bearing1", parameters={}),))
-    found = run_members([Member(machine=machine, seed=k) for k in range(3)], ("disc.y.acceleration",))
-    assert all(isinstance(one, Response) for one in found)
-    assert ways == (["_one_by_one"] if alone else ["_side_by_side"])
+    found = run_members([Member(machine=machine, seed=k) for k in range(4)], ("disc.y.acceleration",))
+    assert all(isinstance(one, Response) for one in found) and len(found) == 4
+    assert asked == ways

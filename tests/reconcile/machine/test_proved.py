@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from reconcile.machine.decide import Decision
+from reconcile.machine.decide import MECHANISM_OPEN, Decision
 from reconcile.machine.direct import HEARD
 from reconcile.machine.proved import BEYOND_DOUBT, FORM_UNMET, NO_NEARER, proved
 from reconcile.machine.words import sentence
@@ -24,7 +24,9 @@ def decided(word: Word = "explained") -> Decision:
 
 
 def found(struck: float, evidence: float = 10.0, second: float = 0.0) -> SimpleNamespace:
-    screen = SimpleNamespace(names=NAMES, direct=np.array([struck, 0.0]), evidence=np.array([evidence, second]))
+    screen = SimpleNamespace(
+        names=NAMES, direct=np.array([struck, 0.0]), evidence=np.array([evidence, second]), yields={}
+    )
     return SimpleNamespace(screen=screen)
 
 
@@ -50,7 +52,7 @@ def test_so_is_a_set_whose_best_hardly_stands_out() -> None:
 
 def test_a_burst_of_a_tooth_needs_no_level_that_comes_nearer() -> None:
     teeth = ("tooth_crack@gear", "tooth_spall@gear")
-    screen = SimpleNamespace(names=teeth, direct=np.array([HEARD, HEARD]), evidence=np.array([6.6, 6.6]))
+    screen = SimpleNamespace(names=teeth, direct=np.array([HEARD, HEARD]), evidence=np.array([6.6, 6.6]), yields={})
     decision = Decision(word="ambiguous", chosen=teeth, p=4.9e-3, reasons=())
     told = proved(decision, CAUSES, SimpleNamespace(screen=screen), revised(1.0, 1.1))  # type: ignore[arg-type]
     assert told[0] == decision
@@ -82,3 +84,26 @@ def test_other_answers_stand(word: Word, struck: float, levels: tuple[float, flo
     machine = None if levels is None else revised(*levels)
     decision, causes = proved(decided(word), CAUSES, found(struck), machine)  # type: ignore[arg-type]
     assert decision == decided(word) and causes == CAUSES
+
+
+def test_a_burst_stays_where_what_it_stood_beside_is_no_nearer() -> None:
+    """The loose fit of m038, if its machine had not come nearer: the tooth is there whatever else is."""
+    fit, teeth = "fit_clearance@bearing2", ("tooth_crack@pinion", "tooth_spall@pinion")
+    names = (*reversed(teeth), fit)
+    screen = SimpleNamespace(
+        names=names, direct=np.array([23.0, 23.0, 0.0]), evidence=np.array([1.0, 4.3, 18.0]), yields={}
+    )
+    causes = tuple(
+        Cause(term=n.split("@")[0], site=n.split("@")[1], score=18.0 - k, named=k == 0)
+        for k, n in enumerate((fit, *names[:2]))
+    )
+    decision = Decision(word="explained", chosen=(fit,), p=1e-6, reasons=())
+    asked = decision, causes, SimpleNamespace(screen=screen), revised(1.0, 1.01)
+    assert proved(*asked)[0].word == "not_decidable", "no burst has been set aside"  # type: ignore[arg-type]
+    screen.yields = dict.fromkeys(teeth, 23.0)
+    told, ranked = proved(*asked)  # type: ignore[arg-type]
+    assert (told.word, told.chosen, told.reasons) == ("ambiguous", teeth, (MECHANISM_OPEN,))
+    assert [f"{c.term}@{c.site}" for c in ranked] == [*teeth, fit] and not any(c.named for c in ranked)
+    screen.yields = {teeth[1]: 23.0}
+    told, ranked = proved(*asked)  # type: ignore[arg-type]
+    assert (told.word, told.chosen) == ("explained", teeth[1:]) and ranked[0].named and not ranked[1].named
