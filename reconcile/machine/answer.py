@@ -51,6 +51,8 @@ from signals.series import FloatArray
 MOST_STRUCK = 2
 """Effects that share another part's impacts and are ranked next to the name; more would push out its rivals."""
 SETS = ("explained", "ambiguous", "not_decidable")
+OPEN_SECOND = 1.0 / 3.0
+"""Weight of the places of a second effect that is one of several: less than that of the one that is named."""
 """Verdicts on one name or a set of them, whose places are those of the set."""
 
 
@@ -126,7 +128,7 @@ def answer(
     lead = _lead(found, decision)
     named = [f"{c.term}@{c.site}" for c in causes if c.named]
     shown = of_the_set(weights, decision.chosen) if decision.word in SETS else weights
-    placed = _with_second(shown, other)
+    placed = _with_open(_with_second(shown, other), unsettled[1])
     if unknown is not None:
         placed = at_supports(weights, unknown.force.site, [b.name for b in setting.machine.bearings])
     where = _where(setting, layout, watched, placed) if missing else Where(limits=limits(setting))
@@ -232,6 +234,13 @@ def _with_second(weights: Mapping[str, float], other: Beside | None) -> dict[str
     own = np.exp(other.evidence - other.evidence[0])
     second = {name: 0.5 * float(w) for name, w in zip(other.names, own / own.sum(), strict=True)}
     return {name: 0.5 * weights.get(name, 0.0) + second.get(name, 0.0) for name in {**weights, **second}}
+
+
+def _with_open(weights: Mapping[str, float], others: Sequence[str]) -> dict[str, float]:
+    """A third of the weight for what stands beside a named effect and is one of several, alike."""
+    beside = dict.fromkeys(others, OPEN_SECOND / max(len(others), 1))
+    rest = 1.0 - OPEN_SECOND if others else 1.0
+    return {name: rest * weights.get(name, 0.0) + beside.get(name, 0.0) for name in {**weights, **beside}}
 
 
 def _where(setting: Setting, layout: Layout, watched: WatchList, weights: Mapping[str, float]) -> Where:
