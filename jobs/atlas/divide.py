@@ -8,7 +8,7 @@ from itertools import pairwise
 from jobs.ports import Engine
 from reconcile.atlas.bank import Task
 from reconcile.atlas.plan import at_point
-from reconcile.atlas.run import COARSER, RATE_HZ, SETTLE_S, SPAN_S
+from reconcile.atlas.run import RATE_HZ, SETTLE_S, SPAN_S
 
 PIECE_S = 6.0
 """Core-seconds that a piece should take: long against starting one (half a second), short against losing one."""
@@ -26,7 +26,7 @@ def draw_s(engine: Engine, task: Task) -> float:
         sampling_rate_hz=RATE_HZ,
         channels=list(task.channels),
     )
-    return max(LANES_SHARE * COARSER * alone.seconds, 0.01)
+    return max(LANES_SHARE * alone.seconds, 0.01)
 
 
 def divided(tasks: Sequence[Task], seconds: float) -> list[tuple[int, int]]:
