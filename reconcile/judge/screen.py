@@ -58,6 +58,8 @@ class Screen:
     """Log evidence, counted above already, against places that share their lines, by which sensor hears which band."""
     yields: Mapping[str, float] = field(default_factory=dict)
     """Log evidence, counted above already, against effects that leave lines which another, as likely, explains."""
+    bursts: Mapping[str, float] = field(default_factory=dict)
+    """Log evidence of bursts of teeth that is not in `evidence`, as all else that changed is another effect's."""
     unmoved: float | None = None
     """Largest evidence of a pattern before machines were fitted to what was observed; none where none were."""
 
@@ -73,7 +75,7 @@ class Screen:
 
     @property
     def _yielded(self) -> FloatArray:
-        return np.array([self.yields.get(name, 0.0) for name in self.names])
+        return np.array([self.yields.get(name, 0.0) + self.bursts.get(name, 0.0) for name in self.names])
 
     @property
     def patterns(self) -> FloatArray:

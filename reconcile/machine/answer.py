@@ -51,9 +51,9 @@ from signals.series import FloatArray
 MOST_STRUCK = 2
 """Effects that share another part's impacts and are ranked next to the name; more would push out its rivals."""
 SETS = ("explained", "ambiguous", "not_decidable")
+"""Verdicts on one name or a set of them, whose places are those of the set."""
 OPEN_SECOND = 1.0 / 3.0
 """Weight of the places of a second effect that is one of several: less than that of the one that is named."""
-"""Verdicts on one name or a set of them, whose places are those of the set."""
 
 
 def fault_answer(gate: Gate, *, level: Level) -> Report:

@@ -48,14 +48,12 @@ def beneath_a_tooth(screen: Screen, views: Sequence[Fitted], observed: FloatArra
     best = asked_beneath(screen)
     if best is None or best not in screen.likelihoods:
         return screen
-    reached = _resting(screen)[best]
-    if reached < HOPELESS or reached < max(_others(screen, best), default=0.0) + FAR_AHEAD:
+    if _resting(screen)[best] < max(HOPELESS, max(_others(screen, best)) + FAR_AHEAD):
         return screen
-    burst = np.array([max(d, 0.0) if _strikes(n) == "tooth" else 0.0 for n, d in _heard(screen).items()])
-    evidence = screen.evidence - burst
-    set_aside = {n: screen.yields.get(n, 0.0) + float(b) for n, b in zip(screen.names, burst, strict=True) if b > 0.0}
+    bursts = {name: heard for name, heard in _heard(screen).items() if _strikes(name) == "tooth" and heard > 0.0}
+    evidence = screen.evidence - np.array([bursts.get(name, 0.0) for name in screen.names])
     weights = np.exp(evidence - evidence.max())
-    made = replace(screen, evidence=evidence, weights=weights / weights.sum(), yields={**screen.yields, **set_aside})
+    made = replace(screen, evidence=evidence, weights=weights / weights.sum(), bursts=bursts)
     made = of_best(made, views, observed)
     made = replace(made, rest=replace(made.rest, rough=False))
     return screen if leaves_lines(made.rest) or made.misfit > STRANGE else made
@@ -63,8 +61,8 @@ def beneath_a_tooth(screen: Screen, views: Sequence[Fitted], observed: FloatArra
 
 def set_aside(screen: Screen) -> tuple[str, ...]:
     """Faults of teeth that are sure by their burst and stand beneath another effect's pattern, the best first."""
-    sure = {n: d for n, d in _heard(screen).items() if _strikes(n) == "tooth" and d >= STRUCK and n in screen.yields}
     told = dict(zip(screen.names, map(float, screen.evidence), strict=True))
+    sure = [name for name, burst in screen.bursts.items() if burst >= STRUCK]
     return tuple(sorted(sure, key=lambda name: -told[name]))
 
 

@@ -63,6 +63,7 @@ def all_stages(
             "families_explained": rest.pooled,
             "fitted_with_the_machine": sorted(found.led),
             "as_likely_and_leaves_more": [f"{name}: {value:.1f}" for name, value in found.screen.yields.items()],
+            "bursts_set_aside": [f"{name}: {value:.1f}" for name, value in found.screen.bursts.items()],
             "heard_less_likely": [f"{name}: {value:.1f}" for name, value in sorted(found.screen.heard.items())],
         },
     )

@@ -61,6 +61,7 @@ WORDS = {
     "families_explained": "share of the change of families of lines explained",
     "fitted_with_the_machine": "fitted together with the machine",
     "heard_less_likely": "log evidence against places by which sensor hears which band",
+    "bursts_set_aside": "log evidence of bursts of teeth, which does not speak against what else changed",
     "simulated_forms": "forms simulated",
     "level_change_db": "levels changed by, dB",
     "left_of_it_db": "left of it, dB",

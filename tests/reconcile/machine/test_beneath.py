@@ -69,6 +69,7 @@ def test_a_loose_fit_beneath_the_burst_is_the_first(rest: dict[str, object]) -> 
     assert made.patterns == pytest.approx(before.patterns), "the patterns are as they were"
     np.testing.assert_array_equal(made.direct, before.direct)
     assert set_aside(made) == TEETH and set_aside(before) == ()
+    assert not made.yields, "the teeth are not told as being as likely and leaving more"
 
 
 @pytest.mark.parametrize(

@@ -25,7 +25,7 @@ def decided(word: Word = "explained") -> Decision:
 
 def found(struck: float, evidence: float = 10.0, second: float = 0.0) -> SimpleNamespace:
     screen = SimpleNamespace(
-        names=NAMES, direct=np.array([struck, 0.0]), evidence=np.array([evidence, second]), yields={}
+        names=NAMES, direct=np.array([struck, 0.0]), evidence=np.array([evidence, second]), bursts={}
     )
     return SimpleNamespace(screen=screen)
 
@@ -52,7 +52,7 @@ def test_so_is_a_set_whose_best_hardly_stands_out() -> None:
 
 def test_a_burst_of_a_tooth_needs_no_level_that_comes_nearer() -> None:
     teeth = ("tooth_crack@gear", "tooth_spall@gear")
-    screen = SimpleNamespace(names=teeth, direct=np.array([HEARD, HEARD]), evidence=np.array([6.6, 6.6]), yields={})
+    screen = SimpleNamespace(names=teeth, direct=np.array([HEARD, HEARD]), evidence=np.array([6.6, 6.6]), bursts={})
     decision = Decision(word="ambiguous", chosen=teeth, p=4.9e-3, reasons=())
     told = proved(decision, CAUSES, SimpleNamespace(screen=screen), revised(1.0, 1.1))  # type: ignore[arg-type]
     assert told[0] == decision
@@ -91,7 +91,7 @@ def test_a_burst_stays_where_what_it_stood_beside_is_no_nearer() -> None:
     fit, teeth = "fit_clearance@bearing2", ("tooth_crack@pinion", "tooth_spall@pinion")
     names = (*reversed(teeth), fit)
     screen = SimpleNamespace(
-        names=names, direct=np.array([23.0, 23.0, 0.0]), evidence=np.array([1.0, 4.3, 18.0]), yields={}
+        names=names, direct=np.array([23.0, 23.0, 0.0]), evidence=np.array([1.0, 4.3, 18.0]), bursts={}
     )
     causes = tuple(
         Cause(term=n.split("@")[0], site=n.split("@")[1], score=18.0 - k, named=k == 0)
@@ -100,10 +100,10 @@ def test_a_burst_stays_where_what_it_stood_beside_is_no_nearer() -> None:
     decision = Decision(word="explained", chosen=(fit,), p=1e-6, reasons=())
     asked = decision, causes, SimpleNamespace(screen=screen), revised(1.0, 1.01)
     assert proved(*asked)[0].word == "not_decidable", "no burst has been set aside"  # type: ignore[arg-type]
-    screen.yields = dict.fromkeys(teeth, 23.0)
+    screen.bursts = dict.fromkeys(teeth, 23.0)
     told, ranked = proved(*asked)  # type: ignore[arg-type]
     assert (told.word, told.chosen, told.reasons) == ("ambiguous", teeth, (MECHANISM_OPEN,))
     assert [f"{c.term}@{c.site}" for c in ranked] == [*teeth, fit] and not any(c.named for c in ranked)
-    screen.yields = {teeth[1]: 23.0}
+    screen.bursts = {teeth[1]: 23.0}
     told, ranked = proved(*asked)  # type: ignore[arg-type]
     assert (told.word, told.chosen) == ("explained", teeth[1:]) and ranked[0].named and not ranked[1].named
