@@ -174,7 +174,9 @@ def _told_unseen(effect: Json, told: Sequence[Json]) -> bool | None:
     if not rows or not effect["severity"]["sized"]:
         return None
     true = float(effect["severity"]["value"])
-    smallest = [same_unit(str(r["term"]), str(r["name"]), float(r["seen_from"])) for r in rows if r["seen_from"]]
+    smallest = [
+        same_unit(str(r["term"]), str(r["site"]), str(r["name"]), float(r["seen_from"])) for r in rows if r["seen_from"]
+    ]
     return not smallest or true < min(smallest)
 
 
@@ -182,8 +184,9 @@ def _severity(effect: Json, cause: Json) -> dict[str, Any]:
     told = cause.get("severity")
     if not told or not effect["severity"]["sized"]:
         return {}
-    term, name, true = str(cause["term"]), str(told["name"]), float(effect["severity"]["value"])
-    value, low, high = (same_unit(term, name, float(told[key])) for key in ("value", "low", "high"))
+    term, site, name = str(cause["term"]), str(cause["site"]), str(told["name"])
+    true = float(effect["severity"]["value"])
+    value, low, high = (same_unit(term, site, name, float(told[key])) for key in ("value", "low", "high"))
     return {"severity_error": abs(value - true) / abs(true), "severity_covered": low <= true <= high}
 
 

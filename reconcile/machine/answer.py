@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from reconcile.atlas.keep import ATLAS_VERSION
 from reconcile.atlas.places import sensor_sites
 from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import doubts, fault_sentence
+from reconcile.machine.burst_size import burst_sizes
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import UNMEASURED, Decision
 from reconcile.machine.decided import decided
@@ -21,6 +20,7 @@ from reconcile.machine.lines import by_name, line_changes
 from reconcile.machine.meter import Meter
 from reconcile.machine.pairs import Pair, Pairs, named_pair, sizes_of
 from reconcile.machine.pictures import ranking, spectra, turn_maps, with_forms
+from reconcile.machine.placed import places, with_open, with_second
 from reconcile.machine.proved import proved
 from reconcile.machine.revised import Revised, paths, revised_machine
 from reconcile.machine.second import Beside, fitted_change, second_effect, struck_somewhere
@@ -39,7 +39,6 @@ from reconcile.verdict import (
     HeldOut,
     Level,
     NextExperiment,
-    PlaceWeight,
     Report,
     SensorFault,
     Severity,
@@ -52,8 +51,6 @@ MOST_STRUCK = 2
 """Effects that share another part's impacts and are ranked next to the name; more would push out its rivals."""
 SETS = ("explained", "ambiguous", "not_decidable")
 """Verdicts on one name or a set of them, whose places are those of the set."""
-OPEN_SECOND = 1.0 / 3.0
-"""Weight of the places of a second effect that is one of several: less than that of the one that is named."""
 
 
 def fault_answer(gate: Gate, *, level: Level) -> Report:
@@ -81,15 +78,6 @@ def _layout(watched: WatchList, setting: Setting) -> Layout:
     )
 
 
-def _sites(weights: Mapping[str, float]) -> tuple[PlaceWeight, ...]:
-    total: dict[str, float] = {}
-    for name, weight in weights.items():
-        site = name.split("@")[1]
-        total[site] = total.get(site, 0.0) + weight
-    ordered = sorted(total.items(), key=lambda item: -item[1])
-    return tuple(PlaceWeight(site=s, weight=w) for s, w in ordered if w > 0.01)
-
-
 def answer(
     setting: Setting,
     found: Found,
@@ -114,7 +102,10 @@ def answer(
     held = _held(setting, found, decision, layout, unknown, other, pair) if decision.chosen else None
     decision, unknown = _forecast(decision, held, unknown)
     struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
-    ranked = ranked_causes(found, decision, weights, observed, other, struck, sizes_of(pairs)) if missing else ()
+    bursts = burst_sizes(setting, decision.chosen, meter) if missing else {}
+    ranked = (
+        ranked_causes(found, decision, weights, observed, other, struck, sizes_of(pairs), bursts) if missing else ()
+    )
     causes = with_forms(ranked, found.screen)
     revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter, both)
     fitted = _fitted(setting, found, decision, revision, unknown)
@@ -128,7 +119,7 @@ def answer(
     lead = _lead(found, decision)
     named = [f"{c.term}@{c.site}" for c in causes if c.named]
     shown = of_the_set(weights, decision.chosen) if decision.word in SETS else weights
-    placed = _with_open(_with_second(shown, other), unsettled[1])
+    placed = with_open(with_second(shown, other), unsettled[1])
     if unknown is not None:
         placed = at_supports(weights, unknown.force.site, [b.name for b in setting.machine.bearings])
     where = _where(setting, layout, watched, placed) if missing else Where(limits=limits(setting))
@@ -227,25 +218,9 @@ def _told(
     return "measurement_fault", f"{fault_sentence(gate.fault)}{rest}", gate.fault
 
 
-def _with_second(weights: Mapping[str, float], other: Beside | None) -> dict[str, float]:
-    """Half of the weight for each of two effects."""
-    if other is None:
-        return dict(weights)
-    own = np.exp(other.evidence - other.evidence[0])
-    second = {name: 0.5 * float(w) for name, w in zip(other.names, own / own.sum(), strict=True)}
-    return {name: 0.5 * weights.get(name, 0.0) + second.get(name, 0.0) for name in {**weights, **second}}
-
-
-def _with_open(weights: Mapping[str, float], others: Sequence[str]) -> dict[str, float]:
-    """A third of the weight for what stands beside a named effect and is one of several, alike."""
-    beside = dict.fromkeys(others, OPEN_SECOND / max(len(others), 1))
-    rest = 1.0 - OPEN_SECOND if others else 1.0
-    return {name: rest * weights.get(name, 0.0) + beside.get(name, 0.0) for name in {**weights, **beside}}
-
-
 def _where(setting: Setting, layout: Layout, watched: WatchList, weights: Mapping[str, float]) -> Where:
     return Where(
-        sites=_sites(weights),
+        sites=places(weights),
         lines=by_name(line_changes(setting.data, setting.changes, layout, watched, setting.channels), setting.machine),
         angle_window=angle_window(setting.direct.places),
         limits=limits(setting),

@@ -17,21 +17,19 @@ import scipy
 from scipy import fft
 
 from reconcile.atlas.plan import AtlasPlan, Draw, Point, simulated_at
-from reconcile.atlas.run import RATE_HZ, SETTLE_S, SPAN_S, run_members
-from reconcile.calibrate.chain import Chain, band_centres_hz
+from reconcile.atlas.run import RATE_HZ, SPAN_S, run_members
 from reconcile.judge.screen import Screen, of_best
 from reconcile.kinematics.families import Family, ties
 from reconcile.kinematics.judge import same
 from reconcile.kinematics.spec import of_machine
 from reconcile.machine.direct import HEARD
 from reconcile.machine.meter import Meter
+from reconcile.machine.motion import added_motion, path_gain
 from reconcile.machine.refine import best_draws, near_draws, seen_draws
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.weigh import LEAST_EVIDENCE
 from reconcile.observe.impact_bands import ComplexArray, Rate, Standing, bands_of, density, envelope_power, standing
 from signals.series import FloatArray
-from sim.core.errors import SidebandError
-from sim.core.response import Response
 from sim.core.spec import MachineSpec, TermSpec
 from sim.terms import REGISTRY
 
@@ -236,18 +234,12 @@ def _base(setting: Setting, point: int, family: Family) -> _Base:
         heard.append(standing(bands, count / rate_hz, _rate(family, one.speed_hz)))
     return _Base(
         white=np.array([fft.rfft(x[:count]) * o for x, o in zip(baseline.samples, over, strict=True)]),
-        factor=np.asarray(_gain(setting.seen_through[point].chain, hz) * over),
+        factor=np.asarray(path_gain(setting.seen_through[point].chain, hz) * over),
         count=count,
         rate_hz=rate_hz,
         test=heard[0],
         alone=heard[1],
     )
-
-
-def _gain(chain: Chain, hz: FloatArray) -> FloatArray:
-    """Amplitude gains (C, n) at frequencies."""
-    at = np.log(np.maximum(hz, 1.0))
-    return np.array([10.0 ** (np.interp(at, np.log(band_centres_hz()), row) / 20.0) for row in chain.gain_db])
 
 
 def _heard(task: _Task) -> list[_Off]:
@@ -259,19 +251,10 @@ def _heard(task: _Task) -> list[_Off]:
     for terms, rate in zip(task.terms, task.rates, strict=True):
         members = [task.plan.member(Draw(pair=k, term=t), task.point) for k, t in zip(machines, terms, strict=True)]
         struck = run_members(members, task.channels)
-        added = [_difference(a, b) for a, b in zip(struck, rested, strict=True)]
+        added = [added_motion(a, b) for a, b in zip(struck, rested, strict=True)]
         off = [_off(task.base, None if a is None else a[list(task.rows)], rate) for a in added]
         found.append(_Off(squared=np.array([o for o, _ in off]), heard=np.array([h for _, h in off], dtype=np.bool_)))
     return found
-
-
-def _difference(one: Response | SidebandError, other: Response | SidebandError) -> FloatArray | None:
-    """What an effect adds to the channels (C, n) of its machine; None where one does not run or nothing is added."""
-    if not isinstance(one, Response) or not isinstance(other, Response):
-        return None
-    first = round(SETTLE_S * one.sampling_rate_hz)
-    added = np.asarray(one.signals[:, first:]) - np.asarray(other.signals[:, first:])
-    return added if bool(np.all(np.isfinite(added))) and float(np.abs(added).max()) > 0.0 else None
 
 
 def _off(base: _Base, motion: FloatArray | None, rate: Rate) -> tuple[FloatArray, bool]:

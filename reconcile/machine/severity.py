@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from reconcile.atlas.candidates import size_parameter
@@ -15,6 +17,9 @@ from sim.terms import REGISTRY
 LEAST_SPREAD = 0.3
 """Standard deviation of the logarithm below which no size is claimed: half of the sizes named in the proof were off by
 more than a fifth, and with 0.08 four of nine intervals held the truth."""
+TELLS = 0.6
+"""The same from which levels hardly tell a size: the draws near the observation are then spread over most that are
+sought."""
 COVER = 1.645
 """Normal quantile of a 90 % interval."""
 
@@ -53,7 +58,11 @@ def weighted_severity(size: Param, values: FloatArray, weights: FloatArray) -> S
     mean = float(weights @ logs)
     steps: FloatArray = np.diff(np.sort(logs))
     grid = float(np.median(steps)) if steps.size else 0.3
-    spread = np.sqrt(weights @ (logs - mean) ** 2 + LEAST_SPREAD**2 + (0.5 * grid) ** 2)
+    return severity_of(size, mean, float(np.sqrt(weights @ (logs - mean) ** 2 + LEAST_SPREAD**2 + (0.5 * grid) ** 2)))
+
+
+def severity_of(size: Param, mean: float, spread: float) -> Severity:
+    """A size from the mean and the standard deviation of its logarithm, with a 90 % interval within its bounds."""
     low, high = np.exp(mean - COVER * spread), np.exp(mean + COVER * spread)
     return Severity(
         name=size.name,
@@ -62,6 +71,28 @@ def weighted_severity(size: Param, values: FloatArray, weights: FloatArray) -> S
         low=max(float(low), size.low),
         high=min(float(high), size.high),
     )
+
+
+def joined(one: Severity, other: Severity | None) -> Severity:
+    """A size by levels and the same by another way of measuring it: the latter, where levels hardly tell, else both as
+    they are sure, with what they differ by in the interval."""
+    if other is None or _spread(one) > TELLS:
+        return other or one
+    spreads = np.maximum([_spread(one), _spread(other)], LEAST_SPREAD)
+    weights = spreads**-2.0 / np.sum(spreads**-2.0)
+    logs = np.log([one.value, other.value])
+    mean = float(weights @ logs)
+    spread = float(np.sqrt(max(1.0 / float(np.sum(spreads**-2.0)), LEAST_SPREAD**2) + weights @ (logs - mean) ** 2))
+    low, high = np.exp(mean - COVER * spread), np.exp(mean + COVER * spread)
+    return replace(
+        one, value=float(np.exp(mean)), low=max(float(low), min(one.low, other.low)),
+        high=min(float(high), max(one.high, other.high)),
+    )  # fmt: skip
+
+
+def _spread(one: Severity) -> float:
+    """Standard deviation of the logarithm by the interval, whose ends may be those of the parameter."""
+    return float(np.log(one.high / max(one.low, 1e-300)) / (2.0 * COVER)) if one.high > 0.0 else np.inf
 
 
 def _size(known: Catalogued, fitted: Fitted, point: int, name: str) -> float:

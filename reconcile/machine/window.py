@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import overload
 
 import numpy as np
 
@@ -12,7 +11,8 @@ from reconcile.observe.observation import PointData
 from reconcile.observe.steady import Steady
 from reconcile.observe.tooth_place import Look, ToothPlace, placed
 from reconcile.observe.watch import bases_at
-from reconcile.observe.whole_turn import Turned, standing, whole_turns
+from reconcile.observe.whole_turn import Burst, Turned, burst_of, standing, whole_turns
+from signals.series import FloatArray
 from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
 
@@ -27,8 +27,9 @@ def tooth_places(machine: MachineSpec, data: Sequence[PointData]) -> dict[str, T
     ratios: dict[str, float] = {}
     for one in data:
         now, before = one.spectra
-        for gear in _known(machine, now.speed_hz):
-            turn, rested = whole_turns(_turned(now, gear), _turned(before, gear), teeth=gear.teeth)
+        for gear in gears_in_mesh(machine, now.speed_hz):
+            rest = _turned(before, gear) if before is not None else None
+            turn, rested = whole_turns(_turned(now, gear), rest, teeth=gear.teeth)
             shafts[gear.name] = gear.shaft
             look = Look(
                 standing=standing(turn, rested),
@@ -50,7 +51,7 @@ def _of_its_turn(name: str, places: Mapping[str, ToothPlace], ratios: Mapping[st
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Gear:
+class TurningGear:
     """`ratio`: turns a revolution of the drive shaft; `teeth`: its own, then those of others on its shaft."""
 
     name: str
@@ -59,14 +60,15 @@ class _Gear:
     teeth: tuple[int, ...]
 
 
-def _known(machine: MachineSpec, speed_hz: float) -> tuple[_Gear, ...]:
+def gears_in_mesh(machine: MachineSpec, speed_hz: float) -> tuple[TurningGear, ...]:
+    """All that mesh; none where a shaft's speed is not known."""
     try:
         return tuple(_gears(machine, speed_hz))
     except SpecError:  # a shaft that nothing ties to the driven one
         return ()
 
 
-def _gears(machine: MachineSpec, speed_hz: float) -> Iterator[_Gear]:
+def _gears(machine: MachineSpec, speed_hz: float) -> Iterator[TurningGear]:
     """Every gear in a mesh."""
     bases = bases_at(machine, speed_hz)
     ratios = {s.name: bases[f"f_r{i}"] / speed_hz for i, s in enumerate(machine.shafts, start=1)}
@@ -75,15 +77,23 @@ def _gears(machine: MachineSpec, speed_hz: float) -> Iterator[_Gear]:
     for gear in {g.name: g for g in meshing}.values():
         ratio = ratios[gear.shaft]
         here = tuple(g.teeth for g in meshing if g.shaft == gear.shaft and g.name != gear.name)
-        yield _Gear(name=gear.name, shaft=gear.shaft, ratio=ratio, teeth=(gear.teeth, *here))
+        yield TurningGear(name=gear.name, shaft=gear.shaft, ratio=ratio, teeth=(gear.teeth, *here))
 
 
-@overload
-def _turned(one: Steady, gear: _Gear) -> Turned: ...
-@overload
-def _turned(one: Steady | None, gear: _Gear) -> Turned | None: ...
-def _turned(one: Steady | None, gear: _Gear) -> Turned | None:
-    if one is None:
+def turned_at(samples: FloatArray, rate_hz: float, turn_hz: float) -> Turned:
+    """Samples (C, n) of a gear that turns evenly."""
+    angle = np.arange(samples.shape[1]) * (turn_hz / rate_hz)
+    return Turned(samples=samples, turns=np.asarray(angle, dtype=np.float64))
+
+
+def _turned(one: Steady, gear: TurningGear) -> Turned:
+    return turned_at(one.samples, one.rate_hz, one.speed_hz * gear.ratio)
+
+
+def burst_at(one: PointData, gear: TurningGear, *, top_hz: float) -> Burst | None:
+    """How far the burst of a tooth stands out of a gear's mean turn below a frequency; None without a baseline."""
+    now, before = one.spectra
+    if before is None:
         return None
-    angle = np.arange(one.samples.shape[1]) * (one.speed_hz * gear.ratio / one.rate_hz)
-    return Turned(samples=one.samples, turns=np.asarray(angle, dtype=np.float64))
+    orders = int(top_hz / (now.speed_hz * gear.ratio))
+    return burst_of(_turned(now, gear), _turned(before, gear), teeth=gear.teeth, orders=orders)

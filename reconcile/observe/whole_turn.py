@@ -105,6 +105,60 @@ def whole_turns(
     return _told(one, teeth), _told(other, teeth)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Burst:
+    """How far the fullest window of a test's mean turn stands above the middle of all windows (`power`), and that of
+    its baseline (`usual`), both in units of what noise makes; `error` (C, orders): of the mean turn at each order, of
+    which `kept` (orders,) count; `alive` (C,): channels that do."""
+
+    power: float
+    usual: float
+    error: FloatArray
+    kept: np.ndarray
+    alive: np.ndarray
+    teeth: int
+
+    def power_of(self, added: Turned, factor: FloatArray) -> float:
+        """The same of a motion without noise that reaches the recording by `factor` (C of those that count, orders);
+        NaN where it holds too few turns."""
+        each = _each_turn(replace(added, samples=added.samples[self.alive]))
+        if each is None:
+            return float("nan")
+        mean = np.zeros(self.error.shape, dtype=np.complex128)
+        count = min(self.kept.size, each.shape[2])
+        mean[:, :count] = each[:, :, :count].mean(axis=1)
+        white = np.where(self.kept, factor * mean / self.error, 0.0)
+        power = np.mean(_power(white), axis=0)
+        return float(_windows(power, max(3, int(WINDOW_TEETH * power.size / self.teeth))).max())
+
+
+def burst_of(now: Turned, before: Turned, *, teeth: Sequence[int], orders: int) -> Burst | None:
+    """Of the gear of `teeth[0]` teeth, below so many `orders`; None where a record is too short or too slow."""
+    alive = _alive(now) & _alive(before)
+    one, other = (_each_turn(replace(x, samples=x.samples[alive])) if alive.any() else None for x in (now, before))
+    if one is None or other is None:
+        return None
+    count, width = min(one.shape[1], other.shape[1]), min(one.shape[2], other.shape[2], orders)
+    if width <= MESHES * max(teeth):
+        return None
+    one, other = _as_noisy(one[:, :count, :width], other[:, :count, :width], teeth)
+    kept = _kept(width, teeth)
+    if np.count_nonzero(kept) < teeth[0]:
+        return None
+    heights = []
+    for each in (one, other):
+        windows = _power_windows(each, kept, teeth[0])
+        heights.append(float(windows.max() - np.median(windows)))
+    return Burst(
+        power=heights[0],
+        usual=heights[1],
+        error=np.sqrt(np.maximum(_usual(one, kept, teeth[0]), 1e-300)),
+        kept=kept,
+        alive=alive,
+        teeth=teeth[0],
+    )
+
+
 def _alive(one: Turned) -> np.ndarray:
     """Channels (C,) that hold more than one value."""
     return np.asarray(np.ptp(one.samples, axis=1) > HELD * np.max(np.abs(one.samples), axis=1))

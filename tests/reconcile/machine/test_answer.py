@@ -8,9 +8,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from reconcile.machine.answer import _doubtful, _machine, _told, _undecidable, _unsettled, _with_open
+from reconcile.machine.answer import _doubtful, _machine, _told, _undecidable, _unsettled
 from reconcile.machine.decide import Decision
 from reconcile.machine.pairs import Pairs
+from reconcile.machine.placed import with_open
 from reconcile.machine.second import Beside
 from reconcile.machine.stages import of_pairs
 from reconcile.verdict import Cause, HeldOut, SensorFault, Word
@@ -37,10 +38,10 @@ def test_a_loose_sensor_at_one_point_is_no_answer_where_nothing_else_is_unusual(
 def test_what_stands_beside_a_name_has_a_third_of_the_weight() -> None:
     """The places of m038: a loose fit, and one of three faults of a tooth of the pinion beside it."""
     teeth = ("missing_tooth@pinion", "tooth_spall@pinion", "tooth_crack@pinion")
-    placed = _with_open({"fit_clearance_series@bearing2": 1.0}, teeth)
+    placed = with_open({"fit_clearance_series@bearing2": 1.0}, teeth)
     assert placed == pytest.approx({"fit_clearance_series@bearing2": 2 / 3, **dict.fromkeys(teeth, 1 / 9)})
-    assert _with_open({"rub@gear": 0.4, "rub@pinion": 0.6}, ()) == {"rub@gear": 0.4, "rub@pinion": 0.6}
-    assert sum(_with_open({teeth[0]: 0.5, "rub@gear": 0.5}, teeth).values()) == pytest.approx(1.0)
+    assert with_open({"rub@gear": 0.4, "rub@pinion": 0.6}, ()) == {"rub@gear": 0.4, "rub@pinion": 0.6}
+    assert sum(with_open({teeth[0]: 0.5, "rub@gear": 0.5}, teeth).values()) == pytest.approx(1.0)
 
 
 CLAIMED = (("explained", True), ("ambiguous", True), ("unknown_physics", False), ("not_decidable", False))
