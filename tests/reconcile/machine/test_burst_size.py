@@ -117,6 +117,6 @@ def test_a_size_that_levels_hardly_tell_is_that_of_the_burst() -> None:
 def test_two_sizes_that_are_told_meet_between_and_what_they_differ_by_is_in_the_interval() -> None:
     both = joined(size(0.1, 0.06, 0.166), size(0.2, 0.12, 0.332))
     assert both.value == pytest.approx(np.sqrt(0.1 * 0.2), rel=0.02)
-    assert both.low == pytest.approx(0.06, rel=0.1) and both.high == pytest.approx(0.332, rel=0.1)
+    assert both.low == pytest.approx(0.067, rel=0.05) and both.high == pytest.approx(0.3, rel=0.05)
     alike = joined(size(0.1, 0.06, 0.166), size(0.1, 0.06, 0.166))
     assert alike.value == pytest.approx(0.1) and (alike.low, alike.high) == pytest.approx((0.061, 0.164), rel=0.02)
