@@ -18,6 +18,7 @@ from reconcile.judge.changes import observed_only
 from reconcile.judge.screen import quantile_of_misfit
 from reconcile.judge.space import Fitted
 from reconcile.machine.beaten import beaten
+from reconcile.machine.proved import UNLIKE
 from reconcile.machine.setting import Setting
 from reconcile.machine.weigh import LEAST_EVIDENCE
 from reconcile.observe.statistics import Statistics
@@ -56,11 +57,18 @@ class Correction:
 
 @dataclass(frozen=True, kw_only=True)
 class Fit:
-    """How well the best known effect `name` fits: log `likelihood` up to a constant, and the quantile of its misfit."""
+    """How well the best known effect `name` fits: log `likelihood` up to a constant, how far that is over nothing at
+    all (`evidence`), and the quantile of its misfit."""
 
     name: str
     likelihood: float
     misfit: float
+    evidence: float = np.inf
+
+    @property
+    def text(self) -> str:
+        """What explains the tests then."""
+        return "a sound machine" if self.evidence < LEAST_EVIDENCE else readable(self.name)
 
 
 def with_mistaken(
@@ -73,20 +81,28 @@ def with_mistaken(
     """The report; a fault of the measurement where nothing known explains the tests as they are and something does
     once they are put right, and no name where a doubted one, or one at either of two places, fits better so. `view`:
     all candidates by families; `heard`: `Screen.heard`."""
-    doubted = beaten(report) or beside_twin(report, heard)
+    doubted = beaten(report) or beside_twin(report, heard) or _forecasts_nothing(report)
+    unlike = report.verdict == "not_decidable" and UNLIKE in report.undecidable
     based = all(one.baseline is not None for one in setting.data)
-    if not based or not (doubted or report.verdict == "unknown_physics"):
+    if not based or not (doubted or unlike or report.verdict == "unknown_physics"):
         return report
     usual = _fit(view, setting, Correction(order=tuple(range(len(channels)))))
     fits = [(one, _fit(view, setting, one)) for one in corrections(channels)]
-    good = [(one, fit) for one, fit in fits if fit.misfit < FITS and not (doubted and one.unit)]
+    open_to = doubted or unlike
+    good = [(one, fit) for one, fit in fits if fit.misfit < FITS and not (open_to and one.unit)]
     if not good:
         return report
     one, best = max(good, key=lambda pair: pair[1].likelihood)
     better = best.likelihood - usual.likelihood
-    if better < (BETTER if doubted else SURE):
+    if better < (BETTER if open_to else SURE):
         return report
     return _doubted(report, one, best, channels) if doubted else _mistaken(report, one, best, channels)
+
+
+def _forecasts_nothing(report: Report) -> bool:
+    """Whether the interval of a name's gain on held-out data reaches down to none."""
+    low = report.held_out.gain_low if report.held_out is not None else None
+    return report.verdict == "explained" and low is not None and low <= 0.0
 
 
 def beside_twin(report: Report, heard: Mapping[str, float] = MappingProxyType({})) -> bool:
@@ -119,10 +135,12 @@ def _fit(view: Fitted, setting: Setting, one: Correction) -> Fit:
     place = view.place(observed)
     squared = view.paths.distances(place)
     nearest = int(np.argmin(squared))
+    rest = float(np.sum(place**2))
     return Fit(
         name=view.paths.names[view.paths.owner[nearest]],
         likelihood=-float(squared[nearest]) / (2.0 * view.overdispersion),
-        misfit=quantile_of_misfit(view, float(squared[nearest]), float(np.sum(place**2))),
+        misfit=quantile_of_misfit(view, float(squared[nearest]), rest),
+        evidence=(rest - float(squared[nearest])) / (2.0 * view.overdispersion),
     )
 
 
@@ -143,7 +161,7 @@ def _said(one: Correction, channels: Sequence[Channel]) -> tuple[SensorFault, st
 
 def _mistaken(report: Report, one: Correction, fit: Fit, channels: Sequence[Channel]) -> Report:
     fault, wrong = _said(one, channels)
-    text = f"no known effect explains the tests as they are described, but with {wrong}: {readable(fit.name)} then does"
+    text = f"no known effect explains the tests as they are described, but with {wrong}: {fit.text} then does"
     return replace(
         report,
         verdict="measurement_fault",
@@ -161,12 +179,12 @@ def _mistaken(report: Report, one: Correction, fit: Fit, channels: Sequence[Chan
 
 def _doubted(report: Report, one: Correction, fit: Fit, channels: Sequence[Channel]) -> Report:
     fault, wrong = _said(one, channels)
-    text = f"with {wrong}, {readable(fit.name)} fits better than what is named as they are described"
+    text = f"with {wrong}, {fit.text} fits better than what is named as they are described"
     named = " and ".join(readable(f"{c.term}@{c.site}") for c in report.causes if c.named)
     return replace(
         report,
         verdict="ambiguous",
-        sentence=f"Either {named}, or {wrong}: then {readable(fit.name)} fits better. As described: {report.sentence}",
+        sentence=f"Either {named}, or {wrong}: then {fit.text} fits better. As described: {report.sentence}",
         fault=replace(fault, detail=text),
         measurement_faults=(replace(fault, detail=text),),
         causes=tuple(replace(c, named=False) for c in report.causes),

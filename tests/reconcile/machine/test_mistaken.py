@@ -10,10 +10,11 @@ import pytest
 
 from reconcile.machine import mistaken
 from reconcile.machine.beaten import BEATEN
-from reconcile.machine.mistaken import Correction, corrections, with_mistaken
+from reconcile.machine.mistaken import Correction, Fit, corrections, with_mistaken
+from reconcile.machine.proved import UNLIKE
 from reconcile.observe.statistics import Statistics
 from reconcile.report.action import to_do
-from reconcile.verdict import Cause, Report
+from reconcile.verdict import Cause, HeldOut, Report
 from sim.core.response import Channel
 
 TRUE = np.array([1.0, 5.0])
@@ -116,6 +117,32 @@ def test_a_name_that_hardly_leads_its_twin_is_none_where_sensors_exchanged_fit_b
     by_hearing = told(near, TRUE[::-1], heard={"outer_spall@drive_end": behind - 1.0})
     assert by_hearing.verdict == "ambiguous", "which sensor hears which band is exchanged with the sensors"
     assert told(replace(near, causes=(CAUSE, other)), TRUE[::-1]).verdict == "explained", "no twin is near"
+
+
+@pytest.mark.parametrize(("low", "word"), [(-0.01, "ambiguous"), (0.02, "explained")])
+def test_a_name_that_forecasts_nothing_is_asked_too(told, low: float, word: str) -> None:  # type: ignore[no-untyped-def]
+    held = HeldOut(
+        metric="level", unit="dB", before=3.9, after=3.8, gain=0.02, gain_low=low, gain_high=0.04, retuned=None,
+        black_box=None, placebo=None,
+    )  # fmt: skip
+    name = replace(UNKNOWN, verdict="explained", sentence="A pit.", causes=(CAUSE,), held_out=held)
+    assert told(name, TRUE[::-1]).verdict == word
+    assert told(name, TRUE) is name, "as it is it fits"
+
+
+def test_impacts_whose_machine_is_far_off_are_sensors_exchanged_where_that_fits(told) -> None:  # type: ignore[no-untyped-def]
+    unlike = replace(UNKNOWN, verdict="not_decidable", undecidable=(UNLIKE,), causes=(replace(CAUSE, named=False),))
+    found = told(unlike, TRUE[::-1])
+    assert found.verdict == "measurement_fault" and found.fault is not None and found.fault.kind == "swapped_channels"
+    assert "with drive and free exchanged in the tests: outer spall at drive_end then does" in found.sentence
+    assert told(unlike, TRUE) is unlike
+    assert told(replace(unlike, undecidable=("else",)), TRUE[::-1]).verdict == "not_decidable"
+
+
+def test_what_is_nothing_once_put_right_is_a_sound_machine() -> None:
+    known = {"name": "outer_spall@drive_end", "likelihood": -1.0, "misfit": 0.2}
+    assert Fit(**known, evidence=1.0).text == "a sound machine"  # type: ignore[arg-type]
+    assert Fit(**known, evidence=9.0).text == "outer spall at drive_end"  # type: ignore[arg-type]
 
 
 def test_what_fits_as_it_is_stays(told) -> None:  # type: ignore[no-untyped-def]

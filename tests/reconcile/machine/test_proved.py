@@ -9,7 +9,7 @@ import pytest
 
 from reconcile.machine.decide import MECHANISM_OPEN, Decision
 from reconcile.machine.direct import HEARD
-from reconcile.machine.proved import BEYOND_DOUBT, FORM_UNMET, NO_NEARER, proved
+from reconcile.machine.proved import BEYOND_DOUBT, FORM_UNMET, NO_NEARER, UNLIKE, proved
 from reconcile.machine.words import sentence
 from reconcile.verdict import Cause, Word
 
@@ -48,6 +48,15 @@ def test_so_is_a_set_whose_best_hardly_stands_out() -> None:
     assert decision.word == "not_decidable" and decision.reasons == (NO_NEARER,)
     struck = found(12.0, 3.7)
     assert proved(decided("ambiguous"), CAUSES, struck, machine)[0].word == "ambiguous"  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("word", ["explained", "ambiguous"])
+def test_what_strikes_for_sure_need_come_no_nearer_but_is_none_where_its_machine_is_far_off(word: Word) -> None:
+    struck = found(23.6, 23.6, 19.8)
+    assert proved(decided(word), CAUSES, struck, revised(3.92, 5.5))[0].word == word  # type: ignore[arg-type]
+    decision, causes = proved(decided(word), CAUSES, struck, revised(3.92, 11.23))  # type: ignore[arg-type]
+    assert decision.word == "not_decidable" and decision.reasons == (UNLIKE,)
+    assert not any(c.named for c in causes) and all(c.reasons == (UNLIKE,) for c in causes)
 
 
 def test_a_burst_of_a_tooth_needs_no_level_that_comes_nearer() -> None:
