@@ -214,11 +214,16 @@ class EstimatedForce:
 
 @dataclass(frozen=True, kw_only=True)
 class NextExperiment:
-    """What would decide: separation (in standard errors) now and expected after it."""
+    """What would decide between the first two effects of the answer.
+
+    Separations are log evidence (natural logarithm) of the first over the second: x makes it e^x times as likely.
+    """
 
     sentence: str
     separation_now: float | None = None
+    """By the recordings at hand; negative where they speak for the second."""
     separation_expected: float | None = None
+    """With the experiment, on average if the first effect is there; None where nothing at hand predicts it."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -40,6 +40,8 @@ class Case:
     names: tuple[str, str]
     """Of the fitted and of the held-out part."""
     seed: int
+    half: str = ""
+    """Which half of the latter is held out; empty where all of it is."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,12 +54,24 @@ class Settled:
 
 
 def settle(case: Case, chosen: Model) -> Settled:
-    """Fit the chosen laws, hold them out, and leave out those that the part held out does not ask for."""
+    """Fit the chosen laws, hold them out, and leave out those that the part held out does not ask for.
+
+    Which laws go is asked of its first half; where some went the gain is that of the second, which chose nothing.
+    """
     found = _settled(case, chosen)
-    while (fewer := _fewer(case, found.final)) is not None:
+    asked, unseen = _halves(case)
+    while (fewer := _fewer(asked, found.final)) is not None:
         gone = [law for law in found.final.model.laws if law.key not in {x.key for x in fewer.laws}]
-        found = replace(_settled(case, fewer), dropped=(*found.dropped, *gone))
+        found = replace(_settled(unseen, fewer), dropped=(*found.dropped, *gone))
     return found
+
+
+def _halves(case: Case) -> tuple[Case, Case]:
+    """The case with the first half of what is held out, and with the second."""
+    data, memory_s = case.held.data, case.start.linear.model.memory_s
+    middle = data.answer.size // 2
+    first, second = (ready(data.part(*ends), memory_s) for ends in ((0, middle), (middle, data.answer.size)))
+    return replace(case, held=first), replace(case, held=second, half="the second half of ")
 
 
 def _fewer(case: Case, found: Fitted) -> Model | None:
@@ -81,7 +95,7 @@ def _settled(case: Case, chosen: Model) -> Settled:
     final = doubted(final, (run, other), again)
     names = (case.names[1], case.names[0])
     ways = (
-        _held_out(case.start.linear, final, run, case.held, case.names, case.seed),
+        _held_out(case.start.linear, final, run, case.held, (case.names[0], case.half + case.names[1]), case.seed),
         _held_out(back, again, fit_back, held_back, names, case.seed),
     )
     return Settled(final=final, validations=ways)

@@ -18,6 +18,7 @@ from reconcile.machine.heldout import feature_channels, feature_frequencies, hel
 from reconcile.machine.limits import limits
 from reconcile.machine.lines import by_name, line_changes
 from reconcile.machine.meter import Meter
+from reconcile.machine.next_look import apart_of
 from reconcile.machine.pairs import Pair, Pairs, named_pair, sizes_of
 from reconcile.machine.pictures import ranking, spectra, turn_maps, with_forms
 from reconcile.machine.placed import places, with_open, with_second
@@ -116,7 +117,6 @@ def answer(
     word, text, fault = _told(setting, decision, gate, causes, held, other, unknown)
     if word == "explained":
         text += more(*unsettled)
-    lead = _lead(found, decision)
     named = [f"{c.term}@{c.site}" for c in causes if c.named]
     shown = of_the_set(weights, decision.chosen) if decision.word in SETS else weights
     placed = with_open(with_second(shown, other), unsettled[1])
@@ -134,7 +134,7 @@ def answer(
         fault=fault,
         held_out=held,
         undecidable=_undecidable(decision, *unsettled),
-        next_experiment=_next(setting, decision, lead),
+        next_experiment=_next(setting, found, decision),
         force=unknown.force if unknown is not None else None,
         machine=_machine(revision, unknown, decision),
         stages=(*all_stages(setting, found, gate, decision, fit or {}), *of_pairs(pairs), *revisions(revision)),
@@ -243,11 +243,12 @@ def _doubtful(gate: Gate, setting: Setting, word: str) -> bool:
 
 
 def _lead(found: Found, decision: Decision) -> float:
+    """Log evidence (natural) of the first effect of the answer over its second."""
     if len(decision.chosen) < 2:
         return 0.0
     names = found.screen.names
     first, second = (float(found.screen.evidence[names.index(c)]) for c in decision.chosen[:2])
-    return abs(first - second)
+    return first - second
 
 
 def _held(
@@ -277,11 +278,12 @@ def _held(
     return with_points(held, setting.data, searched=together is not None and together.searched)
 
 
-def _next(setting: Setting, decision: Decision, lead: float) -> NextExperiment | None:
+def _next(setting: Setting, found: Found, decision: Decision) -> NextExperiment | None:
     if decision.reasons == (UNMEASURED,):
         return NextExperiment(sentence="Record the machine in a sound state as a baseline.")
     heard = sensor_sites(setting.machine, setting.simulated)
-    return next_experiment(decision.chosen, lead, len(setting.data), heard)
+    apart = apart_of(setting, found, decision.chosen)
+    return next_experiment(decision.chosen, _lead(found, decision), len(setting.data), heard, apart)
 
 
 def provenance(seed: int, draws: int, meter: Meter, cost: Mapping[str, object]) -> Mapping[str, object]:

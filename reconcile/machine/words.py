@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from reconcile.machine.decide import LINES_QUIET, UNMEASURED, Decision
+from reconcile.machine.next_look import Apart, Look, best_look
 from reconcile.machine.proved import NO_NEARER
 from reconcile.observe.observation import PointData
 from reconcile.report.words import percent, sizes
@@ -111,24 +112,64 @@ APART = {
     "accelerometers at the bearings hear both alike.",
 }
 """What tells effects apart that more of the same recordings do not."""
+DECIDES = 3.0
+"""Log evidence (20 times as likely) from which a recording decides by itself what a sensor more would."""
+UNKNOWN_THERE = "how much is not known, as no sensor there was simulated"
+UNKNOWN_HOW_MUCH = "how much is not known"
 
 
-def next_experiment(chosen: Sequence[str], lead: float, points: int, sensors: Sequence[str]) -> NextExperiment | None:
-    """What would tell the leading candidates apart, and by how much if evidence grows as it did so far, in proportion
-    to sensors or operating points. `sensors`: the parts they are at."""
+def next_experiment(
+    chosen: Sequence[str], lead: float, points: int, sensors: Sequence[str], apart: Apart | None = None
+) -> NextExperiment | None:
+    """What would tell the leading candidates apart. `lead`: log evidence of the first over the second; `points`:
+    operating points; `sensors`: the parts they are at; `apart`: what the recordings tell between the two, were the
+    first there. Without it, and of a sensor where nothing was simulated, no separation is expected."""
     if len(chosen) < 2:
         return None
     sites = list(dict.fromkeys(c.split("@")[1] for c in chosen))
-    missing = [s for s in sites if s not in sensors]
+    missing = [s for s in sites if s not in sensors] if len(sites) > 1 else []
     terms = {c.split("@")[0] for c in chosen}
     alike = next((text for both, text in APART.items() if both <= terms), None)
     if alike is not None:
         return NextExperiment(sentence=alike, separation_now=lead)
-    if len(sites) > 1 and missing:
-        grown = lead * (len(sensors) + 1) / max(len(sensors), 1)
-        places = " or ".join(missing[:2])
-        text = f"An accelerometer on the bearing housing nearest to {places} would tell these places apart best."
-    else:
-        grown = lead * (points + 1) / points
-        text = "A recording at one more speed or load would tell these effects apart best."
-    return NextExperiment(sentence=text, separation_now=lead, separation_expected=grown)
+    look = None if apart is None else best_look(apart)
+    place = f"the bearing housing nearest to {' or '.join(missing[:2])}"
+    if missing and (look is None or apart is None or not _decides(look, lead)):
+        best = "" if look is None or apart is None else _of_those_at_hand(look, apart)
+        text = f"An accelerometer on {place} is most likely to tell these places apart; {UNKNOWN_THERE}.{best}"
+        return NextExperiment(sentence=text, separation_now=lead)
+    if look is None or apart is None:
+        more = "one more" if points > 1 else "a second"
+        text = f"A recording at {more} speed or load may tell these effects apart; {UNKNOWN_HOW_MUCH}."
+        return NextExperiment(sentence=text, separation_now=lead)
+    sensor = f" An accelerometer on {place} may tell more; {UNKNOWN_THERE}." if missing else ""
+    text = f"{_recording(look, apart)}{sensor}"
+    return NextExperiment(sentence=text, separation_now=lead, separation_expected=lead + look.adds)
+
+
+def _decides(look: Look, lead: float) -> bool:
+    return look.kind != "nothing" and lead + look.adds >= DECIDES
+
+
+def _recording(look: Look, apart: Apart) -> str:
+    """The advice of a further recording."""
+    if look.kind == "nothing":
+        return (
+            "More of the same recordings would not tell the first two of these effects apart: simulated, they look "
+            "alike at every speed and sensor recorded. Look at the parts themselves, or record at quite another speed."
+        )
+    most = f", above all on {apart.loudest}" if len(apart.channels) > 1 else ""
+    if look.kind == "point":
+        return (
+            f"A further recording at about {look.place} would tell these effects apart best: there the first two "
+            f"differ most{most}."
+        )
+    advice = "Recordings twice as long" if look.kind == "longer" else "A recording at one more speed or load"
+    return f"{advice} would tell these effects apart best{most}."
+
+
+def _of_those_at_hand(look: Look, apart: Apart) -> str:
+    """What the sensors at hand tell of the places."""
+    if look.kind == "nothing":
+        return " The sensors at hand are not expected to: simulated, the first two look alike there at every speed."
+    return f" Of the sensors at hand {apart.loudest} tells them apart best." if len(apart.channels) > 1 else ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
@@ -27,10 +28,12 @@ from reconcile.report.words import (
     sizes,
     tidied,
 )
-from reconcile.verdict import Cause, Level, LineChange, PlaceWeight, Report, Where, operating_point
+from reconcile.verdict import Cause, Level, LineChange, NextExperiment, PlaceWeight, Report, Where, operating_point
 
 MOST_LINES = 20
 MOST_PLACES = 4
+MOST_TIMES = 1000
+"""Times as likely, from which no figure is told."""
 SYMBOLS = (
     "f_o, f_i, f_b, f_c: outer race, inner race, ball and cage of a bearing; f_r: a shaft; f_m: a mesh; numbered in "
     "the order of the machine file. 3*f_i1±2*f_r1 is a sideband. Bearings that roll alike share their lines."
@@ -258,8 +261,27 @@ def undecidable(report: Report) -> Markup:
     parts = [bullets(report.undecidable)]
     if report.next_experiment is not None:
         parts += [tag("h3", "Next experiment"), tag("p", report.next_experiment.sentence)]
-        now, then = report.next_experiment.separation_now, report.next_experiment.separation_expected
-        if now is not None and then is not None:
-            text = f"Separation of the candidates: {now:.1f} standard errors now, {then:.1f} expected."
-            parts.append(tag("p", text, css="muted"))
+        parts += separation(report.next_experiment)
     return section("What is undecided, and what would decide it", told(*parts))
+
+
+def separation(found: NextExperiment) -> list[Markup]:
+    """How far the first two candidates are apart now, and are expected to be after the experiment."""
+    now, then = found.separation_now, found.separation_expected
+    if now is None:
+        return []
+    expected = "what is expected after the experiment is not known"
+    if then is not None:
+        expected = f"{then:.1f} ({_times(then)}) expected after the experiment, if the first is what is there"
+    text = (
+        f"Separation of the first two candidates: log evidence (natural logarithm) {now:.1f} now, by which the first "
+        f"is {_times(now)} as likely as the second; {expected}."
+    )
+    return [tag("p", text, css="muted")]
+
+
+def _times(evidence: float) -> str:
+    """`2.7 times` of a log evidence of 1."""
+    if evidence > math.log(MOST_TIMES):
+        return f"more than {MOST_TIMES} times"
+    return f"{figure_text(math.exp(evidence), digits=2)} times"
