@@ -88,13 +88,15 @@ cost: setup  ## measure again what a simulation costs (jobs/cost.json, from whic
 paper: dev setup  ## the paper's figures and trends, recomputed into docs/
 	$(BIN)/python -m paper
 
-SPLIT ?= held
 BUDGET ?= quick
-proof: dev setup  ## concealed cases: make them, run the engine, score, write docs/proof.md (CASES=s001,s002 reruns single ones)
-	$(BIN)/python -m proof generate --split $(SPLIT) --cases "$(CASES)"
-	$(BIN)/python -m proof run --split $(SPLIT) --cases "$(CASES)" --budget $(BUDGET) $(if $(CASES),--fresh)
-	$(BIN)/python -m proof score --split $(SPLIT) --cases "$(CASES)" $(if $(CASES),,--keep) > /dev/null
-	$(if $(CASES),,$(BIN)/python -m proof page)
+# Names of cases tell their split; without them it is all of one. Stored answers are compared, and replaced by nothing:
+# KEEP=name stores a run under a section's name of its own.
+CASES_OF = $(if $(SPLIT)$(if $(CASES),,all),--split $(or $(SPLIT),held)) --cases "$(CASES)"
+proof: dev setup  ## concealed cases: make them, run the engine, hold its answers against the stored ones (CASES=s001,s002 single ones, SPLIT=held)
+	$(BIN)/python -m proof generate $(CASES_OF)
+	$(BIN)/python -m proof run $(CASES_OF) --budget $(BUDGET) $(if $(CASES),--fresh)
+	$(BIN)/python -m proof score $(CASES_OF) $(if $(KEEP),--keep --name $(KEEP)) > /dev/null
+	$(if $(KEEP),$(BIN)/python -m proof page)
 
 tests-atlas: dev setup  ## simulate again the small atlases that stand beside tests
 	$(BIN)/python -m tests.reconcile.machine.make_atlas

@@ -8,7 +8,7 @@ import os
 import sys
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -17,6 +17,9 @@ from tqdm import tqdm
 from proof import apart as aparts
 from proof import oracle as oracles
 from proof.case import make
+from proof.chosen import chosen as cases_chosen
+from proof.chosen import split_for
+from proof.keep import Answers, against, keep
 from proof.kinematic import told_table
 from proof.method import SECTIONS
 from proof.others import SPLITS, cases_of
@@ -24,14 +27,14 @@ from proof.page import write_page
 from proof.plan import Case
 from proof.run import Engine, run_case
 from proof.score.one import Score, score
-from proof.score.rates import summary
-from proof.score.stored import OtherRun, compared, together
+from proof.score.stored import OtherRun
 from proof.score.table import table
 from proof.seal import broken, seals_of, write_manifest
 from proof.visible import measure, told
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
+RESULTS = HERE / "results"
 
 
 def parser() -> argparse.ArgumentParser:
@@ -42,7 +45,7 @@ def parser() -> argparse.ArgumentParser:
         ("generate", "make cases; what is there is left alone"),
         ("seal", "write the hashes of a split's truths into proof/seals"),
         ("run", "run the engine on cases, one stored JSON each; what is stored is not run again"),
-        ("score", "score stored results against the truth"),
+        ("score", "score stored results against the truth, and hold them against the stored summaries"),
         ("kinematics", "run the engine on cases told by drawings alone, and print a table of its answers"),
         ("visible", "measure how much of the hidden effects there is to see, for the page"),
         ("oracle", "bound what can be told at all, knowing everything hidden, for the page (minutes a case)"),
@@ -54,7 +57,8 @@ def parser() -> argparse.ArgumentParser:
     ):
         command = commands.add_parser(name, help=sentence, description=sentence)
         if name != "page":
-            command.add_argument("--split", choices=SPLITS, required=name != "score", default="dev")
+            of = "" if name == "seal" else " (default: that of the cases named)"
+            command.add_argument("--split", choices=SPLITS, required=name == "seal", help=f"which cases{of}")
             command.add_argument("--cases", default="", help="names, comma-separated; or a number: the first so many")
         if name in {"run", "score", "kinematics"}:
             command.add_argument("--data", type=Path, help="folder of the cases (default .cache/proof/SPLIT)")
@@ -74,9 +78,15 @@ def parser() -> argparse.ArgumentParser:
         if name in {"visible", "oracle", "apart"}:
             command.add_argument("--jobs", type=int, default=2, help="processes")
         if name == "score":
-            command.add_argument("--keep", action="store_true", help="store the summary in proof/results")
+            command.add_argument(
+                "--keep", action="store_true", help="store the summary in proof/results; replaces no other engine's"
+            )
             command.add_argument("--add", action="store_true", help="to the stored summary of the same engine")
-            command.add_argument("--name", choices=tuple(SECTIONS), help="section of the page (default: the split)")
+            command.add_argument("--first-run", action="store_true", help="store that no engine had met these before")
+            command.add_argument("--commit", help="store whose source the engine is")
+            command.add_argument(
+                "--name", choices=tuple(SECTIONS), help="section of the page to store or compare (default: the split)"
+            )
         if name == "page":
             command.add_argument("--docs", type=Path, default=ROOT / "docs")
     return found
@@ -84,14 +94,7 @@ def parser() -> argparse.ArgumentParser:
 
 def chosen(given: argparse.Namespace) -> list[Case]:
     """The cases asked for."""
-    cases = list(cases_of(given.split))
-    if given.cases.isdigit():
-        return cases[: int(given.cases)]
-    wanted = [name for name in given.cases.split(",") if name]
-    unknown = sorted(set(wanted) - {case.name for case in cases})
-    if unknown:
-        raise SystemExit(f"no such case in split {given.split}: {', '.join(unknown)}")
-    return [case for case in cases if not wanted or case.name in wanted]
+    return cases_chosen(given.split, given.cases)
 
 
 def _folder(given: argparse.Namespace, name: str) -> Path:
@@ -171,7 +174,26 @@ def engines_of(cases: Sequence[Case], reports: Path) -> list[str]:
 
 
 def score_all(given: argparse.Namespace) -> None:
-    """Score what is stored, after the seals are checked."""
+    """Score what is stored, after the seals are checked; hold it against the stored summaries, or keep it as one."""
+    if not given.keep and (given.add or given.first_run or given.commit):
+        raise SystemExit("--add, --first-run and --commit say how a summary is stored: they need --keep")
+    answers = _answers(given)
+    if given.keep:
+        try:
+            answers = keep(RESULTS, given.name or given.split, answers, add=given.add)
+        except OtherRun as error:
+            raise SystemExit(str(error)) from error
+    sys.stderr.write(table(answers.scores))
+    sys.stdout.write(json.dumps(answers.document(), sort_keys=True) + "\n")
+    if not given.keep:
+        found = against(RESULTS, answers, given.name)
+        sys.stderr.write("\n".join(found.lines) + "\n")
+        if found.others and given.cases:
+            raise SystemExit(f"another verdict than stored: {', '.join(found.others)}")
+
+
+def _answers(given: argparse.Namespace) -> Answers:
+    """Scores of the results that are at hand."""
     truths, reports = _folder(given, "truth"), _folder(given, "reports")
     cases = [case for case in chosen(given) if (reports / f"{case.name}.json").exists()]
     if not cases:
@@ -182,26 +204,18 @@ def score_all(given: argparse.Namespace) -> None:
     engines = engines_of(cases, reports)
     if given.keep and len(engines) > 1:
         raise SystemExit(f"results of several engines ({', '.join(engines)}): run the cases again")
-    scores = scored(cases, truths, reports)
-    path = HERE / "results" / f"{given.name or given.split}.json"
-    if given.add and path.exists():
-        try:
-            scores = together(path, given.split, engines[0], scores)
-        except OtherRun as error:
-            raise SystemExit(str(error)) from error
-    document = {"split": given.split, "engine": engines[0], **summary(scores), "scores": [asdict(s) for s in scores]}
-    sys.stderr.write(table(scores))
-    if not given.keep and path.exists():
-        sys.stderr.write("\n".join(compared(path, engines[0], scores)) + "\n")
-    if given.keep:
-        path.parent.mkdir(exist_ok=True)
-        path.write_text(json.dumps(document, sort_keys=True, indent=1) + "\n", encoding="utf-8")
-    sys.stdout.write(json.dumps(document, sort_keys=True) + "\n")
+    return Answers(
+        split=given.split,
+        engine=", ".join(engines),
+        scores=tuple(scored(cases, truths, reports)),
+        first=given.first_run,
+        commit=given.commit,
+    )
 
 
 def visible(given: argparse.Namespace) -> None:
     """Measure what there is to see in cases with effects; what is stored is left alone."""
-    found = measure(chosen(given), HERE / "results" / f"visible-{given.split}.json", given.jobs)
+    found = measure(chosen(given), RESULTS / f"visible-{given.split}.json", given.jobs)
     for case in chosen(given):
         if case.name in found:
             sys.stdout.write(f"{case.name} {'+'.join(e.law for e in case.effects)}{told(found[case.name])}\n")
@@ -209,7 +223,7 @@ def visible(given: argparse.Namespace) -> None:
 
 def oracle(given: argparse.Namespace) -> None:
     """Measure what there is to tell in cases with effects; what is stored is left alone."""
-    found = oracles.measure(chosen(given), oracles.store_of(HERE / "results", given.split), given.jobs)
+    found = oracles.measure(chosen(given), oracles.store_of(RESULTS, given.split), given.jobs)
     for case in chosen(given):
         if case.name in found:
             one, effects = found[case.name], "+".join(e.law for e in case.effects)
@@ -219,7 +233,7 @@ def oracle(given: argparse.Namespace) -> None:
 
 def apart(given: argparse.Namespace) -> None:
     """Measure how far faults of a tooth are from each other at most; what is stored is left alone."""
-    found = aparts.measure(chosen(given), aparts.store_of(HERE / "results", given.split), given.jobs)
+    found = aparts.measure(chosen(given), aparts.store_of(RESULTS, given.split), given.jobs)
     for case in chosen(given):
         if case.name in found:
             one = found[case.name]
@@ -235,6 +249,8 @@ def page(given: argparse.Namespace) -> None:
 def main() -> None:
     """Run a command."""
     given = parser().parse_args()
+    if given.command != "page":
+        given.split = split_for(given.split, given.cases)
     commands = {
         "generate": generate, "seal": seal, "run": run, "score": score_all, "kinematics": kinematics,
         "visible": visible, "oracle": oracle, "apart": apart, "page": page,

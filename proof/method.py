@@ -13,6 +13,10 @@ SECTIONS = {
     "([decision](decisions/atlas-steps.md)). Other work shared the machine, which core-seconds show; those of m040 "
     "hold a part of three atlases. m052 has changed a sentence since: that something is missing is not said where "
     "groups of features alone are unusual.",
+    "last": "No version of the engine had met these before their run: the next of the plan, all run by the engine of "
+    "commit 003c9cf4 beside other work, which core-seconds show. Sizes of faulty teeth are measured by their burst "
+    "since ([decision](decisions/reconcile-burst-size.md)); these cases had no part in that, and the cracks of m064 and "
+    "m066 are told by levels here, as a tenth of what they are.",
     "wide": "No version of the engine had met these before their run; one engine ran all, beside other work on the two "
     "threads of one core, which core-seconds show. Since then unknown physics comes with its force by lines, and a "
     "change without a pattern is unknown physics again where no single lines could be asked (machines without teeth); "
@@ -158,12 +162,14 @@ baseline.
 
 ## All earlier first runs together
 
-**No single version of the engine ran these.** Each section below is one version, named by the hash of its source;
-the first runs taken together are those of {versions}. Of a run its scores are kept, not the reports. `make proof` with
-the `SPLIT` and `CASES` that a section names makes its recordings and labels again, checks the seals and runs the engine
-at hand, which has learnt from these cases since and may answer otherwise: the figures of a section cannot be had again
-without the source of that day (`python -c "from proof.engine_id import engine_id; print(engine_id())"` tells which is
-at hand). Without `CASES` it runs the whole split, replaces the stored summary of that name and writes this page.
+**No single version of the engine ran these.** Each section below is one version, named by the hash of its source; the
+first runs taken together are those of {versions}. Of a run its scores are kept, not the reports. `make proof` with the
+`SPLIT` and `CASES` that a section names makes its recordings and labels again, checks the seals, runs the engine at
+hand and says case by case whether its answer is the stored one. That engine has learnt from these cases since and may
+answer otherwise: the figures of a section cannot be had again without the source of that day, which is its commit where
+one is named (`python -c "from proof.engine_id import engine_id; print(engine_id())"` tells which is at hand). Without
+`CASES` it runs the whole split. It replaces no stored answers and leaves this page as it is; `KEEP=name` stores a run
+as a section of its own.
 
 Each case once, when no engine had met it, with the engine of its day. Look-alikes have one sensor, so the target is
 held against those at all conditions. Core-seconds hold the atlases where a machine is met for the first time.

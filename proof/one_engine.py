@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from textwrap import wrap
@@ -12,32 +11,41 @@ import numpy as np
 from proof.effects import LIPPED
 from proof.entire import ENTIRE, HELD, MIXED, STRUCK, WIDE, Design, cases_of_design
 from proof.plan import Case
+from proof.runs import Run, every_run, met
 from proof.score.one import Score
 from proof.score.rates import MEASURES, at_target, rate
 from proof.shown import WIDTH
 from proof.targets import written
 from proof.visible import Visible, stored
-from proof.whole import by_law, read, together
+from proof.whole import by_law, together
 
 FAR_OFF = 0.74
 """Error of a size, as a share of it."""
 CLEAR = 3.0
 """Times as far as drift, from which there is much to see."""
-COMMITS: Mapping[str, str] = {"mixed": "6b73d6fa", "wide": "9c93d3ef", "held": "919f12b", "entire": "8e8edc1"}
-"""Whose engine ran each of the splits."""
-ELSEWHERE: Mapping[str, tuple[str, str]] = {
-    "mixed": ("resumed", "a later"), "held": ("begun", "an earlier"), "entire": ("hearing", "a later"),
-}  # fmt: skip
-"""Section of those cases of a split that another engine met first, and which."""
-RUN_BY_ONE = ("mixed", "resumed", "wide", "held", "begun", "hearing", "entire")
-"""Sections of these splits' cases."""
+DESIGNS = (MIXED, WIDE, HELD, ENTIRE)
+"""The splits, the latest first."""
 
 
-def one_engine(results: Path) -> str:
-    """What the page says of the splits that one engine ran each, the latest first."""
-    every = [s for name in RUN_BY_ONE for s in read(results / f"{name}.json")]
-    told = "\n".join(wrap(of_sizes(every), WIDTH))
-    return "\n\n".join([*(_of(design, results) for design in (MIXED, WIDE, HELD, ENTIRE)), *([told] if told else [])])
+def one_engine(results: Path, present: str) -> str:
+    """What the page says of the splits that one engine ran each, the latest first; `present`: the engine at hand."""
+    every = every_run(results)
+    of = {design.split: [run for run in every if run.split == design.split] for design in DESIGNS}
+    told = "\n".join(wrap(of_sizes([s for runs in of.values() for s in met(runs)]), WIDTH))
+    parts = [_of(d, of[d.split], results, at_hand(every, present) if d is DESIGNS[0] else "") for d in DESIGNS]
+    return "\n\n".join([*parts, *([told] if told else [])])
+
+
+def at_hand(runs: Sequence[Run], present: str) -> str:
+    """Whether a stored run is of the engine at hand."""
+    own = [f'"{run.section.capitalize()}"' for run in runs if run.engine == present]
+    if own:
+        return f"Of the engine at hand when this page was written {_are(len(own))} {', '.join(own)} alone. "
+    return "No stored run is of the engine at hand when this page was written: it has changed since each of them. "
+
+
+def _are(count: int) -> str:
+    return "is" if count == 1 else "are"
 
 
 def of_sizes(scores: Sequence[Score]) -> str:
@@ -57,32 +65,67 @@ def of_sizes(scores: Sequence[Score]) -> str:
     )
 
 
-def _of(design: Design, results: Path) -> str:
+def _of(design: Design, runs: Sequence[Run], results: Path, before: str) -> str:
     title = f"### {TITLES[design.split]}: split `{design.split}`"
-    path = results / f"{design.split}.json"
-    scores = read(path)
-    if not scores:
+    run = next((run for run in runs if run.section == design.split and run.scores), None)
+    if run is None:
         return f"{title}\n\nNone of its cases are stored."
-    engine, commit = json.loads(path.read_text(encoding="utf-8"))["engine"], COMMITS[design.split]
-    section, other = ELSEWHERE.get(design.split, ("", ""))
-    elsewhere = {s.name for s in read(results / f"{section}.json")} if section else set()
     cases = cases_of_design(design)
-    left = {c.name for c in cases} - {s.name for s in scores} - elsewhere
-    more = f'{len(elsewhere)} more were first met by {other} engine ("{section.capitalize()}" below). '
-    said = (
-        f"{len(scores)} of its {len(cases)} cases are run, all by engine `{engine}` (commit {commit}), which had met "
-        f"none of them and was not changed between them. {more if elsewhere else ''}"
-        f"{LEFT[design.split] if left else ''}"
-        f"`git checkout {commit} && make proof SPLIT={design.split}` makes these figures again; a later engine's "
-        f"answers are held against them case by case by `make proof SPLIT={design.split} CASES=...`."
+    others = [other for other in runs if other.first and other is not run]
+    wider = met(runs) if others else []
+    left = {c.name for c in cases} - {s.name for one in (run, *others) for s in one.scores}
+    said = f"{_by_one(run, len(cases))}{_by_others(run, others, len(wider))}{LEFT[design.split] if left else ''}"
+    first = [*wrap(before, WIDTH), ""] if before else []
+    seen = seen_singles(run.scores, stored(results / f"visible-{design.split}.json"))
+    told = wrap(f"{lips(run.scores, cases)}{seen}", WIDTH)
+    table = together(run.scores, wider)
+    parts = [title, "", *first, *wrap(said, WIDTH), "", *_again(run), "", table, "", *by_law(run.scores), "", *told]
+    return "\n".join(parts)
+
+
+def _by_one(run: Run, count: int) -> str:
+    """Which cases the one engine ran, and whether it met them first."""
+    of = f"{len(run.scores)} of the plan's {count} cases are"
+    if run.first:
+        met_none = "which had met none of them and was not changed between them"
+        return f"{of} run by one engine, {run.by}, {met_none}. "
+    return (
+        f"{of} stored, by engine {run.by}. This is not stored as their first run: an engine may have met them, and "
+        "learnt from them, before. "
     )
-    seen = seen_singles(scores, stored(results / f"visible-{design.split}.json"))
-    told = wrap(f"{lips(scores, cases)}{seen}", WIDTH)
-    return "\n".join([title, "", *wrap(said, WIDTH), "", together(scores), "", *by_law(scores), "", *told])
+
+
+def _by_others(run: Run, others: Sequence[Run], count: int) -> str:
+    """Which cases other runs met first, and how the figures of all stand beside those of the one engine."""
+    if not others:
+        return ""
+    more = [
+        f"{len(o.scores)} more were first met by {'it' if o.engine == run.engine else f'another engine, {o.by}'} "
+        f'("{o.section.capitalize()}" below). '
+        for o in others
+    ]
+    engines = len({one.engine for one in (run, *others) if one.first})
+    by = f"{engines} engines" if engines > 1 else "one engine"
+    return (
+        f"{''.join(more)}The columns on the right are of all {count} stored first runs of this plan together, by {by}; "
+        f"all other figures here are of {run.by} alone. "
+    )
+
+
+def _again(run: Run) -> list[str]:
+    """How the figures are made again, and how the engine at hand is held against them."""
+    command = f"make proof SPLIT={run.split} CASES={','.join(s.name for s in run.scores)}"
+    first = f"These {len(run.scores)} cases again, by that engine, with their rates and what is wrong of each:"
+    made = [first, "", "```sh", f"git checkout {run.commit} && {command}", "```", ""]
+    held = (
+        f"`make proof SPLIT={run.split}` runs all cases of the split by the engine at hand and says, case by case, "
+        "which of its answers are those stored; it replaces none."
+    )
+    return [*(made if run.commit else []), *wrap(held, WIDTH)]
 
 
 TITLES = {
-    "mixed": "The latest engine",
+    "mixed": "The latest plan",
     "wide": "The latest plan that is run whole",
     "held": "An engine before",
     "entire": "An earlier engine",

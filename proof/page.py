@@ -13,6 +13,7 @@ import matplotlib as mpl
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 
+from proof.engine_id import engine_id
 from proof.limit import limit, told_apart
 from proof.method import METHOD, SECTIONS
 from proof.one_engine import one_engine
@@ -42,6 +43,8 @@ TITLES = {
 
 PARTS: tuple[tuple[Split, str], ...] = (("mixed", "mixed"), ("wide", "wide"), ("held", "held"), ("held", "begun"))
 """Splits, and the sections of the page they are in, of which is asked what could be told at all."""
+UNMET = "No version of the engine had met these before their run"
+"""How the words on a section begin whose cases were met for the first time."""
 TEETH_IN: tuple[Split, ...] = ("teeth", "entire", "next")
 """Further splits of which faults of a tooth are measured."""
 
@@ -55,7 +58,7 @@ def write_page(docs: Path, results: Path) -> Path:
     parts = [
         METHOD.format(
             **said_of(results),
-            one_engine=one_engine(results),
+            one_engine=one_engine(results, engine_id()),
             limit=limit(results, PARTS),
             told_apart=told_apart(results, (*PARTS, *((s, s) for s in TEETH_IN))),
             rules=rules,
@@ -88,6 +91,7 @@ def _drawn(summary: Mapping[str, Any]) -> bool:
 
 def _split(section: str, summary: Mapping[str, Any], results: Path) -> str:
     split = summary["split"]
+    commit = f"; commit {summary['commit']}" if "commit" in summary else ""
     scores = read(results / f"{section}.json")
     rows = ["| target (at the target condition) | reached |", "|---|---|"]
     rows += [f"| {t.words} | {_rate(summary, 'target', t.group, t.measure)} |" for t in TARGETS]
@@ -105,7 +109,7 @@ def _split(section: str, summary: Mapping[str, Any], results: Path) -> str:
     return "\n".join(
         [
             f"\n## {section.capitalize()}: {summary['cases']} cases of split `{split}`\n",
-            f"{SECTIONS[section]} Engine `{summary.get('engine', 'unknown')}` (hash of its source).\n",
+            f"{_said(section, summary)} Engine `{summary.get('engine', 'unknown')}` (hash of its source{commit}).\n",
             f"`make proof SPLIT={split} CASES={','.join(s.name for s in scores)}` runs them again.\n",
             *rows, "", *wide, "", *seen_rows(scores, seen), *pair_rows(scores, seen),
             f"Severity error (target: median at most 0.1, 90th percentile 0.3): {_quantiles(error)}.",
@@ -116,6 +120,16 @@ def _split(section: str, summary: Mapping[str, Any], results: Path) -> str:
             "### Every case that is wrong in something\n", *listed, "",
         ]
     )  # fmt: skip
+
+
+def _said(section: str, summary: Mapping[str, Any]) -> str:
+    """What a section is: that its cases were met for the first time only where it is stored with the answers."""
+    words = SECTIONS[section]
+    if not words.startswith(UNMET) or summary.get("first_run"):
+        return words
+    return (
+        "These answers are not stored as a first run: an engine may have met the cases, and learnt from them, before."
+    )
 
 
 def _above(scores: Sequence[Score]) -> str:

@@ -83,16 +83,35 @@ class Row(NamedTuple):
     stands: Stands | None = None
 
 
-def together(scores: Sequence[Score]) -> str:
-    """Table of every target, at the target condition and at all; and which targets are missed and held."""
-    rows = whole_rows(scores)
-    table = ["| stored first runs | at the target condition | at all conditions | target |", "|---|---|---|---|"]
-    table += [f"| {r.words} | {r.at} | {r.every} | {r.stands.text() if r.stands else '-'} |" for r in rows]
-    for title, met in (("Missed are", False), ("Held are", True)):
+def together(scores: Sequence[Score], wider: Sequence[Score] = ()) -> str:
+    """Table of every target, at the target condition and at all; and which targets are missed and held.
+
+    `wider`: scores of further first runs with these, of which the same is told in columns beside.
+    """
+    rows, beside = whole_rows(scores), whole_rows(wider) if wider else []
+    titles = "at the target condition | at all conditions | target |"
+    if not wider:
+        table = [f"| stored first runs | {titles}", "|---|---|---|---|"]
+        table += [f"| {r.words} | {_cells(r)} |" for r in rows]
+        return "\n".join([*table, *_standing(rows, "")])
+    table = [f"| stored first runs | one engine, {titles} all first runs, {titles}", "|---|---|---|---|---|---|---|"]
+    table += [f"| {r.words} | {_cells(r)} | {_cells(w)} |" for r, w in zip(rows, beside, strict=True)]
+    parts = [*table, *_standing(rows, " by the one engine"), *_standing(beside, " by all first runs together")]
+    return "\n".join(parts)
+
+
+def _cells(row: Row) -> str:
+    return f"{row.at} | {row.every} | {row.stands.text() if row.stands else '-'}"
+
+
+def _standing(rows: Sequence[Row], by: str) -> list[str]:
+    """Paragraphs of what is missed and held."""
+    found = []
+    for title, met in (("Missed", False), ("Held", True)):
         part = [(r.words, r.stands.words) for r in rows if r.stands and r.stands.met is met]
         told = "; ".join(f"{words} ({how})" if how else words for words, how in part)
-        table += ["", *wrap(f"{title}: {told or 'none'}.", WIDTH)]
-    return "\n".join(table)
+        found += ["", *wrap(f"{title}{by} are: {told or 'none'}.", WIDTH)]
+    return found
 
 
 def whole_rows(scores: Sequence[Score]) -> list[Row]:

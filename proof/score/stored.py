@@ -51,6 +51,13 @@ def compared(path: Path, engine: str, scores: Sequence[Score]) -> list[str]:
     return [head, *(f"{name} is not: {', '.join(words)}" for name, words in unlike.items())]
 
 
+def other_verdicts(path: Path, scores: Sequence[Score]) -> list[str]:
+    """Of the cases that the summary at `path` holds, those whose verdict is another: name, what was stored, and now."""
+    stored = {row["name"]: row["verdict"] for row in json.loads(path.read_text(encoding="utf-8"))["scores"]}
+    differ = [s for s in scores if stored.get(s.name, s.verdict) != s.verdict]
+    return [f"{s.name} ({stored[s.name]} was stored, now {s.verdict})" for s in differ]
+
+
 def _differing(score: Score, stored: dict[str, Any]) -> list[str]:
     words = []
     for field in fields(Score):

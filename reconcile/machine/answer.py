@@ -103,10 +103,8 @@ def answer(
     held = _held(setting, found, decision, layout, unknown, other, pair) if decision.chosen else None
     decision, unknown = _forecast(decision, held, unknown)
     struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
-    bursts = burst_sizes(setting, decision.chosen, meter) if missing else {}
-    ranked = (
-        ranked_causes(found, decision, weights, observed, other, struck, sizes_of(pairs), bursts) if missing else ()
-    )
+    sizes = sizes_of(pairs), burst_sizes(setting, decision.chosen if missing else (), meter)
+    ranked = ranked_causes(found, decision, weights, observed, other, struck, *sizes) if missing else ()
     causes = with_forms(ranked, found.screen)
     revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter, both)
     fitted = _fitted(setting, found, decision, revision, unknown)

@@ -9,50 +9,105 @@ from pathlib import Path
 import pytest
 
 from proof.entire import held
-from proof.one_engine import CLEAR, COMMITS, FAR_OFF, of_sizes, one_engine, seen_singles
+from proof.one_engine import CLEAR, FAR_OFF, of_sizes, one_engine, seen_singles
 from proof.plan import Case
-from proof.score.rates import at_target
+from proof.score.rates import MEASURES, at_target, rate
+from proof.targets import TARGETS, written
 from proof.visible import Visible
 from proof.whole import read
 
 STORED = Path(__file__).parents[2] / "proof" / "results" / "entire.json"
 
 
-def stored(folder: Path, cases: tuple[Case, ...]) -> None:
-    """Scores of earlier cases under these names."""
-    kept = json.loads(STORED.read_text(encoding="utf-8"))
-    scores = [score | {"name": case.name} for score, case in zip(kept["scores"], cases, strict=False)]
-    (folder / "held.json").write_text(json.dumps({"engine": "feed", "scores": scores}), encoding="utf-8")
+def stored(folder: Path, cases: tuple[Case, ...], section: str = "held", **about: object) -> None:
+    """Scores of earlier cases under these names, as a first run unless `about` says otherwise."""
+    kept = json.loads(STORED.read_text(encoding="utf-8"))["scores"]
+    scores = [kept[k % len(kept)] | {"name": case.name} for k, case in enumerate(cases)]
+    document = {"split": "held", "engine": "feed", "commit": "c0ffee00", "first_run": True, "scores": scores, **about}
+    (folder / f"{section}.json").write_text(json.dumps(document), encoding="utf-8")
+
+
+def words(text: str) -> str:
+    return " ".join(text.split())
+
+
+def part(text: str, split: str) -> str:
+    """What is said of one split."""
+    return text.partition(f": split `{split}`")[2].partition("\n### ")[0]
 
 
 @pytest.mark.parametrize("count", [3, 40])
 def test_what_is_run_is_told_with_its_engine_and_that_the_others_are_not(count: int, tmp_path: Path) -> None:
     stored(tmp_path, held()[:count])
-    said = " ".join(one_engine(tmp_path).split())
-    assert f"{count} of its 120 cases are run, all by engine `feed` (commit {COMMITS['held']})" in said
+    said = words(one_engine(tmp_path, "beef"))
+    assert (
+        f"{count} of the plan's 120 cases are run by one engine, `feed` (commit c0ffee00), which had met none" in said
+    )
     assert "The others are not run yet" in said and "make proof SPLIT=held" in said
     present, earlier = said.split("### An earlier engine")
     latest, before = present.split("### An engine before: split `held`")
-    assert latest.startswith("### The latest engine: split `mixed`") and "|" not in latest
+    assert latest.startswith("### The latest plan: split `mixed`") and "|" not in latest
     assert "### The latest plan that is run whole: split `wide`" in latest
-    assert "| false alarms on nulls" in before
+    assert "| false alarms on nulls" in before and "all first runs" not in before
     assert "None of its cases are stored." in earlier and "|" not in earlier
 
 
-def test_what_another_engine_met_first_is_told_apart(tmp_path: Path) -> None:
-    stored(tmp_path, held()[40:])
-    (tmp_path / "held.json").rename(tmp_path / "begun.json")
+def test_the_command_that_makes_the_figures_again_names_their_cases_alone(tmp_path: Path) -> None:
+    stored(tmp_path, held()[2:5])
+    assert "\n```sh\ngit checkout c0ffee00 && make proof SPLIT=held CASES=h003,h004,h005\n```\n" in one_engine(
+        tmp_path, "beef"
+    )
+    stored(tmp_path, held()[2:5], commit=None)
+    assert "git checkout" not in one_engine(tmp_path, "beef")
+
+
+def test_that_no_engine_had_met_the_cases_is_said_of_what_is_stored_so_alone(tmp_path: Path) -> None:
+    for first in (False, None):
+        stored(tmp_path, held()[:4], first_run=first, engine="later")
+        said = words(part(one_engine(tmp_path, "beef"), "held"))
+        assert "had met none" not in said and "not stored as their first run" in said
+
+
+def test_first_runs_of_any_number_of_engines_stand_beside_those_of_the_one(tmp_path: Path) -> None:
     stored(tmp_path, held()[:40])
-    said = " ".join(one_engine(tmp_path).split())
-    assert "40 of its 120 cases are run" in said and 'first met by an earlier engine ("Begun" below). `git' in said
+    stored(tmp_path, held()[40:70], "begun", engine="bead")
+    stored(tmp_path, held()[70:75], "last", engine="bade")
+    stored(tmp_path, held()[75:99], "seen", engine="fade", first_run=False)
+    text = part(one_engine(tmp_path, "beef"), "held")
+    said = words(text)
+    assert "40 of the plan's 120 cases are run" in said
+    assert '30 more were first met by another engine, `bead` (commit c0ffee00) ("Begun" below).' in said
+    assert '5 more were first met by another engine, `bade` (commit c0ffee00) ("Last" below).' in said
+    assert "all 75 stored first runs of this plan together, by 3 engines" in said and "fade" not in said
+    rows = {row.split("|")[1].strip(): row for row in text.splitlines() if row.startswith("| ")}
+    runs = [read(tmp_path / f"{name}.json") for name in ("held", "begun", "last")]
+    for target in TARGETS:
+        for scores in (runs[0], [s for run in runs for s in run]):
+            of = [s for s in scores if s.group == target.group]
+            at = [s for s in of if at_target(s)]
+            for found in (at, of):
+                assert written(rate(found, MEASURES[target.measure])) in rows[target.words], target.words
+    assert "Missed by the one engine are:" in said and "Missed by all first runs together are:" in said
+
+
+def test_a_case_of_two_summaries_counts_once(tmp_path: Path) -> None:
+    stored(tmp_path, held()[:4])
+    stored(tmp_path, held()[2:6], "begun", engine="bead")
+    assert "all 6 stored first runs" in words(one_engine(tmp_path, "beef"))
+
+
+def test_whether_a_stored_run_is_of_the_engine_at_hand_is_said(tmp_path: Path) -> None:
+    stored(tmp_path, held()[:4], "mixed", split="mixed")
+    stored(tmp_path, held()[4:6], "begun", engine="bead")
+    assert "No stored run is of the engine at hand" in words(one_engine(tmp_path, "beef"))
+    said = words(one_engine(tmp_path, "bead"))
+    assert 'Of the engine at hand when this page was written is "Begun" alone.' in said and "No stored run" not in said
 
 
 def test_nothing_is_said_to_be_left_where_all_are_run(tmp_path: Path) -> None:
-    kept = json.loads(STORED.read_text(encoding="utf-8"))["scores"]
-    every = [kept[k % len(kept)] | {"name": case.name} for k, case in enumerate(held())]
-    (tmp_path / "held.json").write_text(json.dumps({"engine": "feed", "scores": every}), encoding="utf-8")
-    said = one_engine(tmp_path)
-    assert "120 of its 120 cases" in said and "not run" not in said
+    stored(tmp_path, held())
+    said = one_engine(tmp_path, "beef")
+    assert "120 of the plan's 120 cases" in said and "not run" not in said
 
 
 def test_single_effects_are_parted_by_how_far_they_move_the_spectrum() -> None:
