@@ -285,7 +285,10 @@ RULES = (
     ),
     (
         "a fault of a tooth is as large as its burst says ([decision](decisions/reconcile-burst-size.md))",
-        "m033, w023, w035: cracks told as a tenth of what they are; within a fourth since, w001 and w067 too large by half",
+        (
+            "m033, w023, w035: cracks told as a tenth of what they are; within a fourth since, w001 and w067 too large "
+            "by half"
+        ),
     ),
 )
 """What first runs taught: a rule, and the cases that set it."""
