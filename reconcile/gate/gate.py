@@ -11,6 +11,7 @@ from reconcile.gate.alias import alias_findings
 from reconcile.gate.breaks import break_findings
 from reconcile.gate.compare import compared, swap_order
 from reconcile.gate.copied import copy_findings
+from reconcile.gate.far import far_speeds
 from reconcile.gate.filtered import below_the_corner, filter_findings
 from reconcile.gate.findings import Finding, Gate, worst
 from reconcile.gate.harmonic import harmonic_findings
@@ -115,8 +116,7 @@ def _analysed(
         if speed is not None:
             found += length_findings(recording, label, speed.speed_hz, lowest_order)
             found += speed_findings(speed, label)
-    expected = [_expected(hz if s else 0.0, orders, mesh_orders) for hz, s in zip(hertz, speeds, strict=True)]
-    halves = [_halves(hz if s else 0.0, shaft_orders) for hz, s in zip(hertz, speeds, strict=True)]
+    expected, halves = _own_lines(clean, speeds, orders, mesh_orders, shaft_orders, seed)
     for i, recording in enumerate(clean):
         hum = hum_findings(recording, labels[i], expected[i], clean[:cut] if i >= cut else (), halves[i])
         # hum of a baseline is subtracted and explains nothing that a test shows
@@ -160,6 +160,26 @@ def _speed(recording: Recording, mesh_orders: Sequence[float], seed: int) -> Spe
         return estimate_speed(recording, orders=tuple(mesh_orders), seed=seed)
     except SpecError:
         return None
+
+
+def _own_lines(
+    recordings: Sequence[Recording],
+    speeds: Sequence[SpeedEstimate | None],
+    orders: Sequence[float],
+    mesh_orders: Sequence[float],
+    shaft_orders: Sequence[float],
+    seed: int,
+) -> tuple[list[FloatArray], list[FloatArray]]:
+    """What is no hum of each recording, Hz: the machine's own lines and half multiples of its shafts; those at the
+    speed at which its lines stand, too, where that is far from the stated one."""
+    others = [r for r in shaft_orders if r != 1.0]
+    far = far_speeds(recordings, speeds, ratios=others, seed=seed)
+    turned = [
+        [0.0 if s is None else s.speed_hz, *(() if f is None else (f.speed_hz,))]
+        for s, f in zip(speeds, far, strict=True)
+    ]
+    expected = [np.concatenate([_expected(hz, orders, mesh_orders) for hz in several]) for several in turned]
+    return expected, [np.concatenate([_halves(hz, shaft_orders) for hz in several]) for several in turned]
 
 
 def _expected(speed_hz: float, orders: Sequence[float], mesh_orders: Sequence[float]) -> FloatArray:

@@ -37,7 +37,7 @@ def defect_report(
     tests: Sequence[Observation],
     baselines: Sequence[Observation],
     ties: Ties,
-    rng: np.random.Generator,
+    seed: int,
 ) -> Report:
     """One or two bearing defects that stand."""
     weights = [places(c, tests, ties, baselines) for c in chosen]
@@ -52,7 +52,7 @@ def defect_report(
         for c, w, s in zip(chosen, weights, sizes, strict=True)
         for cause in _causes(c, w, s[1], one_site, _bound_m(c, s[0], ties))
     )
-    held = _held(chosen[0], sizes[0][0], tests, baselines, ties, rng)
+    held = _held(chosen[0], tests, baselines, ties, np.random.default_rng(seed), seed)
     undecidable = (*_undecided(chosen, weights, sizes, baselines, ties), *opened)
     what = " and ".join(_phrase(c, w, s[0], ties) for c, w, s in zip(chosen, weights, sizes, strict=True))
     return Report(
@@ -128,20 +128,17 @@ def _causes(
 
 def _held(
     candidate: Candidate,
-    extent: Extent | None,
     tests: Sequence[Observation],
     baselines: Sequence[Observation],
     ties: Ties,
     rng: np.random.Generator,
+    seed: int,
 ) -> HeldOut | None:
-    """The recording that shows it best fitted, another predicted; placebo: another family of the bearing."""
+    """The recording that shows it best fitted, the others predicted; placebo: another family of the bearing."""
     ranked = [tests[candidate.strongest], *(t for i, t in enumerate(tests) if i != candidate.strongest)]
     others = [f for f in ties.families if f.site == candidate.family.site and f.kind in DEFECTS]
     placebo: Family | None = next((f for f in others if f.kind != candidate.family.kind), None)
-    pair = 0.0
-    if extent is not None and extent.resolved:
-        pair = extent.lag_s * candidate.best.order * tests[candidate.strongest].speed.speed_hz
-    return held_out(candidate.best, placebo, ranked, baselines, rng, pair if pair < 0.5 else 0.0)
+    return held_out(candidate.family, placebo, ranked, baselines, ties, rng, seed)
 
 
 def _phrase(candidate: Candidate, weights: Sequence[PlaceWeight], extent: Extent | None, ties: Ties) -> str:

@@ -11,16 +11,14 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 
 from reconcile.gate import Gate
+from reconcile.gate.far import far_speeds
 from reconcile.kinematics.doubted import CLEAR_Z
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.unread import Judged, at_either, placed
-from reconcile.speed.elsewhere import Elsewhere, harmonics_of, lines_elsewhere, lines_near
+from reconcile.speed.elsewhere import Elsewhere
 from reconcile.verdict import NextExperiment, Report, SensorFault
 
-HARDLY = 0.95
-"""Confidence below which lines near the stated speed may be some of another fundamental's: every third multiple of one
-is every second of another."""
 QUIET = ("nothing_missing", "not_decidable")
 ADVICE = NextExperiment(
     sentence="Correct the speed that the description states, or give a tacho; if another machine makes these lines, "
@@ -38,37 +36,9 @@ def turned_elsewhere(several: Sequence[Observation], tie: Ties, seed: int) -> di
     """By label, of the recordings whose stated speed nothing confirms, where their lines stand if that is clear: by
     themselves, or near the speed that the lines of another recording tell."""
     others = [r for name, r in tie.shafts.items() if name != tie.reference]
-    found, rest = {}, []
-    for one in several:
-        speed = one.speed
-        if speed.stated_hz is None or speed.method == "tacho" or (speed.method != "stated" and _sure(one)):
-            continue
-        far = lines_elsewhere(one.recording, speed.stated_hz, ratios=others, teeth=tie.mesh_orders, seed=seed)
-        if far is not None and (speed.method == "stated" or not far.own):
-            found[one.label] = far
-        else:
-            rest.append(one)
-    told = [_told_by(one, found.get(one.label)) for one in several]
-    for one in rest:
-        stated = one.speed.stated_hz or 0.0
-        places = [(f * stated if f else hz, harmonics) for f, hz, harmonics in told if harmonics]
-        near = lines_near(one.recording, stated, places, ratios=others) if places else None
-        if near is not None and (one.speed.method == "stated" or not near.own):
-            found[one.label] = near
-    return found
-
-
-def _told_by(one: Observation, found: Elsewhere | None) -> tuple[float | None, float, tuple[int, ...]]:
-    """What a recording tells of the others: by which factor stated speeds are wrong, its speed where it is as stated,
-    and which harmonics of it are lines; none where it tells nothing."""
-    if found is not None and one.speed.stated_hz:
-        return found.speed_hz / one.speed.stated_hz, 0.0, () if found.own else found.harmonics
-    sure = one.speed.method != "stated" and _sure(one)
-    return None, one.speed.speed_hz, harmonics_of(one.recording, one.speed.speed_hz) if sure else ()
-
-
-def _sure(one: Observation) -> bool:
-    return one.speed.confidence >= HARDLY or one.speed.rival_hz is not None
+    recordings, speeds = [one.recording for one in several], [one.speed for one in several]
+    found = far_speeds(recordings, speeds, ratios=others, teeth=tie.mesh_orders, seed=seed)
+    return {one.label: far for one, far in zip(several, found, strict=True) if far is not None}
 
 
 def left_out(

@@ -1,12 +1,13 @@
-"""Does the named family predict what it was not fitted on? The log envelope order spectrum of another stretch.
+"""Does the named family predict what it was not fitted on? The log envelope order spectrum of other recordings.
 
 Model: the baseline's spectrum (without one: noise), a smooth re-scaling over orders, and the comb of the family.
 Rivals get the same data: the re-scaling alone, as many parameters spent on free lines, the comb of another family.
+Channel, band and order of the comb, of the rival family too, are searched on the fitted part alone.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,18 +15,24 @@ import numpy as np
 from reconcile.kinematics.combs import Stretch, Train, black_box, fitted, predicted, rescaled
 from reconcile.kinematics.contrast import band_turns
 from reconcile.kinematics.envelopes import order_depth
-from reconcile.kinematics.evidence import Evidence
-from reconcile.kinematics.families import Family
+from reconcile.kinematics.evidence import Evidence, family_evidence
+from reconcile.kinematics.extent import spall_extent
+from reconcile.kinematics.families import Family, Ties
+from reconcile.kinematics.judge import HEARD_Z
 from reconcile.kinematics.observe import Observation
+from reconcile.kinematics.parted import LEAST_TURNS, Parted, parted
 from reconcile.verdict import HeldOut
 from signals.series import FloatArray
 
 SEGMENTS = 5
 WIDE = ((0.02, 0.5), (0.1, 0.97), (0.5, 0.97))
 """Bands tried besides that of the evidence, share of Nyquist."""
-MIN_SEGMENT_TURNS = 8.0
+MOST_CHANNELS = 2
+"""Channels tried: those that hear the family most firmly on the fitted part."""
 LOWEST_ORDER = 0.25
 MOST_HARMONICS = 8
+MOST_PAIR = 0.5
+"""Of the period, up to which two impulses of one ball are a pair."""
 BOOTSTRAPS = 400
 BLOCK_ORDERS = 1.0
 NATURAL = 20 / np.log(10) / 2
@@ -39,64 +46,104 @@ class Split:
     """What is fitted, what is predicted, what is expected where nothing is missing (bins,), in one band."""
 
     fit: Stretch
-    score: Stretch
+    score: tuple[Stretch, ...]
     before: FloatArray
-    held: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fit:
+    """The comb in the channel and band in which it helps most on the fitted part: `helps`, share of what is left."""
+
+    train: Train
+    channel: str
+    split: Split
+    parameters: FloatArray
+    helps: float
 
 
 def held_out(
-    evidence: Evidence,
+    family: Family,
     placebo: Family | None,
     tests: Sequence[Observation],
     baselines: Sequence[Observation],
+    ties: Ties,
     rng: np.random.Generator,
-    pair: float = 0.0,
+    seed: int,
 ) -> HeldOut | None:
-    """Fit on the first test recording and predict the others; with one, fit on its first half (which is weaker).
+    """Fit on the first test recording and predict all others; with one, fit on its first half (which is weaker).
 
-    `pair`: distance of entry and exit of the spall over the period, 0 where it was not told. The band (that of the
-    evidence or a wide one) is the one in which the comb helps most on the fitted part.
+    None where the parts are too short, or no channel is in all of them.
     """
-    usable = [t for t in tests if evidence.channel in t.recording.names]
-    if not usable:
+    parts = parted(tests, ties, seed)
+    if parts is None:
         return None
-    train = Train(family=evidence.family, order=evidence.order, pair=pair)
-    best: tuple[float, Split, FloatArray] | None = None
-    nyquist = min(t.recording.sampling_rate_hz for t in (*usable, *baselines)) / 2
-    for band in (evidence.band_hz, *((a * nyquist, b * nyquist) for a, b in WIDE)):
-        split = _split(evidence, band, usable, baselines) if band[1] < nyquist else None
-        if split is None:
-            continue
-        parameters = fitted(train, split.fit, split.before)
-        left = predicted(train, split.fit, split.before, parameters) - split.fit.log_power
-        retuned = rescaled(split.fit, split.before)[0] - split.fit.log_power
-        help_share = float(1 - np.mean(left**2) / np.mean(retuned**2))
-        if best is None or help_share > best[0]:
-            best = (help_share, split, parameters)
-    return None if best is None else _compared(train, placebo, best[1], best[2], rng)
+    best = best_fit(family, parts, baselines, ties, rng)
+    if best is None:
+        return None
+    wrong = None if placebo is None else _in_channel(placebo, best.channel, parts.fit, ties, rng)
+    return _compared(best, wrong, parts.told, rng)
+
+
+def best_fit(
+    family: Family, parts: Parted, baselines: Sequence[Observation], ties: Ties, rng: np.random.Generator
+) -> Fit | None:
+    """The family fitted, searched on the fitted part alone: its order in each channel, and of the band that hears it
+    there and the wide ones that in which the comb helps most."""
+    fit = parts.fit
+    nyquist = min(t.recording.sampling_rate_hz for t in (fit, *parts.held, *baselines)) / 2
+    best: Fit | None = None
+    for evidence in _searched(family, fit, ties, rng)[:MOST_CHANNELS]:
+        train = _train(evidence, fit, ties)
+        for band in (evidence.band_hz, *((a * nyquist, b * nyquist) for a, b in WIDE)):
+            split = _split(evidence, band, parts, baselines) if band[1] < nyquist else None
+            if split is None:
+                continue
+            parameters = fitted(train, split.fit, split.before)
+            left = predicted(train, split.fit, split.before, parameters) - split.fit.log_power
+            retuned = rescaled(split.fit, split.before)[0] - split.fit.log_power
+            helps = float(1 - np.mean(left**2) / np.mean(retuned**2))
+            if best is None or helps > best.helps:
+                best = Fit(train=train, channel=evidence.channel, split=split, parameters=parameters, helps=helps)
+    return best
+
+
+def _searched(family: Family, fit: Observation, ties: Ties, rng: np.random.Generator) -> list[Evidence]:
+    """The family in each channel of the fitted part, the firmest first."""
+    found = family_evidence(fit.channels, ties, family, fit.doubt, rng, certain_z=HEARD_Z)
+    return [found, *found.others]
+
+
+def _in_channel(family: Family, channel: str, fit: Observation, ties: Ties, rng: np.random.Generator) -> Train:
+    """Another family as it is found in the same channel of the fitted part."""
+    found = next(e for e in _searched(family, fit, ties, rng) if e.channel == channel)
+    return _train(found, fit, ties)
+
+
+def _train(evidence: Evidence, fit: Observation, ties: Ties) -> Train:
+    """The comb at the order found; of pairs of impulses where entry and exit are told apart."""
+    extent = spall_extent(evidence, fit, ties)
+    pair = 0.0
+    if extent is not None and extent.resolved:
+        pair = extent.lag_s * evidence.order * fit.speed.speed_hz
+    return Train(family=evidence.family, order=evidence.order, pair=pair if pair < MOST_PAIR else 0.0)
 
 
 def _split(
-    evidence: Evidence, band_hz: tuple[float, float], tests: Sequence[Observation], baselines: Sequence[Observation]
+    evidence: Evidence, band_hz: tuple[float, float], parts: Parted, baselines: Sequence[Observation]
 ) -> Split | None:
-    """The two parts in one band; None where they hold too few turns."""
-    values, per_turn = band_turns(tests[0], evidence.channel, band_hz)
-    if len(tests) > 1:
-        other, other_per_turn = band_turns(tests[1], evidence.channel, band_hz)
-        turns = min(values.size / per_turn, other.size / other_per_turn)
-        parts = [(values, per_turn), (other, other_per_turn)]
-        held = f"another recording, at {tests[1].speed.speed_hz:.4g} Hz"
-    else:
-        middle = values.size // 2
-        turns = middle / per_turn
-        parts = [(values[:middle], per_turn), (values[middle:], per_turn)]
-        held = "a later time of the same record"
-    length = turns / ((SEGMENTS + 1) / 2)
-    if length < MIN_SEGMENT_TURNS:
+    """The parts in one band of a channel; None where no other part has the channel, or they hold too few turns."""
+    held = [t for t in parts.held if evidence.channel in t.recording.names]
+    if not held:
         return None
+    (values, per_turn), *others = (band_turns(t, evidence.channel, band_hz) for t in (parts.fit, *held))
+    turns = min(v.size / p for v, p in ((values, per_turn), *others))
+    if turns < LEAST_TURNS:
+        return None
+    length = turns / ((SEGMENTS + 1) / 2)
     top = min(MOST_HARMONICS * evidence.order, 0.45 * per_turn)
-    fit, score = (stretch(v, p, length, top) for v, p in parts)
-    return Split(fit=fit, score=score, before=_before(evidence, band_hz, baselines, length, top, fit), held=held)
+    fit = stretch(values, per_turn, length, top)
+    score = tuple(stretch(v, p, length, top) for v, p in others)
+    return Split(fit=fit, score=score, before=_before(evidence, band_hz, baselines, length, top, fit))
 
 
 def stretch(values: FloatArray, per_turn: int, length_turns: float, top_order: float) -> Stretch:
@@ -131,22 +178,20 @@ def _before(
     return np.full(fit.orders.size, float(np.median(fit.log_power)))
 
 
-def _compared(
-    train: Train, placebo: Family | None, split: Split, parameters: FloatArray, rng: np.random.Generator
-) -> HeldOut:
-    """Distances on the held-out stretch (brought to the fit's orders) of all models."""
-    fit, before = split.fit, split.before
-    actual = np.interp(fit.orders, split.score.orders, split.score.log_power)
+def _compared(best: Fit, wrong: Train | None, told: str, rng: np.random.Generator) -> HeldOut:
+    """Distances on the held-out stretches (brought to the fit's orders) of all models, over all of them together."""
+    fit, before = best.split.fit, best.split.before
+    actual = np.stack([np.interp(fit.orders, s.orders, s.log_power) for s in best.split.score])
     retuned = rescaled(fit, before)[0]
-    errors = {
-        "before": before - actual,
-        "after": predicted(train, fit, before, parameters) - actual,
-        "retuned": retuned - actual,
-        "box": black_box(fit, retuned) - actual,
+    models: dict[str, FloatArray] = {
+        "before": before,
+        "after": predicted(best.train, fit, before, best.parameters),
+        "retuned": retuned,
+        "box": black_box(fit, retuned),
     }
-    if placebo is not None:
-        wrong = Train(family=placebo, order=placebo.order)
-        errors["placebo"] = predicted(wrong, fit, before, fitted(wrong, fit, before)) - actual
+    if wrong is not None:
+        models["placebo"] = predicted(wrong, fit, before, fitted(wrong, fit, before))
+    errors: Mapping[str, FloatArray] = {k: v - actual for k, v in models.items()}
     size = {k: float(np.sqrt(np.mean(e**2))) * NATURAL for k, e in errors.items()}
     gain = {k: 1 - v / size["before"] for k, v in size.items()}
     low, high = _interval(errors["before"], errors["after"], fit, rng)
@@ -161,17 +206,22 @@ def _compared(
         retuned=gain["retuned"],
         black_box=gain["box"],
         placebo=gain.get("placebo"),
-        held=split.held,
+        held=told,
     )
 
 
 def _interval(before: FloatArray, after: FloatArray, fit: Stretch, rng: np.random.Generator) -> tuple[float, float]:
-    """90 % interval of the gain: paired bootstrap over blocks of one order."""
+    """90 % interval of the gain: paired bootstrap over blocks of one order and over recordings, errors (recordings,
+    bins). What a model does at an order it does in all recordings, so their blocks are drawn together."""
     block = max(1, round(BLOCK_ORDERS / fit.step))
-    count = max(1, before.size // block)
-    one = np.array([np.mean(x**2) for x in np.array_split(before, count)])
-    two = np.array([np.mean(x**2) for x in np.array_split(after, count)])
-    picks = rng.integers(0, count, (BOOTSTRAPS, count))
-    gains = 1 - np.sqrt(np.mean(two[picks], axis=1) / np.maximum(np.mean(one[picks], axis=1), 1e-300))
+    recordings, bins = before.shape
+    count = max(1, bins // block)
+    one, two = (
+        np.stack([np.mean(x**2, axis=1) for x in np.array_split(e, count, axis=1)], axis=1) for e in (before, after)
+    )
+    rows = rng.integers(0, recordings, (BOOTSTRAPS, recordings, 1))
+    picks = rng.integers(0, count, (BOOTSTRAPS, 1, count))
+    left = [np.mean(e[rows, picks], axis=(1, 2)) for e in (one, two)]
+    gains = 1 - np.sqrt(left[1] / np.maximum(left[0], 1e-300))
     low, high = np.percentile(gains, (5, 95))
     return float(low), float(high)

@@ -7,8 +7,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-import numpy as np
-
 from reconcile.gate.whole import whole_stretches
 from reconcile.kinematics.answer import defect_report
 from reconcile.kinematics.apart import with_speeds
@@ -40,6 +38,7 @@ from reconcile.kinematics.teeth import other_teeth, told_with, with_teeth
 from reconcile.kinematics.tooth_turn import teeth_report, tooth_turns, with_sidebands
 from reconcile.kinematics.turning import with_turn
 from reconcile.kinematics.unheard import with_lost
+from reconcile.kinematics.unplaced import with_unplaced
 from reconcile.kinematics.unread import ALIKE_Z, Judged
 from reconcile.kinematics.whose_speed import of_one_shaft, usual_speeds
 from reconcile.kinematics.without_part import without_a_part
@@ -133,7 +132,7 @@ def _reconciled(
         report = with_speeds(report, seen, past)
     progress(HELD_OUT, "held-out data")
     if report.verdict != "measurement_fault":
-        report = if_heard(remarked(report, tie, seen, past, every, seed), seen, past)
+        report = if_heard(with_unplaced(remarked(report, tie, seen, past, every, seed), tie, seen), seen, past)
     gate, came = without_struck(gate, seen, every)
     report = with_ends(with_shifted(report, gate, came, past), gate, every, came, past, tie)
     report = with_none_left(report, given=bool(baselines), left=bool(past))
@@ -167,7 +166,7 @@ def _judged(
     series = shaft_series(tests, baselines, tie)
     grown = tuple(c for c in changes if c.grown)
     if chosen:
-        told = defect_report(chosen, tests, baselines, tie, np.random.default_rng(seed))
+        told = defect_report(chosen, tests, baselines, tie, seed)
         rival = other_kind(chosen[0], every) if len(chosen) == 1 else None
         told = told if rival is None else with_other_kind(told, chosen[0], rival)
         told = with_turn(told, chosen, every, tie, based=bool(baselines))
@@ -255,7 +254,7 @@ def _regrown(
 ) -> Report:
     """A defect of the baseline that has become longer."""
     candidate, now, before = growth
-    report = defect_report((candidate,), tests, baselines, tie, np.random.default_rng(seed))
+    report = defect_report((candidate,), tests, baselines, tie, seed)
     was = f"{before.degrees:.1f}" if before.resolved else f"less than {before.high_deg:.1f}"
     sentence = f"{report.sentence} The baseline has this defect too; it grew from {was} to {now.degrees:.1f} degrees."
     return replace(report, sentence=sentence)

@@ -168,3 +168,37 @@ def test_the_lines_of_a_baseline_lead_to_those_of_a_test_that_a_defect_hides() -
         assert report.fault is not None and report.fault.kind == "speed_mismatch", report.sentence
         assert f"At {SPEED_HZ:.4g} Hz: A local defect on the outer race of drive_end" in report.sentence
         assert "there is no baseline" not in " ".join(report.undecidable)
+
+
+def at_the_mains(speed_hz: float, label_hz: float, seed: int, more: float = 0.0, hum_hz: float = 0.0):  # type: ignore[no-untyped-def]
+    """A shaft whose second harmonic may be at the supply's frequency; `more`: of its first; with hum."""
+    rng, t = np.random.default_rng(seed), np.arange(N) / RATE_HZ
+    hum = sum(0.3 / k * np.sin(2 * np.pi * k * hum_hz * t) for k in (1, 2, 3)) if hum_hz else 0.0
+    grown = more * np.sin(2 * np.pi * speed_hz * t)
+    return recorded(shaft_lines(rng, speed_hz) + 0.3 * rng.standard_normal(N) + grown + hum, label_hz)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("speed_hz", "label_hz"), [(24.97, 40.0), (24.97, 31.0), (29.97, 40.0), (29.97, 22.0)])
+def test_a_shaft_whose_second_harmonic_is_at_the_mains_is_told_too(speed_hz: float, label_hz: float) -> None:
+    before = at_the_mains(speed_hz, label_hz, 1)
+    for more, says in ((0.0, "No family of lines"), (4.0, f"At {speed_hz:.4g} Hz: 1 times the speed of shaft grew by")):
+        report = reconcile_kinematics(SPEC, [at_the_mains(speed_hz, label_hz, 2, more)], [before], seed=0)
+        assert report.verdict == "measurement_fault" and report.fault is not None, report.sentence
+        assert report.fault.kind == "speed_mismatch" and says in report.sentence
+        assert f"a shaft at {speed_hz:.4g} Hz (1, 2 and 3 times it)" in report.sentence
+        assert ("unbalance" in report.sentence) == (more > 0.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("speed_hz", "mains_hz"), [(SPEED_HZ, 50.0), (27.3, 60.0)])
+def test_hum_beside_a_right_label_is_no_fault_of_the_speed(speed_hz: float, mains_hz: float) -> None:
+    tests = [at_the_mains(speed_hz, speed_hz, 2, hum_hz=mains_hz)]
+    for baselines in (
+        [at_the_mains(speed_hz, speed_hz, 1)],
+        [at_the_mains(speed_hz, speed_hz, 1, hum_hz=mains_hz)],
+        [],
+    ):
+        report = reconcile_kinematics(SPEC, tests, baselines, seed=0)
+        assert report.fault is None or report.fault.kind == "mains_hum"
+        assert "states" not in report.sentence and "not decided" not in report.sentence
