@@ -78,7 +78,7 @@ def against_rivals(
     which other parts are firm, where nothing says how fast it turned (None where something does)."""
     doubt = doubt_of(seen, tie)
     if doubt is None and not others and stated.report.verdict in ("nothing_missing", "not_decidable"):
-        return stated.report
+        return _at_usual(stated, seen, at, nominal_hz)
     octave = None if stated.firmest is None else octave_of(stated.firmest, stated.every, seen)
     octave = None if octave == 2.0 and odd_lines(seen) else octave
     if octave is not None:
@@ -97,18 +97,31 @@ def against_rivals(
     return stated.report if others is None else speed_unread(stated, near, first)
 
 
+def _at_usual(
+    stated: Judged, seen: Sequence[Observation], at: Callable[[float, bool], Judged | None], nominal_hz: float | None
+) -> Report:
+    """The answer where nothing is found at the stated speed: what stands at the machine file's, if that is far off and
+    no line tells."""
+    first = next((t for t in seen if t.speed.method == "stated"), None)
+    if first is None or nominal_hz is None or not unconfirmed(seen):
+        return stated.report
+    factor = nominal_hz / first.speed.speed_hz
+    rival = at(factor, False) if abs(factor - 1.0) > FAR else None
+    return stated.report if rival is None or rival.z == 0.0 else doubted(stated, rival, first, factor)
+
+
 def _far(
     stated: Judged, first: Observation, at: Callable[[float, bool], Judged | None], nominal_hz: float | None
 ) -> list[tuple[float, float, Judged]]:
-    """(score, factor, answer) at half and twice the speed and at the machine file's, where that is far off; none where
-    nothing is said at the stated one."""
-    if stated.report.verdict in ("nothing_missing", "not_decidable"):
-        return []
+    """(score, factor, answer) at half and twice the speed, unless nothing is said at the stated one, and at the machine
+    file's, where that is far off."""
+    quiet = stated.report.verdict in ("nothing_missing", "not_decidable")
     usual = None if nominal_hz is None else nominal_hz / first.speed.speed_hz
-    factors = [(2.0, CLEAR_Z), (0.5, CLEAR_Z)]
+    factors = [] if quiet else [(2.0, CLEAR_Z), (0.5, CLEAR_Z)]
     if usual is not None and abs(usual - 1.0) > FAR:
         factors.append((usual, -CLEAR_Z))  # two statements against each other: as firm is enough
-    return [(one.z - more, factor, one) for factor, more in factors if (one := at(factor, False)) is not None]
+    found = [(one, factor, more) for factor, more in factors if (one := at(factor, False)) is not None]
+    return [(one.z - more, factor, one) for one, factor, more in found if one.z > 0.0 or not quiet]
 
 
 def doubted(

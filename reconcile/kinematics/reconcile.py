@@ -38,7 +38,7 @@ from reconcile.kinematics.teeth import other_teeth, told_with, with_teeth
 from reconcile.kinematics.tooth_turn import teeth_report, tooth_turns, with_sidebands
 from reconcile.kinematics.turning import with_turn
 from reconcile.kinematics.unheard import with_lost
-from reconcile.kinematics.unplaced import with_unplaced
+from reconcile.kinematics.unplaced import with_risen, with_unplaced
 from reconcile.kinematics.unread import ALIKE_Z, Judged
 from reconcile.kinematics.whose_speed import of_one_shaft, usual_speeds
 from reconcile.kinematics.without_part import without_a_part
@@ -132,7 +132,8 @@ def _reconciled(
         report = with_speeds(report, seen, past)
     progress(HELD_OUT, "held-out data")
     if report.verdict != "measurement_fault":
-        report = if_heard(with_unplaced(remarked(report, tie, seen, past, every, seed), tie, seen), seen, past)
+        report = with_risen(with_unplaced(remarked(report, tie, seen, past, every, seed), tie, seen), every, seen)
+        report = if_heard(report, seen, past)
     gate, came = without_struck(gate, seen, every)
     report = with_ends(with_shifted(report, gate, came, past), gate, every, came, past, tie)
     report = with_none_left(report, given=bool(baselines), left=bool(past))

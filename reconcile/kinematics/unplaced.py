@@ -13,6 +13,8 @@ import numpy as np
 
 from reconcile.gate.mains import NONE_HZ, power_at
 from reconcile.gate.tones import BESIDE_DB, PRESENT_DB, Heard
+from reconcile.kinematics.answer import PARTS
+from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.elsewhere import ADVICE
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.observe import Observation
@@ -32,6 +34,9 @@ SAME = 0.005
 """Relative difference up to which a line near a part's is a multiple of one that is no part's."""
 MOST = 3
 """Lines that are told."""
+RISEN_Z = 5.0
+"""Robust deviations over orders of no part from which a bearing's lines that rose are more than chance. A deep race's
+pit under twice its speed has 12, its second harmonic being the drawing's first."""
 
 
 def with_unplaced(report: Report, tie: Ties, tests: Sequence[Observation]) -> Report:
@@ -50,6 +55,27 @@ def with_unplaced(report: Report, tie: Ties, tests: Sequence[Observation]) -> Re
         verdict="not_decidable",
         sentence=f"The speed is not decided: no line confirms the stated {first.speed_hz:.4g} Hz, and at it no part "
         f"makes the strong lines that stand ({where}). At that speed: {report.sentence}",
+        undecidable=(note, *report.undecidable),
+        next_experiment=ADVICE,
+    )
+
+
+def with_risen(report: Report, every: Sequence[Candidate], tests: Sequence[Observation]) -> Report:
+    """The report; none of a sound machine where nothing confirms the speed of the tests and lines of a bearing rose
+    all the same, though not as firmly as a defect's at its own speed do."""
+    if report.verdict != "nothing_missing" or any(t.speed.method != "stated" for t in tests):
+        return report
+    risen = [c for c in every if c.family.kind in DEFECTS and c.risen and c.z >= RISEN_Z]
+    if not risen:
+        return report
+    best, first = max(risen, key=lambda c: c.z), tests[0].speed
+    note = f"whether {first.shaft} turns at {first.speed_hz:.4g} Hz as stated: no line confirms it"
+    return replace(
+        report,
+        verdict="not_decidable",
+        sentence=f"The speed is not decided: no line confirms the stated {first.speed_hz:.4g} Hz, and at it lines of "
+        f"{PARTS[best.family.kind]} of {best.family.site} rose ({best.z:.1f} robust deviations), less firmly than a "
+        "defect's do at the right speed.",
         undecidable=(note, *report.undecidable),
         next_experiment=ADVICE,
     )

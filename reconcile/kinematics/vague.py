@@ -17,6 +17,8 @@ from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Re
 
 TOOTH_TERMS = ("tooth_crack", "tooth_spall", "missing_tooth")
 
+SHAFTS_UNJUDGED = "what a shaft does (unbalance, a bend, looseness) is not judged without a baseline"
+
 
 def gear_report(found: Sequence[GearEvidence], tests: Sequence[Observation]) -> Report:
     """Sidebands of a gear's shaft grew around its mesh."""
@@ -115,7 +117,7 @@ def nothing_report(
         knocking = [c for c in every if c.family.kind == "turn" and c.present and c.risen]
         if shallow or knocking:
             return _without_baseline(shallow, knocking, tests, lines)
-    against = "than in the baseline" if baselines else "than sound bearings show"
+    against = "than in the baseline" if baselines else f"than sound bearings show; {SHAFTS_UNJUDGED}"
     louder = loudest(tests, baselines)
     if louder is not None:
         return _louder(louder, lines, old)

@@ -17,6 +17,8 @@ NO_FIT = "the machine file does not fit"
 """How the sentence says that the file is another machine's (`reconcile.machine.misfit`)."""
 NO_PART = "no part of the machine file has a line"
 """How the sentence says that something strikes which the file has not (`reconcile.machine.foreign`)."""
+UNJUDGED = "is not judged without a baseline"
+"""How the sentence says that nothing is said of shafts (`reconcile.kinematics.vague`)."""
 LOUDEST = "loudest at the sensor of"
 """How the sentence says that a named bearing's lines are heard at the other end (`reconcile.kinematics.ends`)."""
 BY_LOUDNESS = "only which sensor hears it louder tells the place"
@@ -118,6 +120,8 @@ def _nothing(report: Report) -> str:
     kept = "nothing follows from these recordings; keep them to compare later ones with."
     if _shifted(report):
         kept = "check unit and gain of every channel against the baseline's before you keep these to compare with."
+    if UNJUDGED in report.sentence:
+        kept = "no bearing defect shows; judge the levels of the shafts' own lines by the limits that you use."
     if NO_FIT in report.sentence:
         kept = "correct the machine file first, and ask again: what sound machines show is measured with it."
     unseen = " What they would hardly have shown stands under “What would have been seen”." if report.faintest else ""

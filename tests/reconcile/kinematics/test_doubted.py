@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
-from reconcile.kinematics.doubted import doubt_of, factor_of
+from reconcile.kinematics.doubted import against_rivals, doubt_of, factor_of
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.observe import observe
+from reconcile.verdict import Report
 from signals.recording import Recording, Tacho
 from tests.strategies.impulses import SECONDS, SPEED_HZ, N, recorded, shaft_lines, sound, train
 
@@ -121,3 +123,34 @@ def test_a_stated_speed_far_from_the_drawing_that_no_line_confirms_names_no_race
     assert "the speed of the machine file" in report.sentence
     alone = reconcile_kinematics(SPEC, given[:1], given[1:], seed=3)
     assert alone.causes[0].term == "inner_spall"
+
+
+@pytest.mark.parametrize(
+    ("label_hz", "method", "z", "verdict"),
+    [
+        (49.9, "stated", 12.0, "ambiguous"),
+        (49.9, "stated", 0.0, "nothing_missing"),
+        (25.5, "stated", 12.0, "nothing_missing"),
+        (49.9, "harmonics", 12.0, "nothing_missing"),
+    ],
+)
+def test_where_nothing_is_found_a_label_far_off_the_drawing_is_held_against_it(
+    label_hz: float, method: str, z: float, verdict: str
+) -> None:
+    speed = SimpleNamespace(shaft="motor", speed_hz=label_hz, method=method, rival_hz=None)
+    quiet = Report(verdict="nothing_missing", sentence="No family.", level="kinematics")
+    defect = Report(verdict="explained", sentence="A defect.", level="kinematics")
+    none = {"firmest": None, "heard_z": 0.0, "part": "no part", "hears": lambda *_: False}
+    here = SimpleNamespace(report=quiet, every=(), z=0.0, **none)
+    asked: list[float] = []
+
+    def at(factor: float, _firmly: bool) -> SimpleNamespace:
+        asked.append(factor)
+        return SimpleNamespace(report=defect, every=(), z=z, **none)
+
+    for others in (None, [0.5]):
+        found = against_rivals(here, [SimpleNamespace(speed=speed)], ties(SPEC), at, 24.95, others)  # type: ignore[arg-type]
+        assert found.verdict == verdict
+        if verdict == "ambiguous":
+            assert "24.95 Hz" in found.sentence and found.sentence.endswith("A defect.")
+    assert method == "stated" or not asked

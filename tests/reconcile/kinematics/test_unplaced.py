@@ -11,7 +11,7 @@ import pytest
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.elsewhere import ADVICE
 from reconcile.kinematics.families import ties
-from reconcile.kinematics.unplaced import with_unplaced
+from reconcile.kinematics.unplaced import with_risen, with_unplaced
 from reconcile.verdict import Report
 from tests.strategies.brief import RATE_HZ, N, recorded, shaft_lines
 
@@ -83,3 +83,27 @@ def test_a_sound_machine_far_from_its_label_is_not_called_sound() -> None:
     rows = [shaft_lines(rng, 23.7) + 0.3 * rng.standard_normal(N) for _ in range(2)]
     report = reconcile_kinematics(SPEC, [recorded(rows[0], LABEL_HZ)], [recorded(rows[1], LABEL_HZ)], seed=0)
     assert report.verdict == "not_decidable" and "no line confirms the stated 40 Hz" in report.sentence
+
+
+def candidate(kind: str = "outer", z: float = 12.0, *, risen: bool = True) -> SimpleNamespace:
+    return SimpleNamespace(family=SimpleNamespace(kind=kind, site="drive_end"), z=z, risen=risen)
+
+
+def told(*every: SimpleNamespace, method: str = "stated", verdict: str = "nothing_missing") -> Report:
+    report = Report(verdict=verdict, sentence="No family.", level="kinematics")  # type: ignore[arg-type]
+    return with_risen(report, every, (seen({}, method),))  # type: ignore[arg-type]
+
+
+def test_lines_of_a_bearing_that_rose_under_a_label_that_nothing_confirms_are_no_nothing() -> None:
+    report = told(candidate(z=6.0), candidate("inner", 12.0))
+    assert report.verdict == "not_decidable" and report.next_experiment == ADVICE
+    assert "no line confirms the stated 40 Hz" in report.sentence
+    assert "lines of the inner race of drive_end rose (12.0 robust deviations)" in report.sentence
+
+
+def test_they_are_chance_below_five_deviations_or_no_bearings_or_as_in_the_baseline_or_at_a_known_speed() -> None:
+    for one in (candidate(z=4.9), candidate("turn"), candidate(risen=False)):
+        assert told(one).verdict == "nothing_missing"
+    assert told(candidate(), method="harmonics").verdict == "nothing_missing"
+    assert told(candidate(), verdict="explained").verdict == "explained"
+    assert told().verdict == "nothing_missing"

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from reconcile.kinematics.vague import SHAFTS_UNJUDGED
+from reconcile.report.action import to_do
 from reconcile.report.sections import undecidable
 from reconcile.verdict import NextExperiment, Report
 
@@ -30,3 +34,9 @@ def test_separations_are_told_as_log_evidence(now: float, then: float | None, sa
 def test_without_separations_there_is_the_advice_alone() -> None:
     told = drawn(NextExperiment(sentence="Record."))
     assert "Record." in told and "Separation" not in told
+
+
+def test_without_a_baseline_no_shaft_is_called_sound() -> None:
+    quiet = Report(verdict="nothing_missing", sentence=f"No family; {SHAFTS_UNJUDGED}.", level="kinematics")
+    assert to_do(quiet).startswith("no bearing defect shows; judge the levels of the shafts' own lines")
+    assert "nothing follows" in to_do(replace(quiet, sentence="No family."))
