@@ -57,6 +57,7 @@ def test_what_strikes_for_sure_need_come_no_nearer_but_is_none_where_its_machine
     decision, causes = proved(decided(word), CAUSES, struck, revised(3.92, 11.23))  # type: ignore[arg-type]
     assert decision.word == "not_decidable" and decision.reasons == (UNLIKE,)
     assert not any(c.named for c in causes) and all(c.reasons == (UNLIKE,) for c in causes)
+    assert "far off the recorded levels" in (said := sentence(decision, None, None)) and "nothing is named" in said
 
 
 def test_a_burst_of_a_tooth_needs_no_level_that_comes_nearer() -> None:
