@@ -26,6 +26,14 @@ SHAFT_TERMS = {
     2.0: ("parallel_misalignment", "angular_misalignment", "shaft_crack"),
     3.0: ("parallel_misalignment", "pedestal_looseness"),
 }
+NEXT_OF_LINE = {
+    0.5: "Check bolts, feet and fits; record at two more speeds: a rub comes and goes, play stays.",
+    1.0: "Turn {shaft} slowly under a dial gauge: a bow or an eccentric gear runs out, unbalance does not; at speed "
+    "both load the bearings alike. What a trial weight takes away was unbalance.",
+    2.0: "Check the alignment, and record with the coupling apart: what goes with it was misalignment, a cracked shaft "
+    "stays.",
+    3.0: "Check the alignment, bolts and feet, and record with the coupling apart: what goes with it was misalignment.",
+}
 TURNING = ("unbalance", "bent_shaft")
 LOOSE = ("pedestal_looseness", "rub")
 BESIDE = "Beside it"
@@ -252,7 +260,7 @@ def shaft_report(changes: Sequence[ShaftChange], tests: Sequence[Observation]) -
             "unbalance, bow and misalignment without phases",
             "how large: a size can't be given without a model",
         ),
-        next_experiment=NextExperiment(sentence="Record at two more speeds: unbalance grows with the square of speed."),
+        next_experiment=NextExperiment(sentence=NEXT_OF_LINE[first.multiple].format(shaft=first.shaft)),
     )
 
 

@@ -21,6 +21,7 @@ from reconcile.machine.meter import Meter
 from reconcile.machine.next_look import apart_of
 from reconcile.machine.pairs import Pair, Pairs, named_pair, sizes_of
 from reconcile.machine.pictures import ranking, spectra, turn_maps, with_forms
+from reconcile.machine.pit_size import pit_sizes
 from reconcile.machine.placed import places, with_open, with_second
 from reconcile.machine.proved import proved
 from reconcile.machine.revised import Revised, paths, revised_machine
@@ -103,7 +104,7 @@ def answer(
     held = _held(setting, found, decision, layout, unknown, other, pair) if decision.chosen else None
     decision, unknown = _forecast(decision, held, unknown)
     struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
-    sizes = sizes_of(pairs), burst_sizes(setting, decision.chosen if missing else (), meter)
+    sizes = sizes_of(pairs), _measured(setting, decision, meter) if missing else {}
     ranked = ranked_causes(found, decision, weights, observed, other, struck, *sizes) if missing else ()
     causes = with_forms(ranked, found.screen)
     revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter, both)
@@ -139,6 +140,11 @@ def answer(
         pictures=_pictures(setting, layout, fitted, where, ranking(setting, found, named) if missing else []),
         provenance=provenance(setting.seed, len(setting.plan.draws), meter, cost),
     )
+
+
+def _measured(setting: Setting, decision: Decision, meter: Meter) -> dict[str, Severity]:
+    """Sizes of what the answer stands on by what is heard of it."""
+    return {**burst_sizes(setting, decision.chosen, meter), **pit_sizes(setting, decision.chosen, meter)}
 
 
 def _forecast(decision: Decision, held: HeldOut | None, unknown: Unknown | None) -> tuple[Decision, Unknown | None]:

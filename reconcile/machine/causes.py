@@ -29,11 +29,11 @@ def ranked_causes(
     other: Beside | None,
     struck: Sequence[str] = (),
     sought: Together | None = None,
-    bursts: Mapping[str, Severity] | None = None,
+    measured: Mapping[str, Severity] | None = None,
 ) -> tuple[Cause, ...]:
     """The effects the verdict stands on, a second one with what it explains, those that share the impacts of another
     part (`struck`), and the rest by score. `sought`: the best of several seconds, where sizes had to be searched;
-    `bursts`: sizes of faults of teeth by what is heard of them."""
+    `measured`: sizes by what is heard of faults of teeth and pits."""
     apart = {*decision.chosen, *(other.names[:1] if other else ())}
     told = dict(zip(found.screen.names, map(float, found.screen.evidence), strict=True))
     rest = sorted((n for n in weights if n not in struck), key=lambda n: -told[n])
@@ -45,7 +45,7 @@ def ranked_causes(
         drawn = best_draws(found.view(name), found.known, name, observed, count=1)
         named = decision.word == "explained" and name == decision.chosen[0]
         levels = estimated_severity(found.view(name), found.known, name, observed)
-        alone = joined(levels, (bursts or {}).get(name))
+        alone = joined(levels, (measured or {}).get(name))
         size = _between(alone, together if named else None)
         causes.append(
             Cause(

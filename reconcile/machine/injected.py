@@ -13,25 +13,23 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy
-from scipy import fft
 
 from reconcile.atlas.plan import AtlasPlan, Draw, Point, simulated_at
-from reconcile.atlas.run import RATE_HZ, SPAN_S, run_members
+from reconcile.atlas.run import run_members
 from reconcile.judge.screen import Screen, of_best
-from reconcile.kinematics.families import Family, ties
+from reconcile.kinematics.families import Family
 from reconcile.kinematics.judge import same
-from reconcile.kinematics.spec import of_machine
 from reconcile.machine.direct import HEARD
+from reconcile.machine.ground import Ground, ground_of
 from reconcile.machine.meter import Meter
-from reconcile.machine.motion import added_motion, path_gain
+from reconcile.machine.motion import added_motion
 from reconcile.machine.refine import best_draws, near_draws, seen_draws
+from reconcile.machine.rolling import family_of, kind_of, rate_of
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.weigh import LEAST_EVIDENCE
-from reconcile.observe.impact_bands import ComplexArray, Rate, Standing, bands_of, density, envelope_power, standing
+from reconcile.observe.impact_bands import ComplexArray, Rate, Standing, bands_of, standing
 from signals.series import FloatArray
 from sim.core.spec import MachineSpec, TermSpec
-from sim.terms import REGISTRY
 
 LEADERS, DRAWS = 3, 16
 """Best draws of an effect, and draws about them, that are added to the baseline."""
@@ -57,14 +55,12 @@ MOST = 8.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Base:
-    """A baseline to which is added, at one point: whitened transforms (C, n // 2 + 1), factors (C, n // 2 + 1) from the
-    machine's motion to them, the test as it stands out, and the baseline alone."""
+class Base:
+    """A baseline to which is added, at one point, the test over the same floors, how it stands out, and the baseline
+    alone."""
 
-    white: ComplexArray
-    factor: FloatArray
-    count: int
-    rate_hz: float
+    ground: Ground
+    heard: ComplexArray
     test: Standing
     alone: Standing
 
@@ -86,7 +82,7 @@ class _Task:
     rows: tuple[int, ...]
     terms: tuple[tuple[TermSpec, ...], ...]
     rates: tuple[Rate, ...]
-    base: _Base
+    base: Base
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,33 +131,33 @@ def twins(found: Found, machine: MachineSpec) -> list[tuple[str, ...]]:
     screen = found.screen
     direct = dict(zip(screen.names, map(float, screen.direct), strict=True))
     evidence = dict(zip(screen.names, map(float, screen.evidence), strict=True))
-    rolling = [n for n, value in direct.items() if value >= HEARD and _kind(n) not in ("", "tooth")]
+    rolling = [n for n, value in direct.items() if value >= HEARD and kind_of(n) not in ("", "tooth")]
     rolling.sort(key=lambda n: (-round(direct[n], 6), -evidence[n]))
     groups: list[tuple[str, ...]] = []
     for first in rolling:
         grouped = {n for group in groups for n in group}
         if first in grouped:
             continue
-        term, own = first.split("@")[0], _family(machine, first)
+        term, own = first.split("@")[0], family_of(machine, first)
         near = [
             n
             for n in rolling
             if n not in grouped and n.split("@")[0] == term and direct[n] > direct[first] - LEAST_EVIDENCE
         ]
-        groups.append(tuple(sorted((n for n in near if same(_family(machine, n), own)), key=lambda n: -evidence[n])))
+        groups.append(tuple(sorted((n for n in near if same(family_of(machine, n), own)), key=lambda n: -evidence[n])))
     return [group for group in groups if len(group) > 1]
 
 
 def distances(setting: Setting, found: Found, names: Sequence[str], meter: Meter) -> dict[str, float]:
     """Half the squared distance of each effect's nearest draw from what is heard, over the points where anything is;
     without those that cannot run or that nobody would hear."""
-    families = [_family(setting.machine, n) for n in names]
+    families = [family_of(setting.machine, n) for n in names]
     rng = np.random.default_rng([setting.seed, 31])
     drawn = tuple(tuple(near_draws(own, DRAWS, rng)) for own in leaders(found, names, setting.changes.observed))
     distinct = tuple(sorted(set(setting.simulated)))
     tasks = []
     for p, one in enumerate(setting.data):
-        base = _base(setting, p, families[0])
+        base = base_at(setting, p, families[0])
         point = simulated_at(setting.machine, one.point)
         if base.out:
             tasks.append(
@@ -171,7 +167,7 @@ def distances(setting: Setting, found: Found, names: Sequence[str], meter: Meter
                     channels=distinct,
                     rows=tuple(distinct.index(c) for c in setting.simulated),
                     terms=drawn,
-                    rates=tuple(_rate(f, point.speed_hz) for f in families),
+                    rates=tuple(rate_of(f, point.speed_hz) for f in families),
                     base=base,
                 )
             )
@@ -201,44 +197,16 @@ def _nearest(points: Sequence[_Off]) -> float:
     return 0.5 * float(squared.min()) if squared.size else float("inf")
 
 
-def _kind(name: str) -> str:
-    term = REGISTRY.get(name.split("@", maxsplit=1)[0])
-    return (term.strikes or "") if term is not None else ""
-
-
-def _family(machine: MachineSpec, name: str) -> Family:
-    """The lines of the part that an effect strikes."""
-    tie = ties(of_machine(machine), machine.operating.shaft if machine.operating else None)
-    kind, site = _kind(name), name.split("@")[1]
-    return next(f for f in tie.families if f.kind == kind and f.site == site)
-
-
-def _rate(family: Family, speed_hz: float) -> Rate:
-    return Rate(hz=family.order * speed_hz, spacing_hz=family.spacing * speed_hz, sidebands=family.sidebands)
-
-
-def _base(setting: Setting, point: int, family: Family) -> _Base:
+def base_at(setting: Setting, point: int, family: Family) -> Base:
+    """At a point, for the lines of a part; there must be a baseline."""
+    ground, heard = ground_of(setting, point)
     test, baseline = setting.data[point].spectra
-    if baseline is None:
-        raise ValueError("nothing to add to without a baseline")
-    rate_hz = baseline.rate_hz
-    count = min(round(SPAN_S * rate_hz), baseline.samples.shape[1], test.samples.shape[1])
-    hz = np.arange(count // 2 + 1) * rate_hz / count
-    floors = [np.interp(hz, *density(row, rate_hz)) for row in baseline.samples]
-    over = 1.0 / np.sqrt(np.array(floors))
-    heard = []
-    for one in (test, baseline):
-        bands = [
-            envelope_power(fft.rfft(x[:count]) * o, count, rate_hz) for x, o in zip(one.samples, over, strict=True)
-        ]
-        heard.append(standing(bands, count / rate_hz, _rate(family, one.speed_hz)))
-    return _Base(
-        white=np.array([fft.rfft(x[:count]) * o for x, o in zip(baseline.samples, over, strict=True)]),
-        factor=np.asarray(path_gain(setting.seen_through[point].chain, hz) * over),
-        count=count,
-        rate_hz=rate_hz,
-        test=heard[0],
-        alone=heard[1],
+    assert baseline is not None
+    return Base(
+        ground=ground,
+        heard=heard,
+        test=standing(ground.bands(heard), ground.seconds, rate_of(family, test.speed_hz)),
+        alone=standing(ground.bands(ground.white), ground.seconds, rate_of(family, baseline.speed_hz)),
     )
 
 
@@ -257,17 +225,17 @@ def _heard(task: _Task) -> list[_Off]:
     return found
 
 
-def _off(base: _Base, motion: FloatArray | None, rate: Rate) -> tuple[FloatArray, bool]:
+def _off(base: Base, motion: FloatArray | None, rate: Rate) -> tuple[FloatArray, bool]:
     """Squared distance of what would be heard from the test, (sizes,), and whether anything would at any size: a pit
     of the outer race that no loaded ball meets says nothing of its bearing."""
     if motion is None:
         return np.full(SIZES_DB.size, np.inf), False
-    added = base.factor * np.array([_on_grid(row, base) for row in motion])
+    ground = base.ground
+    added = ground.added(motion)
     off, loudest = [], 0.0
     for size_db in SIZES_DB:
-        sum_of = base.white + 10.0 ** (size_db / 20.0) * added
-        bands = [envelope_power(row, base.count, base.rate_hz) for row in sum_of]
-        level = standing(bands, base.count / base.rate_hz, rate).level
+        bands = ground.bands(ground.white + 10.0 ** (size_db / 20.0) * added)
+        level = standing(bands, ground.seconds, rate).level
         loudest = max(loudest, float((level - np.maximum(base.alone.level, 0.0)).max()))
         off.append(apart(base.test, level))
     return np.array(off), loudest >= AUDIBLE_DB
@@ -278,9 +246,3 @@ def apart(test: Standing, level: FloatArray) -> float:
     out = 1.0 - 10.0 ** (-np.maximum(np.maximum(level, test.level), 0.0) / 10.0)
     squared = (test.level - level) ** 2 / (test.error**2 + FLOOR_DB**2 + (MODEL_DB * out) ** 2)
     return float(np.minimum(squared, MOST_OFF).sum())
-
-
-def _on_grid(motion: FloatArray, base: _Base) -> ComplexArray:
-    """Transform (n // 2 + 1,) of a simulated channel as that of the baseline's samples."""
-    again = np.asarray(scipy.signal.resample(motion, max(round(motion.size * base.rate_hz / RATE_HZ), base.count)))
-    return np.asarray(fft.rfft(again[: base.count]))

@@ -52,10 +52,11 @@ class Rate:
 
 @dataclass(frozen=True, kw_only=True)
 class Standing:
-    """`level` (C, bands): dB over control rates; `error` (C, bands): what these scatter, dB."""
+    """`level` (C, bands): dB over control rates; `error` (C, bands): what these scatter, dB; `hz`: the rate of both."""
 
     level: FloatArray
     error: FloatArray
+    hz: float
 
 
 def density(samples: FloatArray, rate_hz: float) -> tuple[FloatArray, FloatArray]:
@@ -112,7 +113,7 @@ def standing(channels: Sequence[Sequence[FloatArray]], seconds: float, rate: Rat
         error[place] = np.log(usual / middle).std()
     best = int(np.argmax(np.clip(ratio, 0.0, None).sum(axis=(0, 1))))
     to_db = 10.0 / np.log(10.0)
-    return Standing(level=np.asarray(to_db * ratio[..., best]), error=np.asarray(to_db * error))
+    return Standing(level=np.asarray(to_db * ratio[..., best]), error=np.asarray(to_db * error), hz=float(tried[best]))
 
 
 def _sums(power: FloatArray, seconds: float, lines_hz: FloatArray) -> FloatArray:

@@ -24,6 +24,10 @@ _MM = 1e-3
 _SUFFIXES = re.compile(r"^(6[0-4]?\d\d\d?)(?:[-/ ]*(?:2RSR?|2RS\d?|RS|2Z|ZZ|Z|LLU|DDU|VV|NR|N|C[2-5]|JEM|TN\d?|M))+$")
 """Seals, shields, snap ring grooves, clearance classes and cages: none changes balls or pitch circle."""
 
+_MAKERS = re.compile(r"^(?:SKF|FAG|INA|NSK|NTN|KOYO|NACHI|TIMKEN|FAFNIR|MRC|SNR|RHP|STEYR|HRB|ZWZ|LYC|EZO|NMB)[\s:/-]+")
+"""Written before a designation: makers keep to the same numbers (ISO 15); a row says whose bearing it is."""
+_CYLINDRICAL = re.compile(r"^(?:NU|NJ|NUP|NF|N|RNU)[\s-]*\d{3,4}")
+
 
 @dataclass(frozen=True, kw_only=True)
 class CatalogueRow:
@@ -115,6 +119,18 @@ def missing() -> Mapping[str, str]:
     return MappingProxyType(dict(_file()["missing"]))
 
 
+def bare(designation: str) -> str:
+    """Without the maker before it and suffixes that change neither balls nor pitch circle."""
+    plain = _MAKERS.sub("", designation.strip().upper())
+    base = _SUFFIXES.match(plain)
+    return base.group(1) if base else plain
+
+
+def cylindrical(designation: str) -> bool:
+    """Whether a designation is one of a cylindrical roller bearing (ISO 15: N, NU, NJ), of which there are none."""
+    return _CYLINDRICAL.match(bare(designation)) is not None
+
+
 def _folded(designation: str) -> str:
     return re.sub(r"[^A-Z0-9]", "", designation.upper())
 
@@ -125,13 +141,13 @@ def _by_folded() -> Mapping[str, CatalogueRow]:
 
 
 def lookup(designation: str) -> CatalogueRow:
-    """Row of a designation; seal, shield, clearance and cage suffixes are ignored. UnknownName with near matches."""
+    """Row of a designation; the maker before it and seal, shield, clearance and cage suffixes are ignored. UnknownName
+    with near matches."""
     by_folded = _by_folded()
-    base = _SUFFIXES.match(designation.strip().upper())
-    for name in (designation, base.group(1) if base else ""):
+    wanted = bare(designation)
+    for name in (designation, wanted):
         if _folded(name) in by_folded:
             return by_folded[_folded(name)]
-    wanted = base.group(1) if base else designation
     reason = missing().get(wanted)
     kind = "bearing" if reason is None else f"bearing (left out: {reason}; its geometry can be given instead)"
     known = [by_folded[n].designation for n in near(_folded(wanted), by_folded, most=5)] or list(catalogue())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sim.core.errors import Problem, UnknownName
 from sim.core.near import near
-from sim.parts.bearing.catalogue import catalogue, lookup, missing
+from sim.parts.bearing.catalogue import bare, catalogue, cylindrical, lookup, missing
 
 MOST_NEAR = 6
 LIKE = 0.5
@@ -18,10 +18,13 @@ def uncatalogued(
     try:
         lookup(designation)
     except UnknownName:
-        reason = missing().get(designation.strip().upper())
+        reason = missing().get(bare(designation))
         message = "is not in the catalogue of bearings" + (f" (left out: {reason})" if reason else "")
         names = list(catalogue())
-        alike = near(designation, names, most=MOST_NEAR, like=LIKE)
+        if cylindrical(designation):
+            message += " (a cylindrical roller bearing: the catalogue has balls, and rollers of two rigs only)"
+            return Problem(field=field, message=message, given=designation, allowed=otherwise)
+        alike = near(bare(designation), names, most=MOST_NEAR, like=LIKE)
         shown = f"near it {', '.join(alike)}; " if alike else f"{', '.join(names[:MOST_NEAR])}, ...: "
         allowed = f"{shown}one of {len(names)} that `sideband bearings` lists; or {otherwise}"
         return Problem(field=field, message=message, given=designation, allowed=allowed)

@@ -15,9 +15,10 @@ from reconcile.calibrate.chain import band_centres_hz
 from reconcile.calibrate.uncertain import Offsets
 from reconcile.judge.screen import Screen
 from reconcile.machine import injected, refine
+from reconcile.machine.ground import Ground
 from reconcile.machine.injected import MOST, PER, SIZES_DB, apart, counted, twins
 from reconcile.machine.meter import Meter
-from reconcile.observe.impact_bands import Rate, Standing, density, envelope_power, standing
+from reconcile.observe.impact_bands import Rate, Standing, density, standing
 from reconcile.observe.steady import Steady
 from sim.core.response import Response
 from sim.core.spec import TermSpec
@@ -78,10 +79,10 @@ def test_what_is_heard_counts_against_the_place_farther_off() -> None:
 
 
 def test_the_distance_is_bounded_and_small_below_the_noise() -> None:
-    quiet = Standing(level=np.zeros((2, 3)), error=np.ones((2, 3)))
+    quiet = Standing(level=np.zeros((2, 3)), error=np.ones((2, 3)), hz=78.0)
     assert apart(quiet, np.zeros((2, 3))) == 0.0
     assert apart(quiet, np.full((2, 3), 60.0)) == pytest.approx(6 * 9.0)
-    loud = Standing(level=np.full((2, 3), 20.0), error=np.ones((2, 3)))
+    loud = Standing(level=np.full((2, 3), 20.0), error=np.ones((2, 3)), hz=78.0)
     assert apart(loud, np.full((2, 3), 22.0)) < apart(quiet, np.full((2, 3), 2.0)), "paths are known to some decibels"
 
 
@@ -92,14 +93,13 @@ def blows(seed: int, *sizes: tuple[float, float]) -> np.ndarray:
     return np.array([size * np.exp(-since / 1e-3) * np.sin(2 * np.pi * hz * since) for hz, size in sizes])
 
 
-def base(test: np.ndarray, baseline: np.ndarray) -> injected._Base:
+def base(test: np.ndarray, baseline: np.ndarray) -> injected.Base:
     hz = np.fft.rfftfreq(COUNT, 1 / RATE_HZ)
     over = np.array([1 / np.sqrt(np.interp(hz, *density(row, RATE_HZ))) for row in baseline])
-    now = [envelope_power(fft.rfft(x) * o, COUNT, RATE_HZ) for x, o in zip(test, over, strict=True)]
-    white = np.array([fft.rfft(x) * o for x, o in zip(baseline, over, strict=True)])
-    alone = standing([envelope_power(row, COUNT, RATE_HZ) for row in white], COUNT / RATE_HZ, PASSES)
-    seen = standing(now, COUNT / RATE_HZ, PASSES)
-    return injected._Base(white=white, factor=over, count=COUNT, rate_hz=RATE_HZ, test=seen, alone=alone)
+    heard, white = (np.array([fft.rfft(x) * o for x, o in zip(rows, over, strict=True)]) for rows in (test, baseline))
+    ground = Ground(white=white, factor=over, count=COUNT, rate_hz=RATE_HZ)
+    seen, alone = (standing(ground.bands(rows), ground.seconds, PASSES) for rows in (heard, white))
+    return injected.Base(ground=ground, heard=heard, test=seen, alone=alone)
 
 
 @pytest.mark.slow
@@ -130,21 +130,6 @@ def test_of_draws_that_nobody_hears_none_is_the_nearest() -> None:
     far = injected._Off(squared=np.array([[1.0, 2.0], [4.0, 8.0]]), heard=np.array([False, False]))
     assert injected._nearest([near, far]) == pytest.approx(3.0)
     assert injected._nearest([far]) == np.inf
-
-
-def test_a_motion_at_the_simulations_rate_is_read_at_the_recordings() -> None:
-    at = injected._Base(
-        white=np.zeros((1, 1)),
-        factor=np.ones((1, 1)),
-        count=12000,
-        rate_hz=12800.0,
-        test=(none := Standing(level=np.zeros((1, 1)), error=np.ones((1, 1)))),
-        alone=none,
-    )
-    tone = np.sin(2 * np.pi * 1000.0 * np.arange(COUNT) / RATE_HZ)
-    found = np.abs(injected._on_grid(tone, at))
-    assert found.size == 6001 and np.argmax(found) * 12800.0 / 12000 == pytest.approx(1000.0, abs=1.1)
-    assert found.max() == pytest.approx(6000.0, rel=0.4)
 
 
 SITES, SENSORS = ("bearing3", "bearing4"), tuple(f"bearing{k}.outer.y.acceleration" for k in (1, 2, 3))

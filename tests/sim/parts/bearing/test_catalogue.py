@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from sim.core.errors import UnknownName
-from sim.parts.bearing.catalogue import CatalogueRow, catalogue, lookup, missing
+from sim.parts.bearing.catalogue import CatalogueRow, catalogue, cylindrical, lookup, missing
 from sim.parts.bearing.frequencies import defect_orders
 from sim.parts.bearing.geometry import most_balls
 
@@ -72,10 +72,25 @@ def test_common_sizes_are_there_or_listed_as_missing(size: str) -> None:
 
 @pytest.mark.parametrize(
     ("written", "found"),
-    [("6205-2RS", "6205"), ("6205-2RS JEM", "6205"), ("6304ZZ", "6304"), ("er16k", "ER-16K"), ("ZA2115", "ZA-2115")],
+    [
+        ("6205-2RS", "6205"),
+        ("6205-2RS JEM", "6205"),
+        ("6304ZZ", "6304"),
+        ("er16k", "ER-16K"),
+        ("ZA2115", "ZA-2115"),
+        ("SKF 6205", "6205"),
+        ("fag 6205-2RS C3", "6205"),
+    ],
 )
 def test_lookup_ignores_seals_and_spelling(written: str, found: str) -> None:
     assert lookup(written).designation == found
+
+
+@pytest.mark.parametrize(
+    ("written", "roller"), [("NU205", True), ("SKF NU 205 ECP", True), ("6205", False), ("NICE", False)]
+)
+def test_cylindrical_rollers_are_known_by_their_designation(written: str, roller: bool) -> None:
+    assert cylindrical(written) is roller
 
 
 def test_unknown_names_come_with_near_matches() -> None:
@@ -83,7 +98,7 @@ def test_unknown_names_come_with_near_matches() -> None:
         lookup("6213")
     assert "6212" in error.value.known
     with pytest.raises(UnknownName, match="left out") as error:
-        lookup("6305-2RS")
+        lookup("SKF 6305-2RS")
     assert "6306" in error.value.known
 
 

@@ -34,6 +34,12 @@ def test_catalogue_designation() -> None:
     assert [p.field for p in error.value.problems] == [f"bearings.{bearing.name}.catalogue"]
 
 
+def test_a_roller_bearing_is_not_answered_with_ball_bearings_like_it() -> None:
+    with pytest.raises(SpecError, match="cylindrical roller") as error:
+        geometry_from_spec(_bearing(catalogue="SKF NU205"))
+    assert "near it" not in str(error.value)
+
+
 def test_own_geometry_in_degrees() -> None:
     spec = BallGeometry(balls=16, ball_diameter_m=0.022, pitch_diameter_m=0.125, contact_angle_deg=40)
     geometry = geometry_from_spec(_bearing(geometry=spec))

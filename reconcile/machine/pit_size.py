@@ -1,0 +1,216 @@
+"""How large a pit of a bearing is: as large as one whose impacts, simulated and added to the baseline, sound like it.
+
+The features of the atlas are levels of all that a machine does, of which a pit's impacts are a part that no line shows.
+Here pits of known sizes are simulated on machines that agree with the baseline; what they add goes through the sensors'
+gains onto the recorded baseline, and how firmly impacts stand in each band, and how strong the multiples of their rate
+are against each other, is compared with the test (docs/decisions/reconcile-pit-size.md).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.atlas.candidates import Candidate, already, draw_term, size_parameter
+from reconcile.atlas.plan import AtlasPlan, Draw, Point, simulated_at
+from reconcile.atlas.run import run_members
+from reconcile.kinematics.families import Family
+from reconcile.machine.ground import Ground
+from reconcile.machine.injected import MOST_OFF, apart, base_at
+from reconcile.machine.meter import Meter
+from reconcile.machine.motion import added_motion
+from reconcile.machine.rolling import family_of, kind_of, rate_of
+from reconcile.machine.setting import Setting
+from reconcile.machine.severity import LEAST_SPREAD, TELLS, severity_of
+from reconcile.observe.impact_bands import Rate, Standing, bands_of, standing
+from reconcile.observe.impact_pattern import patterns
+from reconcile.verdict import Severity
+from signals.series import FloatArray
+from sim.core.params import Param
+from sim.core.spec import TermSpec
+from sim.terms import REGISTRY
+
+DRAWS, LEAST, LARGEST = 20, 0.27, 0.92
+"""Sizes evenly over the logarithm of what is sought, in shares of that: 0.3 to 4.3 mm."""
+MOST = 2
+"""Effects of an answer that are sized."""
+LEAST_DRAWS = 8
+"""That run, of which a size can be read."""
+TURN, TURNED = 8, 0.5
+"""Angles at which a pit of a ring that stands is tried, and the share of the sizes of that one;"""
+ZONE = 0.5
+"""and how far from the middle of the load zone, rad, such pits are drawn: there races tire."""
+CERTAIN = 3.0
+"""Errors by which impacts stand out in a band, from which its multiples count against each other;"""
+PATTERN_DB, PER = 3.6, 1.5
+"""the error of one of them, by the path and the pit's form, and how many say as much as one that is independent."""
+BANDWIDTH = 0.25
+"""Of the curve through the draws, in the logarithm of the size."""
+GRID = 200
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Task:
+    """Draws of one effect at one point; `rows` of `channels` are those of the recording."""
+
+    plan: AtlasPlan
+    point: Point
+    channels: tuple[str, ...]
+    rows: tuple[int, ...]
+    terms: tuple[TermSpec, ...]
+    rate: Rate
+    ground: Ground
+    test: Standing
+    pattern: FloatArray
+
+
+def pit_sizes(setting: Setting, names: Sequence[str], meter: Meter) -> dict[str, Severity]:
+    """Sizes of those of the effects that are pits of bearings, where they are heard at a point or more."""
+    if any(d.baseline is None or d.spectra[1] is None for d in setting.data):
+        return {}
+    pits = [n for n in names if kind_of(n) not in ("", "tooth")][:MOST]
+    return {n: size for n in pits if (size := _size_of(setting, n, meter)) is not None}
+
+
+def _size_of(setting: Setting, name: str, meter: Meter) -> Severity | None:
+    family = family_of(setting.machine, name)
+    heard = [p for p in range(len(setting.data)) if _bands(setting, p) and base_at(setting, p, family).out]
+    if not heard:
+        return None
+    terms = _terms(setting, name, heard[0], meter)
+    tasks = [_task(setting, p, family, terms) for p in heard]
+    points: list[FloatArray] = list(meter(_distances, tasks))  # type: ignore[arg-type]
+    off = np.mean(points, axis=0)
+    size = _parameter(name)
+    told = sized(np.log([abs(t.parameters[size.name]) for t in terms]), off)
+    return None if told is None else severity_of(size, *told)
+
+
+def _bands(setting: Setting, point: int) -> bool:
+    return len(bands_of(setting.data[point].spectra[0].rate_hz)) > 0
+
+
+def _parameter(name: str) -> Param:
+    term = REGISTRY.get(name.split("@", maxsplit=1)[0])
+    if term is None:
+        raise ValueError(name)
+    return size_parameter(term)
+
+
+def _terms(setting: Setting, name: str, point: int, meter: Meter) -> tuple[TermSpec, ...]:
+    """The draws; of a ring that stands in its load zone, but for a pit that the machine file has and that grew."""
+    term, site = name.split("@")
+    rng = np.random.default_rng([setting.seed, 41, *name.encode()])
+    candidate = Candidate(term=term, site=site)
+    shares = np.linspace(LEAST, LARGEST, DRAWS)
+    drawn = [draw_term(candidate, float(s), rng, setting.plan.machine) for s in shares]
+    if kind_of(name) != "outer" or already(setting.plan.machine, term, site) is not None:
+        return tuple(drawn)
+    middle = draw_term(candidate, TURNED, rng, setting.plan.machine)
+    tried = tuple(_turned(middle, float(a)) for a in np.arange(TURN) * 2.0 * np.pi / TURN)
+    at = simulated_at(setting.machine, setting.data[point].point)
+    turned = _Turned(plan=setting.plan, point=at, channels=_distinct(setting), terms=tried)
+    found: list[FloatArray] = list(meter(_loudness, [turned]))  # type: ignore[arg-type,list-item]
+    loud = found[0]
+    zone = float(np.angle(np.sum(loud * np.exp(2j * np.pi * np.arange(TURN) / TURN))))
+    return tuple(_turned(t, zone + float(rng.uniform(-ZONE, ZONE))) for t in drawn) if loud.any() else tuple(drawn)
+
+
+def _turned(term: TermSpec, angle: float) -> TermSpec:
+    return term.model_copy(update={"parameters": {**term.parameters, "angle": angle}})
+
+
+def _distinct(setting: Setting) -> tuple[str, ...]:
+    return tuple(sorted(set(setting.simulated)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Turned:
+    """A pit at several angles."""
+
+    plan: AtlasPlan
+    point: Point
+    channels: tuple[str, ...]
+    terms: tuple[TermSpec, ...]
+
+
+def _loudness(task: _Turned) -> FloatArray:
+    """Root mean square of what a pit adds at each angle, (angles,)."""
+    members = [task.plan.member(Draw(pair=0, term=t), task.point) for t in (None, *task.terms)]
+    rest, *struck = run_members(members, task.channels)
+    added = [added_motion(one, rest) for one in struck]
+    return np.array([0.0 if a is None else float(np.sqrt(np.mean(a**2))) for a in added])
+
+
+def _task(setting: Setting, point: int, family: Family, terms: tuple[TermSpec, ...]) -> _Task:
+    base = base_at(setting, point, family)
+    at = simulated_at(setting.machine, setting.data[point].point)
+    test = setting.data[point].spectra[0]
+    channels, ground = _distinct(setting), base.ground
+    heard = ground.bands(base.heard)
+    return _Task(
+        plan=setting.plan,
+        point=at,
+        channels=channels,
+        rows=tuple(channels.index(c) for c in setting.simulated),
+        terms=terms,
+        rate=rate_of(family, at.speed_hz),
+        ground=ground,
+        test=base.test,
+        pattern=patterns(heard, ground.seconds, base.test.hz, rate_of(family, test.speed_hz)),
+    )
+
+
+def _distances(task: _Task) -> FloatArray:
+    """Squared distance of each draw from the test, (draws,); NaN where it does not run or adds nothing."""
+    machines = [k % len(task.plan.offsets) for k in range(len(task.terms))]
+    distinct = sorted(set(machines))
+    alone = run_members([task.plan.member(Draw(pair=k), task.point) for k in distinct], task.channels)
+    rested = dict(zip(distinct, alone, strict=True))
+    members = [task.plan.member(Draw(pair=k, term=t), task.point) for k, t in zip(machines, task.terms, strict=True)]
+    struck = run_members(members, task.channels)
+    added = [added_motion(one, rested[k]) for one, k in zip(struck, machines, strict=True)]
+    return np.array([np.nan if a is None else _off(task, a[list(task.rows)]) for a in added])
+
+
+def _off(task: _Task, motion: FloatArray) -> float:
+    ground = task.ground
+    bands = ground.bands(ground.white + ground.added(motion))
+    model = standing(bands, ground.seconds, task.rate)
+    shape = patterns(bands, ground.seconds, model.hz, task.rate)
+    return apart(task.test, model.level) + apart_in_pattern(task.test, task.pattern, shape) / PER
+
+
+def apart_in_pattern(test: Standing, own: FloatArray, other: FloatArray) -> float:
+    """Squared distance of multiples against each other, (C, bands, multiples) in dB over the floor, in the bands where
+    the test's stand out; what lies in the floor in both counts nothing."""
+    known = np.isfinite(own) & np.isfinite(other) & (test.level > CERTAIN * test.error)[..., None]
+    one, two = (np.where(known, np.maximum(x, 0.0), 0.0) for x in (own, other))
+    many = np.maximum(known.sum(axis=2, keepdims=True), 1)
+    differ = (one - one.sum(axis=2, keepdims=True) / many) - (two - two.sum(axis=2, keepdims=True) / many)
+    out = 1.0 - 10.0 ** (-np.maximum(one, two) / 10.0)
+    return float(np.sum(np.where(known, out * np.minimum((differ / PATTERN_DB) ** 2, MOST_OFF), 0.0)))
+
+
+def sized(logs: FloatArray, off: FloatArray) -> tuple[float, float] | None:
+    """Mean and standard deviation of the logarithm of a size by squared distances `off` (n,) of draws at `logs` (n,);
+    None where they hardly tell it."""
+    known = np.isfinite(off)
+    if np.count_nonzero(known) < LEAST_DRAWS:
+        return None
+    grid = np.linspace(logs.min(), logs.max(), GRID)
+    curve = np.array([_smooth(at, logs[known], off[known]) for at in grid])
+    weights = np.exp(-0.5 * (curve - curve.min()))
+    weights /= weights.sum()
+    mean = float(weights @ grid)
+    spread = float(np.sqrt(weights @ (grid - mean) ** 2))
+    return (mean, float(np.hypot(spread, LEAST_SPREAD))) if spread <= TELLS else None
+
+
+def _smooth(at: float, logs: FloatArray, off: FloatArray) -> float:
+    """A line through what is near, by weighted least squares, there."""
+    near = np.exp(-0.25 * ((logs - at) / BANDWIDTH) ** 2)
+    sides = np.stack([near, near * (logs - at)], axis=1)
+    return float(np.linalg.lstsq(sides, near * off, rcond=None)[0][0])
