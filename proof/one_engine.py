@@ -11,6 +11,7 @@ import numpy as np
 from proof.effects import LIPPED
 from proof.entire import ENTIRE, HELD, MIXED, STRUCK, WIDE, Design, cases_of_design
 from proof.plan import Case
+from proof.present import by_present
 from proof.runs import Run, every_run, met
 from proof.score.one import Score
 from proof.score.rates import MEASURES, at_target, rate
@@ -33,6 +34,10 @@ def one_engine(results: Path, present: str) -> str:
     of = {design.split: [run for run in every if run.split == design.split] for design in DESIGNS}
     told = "\n".join(wrap(of_sizes([s for runs in of.values() for s in met(runs)]), WIDTH))
     parts = [_of(d, of[d.split], results, at_hand(every, present) if d is DESIGNS[0] else "") for d in DESIGNS]
+    latest = DESIGNS[0]
+    parts[0] = "\n".join([parts[0], "", *by_present(of[latest.split], present, len(cases_of_design(latest)))]).rstrip(
+        "\n"
+    )
     return "\n\n".join([*parts, *([told] if told else [])])
 
 

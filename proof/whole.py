@@ -83,18 +83,19 @@ class Row(NamedTuple):
     stands: Stands | None = None
 
 
-def together(scores: Sequence[Score], wider: Sequence[Score] = ()) -> str:
+def together(scores: Sequence[Score], wider: Sequence[Score] = (), *, title: str = "stored first runs") -> str:
     """Table of every target, at the target condition and at all; and which targets are missed and held.
 
-    `wider`: scores of further first runs with these, of which the same is told in columns beside.
+    `wider`: scores of further first runs with these, of which the same is told in columns beside; `title`: what the
+    scores are.
     """
     rows, beside = whole_rows(scores), whole_rows(wider) if wider else []
     titles = "at the target condition | at all conditions | target |"
     if not wider:
-        table = [f"| stored first runs | {titles}", "|---|---|---|---|"]
+        table = [f"| {title} | {titles}", "|---|---|---|---|"]
         table += [f"| {r.words} | {_cells(r)} |" for r in rows]
         return "\n".join([*table, *_standing(rows, "")])
-    table = [f"| stored first runs | one engine, {titles} all first runs, {titles}", "|---|---|---|---|---|---|---|"]
+    table = [f"| {title} | one engine, {titles} all first runs, {titles}", "|---|---|---|---|---|---|---|"]
     table += [f"| {r.words} | {_cells(r)} | {_cells(w)} |" for r, w in zip(rows, beside, strict=True)]
     parts = [*table, *_standing(rows, " by the one engine"), *_standing(beside, " by all first runs together")]
     return "\n".join(parts)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from proof.entire import held
+from proof.entire import held, mixed
 from proof.one_engine import CLEAR, FAR_OFF, of_sizes, one_engine, seen_singles
 from proof.plan import Case
 from proof.score.rates import MEASURES, at_target, rate
@@ -102,6 +102,21 @@ def test_whether_a_stored_run_is_of_the_engine_at_hand_is_said(tmp_path: Path) -
     assert "No stored run is of the engine at hand" in words(one_engine(tmp_path, "beef"))
     said = words(one_engine(tmp_path, "bead"))
     assert 'Of the engine at hand when this page was written is "Begun" alone.' in said and "No stored run" not in said
+
+
+def test_what_the_engine_at_hand_makes_of_the_latest_plan_stands_apart_from_first_runs(tmp_path: Path) -> None:
+    stored(tmp_path, mixed()[:4], "mixed", split="mixed")
+    assert "by the engine at hand" not in part(one_engine(tmp_path, "beef"), "mixed").partition("####")[2]
+    stored(tmp_path, mixed()[:3], "present", split="mixed", engine="beef", first_run=False)
+    stored(tmp_path, mixed()[4:5], "closing", split="mixed", engine="beef")
+    text = part(one_engine(tmp_path, "beef"), "mixed")
+    first, _, own = text.partition("#### The same plan by the engine at hand")
+    assert "4 of the plan's 72 cases by `beef` (commit c0ffee00), 1 of them it met first" in words(own)
+    assert "no measure of what it makes of machines it has not met" in words(own)
+    assert '"Present" and "Closing"' in own or '"Closing" and "Present"' in own
+    assert "| the engine at hand, cases it had mostly met |" in own and "stored first runs" not in own
+    assert "all 5 stored first runs" in words(first)
+    assert "by the engine at hand" not in part(one_engine(tmp_path, "bead"), "mixed").partition("####")[2]
 
 
 def test_nothing_is_said_to_be_left_where_all_are_run(tmp_path: Path) -> None:
