@@ -110,7 +110,7 @@ def answer(
     revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter, both)
     fitted = _fitted(setting, found, decision, revision, unknown)
     before = decision
-    decision, causes = proved(decision, causes, found, revision)
+    decision, causes = proved(decision, causes, found, revision, held)
     other, held = (other, held) if decision is before else (None, None)
     unsettled = _unsettled(setting, found, decision, other, pairs)
     word, text, fault = _told(setting, decision, gate, causes, held, other, unknown)

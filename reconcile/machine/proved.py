@@ -11,7 +11,7 @@ from reconcile.machine.direct import HEARD
 from reconcile.machine.revised import Revised
 from reconcile.machine.setting import Found
 from reconcile.machine.weigh import FAR_AHEAD, lead
-from reconcile.verdict import Cause, Word
+from reconcile.verdict import Cause, HeldOut, Word
 from sim.terms import REGISTRY
 
 NO_NEARER = "the machine with the effect that fits best, simulated, is no nearer to the recordings than without it"
@@ -22,6 +22,7 @@ UNLIKE = (
     "impacts come at the lines of the effect that fits best, but the machine with it, simulated, is far off the "
     "recorded levels: another part, another place, or sensors that are not where they are said to be"
 )
+NO_FORECAST = "on data it was not fitted to, the effect that fits best brings the spectra no nearer than none"
 BEYOND_DOUBT = 20.0
 """Log evidence, ahead of all else by `FAR_AHEAD`, from which an effect is there although no form of it that was
 simulated comes nearer: sound machines come to 7.0 with a friction, a loose seat of another machine (o016), whose level
@@ -30,7 +31,7 @@ FORM_UNMET = "the effect is there, but no form of it that was simulated is neare
 
 
 def proved(
-    decision: Decision, causes: tuple[Cause, ...], found: Found, revised: Revised | None
+    decision: Decision, causes: tuple[Cause, ...], found: Found, revised: Revised | None, held: HeldOut | None = None
 ) -> tuple[Decision, tuple[Cause, ...]]:
     """The same where nothing is named or the name stands; else not decidable, and nothing named.
 
@@ -42,24 +43,45 @@ def proved(
     So it is of a set whose best effect does not stand far out either: a sound machine heard by eight sensors showed a
     rub or three others with evidence 3.7, and 3.73 of 3.69 dB left; sets with the right effect first and no nearer had
     10 and 21. A name that stands beyond doubt stays too, and its cause says that its form is not met.
+
+    A name alone must foretell, too (`held`): of 53 of the proof that were right and do not strike each gained on data
+    held out, if only 0.003; a rub told of a cracked tooth, nearer by 6 % of the levels' change, lost 0.08.
     """
-    if decision.word not in ("explained", "ambiguous") or revised is None or revised.after_db < revised.before_db:
+    if decision.word not in ("explained", "ambiguous") or revised is None:
         return decision, causes
     place = found.screen.names.index(decision.chosen[0])
     struck = float(found.screen.direct[place]) >= (HEARD if _of_a_tooth(decision) else STRUCK)
+    sure = float(found.screen.evidence[place]) >= BEYOND_DOUBT and lead(found.screen) >= FAR_AHEAD
+    if revised.after_db < revised.before_db:
+        stands = struck or sure or not _foretells_nothing(decision, held)
+        return (decision, causes) if stands else _undecided(decision, causes, found, NO_FORECAST)
     if struck and revised.after_db >= FAR_WORSE * revised.before_db:
         return replace(decision, word="not_decidable", reasons=(UNLIKE,)), _unnamed(causes, UNLIKE)
     firm = decision.word == "ambiguous" and float(found.screen.evidence[place]) >= FAR_AHEAD
     if struck or firm:
         return decision, causes
-    if float(found.screen.evidence[place]) >= BEYOND_DOUBT and lead(found.screen) >= FAR_AHEAD:
+    if sure:
         first, *others = causes
         return decision, (replace(first, reasons=(*first.reasons, FORM_UNMET)), *others)
+    return _undecided(decision, causes, found, NO_NEARER)
+
+
+def _foretells_nothing(decision: Decision, held: HeldOut | None) -> bool:
+    """Whether an effect that is named alone was tried on data held out and gained nothing there."""
+    return (
+        decision.word == "explained" and held is not None and held.effects == decision.chosen[:1] and held.gain <= 0.0
+    )
+
+
+def _undecided(
+    decision: Decision, causes: tuple[Cause, ...], found: Found, reason: str
+) -> tuple[Decision, tuple[Cause, ...]]:
+    """Nothing named, but for the teeth whose burst was set aside: what it stood beside is not proved, it is."""
     teeth = set_aside(found.screen)
-    if teeth:  # what their burst stood beside is not proved; the burst is
+    if teeth:
         word: Word = "ambiguous" if len(teeth) > 1 else "explained"
         return replace(decision, word=word, chosen=teeth, reasons=(MECHANISM_OPEN,)), _teeth_first(causes, teeth)
-    return replace(decision, word="not_decidable", reasons=(NO_NEARER,)), _unnamed(causes)
+    return replace(decision, word="not_decidable", reasons=(reason,)), _unnamed(causes, reason)
 
 
 def _of_a_tooth(decision: Decision) -> bool:

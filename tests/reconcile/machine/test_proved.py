@@ -9,7 +9,7 @@ import pytest
 
 from reconcile.machine.decide import MECHANISM_OPEN, Decision
 from reconcile.machine.direct import HEARD
-from reconcile.machine.proved import BEYOND_DOUBT, FORM_UNMET, NO_NEARER, UNLIKE, proved
+from reconcile.machine.proved import BEYOND_DOUBT, FORM_UNMET, NO_FORECAST, NO_NEARER, UNLIKE, proved
 from reconcile.machine.words import sentence
 from reconcile.verdict import Cause, Word
 
@@ -40,6 +40,28 @@ def test_a_name_whose_machine_is_no_nearer_is_taken_back() -> None:
     assert not any(c.named for c in causes) and [c.term for c in causes] == [c.term for c in CAUSES]
     said = sentence(decision, None, None)
     assert "dry friction at a support at gear" in said and "nothing is named" in said and "missing" not in said
+
+
+def held(gain: float, *effects: str) -> SimpleNamespace:
+    return SimpleNamespace(gain=gain, effects=effects or NAMES[:1])
+
+
+def test_so_is_a_name_that_foretells_nothing_of_what_it_was_not_fitted_to() -> None:
+    nearer = revised(1.65, 1.56)
+    decision, causes = proved(decided(), CAUSES, found(0.0), nearer, held(-0.08))  # type: ignore[arg-type]
+    assert decision.word == "not_decidable" and decision.reasons == (NO_FORECAST,)
+    assert not any(c.named for c in causes)
+    assert "brings the spectra no nearer" in (said := sentence(decision, None, None)) and "nothing is named" in said
+    for kept in (
+        proved(decided(), CAUSES, found(0.0), nearer, held(0.003)),  # type: ignore[arg-type]
+        proved(decided(), CAUSES, found(0.0), nearer, held(-0.08, "rub@gear", NAMES[0])),  # type: ignore[arg-type]
+        proved(decided(), CAUSES, found(0.0), nearer),  # type: ignore[arg-type]
+        proved(decided(), CAUSES, found(12.0), nearer, held(-0.08)),  # type: ignore[arg-type]
+        proved(decided(), CAUSES, found(0.0, BEYOND_DOUBT + 1), nearer, held(-0.08)),  # type: ignore[arg-type]
+    ):
+        assert kept == (decided(), CAUSES)
+    left_open = decided("ambiguous")
+    assert proved(left_open, CAUSES, found(0.0), nearer, held(-0.08)) == (left_open, CAUSES)  # type: ignore[arg-type]
 
 
 def test_so_is_a_set_whose_best_hardly_stands_out() -> None:
