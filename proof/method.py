@@ -18,9 +18,8 @@ SECTIONS = {
     "since ([decision](decisions/reconcile-burst-size.md)); these cases had no part in that, and the cracks of m064 "
     "and m066 are told by levels here, as a tenth of what they are.",
     "closing": "No version of the engine had met these before their run: the last six of the plan, all run by the "
-    "engine of commit f19aa093, two at once beside other work, which core-seconds show.",
-    "present": "The cases of the plan that are run above, by the engine of commit f19aa093: all had been met by "
-    "earlier versions, which have learnt from some of them. Two at once, beside other work, which core-seconds show.",
+    "engine of commit f19aa093, two or three at once beside other work, which core-seconds show. Sizes of pits are "
+    "measured by their impacts here ([decision](decisions/reconcile-pit-size.md)).",
     "wide": "No version of the engine had met these before their run; one engine ran all, beside other work on the two "
     "threads of one core, which core-seconds show. Since then unknown physics comes with its force by lines, and a "
     "change without a pattern is unknown physics again where no single lines could be asked (machines without teeth); "
