@@ -107,13 +107,13 @@ def test_whether_a_stored_run_is_of_the_engine_at_hand_is_said(tmp_path: Path) -
 def test_what_the_engine_at_hand_makes_of_the_latest_plan_stands_apart_from_first_runs(tmp_path: Path) -> None:
     stored(tmp_path, mixed()[:4], "mixed", split="mixed")
     assert "by the engine at hand" not in part(one_engine(tmp_path, "beef"), "mixed").partition("####")[2]
-    stored(tmp_path, mixed()[:3], "present", split="mixed", engine="beef", first_run=False)
+    stored(tmp_path, mixed()[:3], "resumed", split="mixed", engine="beef", first_run=False)
     stored(tmp_path, mixed()[4:5], "closing", split="mixed", engine="beef")
     text = part(one_engine(tmp_path, "beef"), "mixed")
     first, _, own = text.partition("#### The same plan by the engine at hand")
     assert "4 of the plan's 72 cases by `beef` (commit c0ffee00), 1 of them it met first" in words(own)
     assert "no measure of what it makes of machines it has not met" in words(own)
-    assert '"Present" and "Closing"' in own or '"Closing" and "Present"' in own
+    assert '"Closing" and "Resumed"' in own or '"Resumed" and "Closing"' in own
     assert "| the engine at hand, cases it had mostly met |" in own and "stored first runs" not in own
     assert "all 5 stored first runs" in words(first)
     assert "by the engine at hand" not in part(one_engine(tmp_path, "bead"), "mixed").partition("####")[2]
