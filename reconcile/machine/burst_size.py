@@ -13,18 +13,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reconcile.atlas.candidates import Candidate, draw_term, size_parameter
+from reconcile.atlas.candidates import Candidate, draw_term
 from reconcile.atlas.plan import AtlasPlan, Draw, Point, simulated_at
 from reconcile.atlas.run import RATE_HZ, run_members
 from reconcile.machine.meter import Meter
 from reconcile.machine.motion import added_motion, path_gain
 from reconcile.machine.setting import Setting
-from reconcile.machine.severity import LEAST_SPREAD, severity_of
+from reconcile.machine.severity import LEAST_SPREAD, parameter_of, severity_of
 from reconcile.machine.window import TurningGear, burst_at, gears_in_mesh, turned_at
 from reconcile.observe.whole_turn import Burst
 from reconcile.verdict import Severity
 from signals.series import FloatArray
-from sim.core.params import Param
 from sim.core.spec import TermSpec
 from sim.terms import REGISTRY
 
@@ -83,20 +82,13 @@ def _of_gear(setting: Setting, gear: str, names: Sequence[str], meter: Meter) ->
     heard: list[list[FloatArray]] = list(meter(_amplitudes, tasks))  # type: ignore[arg-type]
     found: dict[str, Severity] = {}
     for k, (name, terms) in enumerate(zip(names, drawn, strict=True)):
-        size = _size(name)
+        size = parameter_of(name)
         logs = np.log([abs(t.parameters[size.name]) for t in terms])
         points = [one for t, of in zip(tasks, heard, strict=True) if (one := _heard(t.burst, logs, of[k])) is not None]
         told = sized(points, (float(logs.min()), float(logs.max())))
         if told is not None:
             found[name] = severity_of(size, *told)
     return found
-
-
-def _size(name: str) -> Param:
-    term = REGISTRY.get(name.split("@", maxsplit=1)[0])
-    if term is None:
-        raise ValueError(name)
-    return size_parameter(term)
 
 
 def _draws(setting: Setting, name: str) -> tuple[TermSpec, ...]:

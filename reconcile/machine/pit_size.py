@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reconcile.atlas.candidates import Candidate, already, draw_term, size_parameter
+from reconcile.atlas.candidates import Candidate, already, draw_term
 from reconcile.atlas.plan import AtlasPlan, Draw, Point, simulated_at
 from reconcile.atlas.run import run_members
 from reconcile.kinematics.families import Family
@@ -23,14 +23,12 @@ from reconcile.machine.meter import Meter
 from reconcile.machine.motion import added_motion
 from reconcile.machine.rolling import family_of, kind_of, rate_of
 from reconcile.machine.setting import Setting
-from reconcile.machine.severity import LEAST_SPREAD, TELLS, severity_of
+from reconcile.machine.severity import LEAST_SPREAD, TELLS, parameter_of, severity_of
 from reconcile.observe.impact_bands import Rate, Standing, bands_of, standing
 from reconcile.observe.impact_pattern import patterns
 from reconcile.verdict import Severity
 from signals.series import FloatArray
-from sim.core.params import Param
 from sim.core.spec import TermSpec
-from sim.terms import REGISTRY
 
 DRAWS, LEAST, LARGEST = 20, 0.27, 0.92
 """Sizes evenly over the logarithm of what is sought, in shares of that: 0.3 to 4.3 mm."""
@@ -83,20 +81,13 @@ def _size_of(setting: Setting, name: str, meter: Meter) -> Severity | None:
     tasks = [_task(setting, p, family, terms) for p in heard]
     points: list[FloatArray] = list(meter(_distances, tasks))  # type: ignore[arg-type]
     off = np.mean(points, axis=0)
-    size = _parameter(name)
+    size = parameter_of(name)
     told = sized(np.log([abs(t.parameters[size.name]) for t in terms]), off)
     return None if told is None else severity_of(size, *told)
 
 
 def _bands(setting: Setting, point: int) -> bool:
     return len(bands_of(setting.data[point].spectra[0].rate_hz)) > 0
-
-
-def _parameter(name: str) -> Param:
-    term = REGISTRY.get(name.split("@", maxsplit=1)[0])
-    if term is None:
-        raise ValueError(name)
-    return size_parameter(term)
 
 
 def _terms(setting: Setting, name: str, point: int, meter: Meter) -> tuple[TermSpec, ...]:

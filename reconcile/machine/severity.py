@@ -30,12 +30,17 @@ def _weights(squared: FloatArray, scale: float) -> FloatArray:
     return np.asarray(weights / weights.sum())
 
 
-def estimated_severity(fitted: Fitted, known: Catalogued, name: str, observed: FloatArray) -> Severity:
-    """Weighted mean and 90 % interval of the logarithm of the size over the points of the effect's path."""
+def parameter_of(name: str) -> Param:
+    """The parameter that says how large `effect@site` is; ValueError for an effect that is not registered."""
     term = REGISTRY.get(name.split("@", maxsplit=1)[0])
     if term is None:
         raise ValueError(name)
-    size = size_parameter(term)
+    return size_parameter(term)
+
+
+def estimated_severity(fitted: Fitted, known: Catalogued, name: str, observed: FloatArray) -> Severity:
+    """Weighted mean and 90 % interval of the logarithm of the size over the points of the effect's path."""
+    size = parameter_of(name)
     owner = fitted.paths.names.index(name)
     rows = np.flatnonzero((fitted.paths.owner == owner) & (fitted.paths.low >= 0))
     squared = fitted.paths.distances(fitted.place(observed))[rows]
