@@ -21,7 +21,7 @@ from reconcile.machine.ground import Ground
 from reconcile.machine.injected import MOST_OFF, apart, base_at
 from reconcile.machine.meter import Meter
 from reconcile.machine.motion import added_motion
-from reconcile.machine.rolling import family_of, kind_of, rate_of
+from reconcile.machine.rolling import kind_of, known_family, rate_of
 from reconcile.machine.setting import Setting
 from reconcile.machine.severity import LEAST_SPREAD, TELLS, parameter_of, severity_of
 from reconcile.observe.impact_bands import Rate, Standing, bands_of, standing
@@ -73,7 +73,9 @@ def pit_sizes(setting: Setting, names: Sequence[str], meter: Meter) -> dict[str,
 
 
 def _size_of(setting: Setting, name: str, meter: Meter) -> Severity | None:
-    family = family_of(setting.machine, name)
+    family = known_family(setting.machine, name)
+    if family is None:
+        return None
     heard = [p for p in range(len(setting.data)) if _bands(setting, p) and base_at(setting, p, family).out]
     if not heard:
         return None
