@@ -290,5 +290,16 @@ RULES = (
             "by half"
         ),
     ),
+    (
+        (
+            "a pit of a bearing is as large as its simulated impacts sound on the baseline "
+            "([decision](decisions/reconcile-pit-size.md))"
+        ),
+        "m018, m024, m027, m031, m039, m047, w013, w054, w005, w018, h063 and h072: pits whose sizes set its weights",
+    ),
+    (
+        "a name without impacts that brings the spectra no nearer on data held out is no name",
+        "m013, a cracked tooth told as a rub by commit f19aa093, which had met it; not decidable since",
+    ),
 )
 """What first runs taught: a rule, and the cases that set it."""
