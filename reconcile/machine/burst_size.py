@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from reconcile.atlas.candidates import Candidate, draw_term
-from reconcile.atlas.plan import AtlasPlan, Draw, Point, simulated_at
-from reconcile.atlas.run import RATE_HZ, run_members
+from reconcile.atlas.run import RATE_HZ
+from reconcile.machine.added import Place, place_at
 from reconcile.machine.meter import Meter
-from reconcile.machine.motion import added_motion, path_gain
+from reconcile.machine.motion import path_gain
 from reconcile.machine.setting import Setting
 from reconcile.machine.severity import LEAST_SPREAD, parameter_of, severity_of
 from reconcile.machine.window import TurningGear, burst_at, gears_in_mesh, turned_at
@@ -41,12 +41,9 @@ LEAST_SLOPE = 0.3
 
 @dataclass(frozen=True, kw_only=True)
 class _Task:
-    """Effects, several draws of each, at one point; `rows` of `channels` are those of the recording."""
+    """Effects, several draws of each, at one point."""
 
-    plan: AtlasPlan
-    point: Point
-    channels: tuple[str, ...]
-    rows: tuple[int, ...]
+    place: Place
     terms: tuple[tuple[TermSpec, ...], ...]
     burst: Burst
     factor: FloatArray
@@ -105,32 +102,21 @@ def _task(setting: Setting, point: int, gear: str, drawn: tuple[tuple[TermSpec, 
     burst = None if turning is None else burst_at(one, turning, top_hz=TOP * RATE_HZ / 2)
     if turning is None or burst is None or burst.power < LEAST_SHARE * burst.usual:
         return None
-    at = simulated_at(setting.machine, one.point)
-    distinct = tuple(sorted(set(setting.simulated)))
+    place = place_at(setting, point)
     orders = np.arange(burst.kept.size, dtype=np.float64)
     return _Task(
-        plan=setting.plan,
-        point=at,
-        channels=distinct,
-        rows=tuple(distinct.index(c) for c in setting.simulated),
+        place=place,
         terms=drawn,
         burst=burst,
         factor=path_gain(setting.seen_through[point].chain, orders * speed_hz * turning.ratio)[burst.alive],
-        turn_hz=at.speed_hz * turning.ratio,
+        turn_hz=place.point.speed_hz * turning.ratio,
     )
 
 
 def _amplitudes(task: _Task) -> list[FloatArray]:
     """Of each effect, the logarithm of each draw's burst (n,); NaN where it does not run."""
-    machines = [k % len(task.plan.offsets) for k in range(DRAWS)]
-    rested = run_members([task.plan.member(Draw(pair=k), task.point) for k in machines], task.channels)
-    found = []
-    for terms in task.terms:
-        members = [task.plan.member(Draw(pair=k, term=t), task.point) for k, t in zip(machines, terms, strict=True)]
-        struck = run_members(members, task.channels)
-        added = [added_motion(a, b) for a, b in zip(struck, rested, strict=True)]
-        found.append(np.array([np.nan if a is None else _amplitude(a[list(task.rows)], task) for a in added]))
-    return found
+    found = task.place.added_by(task.terms)
+    return [np.array([np.nan if a is None else _amplitude(a, task) for a in added]) for added in found]
 
 
 def _amplitude(motion: FloatArray, task: _Task) -> float:

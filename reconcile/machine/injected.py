@@ -14,15 +14,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reconcile.atlas.plan import AtlasPlan, Draw, Point, simulated_at
-from reconcile.atlas.run import run_members
 from reconcile.judge.screen import Screen, of_best
 from reconcile.kinematics.families import Family
 from reconcile.kinematics.judge import same
+from reconcile.machine.added import Place, place_at
 from reconcile.machine.direct import HEARD
 from reconcile.machine.ground import Ground, ground_of
 from reconcile.machine.meter import Meter
-from reconcile.machine.motion import added_motion
 from reconcile.machine.refine import best_draws, near_draws, seen_draws
 from reconcile.machine.rolling import family_of, kind_of, rate_of
 from reconcile.machine.setting import Found, Setting
@@ -74,12 +72,9 @@ class Base:
 
 @dataclass(frozen=True, kw_only=True)
 class _Task:
-    """Effects, several draws of each, and the machines without them, at one point; `rates`: of each effect's part."""
+    """Effects, several draws of each, at one point; `rates`: of each effect's part."""
 
-    plan: AtlasPlan
-    point: Point
-    channels: tuple[str, ...]
-    rows: tuple[int, ...]
+    place: Place
     terms: tuple[tuple[TermSpec, ...], ...]
     rates: tuple[Rate, ...]
     base: Base
@@ -154,23 +149,12 @@ def distances(setting: Setting, found: Found, names: Sequence[str], meter: Meter
     families = [family_of(setting.machine, n) for n in names]
     rng = np.random.default_rng([setting.seed, 31])
     drawn = tuple(tuple(near_draws(own, DRAWS, rng)) for own in leaders(found, names, setting.changes.observed))
-    distinct = tuple(sorted(set(setting.simulated)))
     tasks = []
-    for p, one in enumerate(setting.data):
-        base = base_at(setting, p, families[0])
-        point = simulated_at(setting.machine, one.point)
+    for p in range(len(setting.data)):
+        base, place = base_at(setting, p, families[0]), place_at(setting, p)
         if base.out:
-            tasks.append(
-                _Task(
-                    plan=setting.plan,
-                    point=point,
-                    channels=distinct,
-                    rows=tuple(distinct.index(c) for c in setting.simulated),
-                    terms=drawn,
-                    rates=tuple(rate_of(f, point.speed_hz) for f in families),
-                    base=base,
-                )
-            )
+            rates = tuple(rate_of(f, place.point.speed_hz) for f in families)
+            tasks.append(_Task(place=place, terms=drawn, rates=rates, base=base))
     points: list[list[_Off]] = list(meter(_heard, tasks))  # type: ignore[arg-type]
     nearest = {n: _nearest([p[k] for p in points]) for k, n in enumerate(names)} if points else {}
     return {name: value for name, value in nearest.items() if np.isfinite(value)}
@@ -212,15 +196,9 @@ def base_at(setting: Setting, point: int, family: Family) -> Base:
 
 def _heard(task: _Task) -> list[_Off]:
     """Of each effect."""
-    draws = len(task.terms[0])
-    machines = [k % len(task.plan.offsets) for k in range(draws)]
-    rested = run_members([task.plan.member(Draw(pair=k), task.point) for k in machines], task.channels)
     found = []
-    for terms, rate in zip(task.terms, task.rates, strict=True):
-        members = [task.plan.member(Draw(pair=k, term=t), task.point) for k, t in zip(machines, terms, strict=True)]
-        struck = run_members(members, task.channels)
-        added = [added_motion(a, b) for a, b in zip(struck, rested, strict=True)]
-        off = [_off(task.base, None if a is None else a[list(task.rows)], rate) for a in added]
+    for added, rate in zip(task.place.added_by(task.terms), task.rates, strict=True):
+        off = [_off(task.base, a, rate) for a in added]
         found.append(_Off(squared=np.array([o for o, _ in off]), heard=np.array([h for _, h in off], dtype=np.bool_)))
     return found
 

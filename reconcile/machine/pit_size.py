@@ -14,13 +14,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from reconcile.atlas.candidates import Candidate, already, draw_term
-from reconcile.atlas.plan import AtlasPlan, Draw, Point, simulated_at
-from reconcile.atlas.run import run_members
 from reconcile.kinematics.families import Family
+from reconcile.machine.added import Place, place_at
 from reconcile.machine.ground import Ground
 from reconcile.machine.injected import MOST_OFF, apart, base_at
 from reconcile.machine.meter import Meter
-from reconcile.machine.motion import added_motion
 from reconcile.machine.rolling import kind_of, known_family, rate_of
 from reconcile.machine.setting import Setting
 from reconcile.machine.severity import LEAST_SPREAD, TELLS, parameter_of, severity_of
@@ -51,12 +49,9 @@ GRID = 200
 
 @dataclass(frozen=True, kw_only=True)
 class _Task:
-    """Draws of one effect at one point; `rows` of `channels` are those of the recording."""
+    """Draws of one effect at one point."""
 
-    plan: AtlasPlan
-    point: Point
-    channels: tuple[str, ...]
-    rows: tuple[int, ...]
+    place: Place
     terms: tuple[TermSpec, ...]
     rate: Rate
     ground: Ground
@@ -103,8 +98,7 @@ def _terms(setting: Setting, name: str, point: int, meter: Meter) -> tuple[TermS
         return tuple(drawn)
     middle = draw_term(candidate, TURNED, rng, setting.plan.machine)
     tried = tuple(_turned(middle, float(a)) for a in np.arange(TURN) * 2.0 * np.pi / TURN)
-    at = simulated_at(setting.machine, setting.data[point].point)
-    turned = _Turned(plan=setting.plan, point=at, channels=_distinct(setting), terms=tried)
+    turned = _Turned(place=place_at(setting, point), terms=tried)
     found: list[FloatArray] = list(meter(_loudness, [turned]))  # type: ignore[arg-type,list-item]
     loud = found[0]
     zone = float(np.angle(np.sum(loud * np.exp(2j * np.pi * np.arange(TURN) / TURN))))
@@ -115,41 +109,30 @@ def _turned(term: TermSpec, angle: float) -> TermSpec:
     return term.model_copy(update={"parameters": {**term.parameters, "angle": angle}})
 
 
-def _distinct(setting: Setting) -> tuple[str, ...]:
-    return tuple(sorted(set(setting.simulated)))
-
-
 @dataclass(frozen=True, kw_only=True)
 class _Turned:
     """A pit at several angles."""
 
-    plan: AtlasPlan
-    point: Point
-    channels: tuple[str, ...]
+    place: Place
     terms: tuple[TermSpec, ...]
 
 
 def _loudness(task: _Turned) -> FloatArray:
     """Root mean square of what a pit adds at each angle, (angles,)."""
-    members = [task.plan.member(Draw(pair=0, term=t), task.point) for t in (None, *task.terms)]
-    rest, *struck = run_members(members, task.channels)
-    added = [added_motion(one, rest) for one in struck]
+    added = task.place.added(task.terms, machine=0)
     return np.array([0.0 if a is None else float(np.sqrt(np.mean(a**2))) for a in added])
 
 
 def _task(setting: Setting, point: int, family: Family, terms: tuple[TermSpec, ...]) -> _Task:
     base = base_at(setting, point, family)
-    at = simulated_at(setting.machine, setting.data[point].point)
+    place = place_at(setting, point)
     test = setting.data[point].spectra[0]
-    channels, ground = _distinct(setting), base.ground
+    ground = base.ground
     heard = ground.bands(base.heard)
     return _Task(
-        plan=setting.plan,
-        point=at,
-        channels=channels,
-        rows=tuple(channels.index(c) for c in setting.simulated),
+        place=place,
         terms=terms,
-        rate=rate_of(family, at.speed_hz),
+        rate=rate_of(family, place.point.speed_hz),
         ground=ground,
         test=base.test,
         pattern=patterns(heard, ground.seconds, base.test.hz, rate_of(family, test.speed_hz)),
@@ -158,14 +141,7 @@ def _task(setting: Setting, point: int, family: Family, terms: tuple[TermSpec, .
 
 def _distances(task: _Task) -> FloatArray:
     """Squared distance of each draw from the test, (draws,); NaN where it does not run or adds nothing."""
-    machines = [k % len(task.plan.offsets) for k in range(len(task.terms))]
-    distinct = sorted(set(machines))
-    alone = run_members([task.plan.member(Draw(pair=k), task.point) for k in distinct], task.channels)
-    rested = dict(zip(distinct, alone, strict=True))
-    members = [task.plan.member(Draw(pair=k, term=t), task.point) for k, t in zip(machines, task.terms, strict=True)]
-    struck = run_members(members, task.channels)
-    added = [added_motion(one, rested[k]) for one, k in zip(struck, machines, strict=True)]
-    return np.array([np.nan if a is None else _off(task, a[list(task.rows)]) for a in added])
+    return np.array([np.nan if a is None else _off(task, a) for a in task.place.added(task.terms)])
 
 
 def _off(task: _Task, motion: FloatArray) -> float:
