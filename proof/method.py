@@ -151,6 +151,8 @@ corners. Its healthy machine is checked against the reference solutions. Every c
 ball over sharp edges, down to a floor). But both add it to the gap of a ball without mass, a Hertz point of exponent
 1.5 at the cage's angle: entry and exit then stand w / v apart, the pit's length over the rolling speed, where a real
 ball strikes after about half of that ([outer race](physics/outer_spall.md)). Waves and clearances share these balls.
+Pits of outer races are hidden within half a radian of the middle of the load, where the product looks for them too when
+it sizes them: of pits farther out nothing is proved.
 
 The engine is called by its command line on an anonymised copy: nominal machine, recordings, nothing else. The labels'
 salted hashes were committed (`proof/seals`) before the run. A seal shows that no label was changed; who has the seed

@@ -149,12 +149,13 @@ def _effects(truth: Json, said: Json, verdict: str) -> dict[str, Any]:
     alarmed = verdict not in (*QUIET, "failed", "measurement_fault")
     mechanism = [any(_is(c, e, place=False) for c in stands) for e in effects]
     place = [any(_is(c, e, place=True) for c in stands) for e in effects]
-    false = not all(any(_is(c, e, place=False) for e in effects) for c in stands)
+    other = not all(any(_is(c, e, place=False) for e in effects) for c in stands)
+    false = not all(any(_is(c, e, place=True) for e in effects) for c in stands)
     found: dict[str, Any] = {
         "verdict_right": (verdict == "explained" and not false) or (verdict == "ambiguous" and all(place)),
         "false_name": verdict == "explained" and false,
         "alarm": alarmed,
-        "mechanism": all(mechanism) and not false and verdict != "ambiguous",
+        "mechanism": all(mechanism) and not other and verdict != "ambiguous",
         "place": all(place) and not false and verdict != "ambiguous",
         "top_three": alarmed and any(_is(c, e, place=True) for c in ranked[:3] for e in effects),
         "false_unknown": verdict == "unknown_physics",

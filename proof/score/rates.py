@@ -72,6 +72,8 @@ MEASURES: dict[str, Measure] = {
     "false_unknown": lambda s: s.false_unknown,
     "false_name": lambda s: s.false_name,
     "cannot_tell": lambda s: s.cannot_tell,
+    "as_a_set": lambda s: None if s.cannot_tell is None else s.cannot_tell and s.verdict == "ambiguous",
+    "told_sound": lambda s: s.verdict == "nothing_missing" if s.group == "null" else None,
     "fault_kind": lambda s: s.fault_kind,
     "fault_channel": lambda s: s.fault_channel,
     "severity_covered": lambda s: s.severity_covered,

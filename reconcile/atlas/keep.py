@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import json
+import zipfile
+import zlib
 from collections.abc import Callable
 from typing import Protocol
 
@@ -69,8 +71,8 @@ def kept_bank(
     """The bank of a point, made if it is not kept; `made` hears how many draws had to be simulated."""
     key = atlas_key(plan, point, channels)
     stored = keeper.get(key)
-    if stored is not None:
-        return Bank.from_bytes(stored)
+    if stored is not None and (kept := _read(stored)) is not None:
+        return kept
     bank = make_bank(plan, point, channels, mapper)
     if not bank.alive.any():
         message = "the machine does not run at this operating point: every simulation of it failed"
@@ -81,3 +83,11 @@ def kept_bank(
     if made is not None:
         made(len(plan.draws))
     return Bank.from_bytes(data)
+
+
+def _read(stored: bytes) -> Bank | None:
+    """None for a file that was cut short or damaged: it is made again."""
+    try:
+        return Bank.from_bytes(stored)
+    except (ValueError, KeyError, OSError, EOFError, zipfile.BadZipFile, zlib.error):
+        return None

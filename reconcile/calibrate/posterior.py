@@ -30,6 +30,8 @@ MODEL_DB = 1.5
 STANDS_OUT_DB = 6.0
 FARTHEST = 1.6
 """Parameters stay within this many times their declared spread."""
+IDLE, CHANCE = 200, 0.95
+"""Numbers without a part in the machines that are moved along, and the quantile of what they lose."""
 DB = 10.0 / np.log(10.0)
 
 Simulate = Callable[[Sequence[Offsets]], Sequence[Bank]]
@@ -55,15 +57,18 @@ class Posterior:
     """`offsets`: machines that agree with the baseline. `banks`: how they behave at every point.
 
     `misfit`: median over machines of the mean squared standardised residual, before and after (1: within errors).
-    `determined` (numbers,): share of each number's prior variance that the baseline removed. `strayed`: numbers whose
-    mean left the declared spread. `left_db` (n,): by what the baseline's lines, `evidence`, stand above these
-    machines', in the middle and without what all lines of a channel have in common.
+    `determined` (numbers,): share of each number's prior variance that the baseline removed; `by_chance`: the share
+    that it removes at most from 19 of 20 numbers without a bearing on the lines, as a few dozen machines correlate with
+    hundreds of lines by chance. `strayed`: numbers whose mean left the declared spread. `left_db` (n,): by what the
+    baseline's lines, `evidence`, stand above these machines', in the middle and without what all lines of a channel
+    have in common.
     """
 
     offsets: tuple[Offsets, ...]
     banks: tuple[Bank, ...]
     misfit: tuple[float, float]
     determined: FloatArray
+    by_chance: float
     strayed: np.ndarray
     evidence: Evidence
     left_db: FloatArray
@@ -126,10 +131,13 @@ def calibrated(
     errors = _errors(evidence)
     theta = np.array([o.values for o in start])
     prior = theta.var(axis=0)
+    idle = _idle(theta, [seed, 12])
+    still = idle.var(axis=0)
     shown = _shown(banks, evidence)
     good = np.asarray(np.isfinite(shown).all(axis=1))
     before = _misfit(evidence.levels_db - shown[good], errors)
     for _ in range(ROUNDS):
+        idle = _moved(idle, shown, good, evidence, ROUNDS * errors, np.random.default_rng([seed, 13]))
         theta = _moved(theta, shown, good, evidence, ROUNDS * errors, rng)
         banks = tuple(simulate([Offsets(values=row) for row in theta]))
         shown = _shown(banks, evidence)
@@ -142,11 +150,22 @@ def calibrated(
         offsets=offsets,
         banks=tuple(b.at(kept, range(b.band.shape[1])) for b in banks),
         misfit=(before, _misfit(evidence.levels_db - shown[good], errors)),
-        determined=np.asarray(1.0 - theta.var(axis=0) / np.maximum(prior, 1e-12)),
+        determined=_removed(theta, prior),
+        by_chance=float(np.quantile(_removed(idle, still), CHANCE)),
         strayed=np.abs(theta.mean(axis=0)) > SPREAD,
         evidence=evidence,
         left_db=_left(evidence.levels_db - shown[good], evidence.channel),
     )
+
+
+def _idle(theta: FloatArray, seed: list[int]) -> FloatArray:
+    """Numbers (N, `IDLE`) spread as those of the machines, which have no part in them."""
+    rng = np.random.default_rng(seed)
+    return np.asarray(rng.permuted(np.resize(theta.T, (IDLE, theta.shape[0])), axis=1).T)
+
+
+def _removed(theta: FloatArray, prior: FloatArray) -> FloatArray:
+    return np.asarray(1.0 - theta.var(axis=0) / np.maximum(prior, 1e-12))
 
 
 def _left(residual: FloatArray, channel: np.ndarray) -> FloatArray:

@@ -2,42 +2,78 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
 from reconcile.pulses import contradiction
-from signals.recording import Recording
+from signals.recording import Operating, Recording, Tacho
 from sim.assembly.kinematics import kinematics
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec
 
+LEAST_PULSES = 3
+"""Of which a speed can be read."""
+
 
 def on_drive(machine: MachineSpec, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
-    """The recordings with speed and torque of the machine's own driven shaft; a tacho of another shaft is left out.
+    """The recordings with speed, torque and pulses of the machine's own driven shaft.
 
-    SpecError where pulses contradict the stated speed.
+    SpecError where a shaft is none of the machine's, or pulses contradict the stated speed.
     """
-    found = tuple(_one(machine, r) for r in recordings)
-    problems = [p for r in found if (p := contradiction(r, _field(r))) is not None]
+    if machine.operating is None:
+        return tuple(recordings)
+    drive, speeds = machine.operating.shaft, {k: abs(hz) for k, hz in kinematics(machine).shaft_hz.items()}
+    stated = [_stated(r, drive, speeds) for r in recordings]
+    problems = [p for r in stated if (p := contradiction(_of_pulses(r, drive, speeds), _field(r))) is not None]
     if problems:
         raise SpecError(problems)
-    return found
+    return tuple(_counted(r, drive, speeds) for r in stated)
 
 
-def _one(machine: MachineSpec, recording: Recording) -> Recording:
-    operating, drive = recording.operating, machine.operating
-    if operating is None or drive is None or operating.shaft == drive.shaft:
+def _stated(recording: Recording, drive: str, speeds: Mapping[str, float]) -> Recording:
+    """Speed and torque of the driven shaft."""
+    operating, tacho = recording.operating, recording.tacho
+    for field, shaft in (
+        ("operating.shaft", drive if operating is None else operating.shaft),
+        ("tacho.shaft", drive if tacho is None else tacho.shaft),
+    ):
+        if shaft not in speeds:
+            where = f"{recording.label}: {field}" if recording.label else field
+            raise SpecError(Problem(field=where, message="is no shaft", given=shaft, allowed=", ".join(speeds)))
+    if operating is None or operating.shaft == drive:
         return recording
-    speeds = kinematics(machine).shaft_hz
-    if operating.shaft not in speeds:
-        allowed = ", ".join(speeds)
-        field = f"{recording.label}: operating.shaft" if recording.label else "operating.shaft"
-        raise SpecError(Problem(field=field, message="is no shaft", given=operating.shaft, allowed=allowed))
-    ratio = abs(speeds[drive.shaft] / speeds[operating.shaft])
+    ratio = speeds[drive] / speeds[operating.shaft]
     torque = None if operating.torque_nm is None else operating.torque_nm / ratio
-    stated = replace(operating, shaft=drive.shaft, speed_hz=operating.speed_hz * ratio, torque_nm=torque)
-    tacho = recording.tacho if recording.tacho is not None and recording.tacho.shaft == drive.shaft else None
-    return replace(recording, operating=stated, tacho=tacho)
+    return replace(
+        recording, operating=replace(operating, shaft=drive, speed_hz=operating.speed_hz * ratio, torque_nm=torque)
+    )
+
+
+def _of_pulses(recording: Recording, drive: str, speeds: Mapping[str, float]) -> Recording:
+    """The recording with the speed that its pulses should show: that of their own shaft."""
+    operating, tacho = recording.operating, recording.tacho
+    if operating is None or tacho is None or tacho.shaft == drive:
+        return recording
+    own = Operating(shaft=tacho.shaft, speed_hz=operating.speed_hz * speeds[tacho.shaft] / speeds[drive])
+    return replace(recording, operating=own)
+
+
+def _counted(recording: Recording, drive: str, speeds: Mapping[str, float]) -> Recording:
+    """The recording with pulses of the driven shaft, about as many as those of another."""
+    tacho = recording.tacho
+    if tacho is None or tacho.shaft == drive:
+        return recording
+    times = np.asarray(tacho.pulse_times_s, dtype=np.float64)
+    if times.size < LEAST_PULSES or not np.all(np.diff(times) > 0.0):
+        return recording  # told where the pulses are read
+    turns = np.arange(times.size) / tacho.pulses_per_revolution * speeds[drive] / speeds[tacho.shaft]
+    each = max(1, round((times.size - 1) / turns[-1]))
+    whole = np.arange(np.floor(turns[-1] * each + 1e-9) + 1) / each
+    again = Tacho(shaft=drive, pulse_times_s=PchipInterpolator(turns, times)(whole), pulses_per_revolution=each)
+    return replace(recording, tacho=again)
 
 
 def _field(recording: Recording) -> str:

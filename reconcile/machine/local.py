@@ -34,7 +34,8 @@ TOLD, WORST = 12, 3
 UNKNOWN_DB, MOST_DB, FEWEST_PAIRS = 5.0, 20.0, 6
 """Of a line's change from one recording of a sound machine to the next: taken where it is not known, and at most."""
 DECIDED = 0.3
-"""Share of its variance that the baseline must take from a number to count as decided."""
+"""Share of its variance that the baseline must take from a number to count as decided; more where that is what numbers
+without a part in the machines lose by chance."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -190,6 +191,7 @@ def told(local: Local) -> dict[str, object]:
     labels = [n.label for n in local.setting.plan.numbers]
     order = np.argsort(-posterior.determined)
     middle = _middle(posterior).values
+    least = max(DECIDED, posterior.by_chance)
     return {
         "machines": len(posterior.offsets),
         "misfit_before": posterior.misfit[0],
@@ -198,9 +200,10 @@ def told(local: Local) -> dict[str, object]:
         "decided": [
             {"number": labels[k], "share": float(posterior.determined[k]), "offset": float(middle[k])}
             for k in order[:TOLD]
-            if posterior.determined[k] > DECIDED
+            if posterior.determined[k] > least
         ],
-        "undecided": int(np.sum(posterior.determined <= DECIDED)),
+        "undecided": int(np.sum(posterior.determined <= least)),
+        "by_chance": posterior.by_chance,
         "strayed": [labels[k] for k in np.flatnonzero(posterior.strayed)],
         "farthest": _farthest(local),
     }

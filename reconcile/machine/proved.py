@@ -44,8 +44,9 @@ def proved(
     rub or three others with evidence 3.7, and 3.73 of 3.69 dB left; sets with the right effect first and no nearer had
     10 and 21. A name that stands beyond doubt stays too, and its cause says that its form is not met.
 
-    A name alone must foretell, too (`held`): of 55 of the proof that were right and do not strike each gained on data
-    held out, if only 0.02; a rub told of a cracked tooth, nearer by 6 % of the levels' change, lost 0.08.
+    A name alone must foretell, too (`held`): of 56 of the proof that were right and do not strike, at its target
+    condition, each gained on data held out, if only 0.02; a rub told of a cracked tooth, nearer by 6 % of the levels'
+    change, lost 0.08. At one speed and 10 dB a right one lost 0.07 (l030, a loose seat): that is not named any more.
     """
     if decision.word not in ("explained", "ambiguous") or revised is None:
         return decision, causes

@@ -17,6 +17,8 @@ from reconcile.speed import SpeedEstimate
 from reconcile.told import about
 from signals.recording import Recording
 from signals.series import FloatArray
+from sim.assembly.kinematics import kinematics
+from sim.assembly.loads import shaft_torques_nm
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec, TorqueLoad
 
@@ -51,13 +53,17 @@ def heard_hz(one: PointData, line: int) -> float:
 
 
 def _torque(machine: MachineSpec) -> float | None:
-    shaft = machine.operating.shaft if machine.operating else ""
-    torques = [x.torque_nm for x in machine.loads if isinstance(x, TorqueLoad) and x.shaft == shaft]
-    return sum(torques) if torques else None
+    """Of the driven shaft, by its loads or in balance with another shaft's; None where nothing loads it."""
+    if machine.operating is None or not any(isinstance(x, TorqueLoad) for x in machine.loads):
+        return None
+    return shaft_torques_nm(machine, kinematics(machine)).get(machine.operating.shaft)
 
 
 def point_of(machine: MachineSpec, recording: Recording) -> Point:
-    """The operating point a recording states; the machine's own where it states none."""
+    """The operating point a recording states; the machine's own where it states none.
+
+    A torque counts by its size: its sign is a matter of whose torque is stated, that on the shaft or that by it.
+    """
     if machine.operating is None:
         raise SpecError(
             Problem(field="machine.operating", message="the machine has no speed", allowed="shaft, speed_hz")
@@ -66,8 +72,13 @@ def point_of(machine: MachineSpec, recording: Recording) -> Point:
     speed = stated.speed_hz if stated is not None else machine.operating.speed_hz
     nominal = _torque(machine)
     given = stated.torque_nm if stated is not None else None
-    ratio = given / nominal if given is not None and nominal else 1.0
-    return Point(speed_hz=round(speed, 2), torque_ratio=round(ratio, 2))
+    ratio = abs(given / nominal) if given is not None and nominal else 1.0
+    return Point(speed_hz=_rounded(speed), torque_ratio=round(ratio, 2))
+
+
+def _rounded(speed_hz: float) -> float:
+    """To a hundredth, and slow ones to four digits."""
+    return round(speed_hz, max(2, 3 - int(np.floor(np.log10(speed_hz))))) if speed_hz > 0.0 else 0.0
 
 
 def _alike(a: Point, b: Point) -> bool:
@@ -129,7 +140,6 @@ def observe(
         now, before = ([_steady(r, orders, slowest, seed) for r in several] for several in (members, resting or ()))
         stated = point.speed_hz
         bases = bases_at(machine, stated)
-        middle = now[0].samples.shape[1] // 2
         found.append(
             PointData(
                 point=point,
@@ -137,8 +147,8 @@ def observe(
                 modulations_hz=watched.modulation_hz(bases),
                 test=averaged([_measured(s, machine, watched, stated) for s in now]),
                 halves=(
-                    averaged([_measured(s, machine, watched, stated, slice(0, middle)) for s in now]),
-                    averaged([_measured(s, machine, watched, stated, slice(middle, None)) for s in now]),
+                    averaged([_measured(s, machine, watched, stated, slice(0, _middle(s))) for s in now]),
+                    averaged([_measured(s, machine, watched, stated, slice(_middle(s), None)) for s in now]),
                 ),
                 baseline=averaged([_measured(s, machine, watched, stated) for s in before]) if before else None,
                 spectra=(now[0], before[0] if before else None),
@@ -151,6 +161,10 @@ def observe(
         given, allowed = _points(_group(machine, tests)), f"the points of the baselines: {_points(known)}"
         raise SpecError(Problem(field="baseline", message=message, given=given, allowed=allowed))
     return tuple(found)
+
+
+def _middle(one: Steady) -> int:
+    return int(one.samples.shape[1]) // 2
 
 
 def unpaired(machine: MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording]) -> tuple[str, ...]:

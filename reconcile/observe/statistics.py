@@ -92,12 +92,15 @@ class Statistics:
 
 
 def averaged(several: list[Statistics]) -> Statistics:
-    """Mean of several recordings of the same condition; the duration adds up."""
+    """Mean of several recordings of the same condition, of those that tell a figure; the duration adds up."""
     if len(several) == 1:
         return several[0]
 
     def mean(name: str) -> FloatArray:
-        return np.asarray(np.mean([getattr(s, name) for s in several], axis=0))
+        told = np.array([getattr(s, name) for s in several])
+        known = ~np.isnan(told)
+        count = known.sum(axis=0)
+        return np.where(count > 0, np.where(known, told, 0.0).sum(axis=0) / np.maximum(count, 1), np.nan)
 
     return Statistics(
         line=mean("line"),

@@ -40,6 +40,7 @@ WORDS = {
     "misfit_after": "after it",
     "decided": "numbers the baseline decides",
     "undecided": "numbers it leaves open",
+    "by_chance": "share of its variance that one without a part in them may lose",
     "strayed": "numbers beyond their stated spread",
     "farthest": "lines of the baseline that they are farthest from",
     "off_db": "above them by, dB",

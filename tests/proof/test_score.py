@@ -278,6 +278,20 @@ def test_a_name_beside_the_right_one_is_wrong_and_a_set_names_no_pair():
     assert score(pair, beside).both is False
 
 
+def test_the_right_effect_named_at_a_wrong_place_too_is_wrong_in_place_alone():
+    case = truth("single", "outer_pit")
+    report = right(case)
+    (named,) = report["causes"]
+    report["causes"] = [named, {**named, "site": "nowhere"}]
+    found = score(case, report)
+    assert found.mechanism and found.false_name and not found.place and not found.verdict_right
+    pair = truth("double")
+    report = right(pair)
+    report["causes"] = [report["causes"][0], {**report["causes"][1], "site": "nowhere"}]
+    found = score(pair, report)
+    assert found.false_name and found.both is False
+
+
 def test_what_was_not_detected_beats_no_black_box():
     case = truth("single", "outer_pit")
     assert score(case, {"verdict": "nothing_missing"}).beats_black_box is False

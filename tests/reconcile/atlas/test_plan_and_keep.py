@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -149,6 +151,17 @@ def test_a_bank_is_in_the_order_of_the_draws_and_is_made_once() -> None:
     assert (again.resolution_hz, again.duration_s) == (1.5, 1.0)
     np.testing.assert_array_equal(again.depth, part.depth)
     np.testing.assert_array_equal(again.alive, part.alive)
+
+
+@pytest.mark.parametrize("spoil", [lambda b: b[:200], lambda b: b"", lambda b: b[:99] + bytes(99) + b[198:]])
+def test_a_damaged_atlas_is_made_again(spoil: Callable[[bytes], bytes]) -> None:
+    shelf, told = Shelf(), []
+    first = kept_bank(plan(), POINT, CHANNELS, keeper=shelf, mapper=pretended, made=told.append)  # type: ignore[arg-type]
+    whole = dict(shelf.kept)
+    shelf.kept = {key: spoil(data) for key, data in whole.items()}
+    again = kept_bank(plan(), POINT, CHANNELS, keeper=shelf, mapper=pretended, made=told.append)  # type: ignore[arg-type]
+    assert len(told) == 2 and shelf.kept == whole
+    np.testing.assert_array_equal(again.line, first.line)
 
 
 def test_a_machine_that_never_runs_is_said_and_not_kept() -> None:

@@ -61,6 +61,22 @@ def test_the_hidden_numbers_are_found_behind_unknown_gains(gain_db: tuple[float,
     assert (found.determined > 0.5).all() and not found.strayed.any()
 
 
+def test_what_few_machines_take_from_numbers_without_a_part_by_chance_is_told() -> None:
+    """Two dozen machines, lines that move independently by three numbers, and thirty numbers that move none."""
+    rng = np.random.default_rng(5)
+    real, idle = rng.uniform(-SPREAD, SPREAD, (24, 3)), rng.uniform(-SPREAD, SPREAD, (24, 30))
+    first = [Offsets(values=row) for row in np.hstack([real, idle])]
+
+    def shown(offsets: Sequence[Offsets]) -> list[Bank]:
+        return [bank(np.array([o.values[:3] for o in offsets]))]
+
+    found = calibrated(first, shown(first), evidence(np.array([0.06, -0.04, 0.05]), (0.0, 0.0)), shown, seed=2)
+    assert found is not None
+    lost = found.determined[3:]
+    assert 0.05 < found.by_chance < 0.6 and (found.determined[:3] > found.by_chance).all()
+    assert np.mean(lost > found.by_chance) <= 0.2, "about one in twenty"
+
+
 def test_numbers_outside_their_spread_are_told() -> None:
     found = calibrated(start(), simulate(start()), evidence(np.array([0.15, 0.0, 0.0]), (0.0, 0.0)), simulate, seed=2)
     assert found is not None and found.strayed.tolist() == [True, False, False]

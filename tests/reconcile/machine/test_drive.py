@@ -39,7 +39,7 @@ def test_another_shaft_is_converted_by_the_teeth(machine: MachineSpec) -> None:
     teeth = {g.shaft: g.teeth for g in machine.gears}
     ratio = teeth["output"] / teeth["input"]
     (found,) = on_drive(machine, [recorded("output", 30.0 / ratio, tacho=pulses("output", 30.0 / ratio))])
-    assert found.operating is not None and found.tacho is None
+    assert found.operating is not None and found.tacho is not None
     assert found.operating.shaft == "input" and found.operating.speed_hz == pytest.approx(30.0)
     assert found.operating.torque_nm == pytest.approx(70.0 / ratio), "power is what both have in common"
     same = recorded("input", 30.0)
@@ -56,3 +56,30 @@ def test_pulses_that_make_another_speed_are_refused(machine: MachineSpec) -> Non
     assert on_drive(machine, [recorded("input", 30.0, tacho=pulses("input", 60.0, 2))])
     with pytest.raises(SpecError, match=r"pulses_per_revolution: its pulses make 15 Hz, but 30 Hz are stated"):
         on_drive(machine, [recorded("input", 30.0, tacho=pulses("input", 30.0, 2))])
+
+
+@pytest.mark.parametrize("per_turn", [1, 64])
+def test_pulses_of_another_shaft_are_turned_into_those_of_the_driven(machine: MachineSpec, per_turn: int) -> None:
+    teeth = {g.shaft: g.teeth for g in machine.gears}
+    ratio = teeth["output"] / teeth["input"]
+    at = np.linspace(0.0, 1.9, 4001)
+    turned = 30.0 * at + 2.0 * at**2  # the drive runs up from 30 to 37.6 Hz
+    counted = np.arange(0.0, turned[-1] / ratio, 1.0 / per_turn)
+    own = Tacho(shaft="output", pulse_times_s=np.interp(counted * ratio, turned, at), pulses_per_revolution=per_turn)
+    (found,) = on_drive(machine, [recorded("input", 33.8, tacho=own)])
+    assert found.tacho is not None and found.tacho.shaft == "input"
+    each = found.tacho.pulses_per_revolution
+    assert each == max(1, round(per_turn / ratio))
+    exact = np.interp(np.arange(found.tacho.pulse_times_s.size) / each, turned, at)
+    assert np.max(np.abs(found.tacho.pulse_times_s - exact)) < (1e-3 if per_turn == 1 else 1e-5)
+    assert found.tacho.pulse_times_s[-1] > 1.7
+
+
+def test_pulses_of_another_shaft_that_make_another_speed_are_refused(machine: MachineSpec) -> None:
+    teeth = {g.shaft: g.teeth for g in machine.gears}
+    slow = 30.0 * teeth["input"] / teeth["output"]
+    assert on_drive(machine, [recorded("input", 30.0, tacho=pulses("output", slow))])
+    with pytest.raises(SpecError, match=rf"r\.json: tacho\..* its pulses make {1.4 * slow:.4g} Hz, but {slow:.4g} Hz"):
+        on_drive(machine, [recorded("input", 30.0, tacho=pulses("output", 1.4 * slow))])
+    with pytest.raises(SpecError, match=r"r\.json: tacho\.shaft: is no shaft.*allowed: input, output"):
+        on_drive(machine, [recorded("input", 30.0, tacho=pulses("middle", 30.0))])

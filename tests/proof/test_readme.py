@@ -1,0 +1,64 @@
+"""What the README says of the proof is what the stored first runs give."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from proof.score.one import Score
+from proof.score.rates import MEASURES, Rate, at_target, rate
+from proof.targets import wrong_rates
+from proof.whole import read
+
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+LATEST = ("mixed", "resumed", "last", "closing")
+ROWS = {
+    "6b73d6fa": LATEST,
+    "9c93d3ef": ("wide",),
+    "763372c5": ("teeth",),
+    "919f12b": ("held",),
+    "3f03490": ("begun",),
+    "ece7897": ("hearing",),
+    "8e8edc1": ("entire",),
+}
+"""The commit with which a row begins, and the sections it is of."""
+COLUMNS = (("single", "place"), ("double", "both"), ("open", "unknown_flagged"), ("null", "alarm"))
+
+
+def stored(sections: Sequence[str]) -> list[Score]:
+    return [s for name in sections for s in read(ROOT / "proof" / "results" / f"{name}.json")]
+
+
+def of(scores: Sequence[Score], group: str, measure: str) -> Rate:
+    return rate([s for s in scores if s.group == group and at_target(s)], MEASURES[measure])
+
+
+def plain(found: Rate) -> str:
+    return f"{found.hits} of {found.n}" if found.n else "-"
+
+
+@pytest.mark.parametrize("commit", ROWS)
+def test_a_row_of_the_table(commit: str) -> None:
+    (row,) = re.findall(rf"^\| {commit}\b.*$", README, flags=re.MULTILINE)
+    cells = [re.sub(r" \(.*\)", "", cell.strip()) for cell in row.strip("|").split("|")]
+    found = stored(ROWS[commit])
+    said = [plain(of(found, *column)) for column in COLUMNS]
+    assert cells[1:] == [*said, plain(wrong_rates(found)[-1])]
+    low, high = of(found, "single", "place").interval
+    assert f"{100 * low:.0f} to {100 * high:.0f})" in row
+
+
+def test_what_is_said_of_the_first_row() -> None:
+    found = stored(LATEST)
+    single = of(found, "single", "alarm")
+    right = of(found, "single", "verdict_right")
+    first = (
+        f"Of the first row's {single.n} single faults {single.hits} were detected. {right.hits} were answered rightly"
+    )
+    assert first in " ".join(README.split())
+    nulls, sound = of(found, "null", "alarm"), of(found, "null", "told_sound")
+    assert f"Of its {nulls.n} sound machines {sound.hits} were told sound, the other" in " ".join(README.split())
