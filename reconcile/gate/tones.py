@@ -37,6 +37,16 @@ RARE = 0.3
 """Lines that meet so; more, and those that stay must be more than their scatter."""
 FARTHEST = 12.0
 """Orders of the shaft between a tone and a line that goes with it."""
+COMB, COMB_LEAST, DENSE_LEAST = 4, 0.75, 0.9
+"""Lines of a comb looked at on either side of one of it, and the shares of them, and of those of a denser one, that
+must be there."""
+COMB_ORDERS, COMB_BINS, WHOLE = (0.2, 40.0), 10.0, 0.02
+"""Between which orders of the shaft combs are looked for, how many bins apart their lines are at least, and how near to
+a whole order is one;"""
+DENSER = (2, 3, 5)
+"""How many times as dense a comb may be that stands still in Hz."""
+SAME_ORDER = 0.01
+"""and by which they may differ between tests: rolling elements slip."""
 BESIDE_BLOCK_S = 0.25
 """Lines beside a tone wander with the speed."""
 
@@ -68,6 +78,29 @@ class Heard:
             return None
         near = max(self.excess[top - 8 : top - 2].max(), self.excess[top + 3 : top + 9].max())
         return None if narrow and level < near * 10 ** (NARROW_DB / 10) else top * self.step_hz
+
+    def combs(self, hz: float) -> list[float]:
+        """Spacings, in orders of the shaft, of combs that pass a frequency. Not whole ones: sidebands of a drive's tone
+        stand so far from it."""
+        closest = max(COMB_ORDERS[0] * self.speed_hz, COMB_BINS * self.step_hz)
+        counts = range(max(1, int(hz / (COMB_ORDERS[1] * self.speed_hz))), int(hz / closest) + 1)
+        orders = ((n, hz / (n * self.speed_hz)) for n in counts)
+        return [o for n, o in orders if abs(o - max(1, round(o))) > WHOLE and self.passed(hz, n)]
+
+    def passed(self, hz: float, count: int) -> bool:
+        """Whether `hz` is the `count`-th line of a comb: those beside it stand out, and those between that a denser one
+        would have do not."""
+        return self._beside(hz, count, 1, COMB_LEAST) and not any(
+            self._beside(hz, count * n, n, DENSE_LEAST) for n in DENSER
+        )
+
+    def _beside(self, hz: float, count: int, every: int, least: float) -> bool:
+        """Whether at `least` so large a share of the lines of a comb beside its `count`-th stand out, without each
+        `every`-th."""
+        reach = range(-COMB, COMB + 1)
+        places = [hz * (count + k) / count for k in reach if count + k > 0 and (k % every if every > 1 else k)]
+        seen = sum(self.peak(place, BESIDE_BINS, BESIDE_DB, narrow=False) is not None for place in places)
+        return seen >= least * len(places)
 
     def peaks(self, least_db: float, *, narrow: bool) -> list[float]:
         """The strongest lines, Hz, strongest first."""
@@ -146,9 +179,22 @@ def _staying(heard: Sequence[Heard], shift: int, *, apart: bool = True) -> list[
         at = [hz + (shift * h.step_hz if k else 0.0) for k, h in enumerate(heard)]
         places = [h.peak(place, STAY_BINS, PRESENT_DB, narrow=True) for h, place in zip(heard, at, strict=True)]
         free = [h.speed_hz for h, place in zip(heard, at, strict=True) if not h.own(place)]
-        if None not in places and free and (not apart or max(free) > APART * min(free)):
+        if None not in places and free and (not apart or max(free) > APART * min(free)) and not _struck(heard, at):
             found.append(hz)
     return sorted(found)
+
+
+def _struck(heard: Sequence[Heard], at: Sequence[float]) -> bool:
+    """Whether a comb that goes with the speed passes the frequencies `at` in every test: impacts at 20 and 40 turns a
+    second have every second line in common."""
+
+    def there(order: float, one: Heard, hz: float) -> bool:
+        count = round(hz / (order * one.speed_hz))
+        alike = count > 0 and abs(hz / (count * one.speed_hz) / order - 1.0) < SAME_ORDER
+        return alike and one.passed(hz, count)
+
+    rest = list(zip(heard, at, strict=True))[1:]
+    return any(all(there(order, *one) for one in rest) for order in heard[0].combs(at[0]))
 
 
 def beside_tones(heard: Sequence[Heard], tones: Sequence[float]) -> list[tuple[float, float]]:

@@ -179,3 +179,49 @@ def test_strong_multiples_of_shafts_at_a_supply_s_rates_are_no_tones(speeds: tup
     tests = [at_supply(hz, k, struck=False, turns=60) for k, hz in enumerate(speeds)]
     own = [np.arange(1, 21) * hz for hz in speeds]
     assert tone_findings(tests, ["test 1", "test 2"], speeds, own, [])[0] == ()
+
+
+STRIKES = 3.5867
+"""An outer race's order."""
+
+
+def struck(hz: float, seed: int, *, adds: Adds = nothing, order: float = STRIKES) -> Recording:
+    """Even impacts on a mode at 2 kHz in noise."""
+    rng = np.random.default_rng(seed)
+    rung = 0.3 * rng.standard_normal(TIME.size)
+    for at in np.arange(0.0, SECONDS, 1.0 / (order * hz)):  # between two samples: else they have lines of their own
+        near = slice(int(at * RATE_HZ) + 1, int((at + 0.02) * RATE_HZ))
+        rung[near] += 20.0 * np.exp(-750.0 * (TIME[near] - at)) * np.sin(2 * np.pi * 2000 * (TIME[near] - at))
+    samples = (rung + 40.0 * adds(hz * TIME, hz, rng))[None, :]
+    channels = (Channel(name="a0", quantity="acceleration", unit="m/s^2", location="bearing1"),)
+    return Recording(
+        sampling_rate_hz=RATE_HZ, channels=channels, samples=samples, operating=Operating(shaft="input", speed_hz=hz)
+    )
+
+
+@pytest.mark.parametrize("speeds", [(20.0, 40.0), (40.0, 20.0), (25.0, 30.0), (20.0, 30.0)])
+def test_impacts_at_speeds_in_a_simple_ratio_are_no_tones(speeds: tuple[float, float]) -> None:
+    tests = [struck(hz, k) for k, hz in enumerate(speeds)]
+    assert tone_findings(tests, ["test 1", "test 2"], speeds, [np.zeros(0)] * 2, [])[0] == ()
+
+
+CLOCK_HZ = (911.0, 1733.0, 2777.0, 3391.0, 4507.0)
+
+
+def clock(_turns: FloatArray, _hz: float, _rng: np.random.Generator) -> FloatArray:
+    return np.asarray(sum(0.1 * np.sin(2 * np.pi * hz * TIME) for hz in CLOCK_HZ))
+
+
+@pytest.mark.parametrize("speeds", [(20.0, 40.0), (25.0, 30.0), (30.0, 25.0)])
+def test_tones_beside_such_impacts_are_told_and_the_impacts_are_not(speeds: tuple[float, float]) -> None:
+    tests = [struck(hz, k, adds=clock) for k, hz in enumerate(speeds)]
+    (found,) = tone_findings(tests, ["test 1", "test 2"], speeds, [np.zeros(0)] * 2, [])[0]
+    assert len(set(CLOCK_HZ) & set(found.tones_hz)) >= 4 and len(set(found.tones_hz) - set(CLOCK_HZ)) <= 1
+
+
+@pytest.mark.parametrize("speeds", [(20.0, 40.0), (30.0, 40.0), (30.0, 60.0), (45.0, 30.0)])
+def test_impulses_of_a_supply_stay_told_at_such_speeds(speeds: tuple[float, float]) -> None:
+    """At 50 Hz in both: 2.5 times a turn in one and every second of them in the other."""
+    tests = [struck(hz, k, order=50.0 / hz) for k, hz in enumerate(speeds)]
+    (found,) = tone_findings(tests, ["test 1", "test 2"], speeds, [np.zeros(0)] * 2, [])[0]
+    assert found.fault and "Hz stay there at every speed" in found.detail
