@@ -16,13 +16,14 @@ from reconcile.gate import Gate
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.lines import matched
 from reconcile.kinematics.observe import Observation
-from reconcile.kinematics.vague import LOUDER
 from reconcile.shares import percent
 from reconcile.speed.excess import EXPONENTIAL_MEDIAN, mains_bins, running_median
 from reconcile.verdict import LineChange, NextExperiment, Report, Where
 from signals.series import FloatArray
 from signals.spectra.amplitude import amplitude_spectrum
 
+LOUDER = "louder than in the baseline, and no family of lines"
+"""What is said where a channel is, whatever its lines are."""
 GROWTH_DB, SHARE = 20.0, 0.1
 """Over the baseline, and of the channel's power. The made whirl, belt and tone grew by 34 to 53 dB. Of measured sound
 recordings (two of a rig with eight sensors, halves of eleven of six rigs) no such line grew by more than 0.6 dB; in a

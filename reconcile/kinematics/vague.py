@@ -12,6 +12,7 @@ from reconcile.kinematics.foreign import Foreign
 from reconcile.kinematics.gears import NEAR_DB, GearEvidence, of_own_lines
 from reconcile.kinematics.lines import matched
 from reconcile.kinematics.measured import measured_lines
+from reconcile.kinematics.new_lines import LOUDER
 from reconcile.kinematics.observe import Observation
 from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Report, Where
 
@@ -92,7 +93,6 @@ def foreign_report(found: Foreign, tests: Sequence[Observation], baselines: Sequ
 LOUDER_DB = 15.0
 """Growth of a channel's level from which a machine is not called sound: of the real controls (docs/proof-real.md) a
 gear under full load against none is 3 dB louder."""
-LOUDER = "louder than in the baseline, and no family of lines"
 IN_BOTH = "deep in both"
 SCALE = "unit, sensitivity or scale (a wav file holds shares of its full scale)"
 BEFORE_TOO = "a defect of the baseline too, or how this bearing sounds when it is sound"
