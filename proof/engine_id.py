@@ -19,7 +19,8 @@ LEVELS = {
 """Where the engine of each level begins; what the entry refuses is no verdict."""
 WHOLE = "sim"
 """Package whose effects register themselves: all of it counts."""
-PAGES = "reconcile/report/"
+TOLD = ("reconcile/report/", *(f"reconcile/machine/{name}.py" for name in ("words", "next_look", "pictures", "stages")))
+"""What only tells an answer: pages, pictures, sentences, the next experiment."""
 
 
 Level = Literal["machine", "kinematics", "driven"]
@@ -27,12 +28,12 @@ Level = Literal["machine", "kinematics", "driven"]
 
 @cache
 def engine_id(level: Level = "machine", root: Path = ROOT) -> str:
-    """Twelve hex digits over the names and bytes of all modules that a level's engine imports, reports' pages left
-    out."""
+    """Twelve hex digits over the names and bytes of all modules that a level's engine imports, but for those that only
+    tell its answers."""
     found = hashlib.sha256()
     for path in sorted(modules(level, root)):
         name = path.relative_to(root).as_posix()
-        if not name.startswith(PAGES):
+        if not name.startswith(TOLD):
             found.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
     return found.hexdigest()[:12]
 
