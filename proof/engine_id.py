@@ -12,7 +12,7 @@ from typing import Literal
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = ("reconcile", "signals", "sim")
 LEVELS = {
-    "machine": ("reconcile.machine.engine", "reconcile.unsteady"),
+    "machine": ("reconcile.machine.engine", "reconcile.grown_turns", "reconcile.unsteady"),
     "kinematics": ("reconcile.kinematics.reconcile", "reconcile.unsteady"),
     "driven": ("reconcile.driven.engine",),
 }

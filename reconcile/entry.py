@@ -12,11 +12,12 @@ from reconcile.atlas.keep import Keeper
 from reconcile.atlas.places import simulated_channels
 from reconcile.driven import reconcile_driven
 from reconcile.driven.machine import check_linear
+from reconcile.grown_turns import with_grown_turns
 from reconcile.kinematics import KinematicSpec, reconcile_kinematics
 from reconcile.kinematics.whose_speed import check_whose_speeds
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.engine import Progress, reconcile_machine
-from reconcile.one_names import by_one_name
+from reconcile.one_names import by_one_name, same_in_another_order
 from reconcile.pulses import check_pulses
 from reconcile.repeated import check_repeated
 from reconcile.report.revised import sent_to_the_file
@@ -99,7 +100,8 @@ def _unlike(usual: Given, other: Given, sure: bool) -> Iterator[Problem]:
     """What differs between two recordings, the first of them the usual one where that is `sure`."""
     here, there = [[_of_channel(c) for c in one.recording.channels] for one in (usual, other)]
     if here != there and sorted(here) == sorted(there):
-        yield _in_another_order(usual, other, sure)
+        if not same_in_another_order(usual.recording, other.recording):
+            yield _in_another_order(usual, other, sure)
         return
     beyond = _beyond(usual.recording, other.recording)
     if beyond:
@@ -254,6 +256,7 @@ def reconcile_recordings(
         progress=progress,
         nominated=nominated,
     )
+    report = with_grown_turns(report, machine, tests, baselines, seed)
     remarks = (*unstated(stated, report), *exchanged(stated), *already_there(machine), *renamed)
     return _with_labels(sent_to_the_file(_with_limits(report, remarks)), sent, machine.name)
 

@@ -28,14 +28,14 @@ def by_one_name(tests: Sequence[Recording], baselines: Sequence[Recording]) -> t
 def _named_as(first: Recording, one: Recording) -> Recording:
     if one.names == first.names:
         return one
-    if _the_same_in_another_order(first, one):
+    if same_in_another_order(first, one):
         return one.select(channels=first.names)
     named = tuple(replace(c, name=name) for c, name in zip(one.channels, first.names, strict=True))
     return replace(one, channels=named)
 
 
-def _the_same_in_another_order(first: Recording, one: Recording) -> bool:
-    """By their names; not where a place or unit contradicts these."""
+def same_in_another_order(first: Recording, one: Recording) -> bool:
+    """Whether both have the same channels, by their names; not where a place or unit contradicts these."""
     here, there = ({c.name: replace(c, name="") for c in r.channels} for r in (first, one))
     return here == there
 
@@ -44,7 +44,7 @@ def _said(first: Given, one: Given) -> str | None:
     if one.recording.names == first.recording.names:
         return None
     place, own = one.field("channels"), ", ".join(one.recording.names)
-    if _the_same_in_another_order(first.recording, one.recording):
+    if same_in_another_order(first.recording, one.recording):
         return f"{place} are in another order ({own}) than those of {first.field('channels')}: matched by their names"
     names = ", ".join(first.recording.names)
     return f"{place} have other names ({own}) than those of {first.field('channels')} ({names}): matched by their order"

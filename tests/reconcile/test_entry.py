@@ -107,18 +107,23 @@ def test_the_channel_that_is_missing_or_too_many_is_named(gone: int) -> None:
         assert problem.field.endswith("channels") and problem.given == len(rest.channels)
 
 
-def test_channels_in_another_order_are_told_once() -> None:
+def test_the_same_channels_in_another_order_are_the_same() -> None:
+    here, there = recording(channel(), channel("bearing2")), recording(channel("bearing2"), channel())
+    check_channels([here], [there])
+    check_channels([here], [there, here])
+
+
+def test_channels_in_another_order_than_their_names_are_told_once() -> None:
     here = recording(channel(), channel("bearing2"))
-    there = replace(recording(channel("bearing2"), channel()), label="rest.json")
+    renamed = [replace(c, name=name) for c, name in zip(here.channels[::-1], here.names, strict=True)]
+    there = replace(here, channels=tuple(renamed), label="rest.json")
     with pytest.raises(SpecError) as refused:
         check_channels([here], [there])
     (problem,) = refused.value.problems
-    assert problem.field == "rest.json: channels" and "in another order" in problem.message
-    assert "recording[0].channels in another order, which has bearing1y, bearing2y: either may" in problem.message
-    assert (problem.given, problem.allowed) == ("bearing2y, bearing1y", "the same in both")
-    with pytest.raises(SpecError, match="are the usual ones") as refused:
+    assert problem.field == "rest.json: channels" and "in another order, which has" in problem.message
+    assert problem.message.endswith("either may be wrong") and problem.allowed == "the same in both"
+    with pytest.raises(SpecError, match="are the usual ones"):
         check_channels([here], [there, here])
-    assert refused.value.problems[0].allowed == "bearing1y, bearing2y"
 
 
 @pytest.mark.parametrize("names", [("a", "b"), ("p", "q")])

@@ -64,3 +64,11 @@ def test_recordings_with_other_names_are_reconciled(names: tuple[str, str]) -> N
     assert any("other names (de, fe)" in limit for limit in report.where.limits)
     alone = reconcile_recordings(spec, [recording(("de", "fe")), recording(names, 2)])
     assert alone.verdict in ("nothing_missing", "not_decidable")
+
+
+def test_the_same_channels_with_their_places_in_another_order_are_matched() -> None:
+    places = ("drive_end", "fan_end")
+    first, other = recording(("de", "fe"), locations=places), recording(("fe", "de"), 2, locations=places[::-1])
+    (_, (turned,)), (said,) = by_one_name([first], [other])
+    assert turned.channels == first.channels and np.array_equal(turned.samples, other.samples[::-1])
+    assert "matched by their names" in said
