@@ -14,9 +14,9 @@ from dataclasses import replace
 from reconcile.gate import inspect_measurement
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.observe import Observation, observe
+from reconcile.kinematics.shaft_lines import shaft_report
 from reconcile.kinematics.shafts import ShaftChange, shaft_changes
 from reconcile.kinematics.spec import of_machine
-from reconcile.kinematics.turning import shaft_report
 from reconcile.report.action import EXCHANGED
 from reconcile.verdict import Report
 from signals.recording import Recording

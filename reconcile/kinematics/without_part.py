@@ -16,13 +16,13 @@ from reconcile.kinematics.mains import Supply, electric, electric_foreign, elect
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.picture import comb_picture
 from reconcile.kinematics.series import ShaftSeries
+from reconcile.kinematics.shaft_lines import shaft_report
 from reconcile.kinematics.shafts import ShaftChange, grown_impacts
 from reconcile.kinematics.slow import slow_turn
 from reconcile.kinematics.spec import KinematicSpec
 from reconcile.kinematics.turning import (
     driven_report,
     series_report,
-    shaft_report,
     slow_report,
     turn_report,
     with_driven,

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 
 import pytest
 
+from reconcile.kinematics.shaft_lines import SHAFT_TERMS, shaft_report
 from reconcile.kinematics.shafts import MULTIPLES, ShaftChange
-from reconcile.kinematics.turning import SHAFT_TERMS, shaft_report
 
 
 def change(multiple: float) -> ShaftChange:
