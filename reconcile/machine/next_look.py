@@ -8,17 +8,19 @@ evidence. It is laid out over operating points and channels, and a further recor
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from reconcile.atlas.places import sensor_sites
 from reconcile.judge.changes import Changes
 from reconcile.judge.pooled import seen
 from reconcile.judge.space import Fitted, Library
 from reconcile.machine.setting import Found, Setting
 from reconcile.verdict import operating_point
 from signals.series import FloatArray
+from sim.core.spec import MachineSpec
 
 NEAREST = 6
 """Draws of the first effect that stand for it."""
@@ -34,12 +36,14 @@ ADDS = 0.5
 @dataclass(frozen=True, kw_only=True)
 class Apart:
     """What each operating point and channel tells between two effects, were the first there: `told` (P, C) in log
-    evidence (natural), `points` and `channels` by name; `longer`: what records twice as long would add, at most."""
+    evidence (natural), `points` and `channels` by name; `longer`: what records twice as long would add, at most;
+    `unheard`: of places of gears and shafts the bearings on their shafts that no sensor is at."""
 
     told: FloatArray
     points: tuple[str, ...]
     channels: tuple[str, ...]
     longer: float = 0.0
+    unheard: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @property
     def by_point(self) -> FloatArray:
@@ -90,7 +94,17 @@ def apart_of(setting: Setting, found: Found, chosen: Sequence[str]) -> Apart | N
         points=tuple(operating_point(d.point.speed_hz, d.point.torque_ratio) for d in setting.data),
         channels=setting.channels,
         longer=whole * noise / (2.0 - noise),
+        unheard=unheard(setting.machine, sensor_sites(setting.machine, setting.simulated)),
     )
+
+
+def unheard(machine: MachineSpec, heard: Sequence[str]) -> dict[str, tuple[str, ...]]:
+    """Of each gear, mesh and shaft that runs in bearings, those of them that are not `heard`."""
+    on = {g.name: g.shaft for g in machine.gears} | {b.name: b.shaft for b in machine.bodies if b.shaft}
+    shafts = {s.name: {s.name} for s in machine.shafts} | {name: {shaft} for name, shaft in on.items()}
+    shafts |= {m.name: {on[m.pinion], on[m.gear]} for m in machine.meshes}
+    carried = {site: [b.name for b in machine.bearings if on.get(b.body) in of] for site, of in shafts.items()}
+    return {site: tuple(b for b in several if b not in heard) for site, several in carried.items() if several}
 
 
 def _told(

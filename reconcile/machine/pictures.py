@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
+from scipy.ndimage import uniform_filter1d
 
 from reconcile.calibrate.chain import band_centres_hz
 from reconcile.judge.changes import Lens
@@ -23,6 +24,8 @@ from sim.core.spec import MachineSpec
 
 MOST_RANKED = 10
 TURN_BINS = 72
+PITCH_BINS = 11
+"""Of a pitch of the teeth: an odd number has a middle."""
 
 
 def _reference(one: PointData, lens: Lens, channel: int, part: slice) -> FloatArray:
@@ -125,11 +128,13 @@ def turn_maps(
     machine: MachineSpec, data: Sequence[PointData], channels: Sequence[str], window: AngleWindow | None
 ) -> list[dict[str, object]]:
     """Energy of the upper half of the spectrum folded on a shaft's turn, at every operating point, in dB over the
-    baseline's mean: on the shaft of `window`, else on the drive shaft."""
+    baseline's mean: on the shaft of `window`, else on the drive shaft; where that carries a gear, mean of a pitch of
+    its teeth, as every tooth has its own swell."""
     if machine.operating is None:
         return []
     shaft = window.shaft if window is not None else machine.operating.shaft
     turning = [s.name for s in machine.shafts]
+    teeth = next((g.teeth for g in machine.gears if g.shaft == shaft), None)
     angle = (np.arange(TURN_BINS) + 0.5) * 360.0 / TURN_BINS
     maps = []
     for one in data:
@@ -137,8 +142,8 @@ def turn_maps(
         ratio = bases_at(machine, now.speed_hz)[f"f_r{turning.index(shaft) + 1}"] / now.speed_hz
         rows = []
         for c in range(len(channels)):
-            fold = _folded(now, c, ratio)
-            rest = _folded(before, c, ratio) if before else fold
+            fold = _folded(now, c, ratio, teeth)
+            rest = _folded(before, c, ratio, teeth) if before else fold
             rows.append(np.round(10.0 * np.log10(fold / rest.mean()), 3).tolist())
         maps.append(
             {
@@ -153,10 +158,17 @@ def turn_maps(
     return maps
 
 
-def _folded(one: Steady, channel: int, ratio: float) -> FloatArray:
-    """Mean energy (TURN_BINS,) over the turn of the shaft that makes `ratio` turns a turn of the drive shaft."""
+def _folded(one: Steady, channel: int, ratio: float, teeth: int | None) -> FloatArray:
+    """Mean energy (TURN_BINS,) over the turn of the shaft that makes `ratio` turns a turn of the drive shaft; with
+    `teeth`, of a pitch of them."""
     rough = np.diff(one.samples[channel])
     turn = ratio * (one.start_turns + np.arange(rough.size) * one.speed_hz / one.rate_hz) % 1.0
-    bins = np.minimum((turn * TURN_BINS).astype(int), TURN_BINS - 1)
-    energy = np.bincount(bins, weights=rough**2, minlength=TURN_BINS)
-    return np.asarray(energy / np.maximum(np.bincount(bins, minlength=TURN_BINS), 1) + 1e-300)
+    count = TURN_BINS if teeth is None else PITCH_BINS * teeth
+    bins = np.minimum((turn * count).astype(int), count - 1)
+    energy = np.bincount(bins, weights=rough**2, minlength=count)
+    mean = energy / np.maximum(np.bincount(bins, minlength=count), 1) + 1e-300
+    if teeth is None:
+        return np.asarray(mean)
+    even = uniform_filter1d(mean, PITCH_BINS, mode="wrap")
+    at, middle = ((np.arange(n) + 0.5) / n for n in (TURN_BINS, count))
+    return np.asarray(np.interp(at, middle, even, period=1.0))

@@ -127,13 +127,14 @@ def next_experiment(
     if len(chosen) < 2:
         return None
     sites = list(dict.fromkeys(c.split("@")[1] for c in chosen))
-    missing = [s for s in sites if s not in sensors] if len(sites) > 1 else []
+    missing = [s for s in sites if s not in sensors and _unheard(s, apart)] if len(sites) > 1 else []
     terms = {c.split("@")[0] for c in chosen}
     alike = next((text for both, text in APART.items() if both <= terms), None)
     if alike is not None:
         return NextExperiment(sentence=alike, separation_now=lead)
     look = None if apart is None else best_look(apart)
-    place = f"the bearing housing nearest to {' or '.join(missing[:2])}"
+    near = list(dict.fromkeys(b for s in missing[:2] for b in _unheard(s, apart)))
+    place = f"the {'bearing housing nearest to' if near == missing[:2] else 'housing of'} {' or '.join(near)}"
     if missing and (look is None or apart is None or not _decides(look, lead)):
         best = "" if look is None or apart is None else _of_those_at_hand(look, apart)
         text = f"An accelerometer on {place} is most likely to tell these places apart; {UNKNOWN_THERE}.{best}"
@@ -145,6 +146,11 @@ def next_experiment(
     sensor = f" An accelerometer on {place} may tell more; {UNKNOWN_THERE}." if missing else ""
     text = f"{_recording(look, apart)}{sensor}"
     return NextExperiment(sentence=text, separation_now=lead, separation_expected=lead + look.adds)
+
+
+def _unheard(site: str, apart: Apart | None) -> tuple[str, ...]:
+    """Where a sensor would hear a place that none at hand is near to: itself, or bearings on its shaft."""
+    return apart.unheard.get(site, (site,)) if apart is not None else (site,)
 
 
 def _decides(look: Look, lead: float) -> bool:

@@ -13,7 +13,7 @@ from reconcile.judge.pooled import OneByOne, Pooling
 from reconcile.judge.space import Library
 from reconcile.machine.answer import _lead, _next
 from reconcile.machine.decide import Decision
-from reconcile.machine.next_look import ADDS, Apart, apart_of, best_look, laid_out
+from reconcile.machine.next_look import ADDS, Apart, apart_of, best_look, laid_out, unheard
 from reconcile.machine.words import DECIDES, next_experiment
 from reconcile.verdict import NextExperiment
 from sim.presets import preset
@@ -151,6 +151,20 @@ def test_of_a_sensor_where_none_was_simulated_nothing_is_promised() -> None:
     clear = asked(*made({(0, 0): 40.0}, second=ELSEWHERE))
     assert clear.sentence.startswith("A further recording at about 20 Hz") and "may tell more" in clear.sentence
     assert clear.separation_expected is not None and clear.separation_expected > DECIDES
+
+
+def test_no_sensor_is_advised_where_all_bearings_of_a_shaft_have_one() -> None:
+    machine = preset("paper-lightly-damped")
+    pinion, mesh = machine.gears[0].name, machine.meshes[0].name
+    left = unheard(machine, ("bearing1", "bearing3"))
+    assert left[pinion] == ("bearing2",) and left[mesh] == ("bearing2", "bearing4") and "bearing2" not in left
+    apart = Apart(told=np.zeros((1, 1)), points=("30 Hz",), channels=("a",), unheard=left)
+    pair = (f"tooth_crack@{pinion}", "torque_ripple@input")
+    one = next_experiment(pair, 0.1, 1, ("bearing1",), apart)
+    assert one is not None and one.sentence.startswith("An accelerometer on the housing of bearing2 is most likely")
+    every = replace(apart, unheard=unheard(machine, ("bearing1", "bearing2")))
+    none = next_experiment(pair, 0.1, 1, ("bearing1", "bearing2"), every)
+    assert none is not None and "accelerometer" not in none.sentence.lower() and "would not tell" in none.sentence
 
 
 def test_longer_recordings_are_advised_only_where_noise_is_what_scatters() -> None:

@@ -81,6 +81,26 @@ def test_the_turn_is_drawn_on_the_shaft_of_the_place_with_its_angle_and_every_se
     assert machine.operating is not None and drive["shaft"] == machine.operating.shaft
 
 
+def test_what_every_tooth_brings_is_even_and_what_one_brings_stands_out() -> None:
+    machine = preset("paper-demo")
+    pinion = machine.gears[0]
+    turns = np.arange(60000) * 30.0 / RATE_HZ
+    away = (turns % 1.0 * 360.0 - 23.0 + 180.0) % 360.0 - 180.0
+    swell = 1.0 + 0.6 * np.sin(2 * np.pi * pinion.teeth * turns)
+    rough = np.random.default_rng(4).normal(size=(2, turns.size))
+
+    def heard(height: float) -> Steady:
+        samples = rough * swell * (1.0 + height * np.exp(-((away / 8.0) ** 2)))
+        return Steady(samples=samples, rate_hz=RATE_HZ, speed_hz=30.0, estimate=SimpleNamespace(method="tacho"))  # type: ignore[arg-type]
+
+    one = SimpleNamespace(point=POINTS[1], spectra=(heard(0.4), heard(0.0)))
+    (found,) = turn_maps(machine, [one], CHANNELS, None)  # type: ignore[list-item]
+    value, angle = np.array(found["value"]), np.array(found["angle_deg"])
+    assert np.all(np.abs(angle[value.argmax(axis=1)] - 23.0) < 10.0)
+    far = np.abs((angle - 23.0 + 180.0) % 360.0 - 180.0) > 40.0
+    assert np.ptp(value[:, far]) < 0.5 * (value.max() - np.median(value)), "swells of single teeth are even"
+
+
 def test_forms_stand_beside_the_effect_they_count_with() -> None:
     evidence = {
         "fit_clearance@bearing1": 44.0,
