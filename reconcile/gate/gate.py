@@ -132,7 +132,7 @@ def _analysed(
         before = list(zip(bases, hertz[:cut], strict=True))
         alone, tests = harmonic_findings(tests, labels[cut], hertz[cut:], expected[cut:], before, hums, halves[cut:])
         found += alone
-        tones, tests = tone_findings(tests, labels[cut:], hertz[cut:], expected[cut:], bases)
+        tones, tests = tone_findings(tests, labels[cut:], hertz[cut:], expected[cut:], bases, orders)
         found += tones
         clean = [*bases, *tests]
         both = list(zip(clean, hertz, strict=True))

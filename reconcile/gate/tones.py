@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from math import ceil, floor
 
 import numpy as np
 
@@ -47,18 +48,24 @@ DENSER = (2, 3, 5)
 """How many times as dense a comb may be that stands still in Hz."""
 SAME_ORDER = 0.01
 """and by which they may differ between tests: rolling elements slip."""
+SLIP, LEAST_ORDER = 0.02, 1.0
+"""By which a comb may differ from a bearing's numbers; a cage's lines are so close that some pass everywhere."""
+SIDEBANDS = (0, 1, -1, 2, -2, 3, -3, 4, -4)
+"""Turns of the shaft by which lines stand beside those of a bearing: the load goes round in its impacts."""
 BESIDE_BLOCK_S = 0.25
 """Lines beside a tone wander with the speed."""
 
 
 @dataclass(frozen=True)
 class Heard:
-    """One channel of one test: power of the bins over the floor, Hz a bin, the shaft's speed, the machine's lines."""
+    """One channel of one test: power of the bins over the floor, Hz a bin, the shaft's speed, the machine's lines, and
+    the orders of the bearings' impacts."""
 
     excess: FloatArray
     step_hz: float
     speed_hz: float
     expected_hz: FloatArray
+    impacts: tuple[float, ...] = ()
 
     def own(self, hz: float) -> bool:
         """Whether a frequency is one of the machine's own or of the shaft's harmonics."""
@@ -86,6 +93,16 @@ class Heard:
         counts = range(max(1, int(hz / (COMB_ORDERS[1] * self.speed_hz))), int(hz / closest) + 1)
         orders = ((n, hz / (n * self.speed_hz)) for n in counts)
         return [o for n, o in orders if abs(o - max(1, round(o))) > WHOLE and self.passed(hz, n)]
+
+    def bearings(self, hz: float) -> list[float]:
+        """Spacings, in orders of the shaft, of combs of known bearings that pass a frequency, or whole turns beside."""
+        found = []
+        for place in (hz + k * self.speed_hz for k in SIDEBANDS):
+            turns = max(0.0, place / self.speed_hz)
+            for order in (x for x in self.impacts if x > LEAST_ORDER):
+                counts = range(max(1, ceil(turns / (order * (1 + SLIP)))), floor(turns / (order * (1 - SLIP))) + 1)
+                found += [turns / n for n in counts if self._beside(place, n, 1, COMB_LEAST)]
+        return found
 
     def passed(self, hz: float, count: int) -> bool:
         """Whether `hz` is the `count`-th line of a comb: those beside it stand out, and those between that a denser one
@@ -118,8 +135,10 @@ def tone_findings(
     speeds_hz: Sequence[float],
     expected_hz: Sequence[FloatArray],
     baselines: Sequence[Recording],
+    impacts: Sequence[float] = (),
 ) -> tuple[tuple[Finding, ...], list[Recording]]:
-    """One `fixed_tones` a channel, and the tests without them; nothing is claimed of tests at one speed."""
+    """One `fixed_tones` a channel, and the tests without them; nothing is claimed of tests at one speed. `impacts`:
+    orders of the bearings' parts."""
     order = np.sort(np.asarray(speeds_hz))
     if not any(b > APART * a > 0 for a, b in pairwise(order)):
         return (), list(tests)
@@ -128,7 +147,7 @@ def tone_findings(
         if any(name not in one.names for one in tests):
             continue
         heard = [
-            Heard(*line_excess(one.series(name)), hz, own)
+            Heard(*line_excess(one.series(name)), hz, own, tuple(impacts))
             for one, hz, own in zip(tests, speeds_hz, expected_hz, strict=True)
         ]
         tones = fixed_tones(heard)
@@ -186,7 +205,8 @@ def _staying(heard: Sequence[Heard], shift: int, *, apart: bool = True) -> list[
 
 def _struck(heard: Sequence[Heard], at: Sequence[float]) -> bool:
     """Whether a comb that goes with the speed passes the frequencies `at` in every test: impacts at 20 and 40 turns a
-    second have every second line in common."""
+    second have every second line in common. Of a known bearing also the lines whole turns beside: the second at 20 is
+    the first at 40."""
 
     def there(order: float, one: Heard, hz: float) -> bool:
         count = round(hz / (order * one.speed_hz))
@@ -194,7 +214,10 @@ def _struck(heard: Sequence[Heard], at: Sequence[float]) -> bool:
         return alike and one.passed(hz, count)
 
     rest = list(zip(heard, at, strict=True))[1:]
-    return any(all(there(order, *one) for one in rest) for order in heard[0].combs(at[0]))
+    if any(all(there(order, *one) for one in rest) for order in heard[0].combs(at[0])):
+        return True
+    first, *others = (one.bearings(hz) for one, hz in zip(heard, at, strict=True))
+    return any(all(any(abs(x / order - 1.0) < SAME_ORDER for x in other) for other in others) for order in first)
 
 
 def beside_tones(heard: Sequence[Heard], tones: Sequence[float]) -> list[tuple[float, float]]:
