@@ -8,7 +8,7 @@ import numpy as np
 
 from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.carried import carried, shared, told_exchanged, told_heard, told_open
-from reconcile.kinematics.extent import Extent, as_severity, spall_extent
+from reconcile.kinematics.extent import Extent, as_severity, spall_extent, told_extent
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.heldout import held_out
 from reconcile.kinematics.measured import measured_lines
@@ -24,6 +24,8 @@ BOUND = "width_below_m"
 """Key of the values of a cause of which only an upper bound of its length is known: a bound is no size."""
 ALIKE = " if both its edges strike alike"
 """A ball that sinks in slowly is not heard at the near edge: then only the far one strikes, however long the way."""
+MERGED = "entry and exit are not told apart"
+REBOUND = "what strikes second may be the far edge or a rebound: another speed would tell"
 NO_BASELINE, WITHOUT = "there is no baseline", "without a baseline"
 SOUND = NextExperiment(sentence="Record the machine in a sound state, or each bearing on its own.")
 SOUND_TOO = NextExperiment(sentence="Record the same machine in a sound state as a baseline.")
@@ -92,12 +94,11 @@ def lines_of(
 
 
 def _size(candidate: Candidate, tests: Sequence[Observation], ties: Ties) -> tuple[Extent | None, Severity | None]:
-    """Median over the recordings that resolve entry and exit; else the tightest bound, which is no size."""
-    found = [x for e, t in zip(candidate.evidence, tests, strict=True) if (x := spall_extent(e, t, ties)) is not None]
-    if not found:
+    """The length that entry and exit say at several speeds; else the tightest bound, which is no size."""
+    pairs = zip(candidate.evidence, tests, strict=True)
+    chosen = told_extent([(t.speed.speed_hz, x) for e, t in pairs if (x := spall_extent(e, t, ties)) is not None])
+    if chosen is None:
         return None, None
-    resolved = sorted((x for x in found if x.resolved), key=lambda x: x.degrees)
-    chosen = resolved[len(resolved) // 2] if 2 * len(resolved) >= len(found) else min(found, key=lambda x: x.high_deg)
     return chosen, as_severity(chosen, candidate.best, ties) if chosen.resolved else None
 
 
@@ -190,7 +191,7 @@ def _undecided(
     if any(extent is None for extent, _ in sizes):
         found.append(NO_SIZE)
     found += [
-        f"how large the defect is: {_less_than(x, _bound_m(c, x, ties))}{ALIKE}, but entry and exit are not told apart"
+        f"how large the defect is: {_less_than(x, _bound_m(c, x, ties))}{ALIKE}, but {REBOUND if x.struck else MERGED}"
         for c, (x, _) in zip(chosen, sizes, strict=True)
         if x is not None and not x.resolved
     ]

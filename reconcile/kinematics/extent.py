@@ -5,11 +5,15 @@ signal processing techniques to track the spall size", Mech. Syst. Signal Proces
 autocorrelation of the squared envelope the two are a peak at their distance and satellites around the period; random
 slip between balls does not smear it. The strike comes when the ball's centre is between half way (an edge it falls
 against while the other still carries it) and the whole way over the spall: the interval says so.
+
+A rotor or ring that the pit threw off its balls falls back as a second event too, after a time that has little to do
+with the pit's length. Only speeds tell the two apart: over a spall the lag is one angle, a fall is none.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
@@ -41,6 +45,9 @@ APART = 0.08
 """Of the period, further than which from the pair's own peaks and the period another one is a strike of its own: of
 equal strikes many a ball pass, as fluting makes them, of an edge half way to the next ball. Two strikes 8 mm apart of
 16 have it at 0.48, a washboard three; pits of three measured rigs whose size is told none."""
+SPEEDS_APART, ANGLES_ALIKE = 1.25, 1.15
+"""Ratio of the speeds that two lags are heard at from which on they are compared, and by which their angles may differ:
+of one fall, a constant time, they would differ as the speeds do."""
 BANDS = ((0.02, 0.24), (0.05, 0.5), (0.01, 0.49), (0.24, 0.48))
 """Of the sampling rate."""
 EXTREME = 0.999
@@ -50,13 +57,15 @@ CUT_SHARE = 2e-3
 
 @dataclass(frozen=True, kw_only=True)
 class Extent:
-    """Angle on the race with its interval, degrees; `resolved` False: only `high_deg` is known."""
+    """Angle on the race with its interval, degrees; `resolved` False: only `high_deg` is known, `struck` where a second
+    event is heard that may be a rebound."""
 
     degrees: float
     low_deg: float
     high_deg: float
     lag_s: float
     resolved: bool
+    struck: bool = False
 
 
 def spall_extent(evidence: Evidence, test: Observation, ties: Ties) -> Extent | None:
@@ -93,6 +102,27 @@ def spall_extent(evidence: Evidence, test: Observation, ties: Ties) -> Extent | 
         lag_s=lag,
         resolved=True,
     )
+
+
+def told_extent(found: Sequence[tuple[float, Extent]]) -> Extent | None:
+    """What recordings say together, of (speed, extent) of each: the median length where second events are one angle at
+    speeds that differ; else the tightest bound."""
+    if not found:
+        return None
+    resolved = sorted((pair for pair in found if pair[1].resolved), key=lambda pair: pair[1].degrees)
+    if 2 * len(resolved) >= len(found) and _one_angle(resolved):
+        return resolved[len(resolved) // 2][1]
+    least = min((x for _, x in found), key=lambda x: x.high_deg)
+    if not least.resolved:
+        return least
+    return replace(least, degrees=least.high_deg / 2, low_deg=0.0, resolved=False, struck=True)
+
+
+def _one_angle(resolved: Sequence[tuple[float, Extent]]) -> bool:
+    """Whether lags at speeds that differ are one angle: `resolved`, nearest first."""
+    speeds = [hz for hz, _ in resolved]
+    apart = max(speeds) >= SPEEDS_APART * min(speeds)
+    return apart and resolved[-1][1].degrees <= ANGLES_ALIKE * resolved[0][1].degrees
 
 
 def _cut_off(test: Observation, channel: str) -> bool:

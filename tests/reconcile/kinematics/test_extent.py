@@ -7,6 +7,7 @@ import pytest
 
 from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.answer import BOUND
+from reconcile.kinematics.extent import Extent, told_extent
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.observe import observe
 from reconcile.kinematics.octaves import odd_lines
@@ -47,10 +48,41 @@ def test_the_bound_is_told_of_single_strikes_only() -> None:
 
 @pytest.mark.slow
 def test_many_strikes_a_pass_are_no_size() -> None:
-    assert struck(0.24).causes[0].severity is not None
+    assert BOUND in struck(0.24).causes[0].values
     many = struck(0.24, 0.5)
     assert many.causes[0].term == "outer_spall" and many.causes[0].severity is None
     assert BOUND not in many.causes[0].values
+
+
+def extent(degrees: float, *, resolved: bool = True) -> Extent:
+    return Extent(degrees=degrees, low_deg=0.75 * degrees, high_deg=1.5 * degrees, lag_s=1e-3, resolved=resolved)
+
+
+def test_a_size_is_told_of_one_angle_at_speeds_that_differ() -> None:
+    told = told_extent([(20.0, extent(8.0)), (30.0, extent(8.4)), (25.0, extent(8.8))])
+    assert told is not None and told.resolved and told.degrees == 8.4
+
+
+@pytest.mark.parametrize(
+    "found",
+    [
+        [(20.0, 8.0)],
+        [(20.0, 8.0), (20.0, 8.0)],
+        [(20.0, 8.0), (24.0, 8.0)],
+        [(20.0, 8.0), (30.0, 12.0)],  # one time: a fall
+        [(20.0, 8.0), (30.0, 8.0), (40.0, 12.0)],
+    ],
+)
+def test_else_a_second_event_bounds_it(found: list[tuple[float, float]]) -> None:
+    told = told_extent([(hz, extent(degrees)) for hz, degrees in found])
+    assert told is not None and not told.resolved and told.struck
+    assert (told.low_deg, told.high_deg) == (0.0, 12.0)
+
+
+def test_the_tightest_bound_is_told() -> None:
+    told = told_extent([(20.0, extent(8.0)), (30.0, extent(4.0, resolved=False))])
+    assert told == extent(4.0, resolved=False)
+    assert told_extent([]) is None
 
 
 @pytest.mark.slow

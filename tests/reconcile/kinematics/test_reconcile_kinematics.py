@@ -14,6 +14,7 @@ from reconcile.kinematics.answer import BOUND
 from reconcile.kinematics.families import Family
 from reconcile.kinematics.judge import nearest_drawing, own_lines
 from reconcile.verdict import NOT_JUDGED
+from signals.recording import Recording
 from sim.core.errors import SpecError
 from tests.strategies.brief import RATE_HZ, SPEED_HZ, N, recorded, shaft_lines, sound, train
 
@@ -30,6 +31,12 @@ def defect(term: str, seed: int, *, slip: float = -0.008, **how: float):  # type
 
 
 BASELINE = recorded(sound(1))
+
+
+def played(record: Recording, times: float = 1.3) -> Recording:
+    """A record played so many times as fast."""
+    operating = replace(record.operating, speed_hz=times * SPEED_HZ)
+    return replace(record, sampling_rate_hz=times * record.sampling_rate_hz, operating=operating)
 
 
 @pytest.mark.slow
@@ -141,14 +148,27 @@ def test_louder_and_dirtier_is_no_defect() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("degrees", [5.0, 9.0])
 def test_entry_and_exit_give_the_extent(degrees: float) -> None:
+    """At two speeds: the same turned angle, so the same record played faster."""
     cage_hz = 0.3983 * SPEED_HZ
     pair = 0.75 * degrees / 360 / cage_hz
-    report = reconcile_kinematics(SPEC, [recorded(defect("outer_spall", 3, pair_s=pair))], [BASELINE], seed=0)
+    one = recorded(defect("outer_spall", 3, pair_s=pair))
+    report = reconcile_kinematics(SPEC, [one, played(one)], [BASELINE, played(BASELINE)], seed=0)
     size = report.causes[0].severity
     assert size is not None and size.name == "width" and size.unit == "m"
     race_m = 0.0390398 / 2 * (1 + 7.94004 / 39.0398)
     assert size.value == pytest.approx(np.radians(degrees) * race_m, rel=0.1)
     assert size.low <= np.radians(degrees) * race_m <= size.high
+
+
+@pytest.mark.slow
+def test_at_one_speed_a_second_strike_is_a_bound() -> None:
+    """It may be what fell back on its balls."""
+    pair = 0.75 * 9.0 / 360 / (0.3983 * SPEED_HZ)
+    report = reconcile_kinematics(SPEC, [recorded(defect("outer_spall", 3, pair_s=pair))], [BASELINE], seed=0)
+    first = report.causes[0]
+    assert first.named and first.severity is None and 9.0 < np.degrees(first.values[BOUND] / 0.0234899) < 15.0
+    assert any("far edge or a rebound" in text for text in report.undecidable)
+    assert "entry and exit say" not in report.sentence
 
 
 @pytest.mark.slow
