@@ -173,6 +173,10 @@ class HeldOut:
     """All wrong places and laws that were forecast; `placebo` is the median of those with draws enough."""
 
 
+NO_GAIN = "; on data it was not fitted to it brings the spectra no nearer"
+"""Said of one effect in the sentence of the verdict, where the gain is none."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class PointForce:
     """At one operating point: the force of the `lines` that tell one together, N rms, with a 90 % interval [low_n,

@@ -15,7 +15,7 @@ from reconcile.kinematics.measured import measured_lines
 from reconcile.kinematics.observe import Observation
 from reconcile.kinematics.sites import decided, places
 from reconcile.shares import from_drawing
-from reconcile.verdict import Cause, HeldOut, LineChange, NextExperiment, PlaceWeight, Report, Severity, Where
+from reconcile.verdict import NO_GAIN, Cause, HeldOut, LineChange, NextExperiment, PlaceWeight, Report, Severity, Where
 
 TERMS = {"outer": "outer_spall", "inner": "inner_spall", "ball": "ball_spall"}
 PARTS = {"outer": "the outer race", "inner": "the inner race", "ball": "a ball"}
@@ -56,7 +56,8 @@ def defect_report(
     )
     held = _held(chosen[0], tests, baselines, ties, np.random.default_rng(seed), seed)
     undecidable = (*_undecided(chosen, weights, sizes, baselines, ties), *opened)
-    what = " and ".join(_phrase(c, w, s[0], ties) for c, w, s in zip(chosen, weights, sizes, strict=True))
+    first, *others = (_phrase(c, w, s[0], ties) for c, w, s in zip(chosen, weights, sizes, strict=True))
+    what = " and ".join((first + gained(held), *others))
     return Report(
         verdict="explained" if one_site else "ambiguous",
         sentence=f"{what}.{HANGS}" if "open" in words else f"{what}.",
@@ -73,6 +74,11 @@ def defect_report(
         undecidable=undecidable,
         next_experiment=WHOSE if "exchanged" in words else _next(one_site, sizes, baselines),
     )
+
+
+def gained(held: HeldOut | None) -> str:
+    """What the sentence adds where the defect predicts nothing of the data held out: its lines name it all the same."""
+    return NO_GAIN if held is not None and held.gain <= 0.0 else ""
 
 
 def lines_of(

@@ -10,7 +10,7 @@ from reconcile.machine.next_look import Apart, Look, best_look
 from reconcile.machine.proved import NO_FORECAST, NO_NEARER, UNLIKE
 from reconcile.observe.observation import PointData
 from reconcile.report.words import percent, sizes
-from reconcile.verdict import EstimatedForce, HeldOut, NextExperiment, Severity, operating_point
+from reconcile.verdict import NO_GAIN, EstimatedForce, HeldOut, NextExperiment, Severity, operating_point
 from sim.terms import REGISTRY
 
 LISTED = 4
@@ -68,7 +68,7 @@ def together(held: HeldOut) -> str:
 
 def _gain(held: HeldOut) -> str:
     if held.gain <= 0.0:
-        return "; on data it was not fitted to it brings the spectra no nearer"
+        return NO_GAIN
     return f"; it takes {percent(held.gain)} off the distance of spectra on data it was not fitted to"
 
 
