@@ -26,6 +26,10 @@ ALIKE = " if both its edges strike alike"
 """A ball that sinks in slowly is not heard at the near edge: then only the far one strikes, however long the way."""
 MERGED = "entry and exit are not told apart"
 REBOUND = "what strikes second may be the far edge or a rebound: another speed would tell"
+ANOTHER_SPEED = NextExperiment(
+    sentence="Record at another speed, a quarter off this one or more: over a defect what strikes second keeps its angle, "
+    "a rebound does not."
+)
 NO_BASELINE, WITHOUT = "there is no baseline", "without a baseline"
 SOUND = NextExperiment(sentence="Record the machine in a sound state, or each bearing on its own.")
 SOUND_TOO = NextExperiment(sentence="Record the same machine in a sound state as a baseline.")
@@ -100,7 +104,7 @@ def lines_of(
 
 
 def _size(candidate: Candidate, tests: Sequence[Observation], ties: Ties) -> tuple[Extent | None, Severity | None]:
-    """The length that entry and exit say at several speeds; else the tightest bound, which is no size."""
+    """The length that entry and exit say; else the tightest bound, which is no size."""
     pairs = zip(candidate.evidence, tests, strict=True)
     chosen = told_extent([(t.speed.speed_hz, x) for e, t in pairs if (x := spall_extent(e, t, ties)) is not None])
     if chosen is None:
@@ -160,7 +164,8 @@ def _phrase(candidate: Candidate, weights: Sequence[PlaceWeight], extent: Extent
     if not extent.resolved:
         return f"{text}; it covers {_less_than(extent, _bound_m(candidate, extent, ties))}{ALIKE}"
     span = f"{extent.low_deg:.1f} to {extent.high_deg:.1f}"
-    return f"{text}; entry and exit say {extent.degrees:.1f} degrees of the race ({span})"
+    rebound = ", unless what strikes second is a rebound" if extent.struck else ""
+    return f"{text}; entry and exit say {extent.degrees:.1f} degrees of the race ({span}){rebound}"
 
 
 def _bound_m(candidate: Candidate, extent: Extent | None, ties: Ties) -> float | None:
@@ -201,6 +206,8 @@ def _undecided(
         for c, (x, _) in zip(chosen, sizes, strict=True)
         if x is not None and not x.resolved
     ]
+    if any(x is not None and x.resolved and x.struck for x, _ in sizes):
+        found.append(f"how large the defect is: {REBOUND}")
     if any(c.family.kind == "outer" for c in chosen):
         found.append("where on the outer ring it sits: a rate has no angle")
     if not baselines:
@@ -217,4 +224,4 @@ def _next(
         return SOUND
     if any(s[0] is None or not s[0].resolved for s in sizes):
         return NextExperiment(sentence="Record at half the speed: entry and exit of the defect move apart in time.")
-    return None
+    return ANOTHER_SPEED if any(x is not None and x.struck for x, _ in sizes) else None

@@ -57,8 +57,8 @@ CUT_SHARE = 2e-3
 
 @dataclass(frozen=True, kw_only=True)
 class Extent:
-    """Angle on the race with its interval, degrees; `resolved` False: only `high_deg` is known, `struck` where a second
-    event is heard that may be a rebound."""
+    """Angle on the race with its interval, degrees; `resolved` False: only `high_deg` is known; `struck`: what is heard
+    second may be a rebound."""
 
     degrees: float
     low_deg: float
@@ -105,24 +105,23 @@ def spall_extent(evidence: Evidence, test: Observation, ties: Ties) -> Extent | 
 
 
 def told_extent(found: Sequence[tuple[float, Extent]]) -> Extent | None:
-    """What recordings say together, of (speed, extent) of each: the median length where second events are one angle at
-    speeds that differ; else the tightest bound."""
+    """What recordings say together, of (speed, extent) of each: the median length where most have a second event, with
+    its interval where the events are one angle at speeds that differ, from nothing on where all speeds are about one;
+    else the tightest bound."""
     if not found:
         return None
     resolved = sorted((pair for pair in found if pair[1].resolved), key=lambda pair: pair[1].degrees)
-    if 2 * len(resolved) >= len(found) and _one_angle(resolved):
-        return resolved[len(resolved) // 2][1]
+    middle = resolved[len(resolved) // 2][1] if 2 * len(resolved) >= len(found) else None
+    if middle is not None and all(x.high_deg >= middle.degrees for _, x in found):
+        speeds = [hz for hz, _ in resolved]
+        if max(speeds) < SPEEDS_APART * min(speeds):
+            return replace(middle, low_deg=0.0, struck=True)
+        if resolved[-1][1].degrees <= ANGLES_ALIKE * resolved[0][1].degrees:
+            return middle
     least = min((x for _, x in found), key=lambda x: x.high_deg)
     if not least.resolved:
         return least
     return replace(least, degrees=least.high_deg / 2, low_deg=0.0, resolved=False, struck=True)
-
-
-def _one_angle(resolved: Sequence[tuple[float, Extent]]) -> bool:
-    """Whether lags at speeds that differ are one angle: `resolved`, nearest first."""
-    speeds = [hz for hz, _ in resolved]
-    apart = max(speeds) >= SPEEDS_APART * min(speeds)
-    return apart and resolved[-1][1].degrees <= ANGLES_ALIKE * resolved[0][1].degrees
 
 
 def _cut_off(test: Observation, channel: str) -> bool:
