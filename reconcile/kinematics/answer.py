@@ -27,8 +27,8 @@ ALIKE = " if both its edges strike alike"
 MERGED = "entry and exit are not told apart"
 REBOUND = "what strikes second may be the far edge or a rebound: another speed would tell"
 ANOTHER_SPEED = NextExperiment(
-    sentence="Record at another speed, a quarter off this one or more: over a defect what strikes second keeps its angle, "
-    "a rebound does not."
+    sentence="Record at another speed, a quarter off this one or more: over a defect what strikes second keeps its "
+    "angle, a rebound does not."
 )
 NO_BASELINE, WITHOUT = "there is no baseline", "without a baseline"
 SOUND = NextExperiment(sentence="Record the machine in a sound state, or each bearing on its own.")

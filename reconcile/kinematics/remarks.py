@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -57,10 +58,18 @@ def remarked(
         report = replace(report, verdict="not_decidable", next_experiment=WHICH)
     return replace(
         report,
-        sentence=" ".join([report.sentence, *(f"But {text}." for text in said)]),
+        sentence=" ".join([_but_for(report.sentence, deeper), *(f"But {text}." for text in said)]),
         undecidable=(*report.undecidable, *_risen_too(report, every), *_modulating(report, every)),
         where=replace(report.where, limits=(*report.where.limits, *limits)),
     )
+
+
+def _but_for(sentence: str, deeper: Sequence[str]) -> str:
+    """The sentence without what it says to be deep in both, where the baseline alone turns out to have it."""
+    for said in re.findall(rf" But ([^,]*) is {IN_BOTH}: {BEFORE_TOO}\.", sentence):
+        if any(text.startswith(f"the baseline has deep lines of {said} that") for text in deeper):
+            sentence = sentence.replace(f" But {said} is {IN_BOTH}: {BEFORE_TOO}.", "")
+    return sentence
 
 
 def if_heard(report: Report, tests: Sequence[Observation], baselines: Sequence[Observation]) -> Report:

@@ -10,6 +10,7 @@ import pytest
 from reconcile.kinematics import remarks
 from reconcile.kinematics.families import Family, Kind
 from reconcile.kinematics.remarks import remarked
+from reconcile.kinematics.vague import BEFORE_TOO, IN_BOTH
 from reconcile.report.action import BESIDE_BEARING, STRIKES, to_do
 from reconcile.verdict import Cause, Report
 
@@ -149,3 +150,14 @@ def test_a_baseline_with_a_tooth_that_the_tests_have_whole(monkeypatch: pytest.M
     assert "deep lines of wheel's turn around mesh1 that the tests have not" in report.sentence
     monkeypatch.setattr(remarks, "gear_evidence", lambda *_: rows[1:])
     assert told(NOTHING, baselines=[seen(30.0)]).sentence == "Nothing."
+
+
+@pytest.mark.parametrize(("deeper", "kept"), [("drive_end.outer", False), ("fan_end.outer", True)])
+def test_what_the_baseline_alone_has_is_not_told_to_be_in_both(
+    deeper: str, kept: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = f"the baseline has deep lines of {deeper} that the tests have not"
+    monkeypatch.setattr(remarks, "_deeper_before", lambda *_: [text])
+    both = f" But drive_end.outer is {IN_BOTH}: {BEFORE_TOO}."
+    report = told(replace(NOTHING, verdict="not_decidable", sentence=f"Quieter.{both}"))
+    assert report.sentence == f"Quieter.{both if kept else ''} But {text}."
