@@ -15,7 +15,8 @@ EXPLAINED = (
     "stands under “not told”, may be there unseen: “nothing missing” does not speak of it."
 )
 STRIKING = (
-    "* strikes once each time it passes: such impacts are looked for apart, and may tell smaller ones than this. "
+    "* strikes once each time it passes: such impacts are looked for apart, and mostly tell far smaller ones than the "
+    "table, which is of patterns and strengths alone. "
     "A spall outside the load zone shows nothing at any size."
 )
 
@@ -32,7 +33,7 @@ def faintest(report: Report) -> Markup:
     notes = [STRIKING] if any(one.strikes for one in report.faintest) else []
     explained = tag("p", EXPLAINED, css="muted")
     return section(
-        "What would have been seen", explained, table(heads, rows), *(tag("p", n, css="muted") for n in notes)
+        "What would have been seen", explained, *(tag("p", n, css="muted") for n in notes), table(heads, rows)
     )
 
 
@@ -55,4 +56,4 @@ def _size(value: float, found: Faintest) -> str:
 
 
 def _count(found: Faintest) -> str:
-    return f" ({found.seen} of {found.simulated})"
+    return f" ({found.seen} of {found.simulated} sizes)"

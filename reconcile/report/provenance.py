@@ -19,7 +19,8 @@ WORDS = {
 def provenance(report: Report) -> Markup:
     """Where the report comes from."""
     found = plain(report.provenance)
-    rows = [(_word(k), short(_named(v))) for k, v in found.items()] if isinstance(found, dict) else []
+    told = {k: v for k, v in found.items() if v is not None and v != ""} if isinstance(found, dict) else {}
+    rows = [(_word(k), short(_named(v))) for k, v in told.items()]
     return section("Provenance", table(("", ""), rows))
 
 

@@ -47,7 +47,7 @@ def test_the_page_says_what_would_have_been_seen_and_what_not() -> None:
     sound = Report(verdict="nothing_missing", sentence="Nothing is missing.", level="machine", faintest=rows())
     told = page(sound)
     assert "What would have been seen" in told
-    assert "bearing1 310 \u00b5m (6 of 8)" in told and "bearing1 3 mm (0 of 8)" in told
+    assert "bearing1 310 \u00b5m (6 of 8 sizes)" in told and "bearing1 3 mm (0 of 8 sizes)" in told
     assert told.index("radial clearance") < told.index("inner spall*")  # what is told least comes first
     assert "What would have been seen" in to_do(sound)
 

@@ -17,7 +17,7 @@ export function lineTable(lines) {
   const rows = together(kept).map((same) => {
     const [line] = same;
     return [same.map(({ label }, i) => [i ? ", " : "", typeset(label)]).flat(), ...only(point(line)), same.map((one) => quantity(one.frequency_hz, "Hz")).join(", "),
-      `${number(line.change_db, 3)} dB`, line.channel || "–", line.locked_to ? typeset(line.locked_to) : "–"];
+      `${line.change_db > 0 ? "+" : ""}${number(line.change_db, 3)} dB`, line.channel || "–", line.locked_to ? typeset(line.locked_to) : "–"];
   });
   const rest = rows.slice(OPEN);
   return [table("Lines", heads, rows.slice(0, OPEN)),
