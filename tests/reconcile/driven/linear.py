@@ -11,6 +11,7 @@ import numpy as np
 
 from signals.recording import Recording
 from sim.core.response import Channel
+from tests.reconcile.driven.sines import sines
 
 RATE, SUBSTEPS = 1000.0, 16
 MASS, STIFFNESS, DAMPING = 1.2, 80e3, 25.0
@@ -21,9 +22,8 @@ Extra = Callable[[float, float, float], float]
 def force(rng: np.random.Generator, n: int, size: float) -> np.ndarray:
     """Sines of random phases from 2 to 130 Hz, RMS `size`, at every substep."""
     frequency = np.arange(2.0, 130.0, 0.9)
-    t = np.arange(n * SUBSTEPS) / RATE / SUBSTEPS
     phase = rng.uniform(0, 2 * np.pi, frequency.size)
-    total = sum(np.sin(2 * np.pi * f * t + p) for f, p in zip(frequency, phase, strict=True))
+    total = sines(frequency, phase, 1.0 / RATE / SUBSTEPS, n * SUBSTEPS)
     return np.asarray(size * total / np.sqrt(frequency.size / 2))
 
 

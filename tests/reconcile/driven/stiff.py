@@ -12,6 +12,7 @@ import numpy as np
 
 from signals.recording import Recording
 from sim.core.response import Channel
+from tests.reconcile.driven.sines import sines
 
 RATE, SUBSTEPS = 2000.0, 16
 MASS, STIFFNESS, DAMPING = 1.0, 40e3, 8.0
@@ -33,9 +34,8 @@ CHANNELS = (
 def _force(rng: np.random.Generator, n: int, size: float) -> np.ndarray:
     """Sines of random phases from 1 to 140 Hz, RMS `size`, at every substep."""
     frequency = np.arange(1.0, 140.0, 0.8)
-    t = np.arange(n * SUBSTEPS) / RATE / SUBSTEPS
     phase = rng.uniform(0, 2 * np.pi, frequency.size)
-    total = sum(np.sin(2 * np.pi * f * t + p) for f, p in zip(frequency, phase, strict=True))
+    total = sines(frequency, phase, 1.0 / RATE / SUBSTEPS, n * SUBSTEPS)
     return np.asarray(size * total / np.sqrt(frequency.size / 2))
 
 
