@@ -26,8 +26,9 @@ To name a race by its lines is within reach of a plain envelope detector. What a
 place, size, the path that carried it, what it leaves unexplained, and whether it predicts data it has not seen."""
 SITES = """The weight of a site says how much of the evidence points there; numbers behind channels are how firmly each
 hears the lines (robust deviations over orders of no part). A size is the length along the race by the entry and exit of
-the balls, else a bound below which they are not told apart; none is given where the record tells neither. Nothing in
-the last column: no shaft line and no sideband grew besides."""
+the balls, else a bound below which they are not told apart; none is given where the record tells neither. Its interval
+begins at nothing where all speeds are about one: what strikes second may then be a rebound. Nothing in the last column:
+no shaft line and no sideband grew besides."""
 PATHS = """Depth: root of the summed squares of the lines in the squared envelope over its mean, and its growth over the
 baseline. The band is that in which the lines stand out most; `dB around` is where the level of a channel changed most,
 lines and noise alike: the resonance that the impacts excite, or a mount. Speeds are shown where the stated one is off
