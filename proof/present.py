@@ -23,8 +23,9 @@ def by_present(runs: Sequence[Run], present: str, planned: int) -> list[str]:
         if first
         else "none of them for the first time"
     )
+    others = "The others" if first else "All"
     said = (
-        f"{len(scores)} of the plan's {planned} cases by {own[0].by}, {new}. The others had been met before: what they "
+        f"{len(scores)} of the plan's {planned} cases by {own[0].by}, {new}. {others} had been met before: what they "
         "taught is in it, so these figures are no measure of what it makes of machines it has not met. They say what "
         "`make proof` answers at this commit, and whether what was learnt from one case spoils another."
     )

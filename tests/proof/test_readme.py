@@ -62,3 +62,13 @@ def test_what_is_said_of_the_first_row() -> None:
     assert first in " ".join(README.split())
     nulls, sound = of(found, "null", "alarm"), of(found, "null", "told_sound")
     assert f"Of its {nulls.n} sound machines {sound.hits} were told sound, the other" in " ".join(README.split())
+
+
+def test_what_is_said_of_the_version_at_hand() -> None:
+    found = stored(("present",))
+    single, nulls, names = of(found, "single", "place"), of(found, "null", "alarm"), wrong_rates(found)[-1]
+    said = (
+        f"it names {single.hits} of {single.n} single faults with their place, alarms on {nulls.hits} of {nulls.n} "
+        f"sound machines, and {names.hits} of its {names.n} names are wrong"
+    )
+    assert len(found) == 72 and said in " ".join(README.split())
