@@ -43,13 +43,13 @@ class Compared:
 
 
 def against(results: Path, answers: Answers, section: str | None = None) -> Compared:
-    """Answers case by case against those stored: each against its first run where there is one, or all those that
-    `section` has."""
+    """Answers case by case against those stored: each against its run by the same engine where there is one, else its
+    first run, else another; or all those that `section` has."""
     left = {s.name: s for s in answers.scores}
     lines: list[str] = []
     others: list[str] = []
     alike = 0
-    for run in sorted(runs_of(results, answers.split), key=lambda run: not run.first):
+    for run in sorted(runs_of(results, answers.split), key=lambda run: (run.engine != answers.engine, not run.first)):
         if section not in {None, run.section}:
             continue
         part = [left.pop(s.name) for s in run.scores if s.name in left]

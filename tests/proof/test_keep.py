@@ -95,6 +95,17 @@ def test_each_answer_is_held_against_its_first_run(tmp_path: Path) -> None:
     assert not against(tmp_path, answers("new", scores("explained")), "repeat").others
 
 
+def test_an_answer_is_held_against_that_of_the_same_engine_before_all_others(tmp_path: Path) -> None:
+    keep(tmp_path, "quiet", answers(first=True, commit="c0ffee"))
+    keep(tmp_path, "present", answers("new", scores("explained", 1)))
+    found = against(tmp_path, answers("new", scores("explained", 2)))
+    text = "\n".join(found.lines)
+    assert "1 of 1 as stored in present.json (engine new)" in text.replace(", here new", "")
+    assert "0 of 1 as stored in quiet.json" in text and found.others == (
+        "q002 (nothing_missing was stored, now explained)",
+    )
+
+
 def given(folder: Path, *more: str) -> argparse.Namespace:
     """The command `score` on cases of a folder, whose truths are those sealed."""
     for case in CASES[:2]:
