@@ -85,7 +85,7 @@ def forms(found: Cause) -> str:
 
 def percent(share: float | None) -> str:
     """A share as per cent; a dash where there is none."""
-    return "–" if share is None or not math.isfinite(share) else f"{100 * share:.0f} %"
+    return "–" if share is None or not math.isfinite(share) else f"{round(100 * share):.0f} %"
 
 
 def distance(value: float, unit: str) -> str:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from statistics import median
 
 from reconcile.report.figures.colour import diverging
 from reconcile.report.markup import Markup, figure_text, tag
@@ -23,7 +24,9 @@ SHADES = 24
 NAMES = 215.0
 """Room for the names of rows, pixels."""
 LEAST_VARYING_DB = 3.0
-"""Least difference over a turn that is drawn of a sensor: below it nothing is to be seen."""
+"""Least difference over a turn that is drawn of a sensor, or"""
+STANDS_OUT, LEAST_SEEN_DB = 10.0, 0.1
+"""what is so many times the median deviation, and so much at least: of noise alone the difference is seven times it."""
 QUARTERS = tuple(45.0 * k for k in range(9))
 
 
@@ -163,12 +166,21 @@ def varying(picture: Mapping[str, Plain]) -> tuple[dict[str, Plain], int]:
     where none is left. A map by order is kept whole or left out whole."""
     values = picture.get("value")
     table = values if isinstance(values, list) else []
-    lively = [max(known) - min(known) >= LEAST_VARYING_DB if (known := _finite(row)) else False for row in rows(table)]
+    lively = [_lively(_finite(row)) for row in rows(table)]
     names = picture.get("rows")
     if not isinstance(names, list):
         return {**picture, "value": list(table) if any(lively) else []}, 0
     kept = [i for i, alive in enumerate(lively[: len(names)]) if alive]
     return {**picture, "rows": [names[i] for i in kept], "value": [table[i] for i in kept]}, len(names) - len(kept)
+
+
+def _lively(values: Sequence[float]) -> bool:
+    """Whether energies over a turn change much, or stand out at a place of it where they are even elsewhere."""
+    if not values:
+        return False
+    span, middle = max(values) - min(values), median(values)
+    even = median([abs(v - middle) for v in values])
+    return span >= LEAST_VARYING_DB or span >= max(STANDS_OUT * even, LEAST_SEEN_DB)
 
 
 def _finite(row: Sequence[float]) -> list[float]:

@@ -14,7 +14,7 @@ from reconcile.report import page
 from reconcile.report.figures.bars import NARROW, WIDE, ranking
 from reconcile.report.figures.gains import gains as gain_bars
 from reconcile.report.plot import RIGHT, fitting, text_width
-from reconcile.report.words import LAWS, cause, cause_key, gain, gains, severity, size_name, sizes, tidied
+from reconcile.report.words import LAWS, cause, cause_key, gain, gains, percent, severity, size_name, sizes, tidied
 from reconcile.verdict import Cause, EstimatedForce, HeldOut, Placebo, Report, Severity
 from tests.reconcile.report.test_reader import HELD, told
 
@@ -146,3 +146,7 @@ def test_the_figure_behind_a_bar_has_room() -> None:
 
 def test_a_table_tells_each_cell_with_its_head_where_the_screen_is_narrow() -> None:
     assert '<td data-head="score">40</td>' in page(driven(STOPS))
+
+
+def test_a_share_that_rounds_to_nothing_has_no_sign() -> None:
+    assert [percent(x) for x in (-0.001, 0.0, -0.14, 0.155, None)] == ["0 %", "0 %", "-14 %", "16 %", "–"]
