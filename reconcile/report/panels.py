@@ -16,7 +16,7 @@ MOST_PANELS = 320
 """Spectra of a page: some 3 kB each."""
 ALL_CELLS = 40_000
 """Cells of all maps of a page: some 22 B each."""
-FLAT = "Sensors that change by less than 3 dB over the turn and are left out: {}."
+FLAT = "Sensors in which nothing stands out over the turn, left out: {}."
 Picture = Mapping[str, Plain]
 
 

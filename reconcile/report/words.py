@@ -156,7 +156,7 @@ def gains(found: HeldOut) -> tuple[str, str, str]:
     if not all(math.isfinite(v) for v in values):
         return percent(values[0]), percent(values[1]), percent(values[2])
     for places in range(MOST_PLACES + 1):
-        value, low, high = (f"{100 * v:.{places}f} %" for v in values)
+        value, low, high = (f"{round(100 * v, places) + 0.0:.{places}f} %" for v in values)
         if low != high or found.gain_low == found.gain_high:
             break
     return value, low, high

@@ -150,3 +150,7 @@ def test_a_table_tells_each_cell_with_its_head_where_the_screen_is_narrow() -> N
 
 def test_a_share_that_rounds_to_nothing_has_no_sign() -> None:
     assert [percent(x) for x in (-0.001, 0.0, -0.14, 0.155, None)] == ["0 %", "0 %", "-14 %", "16 %", "–"]
+
+
+def test_a_gain_that_rounds_to_nothing_has_no_sign() -> None:
+    assert gains(replace(HELD, gain=-0.001, gain_low=-0.02, gain_high=0.01)) == ("0 %", "-2 %", "1 %")
