@@ -26,6 +26,10 @@ FEWEST_TURNS, TURNS_NEEDED = 2.0, 12
 """Turns below which pulses that contradict the stated speed are put down to the length; what the engines need."""
 LINES = 4
 """Multiples of a speed that are looked for lines."""
+COUNTED = "(pulses_per_revolution"
+"""Begins what is allowed where another number of pulses fits."""
+STATED = "are stated"
+"""Who says a speed: the recording."""
 MILLISECONDS = 1000.0
 NEAR_WHOLE = 0.03
 """By which a number of pulses per revolution that would fit may miss a whole one."""
@@ -51,11 +55,11 @@ def check_pulses(several: Sequence[Given], machine: KinematicSpec | None = None)
         if short is not None:
             problems.append(short)
             continue
-        fits = far is not None and "would fit" in str(far.allowed)
+        fits = far is not None and COUNTED in str(far.allowed)
         if far is not None and not _by_lines(held, ratio):
             problems += [_with_rate(far, held, ratio)] if fits or one.recording.operating is not None else []
         elif far is None and (near := contradiction(held, field, MISCOUNTED, said=said)) is not None:
-            problems += [near] if "would fit" in str(near.allowed) and _miscounted(held) else []
+            problems += [near] if COUNTED in str(near.allowed) and _miscounted(held) else []
     if problems:
         raise SpecError(problems)
 
@@ -84,7 +88,7 @@ def _with_rate(problem: Problem, recording: Recording, ratio: float) -> Problem:
     assert operating is not None and tacho is not None
     times = operating.speed_hz and _mean_hz(tacho.pulse_times_s, tacho.pulses_per_revolution) / operating.speed_hz
     if (
-        "would fit" not in problem.allowed
+        COUNTED not in problem.allowed
         or round(times) < 2
         or not _only_with(recording, operating.speed_hz / ratio, round(times))
     ):
@@ -115,7 +119,7 @@ def _only_with(recording: Recording, speed_hz: float, times: int) -> bool:
 def _of_one_shaft(recording: Recording, machine: KinematicSpec | None) -> tuple[Recording, str, float]:
     """The recording with a speed of the shaft that the pulses are of, as far as it can be told, who says it, and how
     many times as fast as the shaft whose speed is known that shaft turns."""
-    operating, tacho, plain = recording.operating, recording.tacho, "are stated"
+    operating, tacho, plain = recording.operating, recording.tacho, STATED
     if tacho is None or machine is None or (operating is not None and operating.shaft == tacho.shaft):
         return recording, plain, 1.0
     known = {s.name: s.speed_hz for s in machine.shafts}
@@ -156,7 +160,7 @@ def contradiction(
     within: float = SAME_SPEED,
     *,
     all_along: bool = False,
-    said: str = "are stated",
+    said: str = STATED,
 ) -> Problem | None:
     """What is wrong where the mean speed by the pulses of the stated shaft is further than `within` from the stated
     one, `all_along`: where the speed at every time is; None elsewhere. `said`: who says the latter."""
@@ -185,12 +189,11 @@ def contradiction(
             given=per_turn,
             allowed="evenly spaced pulses: another column or threshold of the tacho, or none",
         )
-    return Problem(
-        field=field,
-        message=message,
-        given=per_turn,
-        allowed=f"pulses and speed_hz within {percent(within)} of each other{_would_fit(hz, stated, per_turn)}",
-    )
+    near, fits = f"pulses and speed_hz within {percent(within)} of each other", _would_fit(hz, stated, per_turn)
+    if not fits and said == STATED:  # no number of pulses mends it
+        named = field.replace("tacho.pulses_per_revolution", "operating.speed_hz")
+        return Problem(field=named, message=message, given=stated, allowed=f"{near} (speed_hz {hz:.4g} would fit)")
+    return Problem(field=field, message=message, given=per_turn, allowed=near + fits)
 
 
 def _range_hz(times: FloatArray, per_turn: int) -> tuple[float, float]:
@@ -214,7 +217,7 @@ def _would_fit(hz: float, stated: float, per_turn: int) -> str:
         or whole == per_turn
     ):
         return ""
-    return f" (pulses_per_revolution {whole} would fit)"
+    return f" {COUNTED} {whole} would fit)"
 
 
 def _by_lines(recording: Recording, ratio: float) -> bool:

@@ -15,6 +15,7 @@ from reconcile.machine.decide import UNMEASURED, Decision
 from reconcile.machine.decided import decided
 from reconcile.machine.elsewhere import by_forecast
 from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
+from reconcile.machine.level_size import level_sizes
 from reconcile.machine.limits import limits
 from reconcile.machine.lines import by_name, line_changes
 from reconcile.machine.meter import Meter
@@ -25,7 +26,7 @@ from reconcile.machine.pit_size import pit_sizes
 from reconcile.machine.placed import places, with_open, with_second
 from reconcile.machine.proved import proved
 from reconcile.machine.revised import Revised, paths, revised_machine
-from reconcile.machine.second import Beside, fitted_change, second_effect, struck_somewhere
+from reconcile.machine.second import Beside, Together, fitted_change, second_effect, struck_somewhere
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.stages import all_stages, gate_stage, of_pairs, revisions
 from reconcile.machine.unknown import Unknown, at_supports
@@ -104,7 +105,7 @@ def answer(
     held = _held(setting, found, decision, layout, unknown, other, pair) if decision.chosen else None
     decision, unknown = _forecast(decision, held, unknown)
     struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
-    sizes = sizes_of(pairs), _measured(setting, decision, meter) if missing else {}
+    sizes = _sizes(setting, found, decision, pairs, other, meter) if missing else ()
     ranked = ranked_causes(found, decision, weights, observed, other, struck, *sizes) if missing else ()
     causes = with_forms(ranked, found.screen)
     revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter, both)
@@ -142,9 +143,12 @@ def answer(
     )
 
 
-def _measured(setting: Setting, decision: Decision, meter: Meter) -> dict[str, Severity]:
-    """Sizes of what the answer stands on by what is heard of it."""
-    return {**burst_sizes(setting, decision.chosen, meter), **pit_sizes(setting, decision.chosen, meter)}
+def _sizes(
+    setting: Setting, found: Found, decision: Decision, pairs: Pairs | None, other: Beside | None, meter: Meter
+) -> tuple[Together | None, dict[str, Severity], dict[str, Severity]]:
+    """Of what the answer stands on: beside a second effect, by what is heard of it, and by levels where it is alone."""
+    heard = {**burst_sizes(setting, decision.chosen, meter), **pit_sizes(setting, decision.chosen, meter)}
+    return sizes_of(pairs), heard, level_sizes(setting, found, decision.chosen, meter) if other is None else {}
 
 
 def _forecast(decision: Decision, held: HeldOut | None, unknown: Unknown | None) -> tuple[Decision, Unknown | None]:

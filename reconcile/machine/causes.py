@@ -30,10 +30,12 @@ def ranked_causes(
     struck: Sequence[str] = (),
     sought: Together | None = None,
     measured: Mapping[str, Severity] | None = None,
+    levels: Mapping[str, Severity] | None = None,
 ) -> tuple[Cause, ...]:
     """The effects the verdict stands on, a second one with what it explains, those that share the impacts of another
     part (`struck`), and the rest by score. `sought`: the best of several seconds, where sizes had to be searched;
-    `measured`: sizes by what is heard of faults of teeth and pits."""
+    `measured`: sizes by what is heard of faults of teeth and pits; `levels`: where machines were simulated to tell them
+    by levels (else the nearest draws do)."""
     apart = {*decision.chosen, *(other.names[:1] if other else ())}
     told = dict(zip(found.screen.names, map(float, found.screen.evidence), strict=True))
     rest = sorted((n for n in weights if n not in struck), key=lambda n: -told[n])
@@ -44,8 +46,8 @@ def ranked_causes(
         term, site = name.split("@")
         drawn = best_draws(found.view(name), found.known, name, observed, count=1)
         named = decision.word == "explained" and name == decision.chosen[0]
-        levels = estimated_severity(found.view(name), found.known, name, observed)
-        alone = joined(levels, (measured or {}).get(name))
+        by_levels = (levels or {}).get(name) or estimated_severity(found.view(name), found.known, name, observed)
+        alone = joined(by_levels, (measured or {}).get(name))
         size = _between(alone, together if named else None)
         causes.append(
             Cause(

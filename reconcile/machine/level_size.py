@@ -1,0 +1,143 @@
+"""How large an effect is by levels: the size that, simulated on machines that agree with the baseline, shows what was
+observed.
+
+The draws near an observation crowd where the search went, and it was led by the one view in which the effect shows
+best. Here sizes evenly over what those draws leave open are simulated, each on another of the machines that agree with
+the baseline, and every view is asked: how far is the observed change from what such machines show at a size, in
+deviations of measurement, of drift and of what the machines scatter (docs/decisions/reconcile-level-size.md).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from reconcile.atlas.candidates import Candidate, sought_range
+from reconcile.atlas.plan import AtlasPlan, Draw, simulated_at
+from reconcile.atlas.run import steps_of
+from reconcile.judge.space import Fitted
+from reconcile.machine.library import Catalogued, catalogued
+from reconcile.machine.local import simulated_banks
+from reconcile.machine.meter import Meter
+from reconcile.machine.refine import best_draws, known_term
+from reconcile.machine.rolling import kind_of
+from reconcile.machine.setting import Found, Setting
+from reconcile.machine.severity import LEAST_SPREAD, estimated_severity, parameter_of, severity_of
+from reconcile.verdict import Severity
+from signals.series import FloatArray
+from sim.assembly.assemble import assemble
+from sim.core.errors import SpecError
+from sim.core.spec import TermSpec
+
+DRAWS, NEAR = 24, 6
+"""Sizes that are simulated, and the nearest draws whose other parameters they have, in turn."""
+LEAST_DRAWS = 12
+"""That must run."""
+WIDER = 2.0
+"""Times by which the sizes go beyond the interval of the nearest draws, at either end."""
+BANDWIDTH = 0.35
+"""Of the line through what the draws show, in the logarithm of the size."""
+GRID = 60
+FITTED = 2.0
+"""Numbers of a line, which what draws scatter about it is short of."""
+
+Shown = tuple[FloatArray, FloatArray]
+"""What a view shows of draws (n, D) and of the observation (D,), in deviations of measurement and drift."""
+
+
+def level_sizes(setting: Setting, found: Found, names: Sequence[str], meter: Meter) -> dict[str, Severity]:
+    """That of the first of the effects, where it strikes nothing and machines agree with a baseline."""
+    if not names or kind_of(names[0]) or setting.fitted_machine is None or not setting.changes.with_baseline:
+        return {}
+    size = _size_of(setting, found, names[0], meter)
+    return {} if size is None else {names[0]: size}
+
+
+def _size_of(setting: Setting, found: Found, name: str, meter: Meter) -> Severity | None:
+    plan = _plan(setting, found, name)
+    if plan is None:
+        return None
+    banks = simulated_banks(setting, plan, meter)
+    try:
+        known = catalogued(plan, banks, setting.seen_through, setting.plan, setting.banks, with_baseline=True)
+    except SpecError:
+        return None
+    size = parameter_of(name)
+    logs = np.log([abs(t.parameters[size.name]) for t in known.terms])
+    told = sized(logs, [_shown(view, known, setting.changes.observed) for view in found.views])
+    return None if told is None else severity_of(size, *told)
+
+
+def _plan(setting: Setting, found: Found, name: str) -> AtlasPlan | None:
+    """Sizes over more than the interval of the nearest draws, as far as they are sought, each on another machine with
+    what else a near draw has; None where nothing is left open."""
+    term, site = name.split("@")
+    observed, view, size = setting.changes.observed, found.view(name), parameter_of(name)
+    levels = estimated_severity(view, found.known, name, observed)
+    least, most = sought_range(setting.plan.machine, known_term(term), site)
+    low, high = max(levels.low / WIDER, least), min(levels.high * WIDER, most)
+    near = best_draws(view, found.known, name, observed, count=NEAR)
+    healthy = [d.pair for d in setting.plan.draws if d.candidate is None and not d.twin]
+    if not 0.0 < low < high or not near or not healthy or _needs_short_steps(setting, near, healthy[0]):
+        return None
+    rng = np.random.default_rng([setting.seed, 43, *name.encode()])
+    pairs = rng.permutation(healthy)
+    candidate = Candidate(term=term, site=site)
+    draws = []
+    for k, share in enumerate((np.arange(DRAWS) + 0.5) / DRAWS):
+        at, other = float(low ** (1.0 - share) * high**share), near[(5 * k + k // NEAR) % len(near)]
+        draws.append(Draw(pair=int(pairs[k % pairs.size]), candidate=candidate, term=_sized(other, size.name, at)))
+    return replace(setting.plan, draws=tuple(draws))
+
+
+def _needs_short_steps(setting: Setting, terms: Sequence[TermSpec], pair: int) -> bool:
+    """Whether one of the effects moves something so light that a machine with it is simulated in shorter steps: several
+    times the price, and no better a size (docs/decisions/reconcile-level-size.md)."""
+    plan, point = setting.plan, simulated_at(setting.machine, setting.data[0].point)
+    members = (plan.member(Draw(pair=pair, term=term), point) for term in (None, *terms))
+    alone, *steps = (steps_of(assemble(m.machine, seed=m.seed)) for m in members)
+    return max(steps) > alone
+
+
+def _sized(term: TermSpec, name: str, size: float) -> TermSpec:
+    values = {**term.parameters, name: float(np.copysign(size, term.parameters[name]))}
+    return term.model_copy(update={"parameters": values})
+
+
+def _shown(view: Fitted, known: Catalogued, observed: FloatArray) -> Shown:
+    return view.view(view.whiten(known.library.changes)), view.view(view.whiten(observed)[None])[0]
+
+
+def sized(logs: FloatArray, views: Sequence[Shown]) -> tuple[float, float] | None:
+    """Mean and standard deviation of the logarithm of a size, from draws at `logs` (n,) and what each view shows of
+    them; None where too few run.
+
+    Within a view the log likelihood of a size is that of normal deviates about what the draws show there. It is divided
+    by what the likeliest size leaves: where no size explains a view, none is the surer for it.
+    """
+    if logs.size < LEAST_DRAWS:
+        return None
+    grid = np.linspace(logs.min(), logs.max(), GRID)
+    total = np.zeros(GRID)
+    for shown, seen in views:
+        told = np.array([_distance(logs - at, shown, seen) for at in grid])
+        total += told.sum(axis=1) / max(1.0, float(told[:, 0].min()) / seen.size)
+    weights = np.exp(-0.5 * (total - total.min()))
+    weights /= weights.sum()
+    mean = float(weights @ grid)
+    return mean, float(np.hypot(np.sqrt(weights @ (grid - mean) ** 2), LEAST_SPREAD))
+
+
+def _distance(away: FloatArray, shown: FloatArray, seen: FloatArray) -> tuple[float, float]:
+    """Squared distance of `seen` (D,) from a line through the draws (n, D) near a size, `away` (n,) from it, in
+    deviations of both; and the logarithm of their volume."""
+    near = np.exp(-0.5 * (away / BANDWIDTH) ** 2)
+    sides = np.stack([np.ones_like(away), away], axis=1)
+    line = np.linalg.pinv(sides * np.sqrt(near)[:, None]) * np.sqrt(near)
+    found = line @ shown
+    many = near.sum() ** 2 / np.sum(near**2)
+    scatter = near @ (shown - sides @ found) ** 2 / near.sum() * many / max(many - FITTED, 1.0)
+    variance = 1.0 + scatter * (1.0 + np.sum(line[0] ** 2))
+    return float(np.sum((seen - found[0]) ** 2 / variance)), float(np.sum(np.log(variance)))
