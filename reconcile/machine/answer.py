@@ -146,9 +146,11 @@ def answer(
 def _sizes(
     setting: Setting, found: Found, decision: Decision, pairs: Pairs | None, other: Beside | None, meter: Meter
 ) -> tuple[Together | None, dict[str, Severity], dict[str, Severity]]:
-    """Of what the answer stands on: beside a second effect, by what is heard of it, and by levels where it is alone."""
-    heard = {**burst_sizes(setting, decision.chosen, meter), **pit_sizes(setting, decision.chosen, meter)}
-    return sizes_of(pairs), heard, level_sizes(setting, found, decision.chosen, meter) if other is None else {}
+    """Of what the answer stands on: beside a second effect; by bursts, which levels may correct; and what stands
+    instead of levels: by impacts, and where the first stands alone by machines simulated for it."""
+    alone = level_sizes(setting, found, decision.chosen, meter) if other is None else {}
+    bursts, pits = burst_sizes(setting, decision.chosen, meter), pit_sizes(setting, decision.chosen, meter)
+    return sizes_of(pairs), bursts, {**alone, **pits}
 
 
 def _forecast(decision: Decision, held: HeldOut | None, unknown: Unknown | None) -> tuple[Decision, Unknown | None]:

@@ -34,8 +34,8 @@ def ranked_causes(
 ) -> tuple[Cause, ...]:
     """The effects the verdict stands on, a second one with what it explains, those that share the impacts of another
     part (`struck`), and the rest by score. `sought`: the best of several seconds, where sizes had to be searched;
-    `measured`: sizes by what is heard of faults of teeth and pits; `levels`: where machines were simulated to tell them
-    by levels (else the nearest draws do)."""
+    `measured`: sizes by what is heard of faults of teeth; `levels`: by what is heard of pits, or by levels where
+    machines were simulated to tell them (else the nearest draws do)."""
     apart = {*decision.chosen, *(other.names[:1] if other else ())}
     told = dict(zip(found.screen.names, map(float, found.screen.evidence), strict=True))
     rest = sorted((n for n in weights if n not in struck), key=lambda n: -told[n])

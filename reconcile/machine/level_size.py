@@ -24,7 +24,8 @@ from reconcile.machine.meter import Meter
 from reconcile.machine.refine import best_draws, known_term
 from reconcile.machine.rolling import kind_of
 from reconcile.machine.setting import Found, Setting
-from reconcile.machine.severity import LEAST_SPREAD, estimated_severity, parameter_of, severity_of
+from reconcile.machine.severity import estimated_severity, parameter_of, severity_of
+from reconcile.machine.size_likelihood import Heard, sized
 from reconcile.verdict import Severity
 from signals.series import FloatArray
 from sim.assembly.assemble import assemble
@@ -33,18 +34,10 @@ from sim.core.spec import TermSpec
 
 DRAWS, NEAR = 24, 6
 """Sizes that are simulated, and the nearest draws whose other parameters they have, in turn."""
-LEAST_DRAWS = 12
-"""That must run."""
 WIDER = 2.0
 """Times by which the sizes go beyond the interval of the nearest draws, at either end."""
 BANDWIDTH = 0.35
 """Of the line through what the draws show, in the logarithm of the size."""
-GRID = 60
-FITTED = 2.0
-"""Numbers of a line, which what draws scatter about it is short of."""
-
-Shown = tuple[FloatArray, FloatArray]
-"""What a view shows of draws (n, D) and of the observation (D,), in deviations of measurement and drift."""
 
 
 def level_sizes(setting: Setting, found: Found, names: Sequence[str], meter: Meter) -> dict[str, Severity]:
@@ -66,7 +59,7 @@ def _size_of(setting: Setting, found: Found, name: str, meter: Meter) -> Severit
         return None
     size = parameter_of(name)
     logs = np.log([abs(t.parameters[size.name]) for t in known.terms])
-    told = sized(logs, [_shown(view, known, setting.changes.observed) for view in found.views])
+    told = sized(logs, [_heard(view, known, setting.changes.observed) for view in found.views], BANDWIDTH)
     return None if told is None else severity_of(size, *told)
 
 
@@ -106,38 +99,7 @@ def _sized(term: TermSpec, name: str, size: float) -> TermSpec:
     return term.model_copy(update={"parameters": values})
 
 
-def _shown(view: Fitted, known: Catalogued, observed: FloatArray) -> Shown:
-    return view.view(view.whiten(known.library.changes)), view.view(view.whiten(observed)[None])[0]
-
-
-def sized(logs: FloatArray, views: Sequence[Shown]) -> tuple[float, float] | None:
-    """Mean and standard deviation of the logarithm of a size, from draws at `logs` (n,) and what each view shows of
-    them; None where too few run.
-
-    Within a view the log likelihood of a size is that of normal deviates about what the draws show there. It is divided
-    by what the likeliest size leaves: where no size explains a view, none is the surer for it.
-    """
-    if logs.size < LEAST_DRAWS:
-        return None
-    grid = np.linspace(logs.min(), logs.max(), GRID)
-    total = np.zeros(GRID)
-    for shown, seen in views:
-        told = np.array([_distance(logs - at, shown, seen) for at in grid])
-        total += told.sum(axis=1) / max(1.0, float(told[:, 0].min()) / seen.size)
-    weights = np.exp(-0.5 * (total - total.min()))
-    weights /= weights.sum()
-    mean = float(weights @ grid)
-    return mean, float(np.hypot(np.sqrt(weights @ (grid - mean) ** 2), LEAST_SPREAD))
-
-
-def _distance(away: FloatArray, shown: FloatArray, seen: FloatArray) -> tuple[float, float]:
-    """Squared distance of `seen` (D,) from a line through the draws (n, D) near a size, `away` (n,) from it, in
-    deviations of both; and the logarithm of their volume."""
-    near = np.exp(-0.5 * (away / BANDWIDTH) ** 2)
-    sides = np.stack([np.ones_like(away), away], axis=1)
-    line = np.linalg.pinv(sides * np.sqrt(near)[:, None]) * np.sqrt(near)
-    found = line @ shown
-    many = near.sum() ** 2 / np.sum(near**2)
-    scatter = near @ (shown - sides @ found) ** 2 / near.sum() * many / max(many - FITTED, 1.0)
-    variance = 1.0 + scatter * (1.0 + np.sum(line[0] ** 2))
-    return float(np.sum((seen - found[0]) ** 2 / variance)), float(np.sum(np.log(variance)))
+def _heard(view: Fitted, known: Catalogued, observed: FloatArray) -> Heard:
+    """In deviations of measurement and drift."""
+    seen = view.view(view.whiten(observed)[None])[0]
+    return Heard(shown=view.view(view.whiten(known.library.changes)), seen=seen, variance=np.ones(seen.size))

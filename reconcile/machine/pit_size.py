@@ -17,34 +17,34 @@ from reconcile.atlas.candidates import Candidate, already, draw_term
 from reconcile.kinematics.families import Family
 from reconcile.machine.added import Place, place_at
 from reconcile.machine.ground import Ground
-from reconcile.machine.injected import MOST_OFF, apart, base_at
+from reconcile.machine.injected import base_at
 from reconcile.machine.meter import Meter
 from reconcile.machine.rolling import kind_of, known_family, rate_of
 from reconcile.machine.setting import Setting
-from reconcile.machine.severity import LEAST_SPREAD, TELLS, parameter_of, severity_of
+from reconcile.machine.severity import TELLS, parameter_of, severity_of
+from reconcile.machine.size_likelihood import Heard, sized
 from reconcile.observe.impact_bands import Rate, Standing, bands_of, standing
 from reconcile.observe.impact_pattern import patterns
 from reconcile.verdict import Severity
 from signals.series import FloatArray
 from sim.core.spec import TermSpec
 
-DRAWS, LEAST, LARGEST = 20, 0.27, 0.92
+DRAWS, LEAST, LARGEST = 24, 0.27, 0.92
 """Sizes evenly over the logarithm of what is sought, in shares of that: 0.3 to 4.3 mm."""
 MOST = 2
 """Effects of an answer that are sized."""
-LEAST_DRAWS = 8
-"""That run, of which a size can be read."""
 TURN, TURNED = 8, 0.5
 """Angles at which a pit of a ring that stands is tried, and the share of the sizes of that one;"""
 ZONE = 0.5
 """and how far from the middle of the load zone, rad, such pits are drawn: there races tire."""
+LEVEL_DB = 1.0
+"""Error of how firmly impacts stand in a band, beside what they scatter: by the path and the pit's form."""
 CERTAIN = 3.0
 """Errors by which impacts stand out in a band, from which its multiples count against each other;"""
 PATTERN_DB, PER = 3.6, 1.5
 """the error of one of them, by the path and the pit's form, and how many say as much as one that is independent."""
-BANDWIDTH = 0.25
-"""Of the curve through the draws, in the logarithm of the size."""
-GRID = 200
+BANDWIDTH = 0.5
+"""Of the line through what the draws show, in the logarithm of the size."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,11 +76,12 @@ def _size_of(setting: Setting, name: str, meter: Meter) -> Severity | None:
         return None
     terms = _terms(setting, name, heard[0], meter)
     tasks = [_task(setting, p, family, terms) for p in heard]
-    points: list[FloatArray] = list(meter(_distances, tasks))  # type: ignore[arg-type]
-    off = np.mean(points, axis=0)
+    points: list[list[_Sound | None]] = list(meter(_sounds, tasks))  # type: ignore[arg-type]
+    runs = [k for k in range(len(terms)) if all(point[k] is not None for point in points)]
     size = parameter_of(name)
-    told = sized(np.log([abs(t.parameters[size.name]) for t in terms]), off)
-    return None if told is None else severity_of(size, *told)
+    ways = [way for task, point in zip(tasks, points, strict=True) for way in _ways(task, [point[k] for k in runs])]
+    told = sized(np.log([abs(terms[k].parameters[size.name]) for k in runs]), ways, BANDWIDTH)
+    return None if told is None or told[1] > TELLS else severity_of(size, *told)
 
 
 def _bands(setting: Setting, point: int) -> bool:
@@ -139,47 +140,52 @@ def _task(setting: Setting, point: int, family: Family, terms: tuple[TermSpec, .
     )
 
 
-def _distances(task: _Task) -> FloatArray:
-    """Squared distance of each draw from the test, (draws,); NaN where it does not run or adds nothing."""
-    return np.array([np.nan if a is None else _off(task, a) for a in task.place.added(task.terms)])
+@dataclass(frozen=True, kw_only=True)
+class _Sound:
+    """Of a draw on the recorded baseline: how firmly impacts stand, (C, bands), and their multiples against each other,
+    (C, bands, multiples), both in dB."""
+
+    level: FloatArray
+    pattern: FloatArray
 
 
-def _off(task: _Task, motion: FloatArray) -> float:
+def _sounds(task: _Task) -> list[_Sound | None]:
+    """Of each draw; None where it does not run or adds nothing."""
+    return [None if a is None else _sound(task, a) for a in task.place.added(task.terms)]
+
+
+def _sound(task: _Task, motion: FloatArray) -> _Sound:
     ground = task.ground
     bands = ground.bands(ground.white + ground.added(motion))
     model = standing(bands, ground.seconds, task.rate)
-    shape = patterns(bands, ground.seconds, model.hz, task.rate)
-    return apart(task.test, model.level) + apart_in_pattern(task.test, task.pattern, shape) / PER
+    return _Sound(level=model.level, pattern=patterns(bands, ground.seconds, model.hz, task.rate))
 
 
-def apart_in_pattern(test: Standing, own: FloatArray, other: FloatArray) -> float:
-    """Squared distance of multiples against each other, (C, bands, multiples) in dB over the floor, in the bands where
-    the test's stand out; what lies in the floor in both counts nothing."""
-    known = np.isfinite(own) & np.isfinite(other) & (test.level > CERTAIN * test.error)[..., None]
-    one, two = (np.where(known, np.maximum(x, 0.0), 0.0) for x in (own, other))
-    many = np.maximum(known.sum(axis=2, keepdims=True), 1)
-    differ = (one - one.sum(axis=2, keepdims=True) / many) - (two - two.sum(axis=2, keepdims=True) / many)
-    out = 1.0 - 10.0 ** (-np.maximum(one, two) / 10.0)
-    return float(np.sum(np.where(known, out * np.minimum((differ / PATTERN_DB) ** 2, MOST_OFF), 0.0)))
+def _ways(task: _Task, sounds: Sequence[_Sound | None]) -> list[Heard]:
+    """What the draws and the test show at a point: levels, and the multiples where the test's levels stand out."""
+    whole = [s for s in sounds if s is not None]
+    if not whole:
+        return []
+    test = task.test
+    levels = Heard(
+        shown=np.array([np.maximum(s.level, 0.0).ravel() for s in whole]),
+        seen=np.maximum(test.level, 0.0).ravel(),
+        variance=np.asarray((test.error**2 + LEVEL_DB**2).ravel()),
+    )
+    return [levels, against_each_other(test, task.pattern, [s.pattern for s in whole])]
 
 
-def sized(logs: FloatArray, off: FloatArray) -> tuple[float, float] | None:
-    """Mean and standard deviation of the logarithm of a size by squared distances `off` (n,) of draws at `logs` (n,);
-    None where they hardly tell it."""
-    known = np.isfinite(off)
-    if np.count_nonzero(known) < LEAST_DRAWS:
-        return None
-    grid = np.linspace(logs.min(), logs.max(), GRID)
-    curve = np.array([_smooth(at, logs[known], off[known]) for at in grid])
-    weights = np.exp(-0.5 * (curve - curve.min()))
-    weights /= weights.sum()
-    mean = float(weights @ grid)
-    spread = float(np.sqrt(weights @ (grid - mean) ** 2))
-    return (mean, float(np.hypot(spread, LEAST_SPREAD))) if spread <= TELLS else None
+def against_each_other(test: Standing, own: FloatArray, others: Sequence[FloatArray]) -> Heard:
+    """Multiples less their mean, of the test and of draws (C, bands, multiples) in dB over the floor, in the bands
+    where the test's stand out and as far as all have them; what lies in the floor counts as on it."""
+    known = np.isfinite(own) & np.all(np.isfinite(others), axis=0) & (test.level > CERTAIN * test.error)[..., None]
 
+    def shape(pattern: FloatArray) -> FloatArray:
+        over = np.where(known, np.maximum(pattern, 0.0), 0.0)
+        return np.asarray(
+            (over - over.sum(axis=2, keepdims=True) / np.maximum(known.sum(axis=2, keepdims=True), 1))[known]
+        )
 
-def _smooth(at: float, logs: FloatArray, off: FloatArray) -> float:
-    """A line through what is near, by weighted least squares, there."""
-    near = np.exp(-0.25 * ((logs - at) / BANDWIDTH) ** 2)
-    sides = np.stack([near, near * (logs - at)], axis=1)
-    return float(np.linalg.lstsq(sides, near * off, rcond=None)[0][0])
+    seen = shape(own)
+    shown = np.array([shape(one) for one in others])
+    return Heard(shown=shown, seen=seen, variance=np.full(seen.size, PATTERN_DB**2), alike=PER)

@@ -12,48 +12,35 @@ from reconcile.atlas.run import RATE_HZ, SETTLE_S, run_members
 from reconcile.calibrate.chain import band_centres_hz
 from reconcile.calibrate.uncertain import Offsets
 from reconcile.machine.meter import Meter
-from reconcile.machine.pit_size import PATTERN_DB, apart_in_pattern, pit_sizes, sized
-from reconcile.machine.severity import LEAST_SPREAD
+from reconcile.machine.pit_size import PATTERN_DB, against_each_other, pit_sizes
 from reconcile.observe.impact_bands import Standing
 from reconcile.observe.steady import Steady
 from sim.core.response import Response
 from sim.core.spec import TermSpec
 from sim.presets import preset
 
-LOGS = np.log(np.geomspace(3e-4, 4e-3, 20))
-
-
-@pytest.mark.parametrize("size", [6e-4, 1e-3, 2.5e-3])
-def test_a_size_is_read_where_the_distance_is_least(size: float) -> None:
-    rough = np.random.default_rng(2).normal(size=LOGS.size)
-    told = sized(LOGS, 12.0 + 30.0 * (LOGS - np.log(size)) ** 2 + rough)
-    assert told is not None and np.exp(told[0]) == pytest.approx(size, rel=0.15)
-    assert LEAST_SPREAD < told[1] < 0.5
-
-
-def test_what_hardly_tells_a_size_tells_none() -> None:
-    assert sized(LOGS, np.full(LOGS.size, 9.0)) is None
-    assert sized(LOGS, np.full(LOGS.size, np.nan)) is None
-    few = np.where(np.arange(LOGS.size) < 7, 30.0 * (LOGS - LOGS[3]) ** 2, np.nan)
-    assert sized(LOGS, few) is None
-
-
-def test_draws_that_do_not_run_are_left_out() -> None:
-    off = 12.0 + 30.0 * (LOGS - np.log(1e-3)) ** 2
-    whole, some = sized(LOGS, off), sized(LOGS, np.where(np.arange(LOGS.size) % 3 == 0, np.nan, off))
-    assert whole is not None and some is not None and some[0] == pytest.approx(whole[0], abs=0.05)
-
 
 def test_multiples_count_against_each_other_where_the_test_stands_out() -> None:
     stands = Standing(level=np.array([[9.0, 1.0]]), error=np.ones((1, 2)), hz=40.0)
     own = np.array([[[20.0, 10.0, np.nan], [20.0, 10.0, 5.0]]])
-    assert apart_in_pattern(stands, own, own) == 0.0
-    louder = apart_in_pattern(stands, own, own + 7.0)
-    assert louder == pytest.approx(0.0), "how loud the impacts are is another figure's"
     other = np.array([[[10.0, 20.0, 0.0], [90.0, 0.0, 0.0]]])
-    assert apart_in_pattern(stands, own, other) == pytest.approx(2 * 0.99 * (10.0 / PATTERN_DB) ** 2, rel=0.01)
-    below = apart_in_pattern(stands, np.array([[[-5.0, -9.0, -2.0]] * 2]), np.array([[[-1.0, -20.0, -7.0]] * 2]))
-    assert below == pytest.approx(0.0)
+    way = against_each_other(stands, own, [own, own + 7.0, other])
+    assert way.seen == pytest.approx([5.0, -5.0]), "two multiples of the first band, less their mean"
+    assert way.shown[0] == pytest.approx(way.seen)
+    assert way.shown[1] == pytest.approx(way.seen), "how loud the impacts are is another figure's"
+    assert way.shown[2] == pytest.approx([-5.0, 5.0])
+    assert way.variance == pytest.approx([PATTERN_DB**2] * 2)
+
+
+def test_what_lies_in_the_floor_counts_as_on_it() -> None:
+    stands = Standing(level=np.array([[9.0]]), error=np.ones((1, 1)), hz=40.0)
+    way = against_each_other(stands, np.array([[[-5.0, -9.0, -2.0]]]), [np.array([[[-1.0, -20.0, -7.0]]])])
+    assert way.seen == pytest.approx([0.0, 0.0, 0.0]) and way.shown == pytest.approx(np.zeros((1, 3)))
+
+
+def test_a_test_in_which_no_band_stands_out_has_no_pattern() -> None:
+    quiet = Standing(level=np.array([[2.0]]), error=np.ones((1, 1)), hz=40.0)
+    assert against_each_other(quiet, np.array([[[5.0, 1.0]]]), [np.array([[[5.0, 1.0]]])]).seen.size == 0
 
 
 SENSORS = tuple(f"bearing{k}.outer.y.acceleration" for k in (1, 2, 3))
