@@ -46,7 +46,7 @@ class Design:
     have gone before, `begun` from which on those of rarer laws, pairs and unknown effects; `rows` are the conditions of
     every fourth case."""
 
-    split: Literal["entire", "held", "wide", "mixed"]
+    split: Literal["entire", "held", "wide", "mixed", "young"]
     groups: Mapping[Group, int]
     turned: int
     rows: tuple[Row, ...]
@@ -78,6 +78,8 @@ WIDE = Design(
 """The same in little, for the engine that came of the misses of the others."""
 MIXED = Design(split="mixed", groups=WIDE.groups, turned=557, rows=HELD.rows, begun=8)
 """As wide, of laws, pairs and unknown effects that it leaves out."""
+YOUNG = Design(split="young", groups=WIDE.groups, turned=673, rows=HELD.rows, begun=16)
+"""As mixed, of those that both leave out, then from the first on."""
 ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
 STRUCK = ("outer_pit", "inner_pit", "ball_pit")
 FORMS = 3
@@ -103,6 +105,11 @@ def wide() -> tuple[Case, ...]:
 def mixed() -> tuple[Case, ...]:
     """All cases of the fourth."""
     return cases_of_design(MIXED)
+
+
+def young() -> tuple[Case, ...]:
+    """All cases of the fifth."""
+    return cases_of_design(YOUNG)
 
 
 def cases_of_design(design: Design) -> tuple[Case, ...]:

@@ -130,13 +130,15 @@ def _again(run: Run) -> list[str]:
 
 
 TITLES = {
-    "mixed": "The latest plan",
-    "wide": "The latest plan that is run whole",
+    "young": "The latest plan",
+    "mixed": "The plan before",
+    "wide": "A plan before",
     "held": "An engine before",
     "entire": "An earlier engine",
 }
 NOT_YET = "The others are not run yet: the names' order is drawn, so those run are a sample of the plan. "
 LEFT = {
+    "young": NOT_YET,
     "mixed": NOT_YET,
     "wide": NOT_YET,
     "held": NOT_YET,

@@ -41,7 +41,13 @@ TITLES = {
 }
 
 
-PARTS: tuple[tuple[Split, str], ...] = (("mixed", "mixed"), ("wide", "wide"), ("held", "held"), ("held", "begun"))
+PARTS: tuple[tuple[Split, str], ...] = (
+    ("young", "young"),
+    ("mixed", "mixed"),
+    ("wide", "wide"),
+    ("held", "held"),
+    ("held", "begun"),
+)
 """Splits, and the sections of the page they are in, of which is asked what could be told at all."""
 UNMET = "No version of the engine had met these before their run"
 """How the words on a section begin whose cases were met for the first time."""

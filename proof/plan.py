@@ -41,6 +41,7 @@ Split = Literal[
     "held",
     "wide",
     "mixed",
+    "young",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -64,6 +65,7 @@ SEEDS = {
     "held": 2_916_480_537,
     "wide": 6_174_392_805,
     "mixed": 9_481_205_763,
+    "young": 3_617_948_205,
 }
 COUNTS = {
     "dev": {

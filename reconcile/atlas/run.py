@@ -55,13 +55,14 @@ def _of_one_kind(
     others. Eight machines strike at different moments, and lanes wait for each other's short steps."""
     alone: list[Response | SidebandError] = []
     rest = list(members)
-    if len(members) > FEW and _may_strike(members[0].system):
+    if len(members) > FEW and may_strike(members[0].system):
         alone, rest = _one_by_one(rest[:1], channels, settings), rest[1:]
     run = _one_by_one if len(rest) <= FEW or _strikes_often(alone) else _side_by_side
     return [*alone, *run(rest, channels, settings)]
 
 
-def _may_strike(system: System | None) -> bool:
+def may_strike(system: System | None) -> bool:
+    """Whether it has rings that strike walls."""
     return system is not None and any(element.stiff for element in system.elements)
 
 

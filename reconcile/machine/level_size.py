@@ -9,14 +9,14 @@ deviations of measurement, of drift and of what the machines scatter (docs/decis
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from reconcile.atlas.candidates import Candidate, sought_range
 from reconcile.atlas.plan import AtlasPlan, Draw, simulated_at
-from reconcile.atlas.run import steps_of
+from reconcile.atlas.run import may_strike, steps_of
 from reconcile.judge.space import Fitted
 from reconcile.machine.library import Catalogued, catalogued
 from reconcile.machine.local import simulated_banks
@@ -32,35 +32,43 @@ from sim.assembly.assemble import assemble
 from sim.core.errors import SpecError
 from sim.core.spec import TermSpec
 
-DRAWS, NEAR = 24, 6
-"""Sizes that are simulated, and the nearest draws whose other parameters they have, in turn."""
+DRAWS, STRIKING, NEAR = 24, 18, 6
+"""Sizes that are simulated, where rings may strike walls, which costs more; the nearest draws whose other parameters
+they have, in turn."""
 WIDER = 2.0
 """Times by which the sizes go beyond the interval of the nearest draws, at either end."""
 BANDWIDTH = 0.35
 """Of the line through what the draws show, in the logarithm of the size."""
 
 
-def level_sizes(setting: Setting, found: Found, names: Sequence[str], meter: Meter) -> dict[str, Severity]:
+@dataclass(frozen=True, kw_only=True)
+class BySizes:
+    """Sizes of effects, and the draws that told them: led to nothing but a range of sizes, so they may forecast."""
+
+    sizes: Mapping[str, Severity] = field(default_factory=dict)
+    draws: Catalogued | None = None
+
+
+def by_levels(setting: Setting, found: Found, names: Sequence[str], meter: Meter) -> BySizes:
     """That of the first of the effects, where it strikes nothing and machines agree with a baseline."""
     if not names or kind_of(names[0]) or setting.fitted_machine is None or not setting.changes.with_baseline:
-        return {}
-    size = _size_of(setting, found, names[0], meter)
-    return {} if size is None else {names[0]: size}
+        return BySizes()
+    return _size_of(setting, found, names[0], meter)
 
 
-def _size_of(setting: Setting, found: Found, name: str, meter: Meter) -> Severity | None:
+def _size_of(setting: Setting, found: Found, name: str, meter: Meter) -> BySizes:
     plan = _plan(setting, found, name)
     if plan is None:
-        return None
+        return BySizes()
     banks = simulated_banks(setting, plan, meter)
     try:
         known = catalogued(plan, banks, setting.seen_through, setting.plan, setting.banks, with_baseline=True)
     except SpecError:
-        return None
+        return BySizes()
     size = parameter_of(name)
     logs = np.log([abs(t.parameters[size.name]) for t in known.terms])
     told = sized(logs, [_heard(view, known, setting.changes.observed) for view in found.views], BANDWIDTH)
-    return None if told is None else severity_of(size, *told)
+    return BySizes(sizes={} if told is None else {name: severity_of(size, *told)}, draws=known)
 
 
 def _plan(setting: Setting, found: Found, name: str) -> AtlasPlan | None:
@@ -73,25 +81,30 @@ def _plan(setting: Setting, found: Found, name: str) -> AtlasPlan | None:
     low, high = max(levels.low / WIDER, least), min(levels.high * WIDER, most)
     near = best_draws(view, found.known, name, observed, count=NEAR)
     healthy = [d.pair for d in setting.plan.draws if d.candidate is None and not d.twin]
-    if not 0.0 < low < high or not near or not healthy or _needs_short_steps(setting, near, healthy[0]):
+    if not 0.0 < low < high or not near or not healthy:
+        return None
+    many = _worth(setting, near, healthy[0])
+    if many == 0:
         return None
     rng = np.random.default_rng([setting.seed, 43, *name.encode()])
     pairs = rng.permutation(healthy)
     candidate = Candidate(term=term, site=site)
     draws = []
-    for k, share in enumerate((np.arange(DRAWS) + 0.5) / DRAWS):
+    for k, share in enumerate((np.arange(many) + 0.5) / many):
         at, other = float(low ** (1.0 - share) * high**share), near[(5 * k + k // NEAR) % len(near)]
         draws.append(Draw(pair=int(pairs[k % pairs.size]), candidate=candidate, term=_sized(other, size.name, at)))
     return replace(setting.plan, draws=tuple(draws))
 
 
-def _needs_short_steps(setting: Setting, terms: Sequence[TermSpec], pair: int) -> bool:
-    """Whether one of the effects moves something so light that a machine with it is simulated in shorter steps: several
-    times the price, and no better a size (docs/decisions/reconcile-level-size.md)."""
+def _worth(setting: Setting, terms: Sequence[TermSpec], pair: int) -> int:
+    """How many sizes of an effect are simulated; none where one of the `terms` moves something so light that a machine
+    with it takes shorter steps: several times the price, and no better a size."""
     plan, point = setting.plan, simulated_at(setting.machine, setting.data[0].point)
     members = (plan.member(Draw(pair=pair, term=term), point) for term in (None, *terms))
-    alone, *steps = (steps_of(assemble(m.machine, seed=m.seed)) for m in members)
-    return max(steps) > alone
+    alone, *others = (assemble(m.machine, seed=m.seed) for m in members)
+    if max(map(steps_of, others)) > steps_of(alone):
+        return 0
+    return STRIKING if any(map(may_strike, others)) else DRAWS
 
 
 def _sized(term: TermSpec, name: str, size: float) -> TermSpec:

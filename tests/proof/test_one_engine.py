@@ -46,8 +46,8 @@ def test_what_is_run_is_told_with_its_engine_and_that_the_others_are_not(count: 
     assert "The others are not run yet" in said and "make proof SPLIT=held" in said
     present, earlier = said.split("### An earlier engine")
     latest, before = present.split("### An engine before: split `held`")
-    assert latest.startswith("### The latest plan: split `mixed`") and "|" not in latest
-    assert "### The latest plan that is run whole: split `wide`" in latest
+    assert latest.startswith("### The plan before: split `mixed`") and "|" not in latest
+    assert "### A plan before: split `wide`" in latest
     assert "| false alarms on nulls" in before and "all first runs" not in before
     assert "None of its cases are stored." in earlier and "|" not in earlier
 
