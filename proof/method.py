@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 SECTIONS = {
+    "young": "No version of the engine had met these before their run: the whole plan by one engine, the one at hand "
+    "when this page was written. Two ran at once, beside other work, which core-seconds show. Sizes are told by the "
+    "likelihood that draws about them have ([decision](decisions/reconcile-level-size.md)), which these cases had no "
+    "part in.",
     "mixed": "No version of the engine had met these before their run; one engine ran all of them, two or three at "
     "once on the two threads of one core that takes twice as long as that of `wide`, which core-seconds show. m040 (a "
     "backlash beside a cracked tooth) was begun and not waited for, beside two others; its worker had taken the even "
@@ -20,9 +24,10 @@ SECTIONS = {
     "closing": "No version of the engine had met these before their run: the last six of the plan, all run by the "
     "engine of commit f19aa093, two or three at once beside other work, which core-seconds show. Sizes of pits are "
     "measured by their impacts here ([decision](decisions/reconcile-pit-size.md)).",
-    "present": "The engine at hand when this page was written, on all cases of `mixed`: most of what they taught is in "
-    "it, so these are no first meetings and stand in no figure of those. Two ran at once beside other work, which "
-    "core-seconds show; ten were run again later and gave the same answers to the last digit. On another processor the "
+    "present": "The engine before, whose answers differ in sizes and forecasts, on all cases of `mixed`: most of what "
+    "they taught is in it, so these are no first meetings and stand in no figure of those. Two ran at once beside "
+    "other work, which core-seconds show; ten were run again later and gave the same answers to the last digit. On "
+    "another processor the "
     "last digits of a simulation differ, and an answer at an edge may: m013 was not decidable by the engine before on "
     "another, and is what it is here by both.",
     "wide": "No version of the engine had met these before their run; one engine ran all, beside other work on the two "

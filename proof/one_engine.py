@@ -9,7 +9,7 @@ from textwrap import wrap
 import numpy as np
 
 from proof.effects import LIPPED
-from proof.entire import ENTIRE, HELD, MIXED, STRUCK, WIDE, Design, cases_of_design
+from proof.entire import ENTIRE, HELD, MIXED, STRUCK, WIDE, YOUNG, Design, cases_of_design
 from proof.plan import Case
 from proof.present import by_present
 from proof.runs import Run, every_run, met
@@ -24,7 +24,7 @@ FAR_OFF = 0.74
 """Error of a size, as a share of it."""
 CLEAR = 3.0
 """Times as far as drift, from which there is much to see."""
-DESIGNS = (MIXED, WIDE, HELD, ENTIRE)
+DESIGNS = (YOUNG, MIXED, WIDE, HELD, ENTIRE)
 """The splits, the latest first."""
 
 

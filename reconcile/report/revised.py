@@ -63,4 +63,4 @@ def note(report: Report) -> str:
         )
     if left >= HARDLY:
         return f"{loads}, but comes no nearer to the recordings in level: it leaves {percent(left)} of the change."
-    return f"{loads} and reproduces the change with it, but for the {percent(left)} of it that is left."
+    return f"{loads}: simulated, it shows {percent(1.0 - left)} of the change in level, and leaves {percent(left)}."
