@@ -33,7 +33,7 @@ def test_so_does_one_whose_file_does_not_fit_the_baseline_however_near_it_comes(
 def test_a_machine_that_comes_near_is_only_told_by_what_it_leaves(verdict: Word) -> None:
     near = answer(2.0, verdict=verdict)
     assert sent_to_the_file(near) is near and "Correct" not in to_do(near)
-    assert "but for the 33 % of it that is left" in page(near)
+    assert "it shows 67 % of the change in level, and leaves 33 %" in page(near)
     alike = answer(6.3, verdict=verdict)
     assert sent_to_the_file(alike) is alike and "comes no nearer to the recordings in level" in page(alike)
 
