@@ -42,12 +42,9 @@ TITLES = {
 
 
 PARTS: tuple[tuple[Split, str], ...] = (
-    ("young", "young"),
-    ("mixed", "mixed"),
-    ("wide", "wide"),
-    ("held", "held"),
-    ("held", "begun"),
-)
+    ("young", "young"), ("mixed", "mixed"), ("mixed", "resumed"), ("mixed", "last"), ("mixed", "closing"),
+    ("wide", "wide"), ("held", "held"), ("held", "begun"),
+)  # fmt: skip
 """Splits, and the sections of the page they are in, of which is asked what could be told at all."""
 UNMET = "No version of the engine had met these before their run"
 """How the words on a section begin whose cases were met for the first time."""
