@@ -15,8 +15,7 @@ from reconcile.machine.decide import UNMEASURED, Decision
 from reconcile.machine.decided import decided
 from reconcile.machine.elsewhere import by_forecast
 from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
-from reconcile.machine.level_size import BySizes, by_levels
-from reconcile.machine.library import Catalogued, joined
+from reconcile.machine.level_size import by_levels
 from reconcile.machine.limits import limits
 from reconcile.machine.lines import by_name, line_changes
 from reconcile.machine.meter import Meter
@@ -102,11 +101,10 @@ def answer(
     decision, other = named_pair(decision, second_effect(setting, found, decision), pairs)
     both = other.together if other is not None else None
     pair = pairs.best if pairs is not None and pairs.best is not None and other is pairs.best.beside else None
-    alone = by_levels(setting, found, decision.chosen, meter) if missing and other is None else BySizes()
-    held = _held(setting, found, decision, layout, unknown, other, pair, alone.draws) if decision.chosen else None
+    held = _held(setting, found, decision, layout, unknown, other, pair) if decision.chosen else None
     decision, unknown = _forecast(decision, held, unknown)
     struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
-    sizes = _sizes(setting, decision, pairs, alone, meter) if missing else ()
+    sizes = _sizes(setting, found, decision, pairs, other, meter) if missing else ()
     ranked = ranked_causes(found, decision, weights, setting.changes.observed, other, struck, *sizes) if missing else ()
     causes = with_forms(ranked, found.screen)
     revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter, both)
@@ -145,12 +143,14 @@ def answer(
 
 
 def _sizes(
-    setting: Setting, decision: Decision, pairs: Pairs | None, alone: BySizes, meter: Meter
+    setting: Setting, found: Found, decision: Decision, pairs: Pairs | None, other: Beside | None, meter: Meter
 ) -> tuple[Together | None, dict[str, Severity], dict[str, Severity]]:
-    """Of what the answer stands on: beside a second effect; by bursts, which levels may correct; and what stands
-    instead of levels: by impacts, and where the first stands alone by machines simulated for it."""
-    bursts, pits = burst_sizes(setting, decision.chosen, meter), pit_sizes(setting, decision.chosen, meter)
-    return sizes_of(pairs), bursts, {**alone.sizes, **pits}
+    """Of what the answer stands on: beside a second effect; by what is heard; by levels, where the first is alone."""
+    names = list(dict.fromkeys((*decision.chosen[:1], *(other.names[:1] if other else ()), *decision.chosen[1:])))
+    heard = {**burst_sizes(setting, decision.chosen, meter), **pit_sizes(setting, names, meter)}
+    beside = other is not None or (pairs is not None and pairs.best is not None and bool(pairs.best.others))
+    alone = decision.word in ("explained", "ambiguous") and not beside
+    return sizes_of(pairs), heard, by_levels(setting, found, decision.chosen, meter) if alone else {}
 
 
 def _forecast(decision: Decision, held: HeldOut | None, unknown: Unknown | None) -> tuple[Decision, Unknown | None]:
@@ -269,13 +269,10 @@ def _held(
     unknown: Unknown | None,
     other: Beside | None,
     pair: Pair | None,
-    more: Catalogued | None,
 ) -> HeldOut:
-    """`more`: further draws of the first effect, to forecast with."""
     lines = [d.lines_hz for d in setting.data]
     count = len(setting.channels)
     known = found.unled if unknown is None or unknown.known is None else unknown.known
-    known = known if more is None else joined(known, more)
     held = held_out(
         setting.changes,
         known,

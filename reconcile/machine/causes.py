@@ -34,8 +34,8 @@ def ranked_causes(
 ) -> tuple[Cause, ...]:
     """The effects the verdict stands on, a second one with what it explains, those that share the impacts of another
     part (`struck`), and the rest by score. `sought`: the best of several seconds, where sizes had to be searched;
-    `measured`: sizes by what is heard of faults of teeth; `levels`: by what is heard of pits, or by levels where
-    machines were simulated to tell them (else the nearest draws do)."""
+    `measured`: sizes by what is heard of pits and faults of teeth; `levels`: where machines were simulated to tell them
+    by levels (else the nearest draws do)."""
     apart = {*decision.chosen, *(other.names[:1] if other else ())}
     told = dict(zip(found.screen.names, map(float, found.screen.evidence), strict=True))
     rest = sorted((n for n in weights if n not in struck), key=lambda n: -told[n])
@@ -48,7 +48,8 @@ def ranked_causes(
         named = decision.word == "explained" and name == decision.chosen[0]
         by_levels = (levels or {}).get(name) or estimated_severity(found.view(name), found.known, name, observed)
         alone = joined(by_levels, (measured or {}).get(name))
-        size = _between(alone, together if named else None)
+        heard = name in (measured or {})
+        size = _between(alone, together if named and not heard else None)
         causes.append(
             Cause(
                 term=term,
@@ -61,7 +62,7 @@ def ranked_causes(
             )
         )
     if other is not None:
-        causes.insert(1, _beside(found, other))
+        causes.insert(1, _beside(found, other, measured or {}))
     return tuple(causes)
 
 
@@ -88,8 +89,8 @@ def _reasons(decision: Decision, name: str) -> tuple[str, ...]:
     return decision.reasons if decision.word != "explained" or name in decision.chosen else ()
 
 
-def _beside(found: Found, other: Beside) -> Cause:
-    """The second named cause, measured by what the first one leaves."""
+def _beside(found: Found, other: Beside, measured: Mapping[str, Severity]) -> Cause:
+    """The second named cause, measured by what the first one leaves, and by what is heard of it."""
     name, left, view = other.names[0], other.left, other.view
     term, site = name.split("@")
     if other.together is not None:
@@ -97,13 +98,13 @@ def _beside(found: Found, other: Beside) -> Cause:
             term=term,
             site=site,
             score=float(other.evidence[0]),
-            severity=other.together.severity,
+            severity=(size := joined(other.together.severity, measured.get(name))),
             named=True,
             reasons=(TOGETHER,),
-            values=_sized(other.together.terms[0][1], other.together.severity),
+            values=_sized(other.together.terms[0][1], size),
         )
     drawn = best_draws(view, found.known, name, left, count=1)
-    size = estimated_severity(view, found.known, name, left)
+    size = joined(estimated_severity(view, found.known, name, left), measured.get(name))
     return Cause(
         term=term,
         site=site,

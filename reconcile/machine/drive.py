@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from reconcile.pulses import contradiction
+from reconcile.pulses import STATED, contradiction
 from signals.recording import Operating, Recording, Tacho
 from sim.assembly.kinematics import kinematics
 from sim.core.errors import Problem, SpecError
@@ -27,7 +27,8 @@ def on_drive(machine: MachineSpec, recordings: Sequence[Recording]) -> tuple[Rec
         return tuple(recordings)
     drive, speeds = machine.operating.shaft, {k: abs(hz) for k, hz in kinematics(machine).shaft_hz.items()}
     stated = [_stated(r, drive, speeds) for r in recordings]
-    problems = [p for r in stated if (p := contradiction(_of_pulses(r, drive, speeds), _field(r))) is not None]
+    checked = ((_of_pulses(now, drive, speeds), said) for now, said in zip(stated, map(_said, recordings), strict=True))
+    problems = [p for r, said in checked if (p := contradiction(r, _field(r), said=said)) is not None]
     if problems:
         raise SpecError(problems)
     return tuple(_counted(r, drive, speeds) for r in stated)
@@ -59,6 +60,14 @@ def _of_pulses(recording: Recording, drive: str, speeds: Mapping[str, float]) ->
         return recording
     own = Operating(shaft=tacho.shaft, speed_hz=operating.speed_hz * speeds[tacho.shaft] / speeds[drive])
     return replace(recording, operating=own)
+
+
+def _said(recording: Recording) -> str:
+    """Who says the speed of the pulses' shaft: the recording, if it states that shaft's, else what goes with it."""
+    operating, tacho = recording.operating, recording.tacho
+    if operating is None or tacho is None or operating.shaft == tacho.shaft:
+        return STATED
+    return f"of {tacho.shaft} go with the {operating.speed_hz:.4g} Hz stated of {operating.shaft}"
 
 
 def _counted(recording: Recording, drive: str, speeds: Mapping[str, float]) -> Recording:

@@ -22,7 +22,7 @@ from reconcile.machine.meter import Meter
 from reconcile.machine.rolling import kind_of, known_family, rate_of
 from reconcile.machine.setting import Setting
 from reconcile.machine.severity import TELLS, parameter_of, severity_of
-from reconcile.machine.size_likelihood import Heard, sized
+from reconcile.machine.size_likelihood import Curve, Heard, sized
 from reconcile.observe.impact_bands import Rate, Standing, bands_of, standing
 from reconcile.observe.impact_pattern import patterns
 from reconcile.verdict import Severity
@@ -43,8 +43,8 @@ CERTAIN = 3.0
 """Errors by which impacts stand out in a band, from which its multiples count against each other;"""
 PATTERN_DB, PER = 3.6, 1.5
 """the error of one of them, by the path and the pit's form, and how many say as much as one that is independent."""
-BANDWIDTH = 0.5
-"""Of the line through what the draws show, in the logarithm of the size."""
+CURVE = Curve(bandwidth=0.5, degree=1)
+"""Through what the draws show."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,8 +80,8 @@ def _size_of(setting: Setting, name: str, meter: Meter) -> Severity | None:
     runs = [k for k in range(len(terms)) if all(point[k] is not None for point in points)]
     size = parameter_of(name)
     ways = [way for task, point in zip(tasks, points, strict=True) for way in _ways(task, [point[k] for k in runs])]
-    told = sized(np.log([abs(terms[k].parameters[size.name]) for k in runs]), ways, BANDWIDTH)
-    return None if told is None or told[1] > TELLS else severity_of(size, *told)
+    told = sized(np.log([abs(terms[k].parameters[size.name]) for k in runs]), ways, CURVE)
+    return None if told is None or told.spread > TELLS else severity_of(size, told.mean, told.spread)
 
 
 def _bands(setting: Setting, point: int) -> bool:

@@ -20,6 +20,8 @@ more than a fifth, and with 0.08 four of nine intervals held the truth."""
 TELLS = 0.6
 """The same from which levels hardly tell a size: the draws near the observation are then spread over most that are
 sought."""
+SURE = 0.1
+"""Standard deviation beside `LEAST_SPREAD` below which no way of measuring a size counts as surer than another."""
 COVER = 1.645
 """Normal quantile of a 90 % interval."""
 
@@ -79,15 +81,16 @@ def severity_of(size: Param, mean: float, spread: float) -> Severity:
 
 
 def joined(one: Severity, other: Severity | None) -> Severity:
-    """A size by levels and the same by another way of measuring it: the latter, where levels hardly tell, else both as
-    they are sure, with what they differ by in the interval."""
+    """A size by levels and the same by what is heard of the effect: the latter, where levels hardly tell, else both as
+    they are sure but for `LEAST_SPREAD`, which both have; what they differ by is in the interval."""
     if other is None or _spread(one) > TELLS:
         return other or one
-    spreads = np.maximum([_spread(one), _spread(other)], LEAST_SPREAD)
-    weights = spreads**-2.0 / np.sum(spreads**-2.0)
+    own = np.array([_spread(one), _spread(other)]) ** 2 - LEAST_SPREAD**2
+    sure = 1.0 / np.maximum(own, SURE**2)
+    weights = sure / sure.sum()
     logs = np.log([one.value, other.value])
     mean = float(weights @ logs)
-    spread = float(np.sqrt(max(1.0 / float(np.sum(spreads**-2.0)), LEAST_SPREAD**2) + weights @ (logs - mean) ** 2))
+    spread = float(np.sqrt(1.0 / float(sure.sum()) + LEAST_SPREAD**2 + weights @ (logs - mean) ** 2))
     low, high = np.exp(mean - COVER * spread), np.exp(mean + COVER * spread)
     return replace(
         one, value=float(np.exp(mean)), low=max(float(low), min(one.low, other.low)),
