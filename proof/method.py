@@ -24,12 +24,8 @@ SECTIONS = {
     "closing": "No version of the engine had met these before their run: the last six of the plan, all run by the "
     "engine of commit f19aa093, two or three at once beside other work, which core-seconds show. Sizes of pits are "
     "measured by their impacts here ([decision](decisions/reconcile-pit-size.md)).",
-    "present": "The engine before, whose answers differ in sizes and forecasts, on all cases of `mixed`: most of what "
-    "they taught is in it, so these are no first meetings and stand in no figure of those. Two ran at once beside "
-    "other work, which core-seconds show; ten were run again later and gave the same answers to the last digit. On "
-    "another processor the "
-    "last digits of a simulation differ, and an answer at an edge may: m013 was not decidable by the engine before on "
-    "another, and is what it is here by both.",
+    "present": "An engine before, on all cases of `mixed`: most of what they taught is in it, so these are no first "
+    "meetings and stand in no figure of those. Two ran at once beside other work, which core-seconds show.",
     "wide": "No version of the engine had met these before their run; one engine ran all, beside other work on the two "
     "threads of one core, which core-seconds show. Since then unknown physics comes with its force by lines, and a "
     "change without a pattern is unknown physics again where no single lines could be asked (machines without teeth); "

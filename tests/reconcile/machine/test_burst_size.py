@@ -114,6 +114,14 @@ def test_a_size_that_levels_hardly_tell_is_that_of_the_burst() -> None:
     assert joined(levels, None) is levels
 
 
+def test_the_surer_of_two_sizes_counts_more_but_for_the_spread_that_both_have() -> None:
+    """Spreads of 0.33 and 0.5, of which 0.3 is that of all sizes: 0.14 and 0.4, so eight and one of nine parts."""
+    sure, rough = size(0.2, 0.2 / np.exp(0.33 * 1.645), 0.2 * np.exp(0.33 * 1.645)), size(0.1, 0.044, 0.2276)
+    found = joined(rough, sure)
+    assert np.log(found.value / 0.1) / np.log(2.0) == pytest.approx(0.16 / (0.16 + 0.0189), rel=0.01)
+    assert found.low < 0.2 < found.high
+
+
 def test_two_sizes_that_are_told_meet_between_and_what_they_differ_by_is_in_the_interval() -> None:
     both = joined(size(0.1, 0.06, 0.166), size(0.2, 0.12, 0.332))
     assert both.value == pytest.approx(np.sqrt(0.1 * 0.2), rel=0.02)

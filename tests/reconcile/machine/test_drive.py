@@ -58,6 +58,17 @@ def test_pulses_that_make_another_speed_are_refused(machine: MachineSpec) -> Non
         on_drive(machine, [recorded("input", 30.0, tacho=pulses("input", 30.0, 2))])
 
 
+def test_where_no_number_of_pulses_fits_the_speed_is_blamed_as_it_was_stated(machine: MachineSpec) -> None:
+    told = r"speed_hz: its pulses make 37\.5 Hz, but 30 Hz are stated.*speed_hz 37\.5 would"
+    with pytest.raises(SpecError, match=told):
+        on_drive(machine, [recorded("input", 30.0, tacho=pulses("input", 37.5))])
+    with pytest.raises(SpecError, match=r"of output go with the 30 Hz stated of input") as caught:
+        on_drive(machine, [recorded("input", 30.0, tacho=pulses("output", 12.0))])
+    (problem,) = caught.value.problems
+    assert "pulses_per_revolution" in problem.field
+    assert "would fit" not in str(problem.allowed), "no speed of a shaft whose speed nobody stated"
+
+
 @pytest.mark.parametrize("per_turn", [1, 64])
 def test_pulses_of_another_shaft_are_turned_into_those_of_the_driven(machine: MachineSpec, per_turn: int) -> None:
     teeth = {g.shaft: g.teeth for g in machine.gears}

@@ -228,6 +228,13 @@ def test_the_second_cause_has_its_own_size_and_the_forecast_both(simulated: list
     for cause in (first, second):
         assert cause.severity is not None and cause.values[cause.severity.name] == cause.severity.value, "one size"
     alone = ranked_causes(found, EXPLAINED, weights, observed, None, [WRONG])
+    assert alone[0].severity is not None
+    told = replace(alone[0].severity, value=3.0, low=2.0, high=4.5)
+    name = f"{alone[0].term}@{alone[0].site}"
+    by_levels = ranked_causes(found, EXPLAINED, weights, observed, None, [WRONG], None, {}, {name: told})
+    assert by_levels[0].severity == told and by_levels[1].severity == alone[1].severity
+    heard = ranked_causes(found, EXPLAINED, weights, observed, None, [WRONG], None, {name: told}, {name: told})
+    assert heard[0].severity is not None and heard[0].severity.value == pytest.approx(3.0)
     assert [f"{c.term}@{c.site}" for c in alone[:2]] == [EXPLAINED.chosen[0], WRONG]
     assert alone[1].reasons == (ITS_IMPACTS,) and not alone[1].named
     spectral, frequency = np.ones(FEATURES, dtype=bool), np.linspace(10.0, 1000.0, FEATURES)
