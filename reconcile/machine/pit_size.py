@@ -21,7 +21,7 @@ from reconcile.machine.injected import base_at
 from reconcile.machine.meter import Meter
 from reconcile.machine.rolling import kind_of, known_family, rate_of
 from reconcile.machine.setting import Setting
-from reconcile.machine.severity import TELLS, parameter_of, severity_of
+from reconcile.machine.severity import parameter_of, severity_of
 from reconcile.machine.size_likelihood import Curve, Heard, sized
 from reconcile.observe.impact_bands import Rate, Standing, bands_of, standing
 from reconcile.observe.impact_pattern import patterns
@@ -81,7 +81,7 @@ def _size_of(setting: Setting, name: str, meter: Meter) -> Severity | None:
     size = parameter_of(name)
     ways = [way for task, point in zip(tasks, points, strict=True) for way in _ways(task, [point[k] for k in runs])]
     told = sized(np.log([abs(terms[k].parameters[size.name]) for k in runs]), ways, CURVE)
-    return None if told is None or told.spread > TELLS else severity_of(size, told.mean, told.spread)
+    return None if told is None else severity_of(size, told.mean, told.spread)
 
 
 def _bands(setting: Setting, point: int) -> bool:
