@@ -298,6 +298,17 @@ RULES = (
         "m018, m024, m027, m031, m039, m047, w013, w054, w005, w018, h063 and h072: pits whose sizes set its weights",
     ),
     (
+        (
+            "what strikes nothing is as large as machines that agree with the baseline show at sizes about it "
+            "([decision](decisions/reconcile-level-size.md))"
+        ),
+        "m006, m008, m009, m021, m034, m048, m055, m057, m059, m068 and m071: sizes that set its widths",
+    ),
+    (
+        "of two pits both are sized by their impacts ([decision](decisions/reconcile-pit-size.md))",
+        "y004, two pits named rightly and told as 1.9 and 1.6 times as wide",
+    ),
+    (
         "a name without impacts that brings the spectra no nearer on data held out is no name",
         "m013, a cracked tooth told as a rub by commit f19aa093, which had met it; not decidable since",
     ),
