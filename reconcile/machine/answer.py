@@ -11,6 +11,7 @@ from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.machine.burst_size import burst_sizes
 from reconcile.machine.causes import ranked_causes
+from reconcile.machine.contest import Contest, by_contest
 from reconcile.machine.decide import UNMEASURED, Decision
 from reconcile.machine.decided import decided
 from reconcile.machine.elsewhere import by_forecast
@@ -28,7 +29,7 @@ from reconcile.machine.proved import proved
 from reconcile.machine.revised import Revised, paths, revised_machine
 from reconcile.machine.second import Beside, Together, fitted_change, second_effect, struck_somewhere
 from reconcile.machine.setting import Found, Setting
-from reconcile.machine.stages import all_stages, gate_stage, of_pairs, revisions
+from reconcile.machine.stages import all_stages, gate_stage, later_stages
 from reconcile.machine.unknown import Unknown, at_supports
 from reconcile.machine.weigh import merged_weights, of_one_part, of_the_set
 from reconcile.machine.words import law_sentence, more, next_experiment, sentence, size, title, together, with_points
@@ -93,21 +94,24 @@ def answer(
 ) -> Report:
     """The report of a machine-level reconciliation; `unknown`: what stage 6 says where no known effect is adequate;
     `pairs`: what was tried beside the best effect."""
-    decision = decided(setting, found)
+    first = decided(setting, found)
     watched = watch_list(setting.machine)
     layout = _layout(watched, setting)
+    spectral = spectral_mask(layout, setting.seen_through)
     weights = of_one_part(merged_weights(found.screen), found.screen.struck)
-    missing = decision.word != "nothing_missing"
-    decision, other = named_pair(decision, second_effect(setting, found, decision), pairs)
+    missing = first.word != "nothing_missing"
+    paired = named_pair(first, second_effect(setting, found, first), pairs)
+    asked, decision, other = by_contest(setting, found, first, paired, spectral, meter)
+    tried, pairs = pairs, pairs if decision is paired[0] else None
     both = other.together if other is not None else None
     pair = pairs.best if pairs is not None and pairs.best is not None and other is pairs.best.beside else None
     held = _held(setting, found, decision, layout, unknown, other, pair) if decision.chosen else None
     decision, unknown = _forecast(decision, held, unknown)
     struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
-    sizes = _sizes(setting, found, decision, pairs, other, meter) if missing else ()
+    sizes = _sizes(setting, found, decision, pairs, other, meter, asked) if missing else ()
     ranked = ranked_causes(found, decision, weights, setting.changes.observed, other, struck, *sizes) if missing else ()
     causes = with_forms(ranked, found.screen)
-    revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter, both)
+    revision = revised_machine(setting, found, causes, spectral, meter, both)
     fitted = _fitted(setting, found, decision, revision, unknown)
     before = decision
     decision, causes = proved(decision, causes, found, revision, held)
@@ -136,21 +140,28 @@ def answer(
         next_experiment=_next(setting, found, decision),
         force=unknown.force if unknown is not None else None,
         machine=_machine(revision, unknown, decision),
-        stages=(*all_stages(setting, found, gate, decision, fit or {}), *of_pairs(pairs), *revisions(revision)),
+        stages=(*all_stages(setting, found, gate, decision, fit or {}), *later_stages(tried, asked, revision)),
         pictures=_pictures(setting, layout, fitted, where, ranking(setting, found, named) if missing else []),
         provenance=provenance(setting.seed, len(setting.plan.draws), meter, cost),
     )
 
 
 def _sizes(
-    setting: Setting, found: Found, decision: Decision, pairs: Pairs | None, other: Beside | None, meter: Meter
+    setting: Setting,
+    found: Found,
+    decision: Decision,
+    pairs: Pairs | None,
+    other: Beside | None,
+    meter: Meter,
+    asked: Contest | None,
 ) -> tuple[Together | None, dict[str, Severity], dict[str, Severity]]:
     """Of what the answer stands on: beside a second effect; by what is heard; by levels, where the first is alone."""
     names = list(dict.fromkeys((*decision.chosen[:1], *(other.names[:1] if other else ()), *decision.chosen[1:])))
     heard = {**burst_sizes(setting, decision.chosen, meter), **pit_sizes(setting, names, meter)}
     beside = other is not None or (pairs is not None and pairs.best is not None and bool(pairs.best.others))
     alone = decision.word in ("explained", "ambiguous") and not beside
-    return sizes_of(pairs), heard, by_levels(setting, found, decision.chosen, meter) if alone else {}
+    drawn = asked.drawn if asked is not None else None
+    return sizes_of(pairs), heard, by_levels(setting, found, decision.chosen, meter, drawn) if alone else {}
 
 
 def _forecast(decision: Decision, held: HeldOut | None, unknown: Unknown | None) -> tuple[Decision, Unknown | None]:
