@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import cholesky, solve_triangular
 
 from signals.series import FloatArray
 
@@ -80,5 +81,5 @@ def fit_metric(centre: FloatArray, scatter: Sequence[FloatArray]) -> Metric:
     pooled = rows.T @ rows / rows.shape[0]
     size = pooled.shape[0]
     ridge = LEAST_VARIANCE + RIDGE * max(1.0, 4.0 * size / rows.shape[0]) * max(float(np.trace(pooled)) / size, 1e-9)
-    inverse = np.linalg.inv(pooled + ridge * np.eye(size))
-    return Metric(centre=centre, turn=np.asarray(np.linalg.cholesky(0.5 * (inverse + inverse.T)), dtype=np.float64))
+    root = cholesky(pooled + ridge * np.eye(size))
+    return Metric(centre=centre, turn=np.asarray(solve_triangular(root, np.eye(size)), dtype=np.float64))

@@ -96,6 +96,8 @@ def placed_by_hearing(setting: Setting, found: Found, meter: Meter) -> Screen:
     if any(len(bands_of(d.spectra[0].rate_hz)) < LEAST_BANDS for d in setting.data):
         return screen
     for group in twins(found, setting.machine)[:MOST_GROUPS]:
+        if beyond_hearing(found.screen, group):
+            continue
         rivals = group[:MOST_RIVALS]
         off = distances(setting, found, rivals, meter)
         screen = counted(screen, off) if len(off) == len(rivals) else screen
@@ -104,6 +106,14 @@ def placed_by_hearing(setting: Setting, found: Found, meter: Meter) -> Screen:
     again = of_best(screen, found.views, setting.changes.observed)
     best = screen.names[int(np.argmax(screen.evidence))]
     return replace(again, rest=replace(again.rest, rough=best not in found.led))
+
+
+def beyond_hearing(screen: Screen, group: Sequence[str]) -> bool:
+    """Whether the first of the places is the best effect of all, so far ahead of the others by what else is known that
+    hearing could not open it."""
+    told = dict(zip(screen.names, map(float, screen.evidence), strict=True))
+    lead = told[group[0]] - max(told[name] for name in group[1:])
+    return told[group[0]] == max(told.values()) and lead >= MOST + LEAST_EVIDENCE
 
 
 def counted(screen: Screen, off: Mapping[str, float]) -> Screen:

@@ -45,9 +45,7 @@ def drawn(names: tuple[str, ...], count: int, seed: int, shown: dict[str, FloatA
     rows = [s * shown[n] + rng.normal(0.0, 1.0, SPECTRAL.size) for n in names for s in sizes]
     groups = {n: tuple(range(k * count, (k + 1) * count)) for k, n in enumerate(names)}
     terms = tuple(TermSpec(term=n.split("@")[0], site=n.split("@")[1], parameters={}) for n in names for _ in sizes)
-    return Catalogued(
-        library=Library(changes=np.array(rows), groups=groups, shares=np.zeros(len(rows))), terms=terms
-    )
+    return Catalogued(library=Library(changes=np.array(rows), groups=groups, shares=np.zeros(len(rows))), terms=terms)
 
 
 class Open:
@@ -141,7 +139,9 @@ def test_what_forecasts_less_than_half_of_it_is_no_name(monkeypatch: pytest.Monk
     held = made.told(SET)
     assert held is None or held.decision.word == "ambiguous"
     beside = Open(monkeypatch, foreign_db=6.5, struck=(0.0, 0.0, 12.0)).told(SET)
-    assert beside is not None and beside.decision.word == "explained", "sure impacts say that something stands beside it"
+    assert beside is not None and beside.decision.word == "explained", (
+        "sure impacts say that something stands beside it"
+    )
 
 
 def test_a_name_that_another_forecasts_better_than_is_a_set_of_both(monkeypatch: pytest.MonkeyPatch) -> None:

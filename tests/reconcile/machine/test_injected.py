@@ -172,6 +172,28 @@ def test_draws_that_show_something_speak_for_a_place_if_need_be_those_of_another
     assert [{t.site for t in place} for place in told] == [{site} for site in SITES]
 
 
+@pytest.mark.parametrize(
+    ("evidence", "skipped"),
+    [
+        ((60.0, 49.0, 3.0, 5.0), True),
+        ((60.0, 49.1, 3.0, 5.0), False),
+        ((60.0, 30.0, 3.0, 60.1), False),
+    ],
+)
+def test_nothing_is_simulated_where_hearing_could_open_nothing(
+    evidence: tuple[float, ...], skipped: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is worth `MOST` against a place; what leads by that and a name's lead keeps its place. A part that strikes
+    beside the best effect is asked."""
+    asked: list[object] = []
+    monkeypatch.setattr(injected, "distances", lambda _s, _f, names, _m: asked.append(names) or {})
+    point = SimpleNamespace(baseline="there", spectra=(SimpleNamespace(rate_hz=25600.0),) * 2)
+    setting = SimpleNamespace(machine=preset("paper"), data=(point,))
+    found = SimpleNamespace(screen=screen((25.0, 25.0, 0.0, 0.0), evidence))
+    after = injected.placed_by_hearing(setting, found, Meter(map))  # type: ignore[arg-type]
+    assert after is found.screen and (asked == []) is skipped
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("struck", SITES)
 def test_a_bearing_without_a_sensor_is_told_from_the_next_one_with_it(
