@@ -24,14 +24,14 @@ from reconcile.machine.next_look import apart_of
 from reconcile.machine.pairs import Pair, Pairs, named_pair, sizes_of
 from reconcile.machine.pictures import ranking, spectra, turn_maps, with_forms
 from reconcile.machine.pit_size import pit_sizes
-from reconcile.machine.placed import places, with_open, with_second
+from reconcile.machine.placed import places, weighed_places
 from reconcile.machine.proved import proved
 from reconcile.machine.revised import Revised, paths, revised_machine
 from reconcile.machine.second import Beside, Together, fitted_change, second_effect, struck_somewhere
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.stages import all_stages, gate_stage, later_stages
-from reconcile.machine.unknown import Unknown, at_supports
-from reconcile.machine.weigh import merged_weights, of_one_part, of_the_set
+from reconcile.machine.unknown import Unknown
+from reconcile.machine.weigh import merged_weights, of_one_part
 from reconcile.machine.words import law_sentence, more, next_experiment, sentence, size, title, together, with_points
 from reconcile.observe.features import Layout
 from reconcile.observe.tooth_place import angle_window
@@ -53,8 +53,6 @@ from signals.series import FloatArray
 
 MOST_STRUCK = 2
 """Effects that share another part's impacts and are ranked next to the name; more would push out its rivals."""
-SETS = ("explained", "ambiguous", "not_decidable")
-"""Verdicts on one name or a set of them, whose places are those of the set."""
 
 
 def fault_answer(gate: Gate, *, level: Level) -> Report:
@@ -103,6 +101,7 @@ def answer(
     paired = named_pair(first, second_effect(setting, found, first), pairs)
     asked, decision, other = by_contest(setting, found, first, paired, spectral, meter)
     tried, pairs = pairs, pairs if decision is paired[0] else None
+    unknown = unknown if decision.word == "unknown_physics" else None
     both = other.together if other is not None else None
     pair = pairs.best if pairs is not None and pairs.best is not None and other is pairs.best.beside else None
     held = _held(setting, found, decision, layout, unknown, other, pair) if decision.chosen else None
@@ -121,10 +120,7 @@ def answer(
     if word == "explained":
         text += more(*unsettled)
     named = [f"{c.term}@{c.site}" for c in causes if c.named]
-    shown = of_the_set(weights, decision.chosen) if decision.word in SETS else weights
-    placed = with_open(with_second(shown, other), unsettled[1])
-    if unknown is not None:
-        placed = at_supports(weights, unknown.force.site, [b.name for b in setting.machine.bearings])
+    placed = weighed_places(setting, decision, weights, other, unsettled[1], unknown)
     where = _where(setting, layout, watched, placed) if missing else Where(limits=limits(setting))
     if word != "measurement_fault":
         where = replace(where, limits=(*where.limits, *doubts(gate)))
