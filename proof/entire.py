@@ -46,7 +46,7 @@ class Design:
     have gone before, `begun` from which on those of rarer laws, pairs and unknown effects; `rows` are the conditions of
     every fourth case."""
 
-    split: Literal["entire", "held", "wide", "mixed", "young"]
+    split: Literal["entire", "held", "wide", "mixed", "young", "vast"]
     groups: Mapping[Group, int]
     turned: int
     rows: tuple[Row, ...]
@@ -80,6 +80,8 @@ MIXED = Design(split="mixed", groups=WIDE.groups, turned=557, rows=HELD.rows, be
 """As wide, of laws, pairs and unknown effects that it leaves out."""
 YOUNG = Design(split="young", groups=WIDE.groups, turned=673, rows=HELD.rows, begun=16)
 """As mixed, of those that both leave out, then from the first on."""
+VAST = Design(split="vast", groups=WIDE.groups, turned=787, rows=HELD.rows, begun=24)
+"""As young, of the rarer laws and most of the pairs that it leaves out."""
 ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
 STRUCK = ("outer_pit", "inner_pit", "ball_pit")
 FORMS = 3
@@ -110,6 +112,11 @@ def mixed() -> tuple[Case, ...]:
 def young() -> tuple[Case, ...]:
     """All cases of the fifth."""
     return cases_of_design(YOUNG)
+
+
+def vast() -> tuple[Case, ...]:
+    """All cases of the sixth."""
+    return cases_of_design(VAST)
 
 
 def cases_of_design(design: Design) -> tuple[Case, ...]:

@@ -42,6 +42,7 @@ Split = Literal[
     "wide",
     "mixed",
     "young",
+    "vast",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -66,6 +67,7 @@ SEEDS = {
     "wide": 6_174_392_805,
     "mixed": 9_481_205_763,
     "young": 3_617_948_205,
+    "vast": 5_283_740_961,
 }
 COUNTS = {
     "dev": {
