@@ -21,11 +21,11 @@ from proof.chosen import chosen as cases_chosen
 from proof.chosen import split_for
 from proof.keep import Answers, against, keep
 from proof.kinematic import told_table
-from proof.method import SECTIONS
 from proof.others import SPLITS, cases_of
 from proof.page import write_page
 from proof.plan import Case
 from proof.run import Engine, run_case
+from proof.said import SECTIONS
 from proof.score.one import Score, score
 from proof.score.stored import OtherRun
 from proof.score.table import table

@@ -9,7 +9,7 @@ from textwrap import wrap
 import numpy as np
 
 from proof.effects import LIPPED
-from proof.entire import ENTIRE, HELD, MIXED, STRUCK, WIDE, YOUNG, Design, cases_of_design
+from proof.entire import ENTIRE, HELD, MIXED, STRUCK, VAST, WIDE, YOUNG, Design, cases_of_design
 from proof.plan import Case
 from proof.present import by_present
 from proof.runs import Run, every_run, met
@@ -24,7 +24,7 @@ FAR_OFF = 0.74
 """Error of a size, as a share of it."""
 CLEAR = 3.0
 """Times as far as drift, from which there is much to see."""
-DESIGNS = (YOUNG, MIXED, WIDE, HELD, ENTIRE)
+DESIGNS = (VAST, YOUNG, MIXED, WIDE, HELD, ENTIRE)
 """The splits, the latest first."""
 
 
@@ -130,14 +130,16 @@ def _again(run: Run) -> list[str]:
 
 
 TITLES = {
-    "young": "The latest plan",
-    "mixed": "The plan before",
+    "vast": "The latest plan",
+    "young": "The plan before",
+    "mixed": "An older plan",
     "wide": "A plan before",
     "held": "An engine before",
     "entire": "An earlier engine",
 }
 NOT_YET = "The others are not run yet: the names' order is drawn, so those run are a sample of the plan. "
 LEFT = {
+    "vast": NOT_YET,
     "young": NOT_YET,
     "mixed": NOT_YET,
     "wide": NOT_YET,

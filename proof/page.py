@@ -15,10 +15,11 @@ import matplotlib.pyplot as plt
 
 from proof.engine_id import engine_id
 from proof.limit import limit, told_apart
-from proof.method import METHOD, SECTIONS
+from proof.method import METHOD
 from proof.one_engine import one_engine
 from proof.others import cases_of
 from proof.plan import COUNTS, FIRST, OTHERS, Split
+from proof.said import SECTIONS
 from proof.score.one import Score
 from proof.score.rates import at_target
 from proof.score.table import failures
@@ -42,8 +43,8 @@ TITLES = {
 
 
 PARTS: tuple[tuple[Split, str], ...] = (
-    ("young", "young"), ("mixed", "mixed"), ("mixed", "resumed"), ("mixed", "last"), ("mixed", "closing"),
-    ("wide", "wide"), ("held", "held"), ("held", "begun"),
+    ("vast", "vast"), ("young", "young"), ("mixed", "mixed"), ("mixed", "resumed"), ("mixed", "last"),
+    ("mixed", "closing"), ("wide", "wide"), ("held", "held"), ("held", "begun"),
 )  # fmt: skip
 """Splits, and the sections of the page they are in, of which is asked what could be told at all."""
 UNMET = "No version of the engine had met these before their run"

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from proof.method import SECTIONS
 from proof.plan import Split
+from proof.said import SECTIONS
 from proof.score.one import Score
 from proof.whole import read
 

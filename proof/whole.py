@@ -9,7 +9,7 @@ from pathlib import Path
 from textwrap import wrap
 from typing import NamedTuple
 
-from proof.method import FIRST_RUNS, HISTORY, TAKEN_DOWN
+from proof.said import FIRST_RUNS, HISTORY, TAKEN_DOWN
 from proof.score.one import Score
 from proof.score.rates import MEASURES, Rate, at_target, quantiles, rate
 from proof.shown import WIDTH, all_rows, parting

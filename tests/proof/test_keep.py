@@ -15,10 +15,10 @@ from proof import __main__ as commands
 from proof import page
 from proof.case import canonical, truth_of
 from proof.keep import Answers, against, keep
-from proof.method import FIRST_RUNS, SECTIONS
 from proof.page import UNMET
 from proof.plan import plan
 from proof.runs import every_run
+from proof.said import FIRST_RUNS, SECTIONS
 from proof.score.one import Score, score
 from proof.score.stored import OtherRun
 

@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from proof import page
-from proof.method import METHOD, SECTIONS
+from proof.method import METHOD
 from proof.page import write_page
+from proof.said import SECTIONS
 
 HERE = Path(page.__file__).parent
 WIDEST = 120

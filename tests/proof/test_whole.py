@@ -11,8 +11,8 @@ import pytest
 from proof import page
 from proof.case import truth_of
 from proof.library import CLOSED
-from proof.method import FIRST_RUNS, HISTORY
 from proof.plan import plan
+from proof.said import FIRST_RUNS, HISTORY
 from proof.score.one import Score, score
 from proof.score.rates import MEASURES, at_target, rate
 from proof.targets import CUT_WORDS, TARGETS, WRONG_WORDS, written
