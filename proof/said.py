@@ -5,7 +5,8 @@ from __future__ import annotations
 SECTIONS = {
     "vast": "No version of the engine had met these before their run: the whole plan by one engine, the first that "
     "names what alone forecasts the speeds held out ([decision](decisions/reconcile-contest.md)), which these cases "
-    "had no part in. Two ran at once, beside other work, which core-seconds show.",
+    "had no part in. Two ran at once, beside other work, which core-seconds show. v017, v064 and v069 have each had a "
+    "part in a rule since.",
     "young": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at once, "
     "beside other work, which core-seconds show. Sizes are told by the likelihood that draws about them have "
     "([decision](decisions/reconcile-level-size.md)), which these cases had no part in. y003, y015, y043, y050, y062 "

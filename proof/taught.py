@@ -314,7 +314,7 @@ RULES = (
     ),
     (
         "what alone forecasts speeds held out is named ([decision](decisions/reconcile-contest.md))",
-        "m032, y003, y015, y043 and y062, named by it; m065, y050 and y072, other sets",
+        "m032, y003, y015, y043 and y062, named by it; m065, y050, y072, v064 and v069, sets",
     ),
 )
 """What first runs taught: a rule, and the cases that set it."""

@@ -10,7 +10,7 @@ import pytest
 
 from reconcile.judge.space import Library
 from reconcile.machine import contest as module
-from reconcile.machine.contest import BEATEN, BY_FORECAST, CLEARLY, MOST, by_contest, contest
+from reconcile.machine.contest import BEATEN, BY_FORECAST, CLEARLY, FORM_BY_FIT, MOST, by_contest, contest
 from reconcile.machine.decide import Decision
 from reconcile.machine.heldout import lead_by, trial
 from reconcile.machine.library import Catalogued
@@ -21,7 +21,8 @@ from signals.series import FloatArray
 from sim.core.spec import TermSpec
 
 FEATURES, POINTS, HAND, FAIR = 40, 3, 8, 20
-RIGHT, WRONG, THIRD = "rub@gear", "rub@pinion", "squeeze_film@bearing1"
+RIGHT, WRONG, THIRD = "rub@gear", "pitch_error@gear", "squeeze_film@bearing1"
+ELSEWHERE = "rub@pinion"
 OUTER, INNER = "outer_spall@bearing1", "inner_spall@bearing1"
 SPECTRAL = np.ones(POINTS * FEATURES, dtype=bool)
 METER = Meter(map)
@@ -173,6 +174,50 @@ def test_a_pit_that_is_heard_beats_one_that_is_not(monkeypatch: pytest.MonkeyPat
     told = silent, None
     one, decision, other = by_contest(made.setting, made.found, silent, told, SPECTRAL, METER)  # type: ignore[arg-type]
     assert one is not None and decision.chosen == (OUTER,) and other is None
+
+
+@pytest.mark.parametrize(
+    ("evidence", "word", "chosen"),
+    [
+        (12.1, "explained", ("fit_clearance_series@bearing1",)),
+        (10.0, "ambiguous", ("fit_clearance_series@bearing1", "radial_clearance@bearing1")),
+        (6.1, "ambiguous", ("radial_clearance@bearing1", "fit_clearance_series@bearing1")),
+        (5.9, "explained", ("radial_clearance@bearing1",)),
+        (1.0, "explained", ("radial_clearance@bearing1",)),
+    ],
+)
+def test_which_of_what_shows_alike_at_one_place_is_the_screens_to_tell(
+    monkeypatch: pytest.MonkeyPatch, evidence: float, word: str, chosen: tuple[str, ...]
+) -> None:
+    """A wider clearance forecasts best; a loose fit of that bearing is far behind, but of quite its form nothing is."""
+    names = ("radial_clearance@bearing1", WRONG, "fit_clearance_series@bearing1")
+    made = Open(monkeypatch, names, evidence=(9.0, 10.0, evidence))
+    held = made.told(replace(SET, chosen=(WRONG, names[0])))
+    assert held is not None and (held.decision.word, held.decision.chosen) == (word, chosen)
+    assert next(iter(held.gains)) == names[0] and held.ahead.get(names[2], 1.0) >= CLEARLY
+    told = {"explained": FORM_BY_FIT if chosen[0] == names[2] else BY_FORECAST, "ambiguous": BEATEN}
+    assert held.decision.reasons == (told[word],)
+
+
+def test_a_name_is_not_beaten_by_what_shows_alike(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = ("radial_clearance@bearing1", WRONG, "fit_clearance_series@bearing1")
+    name = Decision(word="explained", chosen=(names[2],), p=1e-4, reasons=())
+    held = Open(monkeypatch, names, evidence=(9.0, 8.0, 20.0), foreign_db=6.5).told(name)
+    assert held is not None and held.decision is name
+
+
+@pytest.mark.parametrize(
+    "decision",
+    [
+        replace(SET, chosen=(RIGHT, ELSEWHERE)),
+        replace(SET, word="not_decidable", chosen=(WRONG, RIGHT), reasons=("the change is too faint",)),
+        replace(SET, word="unknown_physics", reasons=("none of the known",)),
+    ],
+    ids=["places of one effect", "too faint", "none of the known"],
+)
+def test_what_is_open_for_another_reason_stays_open(monkeypatch: pytest.MonkeyPatch, decision: Decision) -> None:
+    made = Open(monkeypatch)
+    assert made.told(decision) is None and made.asked == []
 
 
 @pytest.mark.parametrize("why", ["one point", "no baseline", "no machine", "a tooth", "nothing missing"])
