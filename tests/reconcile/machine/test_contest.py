@@ -12,7 +12,7 @@ from reconcile.judge.space import Library
 from reconcile.machine import contest as module
 from reconcile.machine.contest import BEATEN, BY_FORECAST, CLEARLY, FORM_BY_FIT, MOST, by_contest, contest
 from reconcile.machine.decide import Decision
-from reconcile.machine.heldout import lead_by, trial
+from reconcile.machine.heldout import MANY, lead_by, trial
 from reconcile.machine.library import Catalogued
 from reconcile.machine.meter import Meter
 from reconcile.machine.stages import of_contest
@@ -61,6 +61,7 @@ class Open:
         struck: tuple[float, ...] = (0.0, 0.0, 0.0),
         alike: bool = False,
         foreign_db: float = 0.0,
+        hand: int = HAND,
     ) -> None:
         shown = {n: pattern(k) for k, n in enumerate(names)}
         if alike:
@@ -83,7 +84,7 @@ class Open:
             seed=3,
         )
         screen = SimpleNamespace(names=names, evidence=np.array(evidence), direct=np.array(struck))
-        self.found = SimpleNamespace(unled=drawn(names, HAND, 5, shown), screen=screen)
+        self.found = SimpleNamespace(unled=drawn(names, hand, 5, shown), screen=screen)
         self.shown = shown
 
         def simulated(_setting: object, _found: object, name: str, _meter: object) -> Catalogued | None:
@@ -127,11 +128,16 @@ def test_what_forecasts_alike_stays_a_set(monkeypatch: pytest.MonkeyPatch) -> No
     held = made.told(SET)
     assert held is not None and WRONG in made.asked
     assert held.decision is SET and min(held.ahead.values()) < CLEARLY
+    name = Decision(word="explained", chosen=(WRONG,), p=1e-4, reasons=())
+    again = made.told(name)
+    assert again is not None and again.ahead.get(WRONG, -1.0) <= 0.0 and again.decision is name, "nor is a name beaten"
 
 
 def test_nothing_is_simulated_where_the_draws_at_hand_forecast_alike(monkeypatch: pytest.MonkeyPatch) -> None:
     made = Open(monkeypatch, alike=True)
     assert made.told(SET) is None and made.asked == []
+    few = Open(monkeypatch, alike=True, hand=MANY - 1)
+    assert few.told(SET) is not None and WRONG in few.asked, "unless too few of them are"
 
 
 def test_what_forecasts_less_than_half_of_it_is_no_name(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -244,13 +250,27 @@ def test_where_a_second_effect_is_named_nothing_is_open(monkeypatch: pytest.Monk
     assert told == (None, paired, second) and made.asked == []
 
 
-def test_only_so_many_take_part_and_none_that_is_worse_than_no_change(monkeypatch: pytest.MonkeyPatch) -> None:
-    names = (RIGHT, WRONG, THIRD, *(f"unbalance@part{k}" for k in range(6)))
-    evidence = (9.0, 10.0, 8.0, *(-20.0,) * 6)
-    made = Open(monkeypatch, names, evidence=evidence, struck=(0.0,) * len(names))
-    many = replace(SET, chosen=(WRONG, RIGHT, THIRD))
+def test_none_takes_part_that_is_worse_than_no_change_however_well_it_forecasts(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    names = (RIGHT, "unbalance@gear", WRONG)
+    made = Open(monkeypatch, names, evidence=(9.0, -20.0, 10.0), alike=True, hand=MANY - 1)
+    held = made.told(replace(SET, chosen=(WRONG, RIGHT)))
+    assert held is not None and set(held.gains) == {RIGHT, WRONG}
+
+
+def test_only_so_many_take_part(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = (RIGHT, WRONG, THIRD, *(f"unbalance@part{k}" for k in range(4)))
+    made = Open(monkeypatch, names, evidence=(9.0,) * 7, struck=(0.0,) * 7)
+    many = replace(SET, word="not_decidable", chosen=names, reasons=("7 effects look alike",))
     held = made.told(many)
-    assert held is not None and len(held.gains) <= MOST and set(held.gains) == {RIGHT, WRONG, THIRD}
+    assert held is not None and len(held.gains) == MOST == len(made.asked) and RIGHT in held.gains
+
+
+def test_another_form_of_the_one_that_leads_is_no_rival(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = ("fit_clearance@bearing1", WRONG, "fit_clearance_series@bearing1")
+    held = Open(monkeypatch, names).told(replace(SET, chosen=(WRONG, names[0], names[2])))
+    assert held is not None and set(held.gains) == {names[0], WRONG} and held.decision.chosen == (names[0],)
 
 
 def test_a_lead_is_sure_only_beyond_what_chance_makes_of_it() -> None:
