@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 SECTIONS = {
-    "vast": "No version of the engine had met these before their run: the whole plan by one engine, the first that "
-    "names what alone forecasts the speeds held out ([decision](decisions/reconcile-contest.md)), which these cases "
-    "had no part in. Two ran at once, beside other work, which core-seconds show. v017, v064 and v069 have each had a "
-    "part in a rule since.",
+    "vast": "No version of the engine had met these before their run: the whole plan by one engine, which "
+    "named what alone forecasts the speeds held out. Two ran at once, beside other work, which core-seconds show. That "
+    "rule is taken back since ([decision](decisions/reconcile-forecasts.md)): it was asked in six of these cases, "
+    "named v017 and v064 wrongly, and none rightly.",
     "young": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at once, "
     "beside other work, which core-seconds show. Sizes are told by the likelihood that draws about them have "
-    "([decision](decisions/reconcile-level-size.md)), which these cases had no part in. y003, y015, y043, y050, y062 "
-    "and y072 have had a part in a rule since.",
+    "([decision](decisions/reconcile-level-size.md)), which these cases had no part in.",
     "mixed": "No version of the engine had met these before their run; one engine ran all of them, two or three at "
     "once on the two threads of one core that takes twice as long as that of `wide`, which core-seconds show. m040 (a "
     "backlash beside a cracked tooth) was begun and not waited for, beside two others; its worker had taken the even "

@@ -312,9 +312,5 @@ RULES = (
         "a name without impacts that brings the spectra no nearer on data held out is no name",
         "m013, a cracked tooth told as a rub by commit f19aa093, which had met it; not decidable since",
     ),
-    (
-        "what alone forecasts speeds held out is named ([decision](decisions/reconcile-contest.md))",
-        "m032, y003, y015, y043 and y062, named by it; m065, y050, y072, v064 and v069, sets",
-    ),
 )
 """What first runs taught: a rule, and the cases that set it."""

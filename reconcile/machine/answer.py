@@ -11,7 +11,6 @@ from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.machine.burst_size import burst_sizes
 from reconcile.machine.causes import ranked_causes
-from reconcile.machine.contest import Contest, by_contest
 from reconcile.machine.decide import UNMEASURED, Decision
 from reconcile.machine.decided import decided
 from reconcile.machine.elsewhere import by_forecast
@@ -24,14 +23,14 @@ from reconcile.machine.next_look import apart_of
 from reconcile.machine.pairs import Pair, Pairs, named_pair, sizes_of
 from reconcile.machine.pictures import ranking, spectra, turn_maps, with_forms
 from reconcile.machine.pit_size import pit_sizes
-from reconcile.machine.placed import places, weighed_places
+from reconcile.machine.placed import places, with_open, with_second
 from reconcile.machine.proved import proved
 from reconcile.machine.revised import Revised, paths, revised_machine
 from reconcile.machine.second import Beside, Together, fitted_change, second_effect, struck_somewhere
 from reconcile.machine.setting import Found, Setting
-from reconcile.machine.stages import all_stages, gate_stage, later_stages
-from reconcile.machine.unknown import Unknown
-from reconcile.machine.weigh import merged_weights, of_one_part
+from reconcile.machine.stages import all_stages, gate_stage, of_pairs, revisions
+from reconcile.machine.unknown import Unknown, at_supports
+from reconcile.machine.weigh import merged_weights, of_one_part, of_the_set
 from reconcile.machine.words import law_sentence, more, next_experiment, sentence, size, title, together, with_points
 from reconcile.observe.features import Layout
 from reconcile.observe.tooth_place import angle_window
@@ -53,6 +52,8 @@ from signals.series import FloatArray
 
 MOST_STRUCK = 2
 """Effects that share another part's impacts and are ranked next to the name; more would push out its rivals."""
+SETS = ("explained", "ambiguous", "not_decidable")
+"""Verdicts on one name or a set of them, whose places are those of the set."""
 
 
 def fault_answer(gate: Gate, *, level: Level) -> Report:
@@ -92,25 +93,21 @@ def answer(
 ) -> Report:
     """The report of a machine-level reconciliation; `unknown`: what stage 6 says where no known effect is adequate;
     `pairs`: what was tried beside the best effect."""
-    first = decided(setting, found)
+    decision = decided(setting, found)
     watched = watch_list(setting.machine)
     layout = _layout(watched, setting)
-    spectral = spectral_mask(layout, setting.seen_through)
     weights = of_one_part(merged_weights(found.screen), found.screen.struck)
-    missing = first.word != "nothing_missing"
-    paired = named_pair(first, second_effect(setting, found, first), pairs)
-    asked, decision, other = by_contest(setting, found, first, paired, spectral, meter)
-    tried, pairs = pairs, pairs if decision is paired[0] else None
-    unknown = unknown if decision.word == "unknown_physics" else None
+    missing = decision.word != "nothing_missing"
+    decision, other = named_pair(decision, second_effect(setting, found, decision), pairs)
     both = other.together if other is not None else None
     pair = pairs.best if pairs is not None and pairs.best is not None and other is pairs.best.beside else None
     held = _held(setting, found, decision, layout, unknown, other, pair) if decision.chosen else None
     decision, unknown = _forecast(decision, held, unknown)
     struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
-    sizes = _sizes(setting, found, decision, pairs, other, meter, asked) if missing else ()
+    sizes = _sizes(setting, found, decision, pairs, other, meter) if missing else ()
     ranked = ranked_causes(found, decision, weights, setting.changes.observed, other, struck, *sizes) if missing else ()
     causes = with_forms(ranked, found.screen)
-    revision = revised_machine(setting, found, causes, spectral, meter, both)
+    revision = revised_machine(setting, found, causes, spectral_mask(layout, setting.seen_through), meter, both)
     fitted = _fitted(setting, found, decision, revision, unknown)
     before = decision
     decision, causes = proved(decision, causes, found, revision, held)
@@ -120,7 +117,10 @@ def answer(
     if word == "explained":
         text += more(*unsettled)
     named = [f"{c.term}@{c.site}" for c in causes if c.named]
-    placed = weighed_places(setting, decision, weights, other, unsettled[1], unknown)
+    shown = of_the_set(weights, decision.chosen) if decision.word in SETS else weights
+    placed = with_open(with_second(shown, other), unsettled[1])
+    if unknown is not None:
+        placed = at_supports(weights, unknown.force.site, [b.name for b in setting.machine.bearings])
     where = _where(setting, layout, watched, placed) if missing else Where(limits=limits(setting))
     if word != "measurement_fault":
         where = replace(where, limits=(*where.limits, *doubts(gate)))
@@ -136,28 +136,21 @@ def answer(
         next_experiment=_next(setting, found, decision),
         force=unknown.force if unknown is not None else None,
         machine=_machine(revision, unknown, decision),
-        stages=(*all_stages(setting, found, gate, decision, fit or {}), *later_stages(tried, asked, revision)),
+        stages=(*all_stages(setting, found, gate, decision, fit or {}), *of_pairs(pairs), *revisions(revision)),
         pictures=_pictures(setting, layout, fitted, where, ranking(setting, found, named) if missing else []),
         provenance=provenance(setting.seed, len(setting.plan.draws), meter, cost),
     )
 
 
 def _sizes(
-    setting: Setting,
-    found: Found,
-    decision: Decision,
-    pairs: Pairs | None,
-    other: Beside | None,
-    meter: Meter,
-    asked: Contest | None,
+    setting: Setting, found: Found, decision: Decision, pairs: Pairs | None, other: Beside | None, meter: Meter
 ) -> tuple[Together | None, dict[str, Severity], dict[str, Severity]]:
     """Of what the answer stands on: beside a second effect; by what is heard; by levels, where the first is alone."""
     names = list(dict.fromkeys((*decision.chosen[:1], *(other.names[:1] if other else ()), *decision.chosen[1:])))
     heard = {**burst_sizes(setting, decision.chosen, meter), **pit_sizes(setting, names, meter)}
     beside = other is not None or (pairs is not None and pairs.best is not None and bool(pairs.best.others))
     alone = decision.word in ("explained", "ambiguous") and not beside
-    drawn = asked.drawn if asked is not None else None
-    return sizes_of(pairs), heard, by_levels(setting, found, decision.chosen, meter, drawn) if alone else {}
+    return sizes_of(pairs), heard, by_levels(setting, found, decision.chosen, meter) if alone else {}
 
 
 def _forecast(decision: Decision, held: HeldOut | None, unknown: Unknown | None) -> tuple[Decision, Unknown | None]:

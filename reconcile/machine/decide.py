@@ -189,12 +189,7 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     if len(chosen) <= MOST_NAMED:
         few = (FEW_REASON,) if views <= FEW_VIEWS and len(credible_set(weights)) < len(chosen) else ()
         return Decision(word="ambiguous", chosen=chosen, p=p, reasons=(_why(chosen), *few))
-    return Decision(word="not_decidable", chosen=chosen, p=p, reasons=(looks_alike(len(chosen)),))
-
-
-def looks_alike(many: int) -> str:
-    """Why nothing is decided among so many."""
-    return f"{many} effects look alike"
+    return Decision(word="not_decidable", chosen=chosen, p=p, reasons=(f"{len(chosen)} effects look alike",))
 
 
 def _none_of_the_known(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -61,61 +61,6 @@ def _ceiling(before: FloatArray, ways: Sequence[Split], sigma: FloatArray) -> fl
     return _gain(before, stays)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Trial:
-    """What is held out, `how` in words, and what no change leaves of each part; `sigma` (F,): deviation of a feature by
-    measurement and drift, dB; `ceiling`: gain of a perfect prediction."""
-
-    ways: tuple[Split, ...]
-    how: str
-    spectral: np.ndarray
-    sigma: FloatArray
-    before: tuple[FloatArray, ...]
-    ceiling: float
-
-    def left(self, known: Catalogued, rows: Sequence[int]) -> list[FloatArray]:
-        """What forecasts by these draws leave of each held-out part, dB."""
-        return _told(known, rows, self.ways, self.spectral, self.sigma)[0]
-
-    def gain(self, left: Sequence[FloatArray]) -> float:
-        """Share of the distance that is gone where so much is left."""
-        return _gain(np.concatenate(self.before), np.concatenate(left))
-
-
-def trial(changes: Changes, spectral: np.ndarray) -> Trial:
-    """Each operating point held out in turn, or a later time of the only one."""
-    noise = np.nan_to_num(changes.measured, nan=10.0) ** 2
-    drift = np.mean(np.nan_to_num(changes.null) ** 2, axis=0)
-    ways, how = splits(changes, spectral)
-    before = tuple(_distance(w.scored, np.zeros(changes.observed.size), w) for w in ways)
-    return Trial(
-        ways=ways,
-        how=how,
-        spectral=spectral,
-        sigma=np.sqrt(noise + drift + 1.0),
-        before=before,
-        ceiling=_ceiling(np.concatenate(before), ways, np.sqrt(noise + drift)),
-    )
-
-
-def lead_by(held: Trial, first: Sequence[FloatArray], second: Sequence[FloatArray], seed: int) -> float:
-    """Lower end of the 90 % interval of by how much the gain of the first, which leaves `first` of each held-out part,
-    is above that of the second: blocks of neighbouring features are drawn with replacement, the same of both."""
-    blocks = [
-        [np.sum(x**2) for x in parts]
-        for b, one, other in zip(held.before, first, second, strict=True)
-        if b.size == one.size == other.size
-        for parts in zip(*(np.array_split(v, BLOCKS) for v in (b, one, other)), strict=True)
-        if parts[0].size
-    ]
-    if not blocks:
-        return float("nan")
-    rows = np.random.default_rng([seed, 6]).integers(0, len(blocks), (COPIES, len(blocks)))
-    total = np.array(blocks)[rows].sum(axis=1)
-    left = np.sqrt(total[:, 1:] / np.maximum(total[:, :1], 1e-300))
-    return float(np.quantile(left[:, 1] - left[:, 0], 0.05))
-
-
 def feature_frequencies(layout: Layout, lines_hz: Sequence[FloatArray], channels: int) -> FloatArray:
     """A frequency for every feature, (F,), Hz; shapes get the middle."""
     centres = band_centres_hz()
@@ -157,10 +102,13 @@ def held_out(
     `drawn` (n, F): what both show together on simulated machines, else their draws are summed.
 
     `black_box` is the better of one curve for all sensors and one for each (`channel` (F,)) with as many numbers."""
-    held = trial(changes, spectral)
-    ways, sigma, before = held.ways, held.sigma, held.before
+    noise = np.nan_to_num(changes.measured, nan=10.0) ** 2
+    drift = np.mean(np.nan_to_num(changes.null) ** 2, axis=0)
+    sigma = np.sqrt(noise + drift + 1.0)
+    ways, how = splits(changes, spectral)
     named = known if beside is None else with_drawn(known, name, drawn)
     named = with_sums(changes, known, name, beside) if beside is not None and drawn is None else named
+    before = [_distance(w.scored, np.zeros(changes.observed.size), w) for w in ways]
     after, used = _told(named, named.library.groups[name], ways, spectral, sigma)
     count = max(_parameters(name) + (0 if beside is None else _parameters(beside)), round(used))
     fits = [levels(w, spectral) for w in ways]
@@ -184,8 +132,8 @@ def held_out(
         retuned=_gain(first, np.concatenate(tuned)),
         black_box=max(_gain(first, box) for box in boxes),
         placebo=float(np.median(full)) if full else None,
-        held=held.how,
-        ceiling=held.ceiling,
+        held=how,
+        ceiling=_ceiling(first, ways, np.sqrt(noise + drift)),
         numbers=count,
         placebos=placebos,
         effects=(name,) if beside is None else (name, beside),

@@ -109,11 +109,10 @@ def placed_by_hearing(setting: Setting, found: Found, meter: Meter) -> Screen:
 
 
 def beyond_hearing(screen: Screen, group: Sequence[str]) -> bool:
-    """Whether the first of the places is the best effect of all, so far ahead of the others by what else is known that
-    hearing could not open it."""
+    """Whether the first of the places is so far ahead of all other effects by what else is known that hearing could
+    neither open it nor bring another effect before it."""
     told = dict(zip(screen.names, map(float, screen.evidence), strict=True))
-    lead = told[group[0]] - max(told[name] for name in group[1:])
-    return told[group[0]] == max(told.values()) and lead >= MOST + LEAST_EVIDENCE
+    return told[group[0]] - max(value for name, value in told.items() if name != group[0]) >= MOST + LEAST_EVIDENCE
 
 
 def counted(screen: Screen, off: Mapping[str, float]) -> Screen:

@@ -9,7 +9,7 @@ deviations of measurement, of drift and of what the machines scatter (docs/decis
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -56,16 +56,12 @@ class _Asked:
     many: int
 
 
-def by_levels(
-    setting: Setting, found: Found, names: Sequence[str], meter: Meter, drawn: Mapping[str, Catalogued] | None = None
-) -> dict[str, Severity]:
-    """That of the first of the effects, where it strikes nothing and machines agree with a baseline; `drawn`: what
-    `with_sizes` simulated of effects before."""
+def by_levels(setting: Setting, found: Found, names: Sequence[str], meter: Meter) -> dict[str, Severity]:
+    """That of the first of the effects, where it strikes nothing and machines agree with a baseline."""
     if not names or kind_of(names[0]) or setting.fitted_machine is None or not setting.changes.with_baseline:
         return {}
     asked = _asked(setting, found, names[0])
-    before = (drawn or {}).get(names[0])
-    known = before if before is not None or asked is None else _simulated(setting, asked, meter)
+    known = None if asked is None else _simulated(setting, asked, meter)
     if asked is None or known is None:
         return {}
     told = _told(setting, found, asked.name, known)
@@ -77,13 +73,6 @@ def by_levels(
         return {}
     size = severity_of(parameter_of(asked.name), told.mean, told.spread)
     return {asked.name: _open(size, told, asked.sought)}
-
-
-def with_sizes(setting: Setting, found: Found, name: str, meter: Meter) -> Catalogued | None:
-    """What machines that agree with the baseline show with an effect at sizes over what its nearest draws leave open;
-    None where that needs shorter steps than the machine alone, or none runs."""
-    asked = _asked(setting, found, name)
-    return None if asked is None else _simulated(setting, asked, meter)
 
 
 def _asked(setting: Setting, found: Found, name: str) -> _Asked | None:

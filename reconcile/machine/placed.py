@@ -6,19 +6,11 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from reconcile.machine.decide import Decision
 from reconcile.machine.second import Beside
-from reconcile.machine.setting import Setting
-from reconcile.machine.unknown import Unknown, at_supports
-from reconcile.machine.weigh import of_the_set
 from reconcile.verdict import PlaceWeight
 
 OPEN_SECOND = 1.0 / 3.0
 """Weight of the places of a second effect that is one of several: less than that of the one that is named."""
-
-
-SETS = ("explained", "ambiguous", "not_decidable")
-"""Verdicts on one name or a set of them, whose places are those of the set."""
 
 
 def places(weights: Mapping[str, float]) -> tuple[PlaceWeight, ...]:
@@ -45,18 +37,3 @@ def with_open(weights: Mapping[str, float], others: Sequence[str]) -> dict[str, 
     beside = dict.fromkeys(others, OPEN_SECOND / max(len(others), 1))
     rest = 1.0 - OPEN_SECOND if others else 1.0
     return {name: rest * weights.get(name, 0.0) + beside.get(name, 0.0) for name in {**weights, **beside}}
-
-
-def weighed_places(
-    setting: Setting,
-    decision: Decision,
-    weights: Mapping[str, float],
-    other: Beside | None,
-    unsettled: Sequence[str],
-    unknown: Unknown | None,
-) -> dict[str, float]:
-    """Weights of effects and, of a force that none of them has, of supports."""
-    if unknown is not None:
-        return at_supports(weights, unknown.force.site, [b.name for b in setting.machine.bearings])
-    shown = of_the_set(dict(weights), decision.chosen) if decision.word in SETS else dict(weights)
-    return with_open(with_second(shown, other), unsettled)

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from reconcile.gate.findings import Gate
-from reconcile.machine.contest import Contest
 from reconcile.machine.decide import Decision
 from reconcile.machine.pairs import Pairs
 from reconcile.machine.revised import Revised
@@ -68,25 +67,6 @@ def all_stages(
             "heard_less_likely": [f"{name}: {value:.1f}" for name, value in sorted(found.screen.heard.items())],
         },
     )
-
-
-def later_stages(
-    pairs: Pairs | None, held: Contest | None, revision: Revised | None
-) -> tuple[Mapping[str, object], ...]:
-    """What was asked of the answer itself: what stands beside it, what forecasts best, how the revised machine does."""
-    return (*of_pairs(pairs), *of_contest(held), *revisions(revision))
-
-
-def of_contest(held: Contest | None) -> tuple[Mapping[str, object], ...]:
-    """Which effects were held against each other by what they forecast, and how far behind the first they stay;
-    nothing where nothing was open."""
-    if held is None:
-        return ()
-    first, *others = held.gains
-    shown = [f"{first}: {held.gains[first]:.2f}"]
-    shown += [f"{n}: {held.gains[n]:.2f}, behind by {held.ahead[n]:.2f} or more" for n in others]
-    perfect = round(held.ceiling, 2)
-    return ({"name": "what each forecasts", "held_out_gain": shown, "of_a_perfect_model": perfect},)
 
 
 def of_pairs(pairs: Pairs | None) -> tuple[Mapping[str, object], ...]:

@@ -178,13 +178,14 @@ def test_draws_that_show_something_speak_for_a_place_if_need_be_those_of_another
         ((60.0, 49.0, 3.0, 5.0), True),
         ((60.0, 49.1, 3.0, 5.0), False),
         ((60.0, 30.0, 3.0, 60.1), False),
+        ((60.0, 49.0, 3.0, 55.0), False),
     ],
 )
 def test_nothing_is_simulated_where_hearing_could_open_nothing(
     evidence: tuple[float, ...], skipped: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """It is worth `MOST` against a place; what leads by that and a name's lead keeps its place. A part that strikes
-    beside the best effect is asked."""
+    """It is worth `MOST` against a place; what leads all else by that and a name's lead keeps its place, and stays the
+    best effect. A part that strikes beside the best effect is asked."""
     asked: list[object] = []
     monkeypatch.setattr(injected, "distances", lambda _s, _f, names, _m: asked.append(names) or {})
     point = SimpleNamespace(baseline="there", spectra=(SimpleNamespace(rate_hz=25600.0),) * 2)
