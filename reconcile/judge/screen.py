@@ -48,6 +48,10 @@ class Screen:
     """Whether single lines were asked at all: that view may be missing, or its lines not repeat."""
     p_first: float = 1.0
     """`p_best` among all machines of the kind, where the rest is of those that agree with the baseline."""
+    p_turns: float = 1.0
+    """Chance that the teeth's sidebands at a shaft's turns rise so together."""
+    by_turns: bool = False
+    """Whether nothing but that is unusual: effects count by it alone."""
     struck: tuple[frozenset[str], ...] = ()
     """Effects that strike at the lines of one part each, where impacts come at those of several."""
     silent: frozenset[str] = frozenset()

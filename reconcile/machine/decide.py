@@ -87,13 +87,15 @@ UNMEASURED = "without a baseline it cannot be told whether that is missing physi
 
 def chance(screen: Screen) -> float:
     """Chance that a healthy machine shows as much: by a known effect's pattern, by any change that is glaring, by
-    impacts at a part's own frequency, or by the single lines of machines that agree with the baseline."""
+    impacts at a part's own frequency, by the single lines of machines that agree with the baseline, or by sidebands
+    that rose together, where that is too clear for a fifth look to matter."""
     pattern = screen.p_best if screen.p_any <= ALSO_P else 1.0
     if screen.p_first <= FIRST_P and min(screen.p_best, max(screen.p_any, screen.p_lines)) <= ALSO_P:
         pattern = min(screen.p_best, screen.p_first)
     glaring = screen.p_any if screen.strongest > GLARING else 1.0
     lines = screen.p_lines if screen.p_lines <= CLEAR_P or screen.p_best <= ALSO_P else 1.0
-    return min(1.0, LOOKS * min(pattern, glaring, screen.p_direct, lines))
+    turns = screen.p_turns if screen.p_turns <= CLEAR_P else 1.0
+    return min(1.0, LOOKS * min(pattern, glaring, screen.p_direct, lines, turns))
 
 
 def tempered(screen: Screen, first: Screen) -> Screen:
@@ -140,7 +142,7 @@ def _decided(screen: Screen, *, views: int, strange: float) -> Decision:
         reason = f"a healthy machine of this kind shows as much with p = {p:.2g}"
         return Decision(word="nothing_missing", chosen=(), p=p, reasons=(reason,))
     weights = of_one_part(merged_weights(screen), screen.struck)
-    if _only_impacts(screen):
+    if not screen.by_turns and _only_impacts(screen):
         return _by_impacts(screen, weights, p)
     return _by_patterns(screen, weights, p, views, strange)
 
@@ -218,7 +220,7 @@ def _too_little(screen: Screen, inadequate: bool, views: int) -> str | None:
     """Why a change without a pattern is no unknown effect's either, if it need not be one's: three of 47 sound machines
     (h034, h049, h058) and a cracked tooth (g014) reached 1e-6 by groups of features, with no line to show."""
     quiet = screen.p_lines > CLEAR_P and screen.lines_asked
-    if screen.p_lines > CLEAR_P and screen.strongest < FAINT:
+    if screen.p_lines > CLEAR_P and screen.strongest < FAINT and not screen.by_turns:
         return "the change is too faint to tell one effect from another"
     if inadequate or not (quiet or views <= FEW_VIEWS):
         return None

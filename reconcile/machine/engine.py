@@ -17,6 +17,7 @@ from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import without_spoiled
 from reconcile.judge.changes import lenses, observed_changes
 from reconcile.judge.space import Fitted
+from reconcile.judge.turns import Turned
 from reconcile.kinematics.unheard import with_unheard
 from reconcile.machine.alone import rise_over_sound
 from reconcile.machine.answer import answer, fault_answer, provenance
@@ -24,6 +25,7 @@ from reconcile.machine.assimilate import assimilated
 from reconcile.machine.beaten import with_beaten
 from reconcile.machine.beneath import beneath_a_tooth
 from reconcile.machine.budget import QUICK, Budget
+from reconcile.machine.by_turns import by_turns, clear, risen
 from reconcile.machine.decide import remarkable, tempered, unmeasured
 from reconcile.machine.decided import decided
 from reconcile.machine.direct import direct_evidence
@@ -45,6 +47,7 @@ from reconcile.machine.local import around_baseline, told
 from reconcile.machine.meter import Meter, Telling
 from reconcile.machine.misfit import with_misfit
 from reconcile.machine.mistaken import with_mistaken
+from reconcile.machine.named_ripple import with_many_turns
 from reconcile.machine.octave import doubted_speed, rival_speed
 from reconcile.machine.pairs import Pairs, best_pair, named_pair
 from reconcile.machine.pictures import as_named
@@ -165,10 +168,11 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = with_foreign(with_exchanged(report, setting, found, channels), setting, channels)
     if report.verdict == "nothing_missing":
         report = replace(report, faintest=faintest_seen(of_kind, looks.atlas, looks.lines))
-    report = with_beaten(with_grown(report, machine))
-    report = with_mistaken(report, looks.setting, looks.by_families, channels, looks.found.screen.heard)
+    report, heard = with_beaten(with_grown(report, machine)), looks.found.screen.heard
+    report = with_mistaken(report, looks.setting, looks.by_families, channels, heard)
     report = with_misfit(report, looks.fit, machine)
     report = with_strange(report, strange(machine, alike, channels, gate.findings), machine, setting.direct.evidence)
+    report = with_many_turns(report, looks.setting, [c.name for c in channels])
     supports = likely_supports(looks.setting, looks.found) if machine.bearings else ()
     report = with_force(report, looks.setting, supports, channels)
     report = with_short(with_limits(with_unconfirmed(report, machine, alike), apart), alike, gate.findings)
@@ -202,16 +206,16 @@ class _Looks:
 def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, progress: Progress) -> _Looks:
     """On machines of the kind (`atlas`), and where those or the single lines of machines that agree with the baseline
     show something, on such machines."""
-    seen = None
+    seen, turns = None, Turned()
     progress(0.62, "machines that agree with the baseline")
     local = around_baseline(setting, meter)
     closer, found = setting, atlas
     if local is not None:
         closer = replace(local.setting, overdispersion=atlas.fitted.overdispersion)
         seen = fit_views(closer, atlas.known)
-        lines = seen.screen.p_lines
-        if not remarkable(atlas.screen) and lines > CLOSER_LINES_P:
-            quiet = replace(atlas, screen=replace(atlas.screen, p_lines=lines))
+        lines, turns = seen.screen.p_lines, risen(closer, seen.fitted)
+        if not remarkable(atlas.screen) and lines > CLOSER_LINES_P and not clear(turns):
+            quiet = replace(atlas, screen=replace(atlas.screen, p_lines=lines, p_turns=turns.p))
             return _Looks(setting=setting, found=quiet, fit=told(local), atlas=atlas, lines=seen)
         progress(0.7, "candidates on these machines")
         found = located(closer, atlas, setting, budget, meter, seen, possible_seconds(closer, seen))
@@ -242,6 +246,7 @@ def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, prog
     found = replace(found, screen=screen)
     if based and local is not None:
         found = replace(found, screen=placed_by_hearing(closer, found, meter))
+        found = replace(found, screen=by_turns(closer, found, turns))
     progress(0.89, "two effects together")
     pairs = _paired(closer, found, atlas.known, budget, meter)
     return _Looks(setting=closer, found=found, fit=fit, atlas=atlas, lines=seen, pairs=pairs)
@@ -249,7 +254,7 @@ def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, prog
 
 def _paired(setting: Setting, found: Found, atlas: Catalogued, budget: Budget, meter: Meter) -> Pairs | None:
     decision = decided(setting, found)
-    if second_effect(setting, found, decision) is not None:
+    if found.screen.by_turns or second_effect(setting, found, decision) is not None:
         return None
     first = decision.chosen[0] if decision.chosen else ""
     by_teeth = decision.word != "unknown_physics" and first and teeth_tell(setting, found, first)

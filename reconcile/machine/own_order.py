@@ -8,33 +8,30 @@ balls bring moves by tens of decibels between two recordings; away from the orde
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from reconcile.kinematics.families import Ties, ties
+from reconcile.kinematics.families import Family, Ties, ties
 from reconcile.kinematics.spec import of_machine
+from reconcile.machine.order_rises import coarsest_bin, rises_by_order
 from reconcile.machine.part_orders import Lines, of_a_part, of_no_part
-from reconcile.machine.sidebands import (
-    HIGHEST_SHARE,
-    LEAST_LEVEL_DB,
-    apart,
-    in_reach,
-    levels_by_order,
-    risen_lines,
-    second,
-    teeth_of,
-)
 from reconcile.observe.observation import PointData
 from reconcile.verdict import LineChange, NextExperiment, PlaceWeight
-from signals.series import FloatArray
+from signals.series import BoolArray, FloatArray
 from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
 
-HIGHEST_ORDER, STEP = 3.0, 0.01
-LOWEST, LOWEST_BINS = 0.4, 10
+HIGHEST_ORDER = 3.0
+LOWEST, LOWEST_BINS = 0.3, 8
 """Nearer to the teeth's lines, in turns and bins of the spectrum, there is what is left of the speed's wander: up to 8
-dB in sound machines of the proof, from here on 0.8."""
+dB in sound machines of the proof, from 0.4 turns on 0.8;"""
+SKIRT = 0.45
+"""and up to this distance, in turns, a line must have a valley towards them: skirts rise all the way, in sound machines
+to 4.1 dB here."""
+VALLEY = 0.5
+"""Share of a line's rise below which that is."""
 NEAR, NEAR_BINS = 0.04, 1.0
 """Distance from a part's order up to which a line may be that order's, in turns and bins at least;"""
 CENTRED, CENTRED_BINS = 0.02, 0.5
@@ -62,9 +59,9 @@ class OwnOrder:
     elsewhere_db: float
     speeds: tuple[int, int]
     lines: tuple[LineChange, ...] = ()
+    cages: tuple[str, ...] = ()
+    """Bearings whose cages turn so, within their slip."""
 
-    follows = "It turns with the machine, and no part of its specification turns so."
-    beside = "the order of no part of this machine's specification"
     would_tell = NextExperiment(
         sentence="Look for what turns or strikes at this order and is not in the specification - a belt, a coupling, a "
         "pump, another bearing, a converter's supply - or take it off and record again."
@@ -72,6 +69,27 @@ class OwnOrder:
     electric = False
     strikes = False
     undecided = ()
+
+    @property
+    def follows(self) -> str:
+        """What turns so."""
+        if not self.cages:
+            return "It turns with the machine, and no part of its specification turns so."
+        return (
+            f"Of the parts specified only the {self._whose} turns so, and no known effect of a cage modulates teeth: "
+            "it is loaded or worn unevenly, or something turns so that is not in the specification."
+        )
+
+    @property
+    def beside(self) -> str:
+        """Whose order it is."""
+        return (
+            f"the order of the {self._whose}" if self.cages else "the order of no part of this machine's specification"
+        )
+
+    @property
+    def _whose(self) -> str:
+        return f"cage of {' or '.join(self.cages)}"
 
     @property
     def text(self) -> str:
@@ -90,67 +108,56 @@ class OwnOrder:
         }  # fmt: skip
 
     def sites(self, machine: MachineSpec) -> tuple[PlaceWeight, ...]:
-        """All shafts alike, the driven one first: the teeth say that it turns with them, not beside which."""
+        """All shafts alike, the driven one first: the teeth say that it turns with them, not beside which. Where cages
+        turn so, half of it is theirs."""
         shafts = sorted((s.name for s in machine.shafts), key=lambda name: name != self.shaft)
-        return tuple(PlaceWeight(site=name, weight=1.0 / len(shafts)) for name in shafts)
+        share = 0.5 if self.cages else 1.0
+        each = tuple(PlaceWeight(site=name, weight=share / len(shafts)) for name in shafts)
+        return (*each, *(PlaceWeight(site=name, weight=0.5 / len(self.cages)) for name in self.cages))
 
 
 def own_order(machine: MachineSpec, data: Sequence[PointData], channels: Sequence[str]) -> OwnOrder | None:
     """None where nothing of the kind stands out, at one speed, without baselines or teeth, and where the sizes of a
     bearing are missing."""
-    speeds = [d.spectra[0].speed_hz for d in data]
-    groups = apart(speeds)
-    tie = _known(machine)
-    if tie is None or len(groups) < 2 or any(d.spectra[1] is None for d in data):
+    tie, cages = _known(machine)
+    if tie is None or not data:
         return None
-    bin_order = max(1.0 / (one.samples.shape[1] / one.rate_hz * one.speed_hz) for d in data for one in d.spectra if one)
-    highest = min(HIGHEST_ORDER, HIGHEST_SHARE * min(tie.mesh_orders, default=0.0))
-    grid = np.arange(max(LOWEST, LOWEST_BINS * bin_order), highest, STEP)
-    meshes = teeth_of(machine).meshes
-    reached = in_reach(data, meshes, [highest * speed for speed in speeds]) if grid.size > 1 else []
-    if not reached:
+    lowest = max(LOWEST, LOWEST_BINS * coarsest_bin(data))
+    rises = rises_by_order(machine, data, tie, lowest - SEPARATE, HIGHEST_ORDER)
+    if rises is None:
         return None
-    both = [levels_by_order(d, reached, grid) for d in data]
-    rises = np.stack([test - baseline for test, baseline in both])
-    mean = rises.mean(axis=(1, 2))
-    seen = _Seen(grid=grid, every=second(mean, groups), bin_order=bin_order, tie=tie)
+    seen = _Seen(grid=rises.grid, every=rises.every, bin_order=rises.bin_order, tie=tie, lowest=lowest)
     order = seen.stranger()
     if order is None:
         return None
-    best = int(np.argmin(np.abs(grid - order)))
-    before = np.mean([baseline[..., best].mean() for _, baseline in both]) - LEAST_LEVEL_DB
-    if before > MOST_BEFORE_DB:
+    best = int(np.argmin(np.abs(rises.grid - order)))
+    if rises.level_before_db(best) > MOST_BEFORE_DB:
         return None
-    rise_db = float(seen.every[best])
-    risen = [k for k in range(len(data)) if mean[k, best] >= 0.5 * rise_db]
-    lines = [
-        line
-        for k in risen
-        for line in risen_lines(
-            data[k],
-            reached[0][0],
-            rises[k, ..., best],
-            order * data[k].spectra[0].speed_hz,
-            f"{order:.3g}*{tie.reference}",
-            "",
-            channels,
-        )
-    ]
     return OwnOrder(
-        order=order, shaft=tie.reference, rise_db=rise_db, elsewhere_db=seen.elsewhere(order),
-        speeds=(sum(any(k in risen for k in group) for group in groups), len(groups)), lines=tuple(lines),
+        order=order, shaft=tie.reference, rise_db=float(rises.every[best]), elsewhere_db=seen.elsewhere(order),
+        speeds=rises.speeds(best), lines=rises.lines(best, order, f"{order:.3g}*{tie.reference}", channels),
+        cages=tuple(f.site for f in cages if _turns(f, order)),
     )  # fmt: skip
 
 
-def _known(machine: MachineSpec) -> Ties | None:
-    """Orders of all parts; None where shafts are not tied, and where the balls of a bearing may turn at any order."""
+def _known(machine: MachineSpec) -> tuple[Ties | None, tuple[Family, ...]]:
+    """Orders of all parts but cages, and those of cages, which turn so in sound machines too and modulate nothing; None
+    where shafts are not tied, and where the balls of a bearing may turn at any order."""
     if machine.operating is None:
-        return None
+        return None, ()
     try:
         tie = ties(of_machine(machine), machine.operating.shaft)
     except SpecError:
-        return None
-    return tie if len(tie.races) == len(machine.bearings) else None
+        return None, ()
+    if len(tie.races) < len(machine.bearings):
+        return None, ()
+    cages = tuple(f for f in tie.families if f.kind == "cage")
+    return replace(tie, families=tuple(f for f in tie.families if f.kind != "cage")), cages
+
+
+def _turns(cage: Family, order: float) -> bool:
+    """Whether a cage, or its modulation twice a turn, has that order."""
+    return any(abs(order - k * cage.order) <= CENTRED + k * cage.slip * cage.order for k in (1, 2))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,15 +168,15 @@ class _Seen:
     every: FloatArray
     bin_order: float
     tie: Ties
+    lowest: float = 0.0
 
     def stranger(self) -> float | None:
         """The order of no part at which most has risen, None where there is none."""
-        free = of_no_part(self.grid, self.tie, max(NEAR, NEAR_BINS * self.bin_order))
-        left = np.where(free, self.every, 0.0)
+        left = np.where(self._free, self.every, 0.0)
         while left.max(initial=0.0) >= LEAST_DB:
             best = int(np.argmax(left))
             order = self._middle(best)
-            if not self._of_a_part(order):
+            if not self._of_a_part(order) and self._clear(best):
                 least = max(LEAST_DB, AHEAD * self.elsewhere(order))
                 return order if self._at(order) >= least else None  # of a flank the centre counts
             left[np.abs(self.grid - self.grid[best]) <= self._width] = 0.0  # a part's line, with what it leaks
@@ -177,10 +184,22 @@ class _Seen:
 
     def elsewhere(self, order: float) -> float:
         """The largest rise at an order of no part that is no low multiple and no fraction of this one, dB."""
-        away = of_no_part(self.grid, self.tie, max(NEAR, NEAR_BINS * self.bin_order))
+        away = self._free.copy()
         for multiple in (1 / 3, 0.5, 1.0, 2.0, 3.0):
             away &= np.abs(self.grid - multiple * order) > self._width
         return float(self.every[away].max(initial=0.0))
+
+    @cached_property
+    def _free(self) -> BoolArray:
+        """Mask of the orders of no part, far enough from the teeth's lines."""
+        free = of_no_part(self.grid, self.tie, max(NEAR, NEAR_BINS * self.bin_order))
+        return np.asarray(free & (self.grid >= self.lowest))
+
+    def _clear(self, best: int) -> bool:
+        """Whether what has risen there is no skirt of the teeth's lines."""
+        below = (self.grid <= self.grid[best]) & (self.grid >= self.grid[best] - SEPARATE)
+        least = float(self.every[below].min(initial=np.inf))
+        return bool(self.grid[best] > SKIRT or least < VALLEY * self.every[best])
 
     def _at(self, order: float) -> float:
         """What has risen at an order, dB."""

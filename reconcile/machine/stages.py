@@ -50,6 +50,7 @@ def all_stages(
             "p_direct": found.screen.p_direct,
             "p_lines": found.screen.p_lines if _repeat(found) else None,
             "p_first": found.screen.p_first,
+            "p_turns": found.screen.p_turns,
             "p": decision.p,
         },
         {"name": "nominate", "candidates": len(found.screen.names), "draws": len(found.known.terms)},

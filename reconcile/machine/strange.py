@@ -101,7 +101,7 @@ def with_strange(report: Report, seen: Strange | None, machine: MachineSpec, hea
     if seen is None:
         return report
     electric = seen.electric and report.fault is not None and report.fault.kind in ELECTRIC
-    answers = _open(report) or electric or (seen.strikes and _struck_unheard(report, heard))
+    answers = is_open(report) or electric or (seen.strikes and _struck_unheard(report, heard))
     if not (answers or seen.beside):
         return report
     lines = (*seen.lines, *report.where.lines)
@@ -126,7 +126,7 @@ def _struck_unheard(report: Report, heard: Mapping[str, float]) -> bool:
     return bool(told) and all(strikes(c.term) and heard.get(f"{c.term}@{c.site}", 0.0) < HEARD for c in told)
 
 
-def _open(report: Report) -> bool:
+def is_open(report: Report) -> bool:
     """Whether nothing sure is said: no effect that stands out, and no law that brings the change about."""
     if report.verdict == "unknown_physics":
         return report.force is None or report.force.law is None

@@ -27,7 +27,7 @@ from tests.reconcile.machine.teeth import (
 pytestmark = pytest.mark.slow
 NAMES = [c.name for c in CHANNELS]
 SPEEDS_HZ = (22.5, 30.0, 39.0)
-OUTER, SLOW = 2.57355, 23 / 81
+OUTER, CAGE, SLOW = 2.57355, 0.36765, 23 / 81
 
 
 @pytest.fixture(scope="module")
@@ -103,9 +103,31 @@ def test_what_a_part_modulates_with_is_none_nor_is_what_its_line_leaks(
         (slip * OUTER * SLOW,),
         tuple(k * slip * OUTER * SLOW for k in (1, 2, 3)),
         (slip * OUTER - 1.0, slip * OUTER, slip * OUTER + 1.0),
-        tuple(k * slip * 0.36765 for k in (1, 2, 3, 4)),
     ):
         assert told(machine, all_of(orders, 0.2), seconds=seconds) is None, orders
+
+
+@pytest.mark.parametrize("slip", [0.98, 1.0, 1.02])
+def test_what_turns_as_a_cage_does_is_told_as_such(machine: MachineSpec, slip: float) -> None:
+    """No known effect of a cage modulates teeth, and a belt may turn as slowly."""
+    seen = told(machine, all_of(tuple(k * slip * CAGE for k in (1, 2, 3, 4)), 0.2))
+    assert seen is not None and seen.cages == ("bearing1", "bearing2")
+    assert any(seen.order == pytest.approx(k * slip * CAGE, abs=0.01) for k in (1, 2))
+    assert "only the cage of bearing1 or bearing2 turns so" in seen.follows
+    assert seen.beside == "the order of the cage of bearing1 or bearing2"
+    weights = {s.site: s.weight for s in seen.sites(machine)}
+    assert weights == {"input": 0.25, "output": 0.25, "bearing1": 0.25, "bearing2": 0.25}
+
+
+def test_near_the_teeth_a_line_is_told_and_a_skirt_is_not(machine: MachineSpec) -> None:
+    seen = told(machine, at_order(0.345, 0.1))
+    assert seen is not None and seen.order == pytest.approx(0.345, abs=0.015)
+    grid = np.arange(0.2, 2.0, 0.01)
+    tie = _known(machine)[0]
+    assert tie is not None
+    for every, clear in ((8.0 * np.exp(-(grid - 0.2) / 0.15), False), (5.0 * (np.abs(grid - 0.34) < 0.025), True)):
+        found = _Seen(grid=grid, every=every, bin_order=0.02, tie=tie, lowest=0.3)
+        assert (found.stranger() is not None) is clear
 
 
 def test_beside_the_parts_a_stranger_is_told(machine: MachineSpec) -> None:
@@ -155,7 +177,7 @@ def test_a_bearing_of_which_no_sizes_are_known_may_turn_at_any_order(
 
 def test_the_flat_top_of_a_shafts_strong_line_is_the_shafts(machine: MachineSpec) -> None:
     """What a broken tooth of the proof raises about the second turn, dB: the highest point is not the middle."""
-    tie = _known(machine)
+    tie = _known(machine)[0]
     assert tie is not None
     risen = [3, 3, 3, 9, 13, 13, 17, 21, 21, 22, *[21.5] * 10, 20, 20, 14, 12, 12, 7, 4, 3, 3]
     grid = np.arange(0.4, 3.0, 0.01)
@@ -172,7 +194,7 @@ def test_where_only_a_flank_has_risen_enough_there_is_no_line(
     middle: float, stranger: bool, machine: MachineSpec
 ) -> None:
     """Beside an eccentric gear (h100 of the proof) the tenth of its turns rose by 2.2 dB, and its flank by 3."""
-    tie = _known(machine)
+    tie = _known(machine)[0]
     assert tie is not None
     grid = np.arange(0.4, 3.0, 0.01)
     every = np.zeros(grid.size)

@@ -1,0 +1,95 @@
+"""How far sidebands of the teeth have risen since the baseline at every distance in turns of the drive shaft."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reconcile.kinematics.families import Ties
+from reconcile.machine.sidebands import (
+    HIGHEST_SHARE,
+    LEAST_LEVEL_DB,
+    apart,
+    in_reach,
+    levels_by_order,
+    risen_lines,
+    second,
+    teeth_of,
+)
+from reconcile.observe.observation import PointData
+from reconcile.verdict import LineChange
+from signals.series import FloatArray
+from sim.core.spec import MachineSpec
+
+STEP = 0.01
+HALF = 0.5
+"""Share of the rise from which on a speed shows it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rises:
+    """`each[k]` (sidebands, C, orders) of operating point k and `before[k]` its baseline's levels, dB, at the orders
+    `grid`; `every` (orders,): mean rise at the speed where it is largest but one; `bin_order`: the coarsest bin."""
+
+    data: Sequence[PointData]
+    grid: FloatArray
+    each: tuple[FloatArray, ...]
+    before: tuple[FloatArray, ...]
+    every: FloatArray
+    groups: Sequence[Sequence[int]]
+    bin_order: float
+    mesh: int
+    """Number of the teeth's first line among those watched."""
+
+    def level_before_db(self, best: int) -> float:
+        """Mean of the baselines there, above what chance reaches."""
+        return float(np.mean([levels[..., best].mean() for levels in self.before])) - LEAST_LEVEL_DB
+
+    def risen(self, best: int) -> list[int]:
+        """Operating points that show what has risen there."""
+        return [k for k, one in enumerate(self.each) if one[..., best].mean() >= HALF * self.every[best]]
+
+    def speeds(self, best: int) -> tuple[int, int]:
+        """At how many speeds of how many."""
+        risen = self.risen(best)
+        return sum(any(k in risen for k in group) for group in self.groups), len(self.groups)
+
+    def lines(self, best: int, order: float, told: str, channels: Sequence[str]) -> tuple[LineChange, ...]:
+        """The sidebands of the teeth's first harmonic there."""
+        found: list[LineChange] = []
+        for k in self.risen(best):
+            one = self.data[k]
+            hz = order * one.spectra[0].speed_hz
+            found += risen_lines(one, self.mesh, self.each[k][..., best], hz, told, "", channels)
+        return tuple(found)
+
+
+def coarsest_bin(data: Sequence[PointData]) -> float:
+    """In turns of the drive shaft."""
+    every = (s for d in data for s in d.spectra if s is not None)
+    return max(float(s.rate_hz / (s.samples.shape[1] * s.speed_hz)) for s in every)
+
+
+def rises_by_order(
+    machine: MachineSpec, data: Sequence[PointData], tie: Ties, lowest: float, highest: float
+) -> Rises | None:
+    """From `lowest` to `highest`, or to where another harmonic of the teeth is nearer; None at one speed, without
+    baselines, and where no such sideband is in the band."""
+    speeds = [d.spectra[0].speed_hz for d in data]
+    groups = apart(speeds)
+    if len(groups) < 2 or any(d.spectra[1] is None for d in data):
+        return None
+    highest = min(highest, HIGHEST_SHARE * min(tie.mesh_orders, default=0.0))
+    grid = np.arange(lowest, highest, STEP)
+    reached = in_reach(data, teeth_of(machine).meshes, [highest * speed for speed in speeds]) if grid.size > 1 else []
+    if not reached:
+        return None
+    both = [levels_by_order(d, reached, grid) for d in data]
+    each = tuple(test - baseline for test, baseline in both)
+    return Rises(
+        data=data, grid=grid, each=each, before=tuple(baseline for _, baseline in both),
+        every=second(np.stack([one.mean(axis=(0, 1)) for one in each]), groups), groups=groups,
+        bin_order=coarsest_bin(data), mesh=reached[0][0],
+    )  # fmt: skip
