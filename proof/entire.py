@@ -46,7 +46,7 @@ class Design:
     have gone before, `begun` from which on those of rarer laws, pairs and unknown effects; `rows` are the conditions of
     every fourth case."""
 
-    split: Literal["entire", "held", "wide", "mixed", "young", "vast"]
+    split: Literal["entire", "held", "wide", "mixed", "young", "vast", "clear"]
     groups: Mapping[Group, int]
     turned: int
     rows: tuple[Row, ...]
@@ -82,6 +82,8 @@ YOUNG = Design(split="young", groups=WIDE.groups, turned=673, rows=HELD.rows, be
 """As mixed, of those that both leave out, then from the first on."""
 VAST = Design(split="vast", groups=WIDE.groups, turned=787, rows=HELD.rows, begun=24)
 """As young, of the rarer laws and most of the pairs that it leaves out."""
+CLEAR = Design(split="clear", groups=WIDE.groups, turned=907, rows=HELD.rows, begun=32)
+"""As vast, of the rarer laws and most of the pairs that it leaves out."""
 ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
 STRUCK = ("outer_pit", "inner_pit", "ball_pit")
 FORMS = 3
@@ -117,6 +119,11 @@ def young() -> tuple[Case, ...]:
 def vast() -> tuple[Case, ...]:
     """All cases of the sixth."""
     return cases_of_design(VAST)
+
+
+def clear() -> tuple[Case, ...]:
+    """All cases of the seventh."""
+    return cases_of_design(CLEAR)
 
 
 def cases_of_design(design: Design) -> tuple[Case, ...]:

@@ -43,6 +43,7 @@ Split = Literal[
     "mixed",
     "young",
     "vast",
+    "clear",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -68,6 +69,7 @@ SEEDS = {
     "mixed": 9_481_205_763,
     "young": 3_617_948_205,
     "vast": 5_283_740_961,
+    "clear": 7_904_163_528,
 }
 COUNTS = {
     "dev": {

@@ -236,8 +236,7 @@ def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, prog
     based = setting.changes.with_baseline
     screen = tempered(found.screen, atlas.screen) if based else found.screen
     screen = screen if based and setting.machine.gears else unmeasured(screen)
-    struck = tuple(frozenset(part) for part in setting.direct.struck)
-    screen = replace(screen, struck=struck, silent=setting.direct.silent)
+    screen = replace(screen, struck=tuple(map(frozenset, setting.direct.struck)), silent=setting.direct.silent)
     if based and local is not None:
         screen = replace(screen, likelihoods=likelihoods(closer, found))
         screen = yielding(screen, found.views, closer.changes.observed)

@@ -9,7 +9,23 @@ import pytest
 
 from proof import seal
 from proof.effects import LIPPED, Choice
-from proof.entire import ENTIRE, HELD, MIXED, STRUCK, VAST, WIDE, YOUNG, entire, held, mixed, vast, wide, young
+from proof.entire import (
+    CLEAR,
+    ENTIRE,
+    HELD,
+    MIXED,
+    STRUCK,
+    VAST,
+    WIDE,
+    YOUNG,
+    clear,
+    entire,
+    held,
+    mixed,
+    vast,
+    wide,
+    young,
+)
 from proof.library import CLOSED
 from proof.machine import arrays_of, exact_machine
 from proof.model.balls import pit
@@ -50,6 +66,7 @@ def test_the_seals_were_committed():
     assert seal.seals_of("mixed") == seal.manifest("mixed", mixed())["sha256"]
     assert seal.seals_of("young") == seal.manifest("young", young())["sha256"]
     assert seal.seals_of("vast") == seal.manifest("vast", vast())["sha256"]
+    assert seal.seals_of("clear") == seal.manifest("clear", clear())["sha256"]
 
 
 def test_the_second_has_no_case_of_the_first_and_is_a_sample_at_any_length():
@@ -105,6 +122,16 @@ def test_the_sixth_hides_what_the_fifth_leaves_out():
     assert len(rare) == 8 and not rare & seen
     pairs, told = ({tuple(e.law for e in c.effects) for c in s if c.group == "double"} for s in (cases, young()))
     assert len(pairs) == 8 and len(pairs - told) >= 7
+
+
+def test_the_seventh_hides_what_the_sixth_leaves_out():
+    cases, before = clear(), (*vast(), *young(), *mixed(), *wide())
+    assert Counter(c.group for c in cases) == CLEAR.groups and len({c.name for c in cases}) == 72
+    assert not {c.seed for c in cases} & {c.seed for c in (*CASES, *held(), *before)}, "its machines are its own"
+    rare, seen = ({e.law for c in s if c.group == "single" for e in c.effects} - set(FIRST) for s in (cases, vast()))
+    assert len(rare) == 8 and not rare & seen
+    pairs, told = ({tuple(e.law for e in c.effects) for c in s if c.group == "double"} for s in (cases, vast()))
+    assert len(pairs) == 8 and len(pairs - told) >= 6
 
 
 def test_a_lip_squeezes_the_ball_before_and_behind_the_pit():
