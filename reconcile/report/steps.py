@@ -26,6 +26,7 @@ TITLES = {
     "adequacy": "is anything left",
     "own time": "what keeps its own time",
     "own order": "what turns at an order of no part",
+    "many turns": "what acts many times a turn",
 }
 WORDS = {
     "findings": "",
@@ -52,6 +53,7 @@ WORDS = {
     "p_direct": "by impacts",
     "p_lines": "by single lines",
     "p_first": "by the pattern before a closer look",
+    "p_turns": "by sidebands that rose together",
     "candidates": "effects at their places",
     "draws": "simulated machines with an effect",
     "misfit": "share of simulated known effects that fit better",
