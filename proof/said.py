@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 SECTIONS = {
+    "clear": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at once, "
+    "beside other work, which core-seconds show. It asks what rises together at a shaft's turns, and names a torque "
+    "that comes many times a turn ([decision](decisions/reconcile-turns.md)); these cases had no part in either.",
     "vast": "No version of the engine had met these before their run: the whole plan by one engine, which "
     "named what alone forecasts the speeds held out. Two ran at once, beside other work, which core-seconds show. That "
     "rule is taken back since ([decision](decisions/reconcile-forecasts.md)): it was asked in six of these cases, "
-    "named v017 and v064 wrongly, and none rightly.",
+    "named v017 and v064 wrongly, and none rightly. v018, v040, v043 and v070 have each set a rule since.",
     "young": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at once, "
     "beside other work, which core-seconds show. Sizes are told by the likelihood that draws about them have "
     "([decision](decisions/reconcile-level-size.md)), which these cases had no part in.",
