@@ -7,7 +7,7 @@ lost among what balls and drift do to others; their mean over harmonics, sides a
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,32 +62,39 @@ class Turned:
 
 
 def turned(
-    watch: WatchList, observed: FloatArray, sound: FloatArray, whiten: Whitening, points: int, channels: int
+    watch: WatchList,
+    observed: FloatArray,
+    sound: FloatArray,
+    whiten: Whitening,
+    speeds: Sequence[Sequence[int]],
+    channels: int,
 ) -> Turned:
-    """`observed` (F,) against sound machines with noise, `sound` (n, F), dB; nothing at one operating point, where one
-    resonance may be all, and without teeth."""
-    groups = sidebands(watch)
-    if points < 2 or not groups.names:
+    """`observed` (F,) against sound machines with noise, `sound` (n, F), dB; nothing at one speed, where one resonance
+    may be all, and without teeth. `speeds`: numbers of the operating points at each."""
+    groups, points = sidebands(watch), sum(map(len, speeds))
+    if len(speeds) < 2 or not groups.names:
         return Turned()
 
     def second(changes: FloatArray) -> FloatArray:
-        """(n, groups): at the point where it is largest but one."""
+        """(n, groups): at the speed where it is largest but one."""
         together = groups.rises(changes, whiten, points, channels).sum(axis=2) / np.sqrt(channels)
-        return np.asarray(np.sort(together, axis=1)[:, -2])
+        return _second(together, speeds)
 
     rest = second(sound)
     middle, spread = rest.mean(axis=0), np.maximum(rest.std(axis=0), 1e-9)
     seen = (second(observed[None])[0] - middle) / spread
     best = int(np.argmax(seen))
-    rise_db = _mean_db(observed, groups.members[best], points, channels)
+    own = np.nan_to_num(observed).reshape(points, channels, -1)[..., groups.members[best]]
+    rise_db = float(_second(own.mean(axis=(1, 2))[None], speeds)[0])
     shaft, turns = groups.names[best]
     p = tail_chance(((rest - middle) / spread).max(axis=1), float(seen[best])) if rise_db >= LEAST_DB else 1.0
     return Turned(p=p, shaft=shaft, turns=turns, rise_db=rise_db)
 
 
-def _mean_db(observed: FloatArray, own: np.ndarray, points: int, channels: int) -> float:
-    cube = np.nan_to_num(observed).reshape(points, channels, -1)[..., own]
-    return float(np.sort(cube.mean(axis=(1, 2)))[-2])
+def _second(values: FloatArray, speeds: Sequence[Sequence[int]]) -> FloatArray:
+    """(n, points, ...) -> (n, ...): the largest but one of the speeds, each by its largest point."""
+    each = np.stack([values[:, list(own)].max(axis=1) for own in speeds], axis=1)
+    return np.asarray(np.sort(each, axis=1)[:, -2])
 
 
 def evidence_of_turns(
@@ -99,16 +106,18 @@ def evidence_of_turns(
     whiten: Whitening,
     shape: tuple[int, int],
 ) -> dict[str, float]:
-    """Log evidence of effects over no change by what rose together, each by its nearest draw: `drawn` (m, F) rows of
-    the effects `groups`, `shape` points and channels."""
+    """Log evidence of effects over no change by what rose together, mean over the draws of each (no more of them make
+    it likelier): `drawn` (m, F) rows of the effects `groups`, `shape` points and channels."""
     own = sidebands(watch)
 
     def seen(changes: FloatArray) -> FloatArray:
         return own.rises(changes, whiten, *shape).reshape(changes.shape[0], -1)
 
-    spread = np.maximum(seen(sound).std(axis=0), 1.0)
-    now, draws = seen(observed[None])[0] / spread, seen(drawn) / spread
+    rest = seen(sound)
+    middle, spread = rest.mean(axis=0), np.maximum(rest.std(axis=0), 1.0)
+    now, draws = (seen(observed[None])[0] - middle) / spread, seen(drawn) / spread
     variance = 1.0 + (FORM * draws) ** 2
     far = np.sum((now - draws) ** 2 / variance + np.log(variance), axis=1)
     nothing = float(np.sum(now**2))
-    return {name: float(nothing - far[list(rows)].min()) / (2.0 * SOFTNESS) for name, rows in groups.items()}
+    log = (nothing - far) / (2.0 * SOFTNESS)
+    return {name: float(np.logaddexp.reduce(log[list(rows)]) - np.log(len(rows))) for name, rows in groups.items()}

@@ -13,6 +13,7 @@ from reconcile.judge.space import Fitted
 from reconcile.judge.turns import Turned, evidence_of_turns, turned
 from reconcile.machine.decide import CLEAR_P, DETECT_P, chance
 from reconcile.machine.setting import Found, Setting
+from reconcile.machine.sidebands import apart
 from reconcile.observe.watch import watch_list
 from signals.series import FloatArray
 
@@ -22,7 +23,8 @@ def risen(setting: Setting, fitted: Fitted) -> Turned:
     if not setting.changes.with_baseline:
         return Turned()
     sound, observed = _sound(setting), setting.changes.observed
-    return turned(watch_list(setting.machine), observed, sound, fitted.whiten, *_shape(setting))
+    speeds = apart([d.point.speed_hz for d in setting.data])
+    return turned(watch_list(setting.machine), observed, sound, fitted.whiten, speeds, len(setting.channels))
 
 
 def clear(seen: Turned) -> bool:

@@ -68,6 +68,7 @@ NO_PATTERN = "the change is none that a known effect brings"
 FEW_UNDECIDED = "so few sensors and operating points do not tell whether a known effect changed that, or none"
 LINES_QUIET = "no known effect has its pattern, and single lines do not show clearly that anything changed"
 LITTLE_LEFT = "the best known effect leaves more of the change than it should, and too little to exclude all known ones"
+BY_TURNS = "only sidebands that rose together tell, which names nothing"
 FAINT = 14.0
 """Deviations of the most changed group below which a change that no effect explains may be too faint to tell."""
 
@@ -144,7 +145,10 @@ def _decided(screen: Screen, *, views: int, strange: float) -> Decision:
     weights = of_one_part(merged_weights(screen), screen.struck)
     if not screen.by_turns and _only_impacts(screen):
         return _by_impacts(screen, weights, p)
-    return _by_patterns(screen, weights, p, views, strange)
+    found = _by_patterns(screen, weights, p, views, strange)
+    if screen.by_turns and found.word == "explained":
+        return replace(found, word="not_decidable", reasons=(BY_TURNS,))
+    return found
 
 
 def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int, strange: float) -> Decision:

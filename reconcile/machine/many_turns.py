@@ -22,15 +22,22 @@ from signals.series import FloatArray
 from sim.core.errors import SpecError
 from sim.core.spec import MachineSpec
 
-HIGHEST_ORDER = 14.0
+HIGHEST_ORDER, MOST_TURNS = 14.0, 12
+"""Turns of the drive shaft, and times a turn of a shaft: of a slow one some multiple lies near any order."""
 LEAST_DB, AHEAD = 3.0, 2.5
-"""Mean rise at the speed where it is largest but one, and over that at any other order: sound machines of the proof
-come to 2.4 dB anywhere beyond half a turn, to 1.4 at a multiple of the drive shaft; a torque of 4 Nm that comes four
-times a turn (v018) to 14.4, and at eight times to 2.5."""
+"""Rise at the speed where it is largest but one, without the sideband that rose most (`Rises.spread`), and over that at
+any other order: sound machines of the proof come to 1.9 dB beyond half a turn; a torque of 4 Nm that comes four times a
+turn (v018) to 12.4, and at eight times to 1.2."""
 MOST_BEFORE_DB = 2.0
 """Mean level in the baselines, above what chance reaches, up to which it is new."""
 NEAR, NEAR_BINS, APART = 0.03, 0.5, 0.12
 """Distance from a multiple up to which a line is at it, in turns and bins at least; and from which it is another."""
+CENTRED, CENTRED_BINS = 0.015, 0.35
+"""Distance from it up to which the line's centre is."""
+FREE = 4.0
+"""Times that distance by which multiples of a shaft must lie apart."""
+WATCHED = MESH_SIDEBANDS
+"""Multiples of every shaft that effects of the library move, and that are watched."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,9 +82,10 @@ def many_turns(machine: MachineSpec, data: Sequence[PointData], channels: Sequen
     rise_db, _, shaft, turns = found
     order = turns * tie.shafts[shaft]
     elsewhere = _elsewhere(rises, order, max(APART, 2.0 * near))
-    best = _top(rises.grid, rises.every, order, near)
-    new = rises.level_before_db(best) <= MOST_BEFORE_DB
-    if rise_db < max(LEAST_DB, AHEAD * elsewhere) or not new or _of_a_bearing(order, tie, near):
+    best = _top(rises.grid, rises.spread, order, near)
+    if rise_db < max(LEAST_DB, AHEAD * elsewhere) or _of_a_bearing(order, tie, near):
+        return None
+    if rises.level_before_db(best) > MOST_BEFORE_DB or not _centred(rises, best, order):
         return None
     return ManyTurns(
         shaft=shaft, turns=turns, order=order, rise_db=rise_db, elsewhere_db=elsewhere, speeds=rises.speeds(best),
@@ -105,18 +113,29 @@ def _of_a_bearing(order: float, tie: Ties, near: float) -> bool:
 
 
 def _multiples(rises: Rises, tie: Ties, near: float) -> list[tuple[float, int, str, int]]:
-    """(rise, less turns first, shaft, turns) of all multiples beyond those watched."""
+    """(rise, less turns first, shaft, turns) of all multiples beyond those watched of any shaft."""
+    low = [k * ratio for ratio in tie.shafts.values() for k in range(1, WATCHED + 1)]
     found = []
     for shaft, ratio in tie.shafts.items():
-        for turns in range(MESH_SIDEBANDS + 1, int((rises.grid[-1] - near) / ratio) + 1):
-            best = _top(rises.grid, rises.every, turns * ratio, near)
-            found.append((float(rises.every[best]), -turns, shaft, turns))
+        most = min(MOST_TURNS, int((rises.grid[-1] - near) / ratio)) if ratio >= FREE * near else 0
+        for turns in range(WATCHED + 1, most + 1):
+            if all(abs(turns * ratio - one) > 2.0 * near for one in low):
+                best = _top(rises.grid, rises.spread, turns * ratio, near)
+                found.append((float(rises.spread[best]), -turns, shaft, turns))
     return found
 
 
-def _top(grid: FloatArray, every: FloatArray, order: float, near: float) -> int:
+def _top(grid: FloatArray, rise: FloatArray, order: float, near: float) -> int:
     """Number of the largest rise within `near` of an order."""
-    return int(np.argmax(np.where(np.abs(grid - order) <= near, every, -np.inf)))
+    return int(np.argmax(np.where(np.abs(grid - order) <= near, rise, -np.inf)))
+
+
+def _centred(rises: Rises, best: int, order: float) -> bool:
+    """Whether the middle of what has risen about `best` is at the order: else it is a neighbour's."""
+    about = np.abs(rises.grid - rises.grid[best]) <= APART
+    high = about & (rises.spread > 0.5 * rises.spread[best])
+    middle = float(np.average(rises.grid[high], weights=rises.spread[high]))
+    return abs(middle - order) <= max(CENTRED, CENTRED_BINS * rises.bin_order)
 
 
 def _elsewhere(rises: Rises, order: float, apart: float) -> float:
@@ -124,4 +143,4 @@ def _elsewhere(rises: Rises, order: float, apart: float) -> float:
     away = np.ones(rises.grid.size, dtype=bool)
     for k in range(1, int(rises.grid[-1] / order) + 2):
         away &= np.abs(rises.grid - k * order) > apart
-    return float(rises.every[away].max(initial=0.0))
+    return float(rises.spread[away].max(initial=0.0))

@@ -40,6 +40,9 @@ class Rises:
     every: FloatArray
     groups: Sequence[Sequence[int]]
     bin_order: float
+    spread: FloatArray
+    """(orders,): as `every`, of each speed without the sideband (of a harmonic, at one side) that rose most: what
+    modulates raises several, a line of something else only the one on which it lies."""
     mesh: int
     """Number of the teeth's first line among those watched."""
 
@@ -88,8 +91,10 @@ def rises_by_order(
         return None
     both = [levels_by_order(d, reached, grid) for d in data]
     each = tuple(test - baseline for test, baseline in both)
+    beside = [np.sort(one.mean(axis=1), axis=0) for one in each]
     return Rises(
         data=data, grid=grid, each=each, before=tuple(baseline for _, baseline in both),
         every=second(np.stack([one.mean(axis=(0, 1)) for one in each]), groups), groups=groups,
+        spread=second(np.stack([one[:-1].mean(axis=0) for one in beside]), groups),
         bin_order=coarsest_bin(data), mesh=reached[0][0],
     )  # fmt: skip

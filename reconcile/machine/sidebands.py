@@ -87,7 +87,8 @@ def rise(one: PointData, reached: Sequence[tuple[int, int]], distances_hz: Float
     """(sidebands, C, distances): level of each sideband above the floor in the test less that in the baseline, dB."""
     test, baseline = one.spectra
     assert baseline is not None
-    return _levels(test, one, reached, distances_hz) - _levels(baseline, one, reached, distances_hz)
+    now, before = _both(one, reached, (test, distances_hz), (baseline, distances_hz))
+    return now - before
 
 
 def levels_by_order(
@@ -97,15 +98,36 @@ def levels_by_order(
     multiples of the drive shaft's speed, in each recording its own."""
     test, baseline = one.spectra
     assert baseline is not None
-    return (
-        _levels(test, one, reached, orders * test.speed_hz),
-        _levels(baseline, one, reached, orders * baseline.speed_hz),
-    )
+    return _both(one, reached, (test, orders * test.speed_hz), (baseline, orders * baseline.speed_hz))
 
 
-def _levels(one: Steady, point: PointData, reached: Sequence[tuple[int, int]], distances_hz: FloatArray) -> FloatArray:
-    _, power, bin_hz = hann_spectrum(one.samples, one.rate_hz)
-    above = 10.0 * np.log10(np.maximum(np.stack([power_over_floor(row) for row in power]), 1e-3))
+def _both(
+    point: PointData,
+    reached: Sequence[tuple[int, int]],
+    now: tuple[Steady, FloatArray],
+    before: tuple[Steady, FloatArray],
+) -> tuple[FloatArray, FloatArray]:
+    """Levels of a test and of its baseline, each a recording with distances, Hz. What has risen over the floors has
+    risen over the higher of the two as well: over a lower one what was there before would look new."""
+    test, rested = _levels(point, reached, *now), _levels(point, reached, *before)
+    over = _levels(point, reached, *now, before[0]) - _levels(point, reached, *before, now[0])
+    return rested + np.minimum(test - rested, over), rested
+
+
+def _levels(
+    point: PointData,
+    reached: Sequence[tuple[int, int]],
+    one: Steady,
+    distances_hz: FloatArray,
+    other: Steady | None = None,
+) -> FloatArray:
+    """Over the floor, or over that of another recording where it is higher."""
+    power, floor, bin_hz = _floors(one)
+    if other is not None:
+        _, beside, beside_hz = _floors(other)
+        hz, there = bin_hz * np.arange(power.shape[1]), beside_hz * np.arange(beside.shape[1])
+        floor = np.maximum(floor, np.stack([np.interp(hz, there, row) for row in beside]))
+    above = 10.0 * np.log10(np.maximum(power / floor, 1e-3))
     above = np.clip(above, LEAST_LEVEL_DB, MOST_LEVEL_DB)
     half_step_hz = 0.5 * float(np.diff(distances_hz).min(initial=np.inf))
     reach = max(1, int(np.ceil(half_step_hz / bin_hz))) if np.isfinite(half_step_hz) else 1  # no line is between two
@@ -116,6 +138,13 @@ def _levels(one: Steady, point: PointData, reached: Sequence[tuple[int, int]], d
         middle = order * scale * float(point.lines_hz[mesh])
         found += [above[:, np.rint((middle + side * distances_hz) / bin_hz).astype(int)] for side in (-1.0, 1.0)]
     return np.stack(found)
+
+
+def _floors(one: Steady) -> tuple[FloatArray, FloatArray, float]:
+    """Power and local floor, (C, bins) each in one unit of power a bin width, and the bin's width, Hz."""
+    _, power, bin_hz = hann_spectrum(one.samples, one.rate_hz)
+    power = power / bin_hz
+    return power, power / np.maximum(np.stack([power_over_floor(row) for row in power]), 1e-12), bin_hz
 
 
 def risen_lines(
