@@ -36,7 +36,9 @@ def test_beside_a_sure_pit_the_teeth_tell(
     monkeypatch.setattr(engine, "teeth_tell", lambda *_: tell)
     monkeypatch.setattr(engine, "best_left_pair", lambda *_: "left")
     monkeypatch.setattr(engine, "best_pair", lambda *_: "metric")
-    asked = (SimpleNamespace(),) * 3
+    asked = (SimpleNamespace(screen=SimpleNamespace(by_turns=False)),) * 3
     assert engine._paired(*asked, QUICK, None) == by  # type: ignore[arg-type]
+    alone = (SimpleNamespace(screen=SimpleNamespace(by_turns=True)),) * 3
+    assert engine._paired(*alone, QUICK, None) is None, "nothing but sidebands is unusual"  # type: ignore[arg-type]
     monkeypatch.setattr(engine, "second_effect", lambda *_: "found by what single lines keep")
     assert engine._paired(*asked, QUICK, None) is None  # type: ignore[arg-type]
