@@ -100,24 +100,21 @@ def ripple(setting: Setting, seen: ManyTurns, told: Seen) -> Ripple | None:
     """None where no such machine runs, and where the torque would be larger than the shaft's own."""
     most = MOST_SHARE * _torque_nm(setting.machine, seen.shaft)
     amplitude = FIRST_SHARE * most
-    off = None
     for _ in range(PASSES):
         off = _off(setting, told, seen, amplitude)
         if off is None:
             return None
-        shift_db = float(np.mean(np.median(off[:, told.told], axis=1)))
+        heard = np.flatnonzero(np.all(np.isfinite(off), axis=0))  # of a rounded speed one may be beyond the band
+        told, left = told.at(heard), off[:, heard]
+        if not told.enough:
+            return None
+        shift_db = float(np.mean(np.median(left[:, told.told], axis=1)))
+        amplitude *= 10.0 ** (shift_db / 20.0)
+        if not amplitude <= most:
+            return None
         if abs(shift_db) < SETTLED_DB:
             break
-        amplitude *= 10.0 ** (shift_db / 20.0)
-        if amplitude > most:
-            return None
-    assert off is not None
-    heard = np.flatnonzero(np.all(np.isfinite(off), axis=0))
-    told, left = told.at(heard), off[:, heard]
-    if not told.enough:
-        return None
-    amplitude *= 10.0 ** (float(np.mean(np.median(left[:, told.told], axis=1))) / 20.0)
-    left = left - np.mean(np.median(left[:, told.told], axis=1))
+    left = left - shift_db
     term = _term(seen, amplitude, 0.0)
     base = setting.fitted_machine or setting.plan.machine
     return Ripple(

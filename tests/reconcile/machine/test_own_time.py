@@ -8,14 +8,18 @@ import numpy as np
 import pytest
 
 from reconcile.machine.own_time import (
+    AHEAD,
     BESIDE,
+    FAINT_DB,
     LOW,
     LOWEST_HZ,
     OWN_HZ,
+    SEPARATE_HZ,
     STEP_HZ,
     OwnTime,
     _an_order,
     _falls,
+    _Search,
     own_time,
 )
 from reconcile.observe.extract import USABLE
@@ -95,6 +99,39 @@ def test_a_speed_at_which_the_path_is_deaf_does_not_hide_it(machine: MachineSpec
     assert told(machine, high, speeds_hz=(21.0, 24.0, 33.0)) is None, "orders 7 and 8 meet at 168 Hz"
     every = told(machine, at_hz(100.0), speeds_hz=speeds_hz)
     assert every is not None and every.speeds == (3, 3) and "at every speed" in every.text
+
+
+@pytest.mark.parametrize(("faint", "found"), [(0.0, False), (0.001, False), (0.003, True)])
+def test_where_parts_meet_at_two_speeds_a_third_that_shows_it_faintly_decides(
+    machine: MachineSpec, faint: float, found: bool
+) -> None:
+    """100 Hz is the inner race's at 22.5 Hz, the outer one's at 39 Hz, and none of theirs at 30 Hz."""
+    inner, outer = 4.42645 * 22.5, 2.57355 * 39.0
+    assert abs(inner - 100.0) < OWN_HZ and abs(outer - 100.0) < OWN_HZ
+    depth = {22.5: 0.1, 30.0: faint, 39.0: 0.1}
+    seen = told(machine, lambda hz: at_hz(100.0, depth[hz])(hz), speeds_hz=(22.5, 30.0, 39.0))
+    if not found:
+        assert seen is None
+        return
+    assert seen is not None and seen.hz == pytest.approx(100.0, abs=0.7)
+    assert seen.speeds == (2, 3) and seen.rise_db > 15.0, "by the speeds that show it clearly"
+    assert {line.speed_hz for line in seen.lines} == {22.5, 39.0}
+
+
+def test_faintly_is_above_what_sound_machines_come_to_and_ahead_of_all_else_there() -> None:
+    grid = np.arange(LOWEST_HZ, 260.0, STEP_HZ)
+    best = int(np.argmin(np.abs(grid - 100.0)))
+
+    def everywhere(least_db: float, *, beside_db: float = 0.0, off_hz: float = 40.0) -> bool:
+        mean = np.zeros((3, grid.size))
+        mean[:, int(np.argmin(np.abs(grid - 100.0 - off_hz)))] = beside_db
+        mean[:, best] = [20.0, least_db, 20.0]
+        return _Search(data=(), shafts=(), parts=(), mean=mean, grid=grid)._everywhere(best)
+
+    assert everywhere(FAINT_DB) and not everywhere(FAINT_DB - 0.01)
+    assert everywhere(1.0, beside_db=1.0 / AHEAD) and not everywhere(1.0, beside_db=1.0 / AHEAD + 0.01)
+    assert everywhere(1.0, beside_db=5.0, off_hz=SEPARATE_HZ - STEP_HZ), "its own foot"
+    assert not everywhere(1.0, beside_db=5.0, off_hz=-SEPARATE_HZ - STEP_HZ)
 
 
 def test_what_turns_with_a_shaft_is_none(machine: MachineSpec) -> None:
