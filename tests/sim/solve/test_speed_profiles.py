@@ -33,8 +33,15 @@ def test_channels_follow_the_profile():
     np.testing.assert_allclose(speed[inner], nominal * (1.0 - 5.0 * t[inner]), rtol=1e-4)
     np.testing.assert_allclose(angle[inner], nominal * (t[inner] - 2.5 * t[inner] ** 2), rtol=1e-4)
     np.testing.assert_allclose(acceleration[inner], -5.0 * nominal, rtol=1e-3)
-    assert any("speed varies" in text for text in found.warnings)
+    (told,) = (text for text in found.warnings if "speed varies" in text)
+    assert told.startswith("the speed varies by 50 % of the nominal one until 0.0997 s") and "sharp after it" in told
     assert found.bases_hz["f_r1"] == pytest.approx(30.0 * (0.75 * 0.1 + 0.5 * 0.05) / 0.15)
+
+
+def test_a_ramp_that_is_not_over_smears_all_lines():
+    machine = turning("paper", RampSpeed(end_ratio=0.5, duration_s=0.05))
+    found = simulate(machine, duration_s=0.052, output_rate_hz=20_000.0, channels=ANGLE, settings=QUICK)
+    assert any("lines smear in spectra over time; orders stay sharp" in text for text in found.warnings)
 
 
 @pytest.mark.slow
