@@ -13,7 +13,15 @@ from reconcile.atlas.candidates import size_parameter, size_range
 from reconcile.atlas.plan import AtlasPlan
 from reconcile.calibrate.uncertain import Offsets
 from reconcile.machine import refine, search
-from reconcile.machine.refine import LARGER, NEAR_ANGLE_RAD, SMALLER, near_draws, refined_plan, spread_plan
+from reconcile.machine.refine import (
+    LARGER,
+    NEAR_ANGLE_RAD,
+    SMALLER,
+    near_draws,
+    refined_plan,
+    seen_draws,
+    spread_plan,
+)
 from reconcile.machine.search import MOSTLY_SEEN, SPREAD, spread_out
 from sim.core.spec import TermSpec
 from sim.presets import preset
@@ -147,3 +155,19 @@ def test_leaders_are_spread_before_they_are_refined_once(
     found = SimpleNamespace(view=lambda _: None, known=None)
     budget = SimpleNamespace(members=8)
     assert search.refined(setting, found, budget, map, turn) == [PIT] and asked == spread  # type: ignore[arg-type]
+
+
+def test_of_draws_that_show_something_the_nearest_are_taken_and_else_the_nearest_of_all(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A view may have none of the visible ones on the effect's path."""
+    terms = [TermSpec(term="outer_spall", site="bearing1", parameters={"width": 1e-3 * k}) for k in range(1, 5)]
+    known = SimpleNamespace(terms=terms, library=SimpleNamespace(groups={"outer_spall@bearing1": (0, 1, 2, 3)}))
+    monkeypatch.setattr("reconcile.machine.refine.best_draws", lambda *_, **__: [terms[2], terms[1], terms[0]])
+    asked = (known, "outer_spall@bearing1", np.zeros(1))
+
+    def seen(*visible: bool) -> list[TermSpec]:
+        return seen_draws(None, np.array(visible), *asked, count=2)  # type: ignore[arg-type]
+
+    assert seen(True, True, False, True) == [terms[1], terms[0]]
+    assert seen(False, False, False, True) == [terms[2], terms[1]], "the fourth is on no path"
