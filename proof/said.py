@@ -5,7 +5,10 @@ from __future__ import annotations
 SECTIONS = {
     "clear": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at once, "
     "beside other work, which core-seconds show. It asks what rises together at a shaft's turns, and names a torque "
-    "that comes many times a turn ([decision](decisions/reconcile-turns.md)); these cases had no part in either.",
+    "that comes many times a turn ([decision](decisions/reconcile-turns.md)); these cases had no part in either. c069 "
+    "ended in an error: an effect's draws that show something were on no path of one view; the engine takes the "
+    "nearest since. So the size of a torque that comes many times a turn is searched without sidebands that cannot be "
+    "simulated, which no answer here had a part in.",
     "vast": "No version of the engine had met these before their run: the whole plan by one engine, which "
     "named what alone forecasts the speeds held out. Two ran at once, beside other work, which core-seconds show. That "
     "rule is taken back since ([decision](decisions/reconcile-forecasts.md)): it was asked in six of these cases, "

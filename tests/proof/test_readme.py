@@ -80,7 +80,8 @@ def test_what_is_said_of_sizes() -> None:
     first = f"The first row's version told {len(off)}: half are within {half:.0f} %"
     said = f"{first}, one in ten is off by {worst:.0f} % or more"
     assert said in " ".join(README.split())
-    assert all(s.severity_covered for s in found if s.severity_error is not None), "all intervals held the truth"
+    missed = [s.name for s in found if s.severity_error is not None and not s.severity_covered]
+    assert len(missed) == 1 and "All intervals but one held the truth" in " ".join(README.split())
 
 
 def test_what_is_said_of_what_shows() -> None:
