@@ -77,11 +77,11 @@ def seen_draws(
     fitted: Fitted, visible: np.ndarray, known: Catalogued, name: str, observed: FloatArray, count: int = 3
 ) -> list[TermSpec]:
     """The same of the draws that are `visible`, (draws,): a pit of an outer race that no loaded ball meets is as near
-    to a small change as one that brings it. Where the view has none of these on the effect's path, the nearest."""
+    to a small change as one that brings it."""
     rows = known.library.groups[name]
     shown = {id(known.terms[k]) for k in rows if visible[k]}
     nearest = best_draws(fitted, known, name, observed, count=len(rows))
-    return ([term for term in nearest if id(term) in shown] or nearest)[:count]
+    return [term for term in nearest if id(term) in shown][:count]
 
 
 def spread_plan(

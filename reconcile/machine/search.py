@@ -26,6 +26,7 @@ from reconcile.machine.setting import Found, Setting
 from reconcile.machine.weigh import LEAST_EVIDENCE, credible_set, merged_weights, plausible
 from signals.series import FloatArray
 from sim.core.errors import SpecError
+from sim.core.spec import TermSpec
 
 POINTS_OF_LINES, CHANNELS_OF_LINES, CHANNELS_OF_PHASES = 2, 6, 3
 """Operating points from which single lines have a pattern: at one, few sensors see each meet its resonance by chance;
@@ -254,7 +255,13 @@ def spread_out(setting: Setting, found: Found, leading: Sequence[str], mapper: M
     if not few:
         return found
     seen = setting.changes.observed
-    around = [(n, seen_draws(found.view(n), visible, found.known, n, seen, SPREAD_ABOUT)) for n in few]
+
+    def best(name: str) -> list[TermSpec]:
+        """Of those that show something; of all where the view has none of these on the effect's path."""
+        shown = seen_draws(found.view(name), visible, found.known, name, seen, SPREAD_ABOUT)
+        return shown or best_draws(found.view(name), found.known, name, seen, SPREAD_ABOUT)
+
+    around = [(n, best(n)) for n in few]
     pairs = len(setting.plan.offsets)
     plan = spread_plan(setting.plan, around, draws=SPREAD, pairs=pairs, seed=setting.seed)
     return fit_views(setting, simulated(setting, plan, mapper, found.known))

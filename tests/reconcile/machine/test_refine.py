@@ -19,7 +19,6 @@ from reconcile.machine.refine import (
     SMALLER,
     near_draws,
     refined_plan,
-    seen_draws,
     spread_plan,
 )
 from reconcile.machine.search import MOSTLY_SEEN, SPREAD, spread_out
@@ -157,17 +156,20 @@ def test_leaders_are_spread_before_they_are_refined_once(
     assert search.refined(setting, found, budget, map, turn) == [PIT] and asked == spread  # type: ignore[arg-type]
 
 
-def test_of_draws_that_show_something_the_nearest_are_taken_and_else_the_nearest_of_all(
-    monkeypatch: pytest.MonkeyPatch,
+@pytest.mark.parametrize(("shown", "taken"), [(True, [3e-4]), (False, [7e-4])])
+def test_where_no_visible_draw_is_on_the_path_of_a_view_sizes_are_spread_about_the_nearest(
+    shown: bool, taken: list[float], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A view may have none of the visible ones on the effect's path."""
-    terms = [TermSpec(term="outer_spall", site="bearing1", parameters={"width": 1e-3 * k}) for k in range(1, 5)]
-    known = SimpleNamespace(terms=terms, library=SimpleNamespace(groups={"outer_spall@bearing1": (0, 1, 2, 3)}))
-    monkeypatch.setattr("reconcile.machine.refine.best_draws", lambda *_, **__: [terms[2], terms[1], terms[0]])
-    asked = (known, "outer_spall@bearing1", np.zeros(1))
-
-    def seen(*visible: bool) -> list[TermSpec]:
-        return seen_draws(None, np.array(visible), *asked, count=2)  # type: ignore[arg-type]
-
-    assert seen(True, True, False, True) == [terms[1], terms[0]]
-    assert seen(False, False, False, True) == [terms[2], terms[1]], "the fourth is on no path"
+    """A sealed case (c069 of the proof) ended in an error there."""
+    around: list[Sequence[tuple[str, Sequence[TermSpec]]]] = []
+    monkeypatch.setattr(search, "seen_draws", lambda *_: [pit(3e-4)] if shown else [])
+    monkeypatch.setattr(search, "best_draws", lambda *_: [pit(7e-4)])
+    monkeypatch.setattr(search, "spread_plan", lambda _plan, told, **_: around.append(told))
+    monkeypatch.setattr(search, "simulated", lambda *_: None)
+    monkeypatch.setattr(search, "fit_views", lambda *_: "judged")
+    setting = SimpleNamespace(
+        plan=SimpleNamespace(offsets=(0,) * 8), seed=0, changes=SimpleNamespace(observed=np.zeros(3))
+    )
+    assert spread_out(setting, found_with({PIT: 0.5}), [PIT], map) == "judged"  # type: ignore[arg-type]
+    ((name, terms),) = around[0]
+    assert name == PIT and [t.parameters["width"] for t in terms] == taken
