@@ -89,7 +89,7 @@ def many_turns(machine: MachineSpec, data: Sequence[PointData], channels: Sequen
         return None
     return ManyTurns(
         shaft=shaft, turns=turns, order=order, rise_db=rise_db, elsewhere_db=elsewhere, speeds=rises.speeds(best),
-        lines=rises.lines(best, order, f"{turns}*{shaft}", channels),
+        lines=rises.lines(best, order, f"{turns}*{shaft}", channels, shaft),
     )  # fmt: skip
 
 

@@ -59,13 +59,15 @@ class Rises:
         risen = self.risen(best)
         return sum(any(k in risen for k in group) for group in self.groups), len(self.groups)
 
-    def lines(self, best: int, order: float, told: str, channels: Sequence[str]) -> tuple[LineChange, ...]:
+    def lines(
+        self, best: int, order: float, told: str, channels: Sequence[str], locked: str = ""
+    ) -> tuple[LineChange, ...]:
         """The sidebands of the teeth's first harmonic there."""
         found: list[LineChange] = []
         for k in self.risen(best):
             one = self.data[k]
             hz = order * one.spectra[0].speed_hz
-            found += risen_lines(one, self.mesh, self.each[k][..., best], hz, told, "", channels)
+            found += risen_lines(one, self.mesh, self.each[k][..., best], hz, told, locked, channels)
         return tuple(found)
 
 

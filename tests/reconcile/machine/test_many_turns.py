@@ -68,7 +68,7 @@ def test_many_times_a_turn_is_found(machine: MachineSpec, turns: int) -> None:
         assert (below.frequency_hz, above.frequency_hz) == pytest.approx((mesh - turns * speed, mesh + turns * speed))
         assert (below.label, above.label) == (f"teeth - {turns}*input", f"teeth + {turns}*input")
         assert below.change_db > 6 and below.speed_hz == speed
-        assert below.channel in NAMES
+        assert below.channel in NAMES and {below.locked_to, above.locked_to} == {"input"}
 
 
 def test_it_is_found_in_recordings_that_were_observed(machine: MachineSpec) -> None:
