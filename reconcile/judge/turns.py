@@ -19,7 +19,8 @@ from signals.series import FloatArray
 
 LEAST_DB = 1.5
 """Mean rise at the speed where it is largest but one, below which it is nothing however rarely sound machines show it:
-14 of the proof's come to 0.5 dB, an eccentric pinion of 86 um (v070) to 2.9."""
+eight of the proof's come to 0.3 dB, but for the first turn of the slow shaft, which the speed's wander lifts by up to
+6.3 and whose deviations are as wide; an eccentric pinion of 86 um (v070) to 1.8."""
 FORM = 0.35
 """Share by which an effect's simulated rise may be wrong: another form of its law, another resonance."""
 SOFTNESS = 8.0
