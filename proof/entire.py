@@ -46,7 +46,7 @@ class Design:
     have gone before, `begun` from which on those of rarer laws, pairs and unknown effects; `rows` are the conditions of
     every fourth case."""
 
-    split: Literal["entire", "held", "wide", "mixed", "young", "vast", "clear"]
+    split: Literal["entire", "held", "wide", "mixed", "young", "vast", "clear", "jury"]
     groups: Mapping[Group, int]
     turned: int
     rows: tuple[Row, ...]
@@ -84,6 +84,8 @@ VAST = Design(split="vast", groups=WIDE.groups, turned=787, rows=HELD.rows, begu
 """As young, of the rarer laws and most of the pairs that it leaves out."""
 CLEAR = Design(split="clear", groups=WIDE.groups, turned=907, rows=HELD.rows, begun=32)
 """As vast, of the rarer laws and most of the pairs that it leaves out."""
+JURY = Design(split="jury", groups=WIDE.groups, turned=1013, rows=HELD.rows, begun=40)
+"""As clear, of the rarer laws and most of the pairs that it leaves out."""
 ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
 STRUCK = ("outer_pit", "inner_pit", "ball_pit")
 FORMS = 3
@@ -124,6 +126,11 @@ def vast() -> tuple[Case, ...]:
 def clear() -> tuple[Case, ...]:
     """All cases of the seventh."""
     return cases_of_design(CLEAR)
+
+
+def jury() -> tuple[Case, ...]:
+    """All cases of the eighth."""
+    return cases_of_design(JURY)
 
 
 def cases_of_design(design: Design) -> tuple[Case, ...]:

@@ -44,6 +44,7 @@ Split = Literal[
     "young",
     "vast",
     "clear",
+    "jury",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -70,6 +71,7 @@ SEEDS = {
     "young": 3_617_948_205,
     "vast": 5_283_740_961,
     "clear": 7_904_163_528,
+    "jury": 6_583_017_249,
 }
 COUNTS = {
     "dev": {

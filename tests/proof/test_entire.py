@@ -13,6 +13,7 @@ from proof.entire import (
     CLEAR,
     ENTIRE,
     HELD,
+    JURY,
     MIXED,
     STRUCK,
     VAST,
@@ -21,6 +22,7 @@ from proof.entire import (
     clear,
     entire,
     held,
+    jury,
     mixed,
     vast,
     wide,
@@ -67,6 +69,7 @@ def test_the_seals_were_committed():
     assert seal.seals_of("young") == seal.manifest("young", young())["sha256"]
     assert seal.seals_of("vast") == seal.manifest("vast", vast())["sha256"]
     assert seal.seals_of("clear") == seal.manifest("clear", clear())["sha256"]
+    assert seal.seals_of("jury") == seal.manifest("jury", jury())["sha256"]
 
 
 def test_the_second_has_no_case_of_the_first_and_is_a_sample_at_any_length():
@@ -132,6 +135,16 @@ def test_the_seventh_hides_what_the_sixth_leaves_out():
     assert len(rare) == 8 and not rare & seen
     pairs, told = ({tuple(e.law for e in c.effects) for c in s if c.group == "double"} for s in (cases, vast()))
     assert len(pairs) == 8 and len(pairs - told) >= 6
+
+
+def test_the_eighth_hides_what_the_seventh_leaves_out():
+    cases, before = jury(), (*clear(), *vast(), *young(), *mixed(), *wide())
+    assert Counter(c.group for c in cases) == JURY.groups and len({c.name for c in cases}) == 72
+    assert not {c.seed for c in cases} & {c.seed for c in (*CASES, *held(), *before)}, "its machines are its own"
+    rare, seen = ({e.law for c in s if c.group == "single" for e in c.effects} - set(FIRST) for s in (cases, clear()))
+    assert len(rare) == 8 and not rare & seen
+    pairs, told = ({tuple(e.law for e in c.effects) for c in s if c.group == "double"} for s in (cases, clear()))
+    assert len(pairs) == 8 and len(pairs - told) == 8
 
 
 def test_a_lip_squeezes_the_ball_before_and_behind_the_pit():
