@@ -44,6 +44,7 @@ from reconcile.machine.leftover import likelihoods
 from reconcile.machine.library import Catalogued
 from reconcile.machine.likelier import yielding
 from reconcile.machine.local import around_baseline, told
+from reconcile.machine.lone import without_lone
 from reconcile.machine.meter import Meter, Telling
 from reconcile.machine.misfit import with_misfit
 from reconcile.machine.mistaken import with_mistaken
@@ -149,19 +150,17 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     if not fitting:
         return misfit_report(elsewhere, machine, data, gate, _told_by(meter, seed, budget))
     alike, apart = turned_alike(machine, fitting, channels)
-    left_out = unpaired(machine, gate.tests, gate.baselines)
-    apart = (*left_out, *(told_of(one, machine) for one in elsewhere), *apart)
+    apart = (*unpaired(machine, gate.tests, gate.baselines), *(told_of(one, machine) for one in elsewhere), *apart)
     if not alike:
         return told_apart(apart, data, gate, _told_by(meter, seed, budget))
     setting = _setting(machine, gate, alike, asked.plan, asked.keeper, meter, progress)
-    atlas_s = meter.spent_s()
+    cost = {"until_atlas_core_s": meter.spent_s(), "budget": budget.name}
     progress(ATLASES_DONE, "candidates")
     looks = _answered(setting, screen_atlas(setting), budget, meter, progress)
     of_kind, setting, found = setting, looks.setting, looks.found
     progress(0.9, "laws that nobody listed")
     unknown = _force(setting, found, looks.pairs, budget, meter)
     progress(0.95, "held-out data")
-    cost = {"until_atlas_core_s": atlas_s, "budget": budget.name}
     report = answer(setting, found, gate, meter, cost, looks.fit, unknown, looks.pairs)
     sensors = sensor_sites(looks.setting.machine, looks.setting.simulated)
     report = with_place(report, looks.setting.direct.evidence, len(looks.setting.data), sensors)
@@ -175,6 +174,7 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = with_many_turns(report, looks.setting, [c.name for c in channels])
     supports = likely_supports(looks.setting, looks.found) if machine.bearings else ()
     report = with_force(report, looks.setting, supports, channels)
+    apart = (*apart, *setting.lone)
     report = with_short(with_limits(with_unconfirmed(report, machine, alike), apart), alike, gate.findings)
     return as_named(with_wide(report))
 
@@ -212,7 +212,7 @@ def _answered(setting: Setting, atlas: Found, budget: Budget, meter: Meter, prog
     closer, found = setting, atlas
     if local is not None:
         closer = replace(local.setting, overdispersion=atlas.fitted.overdispersion)
-        seen = fit_views(closer, atlas.known)
+        (setting, atlas), (closer, seen) = without_lone((setting, atlas), (closer, fit_views(closer, atlas.known)))
         lines, turns = seen.screen.p_lines, risen(closer, seen.fitted)
         if not remarkable(atlas.screen) and lines > CLOSER_LINES_P and not clear(turns):
             quiet = replace(atlas, screen=replace(atlas.screen, p_lines=lines, p_turns=turns.p))

@@ -35,6 +35,8 @@ class Setting:
     """At least that of the atlas, whose many effects on many machines know it best."""
     fitted_machine: MachineSpec | None = None
     """The mean of the machines that agree with the baseline."""
+    lone: tuple[str, ...] = ()
+    """What is told of a sensor that changed at one operating point alone, whose features are not compared."""
 
 
 @dataclass(frozen=True, kw_only=True)
