@@ -1,10 +1,10 @@
 """Has one sensor at one operating point changed, and nothing else?
 
 Across the load, and where teeth part, a motion may set in by itself from some speed on: sound machines near such a
-speed begin it in one recording and hardly in the next, and it has a mirror image that is as likely. Of 55 sound
-machines of the proof four show this at one sensor and one of three speeds (15 dB on all harmonics of the teeth and the
-floor beside them, or all their phases turned by half a turn at the same levels). What is missing in a machine shows at
-a second sensor or a second speed; what shows at neither is told, and not compared.
+speed begin it in one recording and hardly in the next, and it has a mirror image that is as likely. Three sound
+machines of the proof show this, at one sensor and one of three speeds: c016 by 15 dB on the teeth's harmonics and the
+floor beside them, v041 by the floor alone, c012 by all phases of the teeth, turned by half a turn at the same levels.
+What is missing in a machine shows at a second sensor or a second speed; what shows at neither is told and left out.
 """
 
 from __future__ import annotations
