@@ -31,6 +31,7 @@ from reconcile.observe.observation import LEFT_OUT
 from reconcile.report import write_report
 from reconcile.report.write import PAGE, REPORT
 from reconcile.told import about
+from reconcile.verdict import Report
 from signals.ingest import ingest
 from signals.recording import Recording
 from sim import presets
@@ -40,6 +41,8 @@ from sim.core.spec import MachineSpec
 from sim.presets.reference import KEYS
 from store.atlas import AtlasFolder, default_atlas_folder
 
+FILLED = "filled from the samples around"
+"""How a limit ends that tells of samples which were no finite numbers, or no machine's."""
 MOST_FOREIGN = 5
 """A flat document with more reference names than this is a parameter file."""
 
@@ -212,6 +215,15 @@ def _made(folder: Path) -> Iterator[None]:
         raise
 
 
+def _faults(report: Report) -> Iterator[str]:
+    """What is wrong with the measurement, channel by channel, in which recordings, and what became of it."""
+    for fault in report.measurement_faults:
+        whose = f" of {fault.channel}" if fault.channel else ""
+        where = f" ({', '.join(fault.recordings)})" if fault.recordings else ""
+        doubt, left = "may be " if fault.doubtful else "", "; the channel is left out" if fault.left_out else ""
+        yield f"the measurement{whose}{where}: {doubt}{fault.kind}{': ' if fault.detail else ''}{fault.detail}{left}"
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
     if not 1 <= arguments.jobs <= 64:
@@ -234,8 +246,9 @@ def run(arguments: argparse.Namespace) -> int:
             seed=arguments.seed,
             progress=_Shown(),
         )
-    for limit in (one for one in report.where.limits if one.startswith(LEFT_OUT)):
-        print(f"note: {limit}", file=sys.stderr)
+    told = (one for one in report.where.limits if one.startswith(LEFT_OUT) or FILLED in one)
+    for note in (*told, *_faults(report)):
+        print(f"note: {note}", file=sys.stderr)
     report = replace(report, where=replace(report.where, limits=(*report.where.limits, *notes)))
     earlier = (arguments.out / "report.json").exists()
     written = write_report(report, arguments.out)

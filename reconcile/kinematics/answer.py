@@ -13,6 +13,7 @@ from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.heldout import held_out
 from reconcile.kinematics.measured import measured_lines
 from reconcile.kinematics.observe import Observation
+from reconcile.kinematics.record_at import record_at
 from reconcile.kinematics.sites import decided, places
 from reconcile.shares import from_drawing
 from reconcile.verdict import NO_GAIN, Cause, HeldOut, LineChange, NextExperiment, PlaceWeight, Report, Severity, Where
@@ -76,7 +77,7 @@ def defect_report(
         causes=causes,
         held_out=held,
         undecidable=undecidable,
-        next_experiment=WHOSE if "exchanged" in words else _next(one_site, sizes, baselines),
+        next_experiment=WHOSE if "exchanged" in words else _next(weights, tests, sizes, baselines),
     )
 
 
@@ -216,10 +217,13 @@ def _undecided(
 
 
 def _next(
-    one_site: bool, sizes: Sequence[tuple[Extent | None, Severity | None]], baselines: Sequence[Observation]
+    weights: Sequence[Sequence[PlaceWeight]],
+    tests: Sequence[Observation],
+    sizes: Sequence[tuple[Extent | None, Severity | None]],
+    baselines: Sequence[Observation],
 ) -> NextExperiment | None:
-    if not one_site:
-        return NextExperiment(sentence="Record with one sensor on each of the bearings that share these lines.")
+    if not all(decided(w) for w in weights):
+        return record_at(weights, tests)
     if not baselines:
         return SOUND
     if any(s[0] is None or not s[0].resolved for s in sizes):
