@@ -14,6 +14,7 @@ from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import UNMEASURED, Decision
 from reconcile.machine.decided import decided
 from reconcile.machine.elsewhere import by_forecast
+from reconcile.machine.envelope import envelopes_of
 from reconcile.machine.heldout import feature_channels, feature_frequencies, held_out, spectral_mask
 from reconcile.machine.level_size import by_levels
 from reconcile.machine.limits import limits
@@ -137,7 +138,7 @@ def answer(
         force=unknown.force if unknown is not None else None,
         machine=_machine(revision, unknown, decision),
         stages=(*all_stages(setting, found, gate, decision, fit or {}), *of_pairs(pairs), *revisions(revision)),
-        pictures=_pictures(setting, layout, fitted, where, ranking(setting, found, named) if missing else []),
+        pictures=_pictures(setting, layout, fitted, where, ranking(setting, found, named) if missing else [], causes),
         provenance=provenance(setting.seed, len(setting.plan.draws), meter, cost),
     )
 
@@ -160,13 +161,19 @@ def _forecast(decision: Decision, held: HeldOut | None, unknown: Unknown | None)
 
 
 def _pictures(
-    setting: Setting, layout: Layout, fitted: FloatArray | None, where: Where, ranked: list[dict[str, object]]
+    setting: Setting,
+    layout: Layout,
+    fitted: FloatArray | None,
+    where: Where,
+    ranked: list[dict[str, object]],
+    causes: Sequence[Cause],
 ) -> dict[str, object]:
     """`fitted` (F,): the change that what is named shows, dB; None where nothing is."""
     return {
         "spectra": spectra(setting.data, setting.seen_through, fitted, layout, setting.channels),
         "ranking": ranked,
         "paths": paths(setting),
+        "envelope": envelopes_of(setting.direct.envelopes, causes),
         "heat": turn_maps(setting.machine, setting.data, setting.channels, where.angle_window),
     }
 

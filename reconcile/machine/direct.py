@@ -20,6 +20,7 @@ from reconcile.kinematics.judge import candidates, same
 from reconcile.kinematics.observe import Observation, reach_of
 from reconcile.kinematics.spec import of_machine
 from reconcile.machine.alone import Rise
+from reconcile.machine.envelope import Drawn, drawn
 from reconcile.machine.struck import by_comb, combs
 from reconcile.machine.window import tooth_places
 from reconcile.observe.observation import PointData
@@ -82,6 +83,8 @@ class Direct:
     looked: bool = False
     """Whether every pit in a bearing that strikes would be heard: against a baseline, on a machine whose balls do not
     rattle for want of teeth that load them."""
+    envelopes: tuple[Drawn, ...] = ()
+    """What was heard at the lines of parts of bearings, the firmest first."""
 
 
 NOTHING = Direct(evidence={}, p=1.0, told=())
@@ -137,6 +140,7 @@ def direct_evidence(
         silent=silent_beside(evidence, unjudged(evidence, tie, as_usual, HEARD)),
         present=frozenset(struck_at(seen, tie, machine)),
         looked=based and teeth,
+        envelopes=drawn(firm, every, tests, baselines, tie),
     )
 
 
