@@ -68,6 +68,11 @@ def test_a_struck_race_speaks_for_its_spall_at_the_bearings_that_share_the_frequ
     direct = found(machine, sound(1) + struck(hz, loads_hz=loads, slip=0.007), sound(2))
     assert direct.p < 0.01
     assert any(line.startswith(f"bearing1.{kind} or bearing2.{kind}: ") for line in direct.told), direct.told
+    drawn = direct.envelopes[0]
+    assert (drawn.kind, drawn.sites) == (kind, ("bearing1", "bearing2")) and drawn.picture["channel"] == CHANNELS[
+        0
+    ].name
+    assert {"test", "baseline", "lines", "band_hz"} <= set(drawn.picture), "of both recordings, with the part's lines"
     best = {name for name, value in direct.evidence.items() if value > 0.5 * max(direct.evidence.values())}
     assert best == {f"{kind}_spall@bearing1", f"{kind}_spall@bearing2"}
     assert max(direct.evidence.values()) <= MOST
@@ -175,7 +180,7 @@ def test_sound_machines_say_nothing(machine: MachineSpec) -> None:
     for seed in range(3):
         direct = found(machine, sound(10 + seed), sound(20 + seed))
         assert max(direct.evidence.values(), default=0.0) < 3.0
-        assert direct.p == 1.0
+        assert direct.p == 1.0 and not direct.envelopes
 
 
 def test_where_nothing_can_be_looked_for_the_reason_is_told(machine: MachineSpec) -> None:
