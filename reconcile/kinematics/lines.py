@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy import fft
@@ -30,17 +31,20 @@ class OrderLines:
     floor_db: FloatArray
     order_step: float
 
+    @cached_property
+    def totals(self) -> tuple[FloatArray, FloatArray]:
+        """Power of the lines and of the noise in all bins below one, (bins + 1,)."""
+        lines, noise = (np.concatenate(([0.0], np.cumsum(10 ** (db / 10)))) for db in (self.level_db, self.floor_db))
+        return lines, noise
+
     def within(self, orders: FloatArray, half_width: float) -> tuple[FloatArray, FloatArray]:
         """(power, floor power) within `half_width` of orders (n,); NaN beyond the spectrum."""
         reach = max(1, round(half_width / self.order_step))
         place = np.rint(orders / self.order_step).astype(np.int64)
         inside = (place > reach) & (place < self.level_db.size - reach - 1)
         safe = np.clip(place, reach, self.level_db.size - reach - 1)
-        found = []
-        for values in (self.level_db, self.floor_db):
-            total = np.concatenate(([0.0], np.cumsum(10 ** (values / 10))))
-            found.append(np.where(inside, total[safe + reach + 1] - total[safe - reach], np.nan))
-        return found[0], found[1]
+        lines, noise = (np.where(inside, t[safe + reach + 1] - t[safe - reach], np.nan) for t in self.totals)
+        return lines, noise
 
     def strongest(self, highest_order: float) -> float:
         """Level of the strongest line up to an order, dB."""
@@ -58,6 +62,13 @@ class OrderLines:
 
 def order_lines(observation: Observation, channel: str) -> OrderLines | None:
     """Order spectrum of a channel over the reference shaft (Hann); None where the angle covers no turn."""
+    kept = observation.kept.lines
+    if channel not in kept:
+        kept[channel] = _order_lines(observation, channel)
+    return kept[channel]
+
+
+def _order_lines(observation: Observation, channel: str) -> OrderLines | None:
     e = observation.channel(channel)
     assert e is not None
     series = observation.recording.series(channel)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from reconcile.speed import SpeedEstimate, estimate_speed, followed_angle, shaft
 from signals.recording import Recording
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
+
+if TYPE_CHECKING:
+    from reconcile.kinematics.lines import OrderLines
 
 MOST_DOUBT = 0.012
 """Share by which the search widens where the speed could not be read: wider, every comb meets every line."""
@@ -34,6 +38,8 @@ class KeptBands:
     rows: dict[tuple[str, tuple[float, float]], tuple[FloatArray, int]] = field(default_factory=dict)
     white: dict[str, ComplexArray] = field(default_factory=dict)
     """Of the latest `WHITE` channels."""
+    lines: dict[str, OrderLines | None] = field(default_factory=dict)
+    """Order spectra of channels, each as large as its samples: shafts, teeth and their growth are read from them."""
 
     def of(
         self, key: tuple[str, tuple[float, float]], make: Callable[[], tuple[FloatArray, int]]
