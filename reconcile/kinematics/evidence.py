@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy import sparse
 
 from reconcile.kinematics.controls import control_orders
 from reconcile.kinematics.envelopes import Envelopes
@@ -112,16 +113,15 @@ def _of_shaft(values: FloatArray, step: float, ratio: float, meshes: Sequence[fl
 
 def comb(family: Family, base: FloatArray) -> tuple[FloatArray, FloatArray]:
     """(orders (trials, lines), weights (lines,)) of the family's lines at base orders (trials,)."""
-    lines: list[FloatArray] = []
+    multiples: list[float] = []
+    beside: list[float] = []
     weights: list[float] = []
     for k in range(family.lowest, family.harmonics + 1):
-        lines.append(k * base)
-        weights.append(float(1 / np.sqrt(k)))
-        for m in range(1, family.sidebands + 1):
-            for sign in (-1, 1):
-                lines.append(k * base + sign * m * family.spacing)
-                weights.append(float(0.5 / np.sqrt(k)))
-    return np.asarray(np.stack(lines, axis=1), dtype=np.float64), np.asarray(weights, dtype=np.float64)
+        steps = [sign * m for m in range(1, family.sidebands + 1) for sign in (-1, 1)]
+        multiples += [float(k)] * (1 + len(steps))
+        beside += [0.0, *(step * family.spacing for step in steps)]
+        weights += [float(1 / np.sqrt(k)), *[float(0.5 / np.sqrt(k))] * len(steps)]
+    return base[:, np.newaxis] * np.array(multiples) + np.array(beside), np.array(weights)
 
 
 def trials(family: Family, order: float, reach: float, order_step: float) -> FloatArray:
@@ -135,24 +135,24 @@ def trials(family: Family, order: float, reach: float, order_step: float) -> Flo
 
 def scores(values: FloatArray, envelopes: Envelopes, family: Family, base: FloatArray) -> FloatArray:
     """Comb scores, shape (bands, trials)."""
-    return np.asarray(_summed(_by_bin(values), *_placed(envelopes, family, base)).T)
+    return np.asarray((_placed(envelopes, family, base) @ _by_bin(values)).T, dtype=np.float64)
 
 
-def _placed(envelopes: Envelopes, family: Family, base: FloatArray) -> tuple[IntArray, FloatArray]:
-    """(bins (trials, lines), weights (lines,)) of the family's lines at base orders (trials,)."""
+def _placed(envelopes: Envelopes, family: Family, base: FloatArray) -> sparse.csr_array[np.float64]:
+    """Weights (trials, bins) of the bins in which the family's lines lie at base orders (trials,): times values by bin,
+    the sums over lines, for which no value is fetched into a table of its own."""
     lines, weights = comb(family, base)
-    inside = (lines / envelopes.order_step < envelopes.excess.shape[1] - 1) & (lines > 0)
-    return np.where(inside, envelopes.place(np.abs(lines)), 0), weights  # at 0 is nothing, `logs` sees to that
+    bins = envelopes.excess.shape[1]
+    place = lines / envelopes.order_step
+    inside = (place < bins - 1) & (lines > 0)
+    column = np.where(inside, np.rint(place), 0.0).astype(np.int32)  # at 0 is nothing, `logs` sees to that
+    row = np.arange(base.size + 1, dtype=np.int32) * weights.size
+    return sparse.csr_array((np.tile(weights, base.size), column.ravel(), row), shape=(base.size, bins))
 
 
 def _by_bin(values: FloatArray) -> FloatArray:
     """(bins, bands): all bands of a bin lie together, so that a line is fetched once, not once a band."""
     return np.ascontiguousarray(values.T)
-
-
-def _summed(by_bin: FloatArray, place: IntArray, weights: FloatArray) -> FloatArray:
-    """Weighted sums over lines, shape (trials, bands)."""
-    return np.asarray(np.matmul(weights, np.take(by_bin, place, axis=0, mode="clip")), dtype=np.float64)
 
 
 def without(
@@ -278,11 +278,10 @@ class _Firmest:
 
 @dataclass(frozen=True, kw_only=True)
 class _Controls:
-    """Some control orders: bins of the lines of all their trials (trials, lines), the lines' weights (lines,), and the
-    first trial of each order (controls,)."""
+    """Some control orders: weights of the bins of all their trials (trials, bins), and the first trial of each order
+    (controls,)."""
 
-    place: IntArray
-    weights: FloatArray
+    lines: sparse.csr_array[np.float64]
     first: IntArray
 
 
@@ -291,15 +290,15 @@ def _foreign(envelopes: Envelopes, family: Family, orders: FloatArray, reach: fl
     found = []
     for few in np.array_split(orders, -(-orders.size // TOGETHER)):
         bases = [trials(family, float(o), reach, envelopes.order_step) for o in few]
-        place, weights = _placed(envelopes, family, np.concatenate(bases))
-        found.append(_Controls(place=place, weights=weights, first=np.cumsum([0, *(b.size for b in bases[:-1])])))
+        lines = _placed(envelopes, family, np.concatenate(bases))
+        found.append(_Controls(lines=lines, first=np.cumsum([0, *(b.size for b in bases[:-1])])))
     return found
 
 
 def _controls(values: FloatArray, foreign: Sequence[_Controls]) -> tuple[FloatArray, FloatArray, FloatArray]:
     """(best scores at the control orders (bands, controls), their medians and robust deviations (bands, 1))."""
     by_bin = _by_bin(values)
-    found = [np.maximum.reduceat(_summed(by_bin, few.place, few.weights), few.first, axis=0) for few in foreign]
+    found = [np.maximum.reduceat(np.asarray(few.lines @ by_bin), few.first, axis=0) for few in foreign]
     control = np.ascontiguousarray(np.concatenate(found).T)
     centre = np.median(control, axis=1, keepdims=True)
     spread = np.maximum(1.4826 * np.median(np.abs(control - centre), axis=1, keepdims=True), LEAST_SPREAD)
