@@ -21,6 +21,8 @@ PARAMETERS = 6
 """Of the comb: log level, fall with harmonic, log sideband ratio, log smear, slip, share of the second impulse."""
 MAIN_LOBE = 1.1
 """Standard deviation of an averaged Hann main lobe, bins."""
+NOTHING = 39.0
+"""Standard deviations from the middle of a line from which on it is exactly nothing."""
 KEPT = 2 * (PARAMETERS + SMOOTH)
 """Powers a fit keeps: those of a step and of its slopes."""
 LOW = (-30.0, -1.0, -6.0, -4.0, -0.004, 0.0)
@@ -69,7 +71,8 @@ def comb_power(train: Train, on: Stretch, parameters: FloatArray) -> FloatArray:
         for m in range(1, family.sidebands + 1):
             lines += [(k * base + s * m * family.spacing, height * float(np.exp(side))) for s in (-1, 1)]
         for place, power in lines:
-            total += power * np.exp(-0.5 * ((on.orders - place) / width) ** 2)
+            first, last = np.searchsorted(on.orders, (place - NOTHING * width, place + NOTHING * width))
+            total[first:last] += power * np.exp(-0.5 * ((on.orders[first:last] - place) / width) ** 2)
     return total
 
 

@@ -277,10 +277,14 @@ def comb_score(log: FloatArray, resolution_hz: float, speeds_hz: FloatArray, ord
     Weights 1/sqrt(order over the lowest): low harmonics are the ones a part has, high ones fall on anything.
     """
     total = np.zeros(speeds_hz.size)
+    lowest = min(orders)
     for order in orders:
         place = np.rint(order * speeds_hz / resolution_hz).astype(np.int64)
-        inside = place < log.size
-        total[inside] += log[place[inside]] / np.sqrt(order / min(orders))
+        if place.size and place.max() >= log.size:
+            inside = place < log.size
+            total[inside] += log[place[inside]] / np.sqrt(order / lowest)
+        else:
+            total += log[place] / np.sqrt(order / lowest)
     return total
 
 
