@@ -86,8 +86,8 @@ def _error_db(samples: FloatArray) -> tuple[FloatArray, float] | None:
     """Mean error over the next samples of what the last ones foretell, dB over its median, shape (n,), and the power of
     the signal over that; None where nothing is foretold."""
     x = samples - np.mean(samples)
-    spectrum = np.abs(np.fft.rfft(x, 2 * x.size)) ** 2
-    correlation = np.fft.irfft(spectrum)[: ORDER + 1]
+    # so few lags are sooner summed than transformed, at lengths with large prime factors a hundred times
+    correlation = np.array([x[: x.size - lag] @ x[lag:] for lag in range(ORDER + 1)])
     correlation[0] *= 1.0 + 1e-9
     try:
         taps = np.concatenate(([1.0], -solve_toeplitz(correlation[:-1], correlation[1:])))
