@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from scipy import fft
 
 from reconcile.driven.channels import MOTIONS, Driven, FloatArray
 
@@ -48,5 +49,5 @@ def derived(values: FloatArray, step_s: float, times: int) -> FloatArray:
     line = np.linspace(longer[0], longer[-1], longer.size)
     slope = (longer[-1] - longer[0]) / ((longer.size - 1) * step_s)
     turned = (2j * np.pi * np.fft.rfftfreq(longer.size, step_s)) ** times
-    found = np.fft.irfft(np.fft.rfft(longer - line) * turned, longer.size) + (slope if times == 1 else 0.0)
+    found = fft.irfft(fft.rfft(longer - line) * turned, longer.size) + (slope if times == 1 else 0.0)
     return np.ascontiguousarray(found[values.size - 1 : 2 * values.size - 1])

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from scipy import fft
 
 from reconcile.driven.channels import Driven, FloatArray, driven_of, undirected
 from signals.recording import Recording
@@ -27,7 +28,7 @@ RATIO = 3.0
 
 
 def _power(values: FloatArray) -> FloatArray:
-    found = np.abs(np.fft.rfft((values - values.mean()) * np.hanning(values.size))) ** 2
+    found = np.abs(fft.rfft((values - values.mean()) * np.hanning(values.size))) ** 2
     return np.asarray(found / max(float(found.sum()), 1e-300))
 
 

@@ -7,6 +7,7 @@ fade (Wiener 1949). The motion is the measured one, its rate by the same weighti
 from __future__ import annotations
 
 import numpy as np
+from scipy import fft
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.model import Model, Run
@@ -41,16 +42,16 @@ def latent_force(model: Model, run: Run, error: FloatArray) -> ForceSamples:
     window = np.ones(n)
     half = taper.size // 2
     window[:half], window[-half:] = taper[:half], taper[-half:]
-    spectrum = np.fft.rfft(error * window)
+    spectrum = fft.rfft(error * window)
     power = _smooth(np.abs(spectrum) ** 2)
     noise = float(np.quantile(power, FLOOR_QUANTILE))
     size = np.abs(response) ** 2
     low = (omega < LOWEST * np.sqrt(model.stiffness)) & (order > 0)
     strong = (power > 10.0 * noise) & ~low
     level = float(np.max((power[strong] - noise) / np.maximum(size[strong], 1e-300))) if np.any(strong) else noise
-    force = np.fft.irfft(-np.conj(response) * spectrum * level / np.maximum(size * level + noise, 1e-300), n)
+    force = fft.irfft(-np.conj(response) * spectrum * level / np.maximum(size * level + noise, 1e-300), n)
     measured = (run.compared - model.output_offset) * window
-    answer = np.fft.rfft(measured)
+    answer = fft.rfft(measured)
     kept = _smooth(np.abs(answer) ** 2)
     weight = np.clip(1.0 - noise / np.maximum(kept, 1e-300), 0.0, 1.0)
     if order:
@@ -63,8 +64,8 @@ def latent_force(model: Model, run: Run, error: FloatArray) -> ForceSamples:
     count = int(np.clip((n - 2 * edge) * step / memory, LEAST_BLOCKS, MOST_BLOCKS))
     return ForceSamples(
         force_n=force[inside],
-        displacement_m=np.fft.irfft(x, n)[inside],
-        velocity_m_per_s=np.fft.irfft(1j * omega * x, n)[inside],
+        displacement_m=fft.irfft(x, n)[inside],
+        velocity_m_per_s=fft.irfft(1j * omega * x, n)[inside],
         blocks=even_blocks(n - 2 * edge, count),
         step_s=step,
     )

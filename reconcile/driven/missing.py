@@ -13,6 +13,7 @@ from functools import lru_cache
 
 import numpy as np
 import scipy
+from scipy import fft
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.model import Model, Run, answer_to, simulated
@@ -79,7 +80,7 @@ def _taper(n: int) -> FloatArray:
 def _lines(error: FloatArray) -> FloatArray:
     """Amplitudes of an error's lines, (n // 2 + 1,), of what goes on without its ends."""
     fade = _taper(error.size)
-    return np.asarray(np.abs(np.fft.rfft(error * fade)) / np.sqrt(np.mean(fade**2)))
+    return np.asarray(np.abs(fft.rfft(error * fade)) / np.sqrt(np.mean(fade**2)))
 
 
 def _whitener(error: FloatArray) -> FloatArray:
@@ -91,7 +92,7 @@ def _whitener(error: FloatArray) -> FloatArray:
 def _white(columns: FloatArray, factors: FloatArray) -> FloatArray:
     n = columns.shape[0]
     faded = columns * _taper(n)[:, None]
-    return np.asarray(np.fft.irfft(np.fft.rfft(faded, axis=0) * factors[:, None], n, axis=0))
+    return np.asarray(fft.irfft(fft.rfft(faded, axis=0) * factors[:, None], n, axis=0))
 
 
 def _frame(columns: FloatArray) -> FloatArray:
@@ -126,7 +127,7 @@ def score_test(
     null = []
     for _ in range(RESAMPLES):
         turned = lines * np.exp(2j * np.pi * rng.uniform(size=lines.size))
-        null.append(share(seen * np.fft.irfft(turned, error.size)))
+        null.append(share(seen * fft.irfft(turned, error.size)))
     p = (1 + sum(value >= found for value in null)) / (RESAMPLES + 1)
     return Missing(statistic=found, null_95=float(np.quantile(null, 0.95)), p_value=float(p))
 

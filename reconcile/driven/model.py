@@ -13,6 +13,7 @@ from functools import cached_property
 
 import numpy as np
 import scipy
+from scipy import fft
 
 from reconcile.driven.channels import Driven, FloatArray
 from reconcile.force_law.kernels import free_run
@@ -169,7 +170,7 @@ def answer_to(model: Model, values: FloatArray, step_s: float, order: int) -> Fl
     padded = 2 * n
     omega = 2.0 * np.pi * np.fft.rfftfreq(padded, step_s)
     response = (1j * omega) ** order / (model.stiffness - omega**2 + 1j * omega * model.damping)
-    return np.asarray(np.fft.irfft(np.fft.rfft(values, padded) * response, padded)[:n])
+    return np.asarray(fft.irfft(fft.rfft(values, padded) * response, padded)[:n])
 
 
 def bounded(values: FloatArray, run: Run) -> FloatArray:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from scipy import fft
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.model import Model, Run, answer_to, simulated
@@ -31,6 +32,6 @@ def moved(model: Model, run: Run) -> tuple[FloatArray, FloatArray]:
     fade = np.clip(np.minimum(np.arange(n), np.arange(n)[::-1]) / max(EDGE * n, 1.0), 0.0, 1.0)
     omega = 2.0 * np.pi * np.fft.rfftfreq(n, data.step_s)
     high = omega > LOWEST * math.sqrt(max(linear.stiffness, 0.0))
-    off = np.fft.rfft(error * fade) / (1j * np.where(high, omega, 1.0)) ** data.order
-    x = x + np.fft.irfft(np.where(high, off, 0.0), n)
+    off = fft.rfft(error * fade) / (1j * np.where(high, omega, 1.0)) ** data.order
+    x = x + fft.irfft(np.where(high, off, 0.0), n)
     return np.asarray(x), np.gradient(x, data.step_s)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import fft
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.measured import Look
@@ -67,7 +68,7 @@ class Noise:
 def power_lines(values: FloatArray) -> FloatArray:
     """Mean square by line, (n // 2 + 1,), under a Hann window: its sum is that of the values."""
     window = np.hanning(values.size)
-    found = np.abs(np.fft.rfft((values - values.mean()) * window)) ** 2
+    found = np.abs(fft.rfft((values - values.mean()) * window)) ** 2
     return np.asarray(found * (2.0 / (values.size * float(np.sum(window**2)))))
 
 

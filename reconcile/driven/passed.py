@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import fft
 from scipy.optimize import least_squares
 
 from reconcile.driven.channels import Driven, FloatArray
@@ -67,7 +68,7 @@ def transfer(data: Driven) -> Transfer | None:
     if len(first) < LEAST_SEGMENTS:
         return None
     window = np.hanning(n)
-    x, y = (np.stack([np.fft.rfft((v[i : i + n] - v[i : i + n].mean()) * window) for i in first]) for v in (one, other))
+    x, y = (np.stack([fft.rfft((v[i : i + n] - v[i : i + n].mean()) * window) for i in first]) for v in (one, other))
     cross = np.mean(np.conj(x) * y, axis=0)
     pushed, moved = (np.mean(np.abs(v) ** 2, axis=0) for v in (x, y))
     coherence = np.abs(cross) ** 2 / np.maximum(pushed * moved, 1e-300)

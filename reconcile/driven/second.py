@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 from numpy.typing import NDArray
+from scipy import fft
 from scipy.optimize import least_squares
 
 from reconcile.driven.channels import FloatArray
@@ -161,6 +162,6 @@ def _left(x: FloatArray, held: Run) -> FloatArray:
     n = held.data.answer.size
     omega = np.asarray(2.0 * np.pi * np.fft.rfftfreq(2 * n, held.data.step_s), dtype=np.float64)
     drive = held.data.drive - held.data.drive.mean()
-    found = np.fft.irfft(np.fft.rfft(drive, 2 * n) * _both(x, omega, held.data.order), 2 * n)[:n]
+    found = fft.irfft(fft.rfft(drive, 2 * n) * _both(x, omega, held.data.order), 2 * n)[:n]
     left = (held.data.answer - found)[held.skip :]
     return counted(np.asarray(left - left.mean()), held)

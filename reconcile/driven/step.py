@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
+from scipy import fft
 
 from reconcile.driven.channels import MOTIONS, BoolArray, Driven, FloatArray
 from reconcile.driven.measured import Look, look
@@ -108,7 +109,7 @@ def in_step(data: Driven, delay_s: float) -> Driven:
     answer = data.answer[moved : moved + count]
     turned = np.exp(2j * np.pi * np.fft.rfftfreq(count) * (samples - whole))
     line = np.linspace(answer[0], answer[-1], count)
-    shifted = np.fft.irfft(np.fft.rfft(answer - line) * turned, count) + line
+    shifted = fft.irfft(fft.rfft(answer - line) * turned, count) + line
 
     def cut(bad: BoolArray | None, start: int) -> BoolArray | None:
         return None if bad is None else bad[start : start + count][EDGE:-EDGE]

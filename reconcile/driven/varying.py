@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
+from scipy import fft
 
 from reconcile.driven.channels import FloatArray
 from reconcile.driven.missing import displaced, sensitivities
@@ -94,8 +95,8 @@ class _Scan:
     def shares(self, error: FloatArray) -> FloatArray:
         """(frequencies,)."""
         padded = np.concatenate([np.zeros(self.skip), error])
-        back = np.fft.irfft(np.fft.rfft(padded, self.size) * self.back, self.size)[: self.cause.size]
-        met = np.abs(np.fft.rfft(back * self.cause, self.size)[self.tried]) ** 2
+        back = fft.irfft(fft.rfft(padded, self.size) * self.back, self.size)[: self.cause.size]
+        met = np.abs(fft.rfft(back * self.cause, self.size)[self.tried]) ** 2
         return np.asarray(2.0 * met / np.maximum(self.norm * float(error @ error), 1e-300))
 
 
@@ -159,10 +160,10 @@ def varying(model: Model, run: Run, error: FloatArray, rng: np.random.Generator)
         drifts = [b for b in best if b[1] == 0.0 and b[0] > ALIKE * share]
         share, hz, sizes, kind = max(drifts, key=lambda b: b[0], default=(share, hz, sizes, kind))
     null = []
-    lines = np.abs(np.fft.rfft(error))
+    lines = np.abs(fft.rfft(error))
     slow_spans = [_span(found, cause, slow) for cause in found.causes]
     for _ in range(RESAMPLES):
-        drawn = np.fft.irfft(lines * np.exp(2j * np.pi * rng.uniform(size=lines.size)), error.size)
+        drawn = fft.irfft(lines * np.exp(2j * np.pi * rng.uniform(size=lines.size)), error.size)
         null.append(_by_chance(found, scans, slow_spans, found.free(drawn)))
     size = abs(float(sizes[0])) if hz == 0.0 else math.hypot(*(float(s) for s in sizes))
     p = (1 + sum(value >= share / REFINED for value in null)) / (RESAMPLES + 1)

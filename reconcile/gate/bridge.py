@@ -8,6 +8,7 @@ error is broad: it lies above bands that are 60 dB quieter. Filled by the linear
 from __future__ import annotations
 
 import numpy as np
+from scipy import fft
 from scipy.linalg import LinAlgError, solve_toeplitz, toeplitz
 
 from signals.series import BoolArray, FloatArray
@@ -47,8 +48,8 @@ def _foretold(around: FloatArray, first: int, stop: int) -> FloatArray:
     mean = float(np.mean(around))
     x, size = around - mean, stop - first
     for _ in range(PASSES):
-        spectrum = np.abs(np.fft.rfft(x, 2 * x.size)) ** 2
-        correlation = np.fft.irfft(spectrum)[: ORDER + 1]
+        spectrum = np.abs(fft.rfft(x, 2 * x.size)) ** 2
+        correlation = fft.irfft(spectrum)[: ORDER + 1]
         if not correlation[0] > 0.0:
             return around[first:stop]
         correlation[0] *= 1.0 + 1e-9

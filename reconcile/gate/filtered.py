@@ -13,6 +13,7 @@ from functools import reduce
 
 import numpy as np
 import scipy
+from scipy import fft
 
 from reconcile.gate.findings import Finding
 from reconcile.gate.levels import Pair
@@ -88,7 +89,7 @@ def below_the_corner(recordings: Sequence[Recording], finding: Finding, *, undon
 def _below(recording: Recording, hz: FloatArray, change_db: FloatArray) -> Recording:
     samples, rate = recording.samples, recording.sampling_rate_hz
     gain = 10 ** (-np.interp(np.fft.rfftfreq(samples.shape[1], 1 / rate), hz, change_db) / 20)
-    samples = np.fft.irfft(np.fft.rfft(samples, axis=1) * gain, samples.shape[1], axis=1)
+    samples = fft.irfft(fft.rfft(samples, axis=1) * gain, samples.shape[1], axis=1)
     ratio = Fraction(float(hz[-1]) / HEARD / rate).limit_denominator(FINEST)
     if 0 < ratio < 1:
         samples = scipy.signal.resample_poly(samples, ratio.numerator, ratio.denominator, axis=1)

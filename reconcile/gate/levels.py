@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import fft
 
 from reconcile.gate.lines import StrongLines, strong_lines
 from reconcile.gate.steps import step_of
@@ -56,7 +57,7 @@ def channel_levels(recording: Recording, name: str) -> Levels:
     tiny = max(float(np.max(spectrum.values)) * 1e-15, np.finfo(np.float64).tiny)
     kept = np.flatnonzero(np.diff(place) >= 3)
     bands = [(int(place[k]), int(place[k + 1])) for k in kept]
-    transform = np.fft.rfft(series.samples - np.mean(series.samples))
+    transform = fft.rfft(series.samples - np.mean(series.samples))
     quiet, crest = _quiet(transform, series)
     spread = [_kurtosis(transform, spectrum.frequency_hz[a], spectrum.frequency_hz[b - 1], series) for a, b in bands]
     return Levels(
@@ -76,7 +77,7 @@ def _quiet(transform: np.ndarray[tuple[int], np.dtype[np.complex128]], series: S
     found = []
     for band in range(1, QUIET_BANDS + 1) if width >= QUIET_LEAST else ():
         start = int(band * QUIET_WIDTH * series.samples.size)
-        square = np.abs(np.fft.ifft(transform[start : start + width], 2 * width)) ** 2
+        square = np.abs(fft.ifft(transform[start : start + width], 2 * width)) ** 2
         tenth, mean = float(np.quantile(square, QUIET_SHARE)), float(np.mean(square))
         tiny = max(mean * 1e-9, np.finfo(np.float64).tiny)
         level = 10 * np.log10(tenth + tiny)
@@ -91,7 +92,7 @@ def _kurtosis(
     """Excess kurtosis of the complex envelope of a band."""
     per_hz = series.samples.size / series.sampling_rate_hz
     part = transform[int(low_hz * per_hz) : int(high_hz * per_hz) + 2]
-    square = np.abs(np.fft.ifft(part, 2 * part.size)) ** 2
+    square = np.abs(fft.ifft(part, 2 * part.size)) ** 2
     return float(np.mean(square**2) / max(float(np.mean(square)) ** 2, 1e-300) - 2)
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import reduce
 
 import numpy as np
+from scipy import fft
 
 from reconcile.gate.findings import Finding
 from reconcile.gate.levels import Pair
@@ -147,5 +148,5 @@ def transferred(one: Recording, findings: Sequence[Finding], sign: int) -> Recor
             hz, change_db = np.asarray(f.transfer_db).T
             axis = np.fft.rfftfreq(samples.shape[1], 1 / one.sampling_rate_hz)
             factor = 10 ** (sign * np.interp(axis, hz, change_db) / 20)
-            samples[row] = np.fft.irfft(np.fft.rfft(samples[row]) * factor, samples.shape[1])
+            samples[row] = fft.irfft(fft.rfft(samples[row]) * factor, samples.shape[1])
     return replace(one, samples=samples)

@@ -13,6 +13,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from scipy import fft
 
 from reconcile.gate.findings import Finding
 from reconcile.gate.levels import SAME_SPEED
@@ -100,7 +101,7 @@ def with_floor(
 
 def floor_db(samples: FloatArray) -> float:
     """Level of the floor between lines over that of the signal, dB; 0 for records too short to have one."""
-    power = np.abs(np.fft.rfft((samples - np.mean(samples)) * np.hanning(samples.size))) ** 2
+    power = np.abs(fft.rfft((samples - np.mean(samples)) * np.hanning(samples.size))) ** 2
     total = float(np.sum(power))
     if power.size < LEAST_BINS or not 0.0 < total < np.inf:
         return 0.0

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import fft
 
 from reconcile.kinematics.candidate import Candidate
 from reconcile.kinematics.contrast import band_turns, contrast
@@ -154,13 +155,13 @@ def keeps_step(test: Observation, channel: str, band_hz: tuple[float, float], or
     hz = order * test.speed.speed_hz
     width = _width(hz, seconds)
     count = 4 * width
-    line = _about(np.fft.rfft(square), round(hz * seconds), width, count)
+    line = _about(fft.rfft(square), round(hz * seconds), width, count)
     turned = _turning(test, seconds, order, count)
     if turned is None:
         return False
     time = np.arange(count) / count
     still = line * np.exp(2j * np.pi * round(hz * seconds) * time - 1j * order * turned)
-    power = np.abs(np.fft.fft(still * np.hanning(count))) ** 2
+    power = np.abs(fft.fft(still * np.hanning(count))) ** 2
     near = np.concatenate((power[-width:], power[: width + 1]))
     peak = abs(int(np.argmax(near)) - width)
     share = float(np.sum(near[width - MAIN_LOBE : width + MAIN_LOBE + 1]) / max(float(np.sum(near)), 1e-300))
@@ -177,7 +178,7 @@ def _about(transform: ComplexArray, middle: int, width: int, count: int) -> Comp
     inside = (middle + bins > 0) & (middle + bins < transform.size)
     moved = np.zeros(count, dtype=np.complex128)
     moved[bins[inside] % count] = transform[middle + bins[inside]]
-    return np.asarray(np.fft.ifft(moved), dtype=np.complex128)
+    return np.asarray(fft.ifft(moved), dtype=np.complex128)
 
 
 def _turning(test: Observation, seconds: float, order: float, count: int) -> FloatArray | None:
@@ -193,7 +194,7 @@ def _turning(test: Observation, seconds: float, order: float, count: int) -> Flo
     best: tuple[float, FloatArray] | None = None
     time = np.arange(count) / count
     for samples in test.recording.samples:
-        transform = np.fft.rfft(samples - np.mean(samples))
+        transform = fft.rfft(samples - np.mean(samples))
         for k in SHAFT_LINES:
             middle = round(k * test.speed.speed_hz * seconds)
             width = min(_width(k * test.speed.speed_hz, seconds), count // 4)

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy import fft
 
 from reconcile.kinematics.candidate import DEFECTS, LEAST_Z, Candidate
 from reconcile.kinematics.contrast import band_turns
@@ -177,7 +178,7 @@ def _multiple(e: Evidence, test: Observation) -> float | None:
     """The multiple of a supply's frequency at which all lines that are there stand, sharp; Hz."""
     series_rate = test.recording.sampling_rate_hz
     square, rate, _ = squared_envelope(test.white(e.channel), *e.band_hz, series_rate)
-    power = np.abs(np.fft.rfft((square - np.mean(square)) * np.hanning(square.size))) ** 2
+    power = np.abs(fft.rfft((square - np.mean(square)) * np.hanning(square.size))) ** 2
     excess, step = power_over_floor(power), rate / square.size
     rates = []
     for k in range(1, HARMONICS + 1):

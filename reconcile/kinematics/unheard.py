@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 import scipy
+from scipy import fft
 
 from reconcile.gate.findings import Finding, Gate, worst
 from reconcile.gate.loose import transferred
@@ -54,7 +55,7 @@ def line_strength(values: FloatArray, rate_hz: float) -> float:
     excess, step_hz = line_excess(series)
     square, rate, _ = squared_envelope(whitened(values), BAND[0] * rate_hz, BAND[1] * rate_hz, rate_hz)
     centred = (square - np.mean(square)) * np.hanning(square.size)
-    power = np.abs(np.fft.rfft(centred)) ** 2
+    power = np.abs(fft.rfft(centred)) ** 2
     own_hz = rate / square.size
     envelope = power_over_floor(power)[: int(ENVELOPE_SHARE * rate_hz / own_hz)]
     return max(_highest(excess, step_hz), _highest(envelope, own_hz))

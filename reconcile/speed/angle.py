@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from scipy import fft
 from scipy.interpolate import UnivariateSpline
 
 from reconcile.speed.estimate import HARMONICS, SpeedEstimate
@@ -77,7 +78,7 @@ def order_levels(series: Series, angle_rad: FloatArray, orders: Sequence[float])
     per_turn = int(2.5 * max(orders)) + 8
     count = int(turns[-1]) * per_turn
     values = np.interp(np.arange(count) / per_turn, turns, series.samples[known])
-    power = np.abs(np.fft.rfft((values - np.mean(values)) * np.hanning(count))) ** 2
+    power = np.abs(fft.rfft((values - np.mean(values)) * np.hanning(count))) ** 2
     ratio = power_over_floor(power)
     place = np.rint(np.asarray(orders) * int(turns[-1])).astype(np.int64)
     near = np.stack([ratio[np.clip(place + k, 0, ratio.size - 1)] for k in (-1, 0, 1)])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy import fft
 
 from reconcile.driven.channels import Driven, FloatArray
 from reconcile.driven.prescribed.resistance import Motion
@@ -27,7 +28,7 @@ def _mirrored(values: FloatArray) -> FloatArray:
 def highest_hz(displacement: FloatArray, step_s: float) -> float:
     """Frequency up to which the motion stands out of its noise; infinite where it does all over."""
     n = displacement.size
-    power = np.abs(np.fft.rfft((displacement - displacement.mean()) * np.blackman(n))) ** 2
+    power = np.abs(fft.rfft((displacement - displacement.mean()) * np.blackman(n))) ** 2
     power = np.convolve(power, np.ones(SMOOTHING) / SMOOTHING, mode="same")
     floor = float(np.median(power[int(FLOOR_FROM * power.size) :]))
     above = np.nonzero(power > OVER_FLOOR * floor)[0]
@@ -45,7 +46,7 @@ def smooth(displacement: FloatArray, step_s: float) -> FloatArray:
     hz = np.fft.rfftfreq(longer.size, step_s)
     fade = 0.5 + 0.5 * np.cos(np.pi * np.clip((hz - last) / ((MARGIN - 1.0) * last), 0.0, 1.0))
     first = displacement.size - 1
-    kept = np.fft.irfft(np.fft.rfft(longer) * fade, longer.size)
+    kept = fft.irfft(fft.rfft(longer) * fade, longer.size)
     return np.asarray(kept[first : first + displacement.size])
 
 

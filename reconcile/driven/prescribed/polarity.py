@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import fft
 
 from reconcile.driven.channels import Driven, FloatArray
 from reconcile.driven.prescribed.fitting import Resisting, in_standard_errors
@@ -56,7 +57,7 @@ class Signs:
 
 def _band_hz(motion: Motion) -> tuple[float, ...]:
     x = motion.displacement - motion.displacement.mean()
-    power = np.cumsum(np.abs(np.fft.rfft(x * np.hanning(x.size))) ** 2)
+    power = np.cumsum(np.abs(fft.rfft(x * np.hanning(x.size))) ** 2)
     lines = np.searchsorted(power, np.array(SHARES) * power[-1])
     return tuple(max(int(k), 1) / (x.size * motion.step_s) for k in lines)
 
