@@ -121,7 +121,9 @@ def comb(family: Family, base: FloatArray) -> tuple[FloatArray, FloatArray]:
         multiples += [float(k)] * (1 + len(steps))
         beside += [0.0, *(step * family.spacing for step in steps)]
         weights += [float(1 / np.sqrt(k)), *[float(0.5 / np.sqrt(k))] * len(steps)]
-    return base[:, np.newaxis] * np.array(multiples) + np.array(beside), np.array(weights)
+    lines = base[:, np.newaxis] * np.array(multiples)
+    lines += np.array(beside)
+    return lines, np.array(weights)
 
 
 def trials(family: Family, order: float, reach: float, order_step: float) -> FloatArray:
@@ -139,15 +141,16 @@ def scores(values: FloatArray, envelopes: Envelopes, family: Family, base: Float
 
 
 def _placed(envelopes: Envelopes, family: Family, base: FloatArray) -> sparse.csr_array[np.float64]:
-    """Weights (trials, bins) of the bins in which the family's lines lie at base orders (trials,): times values by bin,
-    the sums over lines, for which no value is fetched into a table of its own."""
-    lines, weights = comb(family, base)
+    """Weights (trials, bins) of the bins of its lines at base orders (trials,): times values by bin, the scores."""
+    place, weights = comb(family, base)
     bins = envelopes.excess.shape[1]
-    place = lines / envelopes.order_step
-    inside = (place < bins - 1) & (lines > 0)
-    column = np.where(inside, np.rint(place), 0.0).astype(np.int32)  # at 0 is nothing, `logs` sees to that
-    row = np.arange(base.size + 1, dtype=np.int32) * weights.size
-    return sparse.csr_array((np.tile(weights, base.size), column.ravel(), row), shape=(base.size, bins))
+    place /= envelopes.order_step
+    outside = (place >= bins - 1) | (place <= 0)
+    np.rint(place, out=place)
+    place[outside] = 0.0  # there is nothing, `logs` sees to that
+    ends = np.arange(base.size + 1, dtype=np.int32) * weights.size
+    every = np.tile(weights, base.size), place.astype(np.int32).ravel(), ends
+    return sparse.csr_array(every, shape=(base.size, bins))
 
 
 def _by_bin(values: FloatArray) -> FloatArray:
