@@ -8,6 +8,7 @@ of the binary/ternary tree of `signals.spectra.band`.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -77,11 +78,19 @@ class Envelopes:
 
 
 def envelopes(
-    recording: Recording, channel: str, angle_rad: FloatArray, *, highest_base: float, highest_order: float
+    recording: Recording,
+    channel: str,
+    angle_rad: FloatArray,
+    *,
+    highest_base: float,
+    highest_order: float,
+    white: ComplexArray | None = None,
+    parts: Sequence[int] = PARTS,
 ) -> Envelopes:
-    """All bands of a channel. `angle_rad` (n,): the reference shaft's, NaN at the ends where unknown."""
+    """All bands of a channel. `angle_rad` (n,): the reference shaft's, NaN at the ends where unknown; `white`: as
+    `whitened`, where it is known; `parts` of the range that are bands."""
     series = recording.series(channel)
-    white = whitened(series.samples)
+    white = whitened(series.samples) if white is None else white
     known = np.flatnonzero(np.isfinite(angle_rad))
     turns = (angle_rad[known[-1]] - angle_rad[known[0]]) / (2 * np.pi)
     speed = turns * series.sampling_rate_hz / (known[-1] - known[0])
@@ -90,11 +99,11 @@ def envelopes(
     narrowest = MIN_WIDTHS * highest_base * speed
     times = equal_angles(angle_rad, series.sampling_rate_hz, per_turn)
     bands, rows, depths, kurtosis = [], [], [], []
-    for parts in PARTS:
-        width = nyquist / parts
-        if parts > 1 and width < narrowest:
+    for count in parts:
+        width = nyquist / count
+        if count > 1 and width < narrowest:
             break
-        for i in range(parts):
+        for i in range(count):
             low = max(i * width, LOWEST_SHARE * series.sampling_rate_hz)
             high = min((i + 1) * width, 0.98 * nyquist)
             if high - low < 0.5 * width:

@@ -19,7 +19,7 @@ import numpy as np
 import scipy
 from scipy import fft
 
-from reconcile.kinematics.envelopes import squared_envelope, whitened
+from reconcile.kinematics.envelopes import squared_envelope
 from reconcile.kinematics.evidence import Evidence
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.observe import Observation
@@ -150,7 +150,7 @@ def _autocorrelation(test: Observation, evidence: Evidence, longest_s: float) ->
     """(lags in s, mean over bands of the squared envelope's autocorrelation), both (lags,): wide ones and its own."""
     series = test.recording.series(evidence.channel)
     rate = series.sampling_rate_hz
-    white = whitened(series.samples)
+    white = test.white(evidence.channel)
     lags = np.arange(int(longest_s * rate / 2)) * 2 / rate
     total = np.zeros(lags.size)
     bands = [*((low * rate, high * rate) for low, high in BANDS), evidence.band_hz]

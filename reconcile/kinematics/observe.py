@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reconcile.kinematics.envelopes import ComplexArray, Envelopes, envelopes, whitened
+from reconcile.kinematics.envelopes import PARTS, ComplexArray, Envelopes, envelopes, whitened
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.slowest import MIN_TURNS, needed_for, shortest_s
 from reconcile.speed import SpeedEstimate, estimate_speed, followed_angle, shaft_angle
@@ -75,17 +75,29 @@ class Observation:
     def white(self, name: str) -> ComplexArray:
         """As `whitened`, of a channel's samples."""
         found = self.kept.white.get(name)
-        if found is None:
-            found = whitened(self.recording.series(name).samples)
-            found.flags.writeable = False
-            while len(self.kept.white) >= WHITE:
-                del self.kept.white[next(iter(self.kept.white))]
-            self.kept.white[name] = found
-        return found
+        return keep(self.kept.white, name, whitened(self.recording.series(name).samples)) if found is None else found
 
 
-def observe(recording: Recording, ties: Ties, label: str, *, stated_hz: float | None, seed: int) -> Observation:
-    """Speed, angle and envelopes of a recording that has passed the gate; SpecError names the field alone."""
+def keep(white: dict[str, ComplexArray], name: str, one: ComplexArray) -> ComplexArray:
+    """A channel's transform put among the latest `WHITE`."""
+    one.flags.writeable = False
+    while len(white) >= WHITE:
+        del white[next(iter(white))]
+    white[name] = one
+    return one
+
+
+def observe(
+    recording: Recording,
+    ties: Ties,
+    label: str,
+    *,
+    stated_hz: float | None,
+    seed: int,
+    parts: Sequence[int] = PARTS,
+) -> Observation:
+    """Speed, angle and envelopes (in bands that are `parts` of the range) of a recording that has passed the gate;
+    SpecError names the field alone."""
     teeth = tuple(z * k for z in ties.mesh_orders for k in SPEED_HARMONICS)
     nyquist = recording.sampling_rate_hz / 2
     stated = recording.operating.speed_hz if recording.operating is not None else stated_hz
@@ -102,10 +114,18 @@ def observe(recording: Recording, ties: Ties, label: str, *, stated_hz: float | 
         given = recording.sampling_rate_hz
         raise SpecError(Problem(field="sampling_rate_hz", message=message, given=given, allowed=allowed, unit="Hz"))
     doubt = min((speed.high_hz - speed.low_hz) / 2 / speed.speed_hz, MOST_DOUBT)
-    found = tuple(
-        envelopes(recording, name, np.asarray(angle), highest_base=base, highest_order=top) for name in recording.names
-    )
-    return Observation(label=label, recording=recording, speed=speed, doubt=float(doubt), channels=found)
+    white: dict[str, ComplexArray] = {}
+    found = []
+    for name in recording.names:
+        known = keep(white, name, whitened(recording.series(name).samples))
+        found.append(
+            envelopes(
+                recording, name, np.asarray(angle), highest_base=base, highest_order=top, white=known, parts=parts
+            )
+        )
+    seen = Observation(label=label, recording=recording, speed=speed, doubt=float(doubt), channels=tuple(found))
+    seen.kept.white.update(white)
+    return seen
 
 
 def _long_enough(recording: Recording, ties: Ties, speed_hz: float) -> None:

@@ -12,6 +12,8 @@ from sim.core.errors import SpecError
 
 LEAST_TURNS = 24.0
 """Of each part."""
+UNSEARCHED = (1,)
+"""Bands of a part in which nothing is looked for: what is foretold of it is asked of the bands that fit the other."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,7 +59,7 @@ def _halves(whole: Observation, ties: Ties, seed: int) -> Parted | None:
             known = _half(whole, speed.speed_hz, later=False)
             early = observe(known, ties, whole.label, stated_hz=None, seed=seed)
         later = _half(whole, early.speed.speed_hz, later=True)
-        late = observe(later, ties, whole.label, stated_hz=None, seed=seed)
+        late = observe(later, ties, whole.label, stated_hz=None, seed=seed, parts=UNSEARCHED)
     except SpecError:
         return None
     if min(turns_of(early), turns_of(late)) < LEAST_TURNS:
