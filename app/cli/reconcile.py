@@ -24,6 +24,7 @@ from app.cli.parameters import read_parameters
 from app.cli.processes import processes
 from jobs.reconciliations.machine import bare_kinematics, read_form
 from reconcile.entry import reconcile_recordings
+from reconcile.gate.bridge import FILLED
 from reconcile.kinematics import KinematicSpec
 from reconcile.machine.budget import BUDGETS
 from reconcile.machine.engine import ATLASES_DONE
@@ -41,8 +42,6 @@ from sim.core.spec import MachineSpec
 from sim.presets.reference import KEYS
 from store.atlas import AtlasFolder, default_atlas_folder
 
-FILLED = "filled from the samples around"
-"""How a limit ends that tells of samples which were no finite numbers, or no machine's."""
 MOST_FOREIGN = 5
 """A flat document with more reference names than this is a parameter file."""
 

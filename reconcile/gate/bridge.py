@@ -14,6 +14,8 @@ from scipy.linalg import LinAlgError, solve_toeplitz, toeplitz
 from signals.series import BoolArray, FloatArray
 
 ORDER, AROUND, PASSES = 64, 2048, 2
+FILLED = "filled from the samples around"
+"""How it is told that samples were bridged."""
 MOST_SAMPLES, MOST_HOLES = 16, 200
 """Of longer holes nothing is foretold, and of more than so many none is, for time: straight lines."""
 FARTHEST = 1.5

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from reconcile.gate.bridge import MOST_SAMPLES, bridged, holes
+from reconcile.gate.bridge import FILLED, MOST_SAMPLES, bridged, holes
 from reconcile.gate.findings import Finding, Kind
 from reconcile.shares import percent
 from signals.checks import Finding as Defect
@@ -96,7 +96,7 @@ def _of_defect(defect: Defect, label: str, n: int, samples: FloatArray) -> Findi
     mended = defect.kind == "not_finite" and _short(~finite)
     if mended:
         number = "1 sample is" if defect.samples == 1 else f"{defect.samples} samples are"
-        detail = f"{number} not finite, the first at {first.start_s:.6g} s; filled from the samples around"
+        detail = f"{number} not finite, the first at {first.start_s:.6g} s; {FILLED}"
     return Finding(
         kind=kind,
         channel=defect.channel,

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from reconcile.gate.bridge import bridged
+from reconcile.gate.bridge import FILLED, bridged
 from reconcile.gate.findings import Finding
 from signals.recording import Recording
 from signals.series import FloatArray, IntArray
@@ -37,7 +37,7 @@ def spike_findings(recording: Recording, label: str) -> tuple[Finding, ...]:
         one = places.size == 1
         detail = (
             f"{places.size} single sample{'' if one else 's'} stand{'s' if one else ''} far out of the signal, "
-            f"at {times} s{more}; no machine's, which rings on: filled from the samples around"
+            f"at {times} s{more}; no machine's, which rings on: {FILLED}"
         )
         share = float(places.size / samples.size)
         found.append(Finding(kind="spikes", channel=name, recording=label, detail=detail, severity=share))

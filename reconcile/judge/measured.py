@@ -14,17 +14,18 @@ from reconcile.observe.watch import MESH_ORDERS, WatchList
 from signals.series import FloatArray
 
 UNSTEADY_DB = {"line": 1.0, "floor": 0.7, "total": 0.7, "depth": 1.0, "turn": 2.0, "kurtosis": 3.0, "skewness": 3.0}
-UNSTEADY_PHASE_DB = 0.5
-"""Of a phase between sensors: sound machines of the development split differ by a median of 0.2 to 0.4."""
 """What repeated recordings of a sound machine differ by beside noise and drift: speed wander left after tracking,
 phases of balls, which moments of few impacts feel most. Set on the development nulls."""
+UNSTEADY_PHASE_DB = 0.5
+"""Of a phase between sensors: sound machines of the development split differ by a median of 0.2 to 0.4."""
 LOW_SHAPE_DB = {"kurtosis": 12.0, "skewness": 18.0}
 """The same in the lowest band, where the moments are those of few lines and follow their phases."""
-WANDER_DB, WANDER_FALL_HZ = 19.0, 6.4
+WANDER_DB, WANDER_FALL_HZ, NEAREST_HZ = 19.0, 6.4, 6.4
 """Sidebands of the mesh at a shaft's multiples rise and fall together with slow wander of the speed, the less the
-farther they stand from it: deviation beside the line, and within how many Hz it falls to 1/e. Between recordings of 48
-sound machines of the proof their common level differs by 7.3 dB 6.4 Hz from the line, 4.6 at 8.5, 3.3 at 11 to 13, 1.2
-at 17 to 19 and 0.8 from 22 on, where single lines' noise is all."""
+farther they stand from it: by so much, falling to 1/e within so many Hz, and no more nearer than was measured. Between
+recordings of 48 sound machines of the proof (one gearbox, its numbers drawn anew each time) their common level differs
+by 7.3 dB 6.4 Hz from the line, 4.6 at 8.5, 3.3 at 11 to 13, 1.2 at 17 to 19 and 0.8 from 22 on, where single lines'
+noise is all."""
 OWN_WANDER_DB = 4.0
 """What one sideband differs from the others by so, at most."""
 SMEAR_DB = 3.0
@@ -96,7 +97,7 @@ def wander_db(watched: WatchList, lines_hz: FloatArray) -> FloatArray:
         if line.family == "sideband":
             base, order = next((b, n) for b, n in line.orders.items() if not b.startswith("f_r"))
             away = abs(lines_hz[i] - mesh.get(f"{order:g}*{base}", np.inf))
-            found[i] = WANDER_DB * np.exp(-away / WANDER_FALL_HZ)
+            found[i] = WANDER_DB * np.exp(-max(away, NEAREST_HZ) / WANDER_FALL_HZ)
     return np.where(found < LEAST_WANDER_DB, 0.0, found)
 
 

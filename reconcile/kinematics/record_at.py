@@ -19,10 +19,10 @@ def record_at(weights: Sequence[Sequence[PlaceWeight]], tests: Sequence[Observat
     if len(bare) == len(sites):
         told = f"Record with {EACH}, and say with each channel at which it stands (location)."
     elif bare:
-        told = f"Record with {EACH}: none stands at {', '.join(bare)}."
+        told = f"Record with {EACH}: none is said to stand at {', '.join(bare)}."
     else:
         told = (
-            f"There is {EACH}, and they hear it alike: inspect all of these, or record again while one of them is "
-            "loaded otherwise."
+            f"There is {EACH}, and these do not decide: inspect all of them, or record again while one is loaded "
+            "otherwise."
         )
     return NextExperiment(sentence=told)

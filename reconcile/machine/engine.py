@@ -44,7 +44,7 @@ from reconcile.machine.leftover import likelihoods
 from reconcile.machine.library import Catalogued
 from reconcile.machine.likelier import yielding
 from reconcile.machine.local import around_baseline, told
-from reconcile.machine.lone import without_lone
+from reconcile.machine.lone import with_lone, without_lone
 from reconcile.machine.meter import Meter, Telling
 from reconcile.machine.misfit import with_misfit
 from reconcile.machine.mistaken import with_mistaken
@@ -174,7 +174,7 @@ def _reconciled(asked: _Asked, gate: Gate, progress: Progress) -> Report:
     report = with_many_turns(report, looks.setting, [c.name for c in channels])
     supports = likely_supports(looks.setting, looks.found) if machine.bearings else ()
     report = with_force(report, looks.setting, supports, channels)
-    apart = (*apart, *setting.lone)
+    report = with_lone(report, setting.lone)
     report = with_short(with_limits(with_unconfirmed(report, machine, alike), apart), alike, gate.findings)
     return as_named(with_wide(report))
 

@@ -41,18 +41,21 @@ def drawn(
     baselines: Sequence[Observation],
     tie: Ties,
 ) -> tuple[Drawn, ...]:
-    """Of the firmest parts of bearings that strike (`firm`), beside the lines of all others."""
+    """Of the firmest parts of bearings that strike (`firm`), beside the lines of all others; `baselines`: of each test,
+    or fewer."""
     found = []
     for one in [c for c in firm if c.family.kind in DEFECTS][:MOST_DRAWN]:
         rest = [c for c in every if c is not one]
-        picture = envelope_picture([one, *rest], (), tests, baselines)["envelope"]
+        k = one.strongest
+        own = baselines[k : k + 1] if len(baselines) == len(tests) else baselines
+        picture = envelope_picture([one, *rest], (), tests, own)["envelope"]
         sites = tuple(f.site for f in tie.families if f.kind == one.family.kind and same(f, one.family))
         found.append(Drawn(kind=one.family.kind, sites=sites, picture=dict(picture)))  # type: ignore[call-overload]
     return tuple(found)
 
 
 def envelopes_of(heard: Sequence[Drawn], causes: Sequence[Cause]) -> list[dict[str, object]]:
-    """Those of parts that one of the causes strikes at, named ones first."""
+    """Those of parts that one of the causes strikes at, the firmest part first, by the bearing of a named cause."""
     ordered = sorted(causes, key=lambda cause: not cause.named)
     shown = [one.of(ordered) for one in heard]
     return [picture for picture in shown if picture is not None]

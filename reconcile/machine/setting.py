@@ -18,6 +18,15 @@ from sim.core.spec import MachineSpec
 
 
 @dataclass(frozen=True, kw_only=True)
+class Lone:
+    """The channel that changed at one operating point alone, and the chance of its change in a sound machine."""
+
+    channel: str
+    point: str
+    p: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class Setting:
     """What one reconciliation stands on."""
 
@@ -35,8 +44,8 @@ class Setting:
     """At least that of the atlas, whose many effects on many machines know it best."""
     fitted_machine: MachineSpec | None = None
     """The mean of the machines that agree with the baseline."""
-    lone: tuple[str, ...] = ()
-    """What is told of a sensor that changed at one operating point alone, whose features are not compared."""
+    lone: Lone | None = None
+    """A sensor that changed at one operating point alone, whose features are not compared."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -27,8 +27,8 @@ def sound() -> FloatArray:
 
 def space(groups: np.ndarray = GROUPS) -> Fitted:
     """What is asked of a space: how its nulls lie, group by group."""
-    whiten = Whitening(sigma=np.ones(GROUPS.size))
-    resting = group_lengths(sound(), groups)
+    whiten = Whitening(sigma=np.where(groups >= 0, 1.0, np.inf))
+    resting = group_lengths(whiten(sound()[:, : groups.size]), groups)
     return SimpleNamespace(whiten=whiten, groups=groups, resting=resting)  # type: ignore[return-value]
 
 

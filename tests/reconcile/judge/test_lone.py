@@ -38,7 +38,7 @@ def test_a_sensor_that_changed_at_one_operating_point_alone_is_found(point: int,
     levels = noise(point)
     levels[point, channel, : LINES + FLOOR] += FAR
     assert found(levels) == Cell(point=point, channel=channel)
-    assert found(turned(noise(3 + channel), point, channel, FAR)) == Cell(point=point, channel=channel), "phases"
+    assert found(turned(noise(7 + channel), point, channel, FAR)) == Cell(point=point, channel=channel), "phases"
 
 
 @pytest.mark.parametrize(("point", "channel"), [(1, 0), (1, 2), (0, 1), (2, 1), (0, 0)])
@@ -74,7 +74,33 @@ def test_features_that_are_not_compared_tell_nothing() -> None:
     unused[features_of(changed(noise(0)), Cell(point=2, channel=2), POINTS, CHANNELS)] = -1
     cube = noise(9)
     cube[1, 1, :LINES] += FAR
+    cube[2, 2] += FAR
     assert lone_cell(space(unused), changed(cube), POINTS, CHANNELS) == Cell(point=1, channel=1)
+    assert found(cube) is None, "compared, it is a second one"
+
+
+def test_what_has_risen_a_little_everywhere_else_is_not_silence() -> None:
+    """By one deviation: no single group stands out by it, their mean does."""
+    told = 0
+    for seed in range(40):
+        cube = noise(100 + seed)
+        cube[..., :LINES] += 1.0
+        cube[1, 1, :LINES] += FAR
+        told += found(cube) is not None
+    assert told <= 4
+
+
+def test_of_two_sensors_the_phase_between_them_is_neither_s() -> None:
+    groups = GROUPS.reshape(POINTS * CHANNELS, -1)[: 2 * POINTS].ravel()
+    cube = noise(12)[:, :2]
+    levels = cube.copy()
+    levels[1, 0, :LINES] += FAR
+    both = cube.copy()
+    both[1, 0, -PHASES:] += FAR
+    both[1, 1, -PHASES:] -= FAR
+    pair = space(groups)
+    assert lone_cell(pair, changed(levels), POINTS, 2) == Cell(point=1, channel=0)
+    assert lone_cell(pair, changed(both), POINTS, 2) is None
 
 
 @pytest.mark.parametrize("channel", range(CHANNELS))

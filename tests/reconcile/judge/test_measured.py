@@ -19,7 +19,7 @@ WATCH = WatchList(
 """With the labels that the teeth's lines have."""
 
 MESH_HZ = 500.0
-MEASURED = ((6.4, 7.3), (8.5, 4.6), (12.0, 3.3), (18.0, 1.2), (25.0, 0.8))
+MEASURED = ((6.4, 7.3), (8.5, 4.6), (12.0, 3.3), (18.0, 1.2))
 """Hz beside the line, and dB by which the common level of sidebands differs between recordings of sound machines."""
 
 
@@ -39,8 +39,14 @@ def test_it_falls_with_the_distance_and_lifts_no_other_line() -> None:
     found = wander_db(WATCH, lines_hz(7.0))
     first, second, third = (found[own("f_r2", n)] for n in (1, 2, 3))
     assert (first > second).all() and (second > third).all() and (third > 0.0).all()
+    assert not wander_db(WATCH, lines_hz(25.0))[own("f_r2", 1)].any()
     assert not found[own("f_r1", 1)].any(), "40 Hz from the line"
     assert not found[[k for k, w in enumerate(WATCH.lines) if w.family != "sideband"]].any()
+
+
+def test_nearer_than_was_measured_it_grows_no_further() -> None:
+    first = wander_db(WATCH, lines_hz(1.0))[own("f_r2", 1)]
+    assert np.allclose(first, wander_db(WATCH, lines_hz(6.4))[own("f_r2", 1)]) and first[0] < 7.5
 
 
 def test_each_shafts_sidebands_move_together_by_their_own_distance() -> None:

@@ -25,12 +25,12 @@ def test_where_no_channel_stands_at_one_of_them_the_description_must_say_where(l
 
 
 def test_a_bearing_without_a_sensor_is_named() -> None:
-    assert told("drive_end", None).endswith("none stands at fan_end.")
-    assert told("fan_end", "gearbox").endswith("none stands at drive_end.")
+    assert told("drive_end", None).endswith("none is said to stand at fan_end.")
+    assert told("fan_end", "gearbox").endswith("none is said to stand at drive_end.")
 
 
 def test_no_sensor_is_asked_for_that_is_there() -> None:
-    assert "hear it alike" in told("drive_end", "fan_end")
+    assert "these do not decide" in told("drive_end", "fan_end")
 
 
 def test_only_bearings_that_are_open_count() -> None:

@@ -48,16 +48,21 @@ def family(site: str, kind: str, order: float) -> SimpleNamespace:
 
 def test_the_firmest_parts_are_drawn_with_all_bearings_that_have_their_lines(monkeypatch: pytest.MonkeyPatch) -> None:
     families = [family(f"bearing{k}", "outer", 3.0 if k < 3 else 2.0 + 0.1 * k) for k in range(1, 7)]
-    firm = [SimpleNamespace(family=family("shaft", "turn", 1.0)), *(SimpleNamespace(family=f) for f in families[1:])]
-    asked: list[object] = []
+    firm = [SimpleNamespace(family=family("shaft", "turn", 1.0), strongest=0)]
+    firm += [SimpleNamespace(family=f, strongest=k) for k, f in enumerate(families[1:])]
+    asked: list[list[SimpleNamespace]] = []
+    rested: list[list[str]] = []
 
-    def picture(every: list[SimpleNamespace], *_: object) -> dict[str, object]:
+    def picture(every: list[SimpleNamespace], causes: object, tests: object, before: list[str]) -> dict[str, object]:
         asked.append(every)
+        rested.append(before)
         return {"envelope": {"family": every[0].family.key}}
 
     monkeypatch.setattr(envelope, "envelope_picture", picture)
     monkeypatch.setattr(envelope, "same", lambda a, b: a.order == b.order)
-    found = drawn(firm, firm, [], [], SimpleNamespace(families=families))  # type: ignore[arg-type]
+    several = ["20 Hz", "20 Hz, half the load", "30 Hz"]
+    found = drawn(firm, firm, several, several, SimpleNamespace(families=families))  # type: ignore[arg-type]
+    assert rested == [["20 Hz"], ["20 Hz, half the load"], ["30 Hz"]], "of the operating point where it is heard best"
     assert len(found) == MOST_DRAWN == len(asked) and all(len(every) == len(firm) for every in asked)  # type: ignore[arg-type]
     assert [one.picture["family"] for one in found] == ["bearing2.outer", "bearing3.outer", "bearing4.outer"]
     assert [one.sites for one in found] == [("bearing1", "bearing2"), ("bearing3",), ("bearing4",)]
