@@ -18,6 +18,7 @@ from reconcile.report.figures.path import path
 from reconcile.report.figures.sketch import sketch
 from reconcile.report.figures.spectrum import in_third_octaves
 from reconcile.report.figures.traces import trace
+from reconcile.report.heard import against_places
 from reconcile.report.held import held_out_table, held_out_words
 from reconcile.report.markup import Markup, figure_text, tag
 from reconcile.report.named import cause, changed_or_added
@@ -104,9 +105,8 @@ def _maps(report: Report) -> Markup:
 
 def _ranking(report: Report) -> Markup:
     drawn = several(report.pictures, "ranking")
-    return section(
-        "What explains it", ranking(drawn) if drawn else Markup(""), told(causes_table(report.causes, report.level))
-    )
+    table = told(causes_table(report.causes, report.level))
+    return section("What explains it", ranking(drawn) if drawn else Markup(""), table, against_places(report))
 
 
 def _changes(report: Report) -> Markup:
