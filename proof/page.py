@@ -43,7 +43,7 @@ TITLES = {
 
 
 PARTS: tuple[tuple[Split, str], ...] = (
-    ("clear", "clear"), ("vast", "vast"), ("young", "young"), ("mixed", "mixed"), ("mixed", "resumed"),
+    ("jury", "jury"), ("clear", "clear"), ("vast", "vast"), ("young", "young"), ("mixed", "mixed"), ("mixed", "resumed"),
     ("mixed", "last"), ("mixed", "closing"), ("wide", "wide"), ("held", "held"), ("held", "begun"),
 )  # fmt: skip
 """Splits, and the sections of the page they are in, of which is asked what could be told at all."""
