@@ -11,7 +11,7 @@ from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import doubts, fault_sentence
 from reconcile.machine.burst_size import burst_sizes
 from reconcile.machine.causes import ranked_causes
-from reconcile.machine.decide import UNMEASURED, Decision
+from reconcile.machine.decide import AT_ONE, UNMEASURED, Decision
 from reconcile.machine.decided import decided
 from reconcile.machine.elsewhere import by_forecast
 from reconcile.machine.envelope import envelopes_of
@@ -298,6 +298,10 @@ def _held(
 def _next(setting: Setting, found: Found, decision: Decision) -> NextExperiment | None:
     if decision.reasons == (UNMEASURED,):
         return NextExperiment(sentence="Record the machine in a sound state as a baseline.")
+    if decision.reasons and decision.reasons[0].startswith(AT_ONE):
+        return NextExperiment(
+            sentence="Record baseline and test there once more: it tells whether this comes and goes."
+        )
     heard = sensor_sites(setting.machine, setting.simulated)
     apart = apart_of(setting, found, decision.chosen)
     return next_experiment(decision.chosen, _lead(found, decision), len(setting.data), heard, apart)

@@ -68,6 +68,7 @@ NO_PATTERN = "the change is none that a known effect brings"
 FEW_UNDECIDED = "so few sensors and operating points do not tell whether a known effect changed that, or none"
 LINES_QUIET = "no known effect has its pattern, and single lines do not show clearly that anything changed"
 LITTLE_LEFT = "the best known effect leaves more of the change than it should, and too little to exclude all known ones"
+AT_ONE = "it shows at one operating point alone"
 BY_TURNS = "only sidebands that rose together tell, which names nothing"
 FAINT = 14.0
 """Deviations of the most changed group below which a change that no effect explains may be too faint to tell."""

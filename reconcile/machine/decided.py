@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from reconcile.machine.confined import unless_confined
 from reconcile.machine.decide import Decision, decide
 from reconcile.machine.of_teeth import of_teeth
 from reconcile.machine.setting import Found, Setting
@@ -13,4 +14,4 @@ def decided(setting: Setting, found: Found) -> Decision:
     views = len(setting.channels) * len(setting.data)
     decision = decide(found.screen, views=views, measured=setting.changes.with_baseline)
     decision = unless_silent(decision, setting.direct, points=len(setting.data), views=views)
-    return of_teeth(decision, found.screen)
+    return unless_confined(of_teeth(decision, found.screen), setting, found)

@@ -7,7 +7,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from reconcile.judge.lone import Cell, features_of, lone_cell
+from reconcile.judge.lone import HEARD_BESIDE, Cell, features_of, lone_cell, loudest_cell
 from tests.reconcile.judge.cells import (
     CHANNELS,
     FEATURES,
@@ -110,3 +110,39 @@ def test_its_features_are_the_channels_and_the_phases_against_it(channel: int) -
     assert here[1, channel].all() and here[1, before, -PHASES:].all() and here.sum() == FEATURES + PHASES
     without = features_of(changed(noise(0), phases=0), Cell(point=1, channel=channel), POINTS, CHANNELS)
     assert without.sum() == FEATURES
+
+
+def loudest(cube: np.ndarray, points: int = POINTS, channels: int = CHANNELS) -> Cell | None:
+    return loudest_cell(SPACE, changed(cube), points, channels)
+
+
+def heard_beside(point: int, channel: int, share: float) -> np.ndarray:
+    """One sensor far out at one operating point, and the next one there by so much of it."""
+    cube = noise(point)
+    cube[point, channel, :LINES] += 3.0 * FAR
+    cube[point, (channel + 1) % CHANNELS, :LINES] += share * 3.0 * FAR
+    return cube
+
+
+@pytest.mark.parametrize(("point", "channel"), EVERY)
+def test_what_another_sensor_hears_of_it_at_that_point_leaves_it_the_loudest(point: int, channel: int) -> None:
+    cube = heard_beside(point, channel, 0.6 * HEARD_BESIDE)
+    assert found(cube) is None, "it is not alone"
+    assert loudest(cube) == Cell(point=point, channel=channel)
+
+
+def test_where_another_sensor_or_operating_point_has_changed_as_well_there_is_none() -> None:
+    assert loudest(heard_beside(1, 1, 2.0 * HEARD_BESIDE)) is None
+    for share in (1.0, HEARD_BESIDE):
+        cube = heard_beside(1, 1, 0.0)
+        cube[2, 1, :LINES] += share * 3.0 * FAR
+        assert loudest(cube) is None
+
+
+def test_nothing_that_changed_is_the_loudest_and_two_operating_points_do_not_tell() -> None:
+    assert sum(loudest(noise(seed)) is not None for seed in range(200)) <= 2
+    assert loudest(heard_beside(1, 1, 0.0)) is not None
+    groups = GROUPS[: 2 * CHANNELS * FEATURES]
+    cube = heard_beside(1, 1, 0.0)[:2]
+    assert loudest_cell(space(groups), changed(cube), 2, CHANNELS) is None
+    assert loudest_cell(SPACE, changed(heard_beside(1, 1, 0.0)), POINTS * CHANNELS, 1) is None
