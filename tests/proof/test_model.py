@@ -104,7 +104,8 @@ def with_effect(name, site, value, variant=0, seed=1):
     return machine
 
 
-def run(machine, duration_s=0.5, settle_s=0.25):
+def run(machine, duration_s=0.3, settle_s=0.15):
+    """Lines are resolved to 4 / 0.3 Hz by the window: less than half a turn's, the nearest of any two."""
     fine = accelerations(
         machine, steady(30.0), duration_s=duration_s, settle_s=settle_s, oversampling=1, rate_hz=120_000, dofs=Y_DOFS
     )
@@ -150,7 +151,7 @@ def test_an_effect_shows_at_its_lines(name, site, value, variant, lines):
 @pytest.mark.parametrize("name", [*CLOSED, *OPEN])
 def test_every_law_runs_at_its_corners_and_changes_something(name):
     law = CLOSED[name] if name in CLOSED else OPEN[name]
-    short = {"duration_s": 0.1, "settle_s": 0.1}
+    short = {"duration_s": 0.1, "settle_s": 0.1 if name == "ball_pit" else 0.0}  # a ball turns its pit to a race late
     sound = healthy(law.torque_nm, **short)
     for site, variant in {*((law.sites[0], v) for v in range(law.variants)), (law.sites[-1], 0)}:
         found = run(with_effect(name, site, law.levels[3], variant), **short)
