@@ -50,11 +50,14 @@ def corners(term: Term) -> list[dict[str, float]]:
     cases: list[dict[str, float]] = [{}]
     for p in term.params:
         cases += [{p.name: p.low}, {p.name: p.high}]
-    top = next((p for p in term.params if p.name == term.severity), None)
-    if top is not None:
-        others = [p for p in term.params if p.name != term.severity]
-        cases += [{top.name: top.high, p.name: value} for p in others for value in (p.low, p.high)]
-    return distinct(term, cases)
+    return distinct(term, [*cases, *severest(term)])
+
+
+def severest(term: Term) -> list[dict[str, float]]:
+    """Defaults, and the severity at either bound; at its highest, every other parameter at either bound."""
+    highest = {p.name: p.high for p in term.params if p.name == term.severity}
+    others = [p for p in term.params if p.name != term.severity]
+    return distinct(term, [*ends(term), *({**highest, p.name: v} for p in others for v in (p.low, p.high))])
 
 
 def distinct(term: Term, cases: list[dict[str, float]]) -> list[dict[str, float]]:
@@ -64,16 +67,23 @@ def distinct(term: Term, cases: list[dict[str, float]]) -> list[dict[str, float]
 
 
 def cases(term: Term) -> list[MachineSpec]:
-    """One machine a legal site and end of the severity; all corners at the first site of each kind, and at the last of
-    the gearbox, whose gears, shafts and speeds differ."""
+    """One machine a legal site and end of the severity. All corners at the first and last site of each kind of the
+    gearbox, whose gears, shafts and speeds differ; the severest at the first of the kind on other rigid shafts, and on
+    the first flexible ones that have it."""
     found = []
+    bent: set[SiteKind] = set()
     for name in (*MACHINES, *FLEXIBLE):
         machine = preset(name)
         others = tuple(t for t in machine.terms if t.term != term.key)
         for kind in term.sites:
             legal = [s for s in sites(machine).get(kind, ()) if s in FLEXIBLE.get(name, {s})]
-            whole = {*legal[:1], *(legal[-1:] if name == MACHINES[0] else ())}
-            for site, values in ((s, v) for s in legal for v in (corners(term) if s in whole else ends(term))):
+            first = legal[:1] if kind not in bent else []
+            if name in FLEXIBLE and legal:
+                bent.add(kind)
+            tried = {s: severest(term) for s in first}
+            if name == MACHINES[0]:
+                tried = {s: corners(term) for s in (*legal[:1], *legal[-1:])}
+            for site, values in ((s, v) for s in legal for v in tried.get(s, ends(term))):
                 spec = TermSpec(term=term.key, site=site, parameters=values)
                 found.append(machine.model_copy(update={"terms": (*others, spec)}))
     return found
