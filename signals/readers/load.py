@@ -11,7 +11,7 @@ from typing import Protocol
 
 from signals.readers.contents import Contents, refused
 from signals.readers.damage import damage
-from signals.readers.formats import reader_of
+from signals.readers.formats import format_of, reader_of
 from signals.readers.limits import Bounds
 from signals.readers.select import Pick, only_array, pick, take
 from signals.series import FloatArray
@@ -57,7 +57,7 @@ class Loader(Protocol):
 
 def load(path: Path, wanted: Sequence[Want], optional: Collection[str], bounds: Bounds) -> Loaded:
     """Load in this process."""
-    reader = reader_of(path)
+    format_of(path)
     try:
         size = path.stat().st_size
     except OSError as error:
@@ -65,6 +65,7 @@ def load(path: Path, wanted: Sequence[Want], optional: Collection[str], bounds: 
         raise SpecError(Problem(field=path.name, message=f"cannot be read: {reason}")) from error
     bounds.check(path.name, message="is too large", given=size, allowed=bounds.file_bytes, unit="bytes")
     _check_whole(path)
+    reader = reader_of(path)  # a parser takes longer to load than a damaged file to be told
     try:
         with reader(path, bounds) as contents:
             return _loaded(contents, wanted, optional, bounds)

@@ -245,8 +245,8 @@ OPTIONAL = [
 def test_a_missing_package_is_named_with_its_extra(
     tmp_path, monkeypatch, name: str, module: str, package: str, extra: str
 ) -> None:
-    content = b"MATLAB 7.3 MAT-file".ljust(512) + b"\x89HDF\r\n\x1a\n" if name == "r.mat" else b"x"
-    (tmp_path / name).write_bytes(content)
+    writers = {**WRITERS, "r.hdf5": write_hdf5, "r.unv": write_uff, "r.flac": write_flac}
+    writers[name](tmp_path / name)
     monkeypatch.setitem(sys.modules, package, None)
     monkeypatch.delitem(sys.modules, f"signals.readers.{module}", raising=False)
     with pytest.raises(SpecError) as caught:
@@ -281,7 +281,7 @@ def test_damaged_files_are_read_or_refused_and_nothing_else(tmp_path, name: str)
     )
     bounds = Bounds(values=1_000_000, unpacked_bytes=20_000_000, seconds=20)
     rng = np.random.default_rng(8)
-    for content in [whole[:7], *(_damaged(whole, rng) for _ in range(4))]:
+    for content in [whole[:7], *(_damaged(whole, rng) for _ in range(2))]:
         (tmp_path / name).write_bytes(content)
         try:
             parse(about, tmp_path / name, bounds, load_apart)
