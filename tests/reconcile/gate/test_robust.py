@@ -117,7 +117,7 @@ def cases(draw: st.DrawFn) -> tuple[tuple[Recording, ...], bool, np.random.Gener
 
 
 @pytest.mark.slow
-@settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True)
+@settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True)
 @given(cases())
 def test_drift_and_faults_are_neither_unit_nor_swap_and_hide_neither(case) -> None:  # type: ignore[no-untyped-def]
     tests, seen, rng = case

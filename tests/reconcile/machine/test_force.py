@@ -29,7 +29,7 @@ def heard(
 def drawn(seed: int, channels: int, spread_db: float, least: float) -> tuple[np.ndarray, Heard]:
     """Forces of `least` to 100 N at lines of 1 to 9 N's worth each, with errors and phases as the engine takes them;
     all far apart, so that none counts as a product of others."""
-    rng, n = np.random.default_rng(seed), 1500
+    rng, n = np.random.default_rng(seed), 800
     force, size = 10.0 ** rng.uniform(np.log10(least), 2.0, n), (channels, n)
     before = 9.0 * RESPONSE * 10.0 ** rng.uniform(-1.0, 1.0, size)
     deviation = 0.15 * before + 0.02 * 9.0 * RESPONSE
@@ -202,7 +202,7 @@ def test_the_true_force_is_in_the_band_whatever_its_direction(
 ) -> None:
     """Each channel hears x as 1 and y as so much, the phase between them anyhow."""
     monkeypatch.setattr(force_module, "MIXED", 0.0)
-    rng, size = np.random.default_rng(3), (len(across), 1000)
+    rng, size = np.random.default_rng(3), (len(across), 500)
     force = 10.0 ** rng.uniform(-1.0, 2.0, size[1])
     angle = {"any": rng.uniform(0.0, 0.5 * np.pi, size[1]), "x": np.zeros(size[1]), "y": np.full(size[1], 0.5 * np.pi)}
     y = np.sqrt(across)[:, None] * np.exp(1j * rng.uniform(0.0, 2.0 * np.pi, size)) * np.sin(angle[along])
