@@ -19,7 +19,7 @@ from sim.core.spec import MachineSpec
 from tests.proof.rotor import CASE, HIDDEN, NOMINATED, wanted
 from tests.reconcile import prebuilt
 
-pytestmark = [pytest.mark.slow, pytest.mark.long, pytest.mark.xdist_group("proof-rotor")]
+pytestmark = [pytest.mark.slow, pytest.mark.long, pytest.mark.xdist_group("proof-small")]
 
 
 def test_the_small_atlases_are_what_the_simulator_gives_today() -> None:
