@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -69,13 +70,18 @@ def test_a_place_that_is_nearly_a_part_is_refused_with_the_parts() -> None:
     assert "did you mean bearing1" in problem.message
 
 
+@cache
+def placeless() -> Report:
+    return reconcile_recordings(SPEC, [quiet(location="")], [quiet(location="", seed=1)])
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("location", ["bearing2", "motor housing", "brg1", "bearing bracket"])
 def test_a_place_that_is_no_part_is_a_remark(location: str) -> None:
     report = reconcile_recordings(SPEC, [quiet(location=location)], [quiet(location=location, seed=1)])
     remark = f"a at {location}: no part of this machine, so the place is taken as not known"
     assert report.where.limits.count(remark) == 1
-    unknown = reconcile_recordings(SPEC, [quiet(location="")], [quiet(location="", seed=1)])
+    unknown = placeless()
     assert (report.verdict, report.sentence, report.where.sites) == (
         unknown.verdict,
         unknown.sentence,
@@ -85,7 +91,7 @@ def test_a_place_that_is_no_part_is_a_remark(location: str) -> None:
 
 @pytest.mark.slow
 def test_a_place_that_is_not_known_passes() -> None:
-    assert reconcile_recordings(SPEC, [quiet(location="")], [quiet(location="", seed=1)]).level == "kinematics"
+    assert placeless().level == "kinematics"
     alone = read_kinematic_spec({"kinematics": {"shafts": [{"name": "shaft"}]}})
     assert reconcile_recordings(alone, [quiet(location="near the motor")]).level == "kinematics"
 

@@ -82,7 +82,7 @@ def test_a_drift_within_the_spread_is_never_told() -> None:
 @pytest.mark.parametrize(("count", "warning", "alarm"), list(zip(COUNTS, WARNING_FACTORS, ALARM_FACTORS, strict=True)))
 def test_false_alarms_on_gaussian_baselines_are_as_rare_as_stated(count: int, warning: float, alarm: float) -> None:
     """P(x > median + k sigma), the average over baselines, with the tail of x exact: draws other than the table's."""
-    draws = np.random.default_rng(20 + count).standard_normal((200_000, count))
+    draws = np.random.default_rng(20 + count).standard_normal((100_000, count))
     median = np.median(draws, axis=1)
     sigma = MAD_TO_SIGMA * np.median(np.abs(draws - median[:, None]), axis=1)
     assert np.mean(norm.sf(median + warning * sigma)) == pytest.approx(WARNING_CHANCE, rel=0.12)

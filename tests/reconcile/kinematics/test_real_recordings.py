@@ -27,8 +27,9 @@ def bearings(**designations: str):  # type: ignore[no-untyped-def]
     return read_kinematic_spec({"kinematics": {"shafts": [{"name": "shaft"}], "bearings": parts}})
 
 
-TURNS, WHOLE = 60.0, 1000.0
-"""Of a recording, but where lines are faint; `docs/proof-real.md` has the answers to whole ones."""
+NAMED, TURNS, WHOLE = 45.0, 60.0, 1000.0
+"""Of a recording: enough to name a defect, to hold a part of it out too, and where lines are faint;
+`docs/proof-real.md` has the answers to whole ones."""
 
 
 def recording(rows, rate_hz: float, speed_hz: float, turns: float = TURNS) -> Recording:  # type: ignore[no-untyped-def]
@@ -50,14 +51,14 @@ def hit(name: str) -> Recording:
     return recording(content[key].ravel(), 51200.0, 10.0 if name.endswith("_600") else 20.0)
 
 
-def cwru(name: str, turns: float = TURNS) -> Recording:
+def cwru(name: str, turns: float = NAMED) -> Recording:
     content = np.load(DATA / "cwru" / f"cwru_1797rpm_{name}.npz")
     return recording([content["DE"].ravel(), content["FE"].ravel()], 48000.0, 1797 / 60, turns)
 
 
 def openei(load: int) -> Recording:
     rows = np.loadtxt(DATA / "openei_gear" / f"h30hz{load}.csv.gz", delimiter=",", skiprows=1)
-    return recording(rows.T, 12800.0, 30.0)
+    return recording(rows.T, 12800.0, 30.0, NAMED)
 
 
 def uestc(letter: str) -> Recording:

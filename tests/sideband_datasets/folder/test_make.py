@@ -24,6 +24,8 @@ from sim.core.errors import Diverged, SpecError
 from tests.sideband_datasets.folder.conftest import RECIPE
 from tests.sideband_datasets.small import tiny
 
+pytestmark = pytest.mark.xdist_group("dataset-folder")
+
 ROOT = Path(__file__).parents[3]
 
 

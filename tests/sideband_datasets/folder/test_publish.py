@@ -16,6 +16,8 @@ from sideband_datasets.folder.publish import alone
 from sim.core.errors import SpecError
 from tests.sideband_datasets.folder.conftest import RECIPE
 
+pytestmark = pytest.mark.xdist_group("dataset-folder")
+
 CHANGES = ("replace", "unlink", "rmdir", "mkdir", "fsync")
 """Of a disk: what a kill may come before. Files are written under names of their own until one of these."""
 

@@ -10,6 +10,8 @@ from sideband_datasets.folder import verify
 from sim.core.errors import SpecError
 from tests.sideband_datasets.folder.attack import changed, rewrite, shards, told
 
+pytestmark = pytest.mark.xdist_group("dataset-folder")
+
 
 def _shard(out, split="train"):
     return shards(out, split)[1]
