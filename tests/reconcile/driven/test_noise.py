@@ -27,8 +27,7 @@ def noisy(seed: int, motion: float, force: float = 0.0) -> Recording:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("motion", [0.05, 0.2, 0.6])
-@pytest.mark.parametrize("baseline", [True, False])
+@pytest.mark.parametrize(("motion", "baseline"), [(0.05, True), (0.2, False), (0.6, True), (0.6, False)])
 def test_white_noise_on_the_motion_is_noise_and_its_limit_is_told(motion: float, baseline: bool) -> None:
     rested = [recording(None, seed=50, n=6000, noise=0.01)] if baseline else []
     report = reconcile_driven(SPEC, [noisy(31, motion), noisy(32, motion)], rested)

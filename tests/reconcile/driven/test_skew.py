@@ -109,8 +109,7 @@ def test_a_sample_and_more_is_a_fault_of_the_measurement_however_little_it_leave
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("samples", [0.0, 0.1])
-@pytest.mark.parametrize("hung", [(0.1, 60.0, 0.02), (0.05, 40.0, 0.05)])
+@pytest.mark.parametrize(("samples", "hung"), [(0.0, (0.1, 60.0, 0.02)), (0.1, (0.05, 40.0, 0.05))])
 def test_a_second_mass_stays_told_beside_a_delay_but_for_one_of_the_baseline(samples: float, hung: Hung) -> None:
     test = apart(samples, 0.003, 5, hung)
     report = reconcile_driven(SPEC, [test], [apart(samples, 0.003, 9)])

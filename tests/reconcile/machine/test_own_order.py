@@ -90,8 +90,7 @@ def test_two_points_of_about_one_speed_are_one(machine: MachineSpec) -> None:
     assert told(machine, at_order(1.9, 0.1), speeds_hz=(22.5, 30.0, 30.2)).speeds == (2, 2)  # type: ignore[union-attr]
 
 
-@pytest.mark.parametrize("seconds", [1.2, 2.0])
-@pytest.mark.parametrize("slip", [0.98, 1.0, 1.02])
+@pytest.mark.parametrize(("seconds", "slip"), [(1.2, 0.98), (2.0, 1.0), (1.2, 1.02), (2.0, 0.98)])
 def test_what_a_part_modulates_with_is_none_nor_is_what_its_line_leaks(
     machine: MachineSpec, seconds: float, slip: float
 ) -> None:

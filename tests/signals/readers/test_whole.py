@@ -16,8 +16,16 @@ from tests.signals.readers.test_guard import ABOUT, WHOLE, X
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("length", [0xFFFFFFFF, 0xFFFFFFFF - 36, 0x7FFFFFFF, 0x7FFFF000])
-@pytest.mark.parametrize("extra", [b"", b"\0\0\0"])
+@pytest.mark.parametrize(
+    ("length", "extra"),
+    [
+        (0xFFFFFFFF, b""),
+        (0xFFFFFFFF, b"\0\0\0"),
+        (0xFFFFFFFF - 36, b"\0\0\0"),
+        (0x7FFFFFFF, b""),
+        (0x7FFFF000, b"\0\0\0"),
+    ],
+)
 def test_a_recorder_that_left_the_length_open_is_read_to_the_end(tmp_path, length: int, extra: bytes) -> None:
     WHOLE["r.wav"](tmp_path / "r.wav")
     content = bytearray((tmp_path / "r.wav").read_bytes())
@@ -32,7 +40,7 @@ def test_a_recorder_that_left_the_length_open_is_read_to_the_end(tmp_path, lengt
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("block", [0, 512, 1024, 2048, 65536])
+@pytest.mark.parametrize("block", [0, 512, 65536])
 @pytest.mark.parametrize("name", ["r.h5", "r.mat"])
 def test_an_hdf5_file_may_begin_after_a_user_block(tmp_path, name: str, block: int) -> None:
     with pytest.importorskip("h5py").File(tmp_path / name, "w", userblock_size=block) as file:
@@ -56,8 +64,10 @@ def test_a_universal_file_may_begin_with_a_byte_order_mark(tmp_path, newline: by
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("line", [b"    -1", b"        -1", b"    -1" + b" " * 74])
-@pytest.mark.parametrize("newline", [b"\n", b"\r\n"])
+@pytest.mark.parametrize(
+    ("line", "newline"),
+    [(b"    -1", b"\n"), (b"    -1", b"\r\n"), (b"        -1", b"\n"), (b"    -1" + b" " * 74, b"\r\n")],
+)
 def test_a_line_of_minus_one_within_a_dataset_is_no_border(tmp_path, line: bytes, newline: bytes) -> None:
     WHOLE["r.uff"](tmp_path / "r.uff")
     whole = (tmp_path / "r.uff").read_bytes()
