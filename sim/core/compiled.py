@@ -47,6 +47,11 @@ def jit(function: Callable[..., Any]) -> Any:  # noqa: ANN401  (numba's dispatch
     return numba.njit(cache=True, fastmath=FAST, error_model="numpy")(function)
 
 
+def exact(function: Callable[..., Any]) -> Any:  # noqa: ANN401
+    """Compile with the order of sums and products as it is written: the result is that of numpy to the last bit."""
+    return numba.njit(cache=True, error_model="numpy")(function)
+
+
 def inline(function: Callable[..., Any]) -> Any:  # noqa: ANN401
     """Compile a helper that is merged into its callers: arguments of plan and work are hundreds of words wide."""
     return numba.njit(cache=True, fastmath=FAST, error_model="numpy", forceinline=True)(function)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 
+from sim.core.compiled import exact
 from sim.core.response import FloatArray
 
 PASS_BAND = 0.8
@@ -29,6 +29,41 @@ def filter_taps(factor: int) -> FloatArray:
     taps = np.sinc(cutoff * np.arange(-half, half + 1)) * np.kaiser(2 * half + 1, BETA)
     result: FloatArray = taps / taps.sum()
     return result
+
+
+@exact
+def weighted(joined, taps, factor, result):  # type: ignore[no-untyped-def]  # noqa: ANN001,ANN201
+    """Sum of `taps` over the window of every `factor`-th sample: (channels, n) into `result` (channels, k).
+
+    Each sum runs from the first tap to the last, as a plain loop's does; many of them run side by side, for which the
+    samples of one phase of the output's period are laid in a row.
+    """
+    count = result.shape[1]
+    length = count + (taps.size - 1) // factor
+    phases = np.empty((factor, length))
+    for channel in range(joined.shape[0]):
+        for k in range(length):
+            for p in range(factor):
+                at = k * factor + p
+                phases[p, k] = joined[channel, at] if at < joined.shape[1] else 0.0
+        sums = result[channel]
+        sums[:] = 0.0
+        for first in range(0, taps.size, 4):
+            if first + 4 > taps.size:
+                for j in range(first, taps.size):
+                    one = phases[j % factor, j // factor : j // factor + count]
+                    tap = taps[j]
+                    for k in range(count):
+                        sums[k] += one[k] * tap
+                continue
+            a, b, c, d = first, first + 1, first + 2, first + 3
+            xa = phases[a % factor, a // factor : a // factor + count]
+            xb = phases[b % factor, b // factor : b // factor + count]
+            xc = phases[c % factor, c // factor : c // factor + count]
+            xd = phases[d % factor, d // factor : d // factor + count]
+            ta, tb, tc, td = taps[a], taps[b], taps[c], taps[d]
+            for k in range(count):
+                sums[k] = (((sums[k] + xa[k] * ta) + xb[k] * tb) + xc[k] * tc) + xd[k] * td
 
 
 class Decimator:
@@ -61,7 +96,7 @@ class Decimator:
         if ready <= 0:
             self._held = joined
             return np.empty((self._channels, 0))
-        windows = sliding_window_view(joined, self.taps.size, axis=1)[:, : ready * self.factor : self.factor]
         self._held = joined[:, ready * self.factor :]
-        result: FloatArray = windows @ self.taps
+        result: FloatArray = np.empty((self._channels, ready))
+        weighted(joined, self.taps, self.factor, result)
         return result
