@@ -84,9 +84,11 @@ def noisy(changes: Changes, drawn: FloatArray, seed: int) -> Noisy:
     return Noisy(learned=learned, fresh=fresh, drawn=drawn + noise)
 
 
-def learnt(whiten: Whitening, view: View, drawn: Drawn, learned: FloatArray) -> tuple[Metric, FloatArray]:
-    """The metric of draws and of healthy machines `learned` (n, F), and the draws' places (m, D)."""
-    pooled, rest = seen(view, whiten, drawn.changes), seen(view, whiten, learned)
+def learnt(
+    whiten: Whitening, view: View, drawn: Drawn, learned: FloatArray, rows: np.ndarray | None = None
+) -> tuple[Metric, FloatArray]:
+    """The metric of draws and of healthy machines, `rows` of `learned` (n, F), and the draws' places (m, D)."""
+    pooled, rest = seen(view, whiten, drawn.changes), seen(view, whiten, learned, rows)
     centre = rest.mean(axis=0)
     metric = fit_metric(centre, [*drawn.scatter(pooled), rest - centre])
     return metric, metric(pooled)
@@ -99,15 +101,15 @@ def folds(
     machines of the kind behind them, which all metrics learn from."""
     share = np.arange(changes.null.shape[0]) % FOLDS
     number = np.repeat(share, NULL_COPIES)
-    kind = learned[number.size :]
+    kind = np.arange(number.size, learned.shape[0])
     for k in range(share.max() + 1):
         rest = changes.null[share != k] if share.max() else changes.null
-        others = np.concatenate([learned[: number.size][number != k], kind]) if share.max() else learned
+        others = np.concatenate([np.flatnonzero(number != k), kind]) if share.max() else None
         sigma = np.where(np.isfinite(whiten.sigma), drift_sigma(changes.measured, rest), np.inf)
         here = replace(whiten, sigma=sigma)
-        metric, points = learnt(here, view, drawn, others)
+        metric, points = learnt(here, view, drawn, learned, others)
         rows = np.flatnonzero(number == k)
-        yield Fold(whiten=here, metric=metric, rows=rows, null=metric(seen(view, here, fresh[rows])), points=points)
+        yield Fold(whiten=here, metric=metric, rows=rows, null=metric(seen(view, here, fresh, rows)), points=points)
 
 
 def lengths_of(apart: Sequence[Fold]) -> FloatArray:

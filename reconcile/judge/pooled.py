@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reconcile.judge.metric import Whitening
+from reconcile.judge.pool_kernel import family_sums
 from reconcile.observe.features import Layout
 from reconcile.observe.watch import Watched, WatchList
 from signals.series import BoolArray, FloatArray
@@ -75,23 +76,29 @@ class Pooling:
 
         The common rise is the mean times the root of the number of members, so that noise keeps unit variance.
         """
-        cube = z.reshape(z.shape[0], self.points, self.channels, self.family.size)
-        found = []
-        for k in range(len(self.names)):
-            members = cube[..., self.family == k]
-            rise = members.mean(axis=-1) * np.sqrt(members.shape[-1])
-            size = np.sqrt(np.mean(np.maximum(np.abs(members) - DEAD, 0.0) ** 2, axis=-1))
-            found += [rise.mean(axis=1), size.mean(axis=1), size.max(axis=1)]
-        pooled = np.concatenate(found, axis=1)
+        return self.whitened(z, np.ones(z.shape[1]), np.arange(z.shape[0]))
+
+    def whitened(self, changes: FloatArray, sigma: FloatArray, rows: np.ndarray) -> FloatArray:
+        """The same of some `rows` (k,) of changes (n, P * C * F) in dB, whitened by `sigma` (P * C * F,)."""
+        found = np.zeros((rows.size, len(self.names), 3, self.channels))
+        counts = np.bincount(self.family[self.family >= 0], minlength=len(self.names))
+        family_sums(np.ascontiguousarray(changes), rows, sigma, self.family, counts, DEAD, found)
+        pooled = found.reshape(rows.size, -1)
         return np.asarray(np.sign(pooled) * np.log1p(np.abs(pooled)))
 
 
-def seen(view: Callable[[FloatArray], FloatArray], whiten: Whitening, changes: FloatArray) -> FloatArray:
-    """`view(whiten(changes))`, changes (n, P * C * F) in dB; of single features only these are whitened."""
+def seen(
+    view: Callable[[FloatArray], FloatArray], whiten: Whitening, changes: FloatArray, rows: np.ndarray | None = None
+) -> FloatArray:
+    """`view(whiten(changes[rows]))`, changes (n, P * C * F) in dB, all rows if not given; of single features only these
+    are whitened."""
     if isinstance(view, OneByOne):
         columns = view.columns
-        return view.compressed(whiten.only(columns)(changes[:, columns]))
-    return view(whiten(changes))
+        kept = changes.T[columns] if rows is None else changes.T[np.ix_(columns, rows)]
+        return view.compressed(whiten.only(columns)(kept.T))
+    if isinstance(view, Pooling):
+        return view.whitened(changes, whiten.sigma, np.arange(changes.shape[0]) if rows is None else rows)
+    return view(whiten(changes if rows is None else changes[rows]))
 
 
 @dataclass(frozen=True, kw_only=True)
