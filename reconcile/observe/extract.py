@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 from scipy import fft
 
-from reconcile.observe.mean_turn import Turning, turn_powers
-from reconcile.observe.phases import line_phases
+from reconcile.observe.mean_turn import SHARED_SAMPLES, Turning, turn_powers
+from reconcile.observe.phases import line_phases, reach_bins
 from reconcile.observe.statistics import SHAPE_BANDS_HZ, Bands, Statistics, bands_beside
 from signals.series import FloatArray
 
@@ -24,27 +25,53 @@ LEAST_VARIANCE = 1e-150
 MEDIAN_OF_EXPONENTIAL = float(np.log(2.0))
 
 
+def _hann(n: int) -> tuple[FloatArray, float]:
+    """The window (n,) and the sum of its squares."""
+    window = np.hanning(n + 1)[:-1]
+    window.flags.writeable = False
+    return window, float(np.sum(window**2))
+
+
+_shared = lru_cache(maxsize=16)(_hann)
+"""The draws of a point and their envelopes share them: 0.2 MB each at most."""
+
+
 def hann_spectrum(samples: FloatArray, rate_hz: float) -> tuple[np.ndarray, FloatArray, float]:
     """Hann spectrum (C, n//2+1), its mean squares, whose sum over a lobe is a line's, and the bin width, Hz."""
     n = samples.shape[1]
-    window = np.hanning(n + 1)[:-1]
+    window, squares = (_shared if n <= SHARED_SAMPLES else _hann)(n)
     spectrum = fft.rfft((samples - samples.mean(axis=1, keepdims=True)) * window, axis=1)
-    power = 2.0 * (spectrum.real**2 + spectrum.imag**2) / (n * np.sum(window**2))
+    power = 2.0 * (spectrum.real**2 + spectrum.imag**2) / (n * squares)
     return spectrum, np.asarray(power), rate_hz / n
 
 
 def line_powers(power: FloatArray, bin_hz: float, lines_hz: FloatArray, slack: FloatArray, top_hz: float) -> FloatArray:
     """Largest lobe power within `slack` (share of the frequency) of every line, shape (C, L)."""
-    lobes = np.cumsum(np.pad(power, ((0, 0), (LOBE_BINS + 1, LOBE_BINS))), axis=1)
-    lobe = lobes[:, 2 * LOBE_BINS + 1 :] - lobes[:, : -2 * LOBE_BINS - 1]
     found = np.full((power.shape[0], lines_hz.size), np.nan)
-    for i, hz in enumerate(lines_hz):
-        if not (LOBE_BINS + 1) * bin_hz <= hz <= top_hz:
-            continue
-        reach = max(hz * slack[i], 0.5 * bin_hz)
-        low, high = int(np.floor((hz - reach) / bin_hz + 0.5)), int(np.floor((hz + reach) / bin_hz + 0.5))
-        found[:, i] = lobe[:, max(low, 0) : high + 1].max(axis=1)
+    here = np.flatnonzero((lines_hz >= (LOBE_BINS + 1) * bin_hz) & (lines_hz <= top_hz))
+    if not here.size:
+        return found
+    low, high = reach_bins(lines_hz[here], slack[here], bin_hz)
+    order = np.argsort(low, kind="stable")
+    size = min(power.shape[1], int(high.max()) + 1)  # what is above the highest line is not added up
+    ends = np.stack([np.maximum(low[order], 0), np.minimum(high[order] + 1, size)], axis=1).ravel()
+    lobes = np.zeros((power.shape[0], size + 2 * LOBE_BINS + 1))
+    within = min(power.shape[1], size + LOBE_BINS)
+    lobes[:, LOBE_BINS + 1 : LOBE_BINS + 1 + within] = power[:, :within]
+    np.cumsum(lobes, axis=1, out=lobes)
+    lobe = np.full((power.shape[0], size + 1), -np.inf)  # a window may end with the last bin
+    np.subtract(lobes[:, 2 * LOBE_BINS + 1 :], lobes[:, : -2 * LOBE_BINS - 1], out=lobe[:, :-1])
+    found[:, here[order]] = np.maximum.reduceat(lobe, ends, axis=1)[:, ::2]
     return found
+
+
+def _medians(rows: FloatArray) -> FloatArray:
+    """Of each of the rows (C, n), as `np.median`, which looks for what is no number first."""
+    half = rows.shape[1] // 2
+    if rows.shape[1] % 2:
+        return np.asarray(np.partition(rows, half, axis=1)[:, half])
+    middle = np.partition(rows, (half - 1, half), axis=1)
+    return np.asarray((middle[:, half - 1] + middle[:, half]) / 2.0)
 
 
 def _bands(power: FloatArray, bin_hz: float, edges: FloatArray, top_hz: float) -> tuple[FloatArray, FloatArray]:
@@ -56,8 +83,9 @@ def _bands(power: FloatArray, bin_hz: float, edges: FloatArray, top_hz: float) -
         if edges[b + 1] > top_hz or index[b + 1] - index[b] < 4:
             continue
         part = power[:, index[b] : index[b + 1]]
-        floor[:, b] = np.median(part, axis=1) / (MEDIAN_OF_EXPONENTIAL * bin_hz)
         total[:, b] = part.sum(axis=1)
+        median = _medians(part) if np.all(np.isfinite(total[:, b])) else np.median(part, axis=1)
+        floor[:, b] = median / (MEDIAN_OF_EXPONENTIAL * bin_hz)
     return floor, total
 
 

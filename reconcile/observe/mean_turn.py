@@ -64,30 +64,35 @@ def turn_powers(
     count = int(min(top_hz, max(high for _, high in bands_hz)) / turning.hz)
     if count < 2:
         return found
-    make = _shared if length <= SHARED_SAMPLES else _harmonics
-    transform = make(length, count + 1, turning.hz / rate_hz)
+    shared = length <= SHARED_SAMPLES
+    transform = (_shared if shared else _harmonics)(length, count + 1, turning.hz / rate_hz)
     orders = np.arange(count + 1)
-    early = transform(samples[:, :length], axis=1) * (2.0 / length)
-    late = transform(samples[:, second : second + length], axis=1) * (2.0 / length)
-    late = late * np.exp(-2j * np.pi * turning.hz / rate_hz * second * orders)
+    both = transform(np.concatenate([samples[:, :length], samples[:, second : second + length]]), axis=1)
+    both *= 2.0 / length
+    both[channels:] *= _delay(count + 1, turning.hz, rate_hz, second)
     kept = _kept(orders, turning.teeth)
     for e, (low, high) in enumerate(bands_hz):
         inside = kept & (orders * turning.hz >= low) & (orders * turning.hz < high)
         if high <= top_hz and inside.any():
-            found[:, e] = _fullest(early, late, inside, min(turning.teeth))
+            found[:, e] = _fullest(both, inside, min(turning.teeth))
     return found
 
 
-def _fullest(early: np.ndarray, late: np.ndarray, inside: np.ndarray, teeth: int) -> FloatArray:
-    """Largest mean over a window of the product of two turns, (C,)."""
+@lru_cache(maxsize=8)
+def _delay(count: int, hz: float, rate_hz: float, samples: int) -> np.ndarray:
+    """Phases of the multiples of `hz` so many samples later, (count,)."""
+    return np.asarray(np.exp(-2j * np.pi * hz / rate_hz * samples * np.arange(count)))
+
+
+def _fullest(both: np.ndarray, inside: np.ndarray, teeth: int) -> FloatArray:
+    """Largest mean over a window of the product of two turns, `both` (2 C, orders), one below the other: (C,)."""
     first, last = int(np.flatnonzero(inside)[0]), int(np.flatnonzero(inside)[-1])
     points = fft.next_fast_len(max(int(OVERSAMPLING * (last - first + 1)), 4 * teeth))
-    halves = []
-    for part in (early, late):
-        row = np.zeros((part.shape[0], points), dtype=np.complex128)
-        row[:, : last - first + 1] = np.where(inside, part, 0.0)[:, first : last + 1]
-        halves.append(fft.ifft(row, axis=1) * points)
-    power = 0.5 * np.real(halves[0] * np.conj(halves[1]))
+    rows = np.zeros((both.shape[0], points), dtype=np.complex128)
+    rows[:, : last - first + 1] = np.where(inside[first : last + 1], both[:, first : last + 1], 0.0)
+    turns = fft.ifft(rows, axis=1, overwrite_x=True) * points
+    early, late = turns[: both.shape[0] // 2], turns[both.shape[0] // 2 :]
+    power = 0.5 * np.real(early * np.conj(late))
     width = max(1, WINDOW_TEETH * points // teeth)
     total = np.cumsum(np.concatenate([power, power[:, :width]], axis=1), axis=1)
     smooth = (total[:, width:] - total[:, :-width]) / width

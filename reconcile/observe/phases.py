@@ -35,24 +35,35 @@ def line_phases(
     here = np.flatnonzero((lines_hz >= (lobe_bins + 1) * bin_hz) & (lines_hz <= top_hz))
     if not here.size:
         return found
-    lobes = np.stack([_lobe(spectrum, bin_hz, lines_hz[q], slack[q], lobe_bins) for q in here])
+    low, high = reach_bins(lines_hz[here], slack[here], bin_hz)
+    low = np.maximum(low, lobe_bins)
+    lobes = np.empty((here.size, channels, 2 * lobe_bins + 1), dtype=complex)
+    for width in np.unique(high - low):
+        alike = np.flatnonzero(high - low == width)
+        windows = (low[alike] - lobe_bins)[:, None] + np.arange(width + 2 * lobe_bins + 1)
+        lobes[alike] = _lobes(np.take(spectrum, windows, axis=1, mode="clip"), 2 * lobe_bins + 1)
     found[:, here] = shared(lobes @ lobes.conj().swapaxes(1, 2))
     return found
 
 
-def _lobe(spectrum: np.ndarray, bin_hz: float, hz: float, slack: float, lobe_bins: int) -> np.ndarray:
-    """(C, 2 lobe_bins + 1), each channel of unit power."""
-    reach = max(hz * slack, 0.5 * bin_hz)
-    low, high = int(np.floor((hz - reach) / bin_hz + 0.5)), int(np.floor((hz + reach) / bin_hz + 0.5))
-    low = max(low, lobe_bins)
-    part = spectrum[:, low - lobe_bins : high + lobe_bins + 1]
-    power = part.real**2 + part.imag**2
-    power = power / np.maximum(power.sum(axis=1, keepdims=True), 1e-300)
-    sums = np.convolve(power.sum(axis=0), np.ones(2 * lobe_bins + 1), mode="valid")
-    first = int(np.argmax(sums))
-    lobe = part[:, first : first + 2 * lobe_bins + 1]
-    size = np.sqrt(np.sum(lobe.real**2 + lobe.imag**2, axis=1, keepdims=True))
-    return np.asarray(lobe / np.maximum(size, 1e-300))
+def reach_bins(lines_hz: FloatArray, slack: FloatArray, bin_hz: float) -> tuple[np.ndarray, np.ndarray]:
+    """First and last bins (L,) in which lines are looked for: within `slack` (share of the frequency), half a bin at
+    least."""
+    reach = np.maximum(lines_hz * slack, 0.5 * bin_hz)
+    low = np.floor((lines_hz - reach) / bin_hz + 0.5).astype(int)
+    return low, np.floor((lines_hz + reach) / bin_hz + 0.5).astype(int)
+
+
+def _lobes(parts: np.ndarray, bins: int) -> np.ndarray:
+    """Strongest `bins` of parts of a spectrum (C, Q, width), each channel of unit power: (Q, C, bins)."""
+    power = parts.real**2 + parts.imag**2
+    power = power / np.maximum(power.sum(axis=2, keepdims=True), 1e-300)
+    all_channels = power.sum(axis=0)
+    sums = sum(all_channels[:, k : all_channels.shape[1] - bins + 1 + k] for k in range(bins))
+    first = np.argmax(sums, axis=1)[None, :, None]
+    lobe = np.take_along_axis(parts, first + np.arange(bins), axis=2)
+    size = np.sqrt(np.sum(lobe.real**2 + lobe.imag**2, axis=2, keepdims=True))
+    return np.asarray(lobe / np.maximum(size, 1e-300)).swapaxes(0, 1)
 
 
 def shared(matrices: np.ndarray) -> FloatArray:
