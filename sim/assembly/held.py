@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,8 +45,17 @@ def element_rows(element: Element, names: Sequence[str]) -> FloatArray:
 
 
 def free_motions(rows: FloatArray, owned: BoolArray) -> FloatArray:
-    """Basis (d, n) of the motions that no row (m, n) resists, each with an `owned` DOF (n,) of its own if it can."""
-    n = rows.shape[1]
+    """Basis (d, n) of the motions that no row (m, n) resists, each with an `owned` DOF (n,) of its own if it can; to be
+    read only."""
+    return _kept_motions(rows.tobytes(), rows.shape[0], owned.tobytes())
+
+
+@lru_cache(maxsize=256)
+def _kept_motions(held: bytes, count: int, own: bytes) -> FloatArray:
+    """Machines that differ in speed or elsewhere than in what holds them share it."""
+    owned = np.frombuffer(own, dtype=np.bool_)
+    n = owned.size
+    rows = np.frombuffer(held).reshape(count, n)
     balanced, scale = rows[np.any(rows != 0.0, axis=1)], np.ones(n)
     for _ in range(BALANCING):
         balanced = balanced / np.sqrt(np.linalg.norm(balanced, axis=1, keepdims=True))

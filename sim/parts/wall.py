@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from sim.core.elements import Coordinate, Output, flat
 from sim.core.lines import Line
 from sim.core.params import Param
@@ -107,10 +109,16 @@ def ring_wall_coordinates(bearing: str, *, against: str | None) -> tuple[Coordin
 
 def mesh_sidebands(site: SiteContext, key: str, *, harmonics: int, sides: int) -> tuple[Line, ...]:
     """Mesh harmonics modulated by the passing balls of this bearing: j f_m +- k f_o."""
-    base = f"f_o{site.index}"
-    meshes = [name for name in site.bases_hz if name.startswith("f_m")]
+    meshes = tuple(name for name in site.bases_hz if name.startswith("f_m"))
+    return _beside(site.site, f"f_o{site.index}", meshes, key, harmonics, sides)
+
+
+@lru_cache(maxsize=512)
+def _beside(
+    component: str, base: str, meshes: tuple[str, ...], key: str, harmonics: int, sides: int
+) -> tuple[Line, ...]:
     return tuple(
-        Line(orders=((mesh, j), (base, k)), component=site.site, mechanism=key, family="outer")
+        Line(orders=((mesh, j), (base, k)), component=component, mechanism=key, family="outer")
         for mesh in meshes
         for j in range(1, harmonics + 1)
         for k in range(-sides, sides + 1)

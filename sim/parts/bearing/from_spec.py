@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import lru_cache
 
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import BallGeometry, BearingSpec
@@ -35,6 +36,7 @@ def _completed(spec: BallGeometry, field: str) -> tuple[float | None, float | No
     return ball, pitch, ratio
 
 
+@lru_cache(maxsize=256)
 def geometry_from_ball_spec(spec: BallGeometry, *, field: str = "geometry") -> RollingGeometry:
     """Checked geometry from the specification's form; problems are reported under `field`."""
     ball_m, pitch_m, ratio = _completed(spec, field)

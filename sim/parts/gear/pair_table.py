@@ -108,8 +108,10 @@ def build_pair_table(
     rows: int = 33,
 ) -> PairTable:
     """Tabulate a pair; errors default to +-0.1 module (less where the teeth stop working), tilts to aligned only."""
-    default_m = legal_errors_m(pair, ERROR_SHARE * pair.pinion.module_m, rows)
-    errors = default_m if centre_distance_errors_m is None else np.asarray(centre_distance_errors_m, dtype=np.float64)
+    if centre_distance_errors_m is None:
+        errors = legal_errors_m(pair, ERROR_SHARE * pair.pinion.module_m, rows)
+    else:
+        errors = np.asarray(centre_distance_errors_m, dtype=np.float64)
     tilts = np.zeros(1) if tilts_rad is None else np.asarray(tilts_rad, dtype=np.float64)
     contacts = [pair.contact(float(e)) for e in errors]
     xi = np.linspace(0.0, 1.0, points)

@@ -121,8 +121,12 @@ def _involute_piece(gear: GearGeometry, low: FloatArray, high: FloatArray, nodes
     part, weight = _nodes(nodes)
     span = (high - low)[..., None]
     alpha = low[..., None] + span * part
-    slope_m = -gear.base_radius_m * (gear.base_half_angle_rad - alpha) * np.cos(alpha)
-    return ToothSections(x_m=involute_x_m(gear, alpha), h_m=involute_h_m(gear, alpha), dx_m=slope_m * span * weight)
+    cos, sin, rest = np.cos(alpha), np.sin(alpha), gear.base_half_angle_rad - alpha
+    return ToothSections(
+        x_m=gear.base_radius_m * (cos - rest * sin),
+        h_m=gear.base_radius_m * (sin + rest * cos),
+        dx_m=-gear.base_radius_m * rest * cos * span * weight,
+    )
 
 
 def _straight_piece(
