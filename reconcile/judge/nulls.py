@@ -61,9 +61,14 @@ class Fold:
 def resting(changes: Changes, drifts: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Healthy pairs (k, F) with noise and wander of their own, (n, F)."""
     copies = drifts.shape[0] * NULL_COPIES
-    drift = np.repeat(drifts, NULL_COPIES, axis=0) * rng.choice([-1.0, 1.0], (copies, 1))
-    noise = rng.normal(size=drift.shape) * np.nan_to_num(changes.measured)
-    return np.asarray(drift + noise + rng.normal(size=(copies, changes.wander.shape[0])) @ changes.wander)
+    signs = rng.choice([-1.0, 1.0], (drifts.shape[0], NULL_COPIES, 1))
+    found = rng.normal(size=(copies, drifts.shape[1]))
+    found *= np.nan_to_num(changes.measured)
+    several = found.reshape(*signs.shape[:2], -1)
+    for k, drift in enumerate(drifts):  # pair by pair: the whole bank is too large to be copied often
+        several[k] += drift * signs[k]
+    found += rng.normal(size=(copies, changes.wander.shape[0])) @ changes.wander
+    return found
 
 
 @dataclass(frozen=True, kw_only=True)

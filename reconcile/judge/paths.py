@@ -42,32 +42,18 @@ class Paths:
 
 def build_paths(points: FloatArray, groups: Mapping[str, Sequence[int]], shares: FloatArray) -> Paths:
     """`points` (m, D) of the draws; `groups`: rows of each effect; `shares` (m,): their logarithmic sizes."""
-    rows: list[FloatArray] = []
     owner: list[int] = []
     low: list[int] = []
     high: list[int] = []
-    share: list[float] = []
-
-    def add(point: FloatArray, c: int, first: int, second: int, u: float) -> None:
-        rows.append(point)
-        owner.append(c)
-        low.append(first)
-        high.append(second)
-        share.append(u)
-
     for c, members in enumerate(groups.values()):
         order = sorted(members, key=lambda k: shares[k])
-        add(TOWARDS_NOTHING * points[order[0]], c, -1, order[0], float(shares[order[0]]) - 0.1)
-        for i, k in enumerate(order):
-            add(points[k], c, k, k, float(shares[k]))
-            if i + 1 < len(order):
-                j = order[i + 1]
-                add(0.5 * (points[k] + points[j]), c, k, j, float(0.5 * (shares[k] + shares[j])))
-    return Paths(
-        points=np.array(rows),
-        owner=np.array(owner),
-        low=np.array(low),
-        high=np.array(high),
-        share=np.array(share),
-        names=tuple(groups),
-    )
+        # a draw and the point half way to the next one in turn
+        low += [-1, *(k for k in order for _ in range(2))][:-1]
+        high += [order[0], order[0], *(k for k in order[1:] for _ in range(2))]
+        owner += [c] * (2 * len(order))
+    first, second = np.array(low), np.array(high)
+    towards = first < 0
+    first[towards] = second[towards]
+    rows, share = 0.5 * (points[first] + points[second]), 0.5 * (shares[first] + shares[second])
+    rows[towards], share[towards] = TOWARDS_NOTHING * points[second[towards]], shares[second[towards]] - 0.1
+    return Paths(points=rows, owner=np.array(owner), low=np.array(low), high=second, share=share, names=tuple(groups))
