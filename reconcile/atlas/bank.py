@@ -13,7 +13,7 @@ from reconcile.atlas.run import RATE_HZ, SETTLE_S, SPAN_S, run_members
 from reconcile.observe.extract import extract
 from reconcile.observe.mean_turn import Turning
 from reconcile.observe.slack import slack
-from reconcile.observe.statistics import Statistics
+from reconcile.observe.statistics import Bands, Statistics
 from reconcile.observe.watch import WatchList, bases_at, watch_list
 from signals.series import FloatArray
 from sim.core.errors import SidebandError
@@ -99,13 +99,23 @@ def _empty(channels: int, watched: WatchList) -> Statistics:
     )
 
 
-def measure(response: Response, watched: WatchList, bases_hz: dict[str, float]) -> Statistics:
-    """Statistics of a simulation after its start."""
-    first = round(SETTLE_S * response.sampling_rate_hz)
+@dataclass(frozen=True, kw_only=True)
+class Sought:
+    """What is measured at one speed: see `extract`. The same for all draws."""
+
+    lines_hz: FloatArray
+    line_slack: FloatArray
+    modulations_hz: FloatArray
+    modulation_slack: FloatArray
+    turning: tuple[Turning, ...]
+    phased: tuple[int, ...]
+    bands: Bands
+
+
+def sought(watched: WatchList, bases_hz: dict[str, float]) -> Sought:
+    """Of a watch list, with these base frequencies, Hz."""
     lines, modulations = watched.line_hz(bases_hz), watched.modulation_hz(bases_hz)
-    return extract(
-        np.asarray(response.signals[:, first:]),
-        response.sampling_rate_hz,
+    return Sought(
         lines_hz=lines,
         line_slack=slack(watched.lines, lines),
         modulations_hz=modulations,
@@ -116,17 +126,33 @@ def measure(response: Response, watched: WatchList, bases_hz: dict[str, float]) 
     )
 
 
+def measure(response: Response, what: Sought) -> Statistics:
+    """Statistics of a simulation after its start."""
+    first = round(SETTLE_S * response.sampling_rate_hz)
+    return extract(
+        np.asarray(response.signals[:, first:]),
+        response.sampling_rate_hz,
+        lines_hz=what.lines_hz,
+        line_slack=what.line_slack,
+        modulations_hz=what.modulations_hz,
+        modulation_slack=what.modulation_slack,
+        turning=what.turning,
+        phased=what.phased,
+        bands=what.bands,
+    )
+
+
 def run_task(task: Task) -> list[Statistics | None]:
     """Simulate and measure; None where a machine is impossible or its motion left all bounds."""
     watched = watch_list(task.plan.machine)
-    bases = bases_at(task.plan.machine, task.point.speed_hz)
+    what = sought(watched, bases_at(task.plan.machine, task.point.speed_hz))
     members = [task.plan.member(task.plan.draws[k], task.point) for k in task.draws]
     found = run_members(members, task.channels)
     lost = [k for k, r in enumerate(found) if isinstance(r, SidebandError) and task.plan.draws[task.draws[k]].beside]
     alone = [task.plan.member(replace(task.plan.draws[task.draws[k]], beside=()), task.point) for k in lost]
     for k, again in zip(lost, run_members(alone, task.channels), strict=True):
         found[k] = again
-    return [measure(r, watched, bases) if isinstance(r, Response) else None for r in found]
+    return [measure(r, what) if isinstance(r, Response) else None for r in found]
 
 
 def tasks(plan: AtlasPlan, point: Point, channels: tuple[str, ...], together: int = 16) -> list[Task]:

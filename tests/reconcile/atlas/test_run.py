@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from reconcile.atlas import run
-from reconcile.atlas.bank import measure
+from reconcile.atlas.bank import measure, sought
 from reconcile.atlas.candidates import with_effects
 from reconcile.atlas.run import RATE_HZ, SETTLE_S, SPAN_S, run_members, steps_of
 from reconcile.observe.watch import bases_at, watch_list
@@ -47,7 +47,7 @@ def test_levels_are_those_of_a_users_simulation(effect: str) -> None:
     assert isinstance(here, Response)
     assert here.quality.steps < users.quality.steps
     watched, bases = watch_list(machine), bases_at(machine, 30.0)
-    lines = [measure(r, watched, bases).line for r in (users, here)]
+    lines = [measure(r, sought(watched, bases)).line for r in (users, here)]
     clear = lines[0] > 1e-4 * np.nanmax(lines[0], axis=1, keepdims=True)
     assert clear.sum() > 10
     apart = np.abs(10.0 * np.log10(lines[1][clear] / lines[0][clear]))
