@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from sim.core.errors import Diverged, Problem, SpecError, UnknownName
 from sim.core.response import Channel, FloatArray, Response
 from sim.core.spec import MachineSpec
 from sim.core.system import System
+from sim.solve.chunks import IntArray
 from sim.solve.outcome import Finished, Request, response
 from sim.solve.pilot import pilot_channels, step_difference
 from sim.solve.plan import Built, build_plan
@@ -93,10 +95,9 @@ def runs_away(system: System, displacement: FloatArray) -> bool:
     Angles as such are free (a train may turn as a whole); teeth that are a base pitch apart are no longer the ones the
     tables speak of.
     """
-    linear = [i for i, name in enumerate(system.dofs) if not name.endswith(".theta")]
+    linear, place = _places(system.dofs)
     if np.any(np.abs(displacement[linear]) > RUNAWAY):
         return True
-    place = {name: i for i, name in enumerate(system.dofs)}
     for mesh in system.machine.meshes:
         teeth = next(g.teeth for g in system.machine.gears if g.name == mesh.pinion)
         for element in system.elements:
@@ -107,6 +108,13 @@ def runs_away(system: System, displacement: FloatArray) -> bool:
                 if abs(deflection) > 2.0 * math.pi * base_radius / teeth + (mesh.backlash_m or 0.0):
                     return True
     return False
+
+
+@lru_cache(maxsize=64)
+def _places(dofs: tuple[str, ...]) -> tuple[IntArray, dict[str, int]]:
+    """Places of what moves along a line, and of every DOF by its name; to be read only."""
+    linear = [i for i, name in enumerate(dofs) if not name.endswith(".theta")]
+    return np.array(linear, dtype=np.int64), {name: i for i, name in enumerate(dofs)}
 
 
 def diverged(system: System, displacement: FloatArray, time_s: float) -> Diverged:
