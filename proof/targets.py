@@ -57,7 +57,7 @@ TARGETS = (
     Target(group="single", measure="place", words="with place at least 85 %", least=0.85),
     Target(group="single", measure="top_three", words="among the first three at least 97 %", least=0.97),
     Target(group="open", measure="unknown_flagged", words="unknown effects flagged at least 80 %", least=0.8),
-    Target(group="single", measure="false_unknown", words="false unknowns at most 5 %", most=0.05),
+    Target(group="single", measure="false_unknown", words="false unknowns, of single effects, at most 5 %", most=0.05),
     Target(group="double", measure="both", words="both of a pair at least 70 %", least=0.7),
     Target(group="double", measure="false_name", words="a name beside the pair's"),
     Target(group="single", measure="severity_covered", words="90 % intervals cover 85-95 %", least=0.85, most=0.95),

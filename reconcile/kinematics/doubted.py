@@ -82,8 +82,7 @@ def against_rivals(
     octave = None if stated.firmest is None else octave_of(stated.firmest, stated.every, seen)
     octave = None if octave == 2.0 and odd_lines(seen) else octave
     if octave is not None:
-        first = next(t for t in seen if t.speed.method != "tacho")
-        return doubted(stated, at(octave, True), first, octave, by_bearing=True)
+        return _by_octave(stated, seen, at, octave, nominal_hz)
     if doubt is not None:
         return doubted(stated, at(doubt[1], False), *doubt)
     if not unconfirmed(seen):
@@ -95,6 +94,25 @@ def against_rivals(
     if firmest is not None and firmest[0] > top:
         return doubted(stated, firmest[2], first, firmest[1])
     return stated.report if others is None else speed_unread(stated, near, first)
+
+
+def _by_octave(
+    stated: Judged,
+    seen: Sequence[Observation],
+    at: Callable[[float, bool], Judged | None],
+    octave: float,
+    nominal_hz: float | None,
+) -> Report:
+    """The answer at half or twice the speed, of which the bearing's lines speak, or at the machine file's: where
+    that is far off, no line tells and its bearings are about as firm there. An inner race's line at
+    half the speed may be an outer race's at the file's."""
+    first = next(t for t in seen if t.speed.method != "tacho")
+    there = at(octave, True)
+    factor = None if nominal_hz is None or not unconfirmed(seen) else nominal_hz / first.speed.speed_hz
+    usual = at(factor, False) if factor is not None and abs(factor - 1.0) > FAR else None
+    if factor is not None and usual is not None and usual.z > max(0.0 if there is None else there.z - CLEAR_Z, 0.0):
+        return doubted(stated, usual, first, factor)
+    return doubted(stated, there, first, octave, by_bearing=True)
 
 
 def _at_usual(

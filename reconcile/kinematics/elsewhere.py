@@ -45,10 +45,14 @@ def left_out(
     gate: Gate, tests: Sequence[Observation], baselines: Sequence[Observation], far: Mapping[str, Elsewhere]
 ) -> tuple[Gate, list[Observation], list[Observation], tuple[str, ...]]:
     """Gate and recordings without those that surely turned elsewhere, and what is said of these; all of them where
-    every test is one, or may be by one factor with them."""
+    every test is one, or may be by one factor with them, and where most of all are by one factor and no baseline would
+    be left: what is wrong with so many is wrong with the file or with every label."""
     sure = {label for label, found in far.items() if not found.own}
     known = [one for one in (*tests, *baselines) if one.label in far]
     if all(one.label in sure for one in tests) or (all(one.label in far for one in tests) and _alike(known, far)):
+        return gate, list(tests), list(baselines), ()
+    based = bool(baselines) and all(one.label in sure for one in baselines)
+    if based and 2 * len(known) > len(tests) + len(baselines) and _alike(known, far):
         return gate, list(tests), list(baselines), ()
     told = tuple(
         f"{one.label} was left out: {_lines(one, far[one.label])}" for one in (*tests, *baselines) if one.label in sure

@@ -84,9 +84,9 @@ def comb_picture(
     ]
     near = sorted(every, key=lambda c: abs(c.best.order - order))[:NEAREST]
     others = [
-        {"label": _named(c.family, 1), "order": c.best.order, "kind": "other"}
+        {"label": _named(c.family, 1), "order": _place(c), "kind": "other"}
         for c in near
-        if c.best.order < HARMONICS_SHOWN * order
+        if _place(c) < HARMONICS_SHOWN * order
     ]
     shown: dict[str, object] = {"order": order, "lines": [*own, *others], **_band(best, test)}
     return {"envelope": {**shown, **_curves(best, test, baselines, BEYOND * HARMONICS_SHOWN * order)}}
@@ -145,7 +145,13 @@ def _others(chosen: Candidate, every: Sequence[Candidate]) -> list[dict[str, obj
     """First lines of the other families of the same bearing, and once a turn of the shafts."""
     own = chosen.family
     return [
-        {"label": _named(c.family, 1), "order": c.best.order, "kind": "other"}
+        {"label": _named(c.family, 1), "order": _place(c), "kind": "other"}
         for c in every
-        if c is not chosen and (c.family.site == own.site or c.family.kind == "turn") and c.best.order < 3 * own.order
+        if c is not chosen and (c.family.site == own.site or c.family.kind == "turn") and _place(c) < 3 * own.order
     ]
+
+
+def _place(other: Candidate) -> float:
+    """Where a part's first line stands, or would by the drawing: the best place within the slip of a part that is not
+    heard is another part's sideband."""
+    return other.best.order if other.present else other.family.order

@@ -34,7 +34,7 @@ from reconcile.kinematics.shifted import with_shifted
 from reconcile.kinematics.slowest import longer, with_slowest
 from reconcile.kinematics.spec import KinematicSpec, of_machine
 from reconcile.kinematics.struck import cut_alike, without_struck
-from reconcile.kinematics.teeth import other_teeth, told_with, with_teeth
+from reconcile.kinematics.teeth import other_teeth, teeth_by_far, told_with, with_teeth
 from reconcile.kinematics.tooth_turn import teeth_report, tooth_turns, with_sidebands
 from reconcile.kinematics.turning import with_turn
 from reconcile.kinematics.unheard import with_lost
@@ -119,6 +119,9 @@ def _reconciled(
         return told_with(_reconciled(with_teeth(known, wrong), tests, baselines, seed, _silent, True), wrong)
     gate, seen, past = without(gate, seen, past, with_lost(gate, whole.lost))
     far = turned_elsewhere((*seen, *past), tie, seed)
+    wrong = None if corrected else teeth_by_far(known, tie.reference, (*seen, *past), far)
+    if wrong is not None:
+        return told_with(_reconciled(with_teeth(known, wrong), tests, baselines, seed, _silent, True), wrong)
     gate, seen, past, told = left_out(gate, seen, past, far)
     progress(LINES, "lines of bearings, teeth and shafts")
     first, every = _judged(known, tie, seen, past, seed)

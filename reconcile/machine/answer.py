@@ -31,6 +31,7 @@ from reconcile.machine.second import Beside, Together, fitted_change, second_eff
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.stages import all_stages, gate_stage, of_pairs, revisions
 from reconcile.machine.unknown import Unknown, at_supports
+from reconcile.machine.unlisted import UNLISTED, beyond_the_known
 from reconcile.machine.weigh import merged_weights, of_one_part, of_the_set
 from reconcile.machine.words import law_sentence, more, next_experiment, sentence, size, title, together, with_points
 from reconcile.observe.features import Layout
@@ -134,7 +135,7 @@ def answer(
         fault=fault,
         held_out=held,
         undecidable=_undecidable(decision, *unsettled),
-        next_experiment=_next(setting, found, decision),
+        next_experiment=_next(setting, found, decision, unknown),
         force=unknown.force if unknown is not None else None,
         machine=_machine(revision, unknown, decision),
         stages=(*all_stages(setting, found, gate, decision, fit or {}), *of_pairs(pairs), *revisions(revision)),
@@ -204,8 +205,8 @@ def _unsettled(
 
 
 def _undecidable(decision: Decision, shows: str, others: tuple[str, ...]) -> tuple[str, ...]:
-    if decision.word in ("ambiguous", "not_decidable"):
-        return tuple(decision.reasons)
+    if decision.word in ("ambiguous", "not_decidable", "unknown_physics"):
+        return UNLISTED if decision.word == "unknown_physics" else tuple(decision.reasons)
     return (f"{shows}, one of these: {', '.join(others)}",) if others else ()
 
 
@@ -295,7 +296,9 @@ def _held(
     return with_points(held, setting.data, searched=together is not None and together.searched)
 
 
-def _next(setting: Setting, found: Found, decision: Decision) -> NextExperiment | None:
+def _next(setting: Setting, found: Found, decision: Decision, unknown: Unknown | None) -> NextExperiment | None:
+    if decision.word == "unknown_physics":
+        return beyond_the_known("" if unknown is None else unknown.force.site, tried=unknown is None or unknown.tried)
     if decision.reasons == (UNMEASURED,):
         return NextExperiment(sentence="Record the machine in a sound state as a baseline.")
     if decision.reasons and decision.reasons[0].startswith(AT_ONE):

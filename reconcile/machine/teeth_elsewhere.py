@@ -9,7 +9,7 @@ nothing stands.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.ndimage import maximum_filter1d
@@ -37,6 +37,8 @@ NEAR = 0.03
 """Share of their order within which the file's teeth are looked for."""
 CLEAR = 7.0
 """Score from which a comb stands, in every recording: teeth of the proof's sound and faulty machines have 8 to 26."""
+FAINT = 4.0
+"""The same at a point beside another where other teeth than the file's are clear."""
 LINE = 1.0
 """Log power over what noise reaches from which a line is one."""
 LEAST = 3
@@ -95,8 +97,29 @@ def teeth_elsewhere(
         one = _of_point(point, meshes, bases, channels) if meshes else _of_shaft(point, channels)
         found.append(None if one is None or _follows(one, machine, point, channels) else one)
     found = [None if one is None or _fixed(one, found) else one for one in found]
+    miscounted = [one for one in found if one is not None and teeth_of(one, machine) is not None]
+    if miscounted and None in found:  # no machine has other teeth at one speed than at another
+        found = [
+            one or _as_there(point, miscounted[0], meshes, channels) for point, one in zip(data, found, strict=True)
+        ]
     kept = tuple(point for point, one in zip(data, found, strict=True) if one is None)
     return kept, tuple(one for one in found if one is not None)
+
+
+def _as_there(
+    point: PointData, known: Elsewhere, meshes: Mapping[str, float], channels: Sequence[Channel]
+) -> Elsewhere | None:
+    """The same number of teeth at a point where their lines are not clear by themselves, if they stand there in all
+    recordings and the file's do not; None else."""
+    heard = [s for s in point.spectra if s is not None]
+    grid = known.order * np.exp(np.arange(-ALIKE, ALIKE, STEP))
+    for one in heard:
+        logs, hz = _line_logs(one, channels), _label_hz(one, point)
+        there = float(np.max(_scores(logs, hz, grid)))
+        own = [float(np.max(_scores(logs, hz, grid * (mesh / known.order)))) for mesh in meshes.values()]
+        if there < FAINT or max(own) > SILENT * there:
+            return None
+    return replace(known, stated_hz=point.point.speed_hz)
 
 
 def _fixed(one: Elsewhere, found: Sequence[Elsewhere | None]) -> bool:

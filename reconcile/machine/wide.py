@@ -1,4 +1,4 @@
-"""A size whose interval is so wide that it is next to none: said among what is undecided."""
+"""A size whose interval is so wide that it is next to none: said among what is undecided, with what would narrow it."""
 
 from __future__ import annotations
 
@@ -6,17 +6,25 @@ from dataclasses import replace
 
 from reconcile.report.markup import figure_text
 from reconcile.report.words import cause, size_name, sizes
-from reconcile.verdict import Cause, Report
+from reconcile.verdict import Cause, NextExperiment, Report
 
-WIDE = 10.0
+WIDE = 8.0
 """Upper over lower end of a 90 % interval, from which on a size is known to a factor only."""
+
+NARROWS = (
+    "Record at one or two more speeds or loads, with a baseline each: a size shows in how the change grows with them, "
+    "and at one operating point a resonance may pass for it."
+)
 
 
 def with_wide(report: Report) -> Report:
     """The report, which says of each named effect whose size is known no better than to a factor of `WIDE` that it is
     so; of a size that only has an upper bound the report says that already."""
     told = tuple(_said(c) for c in report.causes if c.named and factor(c) >= WIDE)
-    return replace(report, undecidable=(*report.undecidable, *told)) if told else report
+    if not told:
+        return report
+    advice = report.next_experiment or NextExperiment(sentence=NARROWS)
+    return replace(report, undecidable=(*report.undecidable, *told), next_experiment=advice)
 
 
 def factor(found: Cause) -> float:

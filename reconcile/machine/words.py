@@ -109,10 +109,13 @@ def _undecided(decision: Decision) -> str:
     return f"Something is missing {unusual}, but {decision.reasons[0]}: {listed}{rest}."
 
 
+TEETH = frozenset(("missing_tooth", "tooth_spall"))
 APART = {
     frozenset(("bent_shaft", "unbalance")): "A proximity probe on the shaft, at a slow roll and again at speed, would "
     "tell these effects apart best: a bow shows at a slow roll, an unbalance does not, and below the critical speed "
     "accelerometers at the bearings hear both alike.",
+    TEETH: "No recording tells these two apart for sure, whatever their scores: a pit of most of a flank carries as little "
+    "as a tooth that is gone. Open the gearbox and look at the teeth.",
 }
 """What tells effects apart that more of the same recordings do not."""
 DECIDES = 3.0
@@ -131,8 +134,7 @@ def next_experiment(
         return None
     sites = list(dict.fromkeys(c.split("@")[1] for c in chosen))
     missing = [s for s in sites if s not in sensors and _unheard(s, apart)] if len(sites) > 1 else []
-    terms = {c.split("@")[0] for c in chosen}
-    alike = next((text for both, text in APART.items() if both <= terms), None)
+    alike = _never_apart(chosen)
     if alike is not None:
         return NextExperiment(sentence=alike, separation_now=lead)
     look = None if apart is None else best_look(apart)
@@ -149,6 +151,14 @@ def next_experiment(
     sensor = f" An accelerometer on {place} may tell more; {UNKNOWN_THERE}." if missing else ""
     text = f"{_recording(look, apart)}{sensor}"
     return NextExperiment(sentence=text, separation_now=lead, separation_expected=lead + look.adds)
+
+
+def _never_apart(chosen: Sequence[str]) -> str | None:
+    """What tells effects apart that recordings do not, if there are such; teeth are alike on one gear only."""
+    terms = {c.split("@")[0] for c in chosen}
+    gears = {c.split("@")[1] for c in chosen}
+    tooth = any({f"{term}@{gear}" for term in TEETH} <= set(chosen) for gear in gears)
+    return next((text for both, text in APART.items() if both <= terms and (both != TEETH or tooth)), None)
 
 
 def _unheard(site: str, apart: Apart | None) -> tuple[str, ...]:

@@ -37,7 +37,8 @@ NOMINATED = tuple(
     for site in sites
 )
 """What is hidden, the same at other places (bearings 1 and 2 share their frequencies, sensors decide), and others that
-come at the same frequencies or change the same bearing."""
+come at the same frequencies or change the same bearing. A pitted flank of the pinion is not among them: beside it a
+broken tooth is told as a set of the two, as in the product where all effects are asked."""
 
 
 def small_case(number: int, machine: int, group: Group, *hidden: Hiding, fault: str | None = None) -> Case:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.kinematics import reconcile_kinematics
-from reconcile.kinematics.picture import of_the_answer
+from reconcile.kinematics.picture import _others, of_the_answer
 from reconcile.report.page import page
 from reconcile.verdict import Cause
 from tests.reconcile.kinematics.test_vague import spec
@@ -44,6 +44,16 @@ def test_without_a_cause_of_its_own_lines_the_first_that_is_there_is_shown_or_no
     assert shown([candidate("drive_end", "ball", False)]) is None
     blows = candidate("drive_end", "ball", False, True)
     assert shown([candidate("motor", "turn", False), blows]) is blows
+
+
+@pytest.mark.parametrize(("present", "order"), [(True, 4.6), (False, 4.71)])
+def test_a_part_that_is_not_heard_stands_where_the_drawing_has_it(present: bool, order: float) -> None:
+    """Within its slip another part's sideband is the best place for it."""
+    family = SimpleNamespace(site="drive_end", kind="ball", order=4.71)
+    ball = SimpleNamespace(family=family, present=present, best=SimpleNamespace(order=4.6))
+    own = SimpleNamespace(family=SimpleNamespace(site="drive_end", kind="outer", order=3.58))
+    (line,) = _others(own, [own, ball])  # type: ignore[arg-type, list-item]
+    assert line == {"label": "2 BSF", "order": order, "kind": "other"}
 
 
 @pytest.mark.slow

@@ -68,3 +68,35 @@ def test_a_wrong_speed_is_told_and_the_teeth_stay() -> None:
 @pytest.mark.slow
 def test_without_a_line_of_the_turn_nothing_decides() -> None:
     assert "machine file" not in said(25, first=0.0).sentence
+
+
+def far_off(teeth: int, stated: tuple[float, ...], turned: tuple[float, ...]):  # type: ignore[no-untyped-def]
+    """Tests and baselines at these speeds, the shaft's own lines too faint to tell."""
+    tests, baselines = (
+        [
+            recorded(gearbox(seed + k, turned_hz=hz, first=0.0), told)
+            for k, (told, hz) in enumerate(zip(stated, turned, strict=True))
+        ]
+        for seed in (2, 12)
+    )
+    return reconcile_kinematics(spec(teeth), tests, baselines, seed=0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("teeth", [29, 31])
+def test_teeth_far_from_those_of_the_file_are_told_in_most_recordings_alike(teeth: int) -> None:
+    report = far_off(teeth, (22.5, 30.0, 39.0), (22.5, 30.0, 39.0))
+    assert report.sentence.startswith("In its teeth the machine file does not fit, or most stated speeds")
+    assert f"{teeth} of pinion" in report.sentence and f"{TRUE} times the stated speed" in report.sentence
+    assert report.verdict == "nothing_missing" and not any(c.named for c in report.causes)
+    assert f"whether pinion has {TRUE} teeth" in report.undecidable[0]
+    assert report.next_experiment is not None and "Correct the teeth of pinion" in report.next_experiment.sentence
+    assert not any("left out" in text for text in report.where.limits)
+
+
+@pytest.mark.slow
+def test_speeds_that_are_wrong_by_no_whole_number_of_teeth_are_no_miscount() -> None:
+    stated = (22.5, 30.0, 39.0)
+    report = far_off(TRUE, stated, tuple(0.85 * hz for hz in stated))  # 19.55 teeth
+    assert "machine file does not fit" not in report.sentence and not any(c.named for c in report.causes)
+    assert report.verdict == "measurement_fault" and "stated speed does not hold" in report.sentence

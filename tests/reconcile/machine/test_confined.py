@@ -79,5 +79,5 @@ def test_the_sentence_says_where_and_the_advice_is_to_record_there_again() -> No
         f"Whether anything is missing is not decided: the change is unusual (p < 0.001), but {told.reasons[0]}; "
         "nearest is torque ripple at output."
     )
-    advice = _next(None, None, told)  # type: ignore[arg-type]
+    advice = _next(None, None, told, None)  # type: ignore[arg-type]
     assert advice is not None and advice.sentence.startswith("Record baseline and test there once more")

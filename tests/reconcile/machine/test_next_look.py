@@ -11,11 +11,13 @@ import pytest
 from reconcile.judge.metric import Metric, Whitening
 from reconcile.judge.pooled import OneByOne, Pooling
 from reconcile.judge.space import Library
-from reconcile.machine.answer import _lead, _next
+from reconcile.machine.answer import _lead, _next, _undecidable
 from reconcile.machine.decide import Decision
 from reconcile.machine.next_look import ADDS, Apart, apart_of, best_look, laid_out, unheard
+from reconcile.machine.unknown import Unknown
+from reconcile.machine.unlisted import UNLISTED
 from reconcile.machine.words import DECIDES, next_experiment
-from reconcile.verdict import NextExperiment
+from reconcile.verdict import EstimatedForce, NextExperiment
 from sim.presets import preset
 
 SPEEDS = (20.0, 30.0, 40.0)
@@ -88,9 +90,33 @@ def made(
 
 def asked(setting: SimpleNamespace, found: SimpleNamespace) -> NextExperiment:
     decision = Decision(word="ambiguous", chosen=tuple(found.screen.names), p=1e-5, reasons=("alike",))
-    advice = _next(setting, found, decision)  # type: ignore[arg-type]
+    advice = _next(setting, found, decision, None)  # type: ignore[arg-type]
     assert advice is not None
     return advice
+
+
+def test_what_no_recording_tells_apart_is_to_be_looked_at() -> None:
+    """A broken and a pitted tooth of one gear stay a set at any score (`of_teeth`): no speed may be said to decide."""
+    told = next_experiment(("missing_tooth@gear", "tooth_spall@gear", "tooth_crack@gear"), 112.0, 3, ("bearing1",))
+    assert told is not None and told.separation_expected is None
+    assert told.sentence.startswith("No recording tells these two apart") and "Open the gearbox" in told.sentence
+    crack = next_experiment(("missing_tooth@gear", "tooth_crack@gear"), 2.0, 3, ("bearing1",))
+    assert crack is not None and "Open the gearbox" not in crack.sentence
+    apart = next_experiment(("missing_tooth@gear", "tooth_spall@pinion"), 2.0, 3, ("bearing1",))
+    assert apart is not None and "Open the gearbox" not in apart.sentence
+
+
+def test_beyond_the_known_effects_no_two_of_them_are_to_be_told_apart() -> None:
+    decision = Decision(word="unknown_physics", chosen=("squeeze_film@bearing1", "rub@pinion"), p=1e-5, reasons=("?",))
+    force = EstimatedForce(site="bearing1", samples={}, law=None)
+    quick, full = (
+        _next(None, None, decision, Unknown(force=force, tried=tried))  # type: ignore[arg-type]
+        for tried in (False, True)
+    )
+    assert quick is not None and full is not None
+    assert "full budget" in quick.sentence and "full budget" not in full.sentence
+    assert all("near bearing1" in one.sentence and one.separation_now is None for one in (quick, full))
+    assert _undecidable(decision, "", ()) == UNLISTED
 
 
 @pytest.mark.parametrize("view", [one_by_one(), families()], ids=["lines", "families"])

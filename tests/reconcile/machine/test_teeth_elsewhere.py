@@ -239,3 +239,21 @@ def test_the_verdict_says_what_is_known(machine: MachineSpec, found: list[Elsewh
     assert report.verdict == verdict and (report.fault is not None) == (verdict == "measurement_fault")
     assert report.next_experiment is not None and asked in report.next_experiment.sentence
     assert report.undecidable
+
+
+@pytest.mark.slow
+def test_no_machine_has_other_teeth_at_one_speed_than_at_another(machine: MachineSpec) -> None:
+    """Where the lines are clear at one speed, those at another need less; not where the file's own stand there."""
+    wrong = with_teeth(machine, 29)
+    clear = {"true_hz": 30.0, "stated_hz": 30.0}
+    for other, found in ((machine, 2), (wrong, 1)):
+        points = [
+            seen(wrong, turning(m, k, **how), baseline=turning(m, k + 1, **how))[0]
+            for k, (m, how) in enumerate(
+                ((machine, clear), (other, {"true_hz": 24.0, "stated_hz": 24.0, "level": 0.08})), start=1
+            )
+        ]
+        assert teeth_elsewhere(wrong, points[1:], CHANNELS)[1] == (), "faint, it is not told by itself"
+        kept, told = teeth_elsewhere(wrong, points, CHANNELS)
+        assert len(told) == found and len(kept) == 2 - found
+        assert {one.stated_hz for one in told} == ({24.0, 30.0} if found == 2 else {30.0})

@@ -35,7 +35,11 @@ def test_the_decision_asks_who_is_heard():
     pit = "inner_spall@bearing1"
     seen = screen([0.0, 0.0, 30.0], p_any=1e-6, p_best=1e-6, strongest=20.0)
     setting = SimpleNamespace(
-        channels=("a", "b", "c"), data=(0, 0, 0), changes=SimpleNamespace(with_baseline=True), direct=LOOKED
+        channels=("a", "b", "c"),
+        data=(0, 0, 0),
+        changes=SimpleNamespace(with_baseline=True),
+        direct=LOOKED,
+        machine=SimpleNamespace(gears=()),
     )
     told = decided(setting, SimpleNamespace(screen=seen))  # type: ignore[arg-type]
     assert (told.word, told.chosen, told.reasons) == ("unknown_physics", (pit,), (SILENT,))

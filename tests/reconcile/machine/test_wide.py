@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from reconcile.machine.wide import WIDE, with_wide
-from reconcile.verdict import Cause, Report, Severity
+from reconcile.machine.wide import NARROWS, WIDE, with_wide
+from reconcile.verdict import Cause, NextExperiment, Report, Severity
 
 SIZE = Severity(name="width", value=1.7e-3, unit="m", low=0.376e-3, high=7.4e-3)
 PIT = Cause(term="outer_spall", site="drive_end", score=30.0, named=True, severity=SIZE)
@@ -19,6 +19,9 @@ def test_a_wide_interval_is_told_beside_what_is_undecided_already() -> None:
         "the second",
         "the width of outer spall at drive_end, known to a factor of 20 only (90 %: 0.38 mm to 7.4 mm)",
     )
+    assert with_wide(REPORT).next_experiment == NextExperiment(sentence=NARROWS)
+    advised = NextExperiment(sentence="Another.")
+    assert with_wide(replace(REPORT, next_experiment=advised)).next_experiment is advised
 
 
 @pytest.mark.parametrize(
