@@ -114,8 +114,8 @@ APART = {
     frozenset(("bent_shaft", "unbalance")): "A proximity probe on the shaft, at a slow roll and again at speed, would "
     "tell these effects apart best: a bow shows at a slow roll, an unbalance does not, and below the critical speed "
     "accelerometers at the bearings hear both alike.",
-    TEETH: "No recording tells these two apart for sure, whatever their scores: a pit of most of a flank carries as little "
-    "as a tooth that is gone. Open the gearbox and look at the teeth.",
+    TEETH: "No recording tells these two apart for sure, whatever their scores: a pit of most of a flank carries as "
+    "little as a tooth that is gone. Open the gearbox and look at the teeth.",
 }
 """What tells effects apart that more of the same recordings do not."""
 DECIDES = 3.0
