@@ -157,11 +157,22 @@ def find_unit(text: str) -> Unit | None:
     return UNITS.get(normal(text))
 
 
+def units_of(quantity: str) -> tuple[str, ...]:
+    """The units of a quantity in one spelling each, the first of every factor; none of what has no table."""
+    first: dict[float, str] = {}
+    for text, unit in UNITS.items():
+        if unit.quantity == quantity:
+            first.setdefault(unit.factor, text)
+    return tuple(first.values())
+
+
 def unit_of(text: str, field: str) -> Unit:
     """The unit; SpecError when it is not in the table."""
     found = find_unit(text)
     if found is not None:
         return found
-    message = f"unknown unit is refused, never guessed ('1': dimensionless, '{UNCALIBRATED}': scale not known)"
+    meant = next((one for one in UNITS if one.casefold() == normal(text).casefold()), None)
+    guess = "" if meant is None else f" (did you mean {meant}?)"
+    message = f"unknown unit is refused, never guessed ('1': dimensionless, '{UNCALIBRATED}': scale not known){guess}"
     known = "g, m/s^2, mm/s, m/s, in/s, m, mm, um, mil, in, N, kN, lbf, N m, Pa, V, mV, A, rad, deg, rpm, Hz, 1 ..."
     raise SpecError(Problem(field=field, message=message, given=text[:80], allowed=known))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from signals.ingest.description import ChannelEntry, Sensitivity
 from signals.series import FloatArray
-from signals.units import ELECTRICAL, Unit, find_unit, unit_of
+from signals.units import ELECTRICAL, Unit, find_unit, unit_of, units_of
 from sim.core.errors import Problem, SpecError
 from sim.core.near import near
 from sim.core.response import Channel
@@ -58,7 +58,8 @@ def scale_of(entry: ChannelEntry, unit_in_file: str, field: str) -> Scale:
     wanted = _wanted(entry)
     if wanted in CHECKED and unit.quantity not in _FREE and unit.quantity != wanted:
         message = f"{entry.unit} is a unit of {unit.quantity.replace('_', ' ')}, not of the quantity stated"
-        raise SpecError(Problem(field=f"{field}.quantity", message=message, given=entry.quantity))
+        allowed = f"{unit.quantity}, or a unit of {wanted}: {', '.join(units_of(wanted))}"
+        raise SpecError(Problem(field=f"{field}.quantity", message=message, given=entry.quantity, allowed=allowed))
     meant = _meant(wanted)
     if meant is not None:
         message = f"is not a known quantity (did you mean {meant}?)"

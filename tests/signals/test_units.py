@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from signals.units import UNITS, find_unit, normal, unit_of
+from signals.units import UNITS, find_unit, normal, unit_of, units_of
 from sim.core.errors import SpecError
 
 
@@ -61,3 +61,18 @@ def test_an_unknown_unit_is_refused_never_guessed(text: str) -> None:
 
 def test_every_key_of_the_table_is_found_under_its_own_spelling() -> None:
     assert not [text for text in UNITS if normal(text) != text]
+
+
+@pytest.mark.parametrize(("text", "meant"), [("G", "g"), ("Mm/s", "mm/s"), ("RPM", "rpm"), ("m/s^4", None)])
+def test_another_case_of_a_unit_is_guessed_in_words_only(text: str, meant: str | None) -> None:
+    with pytest.raises(SpecError) as caught:
+        unit_of(text, "channels.0.unit")
+    (problem,) = caught.value.problems
+    assert ("did you mean" in problem.message) == (meant is not None)
+    assert meant is None or f"(did you mean {meant}?)" in problem.message
+
+
+def test_the_units_of_a_quantity_are_named_once_each() -> None:
+    assert units_of("acceleration")[:3] == ("m/s^2", "mm/s^2", "g")
+    assert len({UNITS[one].factor for one in units_of("velocity")}) == len(units_of("velocity"))
+    assert units_of("no such quantity") == ()
