@@ -80,9 +80,11 @@ def with_unheard(gate: Gate) -> Gate:
     tests = [transferred(one, undone, 1) for one in gate.tests]
     found: list[Finding] = []
     silent = []
+    stuck = {f.channel for f in gate.findings if f.kind == "stuck" and f.fault}  # what it gives is told already
     for i, test in enumerate(tests, 1):
-        names = [name for name in test.names if _lost(test, gate.baselines, name)]
-        silent.append(len(names) == len(test.names))
+        moving = [name for name in test.names if name not in stuck]
+        names = [name for name in moving if _lost(test, gate.baselines, name)]
+        silent.append(len(names) == len(moving))
         found += [_finding(f"test {i}", name) for name in names]
     if not found:
         return gate

@@ -61,6 +61,17 @@ def test_noise_alone_is_not_usable() -> None:
 
 
 @pytest.mark.slow
+def test_a_stuck_channel_has_no_second_fault_and_is_not_waited_for() -> None:
+    """What a stuck sensor gives holds no line either; with all others deaf nothing is left."""
+    stuck = Finding(kind="stuck", channel="a0", recording="test 1", detail="", severity=1.0, fault=True)
+    for other, usable in ((heard(5), True), (20.0 * noise(4), False)):
+        test = recording(30.0 * noise(3), other)
+        given = Gate(findings=(stuck,), baselines=(BASE,), tests=(test,), fault=stuck, usable=True)
+        gate = with_unheard(given)
+        assert gate.usable is usable and [f.channel for f in gate.findings if f.kind == "noise"] == ["a1"][usable:]
+
+
+@pytest.mark.slow
 def test_noise_that_looks_like_a_loose_sensor_is_noise() -> None:
     """Undoing its transfer makes a line where the baseline has one."""
     curve = ((0.0, 0.0), (72.0, 0.0), (72.5, -40.0), (73.5, -40.0), (74.0, 0.0), (6000.0, 0.0))
