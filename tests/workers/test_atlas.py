@@ -132,3 +132,30 @@ def test_a_killed_leader_loses_its_piece_only(left: tuple[dict[str, Any], list[J
     assert {attempts[piece_id] for piece_id in made} == {1} and sorted(attempts.values())[-1] <= 2
     assert sum(attempt > 1 for attempt in attempts.values()) <= 1, "what was finished is used again"
     assert {p.worker for p in found if p.id in made} == {"w1"} and {p.worker for p in found} == {"w1", "w2"}
+
+
+def test_a_cancel_over_http_ends_the_atlas_too_and_another_asking_goes_on_from_what_is_made(
+    service: Callable[[], Parts], recordings: tuple[Recording, Recording]
+) -> None:
+    parts = service()
+    parts.start_worker("w1", few.physics)
+
+    def made() -> set[str]:
+        return {p.id for p in pieces(parts) if p.status is Status.SUCCESSFUL}
+
+    def stopped(client: httpx.Client, address: str) -> None:
+        job = client.get(address).json()["job"]["id"]
+        client.post(f"/v1/jobs/{job}/cancel").raise_for_status()
+        eventually(lambda: client.get(address).json()["status"] == "dismissed", within_s=60)
+
+    with LiveServer(app_of(parts)) as client:
+        address = asked(client, recordings)
+        eventually(lambda: len(made()) >= 2, within_s=120)
+        stopped(client, address)
+        before = made()
+        assert not any(p.status is Status.RUNNING for p in pieces(parts))
+        assert client.get(address).json().get("report") is None
+        again = asked(client, recordings)
+        eventually(lambda: len(made()) > len(before), within_s=120)
+        stopped(client, again)
+    assert before <= made() and all(p.attempt == 1 for p in pieces(parts) if p.id in before), "made once"
