@@ -126,8 +126,7 @@ def _reconciled(
     progress(LINES, "lines of bearings, teeth and shafts")
     first, every = _judged(known, tie, seen, past, seed)
     progress(SPEEDS, "other speeds")
-    recordings = (gate.tests, seen), (gate.baselines, past)
-    here = Judged(report=first, every=every)
+    here, recordings = Judged(report=first, every=every), ((gate.tests, seen), (gate.baselines, past))
     elsewhere = told_elsewhere(here, seen, far, partial(_at_speeds, known, tie, *recordings, seed), past)
     at = partial(_at_rival, known, tie, *recordings, seed)
     report = elsewhere or against_rivals(here, seen, tie, at, stated, _other_speeds(here, seen, past, tie, seed))
@@ -143,8 +142,7 @@ def _reconciled(
     report = replace(report, where=replace(report.where, limits=(*report.where.limits, *told, *cut, *whole.told)))
     quiet = report.verdict in ("nothing_missing", "not_decidable") and EXCHANGED not in report.sentence
     report = with_new_lines(report, gate, seen, past, tie)
-    if quiet and gate.fault is not None:
-        report = fault_report(gate, report)
+    report = fault_report(gate, report) if quiet and gate.fault is not None else report
     return finished(report, gate, seen, every, past)
 
 

@@ -55,6 +55,6 @@ def test_memory_does_not_grow_with_the_recordings_of_a_shard(
     monkeypatch.setattr(size, "BATCH_BYTES", 0)
     assert size.batch_size(make_plan(RECIPE)) == 8
     peak_bytes(tmp_path / "first", kind, 2)
-    few, many = peak_bytes(tmp_path / "few", kind, 8), peak_bytes(tmp_path / "many", kind, 16)
-    further_rows = (16 - 8) * make_plan(RECIPE).rows_per_recording
+    few, many = peak_bytes(tmp_path / "few", kind, 16), peak_bytes(tmp_path / "many", kind, 24)
+    further_rows = (24 - 16) * make_plan(RECIPE).rows_per_recording
     assert many - few < 0.1 * further_rows * ROW_BYTES, (few, many)
