@@ -47,7 +47,7 @@ def held_out_table(found: HeldOut | None) -> Markup:
     rivals = (
         ("retuned parameters only", found.retuned),
         ("black box with as many parameters", found.black_box),
-        ("placebo: the middle of them", found.placebo),
+        ("placebo: the middle of wrong ones", found.placebo),
     )
     rows += [(name, "", percent(share)) for name, share in rivals if known(share)]
     best = strongest_placebo(found)
