@@ -78,21 +78,40 @@ def force_squares(heard: Heard) -> Squares:
     way that suits it best, the same for all channels: no direction is more likely than another, and an average over all
     would rule out those along one axis. `best` is the middle of the likelihood in the band, over the logarithm.
     """
-    usable = np.isfinite(heard.response).all(axis=0) & (heard.response > 0.0).any(axis=0)
-    usable &= np.isfinite(heard.test + heard.before + heard.spread_db) & (heard.deviation > 0.0)
-    known = np.flatnonzero(usable.any(axis=0))
+    usable, known, grid, likely = _likelihood(heard)
     found = np.full((3, usable.shape[1]), np.nan)
     if known.size:
-        ends = _ends(heard, usable)[:, known]
-        grid = ends[0] + np.linspace(0.0, 1.0, SIZES)[:, None] * (ends[1] - ends[0])
-        likely = np.zeros((heard.response.shape[0], SIZES, usable.shape[1]))
-        for c, own in enumerate(usable):
-            if own.any():
-                likely[:, :, own] += _of_channel(heard, c, own, grid[:, np.isin(known, np.flatnonzero(own))])
-        found[:, known] = _band(grid, likely[:, :, known].max(axis=0))
+        found[:, known] = _band(grid, likely)
     rose = np.nan_to_num(found[0]) > 0.0
     squares = Squares(low=found[0], best=found[1], high=found[2], rose=rose)
     return mixed(squares, np.where(usable, heard.response.max(axis=0), 0.0))
+
+
+def likely_squares(heard: Heard) -> FloatArray:
+    """(L,): log likelihood of the best force at each line over that of one that nobody hears; 0 where no channel tells
+    it. Channels that do not hear the place speak for none."""
+    usable, known, _, likely = _likelihood(heard)
+    found = np.zeros(usable.shape[1])
+    if known.size:
+        found[known] = likely.max(axis=0) - likely[0]
+    return found
+
+
+def _likelihood(heard: Heard) -> tuple[np.ndarray, np.ndarray, FloatArray, FloatArray]:
+    """Which channels tell which lines (C, L), the lines that any tells, logarithms of the sizes that come into question
+    and their log likelihoods in the best way, (SIZES, known lines) each."""
+    usable = np.isfinite(heard.response).all(axis=0) & (heard.response > 0.0).any(axis=0)
+    usable &= np.isfinite(heard.test + heard.before + heard.spread_db) & (heard.deviation > 0.0)
+    known = np.flatnonzero(usable.any(axis=0))
+    if not known.size:
+        return usable, known, np.zeros((SIZES, 0)), np.zeros((SIZES, 0))
+    ends = _ends(heard, usable)[:, known]
+    grid = ends[0] + np.linspace(0.0, 1.0, SIZES)[:, None] * (ends[1] - ends[0])
+    likely = np.zeros((heard.response.shape[0], SIZES, usable.shape[1]))
+    for c, own in enumerate(usable):
+        if own.any():
+            likely[:, :, own] += _of_channel(heard, c, own, grid[:, np.isin(known, np.flatnonzero(own))])
+    return usable, known, grid, likely[:, :, known].max(axis=0)
 
 
 def mixed(squares: Squares, response: FloatArray) -> Squares:

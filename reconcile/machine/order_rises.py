@@ -78,14 +78,15 @@ def coarsest_bin(data: Sequence[PointData]) -> float:
 
 
 def rises_by_order(
-    machine: MachineSpec, data: Sequence[PointData], tie: Ties, lowest: float, highest: float
+    machine: MachineSpec, data: Sequence[PointData], tie: Ties, lowest: float, highest: float, *, fewest_speeds: int = 2
 ) -> Rises | None:
-    """From `lowest` to `highest`, or to where another harmonic of the teeth is nearer; None at one speed, without
-    baselines, and where no such sideband is in the band."""
+    """From `lowest` to `highest`, or to where another harmonic of the teeth is nearer; None at fewer speeds, without
+    baselines, and where no such sideband is in the band. At one speed `every` is what has risen there."""
     speeds = [d.spectra[0].speed_hz for d in data]
     groups = apart(speeds)
-    if len(groups) < 2 or any(d.spectra[1] is None for d in data):
+    if len(groups) < fewest_speeds or any(d.spectra[1] is None for d in data):
         return None
+    twice = second if len(groups) > 1 else _only
     highest = min(highest, HIGHEST_SHARE * min(tie.mesh_orders, default=0.0))
     grid = np.arange(lowest, highest, STEP)
     reached = in_reach(data, teeth_of(machine).meshes, [highest * speed for speed in speeds]) if grid.size > 1 else []
@@ -96,7 +97,12 @@ def rises_by_order(
     beside = [np.sort(one.mean(axis=1), axis=0) for one in each]
     return Rises(
         data=data, grid=grid, each=each, before=tuple(baseline for _, baseline in both),
-        every=second(np.stack([one.mean(axis=(0, 1)) for one in each]), groups), groups=groups,
-        spread=second(np.stack([one[:-1].mean(axis=0) for one in beside]), groups),
+        every=twice(np.stack([one.mean(axis=(0, 1)) for one in each]), groups), groups=groups,
+        spread=twice(np.stack([one[:-1].mean(axis=0) for one in beside]), groups),
         bin_order=coarsest_bin(data), mesh=reached[0][0],
     )  # fmt: skip
+
+
+def _only(mean: FloatArray, _groups: Sequence[Sequence[int]]) -> FloatArray:
+    """(orders,): the mean of the operating points, all of about one speed."""
+    return np.asarray(mean.mean(axis=0))

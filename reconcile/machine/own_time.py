@@ -40,6 +40,10 @@ FAINT_DB = 0.6
 """Rise at the speed where it is least from which that speed confirms what the others show: twice what sound machines
 come to. Lines of parts may meet at two speeds; a torque of 100 Hz (v040 of the proof, 4.5 dB at the speed where it is
 largest but one, 1.1 dB at the last) stood where both races' do."""
+SUPPLY_AT_TWO_DB, SUPPLY_FAINT_DB = 1.5, 0.4
+"""The same two at once or twice a supply's frequency, where an electric drive is expected to act and where noise or
+parts bring what has risen most to one search in thirty: a pull of 100 Hz (j057 of the proof) has 17, 1.9 and 0.6 dB at
+three speeds, at two of which both races' lines stand there; sound machines come to 0.6 dB at two, 0.1 dB at all."""
 MOST_SLIP = 0.005
 """Share by which an order of balls that slip may differ between two speeds."""
 HALF = 0.5
@@ -75,7 +79,7 @@ class OwnTime:
     @property
     def supply_hz(self) -> float | None:
         """The supply of which it is once or twice the frequency."""
-        return next((s for s in SUPPLIES_HZ for k in (1, 2) if abs(self.hz - k * s) < SUPPLY_HZ), None)
+        return _supply(self.hz)
 
     @property
     def text(self) -> str:
@@ -119,7 +123,9 @@ def own_time(machine: MachineSpec, data: Sequence[PointData], channels: Sequence
     search = _Search(data=data, shafts=teeth.shafts, parts=_parts(machine), mean=mean, grid=grid)
     found = search.standing(mean.min(axis=0), LEAST_DB)
     if found is None and len(groups) > 2:
-        found = search.standing(second(mean, groups), LEAST_AT_TWO_DB, at_two=True)
+        two = second(mean, groups)
+        found = search.standing(two, LEAST_AT_TWO_DB, at_two=True)
+        found = found or replace(search, supply=True).standing(two, SUPPLY_AT_TWO_DB, at_two=True)
     if found is None:
         return None
     best, seen = found
@@ -137,13 +143,15 @@ def own_time(machine: MachineSpec, data: Sequence[PointData], channels: Sequence
 
 @dataclass(frozen=True, kw_only=True)
 class _Search:
-    """`mean` (speeds, grid): what has risen, dB; `shafts`: numbers of their first lines."""
+    """`mean` (speeds, grid): what has risen, dB; `shafts`: numbers of their first lines; `supply`: whether only what a
+    supply would bring is sought."""
 
     data: Sequence[PointData]
     shafts: Sequence[int]
     parts: Sequence[Family]
     mean: FloatArray
     grid: FloatArray
+    supply: bool = False
 
     def standing(self, least: FloatArray, least_db: float, *, at_two: bool = False) -> tuple[int, OwnTime] | None:
         """The frequency of no order that stands out by `least` (grid,), dB, with its number in the grid; `at_two`
@@ -157,6 +165,7 @@ class _Search:
             free = _free(data, self.shafts, hz, self.mean[risen], self.grid)
             two = at_two and not self._everywhere(best)
             free = free and not (two and (_of_parts(data, self.parts, hz) or self._orders(hz, risen, left[best])))
+            free = free and (_supply(hz) is not None or not self.supply)
             if free and _falls(self.grid, least, best, hz) and not _of_a_part(data, self.parts, hz):
                 break
             left[np.abs(self.grid - hz) <= SEPARATE_HZ] = 0.0  # an order, with what its line leaks
@@ -174,7 +183,8 @@ class _Search:
         """Whether every speed shows it, one of them faintly."""
         every = self.mean.min(axis=0)
         away = np.abs(self.grid - self.grid[best]) > SEPARATE_HZ
-        return bool(every[best] >= max(FAINT_DB, AHEAD * every[away].max(initial=0.0)))
+        faint = SUPPLY_FAINT_DB if self.supply else FAINT_DB
+        return bool(every[best] >= max(faint, AHEAD * every[away].max(initial=0.0)))
 
     def _orders(self, hz: float, risen: Sequence[int], level_db: float) -> bool:
         """Whether what has risen at a speed has risen at the same order of another too."""
@@ -186,6 +196,11 @@ class _Search:
                 if abs(at - hz) > SEPARATE_HZ and self.mean[j, near].max(initial=0.0) >= HALF * level_db:
                     return True
         return False
+
+
+def _supply(hz: float) -> float | None:
+    """The supply of which a frequency is once or twice its own."""
+    return next((s for s in SUPPLIES_HZ for k in (1, 2) if abs(hz - k * s) < SUPPLY_HZ), None)
 
 
 def _middle(grid: FloatArray, least: FloatArray, best: int) -> float:

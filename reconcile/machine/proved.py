@@ -23,6 +23,10 @@ UNLIKE = (
     "recorded levels: another part, another place, or sensors that are not where they are said to be"
 )
 NO_FORECAST = "on data it was not fitted to, the effect that fits best brings the spectra no nearer than none"
+NO_BETTER = (
+    "on data it was not fitted to, the effect that fits best may bring the spectra no nearer than none, and a "
+    "correction without physics brings them nearer"
+)
 BEYOND_DOUBT = 20.0
 """Log evidence, ahead of all else by `FAR_AHEAD`, from which an effect is there although no form of it that was
 simulated comes nearer: sound machines come to 7.0 with a friction, a loose seat of another machine (o016), whose level
@@ -54,8 +58,8 @@ def proved(
     struck = float(found.screen.direct[place]) >= (HEARD if _of_a_tooth(decision) else STRUCK)
     sure = float(found.screen.evidence[place]) >= BEYOND_DOUBT and lead(found.screen) >= FAR_AHEAD
     if revised.after_db < revised.before_db:
-        stands = struck or sure or not _foretells_nothing(decision, held)
-        return (decision, causes) if stands else _undecided(decision, causes, found, NO_FORECAST)
+        nothing = "" if struck or sure else _foretells_nothing(decision, held)
+        return _undecided(decision, causes, found, nothing) if nothing else (decision, causes)
     if struck and revised.after_db >= FAR_WORSE * revised.before_db:
         return replace(decision, word="not_decidable", reasons=(UNLIKE,)), _unnamed(causes, UNLIKE)
     firm = decision.word == "ambiguous" and float(found.screen.evidence[place]) >= FAR_AHEAD
@@ -67,11 +71,15 @@ def proved(
     return _undecided(decision, causes, found, NO_NEARER)
 
 
-def _foretells_nothing(decision: Decision, held: HeldOut | None) -> bool:
-    """Whether an effect that is named alone was tried on data held out and gained nothing there."""
-    return (
-        decision.word == "explained" and held is not None and held.effects == decision.chosen[:1] and held.gain <= 0.0
-    )
+def _foretells_nothing(decision: Decision, held: HeldOut | None) -> str:
+    """Why an effect that is named alone says nothing of data that were held out; empty where it does, or where it was
+    not tried."""
+    if decision.word != "explained" or held is None or held.effects != decision.chosen[:1]:
+        return ""
+    if held.gain <= 0.0:
+        return NO_FORECAST
+    beaten = held.black_box is not None and held.black_box > held.gain
+    return NO_BETTER if beaten and held.gain_low <= 0.0 else ""
 
 
 def _undecided(

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from reconcile.machine.decide import AT_ONE, LINES_QUIET, UNMEASURED, Decision
 from reconcile.machine.next_look import Apart, Look, best_look
-from reconcile.machine.proved import NO_FORECAST, NO_NEARER, UNLIKE
+from reconcile.machine.proved import NO_BETTER, NO_FORECAST, NO_NEARER, UNLIKE
 from reconcile.observe.observation import PointData
 from reconcile.report.words import percent, sizes
 from reconcile.verdict import NO_GAIN, EstimatedForce, HeldOut, NextExperiment, Severity, operating_point
@@ -91,7 +91,7 @@ def sentence(decision: Decision, severity: Severity | None, held: HeldOut | None
 def _undecided(decision: Decision) -> str:
     """Of a set, or of a change of which nothing can be named."""
     best, unusual = title(decision.chosen[0]).lower(), f"(p {_chance(decision.p)})"
-    if decision.reasons[0] in (NO_FORECAST, NO_NEARER, UNLIKE):
+    if decision.reasons[0] in (NO_BETTER, NO_FORECAST, NO_NEARER, UNLIKE):
         return f"The change is unusual {unusual}, but {decision.reasons[0]} ({best}): nothing is named."
     if decision.reasons[0] == LINES_QUIET:
         told = f"the change is unusual {unusual}, but {LINES_QUIET}"

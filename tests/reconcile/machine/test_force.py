@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from reconcile.machine import force as force_module
 from reconcile.machine.added_power import ways
-from reconcile.machine.force import AS_WELL, MODEL_DB, Heard, Squares, force_squares, mixed
+from reconcile.machine.force import AS_WELL, MODEL_DB, Heard, Squares, force_squares, likely_squares, mixed
 
 LINES = 6
 RESPONSE = 1e-4
@@ -254,3 +254,20 @@ def test_a_channel_without_any_signal_tells_nothing() -> None:
         Heard(test=silent, before=silent, deviation=silent, response=np.ones((1, 1, 2)), spread_db=np.zeros((1, 2)))
     )
     assert np.isnan(found.best).all()
+
+
+def test_a_force_that_was_heard_is_likelier_than_none_and_most_where_it_acts() -> None:
+    """A place that hears it as the channels did leads one that hears it the other way round."""
+    loud = 50.0**2 * RESPONSE
+    before = np.full((2, 3), 9.0 * RESPONSE)
+    test = before + np.array([[loud, 0.0, loud], [0.01 * loud, 0.0, 0.01 * loud]])
+    here = np.full((1, 2, 3), RESPONSE)
+    here[0, 1] *= 0.01
+    there = here[:, ::-1].copy()
+    for response in (here, there):
+        response[0, :, 2] = np.nan
+    at_place, elsewhere = (likely_squares(heard(test, before, response=r)) for r in (here, there))
+    assert at_place[0] > 5.0 and at_place[0] > elsewhere[0] + 3.0
+    assert at_place[1] < 1.0 and at_place[2] == 0.0, "nothing rose; nobody hears it"
+    silent = np.full((1, 2, 3), np.nan)
+    assert np.array_equal(likely_squares(heard(test, before, response=silent)), np.zeros(3))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.kinematics.spec import KinematicSpec, of_machine
-from reconcile.machine.own_order import OwnOrder, _known, _Seen, own_order
+from reconcile.machine.own_order import LEAST_AT_ONE_DB, OwnOrder, _known, _Seen, own_order
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
 from sim.core.spec import MachineSpec
@@ -154,8 +154,28 @@ def test_noise_says_nothing(machine: MachineSpec) -> None:
         assert told(machine, at_order(1.9, depth), speeds_hz=(22.5, 30.0), seconds=0.6) is None
 
 
-def test_without_speeds_baselines_or_teeth_nothing_is_said(machine: MachineSpec) -> None:
-    assert told(machine, at_order(1.9), speeds_hz=(30.0,)) is None
+@pytest.mark.parametrize(("depth", "found"), [(0.2, True), (0.01, False)])
+def test_at_one_speed_alone_it_must_stand_out_far(machine: MachineSpec, depth: float, found: bool) -> None:
+    """As a belt (j071 of the proof) does; what is enough at two speeds a sound machine has at one."""
+    one = told(machine, at_order(1.9, depth), speeds_hz=(30.0,))
+    assert (one is not None) is found
+    assert told(machine, at_order(1.9, depth), speeds_hz=(22.5, 30.0)) is not None
+    if one is not None:
+        assert one.order == pytest.approx(1.9, abs=0.02) and one.rise_db > LEAST_AT_ONE_DB
+        assert "at the one speed recorded" in one.text and "one speed cannot tell" in one.follows
+        assert one.speeds == (1, 1) and {line.speed_hz for line in one.lines} == {30.0}
+    near = told(machine, at_order(1.9, depth), speeds_hz=(30.0, 30.2))
+    assert (near is not None) is found, "two points of about one speed are one"
+
+
+def test_at_one_speed_a_forest_and_a_part_are_none(machine: MachineSpec) -> None:
+    assert told(machine, at_many, speeds_hz=(30.0,)) is None
+    assert told(machine, all_of((1.0, 2.0, OUTER), 0.2), speeds_hz=(30.0,)) is None
+    cage = told(machine, at_order(CAGE, 0.2), speeds_hz=(30.0,))
+    assert cage is not None and "but the cage of bearing1 or bearing2" in cage.follows
+
+
+def test_without_baselines_or_teeth_nothing_is_said(machine: MachineSpec) -> None:
     assert told(machine, at_order(1.9), None) is None
     assert told(machine, at_order(1.9), seconds=0.1) is None, "no order is ten bins from the teeth"
     turning = points_of(machine, at_order(1.9))

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from reconcile.atlas.plan import Point
 from reconcile.machine.own_time import (
     AHEAD,
     BESIDE,
@@ -16,6 +18,8 @@ from reconcile.machine.own_time import (
     OWN_HZ,
     SEPARATE_HZ,
     STEP_HZ,
+    SUPPLY_AT_TWO_DB,
+    SUPPLY_FAINT_DB,
     OwnTime,
     _an_order,
     _falls,
@@ -101,7 +105,7 @@ def test_a_speed_at_which_the_path_is_deaf_does_not_hide_it(machine: MachineSpec
     assert every is not None and every.speeds == (3, 3) and "at every speed" in every.text
 
 
-@pytest.mark.parametrize(("faint", "found"), [(0.0, False), (0.001, False), (0.003, True)])
+@pytest.mark.parametrize(("faint", "found"), [(0.0, False), (0.0005, False), (0.001, True), (0.003, True)])
 def test_where_parts_meet_at_two_speeds_a_third_that_shows_it_faintly_decides(
     machine: MachineSpec, faint: float, found: bool
 ) -> None:
@@ -132,6 +136,36 @@ def test_faintly_is_above_what_sound_machines_come_to_and_ahead_of_all_else_ther
     assert everywhere(1.0, beside_db=1.0 / AHEAD) and not everywhere(1.0, beside_db=1.0 / AHEAD + 0.01)
     assert everywhere(1.0, beside_db=5.0, off_hz=SEPARATE_HZ - STEP_HZ), "its own foot"
     assert not everywhere(1.0, beside_db=5.0, off_hz=-SEPARATE_HZ - STEP_HZ)
+
+
+@pytest.mark.parametrize(("hz", "told_so"), [(100.0, True), (60.0, True), (120.0, True), (85.0, False)])
+def test_at_a_supplys_frequency_less_is_enough(hz: float, told_so: bool) -> None:
+    """As j057 of the proof: 17, 1.9 and 0.6 dB, where parts of bearings stand at two of the speeds."""
+    grid = np.arange(LOWEST_HZ, 260.0, STEP_HZ)
+    points = [SimpleNamespace(point=Point(speed_hz=s), lines_hz=np.array([s])) for s in (22.5, 30.0, 39.0)]
+
+    def found(levels_db: Sequence[float]) -> bool:
+        mean = np.zeros((3, grid.size))
+        mean[:, np.abs(grid - hz) < 0.9] = np.array(levels_db)[:, None]
+        search = _Search(data=points, shafts=(), parts=(), mean=mean, grid=grid, supply=True)  # type: ignore[arg-type]
+        least = np.sort(mean, axis=0)[-2]
+        return search.standing(least, SUPPLY_AT_TWO_DB, at_two=True) is not None
+
+    assert found([0.6, 17.0, 1.9]) is told_so
+    assert not found([0.6, 17.0, 1.4]), "sound machines come to 0.6 dB"
+
+
+def test_a_supply_confirms_by_less_too() -> None:
+    grid = np.arange(LOWEST_HZ, 260.0, STEP_HZ)
+    best = int(np.argmin(np.abs(grid - 100.0)))
+    for supply, least_db, sure in (
+        (True, SUPPLY_FAINT_DB, True),
+        (True, SUPPLY_FAINT_DB - 0.01, False),
+        (False, SUPPLY_FAINT_DB, False),
+    ):
+        mean = np.zeros((3, grid.size))
+        mean[:, best] = [20.0, least_db, 2.0]
+        assert _Search(data=(), shafts=(), parts=(), mean=mean, grid=grid, supply=supply)._everywhere(best) is sure
 
 
 def test_what_turns_with_a_shaft_is_none(machine: MachineSpec) -> None:

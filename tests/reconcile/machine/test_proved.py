@@ -9,7 +9,7 @@ import pytest
 
 from reconcile.machine.decide import MECHANISM_OPEN, Decision
 from reconcile.machine.direct import HEARD
-from reconcile.machine.proved import BEYOND_DOUBT, FORM_UNMET, NO_FORECAST, NO_NEARER, UNLIKE, proved
+from reconcile.machine.proved import BEYOND_DOUBT, FORM_UNMET, NO_BETTER, NO_FORECAST, NO_NEARER, UNLIKE, proved
 from reconcile.machine.words import sentence
 from reconcile.verdict import Cause, Word
 
@@ -42,8 +42,9 @@ def test_a_name_whose_machine_is_no_nearer_is_taken_back() -> None:
     assert "dry friction at a support at gear" in said and "nothing is named" in said and "missing" not in said
 
 
-def held(gain: float, *effects: str) -> SimpleNamespace:
-    return SimpleNamespace(gain=gain, effects=effects or NAMES[:1])
+def held(gain: float, *effects: str, gain_low: float | None = None, black_box: float | None = None) -> SimpleNamespace:
+    low = gain - 0.01 if gain_low is None else gain_low
+    return SimpleNamespace(gain=gain, gain_low=low, black_box=black_box, effects=effects or NAMES[:1])
 
 
 def test_so_is_a_name_that_foretells_nothing_of_what_it_was_not_fitted_to() -> None:
@@ -62,6 +63,23 @@ def test_so_is_a_name_that_foretells_nothing_of_what_it_was_not_fitted_to() -> N
         assert kept == (decided(), CAUSES)
     left_open = decided("ambiguous")
     assert proved(left_open, CAUSES, found(0.0), nearer, held(-0.08)) == (left_open, CAUSES)  # type: ignore[arg-type]
+
+
+def test_so_is_one_that_may_foretell_nothing_and_less_than_a_correction_without_physics() -> None:
+    """A friction that was named for a loose sensor (j022 of the proof): 0.025 (-0.028 to 0.059), a black box 0.080."""
+    nearer = revised(1.8, 1.76)
+    weak = held(0.025, gain_low=-0.028, black_box=0.08)
+    decision, causes = proved(decided(), CAUSES, found(0.0), nearer, weak)  # type: ignore[arg-type]
+    assert decision.word == "not_decidable" and decision.reasons == (NO_BETTER,)
+    assert not any(c.named for c in causes)
+    assert "correction without physics" in (said := sentence(decision, None, None)) and "nothing is named" in said
+    for enough in (
+        held(0.025, gain_low=0.001, black_box=0.08),
+        held(0.025, gain_low=-0.028, black_box=0.02),
+        held(0.025, gain_low=-0.028),
+    ):
+        assert proved(decided(), CAUSES, found(0.0), nearer, enough) == (decided(), CAUSES)  # type: ignore[arg-type]
+    assert proved(decided(), CAUSES, found(12.0), nearer, weak) == (decided(), CAUSES), "its impacts prove it"  # type: ignore[arg-type]
 
 
 def test_so_is_a_set_whose_best_hardly_stands_out() -> None:

@@ -96,3 +96,19 @@ def test_an_order_of_no_part_is_said_with_its_shaft(machine: MachineSpec) -> Non
     assert explained_by(found) == (), "no drive's hum"
     hum = with_strange(said("measurement_fault", fault=HUM), TURNS, machine, {})
     assert (hum.verdict, hum.fault) == ("measurement_fault", HUM)
+
+
+@pytest.mark.parametrize(
+    ("gain", "placebo", "heard", "answers"),
+    [(0.053, 0.057, 0.0, True), (0.053, 0.04, 0.0, False), (0.3, 0.4, 0.0, False), (0.053, 0.057, 12.0, False)],
+)
+def test_a_name_that_its_placebos_forecast_as_well_stands_behind_it(
+    machine: MachineSpec, gain: float, placebo: float, heard: float, answers: bool
+) -> None:
+    """As an angle at a coupling beside a pull of 100 Hz (c046 of the proof); what is heard at its own lines stays."""
+    named = said("explained", score=10.4)
+    assert named.held_out is not None
+    named = replace(named, held_out=replace(named.held_out, gain=gain, placebo=placebo))
+    found = with_strange(named, SEEN, machine, {"outer_spall@bearing1": heard})
+    assert (found.verdict == "unknown_physics") is answers
+    assert any(cause.named for cause in found.causes) is not answers
