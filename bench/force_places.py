@@ -78,7 +78,7 @@ def chosen(lines: Lines, rows: np.ndarray) -> np.ndarray:
     heard = heard / np.maximum(np.linalg.norm(heard, axis=1, keepdims=True), 1e-30)
     gained = lines.gained[rows] / np.maximum(np.linalg.norm(lines.gained[rows], axis=1, keepdims=True), 1e-30)
     square, met = np.einsum("lcp,lcq->lpq", heard, heard), np.einsum("lcp,lc->lp", heard, gained)
-    step = 1.0 / float(np.linalg.eigvalsh(square)[:, -1].max())
+    step = 1.0 / max(float(np.linalg.eigvalsh(square)[:, -1].max()), 1e-30)
     largest = float(np.linalg.norm(np.maximum(met, 0.0), axis=0).max())
     found, force = [], np.zeros(met.shape)
     for penalty in PENALTIES * largest:
@@ -96,6 +96,8 @@ def chosen(lines: Lines, rows: np.ndarray) -> np.ndarray:
 def stable(lines: Lines, rng: np.random.Generator) -> FloatArray:
     """(places,): share of halves of the lines in which a place is chosen, at penalties that choose few."""
     count = lines.gained.shape[0]
+    if not lines.heard.any():
+        return np.zeros(lines.heard.shape[2])
     halves = [rng.choice(count, max(2, count // 2), replace=False) for _ in range(HALVES)]
     share = np.mean([chosen(lines, rows) for rows in halves], axis=0)
     few = share.sum(axis=1) <= MOST_PLACES

@@ -47,8 +47,9 @@ class Rises:
     """Number of the teeth's first line among those watched."""
 
     def level_before_db(self, best: int) -> float:
-        """Mean of the baselines there, above what chance reaches."""
-        return float(np.mean([levels[..., best].mean() for levels in self.before])) - LEAST_LEVEL_DB
+        """Mean of the baselines there, above what chance reaches, where it has risen: at other speeds the wander of
+        theirs may widen the teeth's lines up to it."""
+        return float(np.mean([self.before[k][..., best].mean() for k in self.risen(best)])) - LEAST_LEVEL_DB
 
     def risen(self, best: int) -> list[int]:
         """Operating points that show what has risen there."""

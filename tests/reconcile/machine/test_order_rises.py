@@ -74,6 +74,9 @@ def test_what_was_there_before_is_told_above_what_chance_reaches() -> None:
     rises.before[1][0, 0, 0] += 8.0
     assert rises.level_before_db(0) == pytest.approx(0.5 * (3.0 + 8.0 / 8))
     assert rises.level_before_db(1) == pytest.approx(0.0)
+    quiet = made([[8.0], [8.0], [0.0]], [[0], [1], [2]], before=LEAST_LEVEL_DB)
+    quiet.before[2][...] += 9.0
+    assert quiet.level_before_db(0) == pytest.approx(0.0), "where nothing rose, nothing is asked"
 
 
 def test_lines_are_those_of_the_teeth_at_the_speeds_that_show_it(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,6 +11,7 @@ import pytest
 from reconcile.atlas.plan import Point
 from reconcile.machine.own_time import (
     AHEAD,
+    AT_ONE_DB,
     BESIDE,
     FAINT_DB,
     LOW,
@@ -197,9 +198,25 @@ def test_hum_that_was_added_and_what_the_baseline_has_are_none(machine: MachineS
     assert told(machine, at_hz(100.0), at_hz(100.0)) is None
 
 
-def test_one_speed_or_no_baseline_say_nothing(machine: MachineSpec) -> None:
-    assert told(machine, at_hz(100.0), speeds_hz=(30.0,)) is None
+def test_without_a_baseline_nothing_is_said(machine: MachineSpec) -> None:
     assert told(machine, at_hz(100.0), None) is None
+
+
+@pytest.mark.parametrize(
+    ("hz", "speed_hz", "found"),
+    [(100.0, 30.0, True), (120.0, 36.0, True), (77.0, 30.0, False), (100.0, 39.0, False), (100.0, 25.0, False)],
+)
+def test_at_one_speed_a_supply_is_told_where_no_part_turns_so(
+    machine: MachineSpec, hz: float, speed_hz: float, found: bool
+) -> None:
+    """At 39 Hz the outer race passes at 100 Hz, at 25 Hz it is the fourth turn."""
+    seen = told(machine, at_hz(hz, 0.2), speeds_hz=(speed_hz,))
+    assert (seen is not None) is found
+    if seen is not None:
+        assert "at the one speed recorded" in seen.text and "another speed tells" in seen.follows
+        assert seen.speeds == (1, 1) and seen.rise_db > AT_ONE_DB
+    assert told(machine, at_hz(hz, 0.003), speeds_hz=(speed_hz,)) is None, "too faint for one speed"
+    assert told(machine, at_many, speeds_hz=(speed_hz,)) is None
 
 
 def test_a_high_multiple_of_the_slow_shaft_lies_near_any_frequency(machine: MachineSpec) -> None:

@@ -112,3 +112,13 @@ def test_a_name_that_its_placebos_forecast_as_well_stands_behind_it(
     found = with_strange(named, SEEN, machine, {"outer_spall@bearing1": heard})
     assert (found.verdict == "unknown_physics") is answers
     assert any(cause.named for cause in found.causes) is not answers
+
+
+@pytest.mark.parametrize(("placebo", "answers"), [(0.33, True), (0.2, False)])
+def test_so_does_a_set_whose_placebos_forecast_as_well(machine: MachineSpec, placebo: float, answers: bool) -> None:
+    """As wavy races beside a torque of 100 Hz (c067 of the proof)."""
+    several = said("ambiguous", score=11.0)
+    assert several.held_out is not None
+    several = replace(several, held_out=replace(several.held_out, gain=0.27, placebo=placebo))
+    assert (with_strange(several, SEEN, machine, {}).verdict == "unknown_physics") is answers
+    assert with_strange(several, SEEN, machine, {"outer_spall@bearing1": 12.0}).verdict == "ambiguous"
