@@ -46,7 +46,7 @@ class Design:
     have gone before, `begun` from which on those of rarer laws, pairs and unknown effects; `rows` are the conditions of
     every fourth case."""
 
-    split: Literal["entire", "held", "wide", "mixed", "young", "vast", "clear", "jury"]
+    split: Literal["entire", "held", "wide", "mixed", "young", "vast", "clear", "jury", "inquest"]
     groups: Mapping[Group, int]
     turned: int
     rows: tuple[Row, ...]
@@ -86,6 +86,8 @@ CLEAR = Design(split="clear", groups=WIDE.groups, turned=907, rows=HELD.rows, be
 """As vast, of the rarer laws and most of the pairs that it leaves out."""
 JURY = Design(split="jury", groups=WIDE.groups, turned=1013, rows=HELD.rows, begun=40)
 """As clear, of the rarer laws and most of the pairs that it leaves out."""
+INQUEST = Design(split="inquest", groups=WIDE.groups, turned=1117, rows=HELD.rows, begun=48)
+"""As jury, of the rarer laws and most of the pairs that it leaves out."""
 ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
 STRUCK = ("outer_pit", "inner_pit", "ball_pit")
 FORMS = 3
@@ -131,6 +133,11 @@ def clear() -> tuple[Case, ...]:
 def jury() -> tuple[Case, ...]:
     """All cases of the eighth."""
     return cases_of_design(JURY)
+
+
+def inquest() -> tuple[Case, ...]:
+    """All cases of the ninth."""
+    return cases_of_design(INQUEST)
 
 
 def cases_of_design(design: Design) -> tuple[Case, ...]:

@@ -45,6 +45,7 @@ Split = Literal[
     "vast",
     "clear",
     "jury",
+    "inquest",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -72,6 +73,7 @@ SEEDS = {
     "vast": 5_283_740_961,
     "clear": 7_904_163_528,
     "jury": 6_583_017_249,
+    "inquest": 3_120_864_795,
 }
 COUNTS = {
     "dev": {
