@@ -18,6 +18,7 @@ from reconcile.kinematics.whose_speed import check_whose_speeds
 from reconcile.machine.budget import QUICK, Budget
 from reconcile.machine.engine import Progress, reconcile_machine
 from reconcile.one_names import by_one_name, same_in_another_order
+from reconcile.overall import with_levels
 from reconcile.pulses import check_pulses
 from reconcile.repeated import check_repeated
 from reconcile.report.revised import sent_to_the_file
@@ -217,6 +218,29 @@ def reconcile_recordings(
     machine that can be simulated allows all stages, and there `nominated` may limit the effects considered. SpecError
     says what cannot be reconciled and why.
     """
+    return with_levels(
+        _reconciled(
+            machine, tests, baselines, budget=budget, keeper=keeper, mapper=mapper, seed=seed, progress=progress,
+            nominated=nominated,
+        ),
+        tests,
+        baselines,
+    )  # fmt: skip
+
+
+def _reconciled(
+    machine: MachineSpec | KinematicSpec,
+    tests: Sequence[Recording],
+    baselines: Sequence[Recording],
+    *,
+    budget: Budget,
+    keeper: Keeper | None,
+    mapper: Mapper,
+    seed: int,
+    progress: Progress,
+    nominated: Sequence[Candidate] | None,
+) -> Report:
+    """The report of the level that the machine's description allows."""
     check_size(tests, baselines)
     sent = sent_as(tests, baselines)
     if isinstance(machine, MachineSpec) and not machine.shafts:

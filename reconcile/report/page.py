@@ -22,6 +22,7 @@ from reconcile.report.heard import against_places
 from reconcile.report.held import held_out_table, held_out_words
 from reconcile.report.markup import Markup, figure_text, tag
 from reconcile.report.named import cause, changed_or_added
+from reconcile.report.overall import overall
 from reconcile.report.panels import spectra, turns
 from reconcile.report.pictures import numbers, several, text
 from reconcile.report.provenance import provenance
@@ -54,7 +55,7 @@ def _where(report: Report) -> Markup:
     weights = {p.site: p.weight for p in report.where.sites}
     drawing = sketch(machine, weights) if isinstance(machine, dict) else Markup("")
     sites = bullets(f"{p.site}: {100 * p.weight:.0f} % of the weight" for p in report.where.sites)
-    return section("Where", drawing, told(sites, where_table(report.where)))
+    return section("Where", drawing, told(sites, where_table(report.where, report.causes)))
 
 
 def _reference(report: Report) -> str:
@@ -192,6 +193,7 @@ def page(report: Report) -> str:
         head(report),
         fault(report),
         _where(report),
+        overall(report),
         _ranking(report),
         _held_out(report),
         _force(report),

@@ -38,6 +38,12 @@ SYMBOLS = (
     "f_o, f_i, f_b, f_c: outer race, inner race, ball and cage of a bearing; f_r: a shaft; f_m: a mesh; numbered in "
     "the order of the machine file. 3*f_i1±2*f_r1 is a sideband. Bearings that roll alike share their lines."
 )
+CHANGE = (
+    "Change: of the line's level (of a line of an envelope: of its depth of modulation) over what was expected there, by "
+    "the baseline where there is one. "
+)
+STRUCK = {"outer_spall": "outer", "inner_spall": "inner", "ball_spall": "ball"}
+"""What the lines of a struck part are locked to."""
 PERHAPS = ("Perhaps the measurement", "warn")
 """Badge of a fault that the machine itself may look like."""
 TOLD = '<div class="told">'
@@ -160,11 +166,30 @@ def fault(report: Report) -> Markup:
     return section("The measurement", told(table(heads, rows)))
 
 
-def where_table(where: Where) -> Markup:
-    """Changed lines as a table, and the limits of the location."""
+def where_table(where: Where, causes: Sequence[Cause] = ()) -> Markup:
+    """Changed lines as a table, and the limits of the location. Lines of a part that is named as struck come first, by
+    frequency, and the others below a fold."""
     shown = sorted(where.lines, key=lambda x: -abs(x.change_db))[:MOST_LINES]
+    own = sorted((x for x in shown if _of_the_named(x, causes)), key=lambda x: (x.speed_hz or 0.0, x.frequency_hz))
+    others = [x for x in shown if x not in own]
+    window = where.angle_window
+    said = Markup("")
+    if window is not None:
+        text = f"{window.centre_deg:.0f}° of {window.shaft} (from {window.low_deg:.0f}° to {window.high_deg:.0f}°)"
+        since = "from the tacho's pulse or, without one, from the first sample on"
+        said = tag("p", f"The residual sits at {text}, {since}.")
+    folded = Markup("")
+    if own and others:
+        many = f"{len(others)} other line{'s' if len(others) > 1 else ''} that changed"
+        folded = tag("details", tag("summary", many), _lines(others))
+    limits = bullets(where.limits)
+    symbols = formula(SYMBOLS) if any("*f_" in x.label for x in shown) else Markup("")
+    key = tag("p", Markup(CHANGE + symbols), css="muted") if shown else ""
+    return Markup(said + _lines(own or others) + folded + key + (tag("h3", "Limits") + limits if limits else ""))
+
+
+def _lines(shown: Sequence[LineChange]) -> Markup:
     points = any(x.speed_hz is not None for x in shown)
-    alike = _together(shown)
     heads = ("line", *(("operating point",) if points else ()), "Hz", "change, dB", "channel", "locked to")
     rows = [
         (
@@ -175,17 +200,16 @@ def where_table(where: Where) -> Markup:
             x.channel or "–",
             formula(x.locked_to or "nothing known"),
         )
-        for x, same in alike
+        for x, same in _together(shown)
     ]
-    window = where.angle_window
-    said = Markup("")
-    if window is not None:
-        text = f"{window.centre_deg:.0f}° of {window.shaft} (from {window.low_deg:.0f}° to {window.high_deg:.0f}°)"
-        since = "from the tacho's pulse or, without one, from the first sample on"
-        said = tag("p", f"The residual sits at {text}, {since}.")
-    limits = bullets(where.limits)
-    key = tag("p", formula(SYMBOLS), css="muted") if any("*f_" in x.label for x in shown) else ""
-    return Markup(said + table(heads, rows) + key + (tag("h3", "Limits") + limits if limits else ""))
+    return table(heads, rows)
+
+
+def _of_the_named(line: LineChange, causes: Sequence[Cause]) -> bool:
+    """Whether a line may be of the part that a name says is struck."""
+    return any(
+        c.named and c.site in line.locked_to and STRUCK[c.term] in line.locked_to for c in causes if c.term in STRUCK
+    )
 
 
 def _together(lines: Sequence[LineChange]) -> list[tuple[LineChange, list[LineChange]]]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import pytest
 
 from reconcile.report import page
 from reconcile.report.action import to_do
 from reconcile.report.formula import formula
+from reconcile.report.markup import Markup
 from reconcile.report.provenance import provenance
 from reconcile.report.sections import causes_table, where_table
 from reconcile.report.steps import stages
@@ -149,6 +151,23 @@ def test_lines_of_one_family_stand_in_one_row() -> None:
     other = LineChange(label="1 BPFI", frequency_hz=150.0, change_db=20.5, channel="a", locked_to="b1.inner")
     _, first, second = rows(where_table(Where(lines=(*lines, other))))
     assert first[0] == "1 BPFI" and second[:3] == ["1 BPFO, 2 BPFO", "100, 200", "+20.0"]
+
+
+def test_lines_of_the_struck_part_stand_before_the_others() -> None:
+    lines = tuple(
+        LineChange(
+            label=f"{k}*f_o1", frequency_hz=100.0 * k, change_db=30.0 - k * (-1) ** k, locked_to="outer ring of b1"
+        )
+        for k in (3, 1, 2)
+    )
+    other = LineChange(label="2*f_i1", frequency_hz=150.0, change_db=50.0, locked_to="inner ring of b1")
+    named = Cause(term="outer_spall", site="b1", score=9.0, named=True)
+    made = where_table(Where(lines=(*lines, other)), (named,))
+    before, after = made.split("1 other line that changed")
+    assert [row[1] for row in rows(Markup(before))[1:]] == ["100", "200", "300"]
+    assert [row[1] for row in rows(Markup(after))[1:]] == ["150"]
+    for unnamed in ((), (replace(named, named=False),), (replace(named, term="unbalance"),)):
+        assert "that changed" not in where_table(Where(lines=(*lines, other)), unnamed)
 
 
 def test_sizes_have_two_figures_as_the_sentence_has_them() -> None:
