@@ -166,9 +166,8 @@ def _machine(report: Report) -> Markup:
         return Markup("")
     spec = json.dumps(plain(report.machine), allow_nan=False, ensure_ascii=False, indent=1)
     body = tag("details", tag("summary", "Revised machine (JSON)"), tag("pre", spec))
-    return section(
-        "Revised machine", told(tag("p", note(report), css="muted"), tag("p", simulated(report)), body), _paths(report)
-    )
+    said = tag("p", note(report), css="muted")
+    return section("Revised machine", said, told(tag("p", simulated(report)), body), _paths(report))
 
 
 def _paths(report: Report) -> Markup:

@@ -39,8 +39,8 @@ SYMBOLS = (
     "the order of the machine file. 3*f_i1±2*f_r1 is a sideband. Bearings that roll alike share their lines."
 )
 CHANGE = (
-    "Change: of the line's level (of a line of an envelope: of its depth of modulation) over what was expected there, by "
-    "the baseline where there is one. "
+    "Change: of the line's level (of a line of an envelope: of its depth of modulation) over what was expected there, "
+    "by the baseline where there is one. "
 )
 STRUCK = {"outer_spall": "outer", "inner_spall": "inner", "ball_spall": "ball"}
 """What the lines of a struck part are locked to."""

@@ -23,7 +23,7 @@ const percent = (share) => (share === null || share === undefined ? "–" : `${M
 const distance = (value, of) => (!of || of === "1" ? `${number(100 * value, 2)} %` : `${number(value, 3)} ${unit(of)}`);
 
 export function answer({ id, report, links }) {
-  return h("div", { class: "result-body" }, verdict(report), measurement(report.measurement_faults), where(report.where), causes(report.causes), heldOut(report.held_out), force(report),
+  return h("div", { class: "result-body" }, verdict(report), measurement(report.measurement_faults), where(report.where, report.causes), causes(report.causes), heldOut(report.held_out), force(report),
     limits(report), next(report.next_experiment), files(id, links), links.page && !apiKey() ? picture(links.page) : null);
 }
 
@@ -57,7 +57,7 @@ function tidied(detail) {
   return detail.replace(/\b(\d+\.\d{3})%/g, (whole, share) => `${Number(Number(share).toPrecision(3))} %`).replace(/\b1 stretches, the first at/g, "one stretch,");
 }
 
-function where({ sites, lines, angle_window: angle, limits: told }) {
+function where({ sites, lines, angle_window: angle, limits: told }, list) {
   const bars = sites.map(({ site, weight }) => {
     const fill = h("i", {});
     fill.style.width = `${100 * weight}%`;
@@ -65,7 +65,7 @@ function where({ sites, lines, angle_window: angle, limits: told }) {
   });
   return card("Where", "where", bars.length ? bars : h("p", { class: "muted" }, "No place stands out."),
     angle ? h("p", {}, `Around ${number(angle.centre_deg)}° of ${angle.shaft} (${number(angle.low_deg)}° to ${number(angle.high_deg)}°).`) : null,
-    lines.length ? lineTable(lines) : null,
+    lines.length ? lineTable(lines, list) : null,
     bullets(told));
 }
 
