@@ -20,4 +20,4 @@ def sound() -> Recording:
 
 @pytest.fixture(scope="module")
 def stiffening() -> Recording:
-    return recording(lambda x, _v: 0.3 * STIFFNESS * x**3 / 1e-6, seed=3, noise=0.005)
+    return recording(lambda x, _v: 0.3 * STIFFNESS * x**3 / 1e-6, seed=3, n=5000, noise=0.005)

@@ -56,7 +56,7 @@ def made(
     seed: int,
     extra: Extra | None = None,
     *,
-    n: int = 5000,
+    n: int = 4000,
     size: float = 20.0,
     noise: float = 0.01,
     hung: tuple[float, float, float] | None = None,

@@ -30,7 +30,7 @@ def multisine(rng: np.random.Generator, n: int, size: float, highest: float = 12
 
 
 def recording(
-    extra: Callable[[float, float], float] | None, *, seed: int, n: int = 5000, size: float = 1.0, noise: float = 0.01
+    extra: Callable[[float, float], float] | None, *, seed: int, n: int = 3900, size: float = 1.0, noise: float = 0.01
 ) -> Recording:
     """Force N and displacement m of mass x'' + c x' + k x + extra(x, v) = u, with coloured noise on the displacement.
 

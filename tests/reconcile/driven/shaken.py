@@ -64,7 +64,7 @@ def _run(rng: np.random.Generator, n: int, size: float, law: Law) -> tuple[np.nd
 
 
 def pair(
-    key: str, unit: str, *, seed: int, n: int = 4500, noise: float = 0.005, force_noise: float = 0.0
+    key: str, unit: str, *, seed: int, n: int = 3600, noise: float = 0.005, force_noise: float = 0.0
 ) -> list[Recording]:
     """A recording under 20 N and one under 30 N; noise is a share of force and motion.
 

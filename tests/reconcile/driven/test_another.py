@@ -67,7 +67,7 @@ def test_a_noisy_baseline_lacks_nothing() -> None:
 @pytest.mark.slow
 def test_a_mass_that_friction_holds_is_no_dropout(baseline: Recording) -> None:
     """It stands still while the force acts, and so does the model with friction."""
-    tests = pair(960, lambda _x, v, _t: 22.0 * math.tanh(v / 2e-4), noise=0.001)
+    tests = pair(960, lambda _x, v, _t: 22.0 * math.tanh(v / 2e-4), noise=0.001, n=5000)
     report = reconcile_driven(SPEC, tests, [baseline])
     assert report.verdict == "explained" and report.causes[0].term == "coulomb_friction"
     assert not report.measurement_faults

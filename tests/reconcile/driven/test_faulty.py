@@ -118,7 +118,7 @@ def _gaps(x: np.ndarray) -> None:
 
 def _no_numbers(x: np.ndarray) -> None:
     x[500:505] = np.nan
-    x[4000] = np.inf
+    x[3500] = np.inf
 
 
 def _held(x: np.ndarray) -> None:

@@ -43,7 +43,7 @@ def jumping() -> Analysis:
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("key", "unit", "n"),
-    [("cubic", "m/s^2", 7000), ("drag", "m/s^2", 4500), ("dry_friction", "g", 4500), ("stops", "g", 7000)],
+    [("cubic", "m/s^2", 5500), ("drag", "m/s^2", 3600), ("dry_friction", "g", 3600), ("stops", "g", 7000)],
 )
 def test_an_accelerometer_tells_the_law(key: str, unit: str, n: int) -> None:
     """What stiffens is the more sensitive, and takes the longer records."""

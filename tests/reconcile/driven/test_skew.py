@@ -17,7 +17,7 @@ from sim.core.spec import MachineSpec
 from sim.presets import preset
 from tests.reconcile.driven.linear import made
 
-RATE, SAMPLES, TOP_HZ = 1000.0, 12000, 150.0
+RATE, SAMPLES, TOP_HZ = 1000.0, 8000, 150.0
 MASS, STIFFNESS, DAMPING = 1.07, 0.95e5, 33.0
 CHANNELS = (
     Channel(name="force", quantity="force", unit="N", location="input"),
