@@ -1,4 +1,4 @@
-"""As `tests.strategies.impulses`, in records of half the length: enough where a line or a verdict is clear."""
+"""As `tests.strategies.impulses`, in records of less than half the length: enough where a verdict is clear."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from tests.strategies.impulses import RATE_HZ, SPEED_HZ, recorded
 
 __all__ = ["RATE_HZ", "SECONDS", "SPEED_HZ", "N", "recorded", "shaft_lines", "sound", "train"]
 
-SECONDS = impulses.SECONDS / 2
+SECONDS = 0.42 * impulses.SECONDS
 N = int(RATE_HZ * SECONDS)
 shaft_lines = partial(impulses.shaft_lines, seconds=SECONDS)
 train = partial(impulses.train, seconds=SECONDS)

@@ -14,7 +14,7 @@ from reconcile.kinematics.unread import Judged
 from reconcile.report.action import ALL_WRONG, to_do
 from reconcile.speed.elsewhere import Elsewhere
 from reconcile.verdict import Cause, Report
-from tests.strategies.brief import RATE_HZ, SPEED_HZ, N, recorded, shaft_lines, sound, train
+from tests.strategies.half import RATE_HZ, SPEED_HZ, N, recorded, shaft_lines, sound, train
 
 BEARINGS = [
     {"name": "drive_end", "shaft": "shaft", "catalogue": "6205"},

@@ -14,7 +14,7 @@ from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.parted import LEAST_TURNS, parted, turns_of
 from reconcile.verdict import HeldOut
 from signals.recording import Tacho
-from tests.strategies.brief import RATE_HZ, SPEED_HZ, N, recorded, sound, train
+from tests.strategies.half import RATE_HZ, SPEED_HZ, N, recorded, sound, train
 
 BEARING = {"name": "bearing1", "shaft": "shaft", "catalogue": "6205"}
 TIE = ties(read_kinematic_spec({"kinematics": {"shafts": [{"name": "shaft"}], "bearings": [BEARING]}}))

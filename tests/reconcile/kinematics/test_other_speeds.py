@@ -13,7 +13,7 @@ from reconcile.kinematics.observe import observe
 from reconcile.kinematics.other_speeds import SPAN, at_speed, by_baseline, nominees
 from reconcile.kinematics.unread import ALIKE_Z, Judged, at_either, speed_unread
 from reconcile.verdict import Cause, Report
-from tests.strategies.brief import SPEED_HZ, N, recorded, train
+from tests.strategies.half import SPEED_HZ, N, recorded, train
 
 SHAFTS = [{"name": "shaft"}]
 BEARINGS = [

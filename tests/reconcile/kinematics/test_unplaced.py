@@ -13,7 +13,7 @@ from reconcile.kinematics.elsewhere import ADVICE
 from reconcile.kinematics.families import ties
 from reconcile.kinematics.unplaced import with_risen, with_unplaced
 from reconcile.verdict import Report
-from tests.strategies.brief import RATE_HZ, N, recorded, shaft_lines
+from tests.strategies.half import RATE_HZ, N, recorded, shaft_lines
 
 BEARING = {"name": "drive_end", "shaft": "shaft", "catalogue": "6205"}
 SPEC = read_kinematic_spec({"kinematics": {"shafts": [{"name": "shaft"}], "bearings": [BEARING]}})
