@@ -14,16 +14,18 @@ from sim.core.errors import SpecError
 from sim.core.response import Channel
 
 RATE_HZ = 16384.0
-SECONDS = 3.0
+SECONDS = 2.25
 TEETH = 23
 SPEEDS_HZ = (20.3, 27.1)
 
 
-def machine(speed_hz: float, seed: int, *, defect: float = 0.0, drift: float = 0.0) -> Recording:
+def machine(
+    speed_hz: float, seed: int, *, defect: float = 0.0, drift: float = 0.0, seconds: float = SECONDS
+) -> Recording:
     """Three accelerometers hear mesh, shaft and noise through resonances of their own; `defect` adds impacts near the
     first, `drift` dB changes the level of single lines at random (a repeat is never the same)."""
     rng = np.random.default_rng(seed)
-    n = int(RATE_HZ * SECONDS)
+    n = int(RATE_HZ * seconds)
     angle = (
         2 * np.pi * np.cumsum(speed_hz * (1 + 3e-4 * lfilter([1e-3], [1, -0.999], rng.standard_normal(n)))) / RATE_HZ
     )

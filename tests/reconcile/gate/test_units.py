@@ -35,8 +35,8 @@ def scaled(recordings: tuple[Recording, ...], rows: tuple[int, ...], factor: flo
     return tuple(found)
 
 
-def judged(tests: tuple[Recording, ...]) -> Gate:
-    return inspect_measurement(BASELINES, tests, mesh_orders=(23.0,), orders=(3.58, 5.42))
+def judged(tests: tuple[Recording, ...], baselines: tuple[Recording, ...] = BASELINES) -> Gate:
+    return inspect_measurement(baselines, tests, mesh_orders=(23.0,), orders=(3.58, 5.42))
 
 
 @pytest.mark.slow

@@ -17,7 +17,7 @@ from sim.core.spec import MachineSpec
 from sim.presets import preset
 from sim.terms import REGISTRY
 
-RATE_HZ, SPEED_HZ, SECONDS = 20480.0, 30.0, 2.0
+RATE_HZ, SPEED_HZ, SECONDS = 20480.0, 30.0, 1.4
 TIME = np.arange(round(RATE_HZ * SECONDS)) / RATE_HZ
 OPERATING = Operating(shaft="input", speed_hz=SPEED_HZ, torque_nm=25.0)
 CHANNELS = tuple(
