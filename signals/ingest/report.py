@@ -18,6 +18,8 @@ from sim.core.errors import SpecError
 HUM_SAMPLES = 2**20
 """Hum does not come and go: the beginning of a long recording shows it."""
 SHAFT_HARMONICS = 200
+SAME_SPEED = 0.05
+"""Share by which pulses and stated speed may differ unremarked: labels are that wrong."""
 
 
 def report(found: Ingested) -> dict[str, object]:
@@ -39,7 +41,7 @@ def report(found: Ingested) -> dict[str, object]:
         "notes": recording.notes,
         "findings": [asdict(finding) for finding in inspect(recording)],
         "mains_hum": _hum(recording),
-        "remarks": list(found.remarks),
+        "remarks": [*found.remarks, *_speeds(recording)],
     }
 
 
@@ -71,6 +73,21 @@ def _tacho(recording: Recording) -> dict[str, object] | None:
         "lowest_speed_hz": float(1 / np.max(steps)),
         "highest_speed_hz": float(1 / np.min(steps)),
     }
+
+
+def _speeds(recording: Recording) -> list[str]:
+    """What pulses of the shaft whose speed is stated say, if that is another speed."""
+    tacho, operating = recording.tacho, recording.operating
+    if tacho is None or operating is None or tacho.shaft != operating.shaft or operating.speed_hz <= 0.0:
+        return []
+    times = tacho.pulse_times_s
+    if times.size < 2 or times[-1] <= times[0]:
+        return []
+    pulses_hz = float((times.size - 1) / (times[-1] - times[0])) / tacho.pulses_per_revolution
+    if abs(pulses_hz / operating.speed_hz - 1.0) <= SAME_SPEED:
+        return []
+    said = f"the pulses say that {tacho.shaft} turns at {pulses_hz:.4g} Hz, stated are {operating.speed_hz:.4g} Hz"
+    return [f"{said}: check operating.speed_hz (Hz, not per minute) and tacho.pulses_per_revolution"]
 
 
 def _hum(recording: Recording) -> list[dict[str, object]]:

@@ -7,6 +7,7 @@ import { problemBox } from "/js/lib/problem.js";
 
 const BUSY_MS = 800;
 const IDLE_MS = 5000;
+const MOST_REMARKS = 3;
 const TONES = { accepted: "run", ready: "ok", refused: "bad", failed: "bad", dismissed: "warn" };
 const HEADS = ["Use", "File", "State", "Contents", "Operating point", "Quality", "Sent"];
 const USES = [["", "not used"], ["recordings", "to explain"], ["baselines", "baseline"]];
@@ -82,7 +83,8 @@ function recordingRow() {
   function details(report) {
     cells.contents.textContent = `${report.channels.map((c) => c.name).join(", ")}; ${quantity(report.samples / report.sampling_rate_hz, "s")} at ${quantity(report.sampling_rate_hz, "Hz")}`;
     const kinds = [...new Set(report.findings.map((finding) => finding.kind.replace(/_/g, " ")))];
-    replace(cells.quality, h("span", { class: "pill", dataset: { tone: kinds.length ? "warn" : "ok" } }, kinds.join(", ") || "no defects in the data"));
+    replace(cells.quality, h("span", { class: "pill", dataset: { tone: kinds.length || report.remarks?.length ? "warn" : "ok" } }, kinds.join(", ") || (report.remarks?.length ? "see the remarks" : "no defects in the data")),
+      (report.remarks ?? []).slice(0, MOST_REMARKS).map((remark) => h("div", { class: "muted small" }, remark)));
   }
   return { element, update, label: () => label, use: () => (use.disabled ? "" : use.value) };
 }

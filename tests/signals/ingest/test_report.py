@@ -1,0 +1,39 @@
+"""The report on a recording: pulses are held against the stated speed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from signals.ingest.parse import Ingested
+from signals.ingest.report import report
+from signals.recording import Operating, Recording, Tacho
+from sim.core.response import Channel
+
+CHANNEL = Channel(name="a", quantity="acceleration", unit="m/s^2", location="", axis="")
+
+
+def remarks(pulses_hz: float, stated_hz: float | None, per_turn: int = 1, shaft: str = "input") -> list[str]:
+    rng = np.random.default_rng(1)
+    recording = Recording(
+        sampling_rate_hz=2000.0, channels=(CHANNEL,), samples=rng.normal(size=(1, 4000)),
+        operating=None if stated_hz is None else Operating(shaft="input", speed_hz=stated_hz),
+        tacho=Tacho(shaft=shaft, pulse_times_s=np.arange(0.01, 1.9, 1.0 / pulses_hz), pulses_per_revolution=per_turn),
+    )  # fmt: skip
+    found = report(Ingested(recording=recording, remarks=("first",)))["remarks"]
+    assert isinstance(found, list) and found[0] == "first"
+    return found[1:]
+
+
+@pytest.mark.parametrize(("pulses_hz", "per_turn", "stated_hz"), [(39.1, 1, 30.0), (60.0, 1, 30.0), (30.0, 1, 1800.0)])
+def test_pulses_of_another_speed_than_stated_are_remarked_on(pulses_hz: float, per_turn: int, stated_hz: float) -> None:
+    (said,) = remarks(pulses_hz, stated_hz, per_turn)
+    assert f"turns at {pulses_hz / per_turn:.4g} Hz, stated are {stated_hz:.4g} Hz" in said
+    assert "pulses_per_revolution" in said
+
+
+def test_pulses_of_the_stated_speed_or_of_another_shaft_are_not() -> None:
+    assert remarks(30.9, 30.0) == [], "labels are some per cent wrong"
+    assert remarks(60.0, 30.0, per_turn=2) == []
+    assert remarks(60.0, 30.0, shaft="output") == []
+    assert remarks(60.0, None) == []
