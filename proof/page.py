@@ -43,9 +43,9 @@ TITLES = {
 
 
 PARTS: tuple[tuple[Split, str], ...] = (
-    ("jury", "jury"), ("clear", "clear"), ("vast", "vast"), ("young", "young"), ("mixed", "mixed"),
-    ("mixed", "resumed"), ("mixed", "last"), ("mixed", "closing"), ("wide", "wide"), ("held", "held"),
-    ("held", "begun"),
+    ("inquest", "inquest"), ("jury", "jury"), ("clear", "clear"), ("vast", "vast"), ("young", "young"),
+    ("mixed", "mixed"), ("mixed", "resumed"), ("mixed", "last"), ("mixed", "closing"), ("wide", "wide"),
+    ("held", "held"), ("held", "begun"),
 )  # fmt: skip
 """Splits, and the sections of the page they are in, of which is asked what could be told at all."""
 UNMET = "No version of the engine had met these before their run"

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 SECTIONS = {
+    "inquest": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at "
+    "once. It asks for a supply's frequency by less and at one speed, for a belt at one speed, and takes no name that "
+    "forecasts nothing for sure; these cases had no part in any of it.",
     "jury": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at once. A "
     "sensor that changed at one operating point alone is left out and told "
     "([decision](decisions/reconcile-lone.md)), and sidebands near the teeth scatter with the wander of the speed as "
     "sound machines of earlier plans showed it; these cases had no part in either. Since then the engine was made "
     "faster, to the same values ([decision](decisions/reconcile-overhead.md)), and j053, the sound machine that "
-    "alarmed, has set a rule: it is not decidable now. Eleven others were run again: no other answer has changed.",
+    "alarmed, has set a rule: it is not decidable now. Eleven others were run again: no other answer has changed. "
+    "j022, a loose sensor told "
+    "as friction, j057, a pull of 100 Hz, and j071, a belt at one speed, have each set a rule after that.",
     "clear": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at once, "
     "beside other work, which core-seconds show. It asks what rises together at a shaft's turns, and names a torque "
     "that comes many times a turn ([decision](decisions/reconcile-turns.md)); these cases had no part in either. c069 "

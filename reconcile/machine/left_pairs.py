@@ -34,6 +34,7 @@ NEAR_SHARE, LEAST_ASKED = 0.5, 2
 """Share of the most that any adds by sums from which a second is simulated, two in any case, and of what the best adds
 simulated from which one that was not is told with it. Beside a loose fit a crack of a shaft added 48 by sums and the
 unbalance that was there 37; simulated 54 and 123."""
+BESIDE_LOOSE = 3  # seconds simulated at most beside a loose ring, whose machines often run one by one
 TWIN_SHARE = 0.85
 """Share of the gain of a bow or an unbalance from which the other one of the same body is told too, on a machine with
 teeth, which tell."""
@@ -61,6 +62,7 @@ def best_left_pair(
     seen = ranked_seconds(asked.left, setting.changes, asked.every, _possible(setting, asked.every, first))
     seen = [one for one in seen if one[1] >= promising(first, one[0])]
     near = sum(one[1] >= NEAR_SHARE * seen[0][1] for one in seen)
+    most = min(most, BESIDE_LOOSE) if first.startswith("fit_clearance") else most
     made = {name: _fitted(asked, name, rows) for name, _, rows in seen[: max(LEAST_ASKED, min(near, most))]}
     sought = _searched(asked, made, seen)
     sought = sought or _rattling(asked, made)

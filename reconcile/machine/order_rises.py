@@ -51,6 +51,16 @@ class Rises:
         theirs may widen the teeth's lines up to it."""
         return float(np.mean([self.before[k][..., best].mean() for k in self.risen(best)])) - LEAST_LEVEL_DB
 
+    def line_before_db(self, best: int) -> float:
+        """The most by which a baseline of a speed that does not show it stands out there: above what chance reaches,
+        and above the least that stands between it and the teeth's line, whose skirt the wander lifts."""
+        found = 0.0
+        for k in set(range(len(self.each))) - set(self.risen(best)):
+            level = self.before[k].mean(axis=(0, 1))
+            least = max(LEAST_LEVEL_DB, float(level[: best + 1].min()))
+            found = max(found, float(level[best]) - least)
+        return found
+
     def risen(self, best: int) -> list[int]:
         """Operating points that show what has risen there."""
         return [k for k, one in enumerate(self.each) if one[..., best].mean() >= HALF * self.every[best]]

@@ -45,6 +45,9 @@ the largest is 6.4 dB, of 172 with one effect 8.7 dB; a belt (j071) has 22.6 dB,
 MOST_BEFORE_DB = 2.0
 """Mean level in the baselines, above what chance reaches, up to which a line is new: what turned before and is not in
 the specification either may turn harder now without being what is missing."""
+MOST_ELSEWHERE_DB = 8.0
+"""The same of a line in the baseline of a speed that does not show it now: what was heard at one speed before is not
+new. More than 2 dB: at a low speed the lobe of a part's line is wide, 6.4 dB beside a belt (c055 of the proof)."""
 SHIFTS = 12
 SEPARATE, LEAK_BINS = 0.1, 3.0
 """Distance of two lines, in turns and bins at least: a strong one is as wide at its foot."""
@@ -142,7 +145,7 @@ def own_order(machine: MachineSpec, data: Sequence[PointData], channels: Sequenc
     if order is None:
         return None
     best = int(np.argmin(np.abs(rises.grid - order)))
-    if rises.level_before_db(best) > MOST_BEFORE_DB:
+    if rises.level_before_db(best) > MOST_BEFORE_DB or rises.line_before_db(best) > MOST_ELSEWHERE_DB:
         return None
     return OwnOrder(
         order=order, shaft=tie.reference, rise_db=float(rises.every[best]), elsewhere_db=seen.elsewhere(order),

@@ -10,8 +10,8 @@ from reconcile.gate.findings import Finding, Kind
 from reconcile.machine.direct import HEARD
 from reconcile.machine.own_knocks import own_knocks
 from reconcile.machine.own_line import own_line
-from reconcile.machine.own_order import own_order
-from reconcile.machine.own_time import own_time
+from reconcile.machine.own_order import OwnOrder, own_order
+from reconcile.machine.own_time import OwnTime, own_time
 from reconcile.machine.second import strikes
 from reconcile.machine.self_excited import self_excited
 from reconcile.observe.observation import PointData
@@ -21,11 +21,12 @@ from sim.core.spec import MachineSpec
 
 TELLS_LITTLE = 10.0
 """Evidence of the best effect below which a set of effects, or one that is not decided, says less than this does."""
-HARDLY = 0.1
-"""Held-out gain below which a name that its placebos forecast as well as stands behind what is seen of no known part: a
-pull of 100 Hz, 6 dB where nothing else rose by 0.4 (c046 of the proof), beside an angle at a coupling that forecast
-0.053, its placebos 0.057. Of a set it is enough that its placebos forecast as well: a torque at 100 Hz at one speed, 22
-dB (c067), beside wavy races of two bearings (0.27, the placebos 0.33)."""
+HARDLY, SHORT, CLEARLY_DB, BEYOND_DOUBT = 0.1, 0.05, 5.0, 20.0
+"""What is seen at an order or a frequency of no known part, with a rise of 5 dB, goes before names and sets of less log
+evidence than 20 that strike nowhere: a name with a held-out gain below a tenth that its placebos reach, and a set whose
+placebos gain 0.05 more. A pull of 100 Hz with 6 dB where nothing else rose by 0.4 (c046 of the proof) stood beside an
+angle at a coupling of evidence 10.4 that forecast 0.053, its placebos 0.057; a torque of 100 Hz at one speed with 22 dB
+(c067) beside wavy races of two bearings of 11, 0.27 and 0.33. Known from these two alone."""
 ELECTRIC: tuple[Kind, ...] = ("mains_hum", "fixed_tones")
 OWN: Mapping[str, tuple[Kind, ...]] = {
     "own time": ELECTRIC, "self-excited": ELECTRIC, "own knocks": ("fixed_tones",)
@@ -106,7 +107,7 @@ def with_strange(report: Report, seen: Strange | None, machine: MachineSpec, hea
     if seen is None:
         return report
     electric = seen.electric and report.fault is not None and report.fault.kind in ELECTRIC
-    answers = is_open(report) or electric or _hardly_named(report, heard)
+    answers = is_open(report) or electric or _hardly_named(report, seen, heard)
     answers = answers or (seen.strikes and _struck_unheard(report, heard))
     if not (answers or seen.beside):
         return report
@@ -125,15 +126,18 @@ def with_strange(report: Report, seen: Strange | None, machine: MachineSpec, hea
     )  # fmt: skip
 
 
-def _hardly_named(report: Report, heard: Mapping[str, float]) -> bool:
-    """Whether what is named, or may be, strikes nowhere and forecasts no more than its placebos do: of a name hardly
-    anything besides."""
+def _hardly_named(report: Report, seen: Strange, heard: Mapping[str, float]) -> bool:
+    """Whether what is named, or may be, strikes nowhere, is not beyond doubt and forecasts no more than its placebos
+    do, beside what stands out clearly."""
     held = report.held_out
-    if report.verdict not in ("explained", "ambiguous") or held is None or held.placebo is None:
+    if not isinstance(seen, OwnTime | OwnOrder) or seen.rise_db < CLEARLY_DB or held is None or held.placebo is None:
         return False
-    if any(heard.get(f"{c.term}@{c.site}", 0.0) >= HEARD for c in _told(report)):
+    told = _told(report)
+    if any(c.score >= BEYOND_DOUBT or heard.get(f"{c.term}@{c.site}", 0.0) >= HEARD for c in told):
         return False
-    return held.placebo >= held.gain and (held.gain < HARDLY or report.verdict == "ambiguous")
+    if report.verdict == "explained":
+        return held.gain < HARDLY and held.placebo >= held.gain
+    return report.verdict == "ambiguous" and held.gain > 0.0 and held.placebo >= held.gain + SHORT
 
 
 def _told(report: Report) -> list[Cause]:

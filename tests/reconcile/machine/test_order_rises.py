@@ -76,7 +76,13 @@ def test_what_was_there_before_is_told_above_what_chance_reaches() -> None:
     assert rises.level_before_db(1) == pytest.approx(0.0)
     quiet = made([[8.0], [8.0], [0.0]], [[0], [1], [2]], before=LEAST_LEVEL_DB)
     quiet.before[2][...] += 9.0
-    assert quiet.level_before_db(0) == pytest.approx(0.0), "where nothing rose, nothing is asked"
+    assert quiet.level_before_db(0) == pytest.approx(0.0), "by the speeds that show it"
+    line = made([[0.0, 8.0], [0.0, 8.0], [0.0, 0.0]], [[0], [1], [2]], before=LEAST_LEVEL_DB)
+    assert line.line_before_db(1) == 0.0
+    line.before[2][..., 1] += 9.0
+    assert line.line_before_db(1) == pytest.approx(9.0), "a line at a speed that does not show it now"
+    line.before[2][..., 0] += 20.0
+    assert line.line_before_db(1) == pytest.approx(0.0), "the skirt of the teeth's line"
 
 
 def test_lines_are_those_of_the_teeth_at_the_speeds_that_show_it(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -143,17 +143,22 @@ def test_faintly_is_above_what_sound_machines_come_to_and_ahead_of_all_else_ther
 def test_at_a_supplys_frequency_less_is_enough(hz: float, told_so: bool) -> None:
     """As j057 of the proof: 17, 1.9 and 0.6 dB, where parts of bearings stand at two of the speeds."""
     grid = np.arange(LOWEST_HZ, 260.0, STEP_HZ)
-    points = [SimpleNamespace(point=Point(speed_hz=s), lines_hz=np.array([s])) for s in (22.5, 30.0, 39.0)]
+    points = [
+        SimpleNamespace(point=Point(speed_hz=s), lines_hz=np.array([s]), spectra=(SimpleNamespace(speed_hz=s),))
+        for s in (22.5, 30.0, 39.0)
+    ]
 
-    def found(levels_db: Sequence[float]) -> bool:
+    def found(levels_db: Sequence[float], elsewhere_db: float = 0.0) -> bool:
         mean = np.zeros((3, grid.size))
         mean[:, np.abs(grid - hz) < 0.9] = np.array(levels_db)[:, None]
+        mean[:, np.abs(grid - 177.0) < 0.9] = elsewhere_db
         search = _Search(data=points, shafts=(), parts=(), mean=mean, grid=grid, supply=True)  # type: ignore[arg-type]
         least = np.sort(mean, axis=0)[-2]
         return search.standing(least, SUPPLY_AT_TWO_DB, at_two=True) is not None
 
     assert found([0.6, 17.0, 1.9]) is told_so
-    assert not found([0.6, 17.0, 1.4]), "sound machines come to 0.6 dB"
+    assert not found([0.6, 17.0, 1.4]), "less than is asked at two speeds"
+    assert not found([0.6, 17.0, 1.9], elsewhere_db=1.0) and not found([0.6, 17.0, 1.9], elsewhere_db=20.0)
 
 
 def test_a_supply_confirms_by_less_too() -> None:
@@ -213,10 +218,24 @@ def test_at_one_speed_a_supply_is_told_where_no_part_turns_so(
     seen = told(machine, at_hz(hz, 0.2), speeds_hz=(speed_hz,))
     assert (seen is not None) is found
     if seen is not None:
-        assert "at the one speed recorded" in seen.text and "another speed tells" in seen.follows
+        assert "at the one speed recorded" in seen.text and "another tells" in seen.follows
         assert seen.speeds == (1, 1) and seen.rise_db > AT_ONE_DB
     assert told(machine, at_hz(hz, 0.003), speeds_hz=(speed_hz,)) is None, "too faint for one speed"
     assert told(machine, at_many, speeds_hz=(speed_hz,)) is None
+    louder = lambda at: at_hz(hz, 0.1)(at) + at_hz(56.0, 0.3)(at)  # noqa: E731
+    assert told(machine, louder, speeds_hz=(speed_hz,)) is None, "more has risen elsewhere"
+
+
+def test_at_one_speed_what_a_part_may_bring_is_no_supplys(
+    machine: MachineSpec, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A lone high multiple of a shaft; a sideband of a race that has risen; bearings whose sizes are not known."""
+    assert told(machine, at_hz(100.0, 0.2), speeds_hz=(12.5,)) is None, "the eighth turn"
+    inner = 4.42645 * 30.0
+    struck = lambda at: at_hz(inner, 0.2)(at) + at_hz(inner - 30.0, 0.1)(at) + at_hz(inner + 30.0, 0.1)(at)  # noqa: E731
+    assert told(machine, struck, speeds_hz=(30.0,)) is None
+    monkeypatch.setattr("reconcile.machine.own_time.parts_of", lambda _: ())
+    assert told(machine, at_hz(100.0, 0.2), speeds_hz=(30.0,)) is None
 
 
 def test_a_high_multiple_of_the_slow_shaft_lies_near_any_frequency(machine: MachineSpec) -> None:

@@ -119,6 +119,17 @@ def test_so_does_a_set_whose_placebos_forecast_as_well(machine: MachineSpec, pla
     """As wavy races beside a torque of 100 Hz (c067 of the proof)."""
     several = said("ambiguous", score=11.0)
     assert several.held_out is not None
+    faint = replace(SEEN, rise_db=4.9)
     several = replace(several, held_out=replace(several.held_out, gain=0.27, placebo=placebo))
     assert (with_strange(several, SEEN, machine, {}).verdict == "unknown_physics") is answers
     assert with_strange(several, SEEN, machine, {"outer_spall@bearing1": 12.0}).verdict == "ambiguous"
+    assert with_strange(several, faint, machine, {}).verdict == "ambiguous"
+    none = replace(several, held_out=replace(several.held_out, gain=-0.01, placebo=0.06))  # type: ignore[type-var]
+    assert with_strange(none, SEEN, machine, {}).verdict == "ambiguous", "nothing is forecast by anything"
+
+
+def test_a_name_beyond_doubt_stays_before_what_is_seen(machine: MachineSpec) -> None:
+    named = said("explained", score=21.0)
+    assert named.held_out is not None
+    named = replace(named, held_out=replace(named.held_out, gain=0.053, placebo=0.057))
+    assert with_strange(named, SEEN, machine, {}).verdict == "explained"
