@@ -218,29 +218,6 @@ def reconcile_recordings(
     machine that can be simulated allows all stages, and there `nominated` may limit the effects considered. SpecError
     says what cannot be reconciled and why.
     """
-    return with_levels(
-        _reconciled(
-            machine, tests, baselines, budget=budget, keeper=keeper, mapper=mapper, seed=seed, progress=progress,
-            nominated=nominated,
-        ),
-        tests,
-        baselines,
-    )  # fmt: skip
-
-
-def _reconciled(
-    machine: MachineSpec | KinematicSpec,
-    tests: Sequence[Recording],
-    baselines: Sequence[Recording],
-    *,
-    budget: Budget,
-    keeper: Keeper | None,
-    mapper: Mapper,
-    seed: int,
-    progress: Progress,
-    nominated: Sequence[Candidate] | None,
-) -> Report:
-    """The report of the level that the machine's description allows."""
     check_size(tests, baselines)
     sent = sent_as(tests, baselines)
     if isinstance(machine, MachineSpec) and not machine.shafts:
@@ -263,12 +240,13 @@ def _reconciled(
         progress(0.0, "held speed")
     smeared = unsteady(tests, baselines, level, seed)
     if smeared is not None:
-        return _with_labels(smeared, sent, machine.name)
+        return _with_labels(with_levels(smeared, tests, baselines), sent, machine.name)
     if isinstance(machine, KinematicSpec):
         report = reconcile_kinematics(machine, tests, baselines, seed=seed, progress=progress)
         remarks = unplaced(machine.parts, stated) if _has_places(machine) else ()
         remarks = (*remarks, *unstated(stated, report), *exchanged(stated), *renamed)
-        return _with_labels(_with_limits(report, remarks), sent, machine.name)
+        report = with_levels(_with_limits(report, remarks), tests, baselines)
+        return _with_labels(report, sent, machine.name)
     report = reconcile_machine(
         machine,
         tests,
@@ -282,7 +260,8 @@ def _reconciled(
     )
     report = with_grown_turns(report, machine, tests, baselines, seed)
     remarks = (*unstated(stated, report), *exchanged(stated), *already_there(machine), *renamed)
-    return _with_labels(sent_to_the_file(_with_limits(report, remarks)), sent, machine.name)
+    report = with_levels(sent_to_the_file(_with_limits(report, remarks)), tests, baselines)
+    return _with_labels(report, sent, machine.name)
 
 
 def _turning(machine: MachineSpec, recording: Recording) -> Recording:

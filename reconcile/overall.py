@@ -6,10 +6,12 @@ ISO 20816-1:2016 (section 5.2 and annex B), in the spectrum of the record divide
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.fft import next_fast_len
 
 from reconcile.observe.observation import SAME_SPEED
 from reconcile.verdict import Report
@@ -21,6 +23,9 @@ LEAST_TURNS_OF_BAND = 10.0
 """Periods of the band's lower end that a record must hold for a velocity to be told."""
 SAME_TORQUE = 0.05
 MOST_ROWS = 200
+BLOCK_S = 4.0
+"""Of a block of the spectrum: 0.5 Hz, the width of its window, is little beside the band's lower end."""
+TINY = 1e-12
 ACCELERATION = "m/s^2"
 
 
@@ -47,21 +52,42 @@ def levels(tests: Sequence[Recording], baselines: Sequence[Recording]) -> list[L
     """Of all channels of all tests, in their order, each beside the baseline of its operating point. Channels with
     samples that are no numbers are left out."""
     found: list[Level] = []
+    known: dict[tuple[int, int], _Moving | None] = {}
+
+    def of(recording: Recording, row: int) -> _Moving | None:
+        key = (id(recording), row)
+        if key not in known:
+            known[key] = _of(recording, row)
+        return known[key]
+
     for test in tests:
-        before = next((b for b in baselines if _alike(test, b)), None)
+        before = _before(test, baselines)
         rows = {} if before is None else {c.name: k for k, c in enumerate(before.channels)}
         for k, channel in enumerate(test.channels):
-            own = _of(test, k)
-            if own is None:
+            own = of(test, k)
+            if own is None or len(found) >= MOST_ROWS:
                 continue
-            other = _of(before, rows[channel.name]) if before is not None and channel.name in rows else None
+            other = of(before, rows[channel.name]) if before is not None and channel.name in rows else None
             found.append(
                 Level(
-                    channel=channel.name, at=_at(test), unit=channel.unit, now=own[0], velocity_now=own[1],
-                    before=None if other is None else other[0], velocity_before=None if other is None else other[1],
+                    channel=channel.name, at=_at(test), unit=channel.unit, now=own.rms, velocity_now=own.velocity,
+                    before=None if other is None else other.rms,
+                    velocity_before=None if other is None else other.velocity,
                 )
             )  # fmt: skip
-    return found[:MOST_ROWS]
+    return found
+
+
+def _before(test: Recording, baselines: Sequence[Recording]) -> Recording | None:
+    """The baseline of a test's operating point, the nearest in load and then in speed; None where there is none, and
+    where several loads come into question and the test states none."""
+    alike = [b for b in baselines if _alike(test, b)]
+    loads = {b.operating.torque_nm for b in alike if b.operating is not None}
+    if test.operating is None or not alike:
+        return alike[0] if len(alike) == 1 else None
+    if test.operating.torque_nm is None and len(loads) > 1:
+        return None
+    return min(alike, key=lambda b: _off(test, b))
 
 
 def _alike(one: Recording, other: Recording) -> bool:
@@ -69,11 +95,17 @@ def _alike(one: Recording, other: Recording) -> bool:
     a, b = one.operating, other.operating
     if a is None or b is None:
         return a is None and b is None
-    near = abs(a.speed_hz / b.speed_hz - 1.0) <= SAME_SPEED if b.speed_hz else a.speed_hz == b.speed_hz
-    loads = (a.torque_nm, b.torque_nm)
-    if loads[0] is None or loads[1] is None:
-        return near
-    return near and abs(loads[0] - loads[1]) <= SAME_TORQUE * max(abs(loads[0]), abs(loads[1]))
+    load, speed = _off(one, other)
+    return a.shaft == b.shaft and speed <= SAME_SPEED and load <= SAME_TORQUE
+
+
+def _off(one: Recording, other: Recording) -> tuple[float, float]:
+    """By how much of themselves load and speed differ; a load that either leaves open is the same."""
+    a, b = one.operating, other.operating
+    assert a is not None and b is not None
+    loads = [abs(x) for x in (a.torque_nm, b.torque_nm) if x is not None]
+    load = abs(loads[0] - loads[1]) / max(*loads, TINY) if len(loads) == 2 else 0.0
+    return load, abs(a.speed_hz - b.speed_hz) / max(abs(b.speed_hz), TINY)
 
 
 def _at(test: Recording) -> str:
@@ -84,22 +116,35 @@ def _at(test: Recording) -> str:
     return f"{test.operating.speed_hz:.4g} Hz" + ("" if load is None else f", {load:.4g} N m")
 
 
-def _of(recording: Recording, row: int) -> tuple[float, float | None] | None:
+@dataclass(frozen=True, kw_only=True)
+class _Moving:
     """Root mean square less the mean, and of an acceleration that of the velocity in the band."""
-    samples = np.asarray(recording.samples[row], dtype=np.float64)
+
+    rms: float
+    velocity: float | None
+
+
+def _of(recording: Recording, row: int) -> _Moving | None:
+    samples = recording.samples[row]
     if samples.size < 2 or not np.isfinite(samples).all():
         return None
-    moving = samples - samples.mean()
     tells = recording.channels[row].unit == ACCELERATION
-    return float(np.sqrt(np.mean(moving**2))), _velocity(moving, recording.sampling_rate_hz) if tells else None
+    velocity = _velocity(samples, recording.sampling_rate_hz) if tells else None
+    return _Moving(rms=float(np.std(samples)), velocity=velocity)
 
 
 def _velocity(samples: FloatArray, rate_hz: float) -> float | None:
-    """By Parseval, with a Hann window whose mean square is 3/8; None where the band is not in the record."""
+    """By Parseval, mean of blocks that overlap by half under a Hann window, whose mean square is 3/8 (Welch, IEEE
+    Trans. Audio Electroacoust. 15, 1967, 70-73); None where the band is not in the record."""
     if samples.size / rate_hz * BAND_HZ[0] < LEAST_TURNS_OF_BAND or 0.5 * rate_hz < BAND_HZ[1]:
         return None
-    power = np.abs(np.fft.rfft(samples * np.hanning(samples.size))) ** 2
-    hz = np.fft.rfftfreq(samples.size, 1.0 / rate_hz)
+    size = min(samples.size, next_fast_len(math.ceil(BLOCK_S * rate_hz), real=True))
+    window, hz = np.hanning(size), np.fft.rfftfreq(size, 1.0 / rate_hz)
     inside = (hz >= BAND_HZ[0]) & (hz <= BAND_HZ[1])
-    square = 2.0 * float((power[inside] / (2.0 * np.pi * hz[inside]) ** 2).sum()) / samples.size**2 / 0.375
-    return float(np.sqrt(square))
+    blocks = range(0, samples.size - size + 1, max(1, size // 2))
+    total = 0.0
+    for first in blocks:
+        block = samples[first : first + size]
+        spectrum = np.fft.rfft((block - block.mean()) * window)[inside]
+        total += float((np.abs(spectrum / (2.0 * np.pi * hz[inside])) ** 2).sum())
+    return math.sqrt(2.0 * total / len(blocks) / size**2 / 0.375)

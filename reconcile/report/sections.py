@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
@@ -42,7 +43,7 @@ CHANGE = (
     "Change: of the line's level (of a line of an envelope: of its depth of modulation) over what was expected there, "
     "by the baseline where there is one. "
 )
-STRUCK = {"outer_spall": "outer", "inner_spall": "inner", "ball_spall": "ball"}
+STRUCK = {"outer_spall": ("outer",), "inner_spall": ("inner",), "ball_spall": ("ball", "balls")}
 """What the lines of a struck part are locked to."""
 PERHAPS = ("Perhaps the measurement", "warn")
 """Badge of a fault that the machine itself may look like."""
@@ -207,9 +208,8 @@ def _lines(shown: Sequence[LineChange]) -> Markup:
 
 def _of_the_named(line: LineChange, causes: Sequence[Cause]) -> bool:
     """Whether a line may be of the part that a name says is struck."""
-    return any(
-        c.named and c.site in line.locked_to and STRUCK[c.term] in line.locked_to for c in causes if c.term in STRUCK
-    )
+    words = set(re.findall(r"[\w-]+", line.locked_to))
+    return any(c.named and c.site in words and not words.isdisjoint(STRUCK.get(c.term, ())) for c in causes)
 
 
 def _together(lines: Sequence[LineChange]) -> list[tuple[LineChange, list[LineChange]]]:

@@ -80,10 +80,10 @@ def _speeds(recording: Recording) -> list[str]:
     tacho, operating = recording.tacho, recording.operating
     if tacho is None or operating is None or tacho.shaft != operating.shaft or operating.speed_hz <= 0.0:
         return []
-    times = tacho.pulse_times_s
-    if times.size < 2 or times[-1] <= times[0]:
+    step = float(np.median(np.diff(tacho.pulse_times_s))) if tacho.pulse_times_s.size > 1 else 0.0
+    if step <= 0.0:
         return []
-    pulses_hz = float((times.size - 1) / (times[-1] - times[0])) / tacho.pulses_per_revolution
+    pulses_hz = 1.0 / step / tacho.pulses_per_revolution  # the middle: some pulses may be missed or doubled
     if abs(pulses_hz / operating.speed_hz - 1.0) <= SAME_SPEED:
         return []
     said = f"the pulses say that {tacho.shaft} turns at {pulses_hz:.4g} Hz, stated are {operating.speed_hz:.4g} Hz"

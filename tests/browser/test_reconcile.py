@@ -56,7 +56,7 @@ def test_a_recording_is_sent_chosen_and_reconciled(browser: Browser, service: Se
     browser.run(FILL, "#upload-description", json.dumps(describe(made)))
     browser.click("[aria-label='Send a recording'] button[type=submit]")
     browser.find("tr[data-recording][data-status=ready]", within_s=90)
-    eventually(lambda: "no defects in the data" in browser.text("tr[data-recording]"), what="the quality")
+    eventually(lambda: "no defects in the samples" in browser.text("tr[data-recording]"), what="the quality")
     assert "spalled.npz" in browser.text("tr[data-recording]")
     browser.click("[aria-label='Start a reconciliation'] button[type=submit]")
     assert "at least one recording" in browser.text("[aria-label='Start a reconciliation'] .message")

@@ -52,6 +52,25 @@ def test_each_stands_beside_the_baseline_of_its_operating_point() -> None:
     assert levels([recorded(2.0, speed_hz=None)], [recorded(1.0)])[0].before is None
 
 
+def test_of_several_baselines_the_nearest_counts_and_none_where_the_load_is_open() -> None:
+    def before(test: Recording, *baselines: Recording) -> float | None:
+        found = levels([test], list(baselines))[0].before
+        return None if found is None else round(found * np.sqrt(2.0), 2)
+
+    assert before(recorded(9.0), recorded(1.0, speed_hz=30.4), recorded(2.0, speed_hz=30.0)) == 2.0
+    assert before(recorded(9.0), recorded(1.0, torque=20.0), recorded(2.0, torque=100.0)) is None
+    assert before(recorded(9.0), recorded(1.0, torque=20.0)) == 1.0
+    assert before(recorded(9.0, torque=-50.0), recorded(1.0, torque=50.0)) == 1.0
+    assert before(recorded(9.0), replace(recorded(1.0), operating=Operating(shaft="output", speed_hz=30.0))) is None
+
+
+def test_a_long_record_is_read_in_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = levels([recorded(2.0, 90.0)], [])[0].velocity_now
+    monkeypatch.setattr("reconcile.overall.BLOCK_S", 0.5)
+    (one,) = levels([recorded(2.0, 90.0)], [])
+    assert whole is not None and one.velocity_now == pytest.approx(whole, rel=1e-3)
+
+
 def test_what_is_no_number_is_left_out_and_no_velocity_made_of_a_displacement() -> None:
     spoiled = recorded(1.0)
     samples = spoiled.samples.copy()

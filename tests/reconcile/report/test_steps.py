@@ -160,12 +160,13 @@ def test_lines_of_the_struck_part_stand_before_the_others() -> None:
         )
         for k in (3, 1, 2)
     )
-    other = LineChange(label="2*f_i1", frequency_hz=150.0, change_db=50.0, locked_to="inner ring of b1")
+    other = LineChange(label="2*f_i1", frequency_hz=150.0, change_db=50.0, locked_to="inner ring of b1 or outer_b1")
     named = Cause(term="outer_spall", site="b1", score=9.0, named=True)
     made = where_table(Where(lines=(*lines, other)), (named,))
     before, after = made.split("1 other line that changed")
     assert [row[1] for row in rows(Markup(before))[1:]] == ["100", "200", "300"]
     assert [row[1] for row in rows(Markup(after))[1:]] == ["150"]
+    assert "that changed" not in where_table(Where(lines=(*lines, other)), (replace(named, site="b"),)), "no part of it"
     for unnamed in ((), (replace(named, named=False),), (replace(named, term="unbalance"),)):
         assert "that changed" not in where_table(Where(lines=(*lines, other)), unnamed)
 

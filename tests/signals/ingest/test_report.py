@@ -13,12 +13,15 @@ from sim.core.response import Channel
 CHANNEL = Channel(name="a", quantity="acceleration", unit="m/s^2", location="", axis="")
 
 
-def remarks(pulses_hz: float, stated_hz: float | None, per_turn: int = 1, shaft: str = "input") -> list[str]:
+def remarks(
+    pulses_hz: float, stated_hz: float | None, per_turn: int = 1, shaft: str = "input", missed: int = 0
+) -> list[str]:
     rng = np.random.default_rng(1)
+    times = np.delete(np.arange(0.01, 1.9, 1.0 / pulses_hz), slice(20, 20 + missed))
     recording = Recording(
         sampling_rate_hz=2000.0, channels=(CHANNEL,), samples=rng.normal(size=(1, 4000)),
         operating=None if stated_hz is None else Operating(shaft="input", speed_hz=stated_hz),
-        tacho=Tacho(shaft=shaft, pulse_times_s=np.arange(0.01, 1.9, 1.0 / pulses_hz), pulses_per_revolution=per_turn),
+        tacho=Tacho(shaft=shaft, pulse_times_s=times, pulses_per_revolution=per_turn),
     )  # fmt: skip
     found = report(Ingested(recording=recording, remarks=("first",)))["remarks"]
     assert isinstance(found, list) and found[0] == "first"
@@ -37,3 +40,4 @@ def test_pulses_of_the_stated_speed_or_of_another_shaft_are_not() -> None:
     assert remarks(60.0, 30.0, per_turn=2) == []
     assert remarks(60.0, 30.0, shaft="output") == []
     assert remarks(60.0, None) == []
+    assert remarks(30.0, 30.0, missed=6) == [], "a fifth of a second without pulses is no other speed"

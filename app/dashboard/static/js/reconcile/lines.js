@@ -8,7 +8,7 @@ import { table } from "/js/reconcile/table.js";
 const MOST_LINES = 20;
 const OPEN = 5;
 /** What the lines of a struck part are locked to. */
-const STRUCK = { outer_spall: "outer", inner_spall: "inner", ball_spall: "ball" };
+const STRUCK = { outer_spall: ["outer"], inner_spall: ["inner"], ball_spall: ["ball", "balls"] };
 const CHANGE = "Change: of the line's level (of a line of an envelope: of its depth of modulation) over what was expected there, by the baseline where there is one.";
 
 /** The operating point of each where it is known: not of frequencies alone, nor in reports of earlier versions. */
@@ -31,7 +31,8 @@ export function lineTable(lines, causes = []) {
 }
 
 function ofTheNamed({ locked_to: part }, causes) {
-  return causes.some(({ term, site, named }) => named && term in STRUCK && part.includes(site) && part.includes(STRUCK[term]));
+  const told = part.match(/[\w-]+/g) ?? [];
+  return causes.some(({ term, site, named }) => named && told.includes(site) && (STRUCK[term] ?? []).some((word) => told.includes(word)));
 }
 
 /** Lines whose change was told for all of them at once, as that of a family is. */

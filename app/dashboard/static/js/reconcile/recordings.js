@@ -54,6 +54,11 @@ export function recordingsCard() {
   return { element, refresh, chosen, label, stop: () => { stopped = true; clearTimeout(timer); } };
 }
 
+function remarks(list) {
+  const more = list.length - MOST_REMARKS;
+  return [...list.slice(0, MOST_REMARKS), ...(more > 0 ? [`${more} further remarks in its report`] : [])].map((text) => h("div", { class: "small" }, text));
+}
+
 function recordingRow() {
   const use = select(USES, "", { class: "small" });
   const cells = { file: h("td"), state: h("td"), contents: h("td", { class: "small" }), point: h("td", { class: "small num" }), quality: h("td", { class: "small" }), sent: h("td", { class: "small num" }) };
@@ -83,8 +88,7 @@ function recordingRow() {
   function details(report) {
     cells.contents.textContent = `${report.channels.map((c) => c.name).join(", ")}; ${quantity(report.samples / report.sampling_rate_hz, "s")} at ${quantity(report.sampling_rate_hz, "Hz")}`;
     const kinds = [...new Set(report.findings.map((finding) => finding.kind.replace(/_/g, " ")))];
-    replace(cells.quality, h("span", { class: "pill", dataset: { tone: kinds.length || report.remarks?.length ? "warn" : "ok" } }, kinds.join(", ") || (report.remarks?.length ? "see the remarks" : "no defects in the data")),
-      (report.remarks ?? []).slice(0, MOST_REMARKS).map((remark) => h("div", { class: "muted small" }, remark)));
+    replace(cells.quality, h("span", { class: "pill", dataset: { tone: kinds.length ? "warn" : "ok" } }, kinds.join(", ") || "no defects in the samples"), remarks(report.remarks ?? []));
   }
   return { element, update, label: () => label, use: () => (use.disabled ? "" : use.value) };
 }
