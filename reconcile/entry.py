@@ -248,16 +248,9 @@ def reconcile_recordings(
         report = with_levels(_with_limits(report, remarks), tests, baselines)
         return _with_labels(report, sent, machine.name)
     report = reconcile_machine(
-        machine,
-        tests,
-        baselines,
-        budget=budget,
-        keeper=keeper,
-        mapper=mapper,
-        seed=seed,
-        progress=progress,
+        machine, tests, baselines, budget=budget, keeper=keeper, mapper=mapper, seed=seed, progress=progress,
         nominated=nominated,
-    )
+    )  # fmt: skip
     report = with_grown_turns(report, machine, tests, baselines, seed)
     remarks = (*unstated(stated, report), *exchanged(stated), *already_there(machine), *renamed)
     report = with_levels(sent_to_the_file(_with_limits(report, remarks)), tests, baselines)
