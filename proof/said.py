@@ -5,7 +5,8 @@ from __future__ import annotations
 SECTIONS = {
     "inquest": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at "
     "once. It asks for a supply's frequency by less and at one speed, for a belt at one speed, and takes no name that "
-    "forecasts nothing for sure; these cases had no part in any of it.",
+    "forecasts nothing for sure; these cases had no part in any of it. i011, a loose ring, was begun and not waited "
+    "for: a friction came first, and machines with both took five seconds each, nine minutes in all.",
     "jury": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at once. A "
     "sensor that changed at one operating point alone is left out and told "
     "([decision](decisions/reconcile-lone.md)), and sidebands near the teeth scatter with the wander of the speed as "
