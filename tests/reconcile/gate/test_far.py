@@ -8,7 +8,7 @@ import pytest
 from reconcile.gate import inspect_measurement
 from reconcile.speed.elsewhere import lines_elsewhere
 from signals.recording import Recording
-from tests.strategies.brief import RATE_HZ, N, recorded, shaft_lines
+from tests.strategies.impulses import RATE_HZ, N, recorded, shaft_lines
 
 
 def made(speed_hz: float, label_hz: float, hum_hz: float = 0.0, shaft: float = 1.0) -> Recording:
