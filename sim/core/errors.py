@@ -99,5 +99,15 @@ class Meaningless(SidebandError, ArithmeticError):
         return f"the numbers of this run mean nothing: {'; '.join(self.reasons)}"
 
 
+class TooStiff(SidebandError, ArithmeticError):
+    """A run given up because its corrector takes more iterations than the caller allowed."""
+
+    def __init__(self, *, time_s: float, per_step: float, allowed: float) -> None:
+        self.time_s, self.per_step, self.allowed = time_s, per_step, allowed
+        super().__init__(
+            f"given up at t = {time_s:.4g} s: {per_step:.3g} iterations a step, where {allowed:g} were allowed"
+        )
+
+
 class Cancelled(SidebandError):
     """The work was stopped at the caller's request."""

@@ -10,7 +10,7 @@ from functools import lru_cache
 import numpy as np
 
 from sim.assembly.assemble import assemble
-from sim.core.errors import Diverged, Problem, SpecError, UnknownName
+from sim.core.errors import Diverged, Problem, SpecError, TooStiff, UnknownName
 from sim.core.response import Channel, FloatArray, Response
 from sim.core.spec import MachineSpec
 from sim.core.system import System
@@ -20,7 +20,7 @@ from sim.solve.pilot import pilot_channels, step_difference
 from sim.solve.plan import Built, build_plan
 from sim.solve.pointers import Work, new_work
 from sim.solve.sampling import Probe, begin, new_probe, sample
-from sim.solve.settings import PILOT_S, Settings
+from sim.solve.settings import FIRST_SHARE, PILOT_S, Settings, pieces
 from sim.solve.step_choice import Cost, run_cost, steps_per_output
 from sim.solve.streaming import Stream, filtered, instantaneous, jumping
 
@@ -35,6 +35,7 @@ class _Run:
     work: Work
     probe: Probe
     rtol: float
+    most: float | None = None
 
 
 def default_channels(system: System) -> tuple[str, ...]:
@@ -129,12 +130,30 @@ def diverged(system: System, displacement: FloatArray, time_s: float) -> Diverge
     return Diverged(time_s=time_s, dof=system.dofs[worst], advice=advice)
 
 
+def too_stiff(iterations: float, done: int, last: int, step_s: float, most: float | None) -> TooStiff | None:
+    """The error of a run of `last` base steps that took more than `most` iterations a step in the first `done`."""
+    counted = max(float(done), FIRST_SHARE * last)
+    if most is None or iterations <= most * counted:
+        return None
+    return TooStiff(time_s=done * step_s, per_step=iterations / done, allowed=most)
+
+
 def _advance(run: _Run, first: int, count: int, last: int) -> FloatArray:
     block = np.empty((run.probe.pointer.size - 1, count))
+    for at, steps in pieces(count, run.most):
+        block[:, at : at + steps] = _piece(run, first + at, steps, last)
+    return block
+
+
+def _piece(run: _Run, first: int, count: int, last: int) -> FloatArray:
+    block, step_s = np.empty((run.probe.pointer.size - 1, count)), run.built.plan.base_step
     done = sample(run.built.plan, run.work, run.probe, first, count, run.rtol, last, block)
     displacement = run.work.z[: len(run.system.dofs)]
     if done < count or runs_away(run.system, displacement):
-        raise diverged(run.system, displacement, (first + int(done)) * run.built.plan.base_step)
+        raise diverged(run.system, displacement, (first + int(done)) * step_s)
+    given_up = too_stiff(float(run.work.counts[0]), first + count, last, step_s, run.most)
+    if given_up is not None:
+        raise given_up
     return block
 
 
@@ -167,7 +186,8 @@ def simulate(
     """Simulate from rest at t = 0, loads stepping on.
 
     Signals have ceil(duration * rate) samples at t = j / rate. `channels`: names, None for the sensors, ("all",).
-    Raises SpecError for an impossible machine or request, UnknownName for a channel, Diverged, Cancelled.
+    Raises SpecError for an impossible machine or request, UnknownName for a channel, Diverged, TooStiff
+    (with `Settings.most_iterations`), Cancelled.
     """
     chosen = settings or Settings()
     check_request(duration_s, output_rate_hz)
@@ -181,6 +201,7 @@ def simulate(
     if chosen.estimate_error:
         error = _pilot_error(system, rate, chosen.rtol, min(PILOT_S, duration_s))
     run = _start(system, rate, names, chosen.rtol, drawn_s(chosen, factor, rate))
+    run.most = chosen.most_iterations
     stream = Stream(
         advance=lambda first, count, last: _advance(run, first, count, last),
         channels=len(selected),

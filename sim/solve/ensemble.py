@@ -91,6 +91,7 @@ def _run_lanes(ready: Sequence[_Ready], call: _Call) -> list[Response | Sideband
     judged = pilot_steps(rate, min(PILOT_S, call.duration_s)) if call.settings.estimate_error else 0
     # The beginning of a run that draws jumps as a pilot does is the pilot.
     lanes = start_lanes(systems, steps, names, judged if steps == piloted else 0)
+    lanes.most = call.settings.most_iterations
     stream = Stream(
         advance=lanes.advance,
         channels=len(channels) * WIDTH,
@@ -158,8 +159,8 @@ def simulate_many(
 ) -> list[Response | SidebandError]:
     """Simulate every member from rest; results stand in the order of the members.
 
-    An impossible, diverging or meaningless member leaves its error (SpecError, UnknownName, Diverged, Meaningless) in
-    its place; the others are not touched. Raises SpecError for an impossible request and Cancelled.
+    An impossible, diverging, costly or meaningless member leaves its error (SpecError, UnknownName, Diverged, TooStiff,
+    Meaningless) in its place; the others are not touched. Raises SpecError for an impossible request and Cancelled.
     """
     check_request(duration_s, output_rate_hz)
     chosen = settings or Settings()

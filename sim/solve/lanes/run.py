@@ -11,12 +11,13 @@ from sim.core.errors import SidebandError
 from sim.core.lanes import WIDTH
 from sim.core.response import FloatArray
 from sim.core.system import System
-from sim.solve.api import default_channels, diverged, runs_away
+from sim.solve.api import default_channels, diverged, runs_away, too_stiff
 from sim.solve.lanes.layout import LanePlan, lane_plan, stepped
 from sim.solve.lanes.pointers import LaneWork, new_lane_work
 from sim.solve.lanes.sampling import LaneProbe, begin, new_lane_probe, sample
 from sim.solve.pilot import pilot_channels, step_difference
 from sim.solve.plan import build_plan
+from sim.solve.settings import pieces
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +31,7 @@ class Steps:
 
 @dataclass(kw_only=True)
 class Lanes:
-    """`lost` holds the error of a lane whose motion left all bounds.
+    """`lost` holds the error of a lane whose motion left all bounds or took more than `most` iterations a step.
 
     In its first `listen` steps a run also observes `heard`, the pilot's channels, and keeps them: the pilot with the
     base step is the beginning of the run itself.
@@ -41,6 +42,7 @@ class Lanes:
     work: LaneWork
     probe: LaneProbe
     rtol: float
+    most: float | None = None
     lost: dict[int, SidebandError] = field(default_factory=dict)
     listen: int = 0
     listener: LaneProbe | None = None
@@ -64,13 +66,26 @@ class Lanes:
     def _advance(self, probe: LaneProbe, first: int, count: int, last: int) -> FloatArray:
         channels = probe.pointer.size - 1
         block = np.empty((channels, count, WIDTH))
-        sample(self.plan, self.work, probe, first, count, self.rtol, last, block)
-        for lane, system in enumerate(self.systems):
-            displacement = self.work.z[: len(system.dofs), lane]
-            if lane not in self.lost and (self.work.counts[7, lane] == 0.0 or runs_away(system, displacement)):
-                self.work.counts[7, lane] = 0.0
-                self.lost[lane] = diverged(system, displacement, (first + count) * self.plan.base_step)
+        for at, steps in pieces(count, self.most):
+            part = np.empty((channels, steps, WIDTH))
+            sample(self.plan, self.work, probe, first + at, steps, self.rtol, last, part)
+            block[:, at : at + steps] = part
+            self._lose(first + at + steps, last)
         return np.ascontiguousarray(np.moveaxis(block, 2, 1)).reshape(channels * WIDTH, count)
+
+    def _lose(self, done: int, last: int) -> None:
+        """Lanes that left all bounds, or take too many iterations, stop."""
+        for lane, system in enumerate(self.systems):
+            if lane in self.lost:
+                continue
+            displacement = self.work.z[: len(system.dofs), lane]
+            found: SidebandError | None = None
+            if self.work.counts[7, lane] == 0.0 or runs_away(system, displacement):
+                found = diverged(system, displacement, done * self.plan.base_step)
+            found = found or too_stiff(float(self.work.counts[0, lane]), done, last, self.plan.base_step, self.most)
+            if found is not None:
+                self.work.counts[7, lane] = 0.0
+                self.lost[lane] = found
 
 
 def start_lanes(systems: Sequence[System], steps: Steps, names: tuple[str, ...], listen: int = 0) -> Lanes:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from sim.core.errors import Diverged, Meaningless, Problem, SidebandError, SpecError, UnknownName
+from sim.core.errors import Diverged, Meaningless, Problem, SidebandError, SpecError, TooStiff, UnknownName
 from sim.core.lines import Line
 
 
@@ -27,7 +27,7 @@ def test_errors_inherit_what_a_caller_expects():
     assert issubclass(SpecError, ValueError)
     assert issubclass(UnknownName, KeyError)
     assert issubclass(Diverged, ArithmeticError)
-    assert all(issubclass(kind, SidebandError) for kind in (SpecError, UnknownName, Diverged, Meaningless))
+    assert all(issubclass(kind, SidebandError) for kind in (SpecError, UnknownName, Diverged, Meaningless, TooStiff))
 
 
 def test_messages_say_what_to_change():

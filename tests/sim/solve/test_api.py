@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from sim.core.errors import Cancelled, Diverged, SpecError, UnknownName
+from sim.core.errors import Cancelled, Diverged, SpecError, TooStiff, UnknownName
 from sim.core.spec import MachineSpec, TermSpec
 from sim.presets import preset
 from sim.solve.api import estimate_cost, simulate
@@ -115,6 +115,16 @@ def test_divergence_says_when_and_where():
     assert caught.value.dof.endswith(".y")
     assert "t = " in str(caught.value)
     assert "step" in caught.value.advice
+
+
+def test_a_run_is_given_up_that_takes_more_iterations_than_allowed():
+    machine, asked = preset("paper-demo"), {"duration_s": 0.6, "output_rate_hz": 12_000.0}
+    free = simulate(machine, settings=QUICK, **asked)
+    allowed = simulate(machine, settings=Settings(estimate_error=False, most_iterations=20.0), **asked)
+    assert np.array_equal(free.signals, allowed.signals)
+    with pytest.raises(TooStiff, match=r"given up at t = .* s: .* iterations a step, where 0.5 were allowed") as caught:
+        simulate(machine, settings=Settings(estimate_error=False, most_iterations=0.5), **asked)
+    assert 0.0 < caught.value.time_s < 0.3, "long before its end"
 
 
 def test_seeds_matter_where_something_is_random():

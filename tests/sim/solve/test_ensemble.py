@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 
 from sim.assembly.assemble import assemble
-from sim.core.errors import Cancelled, Diverged, SpecError, UnknownName
+from sim.core.errors import Cancelled, Diverged, SpecError, TooStiff, UnknownName
 from sim.core.response import Response
 from sim.core.spec import MachineSpec, TermSpec
 from sim.presets import PRESETS, preset
 from sim.solve.api import simulate
 from sim.solve.ensemble import Member, simulate_many
 from sim.solve.settings import Settings
+from tests.strategies.systems import with_terms
 
 QUICK = Settings(estimate_error=False)
 SHORT = {"duration_s": 0.03, "output_rate_hz": 20_000.0}
@@ -124,6 +125,31 @@ def test_a_diverging_member_leaves_its_error_and_spares_the_others():
     assert isinstance(found[0], Diverged)
     assert isinstance(found[1], Response)
     same(found[1], simulate(preset("oscillator"), settings=QUICK, **SHORT), REGULAR_TOLERANCE)
+
+
+@pytest.mark.slow
+def test_a_costly_member_is_given_up_alone_as_by_the_single_solver():
+    """Dry friction that holds a loose ring in its seat, beside the same with hardly any."""
+    asked = {"duration_s": 0.4, "output_rate_hz": 20_480.0, "channels": ("resonator1.y.acceleration",)}
+    held, free = (
+        with_terms(
+            preset("paper-lightly-damped"),
+            TermSpec(
+                term="coulomb_friction",
+                site="bearing1",
+                parameters={"force": force, "joint": 0.0, "rest_ratio": 1.9},
+            ),
+            TermSpec(term="fit_clearance_series", site="bearing1", parameters={"gap": 1.1e-5}),
+        )
+        for force in (10.0, 0.5)
+    )
+    settings = Settings(estimate_error=False, steps_per_output=3, rtol=1e-2, most_iterations=4.0)
+    costly, cheap = simulate_many([Member(machine=held), Member(machine=free)], settings=settings, **asked)
+    assert isinstance(costly, TooStiff) and isinstance(cheap, Response)
+    with pytest.raises(TooStiff) as caught:
+        simulate(held, settings=settings, **asked)
+    assert caught.value.time_s == costly.time_s
+    assert simulate(free, settings=settings, **asked).signals.shape == cheap.signals.shape
 
 
 @pytest.mark.slow
