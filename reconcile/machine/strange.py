@@ -12,6 +12,7 @@ from reconcile.machine.own_knocks import own_knocks
 from reconcile.machine.own_line import own_line
 from reconcile.machine.own_order import OwnOrder, own_order
 from reconcile.machine.own_time import OwnTime, own_time
+from reconcile.machine.proved import BEYOND_DOUBT
 from reconcile.machine.second import strikes
 from reconcile.machine.self_excited import self_excited
 from reconcile.observe.observation import PointData
@@ -21,12 +22,12 @@ from sim.core.spec import MachineSpec
 
 TELLS_LITTLE = 10.0
 """Evidence of the best effect below which a set of effects, or one that is not decided, says less than this does."""
-HARDLY, SHORT, CLEARLY_DB, BEYOND_DOUBT = 0.1, 0.05, 5.0, 20.0
+HARDLY, SHORT, CLEARLY_DB = 0.1, 0.05, 5.0
 """What is seen at an order or a frequency of no known part, with a rise of 5 dB, goes before names and sets of less log
-evidence than 20 that strike nowhere: a name with a held-out gain below a tenth that its placebos reach, and a set whose
-placebos gain 0.05 more. A pull of 100 Hz with 6 dB where nothing else rose by 0.4 (c046 of the proof) stood beside an
-angle at a coupling of evidence 10.4 that forecast 0.053, its placebos 0.057; a torque of 100 Hz at one speed with 22 dB
-(c067) beside wavy races of two bearings of 11, 0.27 and 0.33. Known from these two alone."""
+evidence than `BEYOND_DOUBT` that strike nowhere: a name with a held-out gain below a tenth that its placebos reach, and
+a set whose placebos gain 0.05 more. A pull of 100 Hz with 6 dB where nothing else rose by 0.4 (c046 of the proof) stood
+beside an angle at a coupling of evidence 10.4 that forecast 0.053, its placebos 0.057; a torque of 100 Hz at one speed
+with 22 dB (c067) beside wavy races of two bearings of 11, 0.27 and 0.33. Known from these two alone."""
 ELECTRIC: tuple[Kind, ...] = ("mains_hum", "fixed_tones")
 OWN: Mapping[str, tuple[Kind, ...]] = {
     "own time": ELECTRIC, "self-excited": ELECTRIC, "own knocks": ("fixed_tones",)

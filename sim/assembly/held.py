@@ -64,7 +64,9 @@ def _kept_motions(held: bytes, count: int, own: bytes) -> FloatArray:
         balanced, scale = balanced / columns, scale / columns
     _, sizes, vectors = np.linalg.svd(balanced, full_matrices=True)
     rank = int(np.sum(sizes > RANK * sizes[0])) if sizes.size else 0
-    return _reduced(vectors[rank:], np.where(owned, 1.0, SHARE)) * scale
+    found = _reduced(vectors[rank:], np.where(owned, 1.0, SHARE)) * scale
+    found.flags.writeable = False  # many callers hold it
+    return found
 
 
 def _reduced(basis: FloatArray, weight: FloatArray) -> FloatArray:

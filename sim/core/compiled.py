@@ -48,7 +48,8 @@ def jit(function: Callable[..., Any]) -> Any:  # noqa: ANN401  (numba's dispatch
 
 
 def exact(function: Callable[..., Any]) -> Any:  # noqa: ANN401
-    """Compile with the order of sums and products as it is written: the result is that of numpy to the last bit."""
+    """Compile with the order of sums and products as it is written; what numpy adds in the same order comes out equal
+    to the last bit (its own sums of long arrays go pairwise)."""
     return numba.njit(cache=True, error_model="numpy")(function)
 
 

@@ -123,6 +123,8 @@ def test_a_disc_that_turns_may_turn_freely():
 def test_free_motions_of_a_chain():
     rows = np.array([[1.0, -1.0, 0.0, 0.0], [0.0, 1e-3, -1e3, 0.0]])
     motions = free_motions(rows, np.ones(4, dtype=bool))
+    with pytest.raises(ValueError, match="read-only"):
+        motions[0] = 0.0  # other callers hold the same array
     assert motions.shape == (2, 4)
     assert rows @ motions.T == pytest.approx(0.0, abs=1e-9 * np.abs(motions).max())
     assert free_motions(np.vstack([rows, np.eye(4)[[0, 3]]]), np.ones(4, dtype=bool)).shape == (0, 4)
