@@ -281,7 +281,7 @@ def test_damaged_files_are_read_or_refused_and_nothing_else(tmp_path, name: str)
     )
     bounds = Bounds(values=1_000_000, unpacked_bytes=20_000_000, seconds=20)
     rng = np.random.default_rng(8)
-    for content in [whole[:7], *(_damaged(whole, rng) for _ in range(2))]:
+    for content in (whole[:7], _damaged(whole, rng)):
         (tmp_path / name).write_bytes(content)
         try:
             parse(about, tmp_path / name, bounds, load_apart)
