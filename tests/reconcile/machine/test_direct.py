@@ -147,11 +147,13 @@ def test_two_parts_that_strike_are_told_apart(machine: MachineSpec) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("base", "loads"), [("f_o1", None), ("f_i1", 30.0), ("f_o3", None), ("f_i3", 21.8)])
-def test_one_part_that_strikes_has_no_second(machine: MachineSpec, base: str, loads: float | None) -> None:
-    for seed in range(2):
-        hit = struck(bases_at(machine, SPEED_HZ)[base], loads_hz=loads, slip=0.007 * seed)
-        assert found(machine, sound(seed) + 2.0 * hit, sound(10 + seed)).struck == ()
+@pytest.mark.parametrize(
+    ("base", "loads", "seed"), [("f_o1", None, 0), ("f_i1", 30.0, 1), ("f_o3", None, 1), ("f_i3", 21.8, 0)]
+)
+def test_one_part_that_strikes_has_no_second(machine: MachineSpec, base: str, loads: float | None, seed: int) -> None:
+    """Every race and every shaft once with slip and once without."""
+    hit = struck(bases_at(machine, SPEED_HZ)[base], loads_hz=loads, slip=0.007 * seed)
+    assert found(machine, sound(seed) + 2.0 * hit, sound(10 + seed)).struck == ()
 
 
 @pytest.mark.slow
