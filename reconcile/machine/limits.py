@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from reconcile.machine.setting import Setting
+from reconcile.verdict import operating_point
 
 ONE_SENSOR = "one sensor cannot locate a broadband force: places rest on the spectra the machine model predicts"
 NO_BASELINE = "without a baseline the machine's parameters and the sensors' paths were fitted to the test itself"
@@ -20,7 +21,24 @@ def limits(setting: Setting) -> tuple[str, ...]:
         found.append(ONE_POINT)
     if setting.changes.delays:
         found.append(_apart(setting))
-    return tuple(found)
+    return (*found, *_mirrored(setting))
+
+
+def _mirrored(setting: Setting) -> tuple[str, ...]:
+    """Which sensors were read the other way round, one sentence for all."""
+    read = [
+        f"{setting.channels[c]} at {operating_point(d.point.speed_hz, d.point.torque_ratio)}"
+        for d in setting.data
+        for c in d.mirrored
+    ]
+    if not read:
+        return ()
+    told = (
+        f"{', '.join(read)}: moves across the load half a turn of phase apart from the baseline, which is the mirror "
+        "image of one motion, as likely in a sound machine; read the other way round (a sensor that was turned round "
+        "since looks so too)"
+    )
+    return (told,)
 
 
 def _apart(setting: Setting) -> str:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from reconcile.atlas.plan import Point
 from reconcile.observe.extract import extract
+from reconcile.observe.mirrored import Sides, mirrored, sides, turned_round
 from reconcile.observe.slack import slack
 from reconcile.observe.statistics import Statistics, averaged
 from reconcile.observe.steady import Steady, steady
@@ -45,6 +46,8 @@ class PointData:
     """Speeds of all tests of the point."""
     turned_before: tuple[SpeedEstimate, ...] = ()
     """Of all its baselines."""
+    mirrored: tuple[int, ...] = ()
+    """Channels of the test that are read the other way round (`reconcile.observe.mirrored`)."""
 
 
 def heard_hz(one: PointData, line: int) -> float:
@@ -132,6 +135,7 @@ def observe(
     orders = [n * z for n in range(1, TOOTH_ORDERS + 1) for z in teeth]
     slowest = _slowest(machine)
     known = _group(machine, baselines)
+    which = sides(machine, tests[0].channels)
     found = []
     for point, members in _group(machine, tests):
         resting = next((b for p, b in known if _alike(p, point)), None)
@@ -140,27 +144,35 @@ def observe(
         now, before = ([_steady(r, orders, slowest, seed) for r in several] for several in (members, resting or ()))
         stated = point.speed_hz
         bases = bases_at(machine, stated)
-        found.append(
-            PointData(
-                point=point,
-                lines_hz=watched.line_hz(bases),
-                modulations_hz=watched.modulation_hz(bases),
-                test=averaged([_measured(s, machine, watched, stated) for s in now]),
-                halves=(
-                    averaged([_measured(s, machine, watched, stated, slice(0, _middle(s))) for s in now]),
-                    averaged([_measured(s, machine, watched, stated, slice(_middle(s), None)) for s in now]),
-                ),
-                baseline=averaged([_measured(s, machine, watched, stated) for s in before]) if before else None,
-                spectra=(now[0], before[0] if before else None),
-                turned=tuple(s.estimate for s in now),
-                turned_before=tuple(s.estimate for s in before),
-            )
+        one = PointData(
+            point=point,
+            lines_hz=watched.line_hz(bases),
+            modulations_hz=watched.modulation_hz(bases),
+            test=averaged([_measured(s, machine, watched, stated) for s in now]),
+            halves=(
+                averaged([_measured(s, machine, watched, stated, slice(0, _middle(s))) for s in now]),
+                averaged([_measured(s, machine, watched, stated, slice(_middle(s), None)) for s in now]),
+            ),
+            baseline=averaged([_measured(s, machine, watched, stated) for s in before]) if before else None,
+            spectra=(now[0], before[0] if before else None),
+            turned=tuple(s.estimate for s in now),
+            turned_before=tuple(s.estimate for s in before),
         )
+        found.append(_on_one_side(one, watched, which))
     if not found:
         message = "no baseline was recorded at the speed and load of any test"
         given, allowed = _points(_group(machine, tests)), f"the points of the baselines: {_points(known)}"
         raise SpecError(Problem(field="baseline", message=message, given=given, allowed=allowed))
     return tuple(found)
+
+
+def _on_one_side(one: PointData, watched: WatchList, which: Sides) -> PointData:
+    """With the test's motion across the load in the baseline's image."""
+    channels = mirrored(one.test, one.baseline, watched, which) if one.baseline is not None else ()
+    if not channels:
+        return one
+    halves = (turned_round(one.halves[0], channels), turned_round(one.halves[1], channels))
+    return replace(one, test=turned_round(one.test, channels), halves=halves, mirrored=channels)
 
 
 def _middle(one: Steady) -> int:
