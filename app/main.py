@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import threading
 import time
 from collections.abc import AsyncIterator
 from functools import partial
@@ -94,6 +95,7 @@ def create_app(settings: Settings, *, engine: Engine, encode: Encoder, stores: S
     )
     app.state.sideband = state
     app.state.streams = set()
+    app.state.stopping = threading.Event()
     app.state.routes = tuple(route for router in ROUTERS for route in router.routes)
     for router in ROUTERS:
         app.include_router(router)

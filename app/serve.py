@@ -92,9 +92,10 @@ def run(service: Service) -> int:
         _workers(service, stores),
     ):
         settings = replace(service.settings, stores=stores)
-        server = uvicorn.Server(
+        app = service.build(settings)
+        server = _Server(
             uvicorn.Config(
-                service.build(settings),
+                app,
                 log_level="warning",
                 server_header=False,
                 timeout_graceful_shutdown=HTTP_GRACE_S,
@@ -107,6 +108,17 @@ def run(service: Service) -> int:
             server.run(sockets=[listener])
             _say("stopping workers and broker; jobs not done yet begin anew when the service starts again")
         return 0 if stop.is_set() else 1
+
+
+class _Server(uvicorn.Server):
+    """Tells streams of events that they end with it."""
+
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        """The request to stop."""
+        app = self.config.app
+        if isinstance(app, FastAPI):
+            app.state.stopping.set()
+        super().handle_exit(sig, frame)
 
 
 @contextmanager

@@ -14,6 +14,11 @@ LEAST_SAMPLES = 2048
 """In fewer too few bins are left to tell lines from noise."""
 
 
+NOBODY_TURNS_HZ = 700.0
+"""Stated speed from which rpm are asked about whatever lines there are: 750 to 3600 rpm are speeds of motors, 42,000
+revolutions a minute those of few machines, and the dense lines of a damaged bearing may stand anywhere."""
+
+
 def doubts(recording: Recording) -> list[str]:
     """Sentences for whoever recorded it; none of them is a defect, and an empty list is no praise."""
     return [*_of_speed(recording), *_of_length(recording), *_of_noise(recording)]
@@ -38,10 +43,14 @@ def _of_speed(recording: Recording) -> list[str]:
     stated = recording.operating.speed_hz if recording.operating is not None else 0.0
     slow = stated / PER_MINUTE
     # pulses have been held against it above
-    if slow < LOWEST_HZ or recording.tacho is not None or confirmed(recording, stated):
+    if slow < LOWEST_HZ or recording.tacho is not None:
+        return []
+    lines = confirmed(recording, stated)
+    if lines and stated < NOBODY_TURNS_HZ:
         return []
     asked = f"is it in revolutions per minute? Then state {slow:.4g} Hz"
-    return [f"operating.speed_hz: few machines turn at {stated:.6g} Hz, and no lines confirm it: {asked}"]
+    told = "" if lines else ", and no lines confirm it"
+    return [f"operating.speed_hz: few machines turn at {stated:.6g} Hz{told}: {asked}"]
 
 
 def _of_noise(recording: Recording) -> list[str]:

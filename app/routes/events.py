@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import threading
 import time
 from collections.abc import AsyncIterator
 from typing import Annotated
@@ -54,10 +55,14 @@ async def stream(
     if len(streams) >= state.settings.event_streams:
         raise QueueFull(len(streams), state.settings.event_streams, retry_after_s=5)
     headers = {"Cache-Control": "no-store", "X-Accel-Buffering": "no"}
-    return StreamingResponse(_events(state, streams, record, seen), media_type="text/event-stream", headers=headers)
+    spoken = _events(state, streams, request.app.state.stopping, record, seen)
+    return StreamingResponse(spoken, media_type="text/event-stream", headers=headers)
 
 
-async def _events(state: AppState, streams: set[str], record: JobRecord, seen: int) -> AsyncIterator[str]:
+async def _events(
+    state: AppState, streams: set[str], stopping: threading.Event, record: JobRecord, seen: int
+) -> AsyncIterator[str]:
+    """Until the job has ended or the server stops: a client comes back by itself and misses nothing."""
     ticket = f"{record.id}-{time.monotonic_ns()}"
     streams.add(ticket)
     catalogue, spoken = state.stores.catalogue, time.monotonic()
@@ -72,7 +77,7 @@ async def _events(state: AppState, streams: set[str], record: JobRecord, seen: i
                 yield _text(event)
             if events:
                 spoken = time.monotonic()
-            elif not record.status.active:
+            elif not record.status.active or stopping.is_set():
                 return
             elif time.monotonic() - spoken >= state.settings.heartbeat_s:
                 spoken = time.monotonic()

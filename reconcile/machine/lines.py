@@ -55,18 +55,22 @@ def line_changes(
                         locked_to=locked_to(line.orders),
                         **place_of(one),
                     )
-                    rows.append(_Row(deviations=abs(float(value)), line=found, reach_hz=float(reach[i])))
+                    at = (p, c)
+                    rows.append(_Row(deviations=abs(float(value)), line=found, reach_hz=float(reach[i]), at=at))
     rows.sort(key=lambda row: -row.deviations)
-    return tuple(row.line for row in _once(rows)[:MOST_LINES])
+    return tuple(_heard(row, data) for row in _once(rows)[:MOST_LINES])
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Row:
-    """A line, by how many deviations it changed, and how far from its geometric frequency it was looked for."""
+    """A line, by how many deviations it changed, and how far from its geometric frequency it was looked for; `at`:
+    numbers of operating point and channel; `also`: other lines that were looked for around the same peak."""
 
     deviations: float
     line: LineChange
     reach_hz: float
+    at: tuple[int, int] = (0, 0)
+    also: tuple[LineChange, ...] = ()
 
     def same_peak(self, other: _Row) -> bool:
         """Whether both were looked for where one and the same peak stands, which changed alike for both."""
@@ -79,18 +83,30 @@ class _Row:
 
 
 def _once(rows: Sequence[_Row]) -> list[_Row]:
-    """One row a peak, the most changed first, with the names of all lines it may be."""
+    """One row a peak, the most changed first, with all lines it may be."""
     kept: list[_Row] = []
     for row in rows:
         k = next((k for k, other in enumerate(kept) if other.same_peak(row)), None)
         if k is None:
             kept.append(row)
-            continue
-        line = kept[k].line
-        label = f"{line.label}{OR}{row.line.label}"
-        follows = list(dict.fromkeys([*line.locked_to.split(OR), row.line.locked_to]))
-        kept[k] = replace(kept[k], line=replace(line, label=label, locked_to=OR.join(follows)))
+        else:
+            kept[k] = replace(kept[k], also=(*kept[k].also, row.line))
     return kept
+
+
+def _heard(row: _Row, data: Sequence[PointData]) -> LineChange:
+    """The line where its peak stands in the test, if it rose, by the names of all it may be, the nearest first."""
+    every = [row.line, *row.also]
+    hz = row.line.frequency_hz
+    if row.line.change_db > 0.0 and row.reach_hz > 0.0:
+        hz = data[row.at[0]].spectra[0].peak_hz(row.at[1], hz, row.reach_hz)
+        every.sort(key=lambda x: abs(x.frequency_hz - hz))
+    return replace(
+        row.line,
+        frequency_hz=hz,
+        label=OR.join(x.label for x in every),
+        locked_to=OR.join(dict.fromkeys(x.locked_to for x in every)),
+    )
 
 
 def locked_to(orders: object) -> str:

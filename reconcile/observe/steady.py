@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import fft
 from scipy.interpolate import CubicSpline
 
 from reconcile.speed import SpeedEstimate, estimate_speed, followed_angle, shaft_angle
@@ -29,6 +30,17 @@ class Steady:
     speed_hz: float
     estimate: SpeedEstimate
     start_turns: float = 0.0
+
+    def peak_hz(self, channel: int, hz: float, reach_hz: float) -> float:
+        """Where the spectrum of a channel is largest within `reach_hz` of a frequency, else that."""
+        samples = self.samples[channel]
+        step, half = self.rate_hz / samples.size, samples.size // 2
+        low, high = (int(np.floor((hz + side * reach_hz) / step + 0.5)) for side in (-1.0, 1.0))
+        bins = np.arange(max(low, 1), min(high, half) + 1)
+        if not bins.size:
+            return hz
+        spectrum = np.abs(fft.rfft(samples * np.hanning(samples.size)))
+        return float(step * bins[int(np.argmax(spectrum[bins]))])
 
     def recording(self, channels: Sequence[Channel]) -> Recording:
         """The samples as a recording at the speed they stand for."""

@@ -54,14 +54,27 @@ def gone(processes: list[psutil.Process]) -> bool:
     return not any(p.is_running() and p.status() != psutil.STATUS_ZOMBIE for p in processes)
 
 
+def listening(client: httpx.Client, job_id: str) -> Iterator[None]:
+    """Reads the job's events from its first on, and then until the stream ends as it should."""
+    with client.stream("GET", f"/v1/jobs/{job_id}/events") as reply:
+        lines = reply.iter_lines()
+        next(lines)
+        yield
+        for _ in lines:
+            pass
+
+
 def stopped(server: Forked, client: httpx.Client, kind: signal.Signals, seed: int) -> tuple[str, str]:
-    """A job that was running and one that was waiting when this signal came; no process is left."""
+    """A job that was running, and listened to, and one that was waiting when this signal came; no process is left."""
     running = submit(client, "sleep=60;deaf", seed=seed)
     waiting = submit(client, "", seed=seed + 1)
     eventually(lambda: status(client, running) == "running")
     family = psutil.Process(server.pid).children(recursive=True)
     assert len(family) >= 4, "guard, server, worker, work process"
+    listener = listening(client, running)
+    next(listener)
     server.send_signal(kind)
+    assert next(listener, "ended") == "ended", "cut off, it would raise"
     assert server.wait(30) == 0
     eventually(lambda: gone(family), within_s=2)
     return running, waiting

@@ -47,6 +47,8 @@ def test_a_fast_speed_is_asked_about_unless_its_lines_or_pulses_confirm_it() -> 
     said = doubts(recorded(NOISE, 1480.0))
     assert "revolutions per minute" in said[0] and "24.67 Hz" in said[0]
     assert doubts(recorded(turning(500.0), 500.0)) == []
+    (asked,) = doubts(recorded(turning(1480.0), 1480.0))
+    assert "few machines turn at 1480 Hz: is it in revolutions per minute? Then state 24.67 Hz" in asked
     pulses = Tacho(shaft="shaft", pulse_times_s=np.arange(0.0, T[-1], 1 / 500.0), pulses_per_revolution=1)
     assert not any("minute" in said for said in doubts(recorded(NOISE, 500.0, tacho=pulses)))
 

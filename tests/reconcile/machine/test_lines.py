@@ -22,15 +22,17 @@ def line(label: str, orders: dict[str, float], *, slips: bool) -> SimpleNamespac
     return SimpleNamespace(label=label, orders=orders, slips=slips)
 
 
-def point(at: Point, lines_hz: tuple[float, ...], turned: float = 1.0) -> SimpleNamespace:
-    return SimpleNamespace(
-        point=at, lines_hz=np.array(lines_hz), spectra=(SimpleNamespace(speed_hz=turned * at.speed_hz), None)
-    )
+def point(at: Point, lines_hz: tuple[float, ...], turned: float = 1.0, peak_hz: float = 0.0) -> SimpleNamespace:
+    """`peak_hz`: where the peak of all lines stands, that of each line without one."""
+    heard = SimpleNamespace(speed_hz=turned * at.speed_hz, peak_hz=lambda _channel, hz, _reach: peak_hz or hz)
+    return SimpleNamespace(point=at, lines_hz=np.array(lines_hz), spectra=(heard, None))
 
 
-def two(lines_hz: tuple[float, float], change_db: tuple[float, float], *, slips: bool) -> list[str]:
+def two(
+    lines_hz: tuple[float, float], change_db: tuple[float, float], *, slips: bool, peak_hz: float = 0.0
+) -> list[str]:
     """What is told of two lines of one point, on the first of two channels."""
-    one = point(POINTS[0], lines_hz)
+    one = point(POINTS[0], lines_hz, peak_hz=peak_hz)
     observed = np.zeros(2 * LAYOUT.size)
     observed[:2] = change_db
     null = np.random.default_rng(0).normal(size=(8, observed.size))
@@ -41,6 +43,7 @@ def two(lines_hz: tuple[float, float], change_db: tuple[float, float], *, slips:
     )
     found = line_changes([one], changes, LAYOUT, watched, CHANNELS)  # type: ignore[arg-type, list-item]
     assert len({(x.label, x.channel) for x in found}) == len(found)
+    assert not peak_hz or {x.frequency_hz for x in found} == {peak_hz}
     return [f"{x.label}: {x.locked_to}" for x in by_name(found, preset("bearing-rig"))]
 
 
@@ -74,6 +77,11 @@ def test_parts_are_called_as_in_the_machine_file() -> None:
 def test_a_peak_that_two_lines_may_be_is_told_once_with_both_names() -> None:
     both = "inner ring of drive_end or fan_end or outer ring of drive_end or fan_end"
     assert two((300.0, 303.0), (20.3, 20.0), slips=True) == [f"2*f_i1 or 3*f_o1: {both}"]
+
+
+def test_the_nearest_name_comes_first_with_the_frequency_of_the_peak() -> None:
+    told = two((300.0, 303.0), (20.3, 20.0), slips=True, peak_hz=302.4)
+    assert told == ["3*f_o1 or 2*f_i1: outer ring of drive_end or fan_end or inner ring of drive_end or fan_end"]
 
 
 def test_lines_apart_or_changed_otherwise_or_locked_to_shafts_stay_two() -> None:
