@@ -10,6 +10,8 @@ from reconcile.verdict import Report, Word
 EXCHANGED = "exchanged, or a part replaced"
 """How the sentence says that the baseline has what the tests have not (`reconcile.kinematics.remarks`,
 `reconcile.machine.exchanged`)."""
+SPEED_OPEN = "The speed is not decided"
+"""How the sentence says that what strikes hangs on which of two speeds it was (`reconcile.kinematics.doubted`)."""
 PLACE_OPEN = "the place is not decided by these sensors"
 """How a set of places is told; with the reason behind a colon by those causes alone that make it
 (`reconcile.machine.elsewhere`)."""
@@ -166,6 +168,8 @@ def _several(report: Report) -> str:
         return _on_the_shaft(report, sites)
     if len(kinds) == 1 and len(sites) > 1:
         return f"plan to inspect {' and '.join(sites)}: one of them has it."
+    if len(sites) == 1 and SPEED_OPEN in report.sentence:
+        return f"find out how fast it turned (nameplate, strobe, tacho) and ask again before {sites[0]} is opened."
     if len(sites) == 1:
         return f"plan to inspect {sites[0]}; which of the names it is stays open."
     return "act on none of the names alone."

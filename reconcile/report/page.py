@@ -9,7 +9,7 @@ import json
 
 from reconcile.report.faintest import faintest
 from reconcile.report.figures.bars import changes, ranking
-from reconcile.report.figures.envelope import caption, envelope, marked
+from reconcile.report.figures.envelope import beside, caption, envelope, marked
 from reconcile.report.figures.force_lines import by_lines
 from reconcile.report.figures.gains import distances, gains
 from reconcile.report.figures.law import from_force, law, law_words, one_axis
@@ -41,8 +41,11 @@ from reconcile.report.sections import (
 from reconcile.report.steps import stages
 from reconcile.report.strict import plain
 from reconcile.report.style import STYLE
-from reconcile.report.words import LAWS, tidied
+from reconcile.report.words import LAWS, tidied, weight
 from reconcile.verdict import Report
+
+NEVER_FITTED = "Improvement on data never fitted"
+FITTED = f"These recordings were fitted; how the model does on others stands under “{NEVER_FITTED}”."
 
 
 def _key(before: str = "model without it", after: str | None = "with it") -> Markup:
@@ -54,7 +57,7 @@ def _where(report: Report) -> Markup:
     machine = plain(report.machine)
     weights = {p.site: p.weight for p in report.where.sites}
     drawing = sketch(machine, weights) if isinstance(machine, dict) else Markup("")
-    sites = bullets(f"{p.site}: {100 * p.weight:.0f} % of the weight" for p in report.where.sites)
+    sites = bullets(f"{p.site}: {weight(p.weight)} of the weight" for p in report.where.sites)
     return section("Where", drawing, told(sites, where_table(report.where, report.causes)))
 
 
@@ -78,7 +81,8 @@ def _spectra(report: Report) -> Markup:
         # nothing is added to the reference
         bare = [{k: v for k, v in p.items() if k != "after_db"} for p in drawn]
         return section(title, note, _key(reference, None), spectra(bare, report.where.lines))
-    return section(title, note, _key(f"without it: {reference}"), spectra(drawn, report.where.lines))
+    fitted = tag("p", FITTED, css="muted") if report.level == "machine" and report.held_out is not None else Markup("")
+    return section(title, fitted, note, _key(f"without it: {reference}"), spectra(drawn, report.where.lines))
 
 
 def _envelope(report: Report) -> Markup:
@@ -87,7 +91,8 @@ def _envelope(report: Report) -> Markup:
         return Markup("")
     names = [("observed", "test"), *([("before", "baseline")] if any("baseline" in p for p in drawn) else [])]
     key = tag("div", *(tag("span", tag("i", css=f"k-{css}"), words) for css, words in names), css="key")
-    note = "Violet: harmonics of that family, ticks on the upper edge: its sidebands. Grey: first lines of other parts."
+    ticks = ", ticks on the upper edge: its sidebands" if any(beside(p) for p in drawn) else ""
+    note = f"Violet: harmonics of that family{ticks}. Grey: first lines of other parts."
     told_of = tag("p", note, css="muted") if any(marked(p) for p in drawn) else Markup("")
     panels = [Markup(tag("p", caption(p), css="muted") + key + envelope(p)) for p in drawn]
     return section("Envelope over orders", *panels, told_of)
@@ -132,7 +137,7 @@ def _held_out(report: Report) -> Markup:
         if len(found.effects) > 1:
             subject = " and ".join(cause(c) for c in report.causes[:2])
         bars = Markup(distances(found, subject) + gains(found, subject))
-    title = "Measured and predicted" if found is None else "Improvement on data never fitted"
+    title = "Measured and predicted" if found is None else NEVER_FITTED
     return section(title, held_out_words(found), bars, told(held_out_table(found)), key, *panels)
 
 

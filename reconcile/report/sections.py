@@ -7,7 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
-from reconcile.report.action import undecided
+from reconcile.report.action import SPEED_OPEN, undecided
 from reconcile.report.formula import formula
 from reconcile.report.markup import Markup, escaped, figure_text, tag
 from reconcile.report.mending import channels
@@ -28,6 +28,7 @@ from reconcile.report.words import (
     size_name,
     sizes,
     tidied,
+    weight,
 )
 from reconcile.verdict import Cause, Level, LineChange, NextExperiment, PlaceWeight, Report, Where, operating_point
 
@@ -95,7 +96,7 @@ def _one_of(sites: Sequence[str]) -> str:
 def _place(report: Report, best: PlaceWeight) -> Markup:
     """The tile of the place: one, or the several that a set leaves open."""
     if report.verdict == "not_decidable":
-        return _tile(best.site, f"leads with {percent(best.weight)} of the weight; the place is not decided")
+        return _tile(best.site, f"leads with {weight(best.weight)} of the weight; the place is not decided")
     kinds, sites = undecided(report)
     if report.verdict == "unknown_physics" and len(report.where.likeliest) > 1:
         return _tile(_one_of(report.where.likeliest), "places that nothing tells apart")
@@ -103,11 +104,14 @@ def _place(report: Report, best: PlaceWeight) -> Markup:
     if len(named) > 1:
         return _tile(" and ".join(named), "places of the effects that are named")
     if report.verdict != "ambiguous" or not sites:
-        return _tile(best.site, f"most likely place, {percent(best.weight)} of the weight")
+        alone = len(report.where.sites) == 1 and best.weight > 1.0 - 1e-9
+        likeliest = f"most likely place, {weight(best.weight)} of the weight"
+        return _tile(best.site, "place, of the parts in the machine file" if alone else likeliest)
     if len(sites) > 1:
         what = "" if len(kinds) == 1 else "; what it is is open too"
         return _tile(_one_of(sites), f"places that these recordings do not tell apart{what}")
-    return _tile(sites[0], f"place, {percent(best.weight)} of the weight; what it is is not decided")
+    open_still = "it hangs on the speed" if SPEED_OPEN in report.sentence else "what it is is not decided"
+    return _tile(sites[0], f"place, {weight(best.weight)} of the weight; {open_still}")
 
 
 def head(report: Report) -> Markup:

@@ -88,6 +88,11 @@ def percent(share: float | None) -> str:
     return "–" if share is None or not math.isfinite(share) else f"{round(100 * share):.0f} %"
 
 
+def weight(share: float) -> str:
+    """A share of the weight; what is nearly all of it is not told as all."""
+    return "more than 99 %" if 0.995 <= share < 1.0 - 1e-9 else percent(share)
+
+
 def distance(value: float, unit: str) -> str:
     """How far a model is off: with its unit, or of none as per cent, as the sentence has it."""
     return f"{figure_text(100 * value, digits=2)} %" if unit in ("", "1") else figure_text(value, unit)

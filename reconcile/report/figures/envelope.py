@@ -66,6 +66,12 @@ def marked(picture: Mapping[str, Plain]) -> bool:
     return bool(picture.get("lines"))
 
 
+def beside(picture: Mapping[str, Plain]) -> bool:
+    """Whether sidebands of the family are among them, as ticks."""
+    lines = picture.get("lines")
+    return isinstance(lines, list) and any(isinstance(x, dict) and x.get("kind") not in ROWS for x in lines)
+
+
 def _highest(orders: list[float], depth: list[float]) -> float:
     """Of what is not slow, and at least something."""
     known = [(o, d) for o, d in zip(orders, depth, strict=True) if math.isfinite(d)]

@@ -129,3 +129,10 @@ def test_the_level_of_kinematics_gives_all_lines_however_long_the_record_is() ->
         place = round(labels[name] / curve["order_step"])
         assert depth[place - 2 : place + 3].max() > 10 * np.median(depth)
     assert "2 BPFI" in page(report)
+
+
+def test_ticks_are_explained_where_there_are_any() -> None:
+    side = {"order": 4.6, "kind": "side", "label": "1*f_o1+1*f_r1"}
+    assert "ticks on the upper edge" in reported({**PICTURE, "lines": [*PICTURE["lines"], side]})  # type: ignore[misc]
+    bare = [x for x in PICTURE["lines"] if x["kind"] in ("own", "other")]  # type: ignore[attr-defined]
+    assert "ticks on the upper edge" not in reported({**PICTURE, "lines": bare})

@@ -156,6 +156,7 @@ def test_where_nothing_is_missing_no_curve_is_drawn_with_it() -> None:
     assert "curve before" in spectra and "curve after" not in spectra and "with it" not in spectra
     named = page(full_report()).split("<h2>Spectra</h2>")[1].split("</section>")[0]
     assert "curve after" in named and "without it: the baseline" in named
+    assert "These recordings were fitted" in named and "Improvement on data never fitted" in named
 
 
 def test_nor_is_one_where_the_answer_brings_nothing_to_the_spectra() -> None:

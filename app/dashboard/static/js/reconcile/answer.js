@@ -20,6 +20,7 @@ const NO_SCORE = 0.005;
 /** What of the report's page is told here already. */
 const TOLD = ".told";
 const percent = (share) => (share === null || share === undefined ? "–" : `${Math.round(100 * share)} %`);
+const nearlyAll = (share) => share >= 0.995 && share < 1 - 1e-9;
 const distance = (value, of) => (!of || of === "1" ? `${number(100 * value, 2)} %` : `${number(value, 3)} ${unit(of)}`);
 
 export function answer({ id, report, links }) {
@@ -61,7 +62,7 @@ function where({ sites, lines, angle_window: angle, limits: told }, list) {
   const bars = sites.map(({ site, weight }) => {
     const fill = h("i", {});
     fill.style.width = `${100 * weight}%`;
-    return h("div", { class: "site-bar", dataset: { site } }, h("span", {}, partName(site)), h("div", { class: "progress" }, fill), h("span", { class: "num" }, percent(weight)));
+    return h("div", { class: "site-bar", dataset: { site } }, h("span", {}, partName(site)), h("div", { class: "progress" }, fill), h("span", { class: "num" }, nearlyAll(weight) ? "more than 99 %" : percent(weight)));
   });
   return card("Where", "where", bars.length ? bars : h("p", { class: "muted" }, "No place stands out."),
     angle ? h("p", {}, `Around ${number(angle.centre_deg)}° of ${angle.shaft} (${number(angle.low_deg)}° to ${number(angle.high_deg)}°).`) : null,
