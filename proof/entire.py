@@ -46,7 +46,7 @@ class Design:
     have gone before, `begun` from which on those of rarer laws, pairs and unknown effects; `rows` are the conditions of
     every fourth case."""
 
-    split: Literal["entire", "held", "wide", "mixed", "young", "vast", "clear", "jury", "inquest"]
+    split: Literal["entire", "held", "wide", "mixed", "young", "vast", "clear", "jury", "inquest", "zenith"]
     groups: Mapping[Group, int]
     turned: int
     rows: tuple[Row, ...]
@@ -88,6 +88,8 @@ JURY = Design(split="jury", groups=WIDE.groups, turned=1013, rows=HELD.rows, beg
 """As clear, of the rarer laws and most of the pairs that it leaves out."""
 INQUEST = Design(split="inquest", groups=WIDE.groups, turned=1117, rows=HELD.rows, begun=48)
 """As jury, of the rarer laws and most of the pairs that it leaves out."""
+ZENITH = Design(split="zenith", groups=WIDE.groups, turned=1213, rows=HELD.rows, begun=56)
+"""As inquest, of the rarer laws and most of the pairs that it leaves out."""
 ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
 STRUCK = ("outer_pit", "inner_pit", "ball_pit")
 FORMS = 3
@@ -138,6 +140,11 @@ def jury() -> tuple[Case, ...]:
 def inquest() -> tuple[Case, ...]:
     """All cases of the ninth."""
     return cases_of_design(INQUEST)
+
+
+def zenith() -> tuple[Case, ...]:
+    """All cases of the tenth."""
+    return cases_of_design(ZENITH)
 
 
 def cases_of_design(design: Design) -> tuple[Case, ...]:

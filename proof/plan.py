@@ -46,6 +46,7 @@ Split = Literal[
     "clear",
     "jury",
     "inquest",
+    "zenith",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -74,6 +75,7 @@ SEEDS = {
     "clear": 7_904_163_528,
     "jury": 6_583_017_249,
     "inquest": 3_120_864_795,
+    "zenith": 8_706_415_239,
 }
 COUNTS = {
     "dev": {
