@@ -11,6 +11,7 @@ from reconcile.atlas.candidates import with_effects
 from reconcile.atlas.run import RATE_HZ, SETTLE_S, SPAN_S, run_members, steps_of
 from reconcile.observe.watch import bases_at, watch_list
 from sim.assembly.assemble import assemble
+from sim.core.errors import TooStiff
 from sim.core.response import Response
 from sim.core.spec import MachineSpec, TermSpec
 from sim.presets import names, preset
@@ -77,3 +78,18 @@ def test_what_strikes_often_is_simulated_one_by_one(
     found = run_members([Member(machine=machine, seed=k) for k in range(4)], ("disc.y.acceleration",))
     assert all(isinstance(one, Response) for one in found) and len(found) == 4
     assert asked == ways
+
+
+@pytest.mark.slow
+def test_a_ring_that_dry_friction_holds_is_given_up_and_the_others_are_not() -> None:
+    """It would take half a minute, and its numbers be refused then."""
+    machine = preset("paper-lightly-damped")
+    held = TermSpec(
+        term="coulomb_friction", site="bearing1", parameters={"force": 10.0, "joint": 0.0, "rest_ratio": 1.9}
+    )
+    loose = TermSpec(term="fit_clearance_series", site="bearing1", parameters={"gap": 1.1e-5})
+    members = [Member(machine=with_effects(machine, terms), seed=1) for terms in ((loose,), (held, loose), (loose,))]
+    first, given_up, last = run_members(members, WATCHED)
+    assert isinstance(given_up, TooStiff) and given_up.time_s < 0.3 * (SETTLE_S + SPAN_S)
+    assert isinstance(first, Response) and isinstance(last, Response)
+    assert np.array_equal(first.signals, last.signals)

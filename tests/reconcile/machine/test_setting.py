@@ -39,11 +39,16 @@ def test_what_an_effect_leaves_is_judged_without_phases() -> None:
     assert found().levels_like(SIDES) is SIDES  # type: ignore[arg-type]
 
 
-def setting(delays: tuple[object, ...] = (), channels: int = 3, points: int = 2) -> SimpleNamespace:
+def setting(
+    delays: tuple[object, ...] = (), channels: int = 3, points: int = 2, mirrored: tuple[int, ...] = ()
+) -> SimpleNamespace:
+    """`mirrored`: channels of the first point."""
     names = tuple(f"bearing{k}.y" for k in range(1, channels + 1))
-    return SimpleNamespace(
-        channels=names, data=(None,) * points, changes=SimpleNamespace(with_baseline=True, delays=delays)
+    data = tuple(
+        SimpleNamespace(mirrored=() if k else mirrored, point=SimpleNamespace(speed_hz=30.0 + k, torque_ratio=1.0))
+        for k in range(points)
     )
+    return SimpleNamespace(channels=names, data=data, changes=SimpleNamespace(with_baseline=True, delays=delays))
 
 
 def test_limits_name_the_channels_whose_clocks_differ_most() -> None:
@@ -52,3 +57,8 @@ def test_limits_name_the_channels_whose_clocks_differ_most() -> None:
     (told,) = limits(setting(apart))  # type: ignore[arg-type]
     assert told.startswith("bearing3.y and bearing1.y are 12.3 ms further apart")
     assert len(limits(setting(channels=1, points=1))) == 2  # type: ignore[arg-type]
+
+
+def test_limits_name_what_was_read_the_other_way_round() -> None:
+    (told,) = limits(setting(mirrored=(1, 2)))  # type: ignore[arg-type]
+    assert told.startswith("bearing2.y at 30 Hz, bearing3.y at 30 Hz: moves across the load half a turn of phase apart")
