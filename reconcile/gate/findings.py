@@ -42,6 +42,7 @@ FAULTS: tuple[Kind, ...] = (
     "noise",
     "copied",
     "clipped",
+    "spikes",
     "irregular_time",
     "swapped_channels",
     "unit_mismatch",

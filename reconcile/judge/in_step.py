@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reconcile.observe.clocks import delay_s
+from reconcile.observe.clocks import delay_s, shared_delay_s
 from reconcile.observe.observation import PointData
 from reconcile.observe.phases import DB_PER_RAD, between_sensors, phase_deviations, wrapped
 from reconcile.observe.statistics import Statistics
@@ -16,6 +16,8 @@ from signals.series import FloatArray
 
 KNOWN_DB = 0.5 * DB_PER_RAD
 """Lines whose phases are known to this, half a radian, tell of clocks."""
+FEWEST_POINTS = 2
+"""Operating points from which strong lines alone tell of one delay."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,6 +37,8 @@ def compared(data: Sequence[PointData], delays: Sequence[Delay]) -> bool:
 def clock_delays(data: Sequence[PointData], noise: Sequence[FloatArray], watched: WatchList) -> tuple[Delay, ...]:
     """Every delay found; `noise`: of the lines' lobes at each point, (C, L)."""
     kept, found = list(watched.phased), []
+    strong = np.asarray(watched.own)[kept]
+    seen: list[tuple[FloatArray, FloatArray]] = []
     for p, (one, lobe) in enumerate(zip(data, noise, strict=True)):
         if one.baseline is None or one.test.line.shape[0] < 2 or not kept:
             continue
@@ -43,7 +47,18 @@ def clock_delays(data: Sequence[PointData], noise: Sequence[FloatArray], watched
         phases = np.where(spread < KNOWN_DB, change, np.nan) / DB_PER_RAD
         told = [(c, delay_s(row, one.lines_hz[kept])) for c, row in enumerate(phases)]
         found += [Delay(point=p, channel=c, seconds=s) for c, s in told if s is not None]
-    return tuple(found)
+        seen.append((phases[:, strong], one.lines_hz[kept][strong]))
+    return tuple(found) or _shared(seen)
+
+
+def _shared(seen: Sequence[tuple[FloatArray, FloatArray]]) -> tuple[Delay, ...]:
+    """One delay at all points, told of the first; `seen`: phases (C, Q) and frequencies (Q,) of the strong lines."""
+    if len(seen) < FEWEST_POINTS:
+        return ()
+    hz = np.concatenate([f for _, f in seen])
+    rows = enumerate(np.concatenate([phases for phases, _ in seen], axis=1))
+    told = [(c, shared_delay_s(row, hz)) for c, row in rows]
+    return tuple(Delay(point=0, channel=c, seconds=s) for c, s in told if s is not None)
 
 
 def _spread(seen: Statistics, lobe: FloatArray, kept: Sequence[int]) -> FloatArray:

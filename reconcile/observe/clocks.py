@@ -17,6 +17,8 @@ FEWEST_LINES = 20
 """Of fewer some delay turns any phases into a row."""
 IN_A_ROW = 0.9
 """Mean resultant length of the phases with the delay taken off; of 20 random ones one in a thousand reaches it."""
+FILTER_S, FEWEST_STRONG, IN_ONE_ROW = 0.02, 12, 0.94
+"""Delay of a filter or a converter at most; of so many strong lines random phases come to this once in 10,000 tries."""
 SCATTERED = 0.6
 """With a larger one without any delay the clocks agree."""
 
@@ -33,6 +35,20 @@ def delay_s(phases_rad: FloatArray, lines_hz: FloatArray) -> float | None:
     found = _in_a_row(phases, hz, delays)
     best = int(np.argmax(found))
     return float(delays[best]) if found[best] > IN_A_ROW else None
+
+
+def shared_delay_s(phases_rad: FloatArray, lines_hz: FloatArray) -> float | None:
+    """The same of strong lines alone, of all operating points together, up to a filter's delay: few lines,
+    but at other frequencies from point to point, which phases that turn by themselves do not follow."""
+    known = np.isfinite(phases_rad)
+    phases, hz = phases_rad[known], lines_hz[known]
+    if phases.size < FEWEST_STRONG or abs(np.mean(np.exp(1j * phases))) > SCATTERED:
+        return None
+    steps = int(np.ceil(FILTER_S * STEPS_A_CYCLE * hz.max()))
+    delays = np.linspace(-FILTER_S, FILTER_S, 2 * steps + 1)
+    found = _in_a_row(phases, hz, delays)
+    best = int(np.argmax(found))
+    return float(delays[best]) if found[best] > IN_ONE_ROW else None
 
 
 def _in_a_row(phases: FloatArray, hz: FloatArray, delays: FloatArray) -> FloatArray:

@@ -49,7 +49,7 @@ def test_blows_and_noise_are_none(height: float) -> None:
 
 def test_one_is_told_as_one_and_many_are_how_the_signal_is() -> None:
     assert spike_findings(spiked(sound(1), (5000,)), "test 1")[0].detail.startswith("1 single sample stands far out")
-    assert not spikes(spiked(sound(1), tuple(range(100, N - 100, 500))).samples[0]).size
+    assert not spikes(spiked(sound(1), tuple(range(100, N - 100, 40))).samples[0]).size
     x = sound(1)
     x[100] = np.nan
     assert not spikes(x).size and not spikes(np.zeros(N)).size and not spikes(x[:20]).size
@@ -60,6 +60,22 @@ def test_the_gate_says_so_and_finds_no_fault_in_it() -> None:
     assert gate.fault is None and [f.kind for f in gate.findings] == ["spikes"]
     assert doubts(gate)[0].startswith("a0 of test 1: spikes, 3 single samples")
     assert float(np.max(np.abs(gate.tests[0].samples))) < 10.0
+
+
+def test_many_that_the_baseline_has_not_are_a_fault_and_filled_too() -> None:
+    """Sixty a second at moments that nothing tells, some of them within a millisecond of the next."""
+    rng = np.random.default_rng(10)
+    places = tuple(sorted(rng.choice(np.arange(100, N - 100), 60 * N // 20_000, replace=False).tolist()))
+    apart = np.diff(places).min()
+    assert 2 < apart < 12
+    gate = inspect_measurement([recorded(sound(5))], [spiked(sound(2), places)], orders=(3.58,))
+    assert gate.fault is not None and (gate.fault.kind, gate.fault.channel) == ("spikes", "a0")
+    assert gate.usable and float(np.max(np.abs(gate.tests[0].samples))) < 10.0
+    both = inspect_measurement([spiked(sound(5), places)], [spiked(sound(2), places)], orders=(3.58,))
+    assert [(f.recording, f.fault) for f in both.findings if f.kind == "spikes"] == [
+        ("baseline 1", True),
+        ("test 1", False),
+    ], "as many as the baseline has explain no difference"
 
 
 @pytest.mark.slow
