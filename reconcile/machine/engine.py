@@ -66,7 +66,7 @@ from reconcile.machine.second import second_effect, strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.short import with_short
 from reconcile.machine.strange import explained_by, strange, with_strange
-from reconcile.machine.suspected import mended_first, of_the_sensor, without_suspected
+from reconcile.machine.suspected import of_the_sensor, without_suspected
 from reconcile.machine.teeth_elsewhere import teeth_elsewhere
 from reconcile.machine.told_by import teeth_tell
 from reconcile.machine.turned import told_apart, turned_alike, with_limits, with_unconfirmed
@@ -122,7 +122,7 @@ def reconcile_machine(
     if fewer is not None:
         report = of_the_sensor(report, _reconciled(asked, fewer, _silent), fewer)
     progress(1.0, "done")
-    return with_faults(mended_first(report, gate), measurement_faults(gate), explained_by(report))
+    return with_faults(report, measurement_faults(gate), explained_by(report))
 
 
 @dataclass(frozen=True, kw_only=True)

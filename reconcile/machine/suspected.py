@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from reconcile.gate.findings import Gate, Kind, worst
-from reconcile.gate.spoiled import GONE, fault_sentence, without_spoiled
+from reconcile.gate.spoiled import fault_sentence, without_spoiled
 from reconcile.verdict import Report
 
 LOOSE: Kind = "loose_sensor"
@@ -38,14 +38,3 @@ def of_the_sensor(report: Report, others: Report, gate: Gate) -> Report:
         return report
     fault = replace(gate.fault, doubtful=True)
     return replace(others, verdict="measurement_fault", sentence=fault_sentence(fault) + ALONE, fault=fault)
-
-
-def mended_first(report: Report, gate: Gate) -> Report:
-    """The fault, where a signal was not there for a while and what the other channels show has no name and no law: a
-    sensor that surely failed goes before physics that nobody knows, which is said beside it."""
-    unnamed = report.verdict == "unknown_physics" and (report.force is None or report.force.law is None)
-    fault = gate.fault
-    if not unnamed or fault is None or fault.doubtful or fault.kind not in GONE:
-        return report
-    sentence = f"{fault_sentence(fault)} Apart from it: {report.sentence}"
-    return replace(report, verdict="measurement_fault", sentence=sentence, fault=fault)

@@ -37,6 +37,8 @@ ALL_WRONG = (
     "machine file, and the sampling rate."
 )
 """How the next experiment says that all labels of speed are wrong alike (`reconcile.kinematics.elsewhere`)."""
+FEWEST_LINES = 4
+"""Changed lines from which it says something that all are on one channel."""
 SET_SHARE = 0.5
 """Score over the best one's from which a cause is taken for one of an ambiguous set."""
 
@@ -149,9 +151,24 @@ def _explained(report: Report) -> str:
     return f"inspect {at or 'the machine'} at the next stop; until then record again and follow {follow}."
 
 
+def _one_alone(report: Report) -> str:
+    """The channel that all of the lines that changed are on, where the recordings have others; else nothing."""
+    heard = {line.channel for line in report.where.lines}
+    rows = report.pictures.get("levels", ())
+    every = (
+        {str(row.get("channel")) for row in rows if isinstance(row, dict)} if isinstance(rows, list | tuple) else set()
+    )
+    return next(iter(heard)) if len(heard) == 1 and len(report.where.lines) >= FEWEST_LINES and len(every) > 1 else ""
+
+
 def _unknown(report: Report) -> str:
-    place = _place(report)
+    place, alone = _place(report), _one_alone(report)
     here = f"look at {place} first; " if place else ""
+    if alone:
+        here = (
+            f"all lines that changed are on {alone}: check its cable, its amplifier and how it is fastened, or change "
+            f"the sensor and record again, before you look at {place or 'the machine'}; "
+        )
     rule_out = f"{ONE_MASS if report.level == 'driven' else TURNING}, a baseline of another machine or state"
     if report.level == "driven" and not report.provenance.get("baselines"):
         rule_out = ONE_MASS

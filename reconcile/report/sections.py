@@ -137,7 +137,10 @@ def head(report: Report) -> Markup:
             tiles.append(_tile(size, f"{' of '.join(filter(None, (size_name(c), cause(c))))}, {ends}"))
     if report.held_out is not None:
         metric = report.held_out.metric.replace("_", " ")
-        tiles.append(_tile(gains(report.held_out)[0], f"less {metric} on data never fitted"))
+        no_nearer = report.held_out.gain <= 0.0
+        figure = "no nearer" if no_nearer else gains(report.held_out)[0]
+        what = f"by {metric}, on data never fitted" if no_nearer else f"less {metric} on data never fitted"
+        tiles.append(_tile(figure, what))
     return tag(
         "header",
         tag("span", word, css=f"badge {tone}"),

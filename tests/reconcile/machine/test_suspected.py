@@ -9,9 +9,9 @@ import pytest
 
 from reconcile.faults import measurement_faults, with_faults
 from reconcile.gate.findings import Finding, Gate, Kind
-from reconcile.machine.suspected import mended_first, of_the_sensor, without_suspected
+from reconcile.machine.suspected import of_the_sensor, without_suspected
 from reconcile.report.sections import head
-from reconcile.verdict import EstimatedForce, Report, SensorFault, Word
+from reconcile.verdict import Report, SensorFault, Word
 from signals.recording import Recording
 from sim.core.response import Channel
 
@@ -69,33 +69,3 @@ def test_the_sensor_is_the_answer_only_where_the_others_have_nothing() -> None:
     assert "may be in the measurement: a sensor that looks loose on a, or damage near it" in report.sentence
     assert "other channels alone" in report.sentence
     assert of_the_sensor(before, said("unknown_physics"), gate) is before
-
-
-@pytest.mark.parametrize(
-    ("verdict", "kind", "first"),
-    [
-        ("unknown_physics", "dropouts", True),
-        ("unknown_physics", "stuck", True),
-        ("unknown_physics", "mains_hum", False),
-        ("unknown_physics", "loose_sensor", False),
-        ("explained", "dropouts", False),
-        ("ambiguous", "dropouts", False),
-    ],
-)
-def test_a_signal_that_was_not_there_goes_before_what_has_no_name(verdict: Word, kind: Kind, first: bool) -> None:
-    gate = suspecting(kind)
-    report = mended_first(said(verdict), gate)
-    if not first:
-        assert report == said(verdict)
-        return
-    assert report.verdict == "measurement_fault" and report.fault == gate.fault
-    assert "Apart from it: it is unknown_physics" in report.sentence
-
-
-def test_a_law_that_stands_goes_before_a_sensor_that_failed() -> None:
-    force = EstimatedForce(site="bearing1", law="k z^3", samples={})
-    lawful = replace(said("unknown_physics"), force=force)
-    assert mended_first(lawful, suspecting("dropouts")) == lawful
-    lawless = replace(lawful, force=replace(force, law=None))
-    assert mended_first(lawless, suspecting("dropouts")).verdict == "measurement_fault"
-    assert mended_first(said("unknown_physics"), replace(suspecting("dropouts"), fault=None)) == said("unknown_physics")

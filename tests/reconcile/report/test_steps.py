@@ -213,6 +213,19 @@ def test_what_is_ruled_out_beside_the_machine_is_what_there_is() -> None:
     assert "sign of force and motion" in to_do(compared) and "a baseline of another" in to_do(compared)
 
 
+def test_what_one_channel_alone_shows_is_looked_for_in_its_cable_first() -> None:
+    def said(*channels: str, recorded: tuple[str, ...] = ("a1", "a2")) -> str:
+        lines = tuple(LineChange(label="x", frequency_hz=9.0, change_db=9.0, channel=c) for c in channels)
+        where = Where(sites=(PlaceWeight(site="b2", weight=0.9),), lines=lines)
+        levels = [{"channel": c} for c in recorded]
+        return to_do(report("unknown_physics", where=where, pictures={"levels": levels}))
+
+    assert said(*["a2"] * 4).startswith("all lines that changed are on a2: check its cable, its amplifier")
+    assert "before you look at b2; none of the known names fits" in said(*["a2"] * 4)
+    for other in (said(*["a2"] * 3), said("a1", *["a2"] * 4), said(*["a2"] * 4, recorded=("a2",))):
+        assert other.startswith("look at b2 first; ")
+
+
 def test_the_speeds_are_told_in_words() -> None:
     one = {"speed_hz": 29.9, "low_hz": 26.9, "high_hz": 32.9, "method": "stated", "confidence": 0.2, "rival_hz": None}
     html = stages(report(stages=({"name": "speed", "found": {"test 1": one}},)))
