@@ -15,6 +15,8 @@ def _installed() -> str:
 
 
 PACKAGE_VERSION = _installed()
+METHOD_VERSION = "reconciliation-26"
+"""Of what answers are made with, beside the physics: raised when an answer would be another."""
 
 
 def origin(seed: int, core_s: float, **cost: object) -> dict[str, object]:
@@ -22,6 +24,7 @@ def origin(seed: int, core_s: float, **cost: object) -> dict[str, object]:
     return {
         "physics_version": PHYSICS_VERSION,
         "package_version": PACKAGE_VERSION,
+        "method_version": METHOD_VERSION,
         "seed": seed,
         "cost": {"core_s": core_s, **cost},
     }

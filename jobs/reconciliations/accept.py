@@ -10,10 +10,11 @@ from jobs.reconciliations.chosen import Chosen, choose
 from jobs.reconciliations.machine import Known, read_known, stored_form
 from jobs.reconciliations.request import ReconciliationRequest
 from jobs.reconciliations.together import check_together
-from jobs.reconciliations.words import METHOD_VERSION, RECONCILIATION
+from jobs.reconciliations.words import RECONCILIATION
 from jobs.record import Cost
 from jobs.validation import Findings
 from reconcile.kinematics import KinematicSpec
+from reconcile.origin import METHOD_VERSION
 
 KINEMATIC_S, DRIVEN_S = 5.0, 60.0
 """Core-seconds: a recording at the level of kinematics, a machine that is driven by a measured input."""

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 RECONCILIATION = "reconciliation"
 """Kind of these jobs."""
-METHOD_VERSION = "reconciliation-26"
-"""Part of a reconciliation's identity beside the physics version: raised when the answer would be another."""
 REPORT = "report"
 """Name of the document that makes a stored result a reconciliation."""
 MACHINE = "machine"

@@ -12,6 +12,7 @@ from app.version import VERSION
 from reconcile.driven import reconcile_driven
 from reconcile.entry import reconcile_recordings
 from reconcile.machine.engine import reconcile_machine
+from reconcile.origin import METHOD_VERSION
 from reconcile.verdict import Report
 from signals.recording import Operating, Recording
 from sim.core.response import Channel
@@ -52,5 +53,6 @@ def _kinematics() -> Report:
 def test_every_level_says_versions_seed_and_cost(made: Callable[[], Report]) -> None:
     said = made().provenance
     assert (said["physics_version"], said["package_version"], said["seed"]) == (PHYSICS_VERSION, VERSION, 7)
+    assert said["method_version"] == METHOD_VERSION
     cost = said["cost"]
     assert isinstance(cost, dict) and 0.0 < cost["core_s"] < 600.0
