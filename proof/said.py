@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 SECTIONS = {
+    "zenith": "No version of the engine had met these before their run. Two ran at once, beside other work. Motion "
+    "across the load that began as its mirror image is read the other way round "
+    "([decision](decisions/reconcile-mirror.md)), and machines that take too many iterations are given up; these cases "
+    "had no part in either. Since then many single samples far out are a fault of the measurement, one delay at all "
+    "speeds is told by the teeth's own lines, and a sensor that failed takes no verdict from what the others show.",
     "inquest": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at "
     "once. It asks for a supply's frequency by less and at one speed, for a belt at one speed, and takes no name that "
-    "forecasts nothing for sure; these cases had no part in any of it. i011, a loose ring, was begun and not waited "
-    "for: a friction came first, and machines with both took five seconds each, nine minutes in all.",
+    "forecasts nothing for sure; these cases had no part in any of it. i011, a loose ring, was given up by hand after "
+    "nine minutes (a friction came first, and machines with both took five seconds each), and counts as wrong in all "
+    "that applies; since then such machines are given up by themselves, and it is told as a set of three effects at "
+    "its bearing.",
     "jury": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at once. A "
     "sensor that changed at one operating point alone is left out and told "
     "([decision](decisions/reconcile-lone.md)), and sidebands near the teeth scatter with the wander of the speed as "
