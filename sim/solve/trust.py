@@ -45,7 +45,8 @@ def doubts(quality: Quality) -> tuple[str, ...]:
         found.append(f"the forces had not settled in {100 * share:.2g} % of the steps")
     if quality.step_error is not None and quality.step_error > LEVEL_DOUBT:
         found.append(f"half the step changes the level itself ({quality.step_error:.2g} times the signal)")
-    return tuple(f"DOUBTFUL RESULT: {text}; do not trust amplitudes; a higher sampling rate takes shorter steps" for text in found)
+    advice = "do not trust amplitudes; a higher sampling rate takes shorter steps"
+    return tuple(f"DOUBTFUL RESULT: {text}; {advice}" for text in found)
 
 
 def refuse_meaningless(system: System, quality: Quality) -> None:
