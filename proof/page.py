@@ -43,7 +43,8 @@ TITLES = {
 
 
 PARTS: tuple[tuple[Split, str], ...] = (
-    ("inquest", "inquest"), ("jury", "jury"), ("clear", "clear"), ("vast", "vast"), ("young", "young"),
+    ("zenith", "zenith"), ("inquest", "inquest"), ("jury", "jury"), ("clear", "clear"), ("vast", "vast"),
+    ("young", "young"),
     ("mixed", "mixed"), ("mixed", "resumed"), ("mixed", "last"), ("mixed", "closing"), ("wide", "wide"),
     ("held", "held"), ("held", "begun"),
 )  # fmt: skip
