@@ -26,29 +26,27 @@ SCATTERED = 0.6
 def delay_s(phases_rad: FloatArray, lines_hz: FloatArray) -> float | None:
     """The delay that explains the change of phases (Q,) of lines (Q,) between two channels; None if none is needed, if
     none does, or if the lines are too few to say. NaN where a line is not known."""
-    known = np.isfinite(phases_rad)
-    phases, hz = phases_rad[known], lines_hz[known]
-    if phases.size < FEWEST_LINES or abs(np.mean(np.exp(1j * phases))) > SCATTERED:
-        return None
-    steps = int(np.ceil(LONGEST_S * STEPS_A_CYCLE * hz.max()))
-    delays = np.linspace(-LONGEST_S, LONGEST_S, 2 * steps + 1)
-    found = _in_a_row(phases, hz, delays)
-    best = int(np.argmax(found))
-    return float(delays[best]) if found[best] > IN_A_ROW else None
+    return _delay_s(phases_rad, lines_hz, fewest=FEWEST_LINES, longest_s=LONGEST_S, least=IN_A_ROW)
 
 
 def shared_delay_s(phases_rad: FloatArray, lines_hz: FloatArray) -> float | None:
     """The same of strong lines alone, of all operating points together, up to a filter's delay: few lines,
     but at other frequencies from point to point, which phases that turn by themselves do not follow."""
+    return _delay_s(phases_rad, lines_hz, fewest=FEWEST_STRONG, longest_s=FILTER_S, least=IN_ONE_ROW)
+
+
+def _delay_s(
+    phases_rad: FloatArray, lines_hz: FloatArray, *, fewest: int, longest_s: float, least: float
+) -> float | None:
     known = np.isfinite(phases_rad)
     phases, hz = phases_rad[known], lines_hz[known]
-    if phases.size < FEWEST_STRONG or abs(np.mean(np.exp(1j * phases))) > SCATTERED:
+    if phases.size < fewest or abs(np.mean(np.exp(1j * phases))) > SCATTERED:
         return None
-    steps = int(np.ceil(FILTER_S * STEPS_A_CYCLE * hz.max()))
-    delays = np.linspace(-FILTER_S, FILTER_S, 2 * steps + 1)
+    steps = int(np.ceil(longest_s * STEPS_A_CYCLE * hz.max()))
+    delays = np.linspace(-longest_s, longest_s, 2 * steps + 1)
     found = _in_a_row(phases, hz, delays)
     best = int(np.argmax(found))
-    return float(delays[best]) if found[best] > IN_ONE_ROW else None
+    return float(delays[best]) if found[best] > least else None
 
 
 def _in_a_row(phases: FloatArray, hz: FloatArray, delays: FloatArray) -> FloatArray:
