@@ -10,11 +10,12 @@ from reconcile.verdict import SensorFault
 SPOILING: frozenset[Kind] = frozenset(
     (
         *("not_finite", "silence", "stuck", "dropouts", "repeated", "noise", "copied"),
-        *("clipped", "mains_hum", "alias", "gain_change"),
+        *("clipped", "spikes", "mains_hum", "alias", "gain_change"),
     )
 )
-"""What mending leaves traces of that the features see: gaps filled, lines cut out, tops cut off. A swap is undone
-exactly; what looks like a loose sensor may be the machine, so that channel stays, with its transfer undone."""
+"""What mending leaves traces of that the features see: gaps filled, lines cut out, tops cut off; of many spikes the
+smaller stay. A swap is undone exactly; what looks like a loose sensor may be the machine, so that channel stays, with
+its transfer undone."""
 
 
 GONE: frozenset[Kind] = frozenset(("not_finite", "silence", "stuck", "dropouts", "repeated", "noise", "copied"))

@@ -26,7 +26,7 @@ def finding(kind, channel, fault=True):
     return Finding(kind=kind, channel=channel, recording="test 2", detail="", severity=0.5, fault=fault)
 
 
-@pytest.mark.parametrize("kind", ["dropouts", "clipped", "mains_hum", "alias", "gain_change", "stuck"])
+@pytest.mark.parametrize("kind", ["dropouts", "clipped", "spikes", "mains_hum", "alias", "gain_change", "stuck"])
 def test_a_spoiled_channel_is_left_out_of_baselines_and_tests(kind):
     found = without_spoiled(gate(finding(kind, "a1")))
     assert all(r.names == ("a0", "a2") for r in (*found.baselines, *found.tests))
