@@ -6,7 +6,8 @@ SECTIONS = {
     "zenith": "No version of the engine had met these before their run. Two ran at once, beside other work. Motion "
     "across the load that began as its mirror image is read the other way round "
     "([decision](decisions/reconcile-mirror.md)), and machines that take too many iterations are given up; these cases "
-    "had no part in either. Since then many single samples far out are a fault of the measurement, one delay at all "
+    "had no part in either. z022 and z023 were ended from outside with other processes and begun anew by the same "
+    "engine. Since then many single samples far out are a fault of the measurement, one delay at all "
     "speeds is told by the teeth's own lines, and a sensor that failed takes no verdict from what the others show.",
     "inquest": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at "
     "once. It asks for a supply's frequency by less and at one speed, for a belt at one speed, and takes no name that "
