@@ -26,8 +26,8 @@ OFTEN = 0.05
 COARSER = 2.0 / 3.0
 """Of the steps that a user's simulation takes: enough for levels (docs/decisions/atlas-steps.md)."""
 MOST_ITERATIONS = 6.0
-"""Of the corrector a step, on the whole: loose rings by themselves take 3.7 at most (96 machines of the paper's gearbox
-and of one of the proof), a ring that dry friction holds in its seat up to 60 and so half a minute."""
+"""Of the corrector a step, on the whole: loose rings by themselves take 3.4 at most (36 machines of a gearbox of the
+proof), beside dry friction 3.7 mostly; one that friction holds in its seat takes 12 to 390, up to half a minute."""
 SETTINGS = Settings(rtol=1e-2, estimate_error=False, most_iterations=MOST_ITERATIONS)
 
 

@@ -24,6 +24,8 @@ FEW = 2e-4
 """Share of the samples up to which spikes are no fault."""
 MOST_SHARE = 0.01
 """More than this share of the samples are no single ones, but how the signal is."""
+MOST_FAR = 0.05
+"""Share of the samples that may be far out, alone or not, for single ones to be looked for."""
 BESIDE = 2
 """Samples within which another one far out is the same blow."""
 LISTED = 5
@@ -71,15 +73,19 @@ def spikes(samples: FloatArray) -> IntArray:
     off[1:-1] = np.abs(samples[1:-1] - (samples[:-2] + samples[2:]) / 2)
     usual = 1.4826 * float(np.median(off))
     far = np.flatnonzero(off > FAR * usual) if usual > 0.0 else np.zeros(0, dtype=np.int64)
-    far = far[: samples.size // 20]
+    if far.size > MOST_FAR * samples.size:
+        return far[:0]
     found = np.array([p for p in far if _alone(samples, int(p), far)], dtype=np.int64)
     return found if found.size <= max(1.0, MOST_SHARE * samples.size) else found[:0]
 
 
 def _alone(samples: FloatArray, place: int, far: IntArray) -> bool:
     """Whether nothing within reach is nearly as far out, other spikes apart."""
-    near = np.arange(max(place - REACH, 0), min(place + REACH + 1, samples.size))
-    others = far[np.abs(far - place) > BESIDE]
-    beside = samples[np.setdiff1d(near, [*others, place])]
+    first, last = max(place - REACH, 0), min(place + REACH + 1, samples.size)
+    others = far[np.searchsorted(far, first) : np.searchsorted(far, last)]
+    kept = np.ones(last - first, dtype=np.bool_)
+    kept[others[np.abs(others - place) > BESIDE] - first] = False
+    kept[place - first] = False
+    beside = samples[first:last][kept]
     middle = float(np.median(beside))
     return bool(abs(samples[place] - middle) > ALONE * float(np.max(np.abs(beside - middle))))
