@@ -17,7 +17,7 @@ WHOLE = $(BIN)/python -m pip check >/dev/null 2>&1 || $(PIP) --quiet --no-compil
 COMPILED = $(BIN)/python -m compileall -q -j 0 -x '/tests?/' $(VENV)/lib >/dev/null || true
 
 .DELETE_ON_ERROR:
-.PHONY: run setup env dev browser lint kernels collected fast test bench cost paper proof tests-atlas proof-real proof-made sim2real openapi lock clean help
+.PHONY: run setup env dev browser lint kernels collected fast test further bench cost paper proof tests-atlas proof-real proof-made sim2real openapi lock clean help
 
 run: setup  ## start the service, simulate the demo through the queue, open its page (PORT=8001, OPEN= for no browser)
 	@echo "[4/4] starting broker, workers and HTTP server on port $(PORT)"
@@ -76,11 +76,14 @@ fast: dev  ## the loop while working: without the slow tests (half a minute on t
 
 # A browser comes beside the packages; then kernels and after them the tests' own code are compiled on one core, while
 # tools are fetched and types checked on the other.
-test:  ## lint and every test; what CI runs
+test:  ## lint and the tests; what CI runs
 	@$(MAKE) --no-print-directory browser & fetching=$$!; \
 	  { $(MAKE) --no-print-directory env && $(MAKE) --no-print-directory -j 2 -O kernels lint collected; }; \
 	  found=$$?; wait $$fetching || found=$$?; exit $$found
 	$(KEEPING) PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 4 --dist loadgroup --no-loadscope-reorder  # on two cores: many tests wait for servers and workers
+
+further: dev browser kernels  ## the costlier examples that `make test` leaves out (tests/further.txt; five minutes on two cores)
+	$(KEEPING) PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 4 --dist loadgroup --no-loadscope-reorder -m further
 
 bench: dev setup  ## speed and accuracy; ends with one line of JSON
 	$(BIN)/python -m bench

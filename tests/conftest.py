@@ -6,6 +6,7 @@ import gc
 import os
 import sys
 from collections import defaultdict
+from pathlib import Path
 
 # What collecting makes stays to the end: looking through it for garbage would take a fifth of the time.
 gc.disable()
@@ -36,8 +37,26 @@ def pytest_configure(config: pytest.Config) -> None:
         settings.load_profile("fast")
 
 
+FURTHER = Path(__file__).with_name("further.txt")
+"""Tests that `make further` runs, one a line: the costlier examples of what `make test` shows by one of them."""
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leaves out what is further, unless asked for by `-m further`, a test's name or `-k`; then puts in order."""
+    listed = set(FURTHER.read_text(encoding="utf-8").splitlines())
+    named = any("::" in str(arg) for arg in config.args) or config.option.keyword
+    for item in items:
+        if item.nodeid in listed:
+            item.add_marker(pytest.mark.further)
+    if not named and "further" not in config.option.markexpr:
+        left_out = [item for item in items if item.nodeid in listed]
+        config.hook.pytest_deselected(items=left_out)
+        items[:] = [item for item in items if item.nodeid not in listed]
+    in_order(config, items)
+
+
+def in_order(config: pytest.Config, items: list[pytest.Item]) -> None:
     """`make test` hands a file to one process, as what its tests share (brokers, workers, kernels) is dear to make, and
     begins with what takes longest, so that no process is left alone with it at the end."""
     if not getattr(config.option, "loadgroup", False):

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tests.conftest import pytest_collection_modifyitems
+from tests.conftest import in_order
 
 
 @pytest.mark.xdist_group("together")
@@ -60,7 +60,7 @@ def test_files_stay_together_and_the_longest_come_first() -> None:
         (True, "alone apart too first second quick"),
     ):
         config = SimpleNamespace(option=SimpleNamespace(loadgroup=chosen), rootpath=Path("/project"))
-        pytest_collection_modifyitems(config, items)  # type: ignore[arg-type]
+        in_order(config, items)  # type: ignore[arg-type]
         assert [item.name for item in items] == order.split()
     groups = {item.name: item.get_closest_marker("xdist_group").args[0] for item in items}  # type: ignore[union-attr]
     assert groups == {

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -242,3 +245,15 @@ def test_lines_that_slip_leaves_at_one_place_speak_for_both_parts(ball_order: fl
     tie = Ties(reference="s", shafts={"s": 1.0}, families=families, meshes=(), races={})
     evidence = {"inner_spall@b": inner, "ball_spall@b": 9.0, "outer_spall@b": 0.0, "tooth_crack@g": 2.0}
     assert shared_lines(evidence, tie) == {**evidence, "inner_spall@b": told}
+
+
+@pytest.mark.parametrize(("own", "turn", "told"), [(8.0, 2.0, 17.0), (5.0, 8.0, 7.8125), (0.0, 8.0, 0.0)])
+def test_impacts_once_a_turn_speak_for_an_inner_race_by_no_more_than_it_modulates(
+    own: float, turn: float, told: float
+) -> None:
+    """An unbalance that rattles strikes harder once a turn than any ball does."""
+    inner = family("inner", "b", 5.32)
+    turning = replace(family("turn", "s", 1.0), slip=0.0)
+    tie = Ties(reference="s", shafts={"s": 1.0}, families=(inner, turning), meshes=(), races={})
+    every = [SimpleNamespace(family=inner, z=own, risen=True), SimpleNamespace(family=turning, z=turn, risen=True)]
+    assert direct._ball(every, tie, "inner", "b") == told  # type: ignore[arg-type]
