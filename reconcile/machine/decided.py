@@ -13,5 +13,6 @@ def decided(setting: Setting, found: Found) -> Decision:
     """By all views of the recordings, and whether there is a baseline."""
     views = len(setting.channels) * len(setting.data)
     decision = decide(found.screen, views=views, measured=setting.changes.with_baseline)
-    decision = unless_silent(decision, setting.direct, points=len(setting.data), views=views)
+    told = dict(zip(found.screen.names, map(float, found.screen.evidence), strict=True))
+    decision = unless_silent(decision, setting.direct, told, points=len(setting.data), views=views)
     return unless_confined(of_teeth(decision, found.screen), setting, found)

@@ -8,7 +8,8 @@ import pytest
 from reconcile.machine.decide import Decision
 from reconcile.machine.decided import decided
 from reconcile.machine.direct import NOTHING, UNHEARD
-from reconcile.machine.unstruck import SILENT, unless_silent
+from reconcile.machine.unstruck import CLEAR, SILENT, TOO_FAINT, unless_silent
+from reconcile.machine.weigh import FAR_AHEAD
 from tests.reconcile.machine.screens import screen
 
 PITS = ("inner_spall@bearing4", "ball_spall@bearing4")
@@ -16,8 +17,9 @@ DECISION = Decision(word="ambiguous", chosen=PITS, p=1e-6, reasons=("alike",))
 LOOKED = replace(NOTHING, looked=True)
 
 
-def after(decision=DECISION, direct=LOOKED, points=3, views=9):
-    return unless_silent(decision, direct, points=points, views=views)
+def after(decision=DECISION, direct=LOOKED, evidence=CLEAR, points=3, views=9, behind=0.0):
+    told = {name: evidence - behind * (name not in PITS) for name in decision.chosen}
+    return unless_silent(decision, direct, told, points=points, views=views)
 
 
 def test_pits_that_are_not_heard_are_no_answer():
@@ -25,6 +27,11 @@ def test_pits_that_are_not_heard_are_no_answer():
     assert after().chosen == PITS
     assert after().reasons == (SILENT,)
     assert after(replace(DECISION, word="explained", chosen=PITS[:1])).word == "unknown_physics"
+
+
+def test_a_faint_change_does_not_exclude_a_pit_that_is_not_heard():
+    told = after(evidence=CLEAR - 0.1)
+    assert (told.word, told.chosen, told.reasons) == ("not_decidable", PITS, (TOO_FAINT,))
 
 
 def test_a_pit_that_has_grown_strikes_before_and_after():
@@ -63,6 +70,14 @@ def test_where_little_is_heard_silence_says_nothing(points, views, direct):
 def test_a_set_with_something_else_stays(also):
     decision = replace(DECISION, chosen=(*PITS, also))
     assert after(decision) is decision
+
+
+def test_a_set_with_something_far_behind_is_one_of_pits():
+    """Knocks near a bearing fitted its pits with 31 and more play of it with 4.5."""
+    decision = replace(DECISION, chosen=(*PITS, "radial_clearance@bearing4"))
+    told = after(decision, evidence=31.0, behind=27.0)
+    assert (told.word, told.chosen) == ("unknown_physics", decision.chosen[:3])
+    assert after(decision, evidence=31.0, behind=FAR_AHEAD - 0.1) is decision
 
 
 @pytest.mark.parametrize("word", ["nothing_missing", "not_decidable", "unknown_physics"])
