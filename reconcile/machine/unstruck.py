@@ -19,8 +19,8 @@ FEWEST_POINTS = 2
 SILENT = "a pit in a bearing fits best, and nothing strikes at its frequency"
 TOO_FAINT = f"{SILENT}, which the little that changed does not exclude"
 CLEAR = 10.0
-"""Log evidence below which a silent pit is not excluded: one of 2.7 mm on an inner race of a slow shaft, whose edges the
-balls roll over softly, fitted with 8 and left nothing, unheard at all three speeds (i050 of the proof)."""
+"""Log evidence below which a silent pit is not excluded: one of 2.7 mm on an inner race of a slow shaft, whose edges
+the balls roll over softly, fitted with 8 and left nothing, unheard at all three speeds (i050 of the proof)."""
 
 
 def unless_silent(
