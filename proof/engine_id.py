@@ -19,8 +19,12 @@ LEVELS = {
 """Where the engine of each level begins; what the entry refuses is no verdict."""
 WHOLE = "sim"
 """Package whose effects register themselves: all of it counts."""
-TOLD = ("reconcile/report/", *(f"reconcile/machine/{name}.py" for name in ("words", "next_look", "pictures", "stages")))
-"""What only tells an answer: pages, pictures, sentences, the next experiment."""
+TOLD = (
+    "reconcile/report/",
+    "reconcile/origin.py",
+    *(f"reconcile/machine/{name}.py" for name in ("words", "next_look", "pictures", "stages")),
+)
+"""What only tells an answer, or of what it is: pages, pictures, sentences, the next experiment, names of versions."""
 
 
 Level = Literal["machine", "kinematics", "driven"]

@@ -91,7 +91,9 @@ def _of(design: Design, runs: Sequence[Run], results: Path, before: str) -> str:
 
 def _by_one(run: Run, count: int) -> str:
     """Which cases the one engine ran, and whether it met them first."""
-    of = f"{len(run.scores)} of the plan's {count} cases are"
+    lost = sum(s.failed for s in run.scores)
+    ended = f" ({lost} of them came to no end and {_are(lost)} wrong in all that applies)" if lost else ""
+    of = f"{len(run.scores)} of the plan's {count} cases{ended} are"
     if run.first:
         met_none = "which had met none of them and was not changed between them"
         return f"{of} run by one engine, {run.by}, {met_none}. "

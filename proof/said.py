@@ -8,13 +8,21 @@ SECTIONS = {
     "([decision](decisions/reconcile-mirror.md)), and machines that take too many iterations are given up; these cases "
     "had no part in either. z022 and z023 were ended from outside with other processes and begun anew by the same "
     "engine. Since then many single samples far out are a fault of the measurement, one delay at all "
-    "speeds is told by the teeth's own lines, and a sensor that failed takes no verdict from what the others show.",
+    "speeds is told by the teeth's own lines, and a sensor that failed takes no verdict from what the others show. "
+    "z014, a heavy unbalance told as the pit of an inner race, and z009, knocks told as pits, have each set a rule: "
+    "both are right since, which measures nothing.",
+    "after": "No version of the engine had met these before their run: the rest of the plan `zenith`. Two ran at once, "
+    "beside other work. Impacts once a turn of a shaft speak for an inner race of it by half of its own lines at most "
+    "since z014, and a set of pits that nothing strikes in is none whatever is far behind them since z009; these cases "
+    "had no part in either. z049, a sound machine that was given a name with p = 0.005, has set a rule since: nothing "
+    "is named with more than 0.001.",
     "inquest": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at "
     "once. It asks for a supply's frequency by less and at one speed, for a belt at one speed, and takes no name that "
     "forecasts nothing for sure; these cases had no part in any of it. i011, a loose ring, was given up by hand after "
     "nine minutes (a friction came first, and machines with both took five seconds each), and counts as wrong in all "
     "that applies; since then such machines are given up by themselves, and it is told as a set of three effects at "
-    "its bearing.",
+    "its bearing. i050, a wide pit that nothing was heard of and that was told as unknown physics, has set a rule "
+    "since.",
     "jury": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at once. A "
     "sensor that changed at one operating point alone is left out and told "
     "([decision](decisions/reconcile-lone.md)), and sidebands near the teeth scatter with the wander of the speed as "

@@ -148,11 +148,17 @@ def _costs(columns: Sequence[Sequence[Score]]) -> list[Row]:
     costs = [[s.core_seconds for s in part if s.core_seconds is not None] for part in columns]
     known = [quantiles(part) for part in costs]
     at, every = (f"{q['median']:.0f}, {q['p90']:.0f} (n = {q['n']})" if q["n"] else "-" for q in known)
-    over = [Rate(hits=sum(c > BAR_S for c in part), n=len(part)) for part in costs]
+    lost = [sum(s.failed and s.core_seconds is None for s in part) for part in columns]
+    over = [Rate(hits=sum(c > BAR_S for c in p) + k, n=len(p) + k) for p, k in zip(costs, lost, strict=True)]
     stands = Stands(False, f"in {over[0].hits} of {over[0].n}") if over[0].hits else None
     return [
         Row("core-seconds: median, 90th percentile", at, every),
-        Row(f"cases that took more than {BAR_S:.0f} core-seconds", written(over[0]), written(over[1]), stands),
+        Row(
+            f"cases that took more than {BAR_S:.0f} core-seconds, or came to no end",
+            written(over[0]),
+            written(over[1]),
+            stands,
+        ),
     ]
 
 

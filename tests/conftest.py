@@ -38,22 +38,41 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 FURTHER = Path(__file__).with_name("further.txt")
-"""Tests that `make further` runs, one a line: the costlier examples of what `make test` shows by one of them."""
+"""Tests that `make further` runs, one a line: costlier examples of a test of which `make test` runs another."""
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Leaves out what is further, unless asked for by `-m further`, a test's name or `-k`; then puts in order."""
     listed = set(FURTHER.read_text(encoding="utf-8").splitlines())
-    named = any("::" in str(arg) for arg in config.args) or config.option.keyword
-    for item in items:
-        if item.nodeid in listed:
-            item.add_marker(pytest.mark.further)
-    if not named and "further" not in config.option.markexpr:
-        left_out = [item for item in items if item.nodeid in listed]
-        config.hook.pytest_deselected(items=left_out)
+    further = [item for item in items if item.nodeid in listed]
+    for item in further:
+        item.add_marker(pytest.mark.further)
+    if not asked_for(config):
         items[:] = [item for item in items if item.nodeid not in listed]
+        run = {_test(item) for item in items}
+        lost = sorted({_test(item) for item in further} - run)
+        if lost:
+            raise pytest.UsageError(f"{FURTHER.name} leaves no example of {', '.join(lost)}")
+        config.hook.pytest_deselected(items=further)
     in_order(config, items)
+
+
+def asked_for(config: pytest.Config) -> bool:
+    """Whether further tests run, all or some by name."""
+    named = any("::" in str(arg) for arg in config.args) or config.option.keyword
+    return bool(named or "further" in config.option.markexpr)
+
+
+def _test(item: pytest.Item) -> str:
+    return item.nodeid.split("[", maxsplit=1)[0]
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    """How many the whole run leaves out: processes that share the tests do not say it."""
+    if not asked_for(config) and not [arg for arg in config.args if Path(arg).suffix]:
+        count = len(FURTHER.read_text(encoding="utf-8").splitlines())
+        terminalreporter.write_line(f"{count} further examples are left out (tests/further.txt, make further)")
 
 
 def in_order(config: pytest.Config, items: list[pytest.Item]) -> None:

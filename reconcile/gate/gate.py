@@ -201,17 +201,24 @@ def _halves(speed_hz: float, shaft_orders: Sequence[float]) -> FloatArray:
 
 
 def _only_new(found: Sequence[Finding]) -> tuple[Finding, ...]:
-    """A small defect that a baseline's channel has as well explains no difference: it stays as a remark."""
-    before: dict[tuple[str, str], float] = {}
-    for f in found:
-        if f.recording.startswith("baseline"):
-            before[f.kind, f.channel] = max(f.severity, before.get((f.kind, f.channel), 0.0))
+    """A small defect that a baseline's channel has as well explains no difference: it stays as a remark, in both."""
+    before, after = (_worst_of(found, which) for which in ("baseline", "test"))
     result = []
     for f in found:
         old = before.get((f.kind, f.channel), 0.0)
-        shared = f.recording.startswith("test") and 0 < f.severity <= WORSE * old < WORSE * GRAVE
+        new = f.severity if f.recording.startswith("test") else after.get((f.kind, f.channel), 0.0)
+        shared = 0 < new <= WORSE * old < WORSE * GRAVE
         result.append(replace(f, fault=f.fault and not shared))
     return tuple(result)
+
+
+def _worst_of(found: Sequence[Finding], which: str) -> dict[tuple[str, str], float]:
+    """Severity of the worst finding of each kind and channel in recordings so called."""
+    worst_ones: dict[tuple[str, str], float] = {}
+    for f in found:
+        if f.recording.startswith(which):
+            worst_ones[f.kind, f.channel] = max(f.severity, worst_ones.get((f.kind, f.channel), 0.0))
+    return worst_ones
 
 
 def _unswapped(recording: Recording, names: Sequence[str], order: Sequence[int]) -> Recording:

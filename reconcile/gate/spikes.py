@@ -1,7 +1,8 @@
 """Single samples far out of a channel: a switch, a plug or a lost bit. What a machine does rings on.
 
 They are filled from the samples around and told; a few are no fault: left in, three of 200 deviations hid a pit in a
-short record (made). Many, which the baseline has not, are one: of a contact, a cable or what sparks beside it.
+short record (made). Many, which the baseline has not, are one: of a contact, a cable or what sparks beside it. What
+comes evenly is a machine's, however short: a contact of 40 us at 20 kHz is one sample where nothing rings on.
 """
 
 from __future__ import annotations
@@ -20,8 +21,8 @@ FAR = 30.0
 ALONE = 5.0
 """Times as far out as all within `REACH` samples: a blow rings on, or comes with more than one sample."""
 REACH = 12
-FEW = 2e-4
-"""Share of the samples up to which spikes are no fault."""
+FEW, FEWEST = 2e-4, 10
+"""Share of the samples, and their number, up to which spikes are no fault."""
 MOST_SHARE = 0.01
 """More than this share of the samples are no single ones, but how the signal is."""
 MOST_FAR = 0.05
@@ -29,6 +30,11 @@ MOST_FAR = 0.05
 BESIDE = 2
 """Samples within which another one far out is the same blow."""
 LISTED = 5
+EVEN, MULTIPLES, EVEN_SHARE = 0.08, 8, 0.75
+"""Distances that lie within so much of a period of its first multiples, and the share of them from which blows are
+even. Of 10 moments at random at most 0.67 do (400 tries), of more fewer; of even ones, half of them missed, 0.86."""
+ASKED = 60
+"""Distances that are tried as a period, or twice or three times one."""
 
 
 def spike_findings(recording: Recording, label: str) -> tuple[Finding, ...]:
@@ -49,7 +55,7 @@ def spike_findings(recording: Recording, label: str) -> tuple[Finding, ...]:
         found.append(
             Finding(
                 kind="spikes", channel=name, recording=label, detail=detail, severity=share,
-                fault=places.size > 1 and share > FEW,
+                fault=places.size > FEWEST and share > FEW,
             )
         )  # fmt: skip
     return tuple(found)
@@ -66,7 +72,8 @@ def without_spikes(recording: Recording) -> Recording:
 
 
 def spikes(samples: FloatArray) -> IntArray:
-    """Places (spikes,) of samples (n,) that stand far out alone; none where they are too many to be single ones."""
+    """Places (spikes,) of samples (n,) that stand far out alone; none where they are too many to be single ones, or
+    come evenly."""
     if samples.size < 4 * REACH or not np.all(np.isfinite(samples)):
         return np.zeros(0, dtype=np.int64)
     off = np.zeros(samples.size)
@@ -76,7 +83,21 @@ def spikes(samples: FloatArray) -> IntArray:
     if far.size > MOST_FAR * samples.size:
         return far[:0]
     found = np.array([p for p in far if _alone(samples, int(p), far)], dtype=np.int64)
-    return found if found.size <= max(1.0, MOST_SHARE * samples.size) else found[:0]
+    few = found.size <= max(1.0, MOST_SHARE * samples.size)
+    return found if few and not even(found) else found[:0]
+
+
+def even(places: IntArray) -> bool:
+    """Whether most distances between neighbours are multiples of one: some blows may be missed, and balls slip."""
+    if places.size < FEWEST:
+        return False
+    gaps = np.diff(places).astype(np.float64)
+    tried = np.unique(np.quantile(gaps, np.linspace(0.0, 1.0, min(gaps.size, ASKED))))
+    periods = np.concatenate([tried, tried / 2.0, tried / 3.0])
+    times = gaps[None, :] / periods[periods >= 1.0 / EVEN][:, None]
+    whole = np.round(times)
+    met = (np.abs(times - whole) <= EVEN) & (whole >= 1) & (whole <= MULTIPLES)
+    return bool(np.max(np.mean(met, axis=1), initial=0.0) >= EVEN_SHARE)
 
 
 def _alone(samples: FloatArray, place: int, far: IntArray) -> bool:

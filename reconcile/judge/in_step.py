@@ -16,8 +16,9 @@ from signals.series import FloatArray
 
 KNOWN_DB = 0.5 * DB_PER_RAD
 """Lines whose phases are known to this, half a radian, tell of clocks."""
-FEWEST_POINTS = 2
-"""Operating points from which strong lines alone tell of one delay."""
+APART, FEWEST_KNOWN = 1.1, 6
+"""Ratio of two speeds at which strong lines alone tell of one delay, and so many of them that are known at each: at one
+speed, under two loads, the same six lines are no twelve (false delays in 1 to 2 % of tries at 0.1 to 0.2 rad)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +39,7 @@ def clock_delays(data: Sequence[PointData], noise: Sequence[FloatArray], watched
     """Every delay found; `noise`: of the lines' lobes at each point, (C, L)."""
     kept, found = list(watched.phased), []
     strong = np.asarray(watched.own)[kept]
-    seen: list[tuple[FloatArray, FloatArray]] = []
+    seen: list[Seen] = []
     for p, (one, lobe) in enumerate(zip(data, noise, strict=True)):
         if one.baseline is None or one.test.line.shape[0] < 2 or not kept:
             continue
@@ -47,18 +48,33 @@ def clock_delays(data: Sequence[PointData], noise: Sequence[FloatArray], watched
         phases = np.where(spread < KNOWN_DB, change, np.nan) / DB_PER_RAD
         told = [(c, delay_s(row, one.lines_hz[kept])) for c, row in enumerate(phases)]
         found += [Delay(point=p, channel=c, seconds=s) for c, s in told if s is not None]
-        seen.append((phases[:, strong], one.lines_hz[kept][strong]))
+        seen.append(Seen(speed_hz=one.point.speed_hz, phases=phases[:, strong], hz=one.lines_hz[kept][strong]))
     return tuple(found) or _shared(seen)
 
 
-def _shared(seen: Sequence[tuple[FloatArray, FloatArray]]) -> tuple[Delay, ...]:
-    """One delay at all points, told of the first; `seen`: phases (C, Q) and frequencies (Q,) of the strong lines."""
-    if len(seen) < FEWEST_POINTS:
-        return ()
-    hz = np.concatenate([f for _, f in seen])
-    rows = enumerate(np.concatenate([phases for phases, _ in seen], axis=1))
-    told = [(c, shared_delay_s(row, hz)) for c, row in rows]
-    return tuple(Delay(point=0, channel=c, seconds=s) for c, s in told if s is not None)
+@dataclass(frozen=True, kw_only=True)
+class Seen:
+    """Of one operating point: `phases` (C, Q) of the strong lines between sensors, rad, NaN where not known, and their
+    frequencies (Q,), Hz."""
+
+    speed_hz: float
+    phases: FloatArray
+    hz: FloatArray
+
+
+def _shared(seen: Sequence[Seen]) -> tuple[Delay, ...]:
+    """One delay at all points, told of the first, of channels whose lines are known at speeds that lie apart."""
+    found = []
+    for c in range(seen[0].phases.shape[0] if seen else 0):
+        told = [one for one in seen if np.sum(np.isfinite(one.phases[c])) >= FEWEST_KNOWN]
+        speeds = [one.speed_hz for one in told]
+        if not told or max(speeds) < APART * min(speeds):
+            continue
+        seconds = shared_delay_s(
+            np.concatenate([one.phases[c] for one in told]), np.concatenate([one.hz for one in told])
+        )
+        found += [Delay(point=0, channel=c, seconds=seconds)] if seconds is not None else []
+    return tuple(found)
 
 
 def _spread(seen: Statistics, lobe: FloatArray, kept: Sequence[int]) -> FloatArray:

@@ -9,9 +9,10 @@ from reconcile.atlas.keep import ATLAS_VERSION
 from reconcile.atlas.places import sensor_sites
 from reconcile.gate.findings import Gate
 from reconcile.gate.spoiled import doubts, fault_sentence
+from reconcile.machine.beside_play import placed_beside_play
 from reconcile.machine.burst_size import burst_sizes
 from reconcile.machine.causes import ranked_causes
-from reconcile.machine.decide import AT_ONE, UNMEASURED, Decision
+from reconcile.machine.decide import AT_ONE, OFTEN, UNMEASURED, Decision
 from reconcile.machine.decided import decided
 from reconcile.machine.elsewhere import by_forecast
 from reconcile.machine.envelope import envelopes_of
@@ -93,14 +94,14 @@ def answer(
     unknown: Unknown | None = None,
     pairs: Pairs | None = None,
 ) -> Report:
-    """The report of a machine-level reconciliation; `unknown`: what stage 6 says where no known effect is adequate;
-    `pairs`: what was tried beside the best effect."""
+    """The report at level `machine`; `unknown`: of stage 6; `pairs`: what was tried beside the best effect."""
     decision = decided(setting, found)
     watched = watch_list(setting.machine)
     layout = _layout(watched, setting)
     weights = of_one_part(merged_weights(found.screen), found.screen.struck)
     missing = decision.word != "nothing_missing"
-    decision, other = named_pair(decision, second_effect(setting, found, decision), pairs)
+    seen = second_effect(setting, found, decision)
+    decision, other = placed_beside_play(setting, found, *named_pair(decision, seen, pairs))
     both = other.together if other is not None else None
     pair = pairs.best if pairs is not None and pairs.best is not None and other is pairs.best.beside else None
     held = _held(setting, found, decision, layout, unknown, other, pair) if decision.chosen else None
@@ -301,9 +302,9 @@ def _next(setting: Setting, found: Found, decision: Decision, unknown: Unknown |
         return beyond_the_known("" if unknown is None else unknown.force.site, tried=unknown is None or unknown.tried)
     if decision.reasons == (UNMEASURED,):
         return NextExperiment(sentence="Record the machine in a sound state as a baseline.")
-    if decision.reasons and decision.reasons[0].startswith(AT_ONE):
+    if decision.reasons and decision.reasons[0].startswith((AT_ONE, OFTEN)):
         return NextExperiment(
-            sentence="Record baseline and test there once more: it tells whether this comes and goes."
+            sentence="Record baseline and test once more where it shows: that tells whether it comes and goes."
         )
     heard = sensor_sites(setting.machine, setting.simulated)
     apart = apart_of(setting, found, decision.chosen)

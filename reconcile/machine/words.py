@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from reconcile.machine.decide import AT_ONE, LINES_QUIET, UNMEASURED, Decision
+from reconcile.machine.decide import AT_ONE, LINES_QUIET, OFTEN, UNMEASURED, Decision
 from reconcile.machine.next_look import Apart, Look, best_look
 from reconcile.machine.proved import NO_BETTER, NO_FORECAST, NO_NEARER, UNLIKE
 from reconcile.observe.observation import PointData
@@ -96,7 +96,7 @@ def _undecided(decision: Decision) -> str:
     if decision.reasons[0] == LINES_QUIET:
         told = f"the change is unusual {unusual}, but {LINES_QUIET}"
         return f"Whether anything is missing is not decided: {told}; nearest is {best}."
-    if decision.reasons[0].startswith(AT_ONE):
+    if decision.reasons[0].startswith((AT_ONE, OFTEN)):
         told = f"the change is unusual {unusual}, but {decision.reasons[0]}"
         return f"Whether anything is missing is not decided: {told}; nearest is {best}."
     if decision.reasons[0] == UNMEASURED:

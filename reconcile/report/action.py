@@ -167,7 +167,7 @@ def _unknown(report: Report) -> str:
     if alone:
         here = (
             f"all lines that changed are on {alone}: check its cable, its amplifier and how it is fastened, or change "
-            f"the sensor and record again, before you look at {place or 'the machine'}; "
+            f"the sensor and record again, and look at what it stands on; then at {place or 'the machine'}; "
         )
     rule_out = f"{ONE_MASS if report.level == 'driven' else TURNING}, a baseline of another machine or state"
     if report.level == "driven" and not report.provenance.get("baselines"):

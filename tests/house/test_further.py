@@ -1,4 +1,4 @@
-"""What `make test` leaves out is there, and stands beside an example that it runs."""
+"""What `make test` leaves out is there, and is an example of a test of which another one runs."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def collected(args: Sequence[str] = ("tests",), markexpr: str = "", keyword: str
         option=SimpleNamespace(markexpr=markexpr, keyword=keyword),
         hook=SimpleNamespace(pytest_deselected=left_out),
     )
-    items = [Item(LISTED[0]), Item("tests/house/test_further.py::test_any")]
+    items = [Item(LISTED[0]), Item(f"{LISTED[0].split('[', maxsplit=1)[0]}[another]")]
     pytest_collection_modifyitems(config, items)  # type: ignore[arg-type]
     return len(items), len(told)
 
@@ -66,3 +66,9 @@ def test_they_run_only_when_asked_for() -> None:
     assert collected(markexpr="further") == (2, 0)
     assert collected(args=[LISTED[0]]) == (2, 0)
     assert collected(keyword="any") == (2, 0)
+
+
+def test_a_list_that_leaves_no_example_of_a_test_is_refused() -> None:
+    config = SimpleNamespace(args=["tests"], option=SimpleNamespace(markexpr="", keyword=""))
+    with pytest.raises(pytest.UsageError, match="leaves no example of tests/"):
+        pytest_collection_modifyitems(config, [Item(LISTED[0])])  # type: ignore[arg-type, list-item]

@@ -26,7 +26,8 @@ def point(late_s: float = 0.0, power: float = 1.0, *, based: bool = True, channe
     after = before.copy()
     after[-1] -= 2 * np.pi * LINES_HZ * late_s
     baseline = recorded(before, power) if based else None
-    return SimpleNamespace(test=recorded(after, power), baseline=baseline, lines_hz=LINES_HZ)
+    turns = SimpleNamespace(speed_hz=SHAFTS_HZ[0])
+    return SimpleNamespace(test=recorded(after, power), baseline=baseline, lines_hz=LINES_HZ, point=turns)
 
 
 def delays(*points: SimpleNamespace) -> tuple[Delay, ...]:
@@ -64,7 +65,8 @@ def weak_sidebands(speed: float, late_s: float, scatter_rad: float = 0.05) -> Si
     one.test.phase[-1] += scatter_rad * np.random.default_rng(int(100 * speed)).standard_normal(hz.size)
     for seen in (one.test, one.baseline):
         seen.line[:, ~OWN] = 1e-3
-    return SimpleNamespace(test=one.test, baseline=one.baseline, lines_hz=hz)
+    turns = SimpleNamespace(speed_hz=speed * SHAFTS_HZ[0])
+    return SimpleNamespace(test=one.test, baseline=one.baseline, lines_hz=hz, point=turns)
 
 
 def test_strong_lines_of_several_speeds_tell_of_one_delay() -> None:
@@ -73,6 +75,7 @@ def test_strong_lines_of_several_speeds_tell_of_one_delay() -> None:
     assert {(d.point, d.channel) for d in late} == {(0, 1), (0, 2)}
     assert all(abs(d.seconds) == pytest.approx(1.85e-3, rel=0.02) for d in late)
     assert delays(weak_sidebands(1.0, 1.85e-3)) == (), "six lines at one speed say nothing"
+    assert delays(*(weak_sidebands(k, 1.85e-3) for k in (1.0, 1.03))) == (), "nor at two that are nearly one"
     assert delays(*(weak_sidebands(k, 0.0) for k in speeds)) == ()
     other = [weak_sidebands(k, s) for k, s in zip(speeds, (1.1e-3, 0.0, 2.3e-3), strict=True)]
     assert delays(*other) == (), "no one delay"

@@ -12,7 +12,7 @@ import pytest
 from reconcile.calibrate.uncertain import Offsets
 from reconcile.judge.screen import judge
 from reconcile.judge.space import Library, fit_space
-from reconcile.machine import left_pairs
+from reconcile.machine import left_pairs, left_start
 from reconcile.machine.library import Catalogued, joined
 from reconcile.machine.setting import Found
 from sim.core.spec import TermSpec
@@ -97,5 +97,6 @@ def asked_of_the_made(monkeypatch: pytest.MonkeyPatch, third: str) -> Asked:
         asked.append((f"{candidate.label}+{second}", [o.values for o in offsets], list(also)))
         return MADE.catalogue(candidate.label, [o.values for o in offsets], list(terms), also)
 
-    monkeypatch.setattr(left_pairs, "simulated_again", again)
+    for module in (left_pairs, left_start):
+        monkeypatch.setattr(module, "simulated_again", again, raising=False)
     return asked

@@ -23,7 +23,7 @@ NAMES = (
 def screen(evidence: list[float], names: tuple[str, ...] = NAMES, **how: object) -> Screen:
     values = np.array(evidence + [-5.0] * (len(names) - len(evidence)))
     weights = np.exp(values - values.max())
-    usual = {"p_any": 0.002, "strongest": 40.0, "p_best": 0.002, "p_direct": 1.0, "misfit": 0.4, "length": 90.0}
+    usual = {"p_any": 2e-4, "strongest": 40.0, "p_best": 2e-4, "p_direct": 1.0, "misfit": 0.4, "length": 90.0}
     return Screen(
         names=names,
         evidence=values,

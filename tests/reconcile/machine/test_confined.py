@@ -80,4 +80,4 @@ def test_the_sentence_says_where_and_the_advice_is_to_record_there_again() -> No
         "nearest is torque ripple at output."
     )
     advice = _next(None, None, told, None)  # type: ignore[arg-type]
-    assert advice is not None and advice.sentence.startswith("Record baseline and test there once more")
+    assert advice is not None and advice.sentence.startswith("Record baseline and test once more where it shows")

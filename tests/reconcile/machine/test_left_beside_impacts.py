@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from reconcile.machine import asked as asked_of
-from reconcile.machine import left_pairs
+from reconcile.machine import left_pairs, left_start
 from reconcile.machine.asked import BESIDE_PIT
 from reconcile.machine.causes import ranked_causes
 from reconcile.machine.decide import STRUCK, Decision
@@ -91,8 +91,8 @@ def test_machines_start_where_the_first_was_nearest(simulated: Asked) -> None:
     setting, found = struck(seen(SMALLER))
     asked = left_pairs._asked(setting, found, RIGHT, found.known, found.fine, 8, map)  # type: ignore[arg-type]
     ((_, _, rows),) = left_pairs.ranked_seconds(asked.left, setting.changes, asked.every, [WRONG])
-    start = left_pairs._start(asked, rows, WRONG)
-    assert start.terms == left_pairs._start(asked, (), "").terms and len(start.also) == 8 and simulated == []
+    start = left_pairs.start_of(asked, rows, WRONG)
+    assert start.terms == left_pairs.start_of(asked, (), "").terms and len(start.also) == 8 and simulated == []
 
 
 @pytest.mark.parametrize(
@@ -178,20 +178,21 @@ def test_machines_are_led_by_the_teeths_own_lines_and_the_first_keeps_its_parame
 ) -> None:
     setting, found = struck(seen(SMALLER))
     found = replace(found, sides=found.fitted)
-    made, views = left_pairs.moved, []
+    made, views = left_start.moved, []
 
     def moved(start, view, *rest):  # type: ignore[no-untyped-def]
         views.append((view, start.terms))
         return made(start, view, *rest)
 
-    monkeypatch.setattr(left_pairs, "moved", moved)
+    for module in (left_pairs, left_start):
+        monkeypatch.setattr(module, "moved", moved, raising=False)
     monkeypatch.setattr(left_pairs, "pair_of", lambda *given: given)
     asked = left_pairs._asked(setting, found, RIGHT, found.known, left_pairs._lines(setting, found, EXPLAINED), 8, map)  # type: ignore[arg-type]
     ((_, _, rows),) = left_pairs.ranked_seconds(asked.left, setting.changes, asked.every, [WRONG])
-    led = left_pairs._moved(asked, left_pairs._start(asked, rows, WRONG), WRONG)
+    led = left_pairs.led_again(asked, left_pairs.start_of(asked, rows, WRONG), WRONG)
     assert led is not None and views[0][0] is found.fine
     assert (
-        tuple(led.known.terms) == views[0][1] and led.also != left_pairs._start(asked, rows, WRONG).also and simulated
+        tuple(led.known.terms) == views[0][1] and led.also != left_pairs.start_of(asked, rows, WRONG).also and simulated
     )
 
 
@@ -202,7 +203,7 @@ def test_what_the_first_gains_by_being_moved_once_more_counts_from_the_limit_on(
     asked = left_pairs._asked(setting, found, RIGHT, found.known, found.fine, 8, map)  # type: ignore[arg-type]
     base = asked.left.base
     again = SimpleNamespace(known=SimpleNamespace(library=SimpleNamespace(changes=asked.left.members)))
-    monkeypatch.setattr(left_pairs, "_moved", lambda *_: again)
+    monkeypatch.setattr(left_pairs, "led_again", lambda *_: again)
     monkeypatch.setattr(type(asked.left), "base", base)
     monkeypatch.setattr(type(asked.left), "level", lambda *_: base + 3.0)
     for gain, left in ((BESIDE_PIT - 0.1, BESIDE_PIT - 0.1), (BESIDE_PIT + 0.1, BESIDE_PIT - 2.9)):

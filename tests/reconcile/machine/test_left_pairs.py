@@ -98,7 +98,7 @@ def test_what_the_first_gains_by_being_moved_once_more_is_not_the_seconds(
     simulated: Asked, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     whole = pairs_in(seen(SMALLER))
-    made = left_pairs._moved
+    made = left_pairs.led_again
     exact = MADE.change(RIGHT, TRUE, 2e7)
 
     def again(asked, start, second):  # type: ignore[no-untyped-def]
@@ -108,7 +108,7 @@ def test_what_the_first_gains_by_being_moved_once_more_is_not_the_seconds(
         library = replace(found.known.library, changes=np.repeat(exact[None], len(found.known.terms), axis=0))
         return replace(found, known=replace(found.known, library=library))
 
-    monkeypatch.setattr(left_pairs, "_moved", again)
+    monkeypatch.setattr(left_pairs, "led_again", again)
     less = pairs_in(seen(SMALLER))
     assert whole is not None and less is not None and simulated
     assert whole.tried[0][2] is not None and less.tried[0][2] is not None
@@ -309,8 +309,8 @@ def test_half_of_an_ensemble_starts_where_sums_fit_best() -> None:
     setting, found = found_in(seen(SMALLER))
     asked = left_pairs._asked(setting, found, RIGHT, found.known, found.fine, 8, map)  # type: ignore[arg-type]
     ((_, _, rows),) = left_pairs.ranked_seconds(asked.left, setting.changes, asked.every, [WRONG])
-    start = left_pairs._start(asked, rows, WRONG)
-    alone = left_pairs._start(asked, (), "")
+    start = left_pairs.start_of(asked, rows, WRONG)
+    alone = left_pairs.start_of(asked, (), "")
     assert start.terms[:4] == alone.terms[:4] and alone.also == () and len(start.also) == 8
     own = [k for k in asked.every.library.groups[RIGHT] if k >= asked.local]
     every = asked.every.library.changes

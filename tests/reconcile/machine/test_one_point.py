@@ -49,7 +49,7 @@ def test_what_the_first_alone_gains_once_more_is_taken_off_at_each_operating_poi
     told = pairs_in(seen(SMALLER))
     assert told is not None and told.best is not None and simulated
     library = SimpleNamespace(known=SimpleNamespace(library=SimpleNamespace(changes=None)))
-    for name, made in {"_start": None, "_moved": library, "_parts": (6.0, 1.0)}.items():
+    for name, made in {"start_of": None, "led_again": library, "_parts": (6.0, 1.0)}.items():
         monkeypatch.setattr(left_pairs, name, lambda *_, made=made: made)
     asked = SimpleNamespace(least=30.0, left=SimpleNamespace(level=lambda _: again, base=0.0))
     one = replace(told.best, gain=50.0, parts=(20.0, 30.0))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from reconcile.calibrate.uncertain import Offsets
-from reconcile.machine import causes, left_pairs, sizes
+from reconcile.machine import causes, left_pairs, left_start, sizes
 from reconcile.machine.asked import LEAST_GAIN, TEMPER
 from reconcile.machine.assimilate import Ensemble
 from reconcile.machine.left_pairs import _searched
@@ -138,7 +138,7 @@ def test_nothing_where_machines_do_not_run(fails: int, monkeypatch: pytest.Monke
 def sought(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, ...]]:
     """The draws with which a search began."""
     begun: list[tuple[int, ...]] = []
-    monkeypatch.setattr(left_pairs, "_start", lambda *_: start())
+    monkeypatch.setattr(left_pairs, "start_of", lambda *_: start())
     monkeypatch.setattr(left_pairs, "searched", lambda _asked, _start, rows: begun.append(rows))
     return begun
 
@@ -215,11 +215,12 @@ def test_forecasts_have_the_sizes_that_were_found(monkeypatch: pytest.MonkeyPatc
         begun.append((terms, also))
 
     given = asked(found=SimpleNamespace(unled=None), view=None)
-    monkeypatch.setattr(left_pairs, "simulated_again", again)
+    for module in (left_pairs, left_start):
+        monkeypatch.setattr(module, "simulated_again", again, raising=False)
     monkeypatch.setattr(left_pairs, "replace", lambda one, **more: one if one is given.found else replace(one, **more))
     monkeypatch.setattr(left_pairs, "_asked", lambda *_: given)
     monkeypatch.setattr(left_pairs, "ranked_seconds", lambda *_: [(SECOND, 430.0, (0,))])
-    monkeypatch.setattr(left_pairs, "_start", lambda *_: replace(start(), also=(clearance(4.7e-5),) * MEMBERS))
+    monkeypatch.setattr(left_pairs, "start_of", lambda *_: replace(start(), also=(clearance(4.7e-5),) * MEMBERS))
     given.every, given.setting = None, SimpleNamespace(changes=None)
     for searched_too in (True, False):
         left_pairs._drawn(given, None, pair(55.0, replace(BOTH, searched=searched_too)))  # type: ignore[arg-type]

@@ -8,8 +8,7 @@ import pytest
 from reconcile.machine.decide import Decision
 from reconcile.machine.decided import decided
 from reconcile.machine.direct import NOTHING, UNHEARD
-from reconcile.machine.unstruck import CLEAR, SILENT, TOO_FAINT, unless_silent
-from reconcile.machine.weigh import FAR_AHEAD
+from reconcile.machine.unstruck import BEHIND, CLEAR, SILENT, TOO_FAINT, unless_silent
 from tests.reconcile.machine.screens import screen
 
 PITS = ("inner_spall@bearing4", "ball_spall@bearing4")
@@ -31,7 +30,9 @@ def test_pits_that_are_not_heard_are_no_answer():
 
 def test_a_faint_change_does_not_exclude_a_pit_that_is_not_heard():
     told = after(evidence=CLEAR - 0.1)
-    assert (told.word, told.chosen, told.reasons) == ("not_decidable", PITS, (TOO_FAINT,))
+    assert (told.word, told.chosen, told.reasons) == ("ambiguous", PITS, ("alike", TOO_FAINT))
+    named = after(replace(DECISION, word="explained", chosen=PITS[:1]), evidence=CLEAR - 0.1)
+    assert (named.word, named.chosen) == ("not_decidable", PITS[:1])
 
 
 def test_a_pit_that_has_grown_strikes_before_and_after():
@@ -77,7 +78,7 @@ def test_a_set_with_something_far_behind_is_one_of_pits():
     decision = replace(DECISION, chosen=(*PITS, "radial_clearance@bearing4"))
     told = after(decision, evidence=31.0, behind=27.0)
     assert (told.word, told.chosen) == ("unknown_physics", decision.chosen[:3])
-    assert after(decision, evidence=31.0, behind=FAR_AHEAD - 0.1) is decision
+    assert after(decision, evidence=31.0, behind=BEHIND - 0.1) is decision
 
 
 @pytest.mark.parametrize("word", ["nothing_missing", "not_decidable", "unknown_physics"])

@@ -221,7 +221,7 @@ def test_what_one_channel_alone_shows_is_looked_for_in_its_cable_first() -> None
         return to_do(report("unknown_physics", where=where, pictures={"levels": levels}))
 
     assert said(*["a2"] * 4).startswith("all lines that changed are on a2: check its cable, its amplifier")
-    assert "before you look at b2; none of the known names fits" in said(*["a2"] * 4)
+    assert "look at what it stands on; then at b2; none of the known names fits" in said(*["a2"] * 4)
     for other in (said(*["a2"] * 3), said("a1", *["a2"] * 4), said(*["a2"] * 4, recorded=("a2",))):
         assert other.startswith("look at b2 first; ")
 
