@@ -14,8 +14,11 @@ SECTIONS = {
     "after": "No version of the engine had met these before their run: the rest of the plan `zenith`. Two ran at once, "
     "beside other work. Impacts once a turn of a shaft speak for an inner race of it by half of its own lines at most "
     "since z014, and a set of pits that nothing strikes in is none whatever is far behind them since z009; these cases "
-    "had no part in either. z049, a sound machine that was given a name with p = 0.005, has set a rule since: nothing "
-    "is named with more than 0.001.",
+    "had no part in either. Since then nothing is named with a chance above 0.001 "
+    "([decision](decisions/reconcile-name-chance.md); z049, a sound machine that was), a pit beside a loose ring of "
+    "its own bearing must be placed by what that leaves (z042), what drives a loose foot is searched with it (z068), "
+    "and a set of faint pits that are not heard stays one (z053). Each is answered rightly since, which measures "
+    "nothing.",
     "inquest": "No version of the engine had met these before their run: the whole plan by one engine. Two ran at "
     "once. It asks for a supply's frequency by less and at one speed, for a belt at one speed, and takes no name that "
     "forecasts nothing for sure; these cases had no part in any of it. i011, a loose ring, was given up by hand after "
