@@ -11,7 +11,7 @@ from reconcile.verdict import Cause, HeldOut, Level, Placebo, Report, Severity, 
 
 VERDICT: dict[Word, tuple[str, str]] = {
     "nothing_missing": ("Nothing missing", "ok"),
-    "explained": ("Cause named", "warn"),
+    "explained": ("Explained: cause named", "warn"),
     "ambiguous": ("One of several", "warn"),
     "unknown_physics": ("Unknown physics", "bad"),
     "measurement_fault": ("Fault in the measurement", "bad"),

@@ -16,7 +16,10 @@ class FolderInUse(SidebandError):
 
     def __init__(self, folder: Path, holder: str) -> None:
         self.folder = folder
-        super().__init__(f"the data folder {folder} is in use by another server ({holder or 'unknown process'})")
+        super().__init__(
+            f"the data folder {folder} is in use by another server ({holder or 'unknown process'}): "
+            "stop that one, or name another folder (sideband serve --data DIR)"
+        )
 
 
 class FolderLock:

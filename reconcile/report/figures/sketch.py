@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from reconcile.report.markup import Markup, tag
 from reconcile.report.pictures import number, text
 from reconcile.report.strict import Plain
+from reconcile.report.words import weight as share_of
 
 WIDTH, LANE, MARGIN = 720.0, 116.0, 70.0
 SLIM, FEW = 360.0, 2
@@ -86,7 +87,12 @@ def _place(name: str, x: float, y: float, weights: Mapping[str, float], at: floa
     if weight <= 0.0:
         return [label]
     ring = tag("circle", cx=x, cy=y, r=RING, css="located", rule=f"opacity:{0.25 + 0.75 * min(weight, 1):.2f}")
-    return [ring, label, tag("text", f"{100 * weight:.0f} %", x=x + 34, y=y - 30, css="located-share")]
+    return [ring, label, tag("text", _share(weight), x=x + 34, y=y - 30, css="located-share")]
+
+
+def _share(weight: float) -> str:
+    """As in the list beside it, in less room: nearly all is not all."""
+    return share_of(weight).replace("more than ", "> ")
 
 
 def sketch(machine: Mapping[str, Plain], weights: Mapping[str, float]) -> Markup:
@@ -144,6 +150,6 @@ def _meshes(
         (xa, ya), (xb, yb) = ends[0], ends[1]
         css = "mesh located-mesh" if weights.get(name, 0.0) > 0 else "mesh"
         parts.append(tag("line", x1=xa, y1=ya + 32, x2=xb, y2=yb - 32, css=css))
-        share = f" {100 * weights[name]:.0f} %" if weights.get(name, 0.0) > 0 else ""
+        share = f" {_share(weights[name])}" if weights.get(name, 0.0) > 0 else ""
         parts.append(tag("text", name + share, x=0.5 * (xa + xb) + 10, y=0.5 * (ya + yb) - 6, css="part-name"))
     return parts
