@@ -17,7 +17,7 @@ ROWS = {"own": (TOP + 17.0,), "other": (TOP + 32.0, TOP + 46.0)}
 """Where names may stand: those of the family above, those of other parts below."""
 HEADROOM = 1.3
 SLOW = 0.2
-"""Order below which no part of a bearing has a line: what wanders there may be cut off, it would flatten the rest."""
+"""Order below which no part of a bearing has a line: what wanders there is left out where it would flatten the rest."""
 GAP = 6.0
 NONE_THERE = (
     "no part's lines stand out in any band, so none are marked; this is the band in which some came nearest to it."
@@ -41,7 +41,7 @@ def envelope(picture: Mapping[str, Plain]) -> Markup:
     low, high = (numbers(picture.get("band_hz")) or [0.0, 0.0])[:2]
     title = f"Envelope of {text(picture.get('channel'))} between {low:.0f} and {high:.0f} Hz"
     marks = _marks(frame, picture.get("lines"))
-    curves_drawn = (frame.curve(x, [min(v, frame.y[1]) for v in y], css) for css, x, y in drawn)
+    curves_drawn = (frame.curve(*_within(frame, x, y), css) for css, x, y in drawn)
     return frame.svg(frame.axes(), *curves_drawn, marks, title=title)
 
 
@@ -76,6 +76,13 @@ def _highest(orders: list[float], depth: list[float]) -> float:
     """Of what is not slow, and at least something."""
     known = [(o, d) for o, d in zip(orders, depth, strict=True) if math.isfinite(d)]
     return max((d for o, d in known if o >= SLOW), default=0.0) or max((d for _, d in known), default=0.0) or 1.0
+
+
+def _within(frame: Frame, orders: list[float], depth: list[float]) -> tuple[list[float], list[float]]:
+    """A curve that stays in the frame; what is slow and leaves it is left out."""
+    top = frame.y[1]
+    kept = [(o, min(d, top)) for o, d in zip(orders, depth, strict=True) if o >= SLOW or d <= top]
+    return [o for o, _ in kept], [d for _, d in kept]
 
 
 def _curve(found: Plain) -> tuple[list[float], list[float]]:

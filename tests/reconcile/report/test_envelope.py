@@ -12,6 +12,7 @@ from reconcile.kinematics import read_kinematic_spec, reconcile_kinematics
 from reconcile.kinematics.picture import POINTS
 from reconcile.report import page
 from reconcile.report.figures.envelope import LETTER, envelope
+from reconcile.report.plot import BOTTOM, TOP
 from reconcile.report.style import STYLE
 from reconcile.verdict import Report
 from tests.strategies.impulses import SPEED_HZ, recorded, sound, train
@@ -70,9 +71,12 @@ def test_what_wanders_slowly_does_not_flatten_the_lines() -> None:
     lined[270] = 0.1
     text = reported({**PICTURE, "test": {**PICTURE["test"], "depth": lined}})  # type: ignore[dict-item]
     drawn = re.findall(r'<(?:path|polyline)[^>]*class="curve observed"[^>]*>', text)[0]
-    heights = sorted(float(y) for _, y in re.findall(r"([\d.]+)[, ]([\d.]+)", drawn))
-    floor, cut, line = heights[-1], heights[0], heights[1]
-    assert (floor - line) / (floor - cut) == pytest.approx((0.1 - 0.02) / (1.3 * 0.1 - 0.02), abs=0.02)
+    points = [(float(x), float(y)) for x, y in re.findall(r"([\d.]+)[, ]([\d.]+)", drawn)]
+    floor, (highest, place) = max(y for _, y in points), min((y, x) for x, y in points)
+    top, low = TOP, 290.0 - BOTTOM
+    assert (low - highest) / (low - top) == pytest.approx(1.0 / 1.3, abs=0.02), "the line fills the frame"
+    assert (low - floor) / (low - top) == pytest.approx(0.02 / 0.13, abs=0.02)
+    assert place > points[0][0] + 100.0, "and what is slow is not drawn over it"
 
 
 def test_names_do_not_collide() -> None:
