@@ -7,16 +7,12 @@ from learn.remarks import PER_MINUTE
 from learn.speed import LOWEST_HZ
 from reconcile.kinematics.slowest import MIN_TURNS, shortest_s
 from reconcile.stated import check_speeds, confirmed, given
+from signals.ingest.report import NOBODY_TURNS_HZ, asks_for_rpm
 from signals.recording import Recording
 from sim.core.errors import SpecError
 
 LEAST_SAMPLES = 2048
 """In fewer too few bins are left to tell lines from noise."""
-
-
-NOBODY_TURNS_HZ = 700.0
-"""Stated speed from which rpm are asked about whatever lines there are: 750 to 3600 rpm are speeds of motors, 42,000
-revolutions a minute those of few machines, and the dense lines of a damaged bearing may stand anywhere."""
 
 
 def doubts(recording: Recording) -> list[str]:
@@ -45,12 +41,9 @@ def _of_speed(recording: Recording) -> list[str]:
     # pulses have been held against it above
     if slow < LOWEST_HZ or recording.tacho is not None:
         return []
-    lines = confirmed(recording, stated)
-    if lines and stated < NOBODY_TURNS_HZ:
-        return []
-    asked = f"is it in revolutions per minute? Then state {slow:.4g} Hz"
-    told = "" if lines else ", and no lines confirm it"
-    return [f"operating.speed_hz: few machines turn at {stated:.6g} Hz{told}: {asked}"]
+    if stated >= NOBODY_TURNS_HZ or confirmed(recording, stated):
+        return []  # the former is remarked on as it is read
+    return [asks_for_rpm(stated, ", and no lines confirm it")]
 
 
 def _of_noise(recording: Recording) -> list[str]:

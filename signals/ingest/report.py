@@ -18,6 +18,9 @@ from sim.core.errors import SpecError
 HUM_SAMPLES = 2**20
 """Hum does not come and go: the beginning of a long recording shows it."""
 SHAFT_HARMONICS = 200
+NOBODY_TURNS_HZ = 700.0
+"""Stated speed from which rpm are asked about whatever lines there are: 750 to 3600 rpm are speeds of motors, 42,000
+revolutions a minute those of few machines, and the dense lines of a damaged bearing may stand anywhere."""
 SAME_SPEED = 0.05
 """Share by which pulses and stated speed may differ unremarked: labels are that wrong."""
 
@@ -41,7 +44,7 @@ def report(found: Ingested) -> dict[str, object]:
         "notes": recording.notes,
         "findings": [asdict(finding) for finding in inspect(recording)],
         "mains_hum": _hum(recording),
-        "remarks": [*found.remarks, *_speeds(recording)],
+        "remarks": [*found.remarks, *_speeds(recording), *_fast(recording)],
     }
 
 
@@ -104,3 +107,17 @@ def _hum(recording: Recording) -> list[dict[str, object]]:
             )
             found += [asdict(line) for line in find_hum(series, expected)]
     return found
+
+
+def _fast(recording: Recording) -> list[str]:
+    """Whether the stated speed is one that hardly any machine has, and no pulses tell it."""
+    stated = recording.operating.speed_hz if recording.operating is not None else 0.0
+    if stated < NOBODY_TURNS_HZ or recording.tacho is not None:
+        return []
+    return [asks_for_rpm(stated)]
+
+
+def asks_for_rpm(stated_hz: float, seen: str = "") -> str:
+    """A remark on a stated speed, Hz, with what was `seen` of it."""
+    asked = f"is it in revolutions per minute? Then state {stated_hz / 60.0:.4g} Hz"
+    return f"operating.speed_hz: few machines turn at {stated_hz:.6g} Hz{seen}: {asked}"

@@ -44,20 +44,19 @@ def test_a_speed_beyond_half_the_rate_is_told() -> None:
 
 @pytest.mark.slow
 def test_a_fast_speed_is_asked_about_unless_its_lines_or_pulses_confirm_it() -> None:
-    said = doubts(recorded(NOISE, 1480.0))
-    assert "revolutions per minute" in said[0] and "24.67 Hz" in said[0]
+    said = doubts(recorded(NOISE, 660.0))
+    assert "and no lines confirm it: is it in revolutions per minute? Then state 11 Hz" in said[0]
     assert doubts(recorded(turning(500.0), 500.0)) == []
-    (asked,) = doubts(recorded(turning(1480.0), 1480.0))
-    assert "few machines turn at 1480 Hz: is it in revolutions per minute? Then state 24.67 Hz" in asked
+    assert doubts(recorded(turning(1480.0), 1480.0)) == [], "remarked on where it is read"
     pulses = Tacho(shaft="shaft", pulse_times_s=np.arange(0.0, T[-1], 1 / 500.0), pulses_per_revolution=1)
     assert not any("minute" in said for said in doubts(recorded(NOISE, 500.0, tacho=pulses)))
 
 
 def test_samples_that_are_not_finite_hide_no_fast_speed() -> None:
-    broken = turning(24.67)
+    broken = turning(11.0)
     broken[5] = np.nan
-    (said,) = doubts(recorded(broken, 1480.0))
-    assert "24.67 Hz" in said
+    (said,) = doubts(recorded(broken, 660.0))
+    assert "Then state 11 Hz" in said
 
 
 def test_noise_alone_is_told_where_there_is_enough_of_it() -> None:

@@ -41,3 +41,13 @@ def test_pulses_of_the_stated_speed_or_of_another_shaft_are_not() -> None:
     assert remarks(60.0, 30.0, shaft="output") == []
     assert remarks(60.0, None) == []
     assert remarks(30.0, 30.0, missed=6) == [], "a fifth of a second without pulses is no other speed"
+
+
+@pytest.mark.parametrize(("stated_hz", "asked"), [(1806.0, True), (700.0, True), (699.0, False), (30.1, False)])
+def test_a_speed_that_hardly_any_machine_has_is_asked_about_where_no_pulses_tell(stated_hz: float, asked: bool) -> None:
+    samples = np.random.default_rng(1).normal(size=(1, 4000))
+    operating = Operating(shaft="input", speed_hz=stated_hz)
+    recording = Recording(sampling_rate_hz=2000.0, channels=(CHANNEL,), samples=samples, operating=operating)
+    told = report(Ingested(recording=recording, remarks=()))["remarks"]
+    said = f"few machines turn at {stated_hz:g} Hz: is it in revolutions per minute? Then state {stated_hz / 60:.4g} Hz"
+    assert told == ([f"operating.speed_hz: {said}"] if asked else [])
