@@ -12,7 +12,6 @@ from dataclasses import replace
 from reconcile.kinematics.candidate import DEFECTS
 from reconcile.machine.decide import FEW_VIEWS, Decision
 from reconcile.machine.direct import UNHEARD, Direct
-from reconcile.verdict import Word
 from sim.terms import REGISTRY
 
 FEWEST_POINTS = 2
@@ -40,8 +39,9 @@ def unless_silent(
     if points < FEWEST_POINTS or views <= FEW_VIEWS or not all(_silent(n, direct) for n in near):
         return decision
     if most < CLEAR:
-        word: Word = "ambiguous" if decision.word == "ambiguous" else "not_decidable"
-        return replace(decision, word=word, reasons=(*decision.reasons, TOO_FAINT))
+        if decision.word == "ambiguous":
+            return replace(decision, reasons=(*decision.reasons, TOO_FAINT))
+        return replace(decision, word="not_decidable", reasons=(TOO_FAINT,))
     return replace(decision, word="unknown_physics", chosen=decision.chosen[:3], reasons=(SILENT,))
 
 

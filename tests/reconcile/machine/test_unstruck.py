@@ -31,8 +31,9 @@ def test_pits_that_are_not_heard_are_no_answer():
 def test_a_faint_change_does_not_exclude_a_pit_that_is_not_heard():
     told = after(evidence=CLEAR - 0.1)
     assert (told.word, told.chosen, told.reasons) == ("ambiguous", PITS, ("alike", TOO_FAINT))
-    named = after(replace(DECISION, word="explained", chosen=PITS[:1]), evidence=CLEAR - 0.1)
-    assert (named.word, named.chosen) == ("not_decidable", PITS[:1])
+    one = replace(DECISION, word="explained", chosen=PITS[:1], reasons=("a part of the change is left",))
+    named = after(one, evidence=CLEAR - 0.1)
+    assert (named.word, named.chosen, named.reasons) == ("not_decidable", PITS[:1], (TOO_FAINT,))
 
 
 def test_a_pit_that_has_grown_strikes_before_and_after():
