@@ -46,7 +46,7 @@ class Design:
     have gone before, `begun` from which on those of rarer laws, pairs and unknown effects; `rows` are the conditions of
     every fourth case."""
 
-    split: Literal["entire", "held", "wide", "mixed", "young", "vast", "clear", "jury", "inquest", "zenith"]
+    split: Literal["entire", "held", "wide", "mixed", "young", "vast", "clear", "jury", "inquest", "zenith", "xenial"]
     groups: Mapping[Group, int]
     turned: int
     rows: tuple[Row, ...]
@@ -90,6 +90,8 @@ INQUEST = Design(split="inquest", groups=WIDE.groups, turned=1117, rows=HELD.row
 """As jury, of the rarer laws and most of the pairs that it leaves out."""
 ZENITH = Design(split="zenith", groups=WIDE.groups, turned=1213, rows=HELD.rows, begun=56)
 """As inquest, of the rarer laws and most of the pairs that it leaves out."""
+XENIAL = Design(split="xenial", groups=WIDE.groups, turned=1319, rows=HELD.rows, begun=64)
+"""As zenith, of the rarer laws and most of the pairs that it leaves out."""
 ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
 STRUCK = ("outer_pit", "inner_pit", "ball_pit")
 FORMS = 3
@@ -145,6 +147,11 @@ def inquest() -> tuple[Case, ...]:
 def zenith() -> tuple[Case, ...]:
     """All cases of the tenth."""
     return cases_of_design(ZENITH)
+
+
+def xenial() -> tuple[Case, ...]:
+    """All cases of the eleventh."""
+    return cases_of_design(XENIAL)
 
 
 def cases_of_design(design: Design) -> tuple[Case, ...]:

@@ -47,6 +47,7 @@ Split = Literal[
     "jury",
     "inquest",
     "zenith",
+    "xenial",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -76,6 +77,7 @@ SEEDS = {
     "jury": 6_583_017_249,
     "inquest": 3_120_864_795,
     "zenith": 8_706_415_239,
+    "xenial": 5_247_930_816,
 }
 COUNTS = {
     "dev": {

@@ -19,6 +19,7 @@ from proof.entire import (
     STRUCK,
     VAST,
     WIDE,
+    XENIAL,
     YOUNG,
     ZENITH,
     clear,
@@ -29,6 +30,7 @@ from proof.entire import (
     mixed,
     vast,
     wide,
+    xenial,
     young,
     zenith,
 )
@@ -76,6 +78,7 @@ def test_the_seals_were_committed():
     assert seal.seals_of("jury") == seal.manifest("jury", jury())["sha256"]
     assert seal.seals_of("inquest") == seal.manifest("inquest", inquest())["sha256"]
     assert seal.seals_of("zenith") == seal.manifest("zenith", zenith())["sha256"]
+    assert seal.seals_of("xenial") == seal.manifest("xenial", xenial())["sha256"]
 
 
 def test_the_second_has_no_case_of_the_first_and_is_a_sample_at_any_length():
@@ -170,6 +173,16 @@ def test_the_tenth_hides_what_the_ninth_leaves_out():
     rare, seen = ({e.law for c in s if c.group == "single" for e in c.effects} - set(FIRST) for s in (cases, inquest()))
     assert len(rare) == 8 and not rare & seen
     pairs, told = ({tuple(e.law for e in c.effects) for c in s if c.group == "double"} for s in (cases, inquest()))
+    assert len(pairs) == 8 and len(pairs - told) == 8
+
+
+def test_the_eleventh_hides_what_the_tenth_leaves_out():
+    cases, before = xenial(), (*zenith(), *inquest(), *jury(), *clear(), *vast(), *young(), *mixed(), *wide())
+    assert Counter(c.group for c in cases) == XENIAL.groups and len({c.name for c in cases}) == 72
+    assert not {c.seed for c in cases} & {c.seed for c in (*CASES, *held(), *before)}, "its machines are its own"
+    rare, seen = ({e.law for c in s if c.group == "single" for e in c.effects} - set(FIRST) for s in (cases, zenith()))
+    assert len(rare) == 8 and not rare & seen
+    pairs, told = ({tuple(e.law for e in c.effects) for c in s if c.group == "double"} for s in (cases, zenith()))
     assert len(pairs) == 8 and len(pairs - told) == 8
 
 
