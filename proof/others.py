@@ -10,7 +10,7 @@ from typing import get_args
 
 import numpy as np
 
-from proof.entire import clear, entire, held, inquest, jury, mixed, vast, wide, young, xenial, zenith
+from proof.entire import clear, entire, held, inquest, jury, mixed, vast, wide, xenial, young, zenith
 from proof.kinds import kinds
 from proof.nominals import NOMINALS, PAPER
 from proof.plan import SEEDS, SENSOR_COUNTS, SNRS_DB, TARGET, Case, Split, hiding_of, plan, sensors_of

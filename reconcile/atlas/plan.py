@@ -19,7 +19,7 @@ DRAWS = 8
 CAGE_SLIP = "cage_slip"
 SLIP = 0.02
 """Share by which cages lag in sound bearings (Randall & Antoni 2011, section 2)."""
-NULL_PAIRS = 48
+NULL_PAIRS = 144
 """Healthy machines, each with a drifted twin."""
 
 

@@ -58,7 +58,7 @@ def lone_cell(fitted: Fitted, changes: Changes, points: int, channels: int) -> C
     if min(points, channels) < 2:
         return None
     seen, sound = _deviations(fitted, changes)
-    if tail_chance(largest_of_nulls(fitted.resting), float(seen.max())) > LOUD_P:
+    if tail_chance(largest_of_nulls(fitted.resting, fitted.pairs), float(seen.max())) > LOUD_P:
         return None
     silent = []
     for cell in (Cell(point=p, channel=c) for p in range(points) for c in range(channels)):
@@ -74,7 +74,7 @@ def loudest_cell(fitted: Fitted, changes: Changes, points: int, channels: int) -
     if points < FEWEST_POINTS or channels < 2:
         return None
     seen, sound = _deviations(fitted, changes)
-    if tail_chance(largest_of_nulls(fitted.resting), float(seen.max())) > LOUD_P:
+    if tail_chance(largest_of_nulls(fitted.resting, fitted.pairs), float(seen.max())) > LOUD_P:
         return None
     most = np.full((points, channels), -np.inf)
     for cell in (Cell(point=p, channel=c) for p in range(points) for c in range(channels)):

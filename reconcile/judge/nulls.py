@@ -8,6 +8,7 @@ the observation among such pairs.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -19,8 +20,9 @@ from reconcile.judge.paths import build_paths
 from reconcile.judge.pooled import seen
 from signals.series import FloatArray
 
-NULL_COPIES = 16
-"""Noisy copies of each simulated healthy pair, of either sign: the bank of nulls."""
+NULLS = 768
+FEWEST_COPIES, MOST_COPIES = 6, 16
+"""Noisy copies of each simulated healthy pair, of either sign, for a bank of about `NULLS`."""
 FOLDS = 8
 """Metrics, each learned without its share of the pairs."""
 
@@ -58,10 +60,16 @@ class Fold:
         return np.stack([squared[:, owner == c].min(axis=1, initial=np.inf) for c in range(count)], axis=1)
 
 
+def copies_of(pairs: int) -> int:
+    """Noisy copies of each of so many healthy pairs."""
+    return min(max(math.ceil(NULLS / max(pairs, 1)), FEWEST_COPIES), MOST_COPIES)
+
+
 def resting(changes: Changes, drifts: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Healthy pairs (k, F) with noise and wander of their own, (n, F)."""
-    copies = drifts.shape[0] * NULL_COPIES
-    signs = rng.choice([-1.0, 1.0], (drifts.shape[0], NULL_COPIES, 1))
+    each = copies_of(drifts.shape[0])
+    copies = drifts.shape[0] * each
+    signs = rng.choice([-1.0, 1.0], (drifts.shape[0], each, 1))
     found = rng.normal(size=(copies, drifts.shape[1]))
     found *= np.nan_to_num(changes.measured)
     several = found.reshape(*signs.shape[:2], -1)
@@ -83,8 +91,8 @@ class Noisy:
 def noisy(changes: Changes, drawn: FloatArray, seed: int) -> Noisy:
     """With noise and wander; `drawn` (m, F) without."""
     rng = np.random.default_rng([seed, 3])
-    drifts = np.concatenate([changes.null, changes.kind])
-    learned, fresh = resting(changes, drifts, rng), resting(changes, changes.null, rng)
+    banks = [resting(changes, drifts, rng) for drifts in (changes.null, changes.kind) if drifts.shape[0]]
+    learned, fresh = np.concatenate(banks), resting(changes, changes.null, rng)
     noise = rng.normal(size=drawn.shape) * np.nan_to_num(changes.measured)
     return Noisy(learned=learned, fresh=fresh, drawn=drawn + noise)
 
@@ -105,7 +113,7 @@ def folds(
     """Metrics without a share of the pairs; `learned` and `fresh` (n, F): two banks of the same pairs, the first with
     machines of the kind behind them, which all metrics learn from."""
     share = np.arange(changes.null.shape[0]) % FOLDS
-    number = np.repeat(share, NULL_COPIES)
+    number = np.repeat(share, copies_of(share.size))
     kind = np.arange(number.size, learned.shape[0])
     for k in range(share.max() + 1):
         rest = changes.null[share != k] if share.max() else changes.null

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from reconcile.judge.adequacy import Rest, explained, rest_of
-from reconcile.judge.nulls import NULL_COPIES, group_lengths
+from reconcile.judge.nulls import group_lengths
 from reconcile.judge.space import Fitted
 from reconcile.tail import tail_chance
 from signals.series import FloatArray
@@ -150,7 +150,7 @@ def judge(
         direct=shown,
         by=by,
         weights=np.exp(log) / np.exp(log).sum(),
-        p_any=tail_chance(largest_of_nulls(first.resting), strongest),
+        p_any=tail_chance(largest_of_nulls(first.resting, first.pairs), strongest),
         strongest=strongest,
         p_best=tail_chance(resting, float(patterns.max())),
         p_direct=p_direct,
@@ -199,10 +199,10 @@ def largest(lengths: FloatArray, resting: FloatArray) -> FloatArray:
     return np.asarray(((lengths - resting.mean(axis=0)) / spread).max(axis=1))
 
 
-def largest_of_nulls(resting: FloatArray) -> FloatArray:
-    """The same of every null, by mean and deviation of the other machines: of a few machines none stands out far
-    against a deviation that it has a part in."""
-    machine = np.arange(resting.shape[0]) // NULL_COPIES
+def largest_of_nulls(resting: FloatArray, pairs: int) -> FloatArray:
+    """The same of every null (copies of so many machines), by mean and deviation of the other machines: of a few
+    machines none stands out far against a deviation that it has a part in."""
+    machine = np.arange(resting.shape[0]) // (resting.shape[0] // pairs)
     found = np.empty(resting.shape[0])
     for k in range(machine[-1] + 1):
         own = machine == k

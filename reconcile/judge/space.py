@@ -58,6 +58,8 @@ class Fitted:
     """(n, effects): squared distance of the same to each effect's path."""
     resting: FloatArray
     """(n, groups): lengths of the same, group by group, before the metric."""
+    pairs: int
+    """Healthy machines of which these are noisy copies, one after the other."""
     groups: np.ndarray
     overdispersion: float
     """Squared distance that counts as one unit of evidence, from leaving draws out."""
@@ -198,6 +200,7 @@ def fit_space(
         null=null,
         near=nearest_of(apart, paths.names, telling, library.shares),
         resting=group_lengths_of(apart, banks.fresh, groups),
+        pairs=changes.null.shape[0],
         groups=groups,
         overdispersion=max(least, _softness(distances[known], truth[known])) if known.size else 10.0,
         own=distances[known, truth[known]] if known.size else distances[np.arange(truth.size), truth],

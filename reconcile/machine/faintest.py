@@ -70,7 +70,7 @@ def _whole(setting: Setting, screened: Found) -> tuple[FloatArray, FloatArray]:
     noise = np.random.default_rng([setting.seed, 7]).normal(size=draws.shape)
     heard = draws + noise * np.nan_to_num(setting.changes.measured)
     found = largest(group_lengths(fitted.whiten(heard), fitted.groups), fitted.resting)
-    return found, _chances(largest_of_nulls(fitted.resting), found)
+    return found, _chances(largest_of_nulls(fitted.resting, fitted.pairs), found)
 
 
 def _patterns(fitted: Fitted, *, least: float) -> FloatArray:

@@ -8,7 +8,7 @@ import numpy as np
 
 from reconcile.judge.changes import Changes
 from reconcile.judge.metric import Whitening
-from reconcile.judge.nulls import NULL_COPIES, group_lengths
+from reconcile.judge.nulls import copies_of, group_lengths
 from reconcile.judge.space import Fitted
 from signals.series import FloatArray
 
@@ -22,14 +22,14 @@ MACHINES = 24
 
 def sound() -> FloatArray:
     """(n, P * C * F): copies of some machines, each feature in deviations of its own."""
-    return np.random.default_rng(7).normal(size=(MACHINES * NULL_COPIES, GROUPS.size))
+    return np.random.default_rng(7).normal(size=(MACHINES * copies_of(MACHINES), GROUPS.size))
 
 
 def space(groups: np.ndarray = GROUPS) -> Fitted:
     """What is asked of a space: how its nulls lie, group by group."""
     whiten = Whitening(sigma=np.where(groups >= 0, 1.0, np.inf))
     resting = group_lengths(whiten(sound()[:, : groups.size]), groups)
-    return SimpleNamespace(whiten=whiten, groups=groups, resting=resting)  # type: ignore[return-value]
+    return SimpleNamespace(whiten=whiten, groups=groups, resting=resting, pairs=MACHINES)  # type: ignore[return-value]
 
 
 def changed(cube: FloatArray, phases: int = PHASES) -> Changes:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.judge.changes import Changes
-from reconcile.judge.nulls import FOLDS, NULL_COPIES
+from reconcile.judge.nulls import FEWEST_COPIES, FOLDS, MOST_COPIES, NULLS, copies_of
 from reconcile.judge.screen import judge, looked
 from reconcile.judge.space import Fitted, Library, fit_space, with_draws
 from reconcile.tail import tail_chance
@@ -81,16 +81,16 @@ def test_every_null_is_placed_once_by_a_metric_without_its_pair() -> None:
     made, library, _ = _world(1, 4.0)
     space = _space(made, library)
     rows = np.concatenate([f.rows for f in space.folds])
-    assert sorted(rows.tolist()) == list(range(PAIRS * NULL_COPIES))
+    assert sorted(rows.tolist()) == list(range(PAIRS * copies_of(PAIRS)))
     for fold in space.folds:
-        assert set(fold.rows // NULL_COPIES) == set(range(int(fold.rows[0]) // NULL_COPIES, PAIRS, FOLDS))
+        assert set(fold.rows // copies_of(PAIRS)) == set(range(int(fold.rows[0]) // copies_of(PAIRS), PAIRS, FOLDS))
         assert np.array_equal(space.null[fold.rows], np.sum(fold.null**2, axis=1))
 
 
 def test_a_bank_that_the_metric_knows_would_look_smaller() -> None:
     made, library, rng = _world(2, 4.0)
     space = _space(made, library)
-    own = np.repeat(made.null, NULL_COPIES, axis=0) + rng.normal(size=(PAIRS * NULL_COPIES, LINES))
+    own = np.repeat(made.null, copies_of(PAIRS), axis=0) + rng.normal(size=(PAIRS * copies_of(PAIRS), LINES))
     known = np.sum(space.metric(space.view(space.whiten(own))) ** 2, axis=1)
     assert np.median(known) < 0.7 * np.median(space.null)
 
@@ -109,5 +109,11 @@ def test_two_pairs_are_enough_to_compare_with() -> None:
     made, library, _ = _world(5, 1.0)
     few = single_lines(made.observed, made.null[:2])
     space = _space(few, library)
-    assert space.null.size == 2 * NULL_COPIES
+    assert space.null.size == 2 * copies_of(2)
     assert np.isfinite(space.near).all()
+
+
+def test_many_pairs_have_fewer_copies_and_no_bank_is_less_than_its_pairs_allow() -> None:
+    assert copies_of(24) == copies_of(48) == MOST_COPIES and copies_of(144) == FEWEST_COPIES
+    counts = [pairs * copies_of(pairs) for pairs in range(1, 300)]
+    assert all(count >= min(NULLS, MOST_COPIES * pairs) for pairs, count in enumerate(counts, start=1))
