@@ -22,6 +22,7 @@ LATEST, SEEN = ("inquest",), ("jury",)
 """The sections of the latest plan that was run to its end, and of the one of which is stored how far effects move the
 spectrum."""
 ROWS = {
+    "a60fa3d9": ("xenial",),
     "337a1755": ("zenith", "after"),
     "6f3a98f3": LATEST,
     "213b9969": SEEN,
