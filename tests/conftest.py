@@ -38,7 +38,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 FURTHER = Path(__file__).with_name("further.txt")
-"""Tests that `make further` runs, one a line: costlier examples of a test of which `make test` runs another."""
+"""Tests that `make further` runs, one a line: costlier examples of what `make test` shows by others of the same file."""
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -50,10 +50,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         item.add_marker(pytest.mark.further)
     if not asked_for(config):
         items[:] = [item for item in items if item.nodeid not in listed]
-        run = {_test(item) for item in items}
-        lost = sorted({_test(item) for item in further} - run)
+        lost = sorted({_file(item) for item in further} - {_file(item) for item in items})
         if lost:
-            raise pytest.UsageError(f"{FURTHER.name} leaves no example of {', '.join(lost)}")
+            raise pytest.UsageError(f"{FURTHER.name} leaves no test of {', '.join(lost)}")
         config.hook.pytest_deselected(items=further)
     in_order(config, items)
 
@@ -64,8 +63,8 @@ def asked_for(config: pytest.Config) -> bool:
     return bool(named or "further" in config.option.markexpr)
 
 
-def _test(item: pytest.Item) -> str:
-    return item.nodeid.split("[", maxsplit=1)[0]
+def _file(item: pytest.Item) -> str:
+    return item.nodeid.split("::", maxsplit=1)[0]
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:

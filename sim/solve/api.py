@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from sim.core.errors import Diverged, Problem, SpecError, TooStiff, UnknownName
 from sim.core.response import Channel, FloatArray, Response
 from sim.core.spec import MachineSpec
 from sim.core.system import System
-from sim.solve.chunks import IntArray
+from sim.solve.bounds import Bounds, beyond, bounds_of
 from sim.solve.outcome import Finished, Request, response
 from sim.solve.pilot import pilot_channels, step_difference
 from sim.solve.plan import Built, build_plan
@@ -34,6 +33,7 @@ class _Run:
     built: Built
     work: Work
     probe: Probe
+    bounds: Bounds
     rtol: float
     most: float | None = None
 
@@ -81,41 +81,16 @@ def check_request(duration_s: float, rate_hz: float) -> None:
 
 def _start(system: System, rate_hz: float, names: tuple[str, ...], rtol: float, drawn_s: float) -> _Run:
     built = build_plan(system, 1.0 / rate_hz, drawn_s=drawn_s)
-    run = _Run(system=system, built=built, work=new_work(built.plan), probe=new_probe(built, system, names), rtol=rtol)
+    run = _Run(
+        system=system,
+        built=built,
+        work=new_work(built.plan),
+        probe=new_probe(built, system, names),
+        bounds=bounds_of([system]),
+        rtol=rtol,
+    )
     begin(built.plan, run.work, run.probe)
     return run
-
-
-RUNAWAY = 1.0
-"""Displacement in m no machine of this kind survives: treated as divergence."""
-
-
-def runs_away(system: System, displacement: FloatArray) -> bool:
-    """Whether a displacement of the state (n,) is beyond bounds, or a mesh has jumped a tooth.
-
-    Angles as such are free (a train may turn as a whole); teeth that are a base pitch apart are no longer the ones the
-    tables speak of.
-    """
-    linear, place = _places(system.dofs)
-    if np.any(np.abs(displacement[linear]) > RUNAWAY):
-        return True
-    for mesh in system.machine.meshes:
-        teeth = next(g.teeth for g in system.machine.gears if g.name == mesh.pinion)
-        for element in system.elements:
-            if element.name == mesh.name:
-                weights = element.coordinates[0].weights
-                deflection = sum(weight * displacement[place[dof]] for dof, weight in weights)
-                base_radius = next(weight for dof, weight in weights if dof == f"{mesh.pinion}.theta")
-                if abs(deflection) > 2.0 * math.pi * base_radius / teeth + (mesh.backlash_m or 0.0):
-                    return True
-    return False
-
-
-@lru_cache(maxsize=64)
-def _places(dofs: tuple[str, ...]) -> tuple[IntArray, dict[str, int]]:
-    """Places of what moves along a line, and of every DOF by its name; to be read only."""
-    linear = [i for i, name in enumerate(dofs) if not name.endswith(".theta")]
-    return np.array(linear, dtype=np.int64), {name: i for i, name in enumerate(dofs)}
 
 
 def diverged(system: System, displacement: FloatArray, time_s: float) -> Diverged:
@@ -149,7 +124,7 @@ def _piece(run: _Run, first: int, count: int, last: int) -> FloatArray:
     block, step_s = np.empty((run.probe.pointer.size - 1, count)), run.built.plan.base_step
     done = sample(run.built.plan, run.work, run.probe, first, count, run.rtol, last, block)
     displacement = run.work.z[: len(run.system.dofs)]
-    if done < count or runs_away(run.system, displacement):
+    if done < count or beyond(run.bounds, displacement[:, None])[0]:
         raise diverged(run.system, displacement, (first + int(done)) * step_s)
     given_up = too_stiff(float(run.work.counts[0]), first + count, last, step_s, run.most)
     if given_up is not None:

@@ -1,4 +1,4 @@
-"""What `make test` leaves out is there, and is an example of a test of which another one runs."""
+"""What `make test` leaves out is there, and of its file another test runs."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def test_they_run_only_when_asked_for() -> None:
     assert collected(keyword="any") == (2, 0)
 
 
-def test_a_list_that_leaves_no_example_of_a_test_is_refused() -> None:
+def test_a_list_that_leaves_no_test_of_a_file_is_refused() -> None:
     config = SimpleNamespace(args=["tests"], option=SimpleNamespace(markexpr="", keyword=""))
-    with pytest.raises(pytest.UsageError, match="leaves no example of tests/"):
+    with pytest.raises(pytest.UsageError, match="leaves no test of tests/"):
         pytest_collection_modifyitems(config, [Item(LISTED[0])])  # type: ignore[arg-type, list-item]

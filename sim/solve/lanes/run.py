@@ -11,7 +11,8 @@ from sim.core.errors import SidebandError
 from sim.core.lanes import WIDTH
 from sim.core.response import FloatArray
 from sim.core.system import System
-from sim.solve.api import default_channels, diverged, runs_away, too_stiff
+from sim.solve.api import default_channels, diverged, too_stiff
+from sim.solve.bounds import Bounds, beyond, bounds_of
 from sim.solve.lanes.layout import LanePlan, lane_plan, stepped
 from sim.solve.lanes.pointers import LaneWork, new_lane_work
 from sim.solve.lanes.sampling import LaneProbe, begin, new_lane_probe, sample
@@ -41,6 +42,7 @@ class Lanes:
     plan: LanePlan
     work: LaneWork
     probe: LaneProbe
+    bounds: Bounds
     rtol: float
     most: float | None = None
     lost: dict[int, SidebandError] = field(default_factory=dict)
@@ -75,13 +77,14 @@ class Lanes:
 
     def _lose(self, done: int, last: int) -> None:
         """Lanes that left all bounds, or take too many iterations, stop."""
+        displacements = self.work.z[: len(self.systems[0].dofs)]
+        out = beyond(self.bounds, displacements) | (self.work.counts[7] == 0.0)
         for lane, system in enumerate(self.systems):
             if lane in self.lost:
                 continue
-            displacement = self.work.z[: len(system.dofs), lane]
             found: SidebandError | None = None
-            if self.work.counts[7, lane] == 0.0 or runs_away(system, displacement):
-                found = diverged(system, displacement, done * self.plan.base_step)
+            if out[lane]:
+                found = diverged(system, displacements[:, lane], done * self.plan.base_step)
             found = found or too_stiff(float(self.work.counts[0, lane]), done, last, self.plan.base_step, self.most)
             if found is not None:
                 self.work.counts[7, lane] = 0.0
@@ -98,6 +101,7 @@ def start_lanes(systems: Sequence[System], steps: Steps, names: tuple[str, ...],
         plan=plan,
         work=new_lane_work(plan),
         probe=new_lane_probe(plan, systems, first, names),
+        bounds=bounds_of(systems),
         rtol=steps.rtol,
         listen=listen,
     )
