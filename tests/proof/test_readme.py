@@ -18,13 +18,13 @@ from proof.whole import read
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-LATEST, SEEN = ("inquest",), ("jury",)
+LATEST, SEEN = ("xenial",), ("jury",)
 """The sections of the latest plan that was run to its end, and of the one of which is stored how far effects move the
 spectrum."""
 ROWS = {
-    "a60fa3d9": ("xenial",),
+    "a60fa3d9": LATEST,
     "337a1755": ("zenith", "after"),
-    "6f3a98f3": LATEST,
+    "6f3a98f3": ("inquest",),
     "213b9969": SEEN,
     "b78e23f7": ("clear",),
     "6c05f7a4": ("vast",),
@@ -68,7 +68,7 @@ def test_what_is_said_of_the_latest_whole_plan() -> None:
     found = stored(LATEST)
     single = of(found, "single", "alarm")
     right = of(found, "single", "verdict_right")
-    first = f"Of 6f3a98f3's {single.n} single faults {single.hits} were detected. {right.hits} were answered rightly"
+    first = f"Of a60fa3d9's {single.n} single faults {single.hits} were detected. {right.hits} were answered rightly"
     assert first in " ".join(README.split())
     nulls, sound = of(found, "null", "alarm"), of(found, "null", "told_sound")
     other = [s for s in found if s.group == "null" and not at_target(s)]
@@ -81,11 +81,11 @@ def test_what_is_said_of_sizes() -> None:
     found = stored(LATEST)
     off = [s.severity_error for s in found if s.severity_error is not None]
     half, worst = (100 * float(np.quantile(off, share)) for share in (0.5, 0.9))
-    first = f"6f3a98f3 told {len(off)}: half are within {half:.0f} %"
+    first = f"a60fa3d9 told {len(off)}: half are within {half:.0f} %"
     said = f"{first}, one in ten is off by {worst:.0f} % or more"
     assert said in " ".join(README.split())
     missed = [s.name for s in found if s.severity_error is not None and not s.severity_covered]
-    assert len(missed) == 1 and "All intervals but one held the truth" in " ".join(README.split())
+    assert len(missed) == 3 and "All intervals but three held the truth" in " ".join(README.split())
 
 
 def test_what_is_said_of_what_shows() -> None:
