@@ -38,7 +38,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 FURTHER = Path(__file__).with_name("further.txt")
-"""Tests that `make further` runs, one a line: costlier examples of what `make test` shows by others of the same file."""
+"""Tests that `make further` runs, one a line: costlier examples of what `make test` shows by others of that file."""
 
 
 @pytest.hookimpl(tryfirst=True)
