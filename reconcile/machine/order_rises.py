@@ -24,6 +24,8 @@ from signals.series import FloatArray
 from sim.core.spec import MachineSpec
 
 STEP = 0.01
+FOOT = (10, 4)
+"""Steps below an order, towards the teeth's line: between these lies what a line there must stand out of."""
 HALF = 0.5
 """Share of the rise from which on a speed shows it."""
 
@@ -43,6 +45,8 @@ class Rises:
     spread: FloatArray
     """(orders,): as `every`, of each speed without the sideband (of a harmonic, at one side) that rose most: what
     modulates raises several, a line of something else only the one on which it lies."""
+    above: FloatArray
+    """(orders,): as `every`, by how much the test's level exceeds what lies between it and the teeth's line, dB."""
     mesh: int
     """Number of the teeth's first line among those watched."""
 
@@ -110,8 +114,19 @@ def rises_by_order(
         data=data, grid=grid, each=each, before=tuple(baseline for _, baseline in both),
         every=twice(np.stack([one.mean(axis=(0, 1)) for one in each]), groups), groups=groups,
         spread=twice(np.stack([one[:-1].mean(axis=0) for one in beside]), groups),
+        above=twice(np.stack([_above_foot(test.mean(axis=(0, 1))) for test, _ in both]), groups),
         bin_order=coarsest_bin(data), mesh=reached[0][0],
     )  # fmt: skip
+
+
+def _above_foot(level: FloatArray) -> FloatArray:
+    """Of mean levels (orders,), dB: how far each is above the middle of those at its foot; 0 where there are none."""
+    far, near = FOOT
+    found = np.zeros(level.size)
+    if level.size > far:
+        feet = np.lib.stride_tricks.sliding_window_view(level, far - near + 1)[: level.size - far]
+        found[far:] = level[far:] - np.median(feet, axis=1)
+    return found
 
 
 def _only(mean: FloatArray, _groups: Sequence[Sequence[int]]) -> FloatArray:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.kinematics.spec import KinematicSpec, of_machine
+from reconcile.machine.order_rises import _above_foot
 from reconcile.machine.own_order import LEAST_AT_ONE_DB, OwnOrder, _known, _Seen, own_order
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
@@ -124,9 +125,21 @@ def test_near_the_teeth_a_line_is_told_and_a_skirt_is_not(machine: MachineSpec) 
     grid = np.arange(0.2, 2.0, 0.01)
     tie = _known(machine)[0]
     assert tie is not None
-    for every, clear in ((8.0 * np.exp(-(grid - 0.2) / 0.15), False), (5.0 * (np.abs(grid - 0.34) < 0.025), True)):
-        found = _Seen(grid=grid, every=every, bin_order=0.02, tie=tie, lowest=0.3)
+    skirt, line = 8.0 * np.exp(-(grid - 0.2) / 0.15), 5.0 * (np.abs(grid - 0.34) < 0.025)
+    for every, above_db, clear in ((skirt, 6.0, False), (line, 6.0, True), (line, -6.0, False)):
+        above = np.full(grid.size, above_db)  # the end of a skirt rises alone, but lies below its foot
+        found = _Seen(grid=grid, every=every, above=above, bin_order=0.02, tie=tie, lowest=0.3)
         assert (found.stranger() is not None) is clear
+
+
+def test_a_line_stands_above_its_foot_and_the_end_of_a_shelf_below() -> None:
+    grid = np.arange(0.2, 1.0, 0.01)
+    line = 20.0 * (np.abs(grid - 0.5) < 0.03)
+    shelf = np.where(grid < 0.345, 30.0, 0.0)
+    at = lambda level, order: float(_above_foot(level)[int(np.argmin(np.abs(grid - order)))])  # noqa: E731
+    assert at(line, 0.5) == pytest.approx(20.0)
+    assert at(shelf, 0.34) == pytest.approx(0.0) and at(shelf, 0.36) == pytest.approx(-30.0)
+    assert at(line, 0.25) == 0.0 and _above_foot(np.ones(5)).tolist() == [0.0] * 5
 
 
 def test_beside_the_parts_a_stranger_is_told(machine: MachineSpec) -> None:
@@ -204,7 +217,7 @@ def test_the_flat_top_of_a_shafts_strong_line_is_the_shafts(machine: MachineSpec
         every = np.zeros(grid.size)
         begin = int(np.argmin(np.abs(grid - first)))
         every[begin : begin + len(risen)] = risen
-        seen = _Seen(grid=grid, every=every, bin_order=0.049, tie=tie)
+        seen = _Seen(grid=grid, every=every, above=every, bin_order=0.049, tie=tie)
         assert (seen.stranger() is not None) == stranger
 
 
@@ -219,5 +232,5 @@ def test_where_only_a_flank_has_risen_enough_there_is_no_line(
     every = np.zeros(grid.size)
     begin = int(np.argmin(np.abs(grid - 1.86)))
     every[begin : begin + 9] = [3.2, 3.0, 2.8, middle, middle, middle, 2.8, 2.8, 2.8]
-    seen = _Seen(grid=grid, every=every, bin_order=0.049, tie=tie)
+    seen = _Seen(grid=grid, every=every, above=every, bin_order=0.049, tie=tie)
     assert (seen.stranger() is not None) == stranger
