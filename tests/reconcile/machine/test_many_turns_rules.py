@@ -56,7 +56,7 @@ def made(
     level = np.full(cube.shape, LEAST_LEVEL_DB + before)
     return lambda *_args: Rises(
         data=data, grid=grid, each=(cube, cube), before=(level, level), every=1.2 * every, spread=every, groups=groups,
-        bin_order=bin_order, mesh=0,
+        above=every, bin_order=bin_order, mesh=0,
     )  # fmt: skip
 
 

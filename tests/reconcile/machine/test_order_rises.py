@@ -44,6 +44,7 @@ def made(levels: list[list[float]], groups: list[list[int]], before: float = LEA
         before=tuple(np.full(one.shape, before) for one in each),
         every=largest[-2],
         spread=largest[-2],
+        above=largest[-2],
         groups=groups,
         bin_order=0.02,
         mesh=3,
