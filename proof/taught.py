@@ -313,9 +313,8 @@ RULES = (
         "m013, a cracked tooth told as a rub by commit f19aa093, which had met it; not decidable since",
     ),
     (
-        "a line of no part near the teeth's must be louder than its foot, not only have risen more "
-        "([decision](decisions/reconcile-own-order.md))",
-        "x045, an unbalance too faint to show, told as an order of no part by the end of a skirt; nothing missing since",
+        "a line of no part near the teeth's must be louder than its foot ([decision](decisions/reconcile-own-order.md))",
+        "x045, an unbalance too faint to show, told as an order of no part: the end of a skirt; nothing missing since",
     ),
 )
 """What first runs taught: a rule, and the cases that set it."""
