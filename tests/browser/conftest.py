@@ -77,7 +77,8 @@ class Service:
         eventually(stands, within_s=within_s, what=f"job {job_id} to be {status}")
 
 
-@pytest.fixture(scope="session")
+# Both end with the last of these tests: an open page asks how its jobs stand, a minute of processor till the end.
+@pytest.fixture(scope="package")
 def service(browser_there: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
     folder = tmp_path_factory.mktemp("service")
     environment = {k: v for k, v in os.environ.items() if not k.startswith(("SIDEBAND_", "REDIS_", "DATABASE_"))}
@@ -100,7 +101,7 @@ def service(browser_there: None, tmp_path_factory: pytest.TempPathFactory) -> It
         process.stdout.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def window(browser_there: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
     opened = Browser(tmp_path_factory.mktemp("profile"))
     yield opened
