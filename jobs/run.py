@@ -70,7 +70,7 @@ def run(bench: Bench, job_id: str, attempt: int, worker: str) -> JobRecord | Non
             job_id, lambda r: transitions.start(r, attempt=attempt, worker=worker, lease_s=bench.lease_s, now=now)
         )
     except StaleAttempt as error:
-        log.info("ticket ignored: %s", error)
+        log.debug("ticket ignored: %s", error)
         return None
     try:
         return _work(bench, record)

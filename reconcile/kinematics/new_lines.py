@@ -37,6 +37,9 @@ OFF_SHAFT, OFF_BINS = 0.004, 1.2
 """A line whose middle is nearer to a multiple of a shaft, share of the order, or bins, is the shaft's: an exact
 multiple lies within a third of a bin. With four bins two shafts left a third of all orders in records of two seconds.
 """
+ON_SHAFT = 0.001
+"""Share of the order, beside what the speed may be off, up to which it is told as that multiple: seven times an outer
+race (25.09 turns) lies near 25, and no vanes make it."""
 PEAK_BINS = 4
 """A line is the highest of so many bins on either side: what lies nearer to a higher one is its foot."""
 FIRST = 3
@@ -217,7 +220,7 @@ def _spectrum(one: Observation, name: str) -> tuple[FloatArray, FloatArray, floa
 def _whose(order: float, bin_order: float, doubt: float, ties: Ties) -> tuple[tuple[str, float] | None, str] | None:
     """The whole multiple of a shaft that a line is, or whose frequency of a bearing it is; None for what other rules
     tell: teeth with their sidebands, first turns of a shaft, and where any line is near a multiple."""
-    near = max(OFF_BINS * bin_order, (OFF_SHAFT + doubt) * order)
+    near, at = (max(OFF_BINS * bin_order, (share + doubt) * order) for share in (OFF_SHAFT, ON_SHAFT))
     for mesh in ties.mesh_orders:
         for ratio in ties.shafts.values():
             away = abs(order - max(1, round(order / mesh)) * mesh) / ratio
@@ -230,7 +233,8 @@ def _whose(order: float, bin_order: float, doubt: float, ties: Ties) -> tuple[tu
             continue
         if (0 < number <= FIRST and (number.is_integer() or number < 1.0)) or near > CROWDED * ratio:
             return None
-        found = found or (shaft, number)
+        if abs(order - number * ratio) < at:
+            found = found or (shaft, number)
     return found, _bearing(order, near, ties) if found is None else ""
 
 

@@ -23,6 +23,12 @@ class Teeth:
     weights: FloatArray
     most: FloatArray
 
+    def deflection(self, displacements: FloatArray) -> FloatArray:
+        """(n,): what is no part of it may be infinite, or no number."""
+        parts = np.zeros(displacements.shape)
+        np.multiply(self.weights, displacements, out=parts, where=self.weights != 0.0)
+        return np.asarray(parts.sum(axis=0))
+
 
 @dataclass(frozen=True, kw_only=True)
 class Bounds:
@@ -62,5 +68,5 @@ def beyond(bounds: Bounds, displacements: FloatArray) -> np.ndarray:
     """Whether displacements of the state (DOF, n) are out of bounds, or a mesh has jumped a tooth, (n,)."""
     out = np.any(np.abs(displacements[bounds.line]) > RUNAWAY, axis=0)
     for one in bounds.teeth:
-        out |= np.abs(np.sum(one.weights * displacements, axis=0)) > one.most
+        out |= np.abs(one.deflection(displacements)) > one.most
     return np.asarray(out)

@@ -113,3 +113,11 @@ def test_lines_of_teeth_are_another_matter() -> None:
     tie = ties(read_kinematic_spec({"kinematics": geared}))
     assert [_whose(order, 0.01, 1e-3, tie) for order in (20.0, 40.0, 19.0, 21.2, 2.0, 0.8)] == [None] * 6
     assert _whose(9.0, 0.01, 1e-3, tie) == (("in", 9.0), "") and _whose(9.3, 0.01, 1e-3, tie) == (None, "")
+
+
+@pytest.mark.parametrize(("order", "number"), [(25.0, 25.0), (25.02, 25.0), (25.09, None), (24.91, None)])
+def test_a_line_is_told_as_a_multiple_where_it_lies_on_it(order: float, number: float | None) -> None:
+    """Seven times the outer race of a bearing that the drawing leaves out lies at 25.09 turns: no vanes make it."""
+    spec = read_kinematic_spec({"kinematics": {"shafts": [{"name": "motor", "speed_hz": 29.95}]}})
+    whose = _whose(order, 0.005, 0.0005, ties(spec, "motor"))
+    assert whose is not None and whose[0] == (None if number is None else ("motor", number))

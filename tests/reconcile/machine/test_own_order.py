@@ -10,6 +10,7 @@ import pytest
 from reconcile.kinematics.spec import KinematicSpec, of_machine
 from reconcile.machine.order_rises import _above_foot
 from reconcile.machine.own_order import LEAST_AT_ONE_DB, OwnOrder, _known, _Seen, own_order
+from reconcile.machine.sidebands import LEAST_LEVEL_DB
 from reconcile.observe.observation import observe
 from reconcile.observe.watch import bases_at, watch_list
 from sim.core.spec import MachineSpec
@@ -140,6 +141,23 @@ def test_a_line_stands_above_its_foot_and_the_end_of_a_shelf_below() -> None:
     assert at(line, 0.5) == pytest.approx(20.0)
     assert at(shelf, 0.34) == pytest.approx(0.0) and at(shelf, 0.36) == pytest.approx(-30.0)
     assert at(line, 0.25) == 0.0 and _above_foot(np.ones(5)).tolist() == [0.0] * 5
+
+
+@pytest.mark.parametrize(("foot_db", "told_at"), [(0.0, 0.34), (30.0, None)])
+def test_what_has_risen_at_the_end_of_a_skirt_is_none(
+    machine: MachineSpec, monkeypatch: pytest.MonkeyPatch, foot_db: float, told_at: float | None
+) -> None:
+    """By levels of recordings, as x045 of the proof has them: a line of 20 dB at 0.34 turns, new at every speed, is a
+    stranger, and none where test and baseline are louder towards the teeth's line."""
+
+    def levels(_one: object, reached: Sequence[object], grid: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        rest = LEAST_LEVEL_DB + np.where(grid < 0.31, foot_db, 0.0)
+        test = rest + 20.0 * (np.abs(grid - 0.34) < 0.025)
+        return tuple(np.broadcast_to(row, (2 * len(reached), len(NAMES), grid.size)).copy() for row in (test, rest))  # type: ignore[return-value]
+
+    monkeypatch.setattr("reconcile.machine.order_rises.levels_by_order", levels)
+    seen = told(machine, steady)
+    assert (None if seen is None else round(seen.order, 2)) == told_at
 
 
 def test_beside_the_parts_a_stranger_is_told(machine: MachineSpec) -> None:

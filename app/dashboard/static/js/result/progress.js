@@ -28,7 +28,7 @@ export function progressPanel(job) {
 
 export function failurePanel(job) {
   if (job.gone) return note("The result is no longer kept.", "Run it again to have it back: the same request gives the same result.", "warn");
-  if (job.status === "dismissed") return note("This job was cancelled.", "Nothing was stored.", "warn");
+  if (job.status === "dismissed") return note("This job was cancelled.", "No result was stored; what was simulated for it may be kept and used again.", "warn");
   const { failure } = job;
   if (!failure) return note("There is no result.", `The job is ${job.status}.`, "warn");
   const box = note(failure.code === "diverged" ? "The simulation diverged" : "The job failed", failure.message, "bad");
