@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from jobs.reconciliations import carry_out
+from jobs.reconciliations.pace import Pace
 from reconcile.machine.meter import Meter
 
 
@@ -72,3 +73,16 @@ def test_the_time_left_is_told_by_what_is_simulated_for_an_atlas_and_not_by_one_
     there = carry_out.Watched(reporter, 2)
     there.stage(0.7, "candidates on these machines")
     assert told[-1][1] is None, "both atlases were there: no pace is known"
+
+
+def test_parts_kept_from_an_earlier_attempt_say_nothing_of_the_time_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = [0.0]
+    monkeypatch.setattr("time.monotonic", lambda: clock[0])
+    pace = Pace(begins=0.1, ends=0.6)
+    assert pace.left_s("atlas", 0.1) is None
+    clock[0] += 0.05
+    assert pace.left_s("atlas", 0.2) is None, "a tenth of all at once was there"
+    for step in (1, 2, 3):
+        clock[0] += 6.0
+        left_s = pace.left_s("atlas", 0.2 + 0.01 * step)
+    assert left_s == pytest.approx(600.0 * (0.6 - 0.23 + 0.5 / 3))
