@@ -69,7 +69,7 @@ from reconcile.machine.strange import explained_by, strange, with_strange
 from reconcile.machine.suspected import of_the_sensor, without_suspected
 from reconcile.machine.teeth_elsewhere import teeth_elsewhere
 from reconcile.machine.told_by import teeth_tell
-from reconcile.machine.turned import told_apart, turned_alike, with_limits, with_unconfirmed
+from reconcile.machine.turned import as_baselines_turned, told_apart, turned_alike, with_limits, with_unconfirmed
 from reconcile.machine.unfitting import misfit_report, told_of
 from reconcile.machine.unknown import Unknown, likely_supports, unknown_force
 from reconcile.machine.wide import with_wide
@@ -116,7 +116,7 @@ def reconcile_machine(
     chosen = candidates(paired) if nominated is None else tuple(nominated)
     plan = atlas_plan(paired, uncertain_numbers(paired), chosen, seed=seed)
     asked = _Asked(machine=machine, plan=plan, budget=budget, keeper=keeper or Forgetful(), meter=meter, seed=seed)
-    gate = without_spoiled(gate)
+    gate = as_baselines_turned(machine, without_spoiled(gate), seed)
     report = _reconciled(asked, gate, progress)
     fewer = without_suspected(report, gate)
     if fewer is not None:

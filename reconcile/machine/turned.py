@@ -12,16 +12,17 @@ from dataclasses import replace
 import numpy as np
 from scipy.ndimage import maximum_filter1d
 
-from reconcile.gate.findings import Gate
+from reconcile.gate.findings import Finding, Gate
 from reconcile.gate.spoiled import doubts
 from reconcile.machine.stages import gate_stage
 from reconcile.machine.strange import OWN
-from reconcile.observe.observation import SAME_SPEED, PointData
+from reconcile.observe.observation import SAME_SPEED, PointData, alike, grouped, tooth_orders
 from reconcile.observe.steady import Steady
-from reconcile.speed import SpeedEstimate, line_logs
+from reconcile.speed import SpeedEstimate, estimate_speed, line_logs
 from reconcile.speed.estimate import comb_score
 from reconcile.speed.excess import line_excess
 from reconcile.verdict import NextExperiment, Report, SensorFault, Where
+from signals.recording import Recording
 from signals.series import FloatArray
 from sim.core.response import Channel
 from sim.core.spec import MachineSpec
@@ -36,6 +37,50 @@ FITS = 0.3
 which hang on the speed, confirm it."""
 ENOUGH = 0.6
 """Of the baseline's score at its speed, from which the same teeth have been found in the test."""
+
+
+MISLABELLED = 0.1
+"""Share of a stated speed by which a label may be off for its lines to be asked."""
+
+
+def as_baselines_turned(machine: MachineSpec, gate: Gate, seed: int) -> Gate:
+    """With the baselines' speed stated of tests whose own statement leaves them none, where lines or pulses of both
+    show that they turned alike: a label that is some per cent off says another operating point."""
+    known = grouped(machine, gate.baselines)
+    tests, found = list(gate.tests), []
+    orders = tooth_orders(machine)[:2]
+    before: dict[float, list[float]] = {}
+    for k, test in enumerate(tests):
+        ((point, _),) = grouped(machine, [test])
+        if test.operating is None or not known or any(alike(p, point) for p, _ in known):
+            continue
+        near = [(p, m) for p, m in known if abs(p.speed_hz / point.speed_hz - 1.0) <= MISLABELLED]
+        near = [(p, m) for p, m in near if alike(replace(point, speed_hz=p.speed_hz), p)]
+        now = _shown_hz([test], orders, seed) if near else []
+        for p, members in near:
+            before.setdefault(p.speed_hz, _shown_hz(members, orders, seed))
+        fits = [p for p, _ in near if now and before[p.speed_hz] and _turned_so(now[0], before[p.speed_hz])]
+        if len(fits) == 1:
+            stated_hz = fits[0].speed_hz
+            tests[k] = replace(test, operating=replace(test.operating, speed_hz=stated_hz))
+            detail = (
+                f"{point.speed_hz:g} Hz are stated, its lines show {now[0]:.4g} Hz, as those of the baseline stated as "
+                f"{stated_hz:g} Hz do: it is compared with that"
+            )
+            found.append(
+                Finding(kind="speed_mismatch", channel="", recording=f"test {k + 1}", detail=detail, severity=0.0)
+            )
+    return replace(gate, tests=tuple(tests), findings=(*gate.findings, *found)) if found else gate
+
+
+def _shown_hz(recordings: Sequence[Recording], orders: Sequence[float], seed: int) -> list[float]:
+    """Speeds that lines or pulses of all of them show; empty where those of one show none."""
+    found = _confirmed([estimate_speed(one, orders=orders, seed=seed) for one in recordings])
+    return [one.speed_hz for one in found] if len(found) == len(recordings) else []
+
+
+def _turned_so(speed_hz: float, before_hz: Sequence[float]) -> bool:
+    return all(abs(speed_hz / one - 1.0) <= SAME_SPEED for one in before_hz)
 
 
 def turned_alike(

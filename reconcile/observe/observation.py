@@ -84,7 +84,8 @@ def _rounded(speed_hz: float) -> float:
     return round(speed_hz, max(2, 3 - int(np.floor(np.log10(speed_hz))))) if speed_hz > 0.0 else 0.0
 
 
-def _alike(a: Point, b: Point) -> bool:
+def alike(a: Point, b: Point) -> bool:
+    """Whether two operating points count as one."""
     close = abs(a.speed_hz - b.speed_hz) <= SAME_SPEED * b.speed_hz
     return close and abs(a.torque_ratio - b.torque_ratio) <= SAME_TORQUE * max(abs(b.torque_ratio), 0.1)
 
@@ -109,17 +110,24 @@ def _measured(
     )
 
 
-def _group(machine: MachineSpec, recordings: Sequence[Recording]) -> list[tuple[Point, list[Recording]]]:
+def grouped(machine: MachineSpec, recordings: Sequence[Recording]) -> list[tuple[Point, list[Recording]]]:
+    """By the operating points that they state."""
     groups: list[tuple[Point, list[Recording]]] = []
     for recording in recordings:
         point = point_of(machine, recording)
         for known, members in groups:
-            if _alike(point, known):
+            if alike(point, known):
                 members.append(recording)
                 break
         else:
             groups.append((point, [recording]))
     return groups
+
+
+def tooth_orders(machine: MachineSpec) -> list[float]:
+    """Of the teeth on the drive shaft, and their multiples."""
+    teeth = sorted({float(g.teeth) for g in machine.gears if _drives(machine, g.shaft)})
+    return [n * z for n in range(1, TOOTH_ORDERS + 1) for z in teeth]
 
 
 def observe(
@@ -131,14 +139,13 @@ def observe(
     seed: int = 0,
 ) -> tuple[PointData, ...]:
     """Every operating point of the tests; where baselines exist, only points that have one."""
-    teeth = sorted({float(g.teeth) for g in machine.gears if _drives(machine, g.shaft)})
-    orders = [n * z for n in range(1, TOOTH_ORDERS + 1) for z in teeth]
+    orders = tooth_orders(machine)
     slowest = _slowest(machine)
-    known = _group(machine, baselines)
+    known = grouped(machine, baselines)
     which = sides(machine, tests[0].channels)
     found = []
-    for point, members in _group(machine, tests):
-        resting = next((b for p, b in known if _alike(p, point)), None)
+    for point, members in grouped(machine, tests):
+        resting = next((b for p, b in known if alike(p, point)), None)
         if known and resting is None:
             continue
         now, before = ([_steady(r, orders, slowest, seed) for r in several] for several in (members, resting or ()))
@@ -161,7 +168,7 @@ def observe(
         found.append(_on_one_side(one, watched, which))
     if not found:
         message = "no baseline was recorded at the speed and load of any test"
-        given, allowed = _points(_group(machine, tests)), f"the points of the baselines: {_points(known)}"
+        given, allowed = _points(grouped(machine, tests)), f"the points of the baselines: {_points(known)}"
         raise SpecError(Problem(field="baseline", message=message, given=given, allowed=allowed))
     return tuple(found)
 
@@ -181,8 +188,8 @@ def _middle(one: Steady) -> int:
 
 def unpaired(machine: MachineSpec, tests: Sequence[Recording], baselines: Sequence[Recording]) -> tuple[str, ...]:
     """What is told of tests that no baseline was recorded beside, where there are any baselines: they are left out."""
-    known = _group(machine, baselines)
-    alone = [one for one in _group(machine, tests) if not any(_alike(p, one[0]) for p, _ in known)] if known else []
+    known = grouped(machine, baselines)
+    alone = [one for one in grouped(machine, tests) if not any(alike(p, one[0]) for p, _ in known)] if known else []
     if not alone:
         return ()
     return (f"{LEFT_OUT}: tests at {_points(alone)}; baselines were recorded at {_points(known)} only",)

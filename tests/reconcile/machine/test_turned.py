@@ -11,7 +11,7 @@ import pytest
 from reconcile.atlas.plan import Point
 from reconcile.gate.findings import Gate
 from reconcile.machine.engine import reconcile_machine
-from reconcile.machine.turned import told_apart, turned_alike, with_limits, with_unconfirmed
+from reconcile.machine.turned import as_baselines_turned, told_apart, turned_alike, with_limits, with_unconfirmed
 from reconcile.verdict import HeldOut, Report, Where
 from signals.recording import Operating, Recording
 from sim.core.spec import MachineSpec
@@ -166,3 +166,37 @@ def test_what_was_left_out_stands_among_the_limits(machine: MachineSpec) -> None
     assert with_limits(before, ["one"]).where.limits == ("known", "one")
     assert with_limits(before, []) is before
     assert isinstance(before, Report)
+
+
+def labelled(recording: Recording, hz: float) -> Recording:
+    """The recording with this speed on its label."""
+    assert recording.operating is not None
+    return replace(recording, operating=replace(recording.operating, speed_hz=hz))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("true_hz", "label_hz", "compared_hz"),
+    [
+        (30.1, 31.5, 30.0),  # turned as the baseline did
+        (30.0, 28.6, 30.0),
+        (31.5, 31.5, 31.5),  # at a speed of its own
+        (30.0, 36.0, 36.0),  # too far off
+        (30.1, 30.1, 30.1),  # nothing is wrong
+    ],
+)
+def test_a_label_that_leaves_a_test_no_baseline_gives_way_to_the_lines(
+    machine: MachineSpec, true_hz: float, label_hz: float, compared_hz: float
+) -> None:
+    baselines = tuple(turning(machine, k, true_hz=hz, stated_hz=hz) for k, hz in ((2, 22.5), (3, 30.0)))
+    test = labelled(turning(machine, 1, true_hz=true_hz), label_hz)
+    gate = Gate(findings=(), baselines=baselines, tests=(test,), fault=None, usable=True)
+    found = as_baselines_turned(machine, gate, 0)
+    assert found.tests[0].operating is not None and found.tests[0].operating.speed_hz == compared_hz
+    told = [f.detail for f in found.findings]
+    assert bool(told) == (compared_hz != label_hz) and not any(f.fault for f in found.findings)
+    if told:
+        assert told[0].startswith(f"{label_hz:g} Hz are stated, its lines show 30")
+        assert found.tests[0].operating.torque_nm == test.operating.torque_nm  # type: ignore[union-attr]
+    else:
+        assert found is gate
