@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from reconcile.gate.findings import Finding
+from reconcile.machine.turned import COMPARED
 from reconcile.observe.observation import PointData
 from reconcile.verdict import NextExperiment, Report
 
@@ -15,8 +16,10 @@ OPEN = ("ambiguous", "not_decidable", "unknown_physics")
 
 
 def with_short(report: Report, data: Sequence[PointData], findings: Sequence[Finding]) -> Report:
-    """The report with the shortest recording among its limits; where that holds next to no turns and the answer is
-    open, the next experiment is a longer one."""
+    """The report with the shortest recording among its limits, and tests that were compared at another speed than they
+    state; where the shortest holds next to no turns and the answer is open, the next experiment is a longer one."""
+    moved = tuple(f"{f.recording}: {f.detail}" for f in findings if f.detail.endswith(COMPARED))
+    report = replace(report, where=replace(report.where, limits=(*report.where.limits, *moved))) if moved else report
     short = [f for f in findings if f.kind == "too_short"]
     if not short:
         return report

@@ -43,6 +43,10 @@ MISLABELLED = 0.1
 """Share of a stated speed by which a label may be off for its lines to be asked."""
 
 
+COMPARED = "it is compared with that"
+"""How the remark on such a test ends."""
+
+
 def as_baselines_turned(machine: MachineSpec, gate: Gate, seed: int) -> Gate:
     """With the baselines' speed stated of tests whose own statement leaves them none, where lines or pulses of both
     show that they turned alike: a label that is some per cent off says another operating point."""
@@ -65,7 +69,7 @@ def as_baselines_turned(machine: MachineSpec, gate: Gate, seed: int) -> Gate:
             tests[k] = replace(test, operating=replace(test.operating, speed_hz=stated_hz))
             detail = (
                 f"{point.speed_hz:g} Hz are stated, its lines show {now[0]:.4g} Hz, as those of the baseline stated as "
-                f"{stated_hz:g} Hz do: it is compared with that"
+                f"{stated_hz:g} Hz do: {COMPARED}"
             )
             found.append(
                 Finding(kind="speed_mismatch", channel="", recording=f"test {k + 1}", detail=detail, severity=0.0)

@@ -9,6 +9,7 @@ import pytest
 
 from reconcile.gate.findings import Finding
 from reconcile.machine.short import LEAST_TURNS, with_short
+from reconcile.machine.turned import COMPARED
 from reconcile.verdict import NextExperiment, Report, Where
 
 RATE_HZ = 1000.0
@@ -54,3 +55,10 @@ def test_longer_ones_and_answers_that_are_not_open_keep_their_advice(verdict: st
 def test_long_recordings_are_not_mentioned() -> None:
     before = report("ambiguous")
     assert with_short(before, [point(5.0)], []) is before  # type: ignore[arg-type]
+
+
+def test_a_test_that_is_compared_at_another_speed_than_it_states_is_among_the_limits() -> None:
+    detail = f"31.5 Hz are stated, its lines show 30.1 Hz, as those of the baseline stated as 30 Hz do: {COMPARED}"
+    moved = Finding(kind="speed_mismatch", channel="", recording="test 2", detail=detail, severity=0.0)
+    told = with_short(report("explained"), [point(40.0)], [moved])  # type: ignore[arg-type]
+    assert told.where.limits == ("known", f"test 2: {detail}")
