@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.ndimage import maximum_filter1d
 
+from reconcile.atlas.plan import Point
 from reconcile.gate.findings import Finding, Gate
 from reconcile.gate.spoiled import doubts
 from reconcile.machine.stages import gate_stage
@@ -24,6 +25,7 @@ from reconcile.speed.excess import line_excess
 from reconcile.verdict import NextExperiment, Report, SensorFault, Where
 from signals.recording import Recording
 from signals.series import FloatArray
+from sim.core.errors import SpecError
 from sim.core.response import Channel
 from sim.core.spec import MachineSpec
 
@@ -37,14 +39,10 @@ FITS = 0.3
 which hang on the speed, confirm it."""
 ENOUGH = 0.6
 """Of the baseline's score at its speed, from which the same teeth have been found in the test."""
-
-
 MISLABELLED = 0.1
 """Share of a stated speed by which a label may be off for its lines to be asked."""
-
-
 COMPARED = "it is compared with that"
-"""How the remark on such a test ends."""
+"""How the remark on a test ends that states another speed than the baseline it is compared with."""
 
 
 def as_baselines_turned(machine: MachineSpec, gate: Gate, seed: int) -> Gate:
@@ -53,7 +51,7 @@ def as_baselines_turned(machine: MachineSpec, gate: Gate, seed: int) -> Gate:
     known = grouped(machine, gate.baselines)
     tests, found = list(gate.tests), []
     orders = tooth_orders(machine)[:2]
-    before: dict[float, list[float]] = {}
+    before: dict[Point, list[float]] = {}
     for k, test in enumerate(tests):
         ((point, _),) = grouped(machine, [test])
         if test.operating is None or not known or any(alike(p, point) for p, _ in known):
@@ -61,9 +59,8 @@ def as_baselines_turned(machine: MachineSpec, gate: Gate, seed: int) -> Gate:
         near = [(p, m) for p, m in known if abs(p.speed_hz / point.speed_hz - 1.0) <= MISLABELLED]
         near = [(p, m) for p, m in near if alike(replace(point, speed_hz=p.speed_hz), p)]
         now = _shown_hz([test], orders, seed) if near else []
-        for p, members in near:
-            before.setdefault(p.speed_hz, _shown_hz(members, orders, seed))
-        fits = [p for p, _ in near if now and before[p.speed_hz] and _turned_so(now[0], before[p.speed_hz])]
+        before |= {p: _shown_hz(members, orders, seed) for p, members in near if now and p not in before}
+        fits = [p for p, _ in near if now and before[p] and _turned_so(now[0], before[p])]
         if len(fits) == 1:
             stated_hz = fits[0].speed_hz
             tests[k] = replace(test, operating=replace(test.operating, speed_hz=stated_hz))
@@ -78,8 +75,11 @@ def as_baselines_turned(machine: MachineSpec, gate: Gate, seed: int) -> Gate:
 
 
 def _shown_hz(recordings: Sequence[Recording], orders: Sequence[float], seed: int) -> list[float]:
-    """Speeds that lines or pulses of all of them show; empty where those of one show none."""
-    found = _confirmed([estimate_speed(one, orders=orders, seed=seed) for one in recordings])
+    """Speeds that lines or pulses of all of them show; empty where those of one show none, or it is too short."""
+    try:
+        found = _confirmed([estimate_speed(one, orders=orders, seed=seed) for one in recordings])
+    except SpecError:
+        return []
     return [one.speed_hz for one in found] if len(found) == len(recordings) else []
 
 

@@ -200,3 +200,21 @@ def test_a_label_that_leaves_a_test_no_baseline_gives_way_to_the_lines(
         assert found.tests[0].operating.torque_nm == test.operating.torque_nm  # type: ignore[union-attr]
     else:
         assert found is gate
+
+
+@pytest.mark.slow
+def test_loads_at_one_speed_have_speeds_of_their_own_and_what_is_too_short_shows_none(machine: MachineSpec) -> None:
+    """The light baseline turned at 31.5 Hz whatever it states: a light test at 30 Hz has none, a loaded one has."""
+
+    def under(recording: Recording, torque_nm: float) -> Recording:
+        assert recording.operating is not None
+        return replace(recording, operating=replace(recording.operating, torque_nm=torque_nm))
+
+    baselines = (under(turning(machine, 2, true_hz=31.5), 10.0), turning(machine, 3))
+    light, loaded = (labelled(turning(machine, k), 31.3) for k in (4, 5))
+    short = replace(loaded, samples=loaded.samples[:, : round(0.05 * RATE_HZ)])
+    tests = (under(light, 10.0), loaded, short)
+    gate = Gate(findings=(), baselines=baselines, tests=tests, fault=None, usable=True)
+    found = as_baselines_turned(machine, gate, 0)
+    assert [t.operating.speed_hz for t in found.tests if t.operating is not None] == [31.3, 30.0, 31.3]
+    assert [f.recording for f in found.findings] == ["test 2"]
