@@ -46,11 +46,26 @@ class Design:
     have gone before, `begun` from which on those of rarer laws, pairs and unknown effects; `rows` are the conditions of
     every fourth case."""
 
-    split: Literal["entire", "held", "wide", "mixed", "young", "vast", "clear", "jury", "inquest", "zenith", "xenial"]
+    split: Literal[
+        "entire",
+        "held",
+        "wide",
+        "mixed",
+        "young",
+        "vast",
+        "clear",
+        "jury",
+        "inquest",
+        "zenith",
+        "xenial",
+        "twelfth",
+    ]
     groups: Mapping[Group, int]
     turned: int
     rows: tuple[Row, ...]
     begun: int = 0
+    initials: str = ""
+    """How its cases' names begin, if not as the split's: no two plans share a name."""
 
 
 ENTIRE = Design(
@@ -92,6 +107,8 @@ ZENITH = Design(split="zenith", groups=WIDE.groups, turned=1213, rows=HELD.rows,
 """As inquest, of the rarer laws and most of the pairs that it leaves out."""
 XENIAL = Design(split="xenial", groups=WIDE.groups, turned=1319, rows=HELD.rows, begun=64)
 """As zenith, of the rarer laws and most of the pairs that it leaves out."""
+TWELFTH = Design(split="twelfth", groups=WIDE.groups, turned=1423, rows=HELD.rows, begun=72, initials="tw")
+"""As xenial, of the rarer laws and most of the pairs that it leaves out."""
 ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
 STRUCK = ("outer_pit", "inner_pit", "ball_pit")
 FORMS = 3
@@ -154,6 +171,11 @@ def xenial() -> tuple[Case, ...]:
     return cases_of_design(XENIAL)
 
 
+def twelfth() -> tuple[Case, ...]:
+    """All cases of the twelfth."""
+    return cases_of_design(TWELFTH)
+
+
 def cases_of_design(design: Design) -> tuple[Case, ...]:
     """All cases in the order of their names, which say nothing: any first so many are a sample of the split."""
     every = [(group, i) for group, count in design.groups.items() for i in range(count)]
@@ -175,7 +197,7 @@ def _case(design: Design, place: int, index: int, group: Group, number: int) -> 
         chosen, speeds, causes, snr = alike.sensors, alike.speeds, alike.causes, 20.0
     effects = _effects(group, number, turned, level, rng, design.begun)
     return Case(
-        name=f"{design.split[0]}{place + 1:03d}",
+        name=f"{design.initials or design.split[0]}{place + 1:03d}",
         index=index,
         seed=seed,
         group=group,

@@ -48,6 +48,7 @@ Split = Literal[
     "inquest",
     "zenith",
     "xenial",
+    "twelfth",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -78,6 +79,7 @@ SEEDS = {
     "inquest": 3_120_864_795,
     "zenith": 8_706_415_239,
     "xenial": 5_247_930_816,
+    "twelfth": 4_693_170_258,
 }
 COUNTS = {
     "dev": {

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from proof.taught_since import SINCE
+
 RULES = (
     (
         (
@@ -308,13 +310,6 @@ RULES = (
         "of two pits both are sized by their impacts ([decision](decisions/reconcile-pit-size.md))",
         "y004, two pits named rightly and told as 1.9 and 1.6 times as wide",
     ),
-    (
-        "a name without impacts that brings the spectra no nearer on data held out is no name",
-        "m013, a cracked tooth told as a rub by commit f19aa093, which had met it; not decidable since",
-    ),
-    (
-        "a line near the teeth's must be louder than its foot ([decision](decisions/reconcile-own-order.md))",
-        "x045, an unbalance too faint to show, told as an order of no part: the end of a skirt; nothing missing since",
-    ),
+    *SINCE,
 )
 """What first runs taught: a rule, and the cases that set it."""

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from reconcile.judge.adequacy import Rest
 from reconcile.machine.decide import CLEAR_P, FEW_UNDECIDED, LINES_QUIET, NO_PATTERN, STRANGE, decide
 from tests.reconcile.machine.screens import NAMES, screen, struck
 
@@ -44,6 +47,9 @@ def test_groups_of_features_alone_claim_no_unknown_physics() -> None:
     """However glaring they are: sound machines that change their regime reach 1e-6 by them, and no line shows it."""
     quiet = decide(screen([1.0, 0.5], strongest=30.0, p_any=1e-6, p_lines=2 * CLEAR_P), views=9)
     assert (quiet.word, quiet.reasons) == ("not_decidable", (LINES_QUIET,))
+    left = screen([2.6, 2.2], strongest=30.0, p_any=1e-6, p_lines=0.13, rest=Rest(unmet=1.3, kept=-0.14, rough=False))
+    assert decide(left, views=9).reasons == (LINES_QUIET,), "what is left of lines that are usual (h034 of the proof)"
+    assert decide(replace(left, rest=replace(left.rest, unmet=2.1), p_lines=CLEAR_P), views=9).word == "unknown_physics"
     unasked = screen([1.0, 0.5], strongest=30.0, p_any=1e-6, lines_asked=False)
     assert decide(unasked, views=9).word == "unknown_physics", "lines that do not repeat are no witness"
     odd = screen([1.0, 0.5], strongest=30.0, misfit=STRANGE + 0.005, p_lines=1.0)

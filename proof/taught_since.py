@@ -1,0 +1,44 @@
+"""What the latest plans taught, as in `proof.taught`."""
+
+from __future__ import annotations
+
+SINCE = (
+    (
+        "a name without impacts that brings the spectra no nearer on data held out is no name",
+        "m013, a cracked tooth told as a rub by commit f19aa093, which had met it; not decidable since",
+    ),
+    (
+        "a line near the teeth's must be louder than its foot ([decision](decisions/reconcile-own-order.md))",
+        "x045, an unbalance too faint to show, told as an order of no part: the end of a skirt; nothing missing since",
+    ),
+    (
+        (
+            "lines that changed for sure and are like no known effect's are none's, however little one leaves of them; "
+            "what is left of lines that are usual says nothing "
+            "([decision](decisions/reconcile-adequacy.md))"
+        ),
+        (
+            "x034, x043, i070 and w055, effects that no library has, not decidable before; h034, a sound machine told "
+            "as unknown physics"
+        ),
+    ),
+    (
+        (
+            "lines to which an effect was not fitted are unknown physics from three times the usual on "
+            "([decision](decisions/reconcile-adequacy.md))"
+        ),
+        "x032, a parallel offset told as unknown physics; the set of torque and offset at its shaft since",
+    ),
+    (
+        "twice a struck bearing's cage is no outer race of the slow shaft ([decision](decisions/reconcile-pairs.md))",
+        "x001, a pit beside which another bearing's was named that is not there",
+    ),
+    (
+        (
+            "at one operating point nothing is named beside a first that is open "
+            "([decision](decisions/reconcile-pairs.md))"
+        ),
+        "x024, a loose ring and a cracked tooth named a wider clearance there and a cracked shaft",
+    ),
+)
+"""A rule, and the cases that set it."""
