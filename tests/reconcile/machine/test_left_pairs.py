@@ -25,8 +25,7 @@ from tests.reconcile.machine.rubs import FEATURES, MADE, RIGHT, WRONG, Asked, as
 from tests.reconcile.machine.test_leftover import TRUE, seen
 
 EXPLAINED = Decision(word="explained", chosen=(RIGHT,), p=1e-6, reasons=())
-SMALLER = 5e6
-THIRD = "rub@wheel"
+SMALLER, THIRD = 5e6, "rub@wheel"
 
 
 @pytest.fixture
