@@ -17,6 +17,7 @@ from proof.entire import (
     JURY,
     MIXED,
     STRUCK,
+    TWELFTH,
     VAST,
     WIDE,
     XENIAL,
@@ -28,6 +29,7 @@ from proof.entire import (
     inquest,
     jury,
     mixed,
+    twelfth,
     vast,
     wide,
     xenial,
@@ -38,6 +40,7 @@ from proof.library import CLOSED
 from proof.machine import arrays_of, exact_machine
 from proof.model.balls import pit
 from proof.model.layout import B
+from proof.others import SPLITS, cases_of
 from proof.plan import FIRST, ORTHOGONAL, SENSOR_COUNTS, SNRS_DB, SPEED_COUNTS, plan
 from proof.unknown import OPEN
 
@@ -79,6 +82,7 @@ def test_the_seals_were_committed():
     assert seal.seals_of("inquest") == seal.manifest("inquest", inquest())["sha256"]
     assert seal.seals_of("zenith") == seal.manifest("zenith", zenith())["sha256"]
     assert seal.seals_of("xenial") == seal.manifest("xenial", xenial())["sha256"]
+    assert seal.seals_of("twelfth") == seal.manifest("twelfth", twelfth())["sha256"]
 
 
 def test_the_second_has_no_case_of_the_first_and_is_a_sample_at_any_length():
@@ -184,6 +188,23 @@ def test_the_eleventh_hides_what_the_tenth_leaves_out():
     assert len(rare) == 8 and not rare & seen
     pairs, told = ({tuple(e.law for e in c.effects) for c in s if c.group == "double"} for s in (cases, zenith()))
     assert len(pairs) == 8 and len(pairs - told) == 8
+
+
+def test_the_twelfth_hides_what_the_eleventh_leaves_out():
+    cases, before = twelfth(), (*xenial(), *zenith(), *inquest(), *jury(), *clear(), *vast(), *young(), *mixed())
+    assert Counter(c.group for c in cases) == TWELFTH.groups and len({c.name for c in cases}) == 72
+    assert not {c.seed for c in cases} & {c.seed for c in (*CASES, *held(), *wide(), *before)}, (
+        "its machines are its own"
+    )
+    rare, seen = ({e.law for c in s if c.group == "single" for e in c.effects} - set(FIRST) for s in (cases, xenial()))
+    assert len(rare) == 8 and not rare & seen
+    pairs, told = ({tuple(e.law for e in c.effects) for c in s if c.group == "double"} for s in (cases, xenial()))
+    assert len(pairs) == 8 and len(pairs - told) == 8
+
+
+def test_no_two_plans_share_a_name():
+    names = [c.name for split in SPLITS for c in cases_of(split)]
+    assert len(names) == len(set(names))
 
 
 def test_a_lip_squeezes_the_ball_before_and_behind_the_pit():
