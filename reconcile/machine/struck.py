@@ -30,6 +30,8 @@ def combs(
     if first is None:
         return ()
     heard = [c.family for c in seen if c.z >= ALSO_Z]
+    if all(_among(family, [first.family]) for family in heard):
+        return ()
     found: list[Candidate] = []
     for lean in (True, False):
         for c in candidates(tests, baselines, tie, seed, (first,), lean=lean):

@@ -67,4 +67,8 @@ def figure_text(value: float, unit: str = "", digits: int = 3, power: int | None
         text = f"{value:.0f}" if size >= 10**digits else f"{value:.{digits}g}"
     else:
         text = f"{value:.{digits - 1}e}"
-    return f"{text} {prefix}{unit}".strip() if unit not in ("", "1") else text
+    return f"{text} {prefix}{_raised(unit)}".strip() if unit not in ("", "1") else text
+
+
+def _raised(unit: str) -> str:
+    return unit.replace("^2", "²").replace("^3", "³")

@@ -65,7 +65,7 @@ def test_an_effect_and_its_size_are_called_once(term: str, size: str, said: str,
 def test_a_size_with_a_power_of_ten_has_three_figures() -> None:
     """Two said 4.0e+10 (4.0e+10 to 4.1e+10) of what is told to 4.02e+10."""
     size = Severity(name="cubic", value=4.0207e10, unit="N/m^3", low=3.9584e10, high=4.083e10)
-    assert sizes(size) == ("4.02e+10 N/m^3", "3.96e+10 N/m^3", "4.08e+10 N/m^3")
+    assert sizes(size) == ("4.02e+10 N/m³", "3.96e+10 N/m³", "4.08e+10 N/m³")
 
 
 def test_a_changed_number_is_told_as_a_change() -> None:
