@@ -14,12 +14,12 @@ SINCE = (
     (
         (
             "lines that changed for sure and are like no known effect's are none's, however little one leaves of them; "
-            "what is left of lines that are usual says nothing "
+            "what is left of lines that did not says nothing "
             "([decision](decisions/reconcile-adequacy.md))"
         ),
         (
-            "x034, x043, i070 and w055, effects that no library has, not decidable before; h034, a sound machine told "
-            "as unknown physics"
+            "x034, x043, c045, i070 and w055, effects that no library has, not decidable before (and z036, a known one); "
+            "h034, a sound machine told as unknown physics"
         ),
     ),
     (
@@ -27,15 +27,15 @@ SINCE = (
             "lines to which an effect was not fitted are unknown physics from three times the usual on "
             "([decision](decisions/reconcile-adequacy.md))"
         ),
-        "x032, a parallel offset told as unknown physics; the set of torque and offset at its shaft since",
+        "x032, a parallel offset told as unknown physics; not decidable since",
     ),
     (
-        "twice a struck bearing's cage is no outer race of the slow shaft ([decision](decisions/reconcile-pairs.md))",
+        "lines of a struck bearing's cage are no second part ([decision](decisions/reconcile-pairs.md))",
         "x001, a pit beside which another bearing's was named that is not there",
     ),
     (
         (
-            "at one operating point nothing is named beside a first that is open "
+            "at one operating point nothing that strikes nowhere stands beside a first that is open "
             "([decision](decisions/reconcile-pairs.md))"
         ),
         "x024, a loose ring and a cracked tooth named a wider clearance there and a cracked shaft",

@@ -9,11 +9,10 @@ import numpy as np
 
 from reconcile.judge.screen import Screen
 from reconcile.machine.direct import HEARD
-from reconcile.machine.left_lines import UNMET_ROUGH, leaves_fitted, leaves_lines, leaves_little
+from reconcile.machine.left_lines import UNMET_ROUGH, leaves_lines, leaves_little
 from reconcile.machine.likelier import likelier, rivals
 from reconcile.machine.weigh import (
     FAR_AHEAD,
-    HOPELESS,
     LEAST_EVIDENCE,
     MOST_NAMED,
     credible_set,
@@ -77,8 +76,8 @@ AT_ONE = "it shows at one operating point alone"
 BY_TURNS = "only sidebands that rose together tell, which names nothing"
 SOME_PATTERN = 5.0
 """Log evidence of the best effect below which lines that changed for sure are those of none, however little it leaves
-of them: unknown effects that left 1.0 to 1.4 times what they should had 1.0, 2.5 and 4.2 (x043, i070, x034), known ones
-5.8 (h062), 8.9 (z052) and, one whose law the simulator has otherwise, 1.0 (z036)."""
+of them: unknown effects that left 1.0 to 1.6 times what they should had 1.0 to 4.2 (x043, c045, i070, w055, x034),
+known ones 5.8 (h062, y025), 8.9 (z052) and, told wrongly so, 1.0 (z036)."""
 FAINT = 14.0
 """Deviations of the most changed group below which a change that no effect explains may be too faint to tell."""
 
@@ -183,16 +182,16 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
         and screen.strongest > GREAT
         and not screen.struck
     )
-    open_why = _too_little(screen, odd or (inadequate and _lines_changed(screen)), views) if weak else None
+    open_why = _too_little(screen, odd and inadequate, views) if weak else None
     if open_why is not None:
         return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(open_why,))
     if weak or alone or (inadequate and struck < STRUCK):
         here = () if weak or alone else of_the_place(screen)
         if here and views > FEW_VIEWS and _others_silent(screen, here):
             return Decision(word="explained", chosen=here[:1], p=p, reasons=(LEFT_OVER,))
-        reason = _misfit(screen, strange, weak, alone)
-        sure = odd or alone or (evidence[chosen[0]] < SOME_PATTERN and _lines_changed(screen))
-        return _none_of_the_known(screen, chosen, here, p, reason, sure=sure)
+        like_none = views > FEW_VIEWS and screen.p_lines <= CLEAR_P and screen.evidence.max() < SOME_PATTERN
+        reason = NO_PATTERN if like_none and not (odd or alone) else _misfit(screen, strange, weak, alone)
+        return _none_of_the_known(screen, chosen, here, p, reason, sure=odd or alone or like_none)
     first = screen.names[int(np.argmax(screen.evidence))]
     near = rivals(screen) if chosen[0] == first and leaves_lines(screen.rest) else ()
     chosen = (*chosen, *(name for name in near if name not in chosen))
@@ -212,14 +211,14 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
 def _none_of_the_known(
     screen: Screen, chosen: tuple[str, ...], here: tuple[str, ...], p: float, why: str, *, sure: bool
 ) -> Decision:
-    """Where no known effect is adequate: several `here`, or none, unless only lines say so (not `sure`), and little."""
+    """Where no known effect is adequate: several `here`, or none, unless only what is left of lines says so (not
+    `sure`), and that is little, or of lines that are usual."""
     if here:
         reason = f"no one effect at {here[0].split('@')[1]} explains all of the change, and none elsewhere comes near"
         return Decision(word="ambiguous", chosen=here[:MOST_NAMED], p=p, reasons=(reason,))
-    if not sure and leaves_little(screen.rest):
-        some = screen.evidence.max() >= HOPELESS and 1 < len(chosen) <= MOST_NAMED and not leaves_fitted(screen.rest)
-        word: Word = "ambiguous" if some else "not_decidable"
-        return Decision(word=word, chosen=chosen[:MOST_NAMED], p=p, reasons=(LITTLE_LEFT,))
+    usual = screen.lines_asked and screen.p_lines > CLEAR_P and leaves_lines(screen.rest)
+    if not sure and (usual or leaves_little(screen.rest)):
+        return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(LITTLE_LEFT,))
     return Decision(word="unknown_physics", chosen=chosen[:3], p=p, reasons=(why,))
 
 
@@ -233,15 +232,10 @@ def _others_silent(screen: Screen, here: tuple[str, ...]) -> bool:
     return heard >= HEARD and leads and set(here[1:]) <= screen.silent
 
 
-def _lines_changed(screen: Screen) -> bool:
-    """Whether single lines changed for sure, or were not asked: else what is left of them says nothing either (h034, a
-    sound machine whose lines are usual with p = 0.13, and lie 1.3 times as far from the best effect as they should)."""
-    return screen.p_lines <= CLEAR_P or not screen.lines_asked
-
-
 def _too_little(screen: Screen, inadequate: bool, views: int) -> str | None:
     """Why a change without a pattern is no unknown effect's either, if it need not be one's: three of 47 sound machines
-    (h034, h049, h058) and a cracked tooth (g014) reached 1e-6 by groups of features, with no line to show."""
+    (h034, h049, h058) and a cracked tooth (g014) reached 1e-6 by groups of features, with no line to show. What is left
+    of lines is no reason (h034: 1.3 times what should be, of lines that are usual with p = 0.13)."""
     quiet = screen.p_lines > CLEAR_P and screen.lines_asked
     if screen.p_lines > CLEAR_P and screen.strongest < FAINT and not screen.by_turns:
         return "the change is too faint to tell one effect from another"

@@ -13,8 +13,8 @@ LEAST_LEFT_UNKNOWN = 2.0
 concealed cases three with effects that no library has left 2.5 to 3.8, and five without any 1.1 to 1.9: two sound
 machines (e127, h034), two loose pedestals (h062, h107) and a loose fit (e141)."""
 LEAST_LEFT_ELSEWHERE = 3.0
-"""The same of lines of a view to which the effect was not fitted, where it leaves nothing of those to which it was: a
-parallel offset of the output (x032) left 2.2 of them."""
+"""The same of lines of a view to which the effect was not fitted, where it leaves no more than usual (`UNMET`) of those
+to which it was: a parallel offset of the output (x032) left 2.2 of them."""
 MOST_KEPT, MOST_KEPT_ROUGH = 1.15, 0.62
 """Share of the single lines' change above which an effect is named all the same, with the remark that a part is left:
 the largest changes are the least alike. Where machine and effect were fitted together it is the sum with the share of
@@ -32,10 +32,5 @@ def leaves_lines(rest: Rest) -> bool:
 
 def leaves_little(rest: Rest) -> bool:
     """Whether an effect leaves more of the single lines than a right one does, and less than unknown ones did."""
-    least = LEAST_LEFT_UNKNOWN if leaves_fitted(rest) else LEAST_LEFT_ELSEWHERE
+    least = LEAST_LEFT_UNKNOWN if rest.unmet > UNMET else LEAST_LEFT_ELSEWHERE
     return leaves_lines(rest) and not rest.rough and max(rest.unmet, rest.elsewhere) < least
-
-
-def leaves_fitted(rest: Rest) -> bool:
-    """Whether it leaves of the lines to which it was fitted."""
-    return rest.unmet > UNMET

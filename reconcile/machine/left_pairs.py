@@ -94,6 +94,8 @@ def _lines(setting: Setting, found: Found, decision: Decision) -> Fitted | None:
     first = decision.chosen[0]
     if strikes(first):
         return found.fine if teeth_tell(setting, found, first) else None
+    if decision.word != "explained" and at_one_point(setting):
+        return None
     return found.sides or found.fine
 
 
@@ -250,8 +252,6 @@ def _stands(asked: Asked, decision: Decision, best: Pair) -> bool:
         return False
     if asked.beside_impacts:
         return _leads(asked, decision)
-    if decision.word != "explained" and at_one_point(asked.setting):
-        return False
     reached = asked.left.base + best.gain - LEAD
     if any(_alone(asked, name) > reached for name in asked.found.known.library.groups if name != asked.first):
         return False

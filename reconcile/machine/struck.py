@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.families import HARMONICS, Family, Ties
@@ -24,8 +25,8 @@ def combs(
 ) -> tuple[Candidate, ...]:
     """The firmest family of impacts and those that stand without its lines, the firmest first; empty where no second
     one does. In short records what shafts and cage add to the first may cover most of a second's lines, and what is
-    not taken out may look like it: one that stands against either has lines of its own. One that stands where the
-    first's cage has lines must do so with these taken out."""
+    not taken out may look like it: one that stands against either has lines of its own. One that begins at a line of
+    the first's cage must stand with all lines of that cage taken out."""
     first = next((c for c in seen if c.family.kind in KINDS and c.present and c.risen), None)
     if first is None:
         return ()
@@ -35,20 +36,40 @@ def combs(
     found: list[Candidate] = []
     for lean in (True, False):
         for c in candidates(tests, baselines, tie, seed, (first,), lean=lean):
-            own = c.family.kind in KINDS and c.present and c.risen and c.chance < SECOND_LEVEL
-            own = own and not (lean and _of_cage(c.family, first.family, tie))
-            if own and _among(c.family, heard) and not _among(c.family, [f.family for f in (first, *found)]):
+            if _stands(c) and _among(c.family, heard) and not _among(c.family, [f.family for f in (first, *found)]):
                 found.append(c)
+    cage = _cage_of(first, tie)
+    if cage is not None and any(_at_cage(c.family, cage.family) for c in found):
+        apart = [c.family for c in candidates(tests, baselines, tie, seed, (first, cage), lean=True) if _stands(c)]
+        found = [c for c in found if not _at_cage(c.family, cage.family) or _among(c.family, apart)]
     return (first, *sorted(found, key=lambda c: -c.z)) if found else ()
 
 
-def _of_cage(family: Family, struck: Family, tie: Ties) -> bool:
-    """Whether a family begins, within slip, at one of the lines of the cage of the bearing that is struck: no two balls
-    strike alike, so a pit's blows repeat with the cage. Twice that of the fast shaft's bearings of the proof's gearbox
-    is 0.6 % off the outer race of the slow one's, and stood for a second pit of x001."""
-    cages = [f.order for f in tie.families if f.kind == "cage" and f.site == struck.site]
-    lines = [k * order for order in cages for k in range(1, HARMONICS["cage"] + 1)]
-    return any(abs(line / family.order - 1.0) < max(family.slip, struck.slip) for line in lines)
+def _stands(one: Candidate) -> bool:
+    return one.family.kind in KINDS and one.present and one.risen and one.chance < SECOND_LEVEL
+
+
+def _cage_of(struck: Candidate, tie: Ties) -> Candidate | None:
+    """The cage of the bearing that is struck, at the orders that the struck part's tell (a race passes its balls at Z
+    times the cage's speed before it); None of what is no bearing's."""
+    own = next((f for f in tie.families if f.kind == "cage" and f.site == struck.family.site), None)
+    if own is None:
+        return None
+    shaft = own.order / tie.races[own.site].cage
+    outer = struck.family.kind == "outer"
+    ratios = [e.order / struck.family.order for e in struck.evidence]
+    orders = [own.order * r if outer else shaft - (shaft - own.order) * r for r in ratios]
+    told = tuple(replace(e, family=own, order=o) for e, o in zip(struck.evidence, orders, strict=True))
+    return replace(struck, family=own, evidence=told)
+
+
+def _at_cage(family: Family, cage: Family) -> bool:
+    """Whether a bearing's family begins, within slip, at one of a cage's lines: no two balls strike alike, so a pit's
+    blows repeat with the cage. Twice that of the fast shaft's bearings of the proof's gearbox is 0.6 % off the outer
+    race of the slow one's, and stood for a second pit of x001."""
+    lines = [k * cage.order for k in range(1, HARMONICS["cage"] + 1)]
+    near = max(family.slip, cage.slip)
+    return family.kind in DEFECTS and any(abs(line / family.order - 1.0) < near for line in lines)
 
 
 def _among(family: Family, others: Sequence[Family]) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -36,7 +37,7 @@ def test_a_known_place_goes_before_an_unknown_effect() -> None:
     left = Rest(unmet=2.1, kept=0.3)
     here = decide(screen([20.0, 14.0, 8.0, 1.0], names, rest=left), views=9)
     assert here.word == "ambiguous" and here.chosen == names[:2] and "bearing1" in here.reasons[0]
-    near = decide(screen([20.0, 14.0, 13.0, 1.0], names, rest=left), views=9)
+    near = decide(screen([20.0, 14.0, 13.0, 1.0], names, rest=left, p_lines=CLEAR_P), views=9)
     assert near.word == "unknown_physics", "an effect elsewhere says nearly as much"
     weak = decide(screen([2.9, 2.8, -9.0, -9.0], names, rest=left, p_lines=CLEAR_P), views=9)
     assert weak.word == "unknown_physics", "nothing says anything"
@@ -153,20 +154,21 @@ def test_a_pattern_that_stood_out_among_all_machines_needs_no_unusual_change() -
 
 
 def test_single_lines_that_the_best_effect_leaves_are_unknown_physics() -> None:
-    found = decide(screen([20.0, 15.0], rest=Rest(unmet=2.1, kept=0.3)), views=9)
+    changed = partial(screen, p_lines=CLEAR_P)
+    found = decide(changed([20.0, 15.0], rest=Rest(unmet=2.1, kept=0.3)), views=9)
     assert found.word == "unknown_physics" and "2.1 times" in found.reasons[0]
-    assert decide(screen([20.0, 15.0], rest=Rest(unmet=1.0, kept=0.3)), views=9).word == "explained"
-    assert decide(screen([30.0, 15.0], rest=Rest(unmet=2.1, kept=0.3)), views=9).word == "explained", "far ahead"
-    assert decide(screen([20.0, 15.0], rest=Rest(unmet=4.5, kept=0.65)), views=9).word == "explained"
+    assert decide(changed([20.0, 15.0], rest=Rest(unmet=1.0, kept=0.3)), views=9).word == "explained"
+    assert decide(changed([30.0, 15.0], rest=Rest(unmet=2.1, kept=0.3)), views=9).word == "explained", "far ahead"
+    assert decide(changed([20.0, 15.0], rest=Rest(unmet=4.5, kept=0.65)), views=9).word == "explained"
     fitted = Rest(unmet=LEAST_LEFT_UNKNOWN, kept=0.65, pooled=0.4, rough=False)
-    assert decide(screen([20.0, 15.0], rest=fitted), views=9).word == "unknown_physics", "fitted with the machine"
-    assert decide(screen([20.0, 15.0], rest=replace(fitted, pooled=0.55)), views=9).word == "explained"
-    assert decide(screen([20.0, 15.0], rest=replace(fitted, unmet=0.5)), views=9).word == "explained"
+    assert decide(changed([20.0, 15.0], rest=fitted), views=9).word == "unknown_physics", "fitted with the machine"
+    assert decide(changed([20.0, 15.0], rest=replace(fitted, pooled=0.55)), views=9).word == "explained"
+    assert decide(changed([20.0, 15.0], rest=replace(fitted, unmet=0.5)), views=9).word == "explained"
     other = replace(fitted, unmet=0.0, elsewhere=LEAST_LEFT_ELSEWHERE)
-    assert decide(screen([20.0, 15.0], rest=other), views=9).word == "unknown_physics", "lines of the other view"
-    assert decide(screen([20.0, 15.0], rest=replace(other, elsewhere=1.4)), views=9).word == "explained"
-    assert decide(screen([20.0, 15.0], rest=replace(other, pooled=0.55)), views=9).word == "explained"
-    beside = decide(struck([30.0, 5.0], [20.0], rest=Rest(unmet=3.0, kept=0.3)), views=9)
+    assert decide(changed([20.0, 15.0], rest=other), views=9).word == "unknown_physics", "lines of the other view"
+    assert decide(changed([20.0, 15.0], rest=replace(other, elsewhere=1.4)), views=9).word == "explained"
+    assert decide(changed([20.0, 15.0], rest=replace(other, pooled=0.55)), views=9).word == "explained"
+    beside = decide(struck([30.0, 5.0], [20.0], p_lines=CLEAR_P, rest=Rest(unmet=3.0, kept=0.3)), views=9)
     assert beside.word == "explained" and "left" in beside.reasons[0]
 
 
