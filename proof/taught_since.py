@@ -18,8 +18,8 @@ SINCE = (
             "([decision](decisions/reconcile-adequacy.md))"
         ),
         (
-            "x034, x043, c045, i070 and w055, effects that no library has, not decidable before (and z036, a known one); "
-            "h034, a sound machine told as unknown physics"
+            "x034, x043, c045, i070 and w055, effects that no library has, not decidable before (and z036, a known "
+            "one); h034, a sound machine told as unknown physics"
         ),
     ),
     (
@@ -38,7 +38,7 @@ SINCE = (
             "at one operating point nothing that strikes nowhere stands beside a first that is open "
             "([decision](decisions/reconcile-pairs.md))"
         ),
-        "x024, a loose ring and a cracked tooth named a wider clearance there and a cracked shaft",
+        "x024, a loose ring and a cracked tooth named a wider clearance and a cracked shaft; a set there since",
     ),
 )
 """A rule, and the cases that set it."""

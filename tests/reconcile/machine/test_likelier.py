@@ -11,7 +11,8 @@ from reconcile.judge.adequacy import Rest
 from reconcile.judge.screen import Screen
 from reconcile.machine import leftover
 from reconcile.machine import likelier as machine_likelier
-from reconcile.machine.decide import FEW_VIEWS, LINE_BY_LINE, decide
+from reconcile.machine.decide import FEW_BESIDE_REST, FEW_VIEWS, LINE_BY_LINE, decide
+from reconcile.machine.left_lines import UNMET_ROUGH
 from reconcile.machine.leftover import likelihoods
 from reconcile.machine.likelier import BEHIND, LEAST_LIKELIER, LIKELIER_SHARE, likelier, rivals, yielding
 from tests.reconcile.machine.rubs import FEATURES, MADE, RIGHT, WRONG, found_in
@@ -52,6 +53,16 @@ def test_few_views_fit_by_chance_and_one_name_needs_no_lead() -> None:
     sure = screen(EVIDENCE, likelihoods=told(100.0, 0.0))
     assert decide(sure, views=FEW_VIEWS).word == "ambiguous"
     assert likelier(sure, BOTH[:1]) == BOTH[:1]
+
+
+def test_what_leaves_a_part_of_few_views_is_not_chosen_feature_by_feature() -> None:
+    """x024 of the proof: a ring at one point, which rattles as no draw of it does, as good as a wider clearance."""
+    part = Rest(unmet=UNMET_ROUGH + 0.1, kept=0.83, pooled=0.35, elsewhere=4.8, rough=False)
+    made = screen(EVIDENCE, likelihoods=told(100.0, -740.0), rest=part)
+    assert decide(made, views=FEW_BESIDE_REST).word == "ambiguous"
+    assert decide(made, views=FEW_BESIDE_REST + 1).chosen == BOTH[:1]
+    less = replace(part, unmet=UNMET_ROUGH)
+    assert decide(replace(made, rest=less), views=FEW_BESIDE_REST).chosen == BOTH[:1]
 
 
 def test_what_is_far_less_likely_leaves_the_set_and_a_bow_stays_with_its_unbalance() -> None:
