@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from types import ModuleType
 
+from app.cli.options import Parser
 from sim.core.errors import Cancelled, SidebandError, SpecError
 from sim.core.near import did_you_mean
 from sim.loading import loading
@@ -61,6 +62,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         # Kernels that are not in the cache are compiled by this import: it can take long enough to be interrupted.
         with loading():
             module = importlib.import_module(COMMANDS[name].module)
+        Parser.typed = arguments[1:]
         return _run(module, _parser(name, module).parse_args(arguments[1:]))
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
@@ -72,7 +74,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _parser(name: str, module: ModuleType) -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog=f"sideband {name}",
         description=module.__doc__,
         epilog=EXIT_CODES,

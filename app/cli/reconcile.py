@@ -42,6 +42,7 @@ from sim.core.spec import MachineSpec
 from sim.presets.reference import KEYS
 from store.atlas import AtlasFolder, default_atlas_folder
 
+NO_BASELINE = "there is no baseline: what was always so is not told from what has changed, and less can be named"
 MOST_FOREIGN = 5
 """A flat document with more reference names than this is a parameter file."""
 
@@ -246,7 +247,8 @@ def run(arguments: argparse.Namespace) -> int:
             progress=_Shown(),
         )
     told = (one for one in report.where.limits if one.startswith(LEFT_OUT) or FILLED in one)
-    for note in (*told, *_faults(report)):
+    alone = (NO_BASELINE,) if not baselines and report.level != "driven" else ()
+    for note in (*alone, *told, *_faults(report)):
         print(f"note: {note}", file=sys.stderr)
     report = replace(report, where=replace(report.where, limits=(*report.where.limits, *notes)))
     earlier = (arguments.out / "report.json").exists()

@@ -144,8 +144,8 @@ def _told(label: str, one: Recording, part: _Part | None, mask: BoolArray) -> li
     what = f"{label}: {percent(share, 0)} of the samples were held, zero or away"
     if part is None:
         return [f"{what}, and no whole stretch is long enough to be read"]
-    rate = one.sampling_rate_hz
-    return [f"{what}: only {part.first / rate:.4g} to {part.stop / rate:.4g} s of {', '.join(part.names)} were read"]
+    first, stop = (one.start_s + k / one.sampling_rate_hz for k in (part.first, part.stop))
+    return [f"{what}: only {first:.4g} to {stop:.4g} s of {', '.join(part.names)} were read"]
 
 
 def _fault(gate: Gate, mask: BoolArray, told: str) -> SensorFault:

@@ -59,8 +59,9 @@ def _told(
 ) -> tuple[str, ...]:
     labels = [f"{kind} {i}" for kind, rows in zip(KINDS, several, strict=True) for i in range(1, len(rows) + 1)]
     return tuple(
-        f"{label}: only {first / r.sampling_rate_hz:.4g} to {stop / r.sampling_rate_hz:.4g} s were read, "
-        f"where {' and '.join(names)} was not away ({percent((stop - first) / r.samples.shape[1], 0)} of it)"
+        f"{label}: only {r.start_s + first / r.sampling_rate_hz:.4g} to {r.start_s + stop / r.sampling_rate_hz:.4g} s "
+        f"were read, where {' and '.join(names)} {'were' if len(names) > 1 else 'was'} not away "
+        f"({percent((stop - first) / r.samples.shape[1], 0)} of it)"
         for label, (r, (first, stop)) in zip(labels, _pairs(several, runs), strict=True)
         if stop - first < r.samples.shape[1]
     )

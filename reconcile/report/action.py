@@ -11,6 +11,7 @@ EXCHANGED = "exchanged, or a part replaced"
 """How the sentence says that the baseline has what the tests have not (`reconcile.kinematics.remarks`,
 `reconcile.machine.exchanged`)."""
 SPEED_OPEN = "The speed is not decided"
+SPEED_UNHEARD = "The speed is not confirmed by any line"
 """How the sentence says that what strikes hangs on which of two speeds it was (`reconcile.kinematics.doubted`)."""
 PLACE_OPEN = "the place is not decided by these sensors"
 """How a set of places is told; with the reason behind a colon by those causes alone that make it
@@ -185,11 +186,16 @@ def _several(report: Report) -> str:
         return _on_the_shaft(report, sites)
     if len(kinds) == 1 and len(sites) > 1:
         return f"plan to inspect {' and '.join(sites)}: one of them has it."
-    if len(sites) == 1 and SPEED_OPEN in report.sentence:
+    if len(sites) == 1 and on_the_speed(report):
         return f"find out how fast it turned (nameplate, strobe, tacho) and ask again before {sites[0]} is opened."
     if len(sites) == 1:
         return f"plan to inspect {sites[0]}; which of the names it is stays open."
     return "act on none of the names alone."
+
+
+def on_the_speed(report: Report) -> bool:
+    """Whether the part that is told hangs on a speed that is open."""
+    return any(words in report.sentence for words in (SPEED_OPEN, SPEED_UNHEARD))
 
 
 def _on_the_shaft(report: Report, sites: list[str]) -> str:

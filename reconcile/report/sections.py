@@ -7,7 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
-from reconcile.report.action import SPEED_OPEN, undecided
+from reconcile.report.action import on_the_speed, undecided
 from reconcile.report.formula import formula
 from reconcile.report.markup import Markup, escaped, figure_text, tag
 from reconcile.report.mending import channels
@@ -110,7 +110,7 @@ def _place(report: Report, best: PlaceWeight) -> Markup:
     if len(sites) > 1:
         what = "" if len(kinds) == 1 else "; what it is is open too"
         return _tile(_one_of(sites), f"places that these recordings do not tell apart{what}")
-    open_still = "it hangs on the speed" if SPEED_OPEN in report.sentence else "what it is is not decided"
+    open_still = "it hangs on the speed" if on_the_speed(report) else "what it is is not decided"
     return _tile(sites[0], f"place, {weight(best.weight)} of the weight; {open_still}")
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from app.cli.main import main
+from app.cli.reconcile import NO_BASELINE
 from tests.app.cli.test_reconcile import asked, kinematics, written
 
 
@@ -24,7 +25,17 @@ def test_keys_that_are_not_used_are_noted_and_stand_in_the_limits(
     assert note in json.loads((out / "report.json").read_text(encoding="utf-8"))["where"]["limits"]
     given = written(tmp_path, "t", seconds=0.3)
     assert main(asked(kinematics(tmp_path), given, out, "--jobs", "1")) == 0
-    assert "note: " not in capsys.readouterr().err
+    assert capsys.readouterr().err.count("note: ") == 1, "of the baseline"
+
+
+@pytest.mark.slow
+def test_that_there_is_no_baseline_is_noted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    given, out = written(tmp_path, "t", seconds=0.3), tmp_path / "out"
+    assert main(asked(kinematics(tmp_path), given, out, "--jobs", "1")) == 0
+    assert f"note: {NO_BASELINE}\n" in capsys.readouterr().err
+    before = written(tmp_path, "b", seconds=0.35)
+    assert main(asked(kinematics(tmp_path), given, out, "--jobs", "1", "--baseline", str(before))) == 0
+    assert NO_BASELINE not in capsys.readouterr().err
 
 
 def recorded(folder: Path, row: np.ndarray) -> Path:

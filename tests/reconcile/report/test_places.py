@@ -26,12 +26,13 @@ def test_nearly_all_of_the_weight_is_not_told_as_all(weights: tuple[float, ...],
     assert len(weights) == 1 or f"bearing1: {said.rpartition(', ')[2]}" in drawn
 
 
-def test_an_open_speed_is_settled_before_anything_is_opened() -> None:
+@pytest.mark.parametrize(
+    "sentence", ["The speed is not decided: 30 Hz or 15.", "The speed is not confirmed by any line, and the part hangs"]
+)
+def test_an_open_speed_is_settled_before_anything_is_opened(sentence: str) -> None:
     sites = (PlaceWeight(site="bearing1", weight=0.9), PlaceWeight(site="gear", weight=0.1))
     one = replace(full_report().causes[0], site="bearing1", named=False, score=9.0)
-    opened = replace(
-        full_report(), verdict="ambiguous", sentence="The speed is not decided: 30 Hz or 15.", where=Where(sites=sites)
-    )
+    opened = replace(full_report(), verdict="ambiguous", sentence=sentence, where=Where(sites=sites))
     drawn = page(replace(opened, causes=(one,)))
     assert "find out how fast it turned" in drawn and "before bearing1 is opened" in drawn
     assert "it hangs on the speed" in drawn and "which of the names it is" not in drawn
