@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
@@ -32,6 +31,7 @@ from proof.plan import (
     Case,
     Group,
     Hiding,
+    Split,
     hiding_of,
     sensors_of,
 )
@@ -46,20 +46,7 @@ class Design:
     have gone before, `begun` from which on those of rarer laws, pairs and unknown effects; `rows` are the conditions of
     every fourth case."""
 
-    split: Literal[
-        "entire",
-        "held",
-        "wide",
-        "mixed",
-        "young",
-        "vast",
-        "clear",
-        "jury",
-        "inquest",
-        "zenith",
-        "xenial",
-        "twelfth",
-    ]
+    split: Split
     groups: Mapping[Group, int]
     turned: int
     rows: tuple[Row, ...]
