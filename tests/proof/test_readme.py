@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from proof.engine_id import engine_id
 from proof.one_engine import CLEAR
 from proof.score.one import Score
 from proof.score.rates import MEASURES, Rate, at_target, rate
@@ -58,6 +60,12 @@ def test_a_row_of_the_table(commit: str) -> None:
     assert cells[1:] == [*said, plain(wrong_rates(found)[-1])]
     low, high = of(found, "single", "place").interval
     assert f"{100 * low:.0f} to {100 * high:.0f})" in row
+
+
+def test_the_first_row_is_of_the_engine_at_hand_only_while_it_is() -> None:
+    """An engine that has changed since answers otherwise: then the README must not say so."""
+    (run,) = [json.loads((ROOT / "proof" / "results" / f"{name}.json").read_text("utf-8"))["engine"] for name in LATEST]
+    assert ("The first row is of the version you have here" in README) == (run == engine_id())
 
 
 def test_the_row_of_ten_plans() -> None:
