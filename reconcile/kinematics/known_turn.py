@@ -20,10 +20,13 @@ RANGE = (0.6, 1.6)
 """Over the file's number: what a miscount, or the gear of another machine of the kind, may give."""
 ABOUT = 0.4
 """Of the heard number of teeth: lines of the turn within this of one of their multiples are none louder than it."""
-ABSENT_DB = 10.0
-"""By which each of the file's own multiples is below that of the number heard; sidebands reach as near by 6 dB."""
-LIKE_NEIGHBOURS_DB = 3.0
-"""Over the louder of its neighbours of a turn, up to which a line is one of their chain of sidebands."""
+ABSENT_DB, LEAST_DB = 10.0, 6.0
+"""By which the file's own multiples are below those of the number heard, on the mean, and each: a sideband that one of
+them falls on comes as near as that."""
+LIKE_NEIGHBOURS_DB, NEIGHBOURS = 3.0, 3
+"""Over the loudest of its neighbours up to so many turns away, up to which a line is one of their chain of sidebands:
+the gearbox of `openei_gear` is modulated three times a turn, and its 90th multiple, one of those about the third of its
+32 teeth, stood 6 to 9 dB over the next ones."""
 MISMATCH = 0.012
 """Relative difference from the stated speed up to which lines of the shaft have told it beyond doubt."""
 
@@ -70,14 +73,17 @@ def _all_loudest(excess: FloatArray, teeth: int) -> bool:
 
 def _none_at(excess: FloatArray, teeth: int, heard: int) -> bool:
     """Whether the file's multiples are no lines of their own."""
+    below = []
     for k in MULTIPLES:
         own, other = (excess[k * z] if k * z < excess.size else np.nan for z in (teeth, heard))
         if not np.isfinite(own) or not np.isfinite(other):
             continue
-        beside = max(excess[k * teeth - 1], excess[min(k * teeth + 1, excess.size - 1)])
-        if own > other - ABSENT_DB or (own >= CLEAR_DB and own > beside + LIKE_NEIGHBOURS_DB):
+        first, last = max(k * teeth - NEIGHBOURS, 1), k * teeth + NEIGHBOURS + 1
+        beside = np.nanmax(np.concatenate([excess[first : k * teeth], excess[k * teeth + 1 : last]]))
+        if own > other - LEAST_DB or (own >= CLEAR_DB and own > beside + LIKE_NEIGHBOURS_DB):
             return False
-    return True
+        below.append(other - own)
+    return not below or float(np.mean(below)) >= ABSENT_DB
 
 
 def most(gear: KinematicGear, several: Sequence[Observation]) -> tuple[int, Observation] | None:

@@ -14,11 +14,14 @@ from tests.reconcile.kinematics.test_teeth import SPEED_HZ, TRUE, gearbox, spec
 from tests.strategies.brief import RATE_HZ, recorded
 
 
-def measured(seed: int, *, fan: float = 0.0, shaft: bool = False) -> Recording:
-    """`fan`: height of blades' lines, three multiples of 27 turns; `shaft`: every multiple of the turn is there."""
+def measured(seed: int, *, fan: float = 0.0, shaft: bool = False, thrice: float = 0.0) -> Recording:
+    """`fan`: height of blades' lines, three multiples of 27 turns; `shaft`: every multiple of the turn is there;
+    `thrice`: height of sidebands three and six turns from the teeth's lines."""
     samples = gearbox(seed)
     angle = 2 * np.pi * SPEED_HZ * np.arange(samples.size) / RATE_HZ
     samples = samples + fan * sum(np.cos(k * 27 * angle) / k for k in (1, 2, 3))
+    for k, far in ((k, far) for k in (1, 2, 3) for far in (-6, -3, 3, 6)):
+        samples = samples + thrice / abs(far) * np.cos((k * TRUE + far) * angle + far)
     if shaft:
         samples = samples + sum(2.0 * np.cos(k * angle + k * k) for k in range(1, 90))
     seconds = samples.size / RATE_HZ
@@ -40,6 +43,13 @@ def test_the_line_that_shows_it_is_told(teeth: int) -> None:
     assert "at 575 Hz" in report.sentence and f"{TRUE} times the line of the turn" in report.sentence
     assert "correct the machine file first" in to_do(report)
     assert report.next_experiment is not None and "Correct the teeth of pinion" in report.next_experiment.sentence
+
+
+@pytest.mark.slow
+def test_sidebands_three_turns_apart_are_no_lines_of_the_files_teeth() -> None:
+    """Three times 21 is six from three times 23: that line stands alone among its next neighbours."""
+    report = said(21, thrice=0.3)
+    assert report.sentence.startswith("In its teeth the machine file does not fit: 21 of pinion")
 
 
 @pytest.mark.slow
