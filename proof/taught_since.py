@@ -40,5 +40,19 @@ SINCE = (
         ),
         "x024, a loose ring and a cracked tooth named a wider clearance and a cracked shaft; a set there since",
     ),
+    (
+        (
+            "from 12 of log evidence on, the little that an effect leaves of lines is a remark "
+            "([decision](decisions/reconcile-adequacy.md))"
+        ),
+        "tw052, a loose ring, not decidable before, named since; tw010, a loose foot, in a set since",
+    ),
+    (
+        (
+            "an order of no part that rose clearly goes before a name whose revised machine leaves all of the change "
+            "([decision](decisions/reconcile-own-order.md))"
+        ),
+        "tw039, a belt told as a torque and a run-out; unknown physics since",
+    ),
 )
 """A rule, and the cases that set it."""

@@ -35,13 +35,12 @@ ALSO_P = 0.05
 """A pattern counts only if the whole change is unusual too,"""
 FIRST_P = 0.005
 """or if it stood out already among all machines of the kind, and its pattern or both the whole change and single lines
-are unusual: of 36 healthy cases of development one came to 0.0065, the next to 0.16; of 47 others five to 0.0013, of
-which both are unusual in one alone that alarms by its pattern too (e127). Of a loose fit that was missed for its
-pattern's 0.051 they came to 0.034 and 0.010 (w012)."""
+are unusual: of 36 healthy cases of development one came to 0.0065, the next to 0.16; of 47 others five to 0.0013. Of a
+loose fit that was missed for its pattern's 0.051 they came to 0.034 and 0.010 (w012)."""
 CLEAR_P = 1e-4
 """Chance of a change of single lines from which it is too clear to be called faint, and from which it counts where no
-effect's pattern is near: a sound machine heard by eight sensors at 30 dB, where the model's own form shows, reached
-1.8e-4 without one; faults and unknown effects of development cases come to 3e-5 and less."""
+effect's pattern is near: a sound machine heard by eight sensors at 30 dB reached 1.8e-4 without one; faults and
+unknown effects come to 3e-5 and less."""
 LEAST_KEPT_FAR = 0.3
 """Share of the single lines' change that an effect which fits worse than nearly all known ones do must explain for its
 lead to be enough: a pit of a race far ahead of all else explained 0.14, and was the other race's. No right name so far
@@ -58,8 +57,8 @@ STRUCK = 8.0
 FEW_VIEWS = 2
 """So few sensors and operating points together cannot exclude what explains half as much."""
 FEW_BESIDE_REST = 3
-"""So few do not choose feature by feature where the first leaves a part: at one point with three sensors a loose ring,
-which rattles as no draw of it does, was a wider clearance there (x024)."""
+"""So few do not choose feature by feature where the first leaves a part: a loose ring, which rattles as no draw of it
+does, was a wider clearance there (x024)."""
 FEW_SHARE = 0.5
 LINE_BY_LINE = "others have a pattern like it, and are far less likely feature by feature"
 FEW_REASON = "so few sensors and operating points do not exclude what has half the evidence, whatever its weight"
@@ -78,9 +77,12 @@ OFTEN = "sound machines of this kind show as much too often for a name"
 AT_ONE = "it shows at one operating point alone"
 BY_TURNS = "only sidebands that rose together tell, which names nothing"
 SOME_PATTERN = 5.0
-"""Log evidence of the best effect below which lines that changed for sure are those of none, however little it leaves
-of them: unknown effects that left 1.0 to 1.6 times what they should had 1.0 to 4.2 (x043, c045, i070, w055, x034),
-known ones 5.8 (h062, y025), 8.9 (z052) and, told wrongly so, 1.0 (z036)."""
+"""Log evidence of the best effect below which lines that changed for sure are those of none, however little it leaves:
+unknown effects that left 1.0 to 1.6 times what they should had 1.0 to 4.2 (x034, x043, c045, i070, w055), known ones
+5.8 (h062, y025), 8.9 (z052) and, told wrongly so, 1.0 (z036)."""
+AMPLE = 12.0
+"""Log evidence of the best effect from which the little it leaves is a remark: a loose ring and a loose foot of 23.7
+and 23.0 that left 1.3 and 1.2 times too much were right (tw052, tw010); unknown effects had 8.3 at most (i042)."""
 FAINT = 14.0
 """Deviations of the most changed group below which a change that no effect explains may be too faint to tell."""
 
@@ -188,17 +190,20 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     open_why = _too_little(screen, odd and inadequate, views) if weak else None
     if open_why is not None:
         return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(open_why,))
-    if weak or alone or (inadequate and struck < STRUCK):
+    lacks = inadequate and struck < STRUCK
+    ample = lacks and not (odd or weak or alone) and screen.evidence.max() >= AMPLE and leaves_little(screen.rest)
+    if weak or alone or lacks:
         here = () if weak or alone else of_the_place(screen)
         if here and views > FEW_VIEWS and _others_silent(screen, here):
             return Decision(word="explained", chosen=here[:1], p=p, reasons=(LEFT_OVER,))
         like_none = views > FEW_VIEWS and screen.p_lines <= CLEAR_P and screen.evidence.max() < SOME_PATTERN
         reason = NO_PATTERN if like_none and not (odd or alone) else _misfit(screen, strange, weak, alone)
-        return _none_of_the_known(screen, chosen, here, p, reason, sure=odd or alone or like_none)
+        if not ample or here:
+            return _none_of_the_known(screen, chosen, here, p, reason, sure=odd or alone or like_none)
     first = screen.names[int(np.argmax(screen.evidence))]
     near = rivals(screen) if chosen[0] == first and leaves_lines(screen.rest) else ()
     chosen = (*chosen, *(name for name in near if name not in chosen))
-    left = screen.misfit > strange or screen.rest.unmet > UNMET_ROUGH
+    left = ample or screen.misfit > strange or screen.rest.unmet > UNMET_ROUGH
     likely = likelier(screen, chosen) if views > (FEW_BESIDE_REST if left else FEW_VIEWS) else chosen
     led, chosen = len(likely) < len(chosen), likely
     if len(chosen) == 1:

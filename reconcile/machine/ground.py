@@ -41,7 +41,8 @@ class Ground:
         return np.asarray(fft.rfft(again[: self.count]))
 
     def bands(self, white: ComplexArray) -> list[list[FloatArray]]:
-        """Of each channel, powers of the lines of the squared envelope in each band."""
+        """Of each channel, powers of the lines of the squared envelope in each band; of several signals, `white`
+        (C, signals, n // 2 + 1), as many rows of each."""
         return [envelope_power(np.asarray(row), self.count, self.rate_hz) for row in white]
 
 

@@ -25,7 +25,7 @@ from reconcile.machine.refine import best_draws, near_draws, seen_draws
 from reconcile.machine.rolling import family_of, kind_of, rate_of
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.weigh import LEAST_EVIDENCE
-from reconcile.observe.impact_bands import ComplexArray, Rate, Standing, bands_of, standing
+from reconcile.observe.impact_bands import ComplexArray, Rate, Standing, bands_of, standing, standings
 from signals.series import FloatArray
 from sim.core.spec import MachineSpec, TermSpec
 
@@ -218,14 +218,11 @@ def _off(base: Base, motion: FloatArray | None, rate: Rate) -> tuple[FloatArray,
     if motion is None:
         return np.full(SIZES_DB.size, np.inf), False
     ground = base.ground
-    added = ground.added(motion)
-    off, loudest = [], 0.0
-    for size_db in SIZES_DB:
-        bands = ground.bands(ground.white + 10.0 ** (size_db / 20.0) * added)
-        level = standing(bands, ground.seconds, rate).level
-        loudest = max(loudest, float((level - np.maximum(base.alone.level, 0.0)).max()))
-        off.append(apart(base.test, level))
-    return np.array(off), loudest >= AUDIBLE_DB
+    sizes = 10.0 ** (SIZES_DB / 20.0)
+    louder = ground.white[:, None] + sizes[:, None] * ground.added(motion)[:, None]  # (C, sizes, n // 2 + 1)
+    levels = [one.level for one in standings(ground.bands(louder), ground.seconds, rate)]
+    loudest = max(float((level - np.maximum(base.alone.level, 0.0)).max()) for level in levels)
+    return np.array([apart(base.test, level) for level in levels]), loudest >= AUDIBLE_DB
 
 
 def apart(test: Standing, level: FloatArray) -> float:

@@ -62,6 +62,7 @@ def best_left_pair(
     near = sum(one[1] >= NEAR_SHARE * seen[0][1] for one in seen)
     most = min(most, BESIDE_LOOSE) if first.startswith("fit_clearance") else most
     made = {name: _fitted(asked, name, rows) for name, _, rows in seen[: max(LEAST_ASKED, min(near, most))]}
+    made |= _as_near(asked, made, seen[len(made) :], most)
     sought = _searched(asked, made, seen)
     sought = sought or _rattling(asked, made) or _driven(asked, made, seen)
     fitted = _fairly(asked, {**made, **sought})
@@ -80,6 +81,21 @@ def best_left_pair(
         best = replace(best, others=(second, *others) if others else (), drawn=drawn)
         best = best if others or drawn is not None else None
     return Pairs(first=first, tried=tried, best=best)
+
+
+def _as_near(
+    asked: Asked,
+    made: Mapping[str, Pair | None],
+    others: Sequence[tuple[str, float, tuple[int, ...]]],
+    most: int,
+) -> dict[str, Pair | None]:
+    """What by its sum comes as near to the best of those `made`, which adds less simulated than by its own, and would
+    be told with it: simulated as well, while there may be so many."""
+    reached = max((pair.gain for pair in made.values() if pair is not None), default=0.0)
+    if reached < asked.least:
+        return {}
+    near = [one for one in others if one[1] > NEAR_SHARE * reached]
+    return {name: _fitted(asked, name, rows) for name, _, rows in near[: max(0, most - len(made))]}
 
 
 def _tempered(tried: Sequence[tuple[str, float, float | None]]) -> tuple[tuple[str, float, float | None], ...]:

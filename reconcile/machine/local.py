@@ -30,6 +30,8 @@ FIRST_SIZES = (4, 6, 2, 5, 7, 3, 1, 0)
 LANES = 8
 """Machines that cost no more than one: vector lanes hold one effect."""
 LEAST_DRAWS = 2
+COSTLY = ("fit_clearance", "fit_clearance_series")
+"""Effects whose machines run one by one, as each strikes at other moments: eight times as dear."""
 TOLD, WORST = 12, 3
 UNKNOWN_DB, MOST_DB, FEWEST_PAIRS = 5.0, 20.0, 6
 """Of a line's change from one recording of a sound machine to the next: taken where it is not known, and at most."""
@@ -155,11 +157,15 @@ def ordered_draws(atlas: AtlasPlan, shown: Sequence[TermSpec], nearest: Collecti
 
 
 def first_heat(plan: AtlasPlan, ranked: Sequence[str], atlas: Mapping[str, Sequence[Draw]], terms: int) -> AtlasPlan:
-    """The best `terms` effects at all their sites on the fitted machines, so many draws that vector lanes fill."""
+    """The best `terms` effects at all their `ranked` sites on the fitted machines, so many draws that vector lanes
+    fill; of what fills none as few as say anything."""
     sites: dict[str, list[str]] = {}
     for name in ranked:
         sites.setdefault(name.split("@")[0], []).append(name)
-    draws = {name: max(LEAST_DRAWS, LANES // len(names)) for names in list(sites.values())[:terms] for name in names}
+    draws: dict[str, int] = {}
+    for term, names in list(sites.items())[:terms]:
+        count = LEAST_DRAWS if term in COSTLY else max(LEAST_DRAWS, LANES // len(names))
+        draws |= dict.fromkeys(names, count)
     return side_by_side(_planned(plan, {name: (0, count) for name, count in draws.items()}, atlas))
 
 

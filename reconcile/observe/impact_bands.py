@@ -75,50 +75,62 @@ def bands_of(rate_hz: float) -> list[tuple[float, float]]:
 
 
 def envelope_power(white: ComplexArray, count: int, rate_hz: float) -> list[FloatArray]:
-    """Power of the lines of the squared envelope in each band; `white` (count // 2 + 1,): transform of `count` samples
-    over the root of their floor's density. Lines are multiples of rate_hz / count."""
+    """Power of the lines of the squared envelope in each band; `white` (..., count // 2 + 1): transform of `count`
+    samples over the root of their floor's density, of one signal or of several. Lines are multiples of rate_hz / count.
+    """
     size = np.abs(white) / np.sqrt(0.5 * count * rate_hz)
     limited = white * np.minimum(1.0, LINE_LIMIT / np.maximum(size, 1e-12))
     found = []
     for low, high in bands_of(rate_hz):
         first, last = int(low * count / rate_hz), int(high * count / rate_hz)
         wide = fft.next_fast_len(2 * (last - first))
-        padded = np.zeros(wide, dtype=np.complex128)
-        padded[: last - first] = limited[first:last]
-        square = np.abs(fft.ifft(padded) * wide / count) ** 2
-        square = np.minimum(square, KNOCK_LIMIT * square.mean())
+        padded = np.zeros((*white.shape[:-1], wide), dtype=np.complex128)
+        padded[..., : last - first] = limited[..., first:last]
+        envelope = fft.ifft(padded, overwrite_x=True)
+        square = (envelope.real**2 + envelope.imag**2) * (wide / count) ** 2
+        square = np.minimum(square, KNOCK_LIMIT * square.mean(axis=-1, keepdims=True))
         window = np.hanning(wide)
-        found.append(np.abs(fft.rfft((square - square.mean()) * window) * 2.0 / window.sum()) ** 2)
+        lines = fft.rfft((square - square.mean(axis=-1, keepdims=True)) * window)
+        found.append(np.asarray((lines.real**2 + lines.imag**2) * (2.0 / window.sum()) ** 2))
     return found
 
 
 def standing(channels: Sequence[Sequence[FloatArray]], seconds: float, rate: Rate) -> Standing:
-    """Of `channels`, each the powers of all bands over `seconds`, at the rate near the stated one that stands out most
-    in all of them. A band too narrow for a multiple of it says nothing: level and error 0."""
+    """Of `channels`, each the powers (lines,) of all bands over `seconds`, at the rate near the stated one that stands
+    out most in all of them. A band too narrow for a multiple of it says nothing: level and error 0."""
+    return standings([[power[None] for power in bands] for bands in channels], seconds, rate)[0]
+
+
+def standings(channels: Sequence[Sequence[FloatArray]], seconds: float, rate: Rate) -> list[Standing]:
+    """The same of several signals, each power (signals, lines)."""
     count = max(1, int(np.ceil(REACH * rate.hz * LINES * seconds / STEP)))
     tried = rate.hz * (1.0 + REACH * np.arange(-count, count + 1) / count)
     low, high, many = CONTROLS
     shares = np.linspace(low, high, many)
     control = rate.hz * shares[np.abs(shares - 1.0) > NEAR]
-    shape = len(channels), len(channels[0])
+    shape = len(channels[0][0]), len(channels), len(channels[0])
     ratio, error = np.zeros((*shape, tried.size)), np.zeros(shape)
-    for place in np.ndindex(shape):
-        power = channels[place[0]][place[1]]
-        multiples = rate.multiples((power.size - 3) / seconds)
-        if multiples < 1:
-            continue
-        usual = _sums(power, seconds, rate.lines_hz(control, multiples))
-        middle = float(np.median(usual))
-        ratio[place] = np.log(_sums(power, seconds, rate.lines_hz(tried, multiples)) / middle)
-        error[place] = np.log(usual / middle).std()
-    best = int(np.argmax(np.clip(ratio, 0.0, None).sum(axis=(0, 1))))
+    for c, bands in enumerate(channels):
+        for b, power in enumerate(bands):
+            multiples = rate.multiples((power.shape[1] - 3) / seconds)
+            if multiples < 1:
+                continue
+            usual = _sums(power, seconds, rate.lines_hz(control, multiples))
+            middle = np.median(usual, axis=1, keepdims=True)
+            ratio[:, c, b] = np.log(_sums(power, seconds, rate.lines_hz(tried, multiples)) / middle)
+            error[:, c, b] = np.log(usual / middle).std(axis=1)
+    best = np.argmax(np.clip(ratio, 0.0, None).sum(axis=(1, 2)), axis=1)
     to_db = 10.0 / np.log(10.0)
-    return Standing(level=np.asarray(to_db * ratio[..., best]), error=np.asarray(to_db * error), hz=float(tried[best]))
+    return [
+        Standing(level=np.asarray(to_db * ratio[k, ..., at]), error=np.asarray(to_db * error[k]), hz=float(tried[at]))
+        for k, at in enumerate(best)
+    ]
 
 
 def _sums(power: FloatArray, seconds: float, lines_hz: FloatArray) -> FloatArray:
-    """Power at lines (rates, lines), the largest of three bins each, summed, (rates,)."""
-    widest = np.maximum(np.maximum(power[:-2], power[1:-1]), power[2:])
+    """Power (signals, bins) at lines (rates, lines), the largest of three bins each, summed, (signals, rates)."""
+    widest = np.maximum(np.maximum(power[:, :-2], power[:, 1:-1]), power[:, 2:])
     place = np.rint(np.abs(lines_hz) * seconds).astype(np.int64)
-    inside = (place > 2) & (place < power.size - 1)
-    return np.asarray(np.where(inside, widest[np.clip(place - 1, 0, widest.size - 1)], 0.0).sum(axis=1)) + 1e-300
+    inside = (place > 2) & (place < power.shape[1] - 1)
+    at = widest[:, np.clip(place - 1, 0, widest.shape[1] - 1)]
+    return np.asarray(np.where(inside, at, 0.0).sum(axis=2)) + 1e-300

@@ -49,6 +49,25 @@ def test_single_lines_nominate_as_well_as_machines_of_the_kind() -> None:
     assert sorted(ranked) == sorted(NAMES), "each once"
 
 
+def test_loose_rings_that_nothing_speaks_for_are_not_simulated() -> None:
+    rings = tuple(f"fit_clearance@bearing{k}" for k in range(1, 5))
+    others = tuple(f"rub@{k}" for k in range(search.NEAR_RANK + search.NEAR_SECONDS))
+    names = (*others, *rings)
+
+    def look(first: float, *best: str) -> SimpleNamespace:
+        evidence = np.array([first, *np.linspace(1.0, 0.5, len(names) - 1)])
+        evidence[[names.index(n) for n in best]] = 2.0
+        return SimpleNamespace(screen=SimpleNamespace(names=names, evidence=evidence))
+
+    led, flat = look(40.0, "fit_clearance@bearing1"), look(2.0)
+    kept = search.without_hopeless(names, led, led, [*others[: search.NEAR_SECONDS - 1], "fit_clearance@bearing3"])  # type: ignore[arg-type]
+    assert kept == [*others, "fit_clearance@bearing1", "fit_clearance@bearing3"], "one near the best, one beside it"
+    late = search.without_hopeless(names, led, led, [*others[: search.NEAR_SECONDS], "fit_clearance@bearing3"])  # type: ignore[arg-type]
+    assert late == [*others, "fit_clearance@bearing1"]
+    for screened_, seen in ((led, flat), (flat, led)):
+        assert search.without_hopeless(names, screened_, seen, ()) == list(names), "none is out of the question"  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize(("misfit", "direct", "looks"), [(0.95, 25.0, True), (0.95, 2.0, False), (0.3, 25.0, False)])
 def test_a_second_is_thought_of_where_sure_impacts_leave_something(
     monkeypatch: pytest.MonkeyPatch, misfit: float, direct: float, looks: bool
@@ -102,6 +121,7 @@ def test_what_looks_like_the_best_is_simulated_as_closely_pitted_and_broken_teet
 
     for name, made in {
         "with_others": lambda *_: [best],
+        "without_hopeless": lambda ranked, *_: ranked,
         "_draws": lambda *_: {**{f"{term}@gear": [] for term in CLOSELY}, "fit_clearance@wheel": []},
         "first_heat": lambda *_: None,
         "simulated": lambda *_: None,

@@ -8,7 +8,18 @@ from functools import partial
 import pytest
 
 from reconcile.judge.adequacy import Rest
-from reconcile.machine.decide import CLEAR_P, GREAT, LITTLE_LEFT, NO_PATTERN, SOME_PATTERN, STRANGE, Decision, decide
+from reconcile.machine.decide import (
+    AMPLE,
+    CLEAR_P,
+    GREAT,
+    LEFT_OVER,
+    LITTLE_LEFT,
+    NO_PATTERN,
+    SOME_PATTERN,
+    STRANGE,
+    Decision,
+    decide,
+)
 from reconcile.machine.left_lines import LEAST_LEFT_ELSEWHERE, LEAST_LEFT_UNKNOWN, UNMET, leaves_little
 from tests.reconcile.machine.screens import screen
 
@@ -25,12 +36,23 @@ def test_a_little_more_left_of_single_lines_than_usual_is_neither_a_name_nor_unk
     little = Rest(unmet=LEAST_LEFT_UNKNOWN - 0.1, kept=0.3, pooled=0.4, rough=False)
     other = replace(little, unmet=0.0, elsewhere=LEAST_LEFT_ELSEWHERE - 0.1)
     for rest in (little, other):
-        found = decide(changed([20.0, 15.0], rest=rest), views=9)
+        found = decide(changed([AMPLE - 0.1, 8.0], rest=rest), views=9)
         assert said(found) == ("not_decidable", LITTLE_LEFT) and found.chosen
     faint = screen([2.0, 1.0], rest=little, strongest=20.0)
     assert decide(faint, views=9).word == "not_decidable", "no pattern either"
     worse = changed([20.0, 15.0], rest=little, misfit=STRANGE + 0.01)
     assert decide(worse, views=9).word == "unknown_physics", "by all features"
+
+
+def test_the_little_that_an_ample_pattern_leaves_is_a_remark() -> None:
+    """Loose rings and feet whose draws come near, and not all the way (tw052 and tw010 of the proof)."""
+    assert said(decide(changed([AMPLE, 5.0]), views=9)) == ("explained", LEFT_OVER)
+    several = decide(changed([AMPLE, AMPLE - 1.0]), views=9)
+    assert several.word == "ambiguous" and len(several.chosen) == 2
+    much = replace(LITTLE, unmet=LEAST_LEFT_UNKNOWN, elsewhere=LEAST_LEFT_UNKNOWN)
+    assert decide(changed([AMPLE, 8.0], rest=much), views=9).word == "unknown_physics", "more than a little"
+    odd = changed([AMPLE, 8.0], misfit=STRANGE + 0.01)
+    assert decide(odd, views=9).word == "unknown_physics", "by all features"
 
 
 @pytest.mark.parametrize("best", [2.0, 3.1, BELOW])
@@ -54,7 +76,7 @@ def test_so_they_are_not_where_something_is_like_them_or_lines_or_views_say_too_
 
 def test_what_is_left_of_lines_that_are_usual_says_nothing() -> None:
     much = replace(LITTLE, unmet=2.5, elsewhere=2.5)
-    for best in (3.1, 9.0, 20.0):
+    for best in (3.1, 9.0, 20.0):  # more than a little is left
         usual = changed([best, best - 1.0], rest=much, p_lines=1.01 * CLEAR_P)
         assert said(decide(usual, views=9)) == ("not_decidable", LITTLE_LEFT)
         assert decide(replace(usual, p_lines=CLEAR_P), views=9).word == "unknown_physics"

@@ -13,18 +13,28 @@ from reconcile.atlas.candidates import candidates
 from reconcile.atlas.plan import AtlasPlan, Point, atlas_plan
 from reconcile.calibrate.uncertain import uncertain_numbers
 from reconcile.machine.library import share_of
-from reconcile.machine.local import LANES, UNKNOWN_DB, first_heat, more_draws, ordered_draws, repeat_db, second_heat
+from reconcile.machine.local import (
+    LANES,
+    LEAST_DRAWS,
+    UNKNOWN_DB,
+    first_heat,
+    more_draws,
+    ordered_draws,
+    repeat_db,
+    second_heat,
+)
 from reconcile.machine.meter import Meter
 from reconcile.observe.statistics import Statistics
 from sim import presets
 
 RANKED = ("outer_spall@bearing2", "inner_spall@bearing1", "outer_spall@bearing1", "tooth_crack@gear", "backlash@mesh1")
+RINGS = ("fit_clearance@bearing1",)
 
 
 @pytest.fixture(scope="module")
 def atlas() -> AtlasPlan:
     machine = presets.preset("paper-lightly-damped")
-    chosen = [c for c in candidates(machine) if c.label in RANKED]
+    chosen = [c for c in candidates(machine) if c.label in (*RANKED, *RINGS)]
     return atlas_plan(machine, uncertain_numbers(machine), chosen, seed=1)
 
 
@@ -37,6 +47,13 @@ def test_the_first_heat_fills_lanes_with_the_best_effects_at_all_their_sites(atl
     assert found.count("outer_spall@bearing2") == found.count("outer_spall@bearing1") == LANES // 2
     assert found.count("inner_spall@bearing1") == found.count("tooth_crack@gear") == LANES
     assert "backlash@mesh1" not in found
+
+
+def test_what_runs_one_by_one_gets_few_draws_first_and_all_if_it_is_among_the_best(atlas: AtlasPlan) -> None:
+    draws = ordered_draws(atlas, ())
+    first = first_heat(atlas, RINGS, draws, terms=1)
+    assert labels(first) == [RINGS[0]] * LEAST_DRAWS
+    assert len(second_heat(atlas, RINGS, draws, first).draws) == LANES - LEAST_DRAWS
 
 
 def test_more_draws_are_those_that_are_not_done(atlas: AtlasPlan) -> None:

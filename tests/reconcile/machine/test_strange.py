@@ -128,6 +128,21 @@ def test_so_does_a_set_whose_placebos_forecast_as_well(machine: MachineSpec, pla
     assert with_strange(none, SEEN, machine, {}).verdict == "ambiguous", "nothing is forecast by anything"
 
 
+@pytest.mark.parametrize(("left", "gain", "answers"), [(1.75, 0.005, True), (1.6, 0.005, False), (1.75, 0.2, False)])
+def test_so_does_a_name_whose_revised_machine_leaves_the_whole_change(
+    machine: MachineSpec, left: float, gain: float, answers: bool
+) -> None:
+    """A belt that was a torque and a run-out of 14 each, whose placebos forecast less still (tw039 of the proof)."""
+    named = said("explained", score=14.8)
+    assert named.held_out is not None
+    stage = {"name": "revised machine", "level_change_db": 1.75, "left_of_it_db": left}
+    named = replace(named, held_out=replace(named.held_out, gain=gain, placebo=-0.03), stages=(*named.stages, stage))
+    assert (with_strange(named, SEEN, machine, {}).verdict == "unknown_physics") is answers
+    assert with_strange(named, SEEN, machine, {"outer_spall@bearing1": 12.0}).verdict == "explained", "it is heard"
+    sure = replace(named, causes=tuple(replace(c, score=21.0) for c in named.causes))
+    assert with_strange(sure, SEEN, machine, {}).verdict == "explained", "beyond doubt"
+
+
 def test_a_name_beyond_doubt_stays_before_what_is_seen(machine: MachineSpec) -> None:
     named = said("explained", score=21.0)
     assert named.held_out is not None

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import fft
 
-from reconcile.observe.impact_bands import Rate, bands_of, density, envelope_power, standing
+from reconcile.observe.impact_bands import Rate, bands_of, density, envelope_power, standing, standings
 
 RATE_HZ, SECONDS = 20480.0, 1.0
 COUNT = round(RATE_HZ * SECONDS)
@@ -39,6 +39,19 @@ def test_blows_stand_out_in_the_band_of_their_resonance() -> None:
     assert np.argmax(found.level[0]) == high and np.argmax(found.level[1]) == low
     assert found.level[0, high] > 6.0 and found.level[1, low] > 6.0
     assert np.all(np.abs(found.level[2]) < 4 * found.error[2] + 1.0)
+
+
+def test_several_signals_at_once_are_as_one_by_one() -> None:
+    wide = Rate(hz=78.0, spacing_hz=30.0, sidebands=2)
+    rows = np.array([fft.rfft(struck(78.0, hz, 2.0, k)) for k, hz in enumerate((900.0, 3000.0, 4500.0))])
+    together = standings(
+        [envelope_power(rows, COUNT, RATE_HZ), envelope_power(rows[::-1], COUNT, RATE_HZ)], SECONDS, wide
+    )
+    for k, found in enumerate(together):
+        alone = standing([envelope_power(rows[at], COUNT, RATE_HZ) for at in (k, 2 - k)], SECONDS, wide)
+        assert found.hz == alone.hz
+        assert np.allclose(found.level, alone.level) and np.allclose(found.error, alone.error)
+    assert standing([[np.ones(8)]], SECONDS, wide).level.tolist() == [[0.0]], "too narrow a band says nothing"
 
 
 @pytest.mark.parametrize("slip", [-0.02, 0.0, 0.02])
