@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import scipy
@@ -12,7 +13,7 @@ from scipy.optimize import least_squares
 from scipy.special import stdtrit
 
 from reconcile.driven.channels import Driven, FloatArray
-from reconcile.driven.model import LINEAR, Model, Run, errors
+from reconcile.driven.model import LINEAR, Model, Run, errors, errors_together
 from reconcile.driven.motion import moved
 from reconcile.force_law.library import FRICTION, GAPPED, PUSHING, UNANCHORED, Law, mirrored
 from reconcile.force_law.samples import even_blocks
@@ -168,11 +169,18 @@ def descend(start: Model, runs: Sequence[Run]) -> Fitted:
         model = model_of(values)
         return np.concatenate([errors(model, r) for r in runs]) / run.spread
 
+    def together(_: object, points: Iterable[FloatArray]) -> list[FloatArray]:
+        models = [model_of(values) for values in points]
+        return list(np.concatenate([errors_together(models, r) for r in runs], axis=1) / run.spread)
+
     least, most = _bounds(start, x[run.skip :], free, shaped)
     begin = np.concatenate([first[free], [start.laws[k].shape for k in shaped]]) / steps
     begin = np.clip(begin, least / steps + 1e-9, most / steps - 1e-9)
     bounds = (least / steps, most / steps)
-    solution = least_squares(residual, begin, bounds=bounds, x_scale="jac", max_nfev=40, xtol=1e-10, ftol=1e-10)
+    columns: Any = together  # of the Jacobian; scipy would have a map of any function
+    solution = least_squares(
+        residual, begin, bounds=bounds, x_scale="jac", max_nfev=40, xtol=1e-10, ftol=1e-10, workers=columns
+    )
     found = model_of(solution.x)
     covariance = np.zeros((first.size, first.size))
     inner = block_covariance(np.asarray(solution.jac), solution.fun) * np.outer(steps, steps)

@@ -16,8 +16,9 @@ import scipy
 from scipy import fft
 
 from reconcile.driven.channels import Driven, FloatArray
-from reconcile.force_law.kernels import free_run
+from reconcile.force_law.kernels import FREE_POWER, free_run, free_runs
 from reconcile.force_law.library import Law
+from sim.core.lanes import WIDTH
 
 FINE = 8
 """Steps of the integrator's grid per sample: Runge-Kutta steps of 2 of them, 4 a sample."""
@@ -164,6 +165,37 @@ def simulated(model: Model, run: Run) -> FloatArray:
     return out + model.output_offset
 
 
+def simulated_together(models: Sequence[Model], run: Run) -> FloatArray:
+    """Free runs of models with the same kinds of laws, (models, n): as `simulated`, but for rounding, eight at once."""
+    first = models[0]
+    if len(models) == 1 or any(law.code == FREE_POWER for law in first.laws):
+        return np.stack([simulated(model, run) for model in models])
+    codes = np.array([law.code for law in first.laws], dtype=np.int64)
+    n = run.data.answer.size
+    found = np.empty((len(models), n))
+    for at in range(0, len(models), WIDTH):
+        part = [*models[at : at + WIDTH]]
+        count = len(part)
+        part += [part[-1]] * (WIDTH - count)
+        out = np.empty((n, WIDTH))
+        free_runs(
+            run.fine,
+            FINE,
+            run.data.step_s / FINE,
+            np.stack([model.vector()[:LINEAR] for model in part], axis=1),
+            codes,
+            np.array([[law.shape for law in model.laws] for model in part], dtype=np.float64).T.copy(),
+            np.array([model.coefficients for model in part], dtype=np.float64).T.copy(),
+            run.data.order,
+            run.data.answer,
+            np.stack([_pull(model, run) for model in part], axis=1),
+            n if run.led else run.skip,
+            out,
+        )
+        found[at : at + count] = out.T[:count]
+    return found
+
+
 def answer_to(model: Model, values: FloatArray, step_s: float, order: int) -> FloatArray:
     """Answer of the linear model to a force per unit mass, (n,)."""
     n = values.size
@@ -184,6 +216,11 @@ def bounded(values: FloatArray, run: Run) -> FloatArray:
 def errors(model: Model, run: Run) -> FloatArray:
     """Measured less simulated where it counts, (n - skip,), bounded; 0 where a channel was spoiled."""
     return counted(bounded(run.compared - simulated(model, run)[run.skip :], run), run)
+
+
+def errors_together(models: Sequence[Model], run: Run) -> FloatArray:
+    """As `errors`, of models with the same kinds of laws, (models, n - skip)."""
+    return counted(bounded(run.compared - simulated_together(models, run)[:, run.skip :], run), run)
 
 
 def counted(error: FloatArray, run: Run) -> FloatArray:
