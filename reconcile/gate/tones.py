@@ -14,6 +14,7 @@ from math import ceil, floor
 
 import numpy as np
 
+from reconcile.compiled.lines import lines_beside, standing
 from reconcile.gate.combs import supply_comb, without_comb
 from reconcile.gate.findings import Finding
 from reconcile.gate.mains import GROWN_DB, LEAST_SHARE, MATERIAL_SHARE, power_at
@@ -75,16 +76,9 @@ class Heard:
 
     def peak(self, hz: float, bins: float, least_db: float, *, narrow: bool) -> float | None:
         """Frequency of the strongest bin near `hz`, Hz; None where it does not stand out."""
-        low = max(9, int(np.floor(hz / self.step_hz - bins)))
-        high = min(self.excess.size - 9, int(np.ceil(hz / self.step_hz + bins)) + 1)
-        if low >= high:
-            return None
-        top = low + int(np.argmax(self.excess[low:high]))
-        level = float(self.excess[top])
-        if level < 10 ** (least_db / 10) or level < self.excess[top - 1 : top + 2].max():
-            return None
-        near = max(self.excess[top - 8 : top - 2].max(), self.excess[top + 3 : top + 9].max())
-        return None if narrow and level < near * 10 ** (NARROW_DB / 10) else top * self.step_hz
+        factor = 10 ** (NARROW_DB / 10) if narrow else 0.0
+        top = standing(self.excess, self.step_hz, hz, bins, 10 ** (least_db / 10), factor)
+        return None if top < 0 else top * self.step_hz
 
     def combs(self, hz: float) -> list[float]:
         """Spacings, in orders of the shaft, of combs that pass a frequency. Not whole ones: sidebands of a drive's tone
@@ -114,10 +108,10 @@ class Heard:
     def _beside(self, hz: float, count: int, every: int, least: float) -> bool:
         """Whether at `least` so large a share of the lines of a comb beside its `count`-th stand out, without each
         `every`-th."""
-        reach = range(-COMB, COMB + 1)
-        places = [hz * (count + k) / count for k in reach if count + k > 0 and (k % every if every > 1 else k)]
-        seen = sum(self.peak(place, BESIDE_BINS, BESIDE_DB, narrow=False) is not None for place in places)
-        return seen >= least * len(places)
+        found = lines_beside(
+            self.excess, self.step_hz, hz, count, every, COMB, BESIDE_BINS, 10 ** (BESIDE_DB / 10), least
+        )
+        return bool(found)
 
     def peaks(self, least_db: float, *, narrow: bool) -> list[float]:
         """The strongest lines, Hz, strongest first."""
