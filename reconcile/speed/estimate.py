@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 from scipy.ndimage import maximum_filter1d
 
+from reconcile.compiled.speeds import add_combs
 from reconcile.speed.excess import line_excess, mains_bins, skirts
 from reconcile.speed.octave import octave_rival
 from reconcile.speed.refine import refined
@@ -277,14 +278,8 @@ def comb_score(log: FloatArray, resolution_hz: float, speeds_hz: FloatArray, ord
     Weights 1/sqrt(order over the lowest): low harmonics are the ones a part has, high ones fall on anything.
     """
     total = np.zeros(speeds_hz.size)
-    lowest = min(orders)
-    for order in orders:
-        place = np.rint(order * speeds_hz / resolution_hz).astype(np.int64)
-        if place.size and place.max() >= log.size:
-            inside = place < log.size
-            total[inside] += log[place[inside]] / np.sqrt(order / lowest)
-        else:
-            total += log[place] / np.sqrt(order / lowest)
+    multiples = np.asarray(orders, dtype=np.float64)
+    add_combs(log, resolution_hz, speeds_hz, multiples, np.sqrt(multiples / np.min(multiples)), total)
     return total
 
 

@@ -13,9 +13,10 @@ import numpy as np
 import scipy
 from scipy.fft import prev_fast_len, rfft
 
+from reconcile.compiled.speeds import narrow_lines, read_at
 from reconcile.speed.excess import mains_bins
 from signals.recording import Recording
-from signals.series import FloatArray, IntArray
+from signals.series import FloatArray
 
 TOP_HZ = 800.0
 """Highest frequency looked at, of signals and of envelopes."""
@@ -86,8 +87,10 @@ def _change(rows: FloatArray, rate_hz: float) -> float | None:
 
 def _most_lines(parts: Sequence[FloatArray], rate_hz: float, changes: FloatArray) -> FloatArray:
     """Narrow lines of the part that has most of them, at each of `changes`."""
-    found = [_narrow_lines(p, rate_hz / _every(rate_hz), changes) for p in parts]
-    return np.asarray(np.max(found, axis=0), dtype=np.float64)
+    sizes = {p.size for p in parts}
+    alike = [np.stack([p for p in parts if p.size == size]) for size in sizes]
+    found = [_narrow_lines(some, rate_hz / _every(rate_hz), changes) for some in alike]
+    return np.asarray(np.max(np.concatenate(found), axis=0), dtype=np.float64)
 
 
 def _every(rate_hz: float) -> int:
@@ -115,36 +118,26 @@ def _centred(values: FloatArray) -> FloatArray:
     return np.asarray(values - np.mean(values), dtype=np.float64)
 
 
-def _strong_bins(power: FloatArray) -> IntArray:
-    """Bins above `STRONG` times the median of the block of bins around them."""
-    blocks = power.size // BLOCK
-    sorted_half = np.partition(power[: blocks * BLOCK].reshape(blocks, BLOCK), (BLOCK // 2 - 1, BLOCK // 2), axis=1)
-    middle = 0.5 * (sorted_half[:, BLOCK // 2 - 1] + sorted_half[:, BLOCK // 2])
-    block = np.minimum(np.arange(power.size) // BLOCK, blocks - 1)
-    return np.nonzero(power > STRONG * middle[block])[0]
-
-
-def _narrow_lines(part: FloatArray, rate_hz: float, changes: FloatArray) -> FloatArray:
-    """Narrow lines of the spectrum, read with each of `changes`, shape (changes,); those of the mains left out."""
-    part = part[: prev_fast_len(part.size, real=True)]
-    time = np.arange(part.size) / rate_hz
-    length = part.size / rate_hz
-    window = np.hanning(part.size)
+def _narrow_lines(parts: FloatArray, rate_hz: float, changes: FloatArray) -> FloatArray:
+    """Narrow lines of the spectra of `parts` (parts, n), read with each of `changes`, shape (parts, changes); those of
+    the mains left out."""
+    parts = np.ascontiguousarray(parts[:, : prev_fast_len(parts.shape[1], real=True)])
+    size = parts.shape[1]
+    time = np.arange(size) / rate_hz
+    length = size / rate_hz
+    window = np.hanning(size)
     top = max(int(min(TOP_HZ, 0.4 * rate_hz) * length), BLOCK)
-    found = np.empty(changes.size)
+    found = np.empty((parts.shape[0], changes.size))
     bow = time**2 / length - time
     mains = mains_bins(top, 1.0 / length)
-    around = np.arange(-NARROW, NARROW + 1)
+    nothing = np.zeros(top, dtype=np.bool_)
+    read = np.empty_like(parts)
     for k, c in enumerate(changes):
         turns = time + c / 2 * bow  # of a speed from 1 - c/2 to 1 + c/2: even steps of these are even angles
-        spectrum = rfft(np.interp(time, turns, part) * window)[:top]
-        power = spectrum.real**2 + spectrum.imag**2
-        power += FAINT * np.mean(power)
-        strong = _strong_bins(power)
-        if abs(c) < STEP:
-            strong = strong[~mains[strong]]
-        near = power.take(strong[:, None] + around, mode="clip")
-        beside = np.maximum(near[:, 0], near[:, -1])
-        line = (power[strong] == np.max(near, axis=1)) & (power[strong] > BESIDE * beside)
-        found[k] = np.count_nonzero(line & (strong >= 2 * NARROW) & (strong < power.size - NARROW))
+        read_at(parts, time, turns, window, read)
+        spectra = rfft(read)[:, :top]
+        power = spectra.real**2 + spectra.imag**2
+        power += FAINT * np.mean(power, axis=1, keepdims=True)
+        out = mains if abs(c) < STEP else nothing
+        found[:, k] = [narrow_lines(row, out, BLOCK, STRONG, NARROW, BESIDE) for row in power]
     return found
