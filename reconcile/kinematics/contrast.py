@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reconcile.kinematics.comb_scores import scores, trials
 from reconcile.kinematics.envelopes import Envelopes, at_equal_angles, order_depth, squared_envelope
-from reconcile.kinematics.evidence import Evidence, comb_depth, logs, scores, trials
+from reconcile.kinematics.evidence import Evidence, comb_depth, logs
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.observe import Observation
 from reconcile.speed.excess import power_over_floor

@@ -8,13 +8,16 @@ of the binary/ternary tree of `signals.spectra.band`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from statistics import median
 
 import numpy as np
 from scipy import fft
 
+from reconcile.compiled.between import means
 from reconcile.speed.excess import EXPONENTIAL_MEDIAN, power_over_floor, running_median
 from signals.recording import Recording
 from signals.series import FloatArray
@@ -152,11 +155,26 @@ def squared_envelope(
     padded[: b - a] = white[a:b]
     envelope = fft.ifft(padded)
     square = envelope.real**2 + envelope.imag**2
-    edge = max(1, square.size // 200)
-    blocks = np.array_split(square[edge:-edge], KURTOSIS_BLOCKS)
-    kurtosis = float(np.median([np.mean(b**2) / max(float(np.mean(b)) ** 2, 1e-300) - 2 for b in blocks]))
     limited = np.minimum(square, limit * float(np.mean(square)))
-    return np.asarray(limited, dtype=np.float64), size * sampling_rate_hz / n, kurtosis
+    edge = max(1, square.size // 200)
+    return np.asarray(limited, dtype=np.float64), size * sampling_rate_hz / n, _kurtosis(square[edge:-edge])
+
+
+def _kurtosis(square: FloatArray) -> float:
+    """Median of the excess kurtosis of a complex envelope over its blocks; as `np.mean` and `np.median` have it, which
+    take longer to begin than to add up a block."""
+    fourth = square * square
+    each, more = divmod(square.size, KURTOSIS_BLOCKS)
+    found, first = [], 0
+    for k in range(KURTOSIS_BLOCKS):
+        size = each + (k < more)
+        if size == 0:
+            return math.nan
+        part = slice(first, first + size)
+        mean = float(np.add.reduce(square[part])) / size
+        found.append(float(np.add.reduce(fourth[part])) / size / max(mean**2, 1e-300) - 2.0)
+        first += size
+    return median(found) if np.all(np.isfinite(found)) else float(np.median(found))
 
 
 def at_equal_angles(
@@ -180,9 +198,8 @@ def means_between(square: FloatArray, rate_hz: float, time: FloatArray) -> Float
 
     Means, not samples: what is faster than a step is averaged, not folded.
     """
-    total = np.concatenate(([0.0], np.cumsum(square)))
-    sums = np.interp(time * rate_hz, np.arange(total.size), total)
-    values = np.diff(sums) / np.maximum(np.diff(time) * rate_hz, 1e-9)
+    values = np.empty(time.size - 1)
+    means(square, time, rate_hz, values)
     return np.asarray(values / max(float(np.mean(values)), 1e-300), dtype=np.float64)
 
 

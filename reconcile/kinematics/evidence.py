@@ -11,19 +11,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy import sparse
 
+from reconcile.kinematics.comb_scores import Controls, at_orders, best_at, comb, scores, trials
 from reconcile.kinematics.controls import control_orders
 from reconcile.kinematics.envelopes import Envelopes
 from reconcile.kinematics.families import Family, Ties
 from reconcile.tail import tail_chance
-from signals.series import FloatArray, IntArray
+from signals.series import FloatArray
 
 NOISE_LOG = 1.5
 """Log power over the floor below which a bin counts nothing: noise passes it in 1 % of the bins."""
 LARGEST_LOG = 7.0
-TOGETHER = 10
-"""Control orders searched at once, which bounds the memory."""
 SHAFT_BINS = 2.0
 DENSE = 0.2
 """Share of the orders that a shaft's multiples cover, from which not all of them are the shaft's."""
@@ -33,7 +31,6 @@ USUAL, LEAST_LOG, COMB = 0.85, 1.0, 0.5
 """Quantile of the heights at a shaft's further multiples, how high (log power) it may be, and a line must stand above
 it, for the line to be another part's. A broken tooth raises nearly all multiples; what dies out sooner, a rub, more
 than this share of the first. A race with sidebands of the shaft raises many, but not those."""
-LEAST_SPREAD = 0.7
 WIDE_BINS, LEAN_BINS = 3, 2
 """To either side of a line that is taken out: as slip smears it, and the main lobe alone."""
 PAIRS, MANY_PAIRS, COVERED = 2, 6, 0.25
@@ -111,53 +108,6 @@ def _of_shaft(values: FloatArray, step: float, ratio: float, meshes: Sequence[fl
     return np.asarray(near & (known | ~spared))
 
 
-def comb(family: Family, base: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """(orders (trials, lines), weights (lines,)) of the family's lines at base orders (trials,)."""
-    multiples: list[float] = []
-    beside: list[float] = []
-    weights: list[float] = []
-    for k in range(family.lowest, family.harmonics + 1):
-        steps = [sign * m for m in range(1, family.sidebands + 1) for sign in (-1, 1)]
-        multiples += [float(k)] * (1 + len(steps))
-        beside += [0.0, *(step * family.spacing for step in steps)]
-        weights += [float(1 / np.sqrt(k)), *[float(0.5 / np.sqrt(k))] * len(steps)]
-    lines = base[:, np.newaxis] * np.array(multiples)
-    lines += np.array(beside)
-    return lines, np.array(weights)
-
-
-def trials(family: Family, order: float, reach: float, order_step: float) -> FloatArray:
-    """Base orders to try around `order`: the highest line moves by one bin from one to the next, shape (trials,)."""
-    if reach == 0:
-        return np.array([order])
-    step = order_step / family.harmonics
-    count = max(1, int(np.ceil(order * reach / step)))
-    return np.asarray(order + np.arange(-count, count + 1) * (order * reach / count), dtype=np.float64)
-
-
-def scores(values: FloatArray, envelopes: Envelopes, family: Family, base: FloatArray) -> FloatArray:
-    """Comb scores, shape (bands, trials)."""
-    return np.asarray((_placed(envelopes, family, base) @ _by_bin(values)).T, dtype=np.float64)
-
-
-def _placed(envelopes: Envelopes, family: Family, base: FloatArray) -> sparse.csr_array[np.float64]:
-    """Weights (trials, bins) of the bins of its lines at base orders (trials,): times values by bin, the scores."""
-    place, weights = comb(family, base)
-    bins = envelopes.excess.shape[1]
-    place /= envelopes.order_step
-    outside = (place >= bins - 1) | (place <= 0)
-    np.rint(place, out=place)
-    place[outside] = 0.0  # there is nothing, `logs` sees to that
-    ends = np.arange(base.size + 1, dtype=np.int32) * weights.size
-    every = np.tile(weights, base.size), place.astype(np.int32).ravel(), ends
-    return sparse.csr_array(every, shape=(base.size, bins))
-
-
-def _by_bin(values: FloatArray) -> FloatArray:
-    """(bins, bands): all bands of a bin lie together, so that a line is fetched once, not once a band."""
-    return np.ascontiguousarray(values.T)
-
-
 def without(
     values: FloatArray,
     envelopes: Envelopes,
@@ -214,7 +164,7 @@ def family_evidence(
     controls = control_orders(ties, family, rng)
     best_control = np.full(controls.size, -np.inf)
     firmest: list[_Firmest] = []
-    foreign: dict[tuple[float, int], list[_Controls]] = {}
+    foreign: dict[tuple[float, int], Controls] = {}
     for e in channels:
         values = logs(e, ties, shaft_lines=turn)
         for other, order in explained:
@@ -224,14 +174,14 @@ def family_evidence(
         table = scores(values, e, family, base)
         size = e.order_step, e.excess.shape[1]
         if size not in foreign:
-            foreign[size] = _foreign(e, family, controls, reach)
-        control, centre, spread = _controls(values, foreign[size])
+            foreign[size] = at_orders(e, family, controls, reach)
+        control, centre, spread = best_at(values, foreign[size])
         z = (table - centre) / spread
         if float(np.max(z)) > certain_z:
             # lines that are surely there must not be caught by the controls: were the family absent, so would they be
             found = float(base[int(np.argmax(np.max(z, axis=0)))])
             absent = _absent(values, e, family.spacing, found, many=certain_z < CERTAIN_Z)
-            control, centre, spread = _controls(absent, foreign[size])
+            control, centre, spread = best_at(absent, foreign[size])
             z = (table - centre) / spread
         band, trial = (int(i) for i in np.unravel_index(int(np.argmax(z)), z.shape))
         best_control = np.maximum(best_control, np.max((control - centre) / spread, axis=0))
@@ -277,35 +227,6 @@ class _Firmest:
             flatness=e.flatness(deepest, self.order),
             kurtosis=float(np.max(e.kurtosis[hear], initial=0.0)),
         )
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Controls:
-    """Some control orders: weights of the bins of all their trials (trials, bins), and the first trial of each order
-    (controls,)."""
-
-    lines: sparse.csr_array[np.float64]
-    first: IntArray
-
-
-def _foreign(envelopes: Envelopes, family: Family, orders: FloatArray, reach: float) -> list[_Controls]:
-    """The control orders, a few at a time; spectra of one length share them."""
-    found = []
-    for few in np.array_split(orders, -(-orders.size // TOGETHER)):
-        bases = [trials(family, float(o), reach, envelopes.order_step) for o in few]
-        lines = _placed(envelopes, family, np.concatenate(bases))
-        found.append(_Controls(lines=lines, first=np.cumsum([0, *(b.size for b in bases[:-1])])))
-    return found
-
-
-def _controls(values: FloatArray, foreign: Sequence[_Controls]) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """(best scores at the control orders (bands, controls), their medians and robust deviations (bands, 1))."""
-    by_bin = _by_bin(values)
-    found = [np.maximum.reduceat(np.asarray(few.lines @ by_bin), few.first, axis=0) for few in foreign]
-    control = np.ascontiguousarray(np.concatenate(found).T)
-    centre = np.median(control, axis=1, keepdims=True)
-    spread = np.maximum(1.4826 * np.median(np.abs(control - centre), axis=1, keepdims=True), LEAST_SPREAD)
-    return control, centre, spread
 
 
 def comb_depth(envelopes: Envelopes, band: int, family: Family, order: float) -> float:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reconcile.kinematics.comb_scores import scores
 from reconcile.kinematics.contrast import contrast
-from reconcile.kinematics.evidence import Evidence, family_evidence, logs, scores
+from reconcile.kinematics.evidence import Evidence, family_evidence, logs
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.observe import Observation
 

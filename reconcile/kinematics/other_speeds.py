@@ -14,8 +14,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reconcile.kinematics.candidate import DEFECTS, LEAST_Z
+from reconcile.kinematics.comb_scores import LEAST_SPREAD, scores
 from reconcile.kinematics.envelopes import Envelopes
-from reconcile.kinematics.evidence import LEAST_SPREAD, family_evidence, logs, scores, without
+from reconcile.kinematics.evidence import family_evidence, logs, without
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.judge import HEARD_Z
 from reconcile.kinematics.observe import MOST_DOUBT, Observation
