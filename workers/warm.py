@@ -1,7 +1,7 @@
 """Fill the kernel cache of this machine: `python -m workers.warm`. Quick when it is filled already.
 
-With `--lanes` also by those kernels that simulate machines side by side, and by those of fits to a driven mass, which
-the first of such tasks compiles else.
+With `--lanes` also by those kernels that simulate machines side by side, and by those of reconciliations, which the
+first of such tasks compiles else.
 """
 
 from __future__ import annotations
@@ -42,7 +42,9 @@ class Compilations(event.Listener):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Compile or load every kernel of a machine with all contacts; says how long it took."""
     parser = argparse.ArgumentParser(prog="python -m workers.warm", description="Fill the kernel cache.")
-    parser.add_argument("--lanes", action="store_true", help="of machines simulated side by side, and of fits, too")
+    parser.add_argument(
+        "--lanes", action="store_true", help="of machines simulated side by side, and of reconciliations, too"
+    )
     given = parser.parse_args(arguments)
     begin = time.perf_counter()
     seen = Compilations(sys.stdout)
@@ -50,7 +52,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # Effects are compiled when they are imported, which is why the import waits for the listener.
         importlib.import_module("jobs.physics").PhysicsEngine().warm(lanes=given.lanes)
         if given.lanes:
-            importlib.import_module("reconcile.force_law.kernels").warm()
+            importlib.import_module("reconcile.compiled.warm").warm()
     how = f"{seen.count} functions compiled" if seen.count else "loaded from the cache"
     sys.stdout.write(f"      kernels ready in {time.perf_counter() - begin:.1f} s ({how})\n")
     return 0
