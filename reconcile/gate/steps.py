@@ -25,9 +25,10 @@ SAME = 3e-3
 
 def step_of(samples: FloatArray) -> float:
     """The step of the values (n,); 0 where they have none."""
-    low, high = np.percentile(samples, CORE)
-    values = np.unique(samples[(samples >= low) & (samples <= high)])
-    gaps = np.diff(values)
+    ordered = np.sort(samples)  # once, for percentiles and values
+    low, high = np.percentile(ordered, CORE)
+    gaps = np.diff(ordered[np.searchsorted(ordered, low) : np.searchsorted(ordered, high, side="right")])
+    gaps = gaps[gaps > 0.0]
     gaps = gaps[gaps > 1e-6 * float(np.median(gaps))] if gaps.size >= LEAST_VALUES else gaps[:0]
     if not gaps.size:
         return 0.0
