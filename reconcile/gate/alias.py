@@ -17,6 +17,7 @@ from reconcile.speed.excess import line_excess
 from signals.recording import Recording
 from signals.series import FloatArray
 
+WITHIN = np.arange(-2, 3)[:, np.newaxis]
 PRESENT_DB = 15.0
 GROWN_DB = 8.0
 HARMONICS = 24
@@ -120,7 +121,7 @@ def _growth(
 def _at(level: FloatArray, resolution: float, hz: FloatArray) -> FloatArray:
     """Largest level within two bins, shape (lines,)."""
     place = np.clip(np.rint(hz / resolution).astype(np.int64), 2, level.size - 3)
-    return np.asarray(np.max(np.stack([level[place + k] for k in (-2, -1, 0, 1, 2)]), axis=0), dtype=np.float64)
+    return np.asarray(np.max(level[place + WITHIN], axis=0), dtype=np.float64)
 
 
 def _clear(hz: FloatArray, order: float, speed: float, resolution: float) -> FloatArray:
