@@ -17,7 +17,7 @@ WHOLE = $(BIN)/python -m pip check >/dev/null 2>&1 || $(PIP) --quiet --no-compil
 COMPILED = $(BIN)/python -m compileall -q -j 0 -x '/tests?/' $(VENV)/lib >/dev/null || true
 
 .DELETE_ON_ERROR:
-.PHONY: run setup env dev browser lint effects single lanes kernels collected fast test further bench cost paper proof tests-atlas proof-real proof-made sim2real openapi lock clean help
+.PHONY: run setup env dev browser lint kernels collected fast test further bench cost paper proof tests-atlas proof-real proof-made sim2real openapi lock clean help
 
 run: setup  ## start the service, simulate the demo through the queue, open its page (PORT=8001, OPEN= for no browser)
 	@echo "[4/4] starting broker, workers and HTTP server on port $(PORT)"
@@ -61,16 +61,11 @@ lint: dev  ## style, types, import rules
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
 
-effects: env  # what all kernels hang on
+kernels: env  # as `setup`, and those of machines side by side, with which two groups of tests begin
 	@echo "[3/4] numerical kernels: loading, or compiling them once (about a minute)"
-	@$(BIN)/python -m workers.warm --part effects
+	@$(BIN)/python -m workers.warm --lanes
 
-single lanes: effects
-	@$(BIN)/python -m workers.warm --part $@
-
-kernels: single lanes  # as `setup`, and those of machines side by side, with which two groups of tests begin
-
-collected: dev effects  # compiles the tests once, not in every process; what is wrong with them, the run itself says
+collected: dev kernels  # compiles the tests once, not in every process; what is wrong with them, the run itself says
 	@PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q --collect-only >/dev/null || true
 
 # glibc keeps what is freed for the next array: to ask the system for its pages again takes a thirtieth of the time.
@@ -79,11 +74,11 @@ KEEPING = MALLOC_MMAP_THRESHOLD_=33554432 MALLOC_TRIM_THRESHOLD_=1073741824
 fast: dev  ## the loop while working: without the slow tests (half a minute on two cores)
 	$(KEEPING) PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 2 -m "not slow"
 
-# A browser comes beside the packages; then kernels are compiled, types checked and the tests' own code compiled on both
-# cores.
+# A browser comes beside the packages; then kernels and after them the tests' own code are compiled on one core, while
+# tools are fetched and types checked on the other.
 test:  ## lint and the tests; what CI runs
 	@$(MAKE) --no-print-directory browser & fetching=$$!; \
-	  { $(MAKE) --no-print-directory env && $(MAKE) --no-print-directory -j 2 -O effects lint kernels collected; }; \
+	  { $(MAKE) --no-print-directory env && $(MAKE) --no-print-directory -j 2 -O kernels lint collected; }; \
 	  found=$$?; wait $$fetching || found=$$?; exit $$found
 	$(KEEPING) PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n 4 --dist loadgroup --no-loadscope-reorder  # on two cores: many tests wait for servers and workers
 

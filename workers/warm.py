@@ -1,8 +1,7 @@
 """Fill the kernel cache of this machine: `python -m workers.warm`. Quick when it is filled already.
 
-`--part` fills one of three that may be filled side by side, once effects are: `effects`; the solver of `single`
-machines; `lanes`, of machines side by side, with the loops of reconciliations, which the first of such tasks compiles
-else. Without it effects and single machines, what a service needs.
+With `--lanes` also by those kernels that simulate machines side by side, and by those of reconciliations, which the
+first of such tasks compiles else.
 """
 
 from __future__ import annotations
@@ -17,7 +16,6 @@ from typing import TextIO
 from numba.core import event
 
 SAY_EVERY_S = 4.0
-PARTS = ("effects", "single", "lanes")
 
 
 class Compilations(event.Listener):
@@ -42,23 +40,21 @@ class Compilations(event.Listener):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Compile or load the kernels of a machine with all contacts; says how long it took."""
+    """Compile or load every kernel of a machine with all contacts; says how long it took."""
     parser = argparse.ArgumentParser(prog="python -m workers.warm", description="Fill the kernel cache.")
-    parser.add_argument("--part", choices=PARTS, help="one part alone")
+    parser.add_argument(
+        "--lanes", action="store_true", help="of machines simulated side by side, and of reconciliations, too"
+    )
     given = parser.parse_args(arguments)
     begin = time.perf_counter()
     seen = Compilations(sys.stdout)
     with event.install_listener("numba:compile", seen):
         # Effects are compiled when they are imported, which is why the import waits for the listener.
-        engine = importlib.import_module("jobs.physics").PhysicsEngine()
-        if given.part in (None, "single"):
-            engine.warm()
-        if given.part == "lanes":
-            engine.warm_lanes()
+        importlib.import_module("jobs.physics").PhysicsEngine().warm(lanes=given.lanes)
+        if given.lanes:
             importlib.import_module("reconcile.compiled.warm").warm()
-    what = f"kernels of {given.part}" if given.part else "kernels"
     how = f"{seen.count} functions compiled" if seen.count else "loaded from the cache"
-    sys.stdout.write(f"      {what} ready in {time.perf_counter() - begin:.1f} s ({how})\n")
+    sys.stdout.write(f"      kernels ready in {time.perf_counter() - begin:.1f} s ({how})\n")
     return 0
 
 

@@ -78,8 +78,7 @@ def test_every_channel_named_is_there_and_others_are_refused() -> None:
 
 @pytest.mark.slow
 def test_demo_run_is_kept_with_its_labels(tmp_path: Path) -> None:
-    ENGINE.warm()
-    ENGINE.warm_lanes()
+    ENGINE.warm(lanes=True)
     machine = ENGINE.preset("paper-demo")
     told: list[float] = []
     response = ENGINE.simulate(
