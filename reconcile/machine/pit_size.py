@@ -31,8 +31,6 @@ from sim.core.spec import TermSpec
 
 DRAWS, LEAST, LARGEST = 24, 0.27, 0.92
 """Sizes evenly over the logarithm of what is sought, in shares of that: 0.3 to 4.3 mm."""
-MACHINES = 8
-"""On which they are, one after the other, each of which is simulated without a pit too."""
 MOST = 2
 """Effects of an answer that are sized."""
 TURN, TURNED = 8, 0.5
@@ -153,7 +151,7 @@ class _Sound:
 
 def _sounds(task: _Task) -> list[_Sound | None]:
     """Of each draw; None where it does not run or adds nothing."""
-    return [None if a is None else _sound(task, a) for a in task.place.added(task.terms, MACHINES)]
+    return [None if a is None else _sound(task, a) for a in task.place.added(task.terms)]
 
 
 def _sound(task: _Task, motion: FloatArray) -> _Sound:
