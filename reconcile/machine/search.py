@@ -39,9 +39,10 @@ EXPLAINED = 0.15
 """Share of the squared change that a draw must explain for its size to say something: of eleven development cases the
 nearest draw of the right effect explains 0.2 to 0.6 in five, with a size within 30 %, and below 0.1 it says nothing."""
 NEAREST = 2
-NEAR_RANK, NEAR_SECONDS = 10, 5
-"""Ranks by either look, and among what may be second, down to which a loose ring is simulated though it is out of the
-question by evidence: those of four pairs of the proof, a pit and a loose ring, stood first to fifth in one."""
+FEW_PLAUSIBLE, NEAR_RANK, NEAR_SECONDS = 10, 10, 20
+"""Effects that a look leaves plausible at most, so that a loose ring is hopeless at all; ranks by either look, and
+among what may be second, down to which it is simulated though out of the question by evidence: of five pairs of a pit
+and a loose ring three rings stood second to fifth in a look, the others 13th and 17th of what the impacts leave."""
 SECONDS = 3
 """Candidates for a second effect that are simulated with all their draws."""
 MOSTLY_SEEN, SPREAD, SPREAD_ABOUT = 0.75, 6, 2
@@ -190,9 +191,13 @@ def with_others(screened: Found, seen: Found, seconds: Sequence[str] = ()) -> li
 
 
 def without_hopeless(ranked: Sequence[str], screened: Found, seen: Found, seconds: Sequence[str]) -> list[str]:
-    """Without loose rings, whose simulation is dear, at bearings where nothing speaks for them: neither machines of the
-    kind nor single lines, nor what an impact leaves. Beside a pit that leads by 40 they took a fifth of a case."""
-    likely = {*plausible(screened.screen), *plausible(seen.screen), *seconds[:NEAR_SECONDS]}
+    """Without loose rings, whose simulation is dear, where few effects are plausible, at bearings where nothing speaks
+    for them: neither machines of the kind nor single lines, nor what an impact leaves. Beside a pit that leads by 40
+    they took a fifth of a case. Where much is plausible a ring less is little saved, and the metric another."""
+    looks = [plausible(screened.screen), plausible(seen.screen)]
+    if min(map(len, looks)) > FEW_PLAUSIBLE:
+        return list(ranked)
+    likely = {name for look in looks for name in look} | {*seconds[:NEAR_SECONDS]}
     for screen in (screened.screen, seen.screen):
         likely |= {screen.names[k] for k in np.argsort(-screen.evidence)[:NEAR_RANK]}
     return [n for n in ranked if n in likely or n.split("@")[0] not in COSTLY]

@@ -66,6 +66,9 @@ def test_loose_rings_that_nothing_speaks_for_are_not_simulated() -> None:
     assert late == [*others, "fit_clearance@bearing1"]
     for screened_, seen in ((led, flat), (flat, led)):
         assert search.without_hopeless(names, screened_, seen, ()) == list(names), "none is out of the question"  # type: ignore[arg-type]
+    many = look(2.0)
+    many.screen.evidence[-4:] = -50.0
+    assert search.without_hopeless(names, many, many, ()) == list(names), "a ring less would be little saved"  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(("misfit", "direct", "looks"), [(0.95, 25.0, True), (0.95, 2.0, False), (0.3, 25.0, False)])
